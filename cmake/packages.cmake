@@ -1,0 +1,12 @@
+# Debian 12 packages; ./dev setup installs them.
+find_package(CGAL REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_library(GMP_LIBRARY gmp REQUIRED)
+find_library(GMPXX_LIBRARY gmpxx REQUIRED)
+find_library(MPFR_LIBRARY mpfr REQUIRED)
+find_library(SLEEF_LIBRARY sleef REQUIRED)
+find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

@@ -1,0 +1,18 @@
+// The only door to elementary functions where a state, a time or a random number is made:
+// the same bits on every x86-64 and ARM machine, scalar or SIMD (SLEEF's cinz functions).
+#pragma once
+
+namespace carom::elementary {
+
+struct SinCos {
+  double sin, cos;
+};
+
+double sin(double x);
+double cos(double x);
+SinCos sincos(double x);
+double atan2(double y, double x);
+double exp(double x);
+double log(double x);
+
+}  // namespace carom::elementary

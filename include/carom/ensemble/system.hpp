@@ -1,0 +1,48 @@
+// A whole system as the engines see it: table, field, particles, initial condition, run.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carom/base/exact_number.hpp"
+#include "carom/motion/state.hpp"
+#include "carom/table/table.hpp"
+
+namespace carom {
+
+/// How initial states are chosen (CONTRACT §1, [initial]).
+struct InitialCondition {
+  enum class Kind { uniform, boundary, hole, point, birkhoff, rectangle, line } kind = Kind::uniform;
+  int wall = -1;                     ///< boundary, birkhoff
+  int hole = -1;                     ///< boundary, hole
+  geometry::Vector position;         ///< point
+  geometry::Vector velocity;         ///< point: direction, or the velocity where no speed is set
+  geometry::Vector low, high;        ///< rectangle: min, max
+  geometry::Vector from, to;         ///< line
+  double angle = 0.0;                ///< line: direction of flight against +x
+  std::vector<double> s, v_parallel; ///< birkhoff: trajectory i starts at the i-th pair (cyclic)
+};
+
+/// Times at which survival is reported, in increasing order.
+struct RunPlan {
+  double t_max = 1000.0;
+  std::uint64_t trajectories = 100000;
+  std::uint64_t collisions = 0;      ///< cap on hits (0: none)
+  std::uint64_t seed = 1;
+  double sample = 0.0;               ///< time between samples (0: none)
+  std::vector<double> times;
+};
+
+struct System {
+  std::string name;                  ///< as asked for on the command line
+  std::string title;
+  std::shared_ptr<const Table> table;
+  std::vector<Particle> particles;   ///< one entry a particle; at least one
+  InitialCondition initial;
+  RunPlan run;
+};
+
+}  // namespace carom

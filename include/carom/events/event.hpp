@@ -1,0 +1,38 @@
+// What happens at a time.
+#pragma once
+
+#include <cstdint>
+
+#include "carom/base/time.hpp"
+#include "carom/geometry/lattice.hpp"
+#include "carom/motion/state.hpp"
+
+namespace carom {
+
+/// Kinds of event, in the order in which simultaneous ones are applied.
+enum class EventKind : unsigned char { hit, escape, cell_edge, pinned, unbounded, singular, lost, stop };
+
+/// A reflection, as analyses see it. `before` and `after` are the velocities around it.
+struct HitEvent {
+  int particle = 0;
+  int wall = 0;
+  double u = 0.0;               ///< parameter on the wall
+  Time time;
+  double flight_time = 0.0;     ///< since the event before
+  geometry::Vector position;    ///< rounded, in the cell `cell`
+  geometry::Cell cell;
+  geometry::Vector before, after;
+  int reflections = 1;          ///< n at a corner of angle pi/n, else 1
+};
+
+/// The end of one particle's trajectory.
+struct EndEvent {
+  int particle = 0;
+  Fate fate = Fate::survived;
+  Time time;                    ///< t_max for survivors; the last hit for `unbounded`
+  State state;                  ///< after the last event
+  int hole = -1;                ///< for `escaped`
+  std::uint64_t hits = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,87 @@
+// The event loop: particles on a table from now until then.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "carom/events/event.hpp"
+#include "carom/motion/state.hpp"
+#include "carom/table/table.hpp"
+
+namespace carom {
+
+/// How decisions are taken. Results never depend on it, only the time they take.
+struct DecisionOptions {
+  double filter_inflation = 1.0;  ///< factor on every bound of the filter (>= 1)
+};
+
+/// Where decisions were taken.
+struct DecisionCounts {
+  std::uint64_t filter = 0;   ///< by double precision with its bound
+  std::uint64_t exact = 0;    ///< by exact arithmetic
+  DecisionCounts& operator+=(const DecisionCounts& o) {
+    filter += o.filter;
+    exact += o.exact;
+    return *this;
+  }
+};
+
+/// Receives what happens. Every function may be left alone. Observing changes no bit of an orbit.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void hit(const HitEvent&) {}
+  virtual void sample(int /*particle*/, Time, const State&) {}  ///< state at the sample's time
+  virtual void end(const EndEvent&) {}
+};
+
+/// Free particles (straight or Larmor flights) that do not interact, on one table.
+class World {
+ public:
+  explicit World(const Table& table, DecisionOptions options = {});
+  ~World();
+  World(World&&) noexcept;
+
+  /// Adds a particle; returns its index. A state off the walls must lie in the domain, else
+  /// std::invalid_argument. Its velocity is kept as it is; Particle::speed must be its length.
+  int add(const Particle& particle, const State& state);
+  /// Removes all particles and sets the clock to 0; keeps the prepared table.
+  void clear();
+
+  /// Most hits a particle may make (default: no limit).
+  void limit_hits(std::uint64_t hits);
+  /// Samples at the given increasing times (from the next run_until on).
+  void sample_at(std::vector<double> times);
+  /// Samples at k * interval, k = 0, 1, 2, …
+  void sample_every(double interval);
+
+  /// Runs until `t_end` or until no particle moves any more. `interrupted`, if set, is asked
+  /// between events; true returns early. Returns the number of events applied.
+  std::uint64_t run_until(double t_end, Observer& observer,
+                          const std::function<bool()>& interrupted = {});
+
+  int size() const;
+  bool finished(int particle) const;          ///< has ended
+  Fate fate(int particle) const;              ///< survived while it has not ended
+  const State& state(int particle) const;     ///< after its last event
+  State state_at(int particle, Time t) const; ///< between its last event and the next
+  const Particle& particle(int particle) const;
+  std::uint64_t hits(int particle) const;
+  int last_wall(int particle) const;          ///< -1 before the first hit
+  int hole(int particle) const;               ///< -1 unless escaped
+  const DecisionCounts& decisions() const;
+  /// For `lost` and `singular`: the state that caused it, as text.
+  const std::string& report(int particle) const;
+
+  /// Is the point strictly inside the domain (exact)? For lattices: in the free part of its cell.
+  bool contains(geometry::Vector point) const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace carom

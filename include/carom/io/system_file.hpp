@@ -1,0 +1,46 @@
+// Reads a system: TOML file, built-in name, --set and other overrides.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "carom/ensemble/system.hpp"
+
+namespace carom {
+
+/// The one table of keys: parser, hints, --set and the guide's page are made from it.
+struct KeyDescription {
+  std::string_view section;   ///< "table", "table.hole", "table.path", "lattice", "field", …
+  std::string_view kind;      ///< shape or kind the key belongs to ("" : all), several by |
+  std::string_view key;
+  std::string_view type;      ///< number, integer, string, boolean, point, list of points, …
+  std::string_view fallback;  ///< default as written ("" : required or none)
+  std::string_view meaning;
+};
+const std::vector<KeyDescription>& key_table();
+
+struct BuiltinSystem {
+  std::string_view name, toml;
+};
+const std::vector<BuiltinSystem>& builtin_systems();
+
+/// Options of the command line that change a system. Values are text; one parser reads them.
+struct SystemOverrides {
+  std::vector<std::pair<std::string, std::string>> set;  ///< --set path.to.key=value
+  std::string seed, trajectories, t_max, collisions, times, position, velocity;  ///< "" : not given
+};
+
+/// A system and the complete resolved TOML it came from (can be read again).
+struct LoadedSystem {
+  System system;
+  std::string resolved_toml;
+};
+
+/// `name`: a file if it has a '/' or ends in ".toml", else a built-in name. Throws InputError.
+LoadedSystem load_system(const std::string& name, const SystemOverrides& = {});
+/// The same from text; `file` is used in messages.
+LoadedSystem read_system(std::string_view toml, const std::string& file, const SystemOverrides& = {});
+
+}  // namespace carom

@@ -1,0 +1,36 @@
+// The state of a particle between two events.
+#pragma once
+
+#include "carom/base/time.hpp"
+#include "carom/geometry/lattice.hpp"
+#include "carom/geometry/vector.hpp"
+
+namespace carom {
+
+/// What does not change along an orbit. omega = charge B / mass (a = omega (v_y, -v_x)).
+struct Particle {
+  double mass = 1.0;
+  double charge = 1.0;
+  double speed = 1.0;
+  double omega = 0.0;
+};
+
+/// The state after the last event that moved the particle. On a wall the exact position is
+/// (wall, u) in the cell `cell`; `position` is its rounded image in that cell. Off the walls
+/// (wall == -1) the two doubles of `position` are exact. The velocity is exact and points into the
+/// domain.
+struct State {
+  int wall = -1;
+  double u = 0.0;
+  geometry::Vector position;
+  geometry::Vector velocity;
+  geometry::Cell cell;
+  Time time;
+};
+
+/// How a trajectory ended (DESIGN §1). `survived` is reaching t_max or the cap on hits; a pinned
+/// cyclotron orbit, which can never hit anything, survives too.
+enum class Fate : unsigned char { survived, pinned, capped, escaped, singular, unbounded, lost };
+const char* name_of(Fate);
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+// The billiard table: walls, joints, holes and an optional lattice.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carom/geometry/curve.hpp"
+#include "carom/geometry/lattice.hpp"
+#include "carom/table/table_spec.hpp"
+
+namespace carom {
+
+/// An opening [from, to) of a wall, in its parameter u; exact once stored.
+struct Hole {
+  std::string name;
+  int wall = 0;
+  double from = 0.0, to = 0.0;
+};
+
+/// An oriented piece of curve with the domain on its left.
+struct Wall {
+  std::string name;
+  geometry::Curve curve;
+  int next = 0;      ///< wall that begins where this one ends (itself for a closed curve)
+  int previous = 0;  ///< wall that ends where this one begins
+  /// n when the corner at this wall's start is declared to have the angle pi/n (0: not declared).
+  int corner = 0;
+  std::vector<int> holes;  ///< indices into Table::holes, ordered by parameter
+};
+
+/// Where the walls may lead: a bounded domain, the outside of obstacles in the open plane, or the
+/// cell of a lattice whose edges lead to the neighbouring cells.
+enum class Extent { bounded, open_plane, lattice };
+
+struct Table {
+  std::string shape;
+  std::vector<Wall> walls;
+  std::vector<Hole> holes;
+  Extent extent = Extent::bounded;
+  std::optional<geometry::Lattice> lattice;  ///< set exactly when extent == lattice
+
+  /// Index of the wall or hole with that name, or -1.
+  int wall_index(const std::string& name) const;
+  int hole_index(const std::string& name) const;
+};
+
+/// Area of the domain (of one cell for a lattice; infinity for the open plane), total length of the
+/// walls, and the mean flight pi A / L of the closed billiard without field.
+struct TableMeasure {
+  double area = 0.0, perimeter = 0.0, mean_flight = 0.0;
+};
+TableMeasure measure(const Table&);
+
+/// Builds a table from its specification: named shapes become walls, holes become parameters, and
+/// the region is checked exactly (closed, simple, oriented, obstacles inside and apart).
+/// Throws InputError at the place of the fault.
+Table build_table(const TableSpec&);
+
+}  // namespace carom

@@ -1,0 +1,62 @@
+// A table as it was written: plain data whose values carry their place in the file.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carom/base/exact_number.hpp"
+
+namespace carom {
+
+struct ExactPoint {
+  ExactNumber x, y;
+};
+
+/// One piece of a path: which keys are set decides its kind (CONTRACT: line_to, arc_via + arc_to,
+/// ellipse_via + ellipse_to + ellipse_ratio + ellipse_angle).
+struct PieceSpec {
+  enum class Kind { line, arc, ellipse } kind = Kind::line;
+  ExactPoint to;
+  ExactPoint via;                      ///< arc, ellipse
+  ExactNumber ratio, angle;            ///< ellipse: minor over major axis, angle of the major one
+  std::string name;                    ///< "" : wall_1, wall_2 … over the whole table
+  Place place;
+};
+
+struct LoopSpec {
+  ExactPoint start;
+  std::vector<PieceSpec> pieces;       ///< the last must end at `start`
+  Place place;
+};
+
+struct HoleSpec {
+  std::string wall;
+  ExactNumber center, width;           ///< arc lengths along the wall
+  std::string name;                    ///< "" : hole_1, hole_2 …
+  Place place, wall_place;
+};
+
+struct LatticeSpec {
+  ExactPoint first, second;
+  Place place;
+};
+
+/// `numbers`, `points`, `lists` and `words` hold the keys of the shape by name (CONTRACT §1): width,
+/// height, radius, sides, angle, a, b, outer, inner, offset, half_length, cap_radius, stem_width,
+/// stem_height, separation, side, spacing; points, centers; radii; lattice.
+struct TableSpec {
+  std::string shape;
+  Place place, shape_place;
+  std::map<std::string, ExactNumber> numbers;
+  std::map<std::string, std::vector<ExactPoint>> points;
+  std::map<std::string, std::vector<ExactNumber>> lists;
+  std::map<std::string, std::string> words;
+  bool torus = true;                   ///< sinai
+  std::vector<LoopSpec> loops;         ///< path
+  std::vector<HoleSpec> holes;
+  std::optional<LatticeSpec> lattice;
+};
+
+}  // namespace carom
