@@ -1,0 +1,103 @@
+// The flight of a free particle and where it meets walls: formulas over any arithmetic.
+//
+// With kappa = (omega/2) cot(omega t/2), which is 1/t without field, the flight from P with velocity v
+// is
+//     x = P + L / N,   L = kappa v + (omega/2) J v,   N = kappa^2 + omega^2/4,   J v = (v_y, -v_x).
+// While t runs over one turn kappa falls from +infinity through 0 (half a turn) to -infinity, so hits
+// are ordered by falling kappa; without field only kappa > 0 lies ahead. A wall is F(x) = 0 with
+// F > 0 on the domain's side; F(x) N is a polynomial in kappa whose leading coefficient is F(P), which
+// vanishes for the wall that the particle stands on: the known root is removed by algebra. The
+// particle leaves the domain where F falls in time, that is where dF/dkappa > 0.
+//
+// A formula here never chooses: it maps numbers to numbers by + - * / and sqrt. Error bounds are in
+// filter.hpp; docs/physics/exactness.md derives both.
+#pragma once
+
+#include "carom/geometry/vector.hpp"
+
+namespace carom::geometry {
+
+/// a kappa^2 + 2 b kappa + c.
+template <class Number>
+struct Quadratic {
+  Number a{}, b{}, c{};
+  friend constexpr Quadratic operator-(const Quadratic& q) { return {-q.a, -q.b, -q.c}; }
+};
+
+/// Twice the oriented distance, up to the factor |v|, of the point P + d from the flight: positive on
+/// its left, negative on its right. Larmor circle: its sign times that of omega is positive outside
+/// for omega > 0 (the clockwise circle is on the flight's right) and inside for omega < 0.
+template <class Number>
+constexpr Number side_of_flight(const BasicVector<Number>& v, const BasicVector<Number>& d,
+                                const Number& omega) {
+  return Number(2) * cross(v, d) + omega * dot(d, d);
+}
+
+/// Flight against the line through A along d, domain on the left; e = P - A. `half` is 1/2.
+template <class Number>
+constexpr Quadratic<Number> line_quadratic(const BasicVector<Number>& e, const BasicVector<Number>& d,
+                                           const BasicVector<Number>& v, const Number& omega,
+                                           const Number& half) {
+  const Number a = cross(d, e);
+  const Number h = half * omega;
+  return {a, half * cross(d, v), a * (h * h) - h * dot(d, v)};
+}
+
+/// Flight against the circle of squared radius r2 about C, domain outside; e = P - C.
+template <class Number>
+constexpr Quadratic<Number> circle_quadratic(const BasicVector<Number>& e, const Number& r2,
+                                             const BasicVector<Number>& v, const Number& omega,
+                                             const Number& half) {
+  const Number a = dot(e, e) - r2;
+  const Number h = half * omega;
+  return {a, dot(e, v), a * (h * h) + omega * cross(e, v) + dot(v, v)};
+}
+
+/// Coefficients of kappa^0 … kappa^4.
+template <class Number>
+struct Quartic {
+  Number q[5]{};
+};
+
+/// Larmor flight against an ellipse in the frame in which it is a circle of squared radius r2, domain
+/// outside: e, v and w are the images of P - C, of v and of J v.
+template <class Number>
+constexpr Quartic<Number> ellipse_quartic(const BasicVector<Number>& e, const Number& r2,
+                                          const BasicVector<Number>& v, const BasicVector<Number>& w,
+                                          const Number& omega, const Number& half) {
+  const Number h = dot(e, e) - r2;
+  const Number n = (half * omega) * (half * omega);
+  const Number ev = dot(e, v);
+  const Number ew = omega * dot(e, w);
+  return {{n * (n * h + ew + dot(w, w)), Number(2) * n * ev + omega * dot(v, w),
+           Number(2) * n * h + ew + dot(v, v), Number(2) * ev, h}};
+}
+
+/// Displacement x - P at kappa.
+template <class Number>
+constexpr BasicVector<Number> displacement(const Number& kappa, const BasicVector<Number>& v,
+                                           const Number& omega, const Number& half) {
+  const Number h = half * omega;
+  const Number n = kappa * kappa + h * h;
+  return {(kappa * v.x + h * v.y) / n, (kappa * v.y - h * v.x) / n};
+}
+
+/// Velocity at kappa: v turned clockwise by omega t.
+template <class Number>
+constexpr BasicVector<Number> turned(const Number& kappa, const BasicVector<Number>& v,
+                                     const Number& omega, const Number& half) {
+  const Number h = half * omega;
+  const Number n = kappa * kappa + h * h;
+  const Number p = omega * kappa / n;
+  const Number q = omega * h / n;
+  return {v.x + (p * v.y - q * v.x), v.y - (p * v.x + q * v.y)};
+}
+
+/// Velocity after a reflection by a wall with unit normal n.
+template <class Number>
+constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n) {
+  const Number twice = Number(2) * dot(v, n);
+  return {v.x - twice * n.x, v.y - twice * n.y};
+}
+
+}  // namespace carom::geometry

@@ -1,0 +1,73 @@
+#include "algebraic_root.hpp"
+
+#include <CGAL/Algebraic_kernel_d_1.h>
+#include <CGAL/CORE_BigInt.h>
+
+#include <iterator>
+#include <utility>
+
+namespace carom::geometry {
+
+namespace {
+
+using Kernel = CGAL::Algebraic_kernel_d_1<CORE::BigInt>;
+using IntegerPolynomial = Kernel::Polynomial_1;
+
+const Kernel& kernel() {
+  static const Kernel instance;
+  return instance;
+}
+
+CORE::BigInt big(const mpz_class& z) { return CORE::BigInt(z.get_str(16), 16); }
+
+/// The polynomial times a positive integer.
+IntegerPolynomial integer_polynomial(const Polynomial& polynomial) {
+  mpz_class denominator = 1;
+  std::vector<mpq_class> rational;
+  for (const Dyadic& c : polynomial) {
+    rational.push_back(c.rational());
+    mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(), rational.back().get_den_mpz_t());
+  }
+  std::vector<CORE::BigInt> integers;
+  for (const mpq_class& c : rational)
+    integers.push_back(big(mpz_class(c.get_num() * (denominator / c.get_den()))));
+  return IntegerPolynomial(integers.begin(), integers.end());
+}
+
+}  // namespace
+
+struct AlgebraicRoot::Data {
+  Kernel::Algebraic_real_1 value;
+};
+
+std::vector<AlgebraicRoot> rising_roots(const Polynomial& polynomial) {
+  const IntegerPolynomial p = integer_polynomial(polynomial);
+  std::vector<AlgebraicRoot> rising;
+  if (p.degree() < 1) return rising;
+  std::vector<std::pair<Kernel::Algebraic_real_1, Kernel::Multiplicity_type>> roots;
+  kernel().solve_1_object()(p, std::back_inserter(roots));
+  int sign = CGAL::sign(p.lcoeff()) * (p.degree() % 2 == 0 ? 1 : -1);  // at -infinity
+  for (const auto& [value, multiplicity] : roots) {
+    if (multiplicity % 2 == 0) continue;
+    if (sign < 0) rising.emplace_back(std::make_shared<const AlgebraicRoot::Data>(AlgebraicRoot::Data{value}));
+    sign = -sign;
+  }
+  return {rising.rbegin(), rising.rend()};
+}
+
+int compare(const AlgebraicRoot& a, const AlgebraicRoot& b) {
+  return static_cast<int>(kernel().compare_1_object()(a.data().value, b.data().value));
+}
+
+int compare(const AlgebraicRoot& a, const mpq_class& b) {
+  const Kernel::Bound bound(big(b.get_num()), big(b.get_den()));
+  return static_cast<int>(kernel().compare_1_object()(a.data().value, bound));
+}
+
+int sign_at(const Polynomial& polynomial, const AlgebraicRoot& root) {
+  return static_cast<int>(kernel().sign_at_1_object()(integer_polynomial(polynomial), root.data().value));
+}
+
+double approximate(const AlgebraicRoot& root) { return CGAL::to_double(root.data().value); }
+
+}  // namespace carom::geometry

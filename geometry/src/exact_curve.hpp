@@ -1,0 +1,45 @@
+// Curves in exact arithmetic.
+#pragma once
+
+#include "carom/geometry/curve.hpp"
+#include "dyadic.hpp"
+
+namespace carom::geometry {
+
+using DyadicVector = BasicVector<Dyadic>;
+
+inline DyadicVector exact(Vector v) { return {Dyadic(v.x), Dyadic(v.y)}; }
+
+/// Homogeneous: the point (x/w, y/w), w > 0.
+struct ExactPoint {
+  Dyadic x, y, w{1};
+};
+
+/// M(e, f) = k^2 (e.p)(f.p) + (e.q)(f.q), q = left(p); the circle is p = (1, 0), k = 1.
+struct Metric {
+  bool euclidean = true;
+  DyadicVector p{Dyadic(1), Dyadic(0)};
+  Dyadic k{1}, k2{1};
+  Dyadic scale{1};  ///< k |p|^2: K e / scale is the quarter turn
+  Dyadic operator()(const DyadicVector& e, const DyadicVector& f) const;
+  DyadicVector quarter(const DyadicVector& e) const;  ///< K e
+};
+
+struct ExactCurve {
+  bool segment = true;
+  bool closed = false;
+  int orientation = 1;  ///< +1 counter-clockwise (domain inside), -1 clockwise
+  DyadicVector from, to;
+  DyadicVector direction;  ///< segment: to - from
+  DyadicVector centre, start, end;  ///< conics: from and to seen from the centre
+  Dyadic r2;                        ///< M(start, start)
+  Metric metric;
+
+  explicit ExactCurve(const Curve& curve);
+  ExactPoint point(double u) const;
+  ExactPoint end_point() const { return {to.x, to.y, Dyadic(1)}; }
+  /// A tangent vector (any length) at a homogeneous point of the curve, in the direction of travel.
+  DyadicVector tangent(const ExactPoint& at) const;
+};
+
+}  // namespace carom::geometry

@@ -1,0 +1,408 @@
+#include "carom/geometry/exact_flight.hpp"
+
+#include <optional>
+
+#include "algebraic_root.hpp"
+#include "carom/base/error.hpp"
+#include "carom/geometry/formulas.hpp"
+#include "exact_curve.hpp"
+
+namespace carom::geometry {
+
+struct ExactBoundary::Data {
+  std::vector<ExactCurve> curves;
+  std::vector<Piece> pieces;
+  DyadicVector first, second;
+
+  DyadicVector translation(Cell c) const {
+    const Dyadic m(static_cast<double>(c.first)), n(static_cast<double>(c.second));
+    return {m * first.x + n * second.x, m * first.y + n * second.y};
+  }
+};
+
+ExactBoundary::ExactBoundary(const std::vector<Piece>& pieces, Vector first, Vector second)
+    : data_(std::make_unique<Data>()) {
+  data_->pieces = pieces;
+  data_->first = exact(first);
+  data_->second = exact(second);
+  for (const Piece& p : pieces) data_->curves.emplace_back(p.curve);
+}
+ExactBoundary::~ExactBoundary() = default;
+ExactBoundary::ExactBoundary(ExactBoundary&&) noexcept = default;
+
+Sign ExactBoundary::inward(int piece, double u, Vector v) const {
+  const ExactCurve& c = data_->curves[static_cast<std::size_t>(piece)];
+  return sign_of(cross(c.tangent(c.point(u)), exact(v)));
+}
+
+Sign ExactBoundary::inward_at_end(int piece, Vector v) const {
+  const ExactCurve& c = data_->curves[static_cast<std::size_t>(piece)];
+  return sign_of(cross(c.tangent(c.end_point()), exact(v)));
+}
+
+ExactBoundary::Corner ExactBoundary::corner(int previous, int next) const {
+  const ExactCurve& before = data_->curves[static_cast<std::size_t>(previous)];
+  const ExactCurve& after = data_->curves[static_cast<std::size_t>(next)];
+  const DyadicVector in = before.tangent(before.end_point());
+  const DyadicVector out = after.tangent(after.point(0.0));
+  const Dyadic turn = cross(in, out), along = dot(in, out);
+  if (turn.sign() == 0) return {0, along.sign() > 0 ? 1 : 0};
+  if (turn.sign() > 0 && along.sign() == 0) return {1, 2};
+  if (turn.sign() > 0 && (turn + along).sign() == 0) return {1, 4};  // turn by 3 pi/4
+  return {turn.sign(), 0};
+}
+
+namespace {
+
+/// A crossing in kappa: (p + q sqrt(d)) / r, or a root beyond quadratics.
+struct Crossing {
+  Dyadic p, q, r{1}, d;
+  Quadratic<Dyadic> quadratic;
+  std::optional<AlgebraicRoot> root;
+
+  AlgebraicRoot algebraic() const {
+    if (root) return *root;
+    if (q.sign() != 0) return rising_roots({quadratic.c, Dyadic(2) * quadratic.b, quadratic.a}).front();
+    return rising_roots({-p, r * Dyadic(r.sign())}).front();  // r kappa - p, rising
+  }
+};
+
+/// Order of two crossings along kappa: -1 when a < b.
+int compare(const Crossing& a, const Crossing& b) {
+  if (a.root || b.root) return compare(a.algebraic(), b.algebraic());
+  const int s = sign_with_two_roots(a.p * b.r - b.p * a.r, a.q * b.r, a.d, -(b.q * a.r), b.d);
+  return s * a.r.sign() * b.r.sign();
+}
+
+int sign_of_kappa(const Crossing& a) {
+  if (a.root) return compare(*a.root, mpq_class(0));
+  return sign_with_root(a.p, a.q, a.d) * a.r.sign();
+}
+
+Crossing rational_crossing(Dyadic p, Dyadic r) {
+  Crossing c;
+  c.p = std::move(p);
+  c.r = std::move(r);
+  if (c.r.sign() < 0) {
+    c.p = -c.p;
+    c.r = -c.r;
+  }
+  return c;
+}
+
+/// The root of a kappa^2 + 2 b kappa + c at which it rises (rising = +1) or falls (-1), if any.
+std::optional<Crossing> quadratic_crossing(const Quadratic<Dyadic>& f, int rising = 1) {
+  if (f.a.sign() == 0) {
+    if (f.b.sign() != rising) return std::nullopt;
+    return rational_crossing(-f.c, Dyadic(2) * f.b);
+  }
+  Crossing crossing;
+  crossing.d = f.b * f.b - f.a * f.c;
+  if (crossing.d.sign() <= 0) return std::nullopt;
+  crossing.p = -f.b;
+  crossing.q = Dyadic(rising);
+  crossing.r = f.a;
+  crossing.quadratic = f;
+  return crossing;
+}
+
+/// Sign of s2 kappa^2 + s1 kappa + s0 at a crossing.
+int sign_at_crossing(const Dyadic& s2, const Dyadic& s1, const Dyadic& s0, const Crossing& k) {
+  if (k.root) return sign_at({s0, s1, s2}, *k.root);
+  return sign_with_root(s2 * (k.p * k.p + k.q * k.q * k.d) + s1 * k.p * k.r + s0 * k.r * k.r,
+                        Dyadic(2) * s2 * k.p * k.q + s1 * k.q * k.r, k.d);
+}
+
+const Dyadic& one_half() {
+  static const Dyadic half(0.5);
+  return half;
+}
+
+}  // namespace
+
+struct ExactFlight::Data {
+  const ExactBoundary::Data& boundary;
+  ExactPoint start;
+  DyadicVector v;
+  Dyadic omega;
+
+  /// The start seen from a cell: the pieces stay where they are and the flight is displaced.
+  struct View {
+    Dyadic x, y, w;
+  };
+  View view(int piece, Cell cell) const {
+    const Cell o = boundary.pieces[static_cast<std::size_t>(piece)].offset;
+    const Cell c{cell.first + o.first, cell.second + o.second};
+    if (c == Cell{}) return {start.x, start.y, start.w};
+    const DyadicVector t = boundary.translation(c);
+    return {start.x - start.w * t.x, start.y - start.w * t.y, start.w};
+  }
+  const ExactCurve& curve(int piece) const { return boundary.curves[static_cast<std::size_t>(piece)]; }
+
+  /// Point minus start, times the positive factor start.w point.w, and that factor.
+  static std::pair<DyadicVector, Dyadic> offset(const View& s, const ExactPoint& at) {
+    return {{at.x * s.w - s.x * at.w, at.y * s.w - s.y * at.w}, s.w * at.w};
+  }
+  int side(const View& s, const ExactPoint& at) const {
+    const auto [d, f] = offset(s, at);
+    return (Dyadic(2) * f * cross(v, d) + omega * dot(d, d)).sign();
+  }
+  /// kappa of a point that lies on the flight.
+  Crossing through(const View& s, const ExactPoint& at) const {
+    const auto [d, f] = offset(s, at);
+    return rational_crossing(f * dot(d, v), dot(d, d));
+  }
+
+  /// F N w^2 (or w) > 0 on the domain's side, as a quadratic in kappa.
+  Quadratic<Dyadic> quadratic(const ExactCurve& c, const View& s) const {
+    const DyadicVector e{s.x - s.w * (c.segment ? c.from.x : c.centre.x),
+                         s.y - s.w * (c.segment ? c.from.y : c.centre.y)};
+    const Dyadic h = one_half() * omega;
+    if (c.segment) {
+      const Dyadic a = cross(c.direction, e);
+      return {a, one_half() * s.w * cross(c.direction, v), a * h * h - h * s.w * dot(c.direction, v)};
+    }
+    const Dyadic a = c.metric(e, e) - s.w * s.w * c.r2;
+    Quadratic<Dyadic> f;
+    if (c.metric.euclidean)
+      f = {a, s.w * dot(e, v), a * h * h + omega * s.w * cross(e, v) + s.w * s.w * dot(v, v)};
+    else  // without field only
+      f = {a, s.w * c.metric(e, v), s.w * s.w * c.metric(v, v)};
+    return c.orientation > 0 ? -f : f;
+  }
+  Polynomial quartic(const ExactCurve& c, const View& s) const {
+    const DyadicVector e{s.x - s.w * c.centre.x, s.y - s.w * c.centre.y};
+    const DyadicVector jv = right(v);
+    const Dyadic h = c.metric(e, e) - s.w * s.w * c.r2;
+    const Dyadic n = one_half() * omega * one_half() * omega;
+    const Dyadic ev = s.w * c.metric(e, v), ew = omega * s.w * c.metric(e, jv);
+    const Dyadic w2 = s.w * s.w, two(2);
+    Polynomial f{n * (n * h + ew + w2 * c.metric(jv, jv)), two * n * ev + omega * w2 * c.metric(v, jv),
+                 two * n * h + ew + w2 * c.metric(v, v), two * ev, h};
+    if (c.orientation > 0)
+      for (Dyadic& q : f) q = -q;
+    return f;
+  }
+  bool needs_quartic(const ExactCurve& c) const {
+    return !c.segment && !c.metric.euclidean && omega.sign() != 0;
+  }
+
+  /// Sign of cross(b - a, x - a) at a crossing, for two exact points of the plane.
+  int side_of_chord(const View& s, const ExactPoint& a, const ExactPoint& b, const Crossing& k) const {
+    const DyadicVector chord{b.x * a.w - a.x * b.w, b.y * a.w - a.y * b.w};
+    const DyadicVector e{s.x * a.w - a.x * s.w, s.y * a.w - a.y * s.w};  // (P - a) s.w a.w
+    const Dyadic f = s.w * a.w, h = one_half() * omega;
+    const Dyadic s2 = cross(chord, e);
+    return sign_at_crossing(s2, f * cross(chord, v), s2 * h * h - h * f * dot(chord, v), k);
+  }
+  /// Is the crossing, a point of the conic, on its part from a to b?
+  bool on_part(const ExactCurve& c, const View& s, const ExactPoint& a, const ExactPoint& b,
+               const Crossing& k) const {
+    return side_of_chord(s, a, b, k) * c.orientation < 0;
+  }
+
+  std::vector<Crossing> exits(int piece, Cell cell, bool starts_here, bool ends_here, bool start_at_joint,
+                              std::vector<int>* zero_joints) const;
+  bool segment_crossed_twice(const ExactCurve& c, const View& s, int side, const Quadratic<Dyadic>& f) const;
+  bool arrives_from_inside(int piece, const View& s, const Crossing& k) const;
+};
+
+ExactFlight::ExactFlight(const ExactBoundary& boundary, int piece, double u, Vector point, Vector velocity,
+                         double omega)
+    : data_(new Data{boundary.data(), {}, exact(velocity), Dyadic(omega)}) {
+  if (piece >= 0) {
+    data_->start = data_->curve(piece).point(u);
+    const DyadicVector t =
+        data_->boundary.translation(data_->boundary.pieces[static_cast<std::size_t>(piece)].offset);
+    data_->start.x = data_->start.x + data_->start.w * t.x;
+    data_->start.y = data_->start.y + data_->start.w * t.y;
+  } else {
+    data_->start = {Dyadic(point.x), Dyadic(point.y), Dyadic(1)};
+  }
+}
+ExactFlight::~ExactFlight() = default;
+
+bool ExactFlight::Data::segment_crossed_twice(const ExactCurve& c, const View& s, int side_of_joints,
+                                              const Quadratic<Dyadic>& f) const {
+  // Both ends outside the Larmor circle, the foot of its centre between them, the line cut.
+  if (omega.sign() == 0 || side_of_joints * omega.sign() < 0) return false;
+  if ((f.b * f.b - f.a * f.c).sign() <= 0) return false;
+  const DyadicVector from{s.x - s.w * c.from.x, s.y - s.w * c.from.y};
+  const DyadicVector to{s.x - s.w * c.to.x, s.y - s.w * c.to.y};
+  const Dyadic common = s.w * cross(c.direction, v);
+  return (omega * dot(from, c.direction) + common).sign() * omega.sign() > 0 &&
+         (omega * dot(to, c.direction) + common).sign() * omega.sign() < 0;
+}
+
+std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts_here, bool ends_here,
+                                               bool start_at_joint, std::vector<int>* zero_joints) const {
+  const ExactCurve& c = curve(piece);
+  const View s = view(piece, cell);
+  std::vector<Crossing> found;
+  const bool on_it = starts_here || ends_here;
+  if (needs_quartic(c)) {
+    if (zero_joints && !c.closed && !(starts_here && start_at_joint) &&
+        side(s, {c.from.x, c.from.y, Dyadic(1)}) == 0)
+      zero_joints->push_back(piece);
+    for (AlgebraicRoot& root : rising_roots(quartic(c, s))) {
+      Crossing k;
+      k.root = std::move(root);
+      const ExactPoint a{c.from.x, c.from.y, Dyadic(1)}, b{c.to.x, c.to.y, Dyadic(1)};
+      if (c.closed || on_part(c, s, a, b, k)) found.push_back(std::move(k));
+    }
+    return found;
+  }
+  const Quadratic<Dyadic> f = quadratic(c, s);
+  std::optional<Crossing> exit;
+  if (c.closed) {
+    exit = quadratic_crossing(f);
+  } else {
+    // A particle that stands on the joint has it on the left where its wall begins and on the right
+    // where its wall ends: so the wall it stands on is entered there.
+    int from = 1, to = -1;
+    if (!(starts_here && start_at_joint)) {
+      from = side(s, {c.from.x, c.from.y, Dyadic(1)});
+      if (from == 0 && zero_joints) zero_joints->push_back(piece);
+      if (from == 0) from = 1;
+    }
+    if (!ends_here) {
+      to = side(s, c.end_point());
+      if (to == 0) to = 1;
+    }
+    if (from < 0 && to > 0) {
+      exit = quadratic_crossing(f);
+      // A crossing exactly through both joints' tie rule may be a touch: then nothing is crossed.
+    } else if (from == to) {
+      if (on_it) {
+        exit = quadratic_crossing(f);
+      } else if (c.segment) {
+        if (segment_crossed_twice(c, s, from, f)) exit = quadratic_crossing(f);
+      } else {
+        exit = quadratic_crossing(f);
+        const ExactPoint a{c.from.x, c.from.y, Dyadic(1)};
+        if (exit && !on_part(c, s, a, c.end_point(), *exit)) exit.reset();
+      }
+    }
+  }
+  if (exit && (omega.sign() != 0 || sign_of_kappa(*exit) > 0)) found.push_back(std::move(*exit));
+  return found;
+}
+
+bool ExactFlight::Data::arrives_from_inside(int piece, const View& s, const Crossing& k) const {
+  (void)s;
+  const ExactCurve& after = curve(piece);
+  int previous = -1;
+  for (std::size_t i = 0; i < boundary.pieces.size(); ++i)
+    if (boundary.pieces[i].next == piece && static_cast<int>(i) != piece) previous = static_cast<int>(i);
+  if (previous < 0) return true;
+  const ExactCurve& before = curve(previous);
+  const DyadicVector in = before.tangent(before.end_point());
+  const DyadicVector out = after.tangent(after.point(0.0));
+  // Velocity at the joint, times a positive factor.
+  const Dyadic h = one_half() * omega;
+  const Dyadic cosine = k.p * k.p - h * h * k.r * k.r, sine = Dyadic(2) * k.p * k.r * h;
+  const DyadicVector jv = right(v);
+  const DyadicVector w{cosine * v.x + sine * jv.x, cosine * v.y + sine * jv.y};
+  const int left_of_in = cross(w, in).sign(), left_of_out = cross(w, out).sign();  // of -w
+  const int turn = cross(in, out).sign();
+  if (turn > 0) return left_of_in > 0 && left_of_out > 0;
+  if (turn == 0) return left_of_out > 0;
+  return left_of_in > 0 || left_of_out > 0;
+}
+
+ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell, int entry, int start,
+                                      int start_previous) const {
+  const Data& d = *data_;
+  const bool at_joint = start_previous >= 0;
+  std::optional<Crossing> entered;
+  if (entry >= 0 && d.omega.sign() != 0)
+    entered = quadratic_crossing(d.quadratic(d.curve(entry), d.view(entry, cell)), -1);
+  First best;
+  std::optional<Crossing> best_crossing;
+  std::vector<int> zero_joints;
+  for (const int piece : pieces) {
+    const bool edge = d.boundary.pieces[static_cast<std::size_t>(piece)].edge;
+    std::vector<Crossing> exits =
+        d.exits(piece, cell, piece == start, piece == start_previous, at_joint, edge ? nullptr : &zero_joints);
+    for (std::size_t i = 0; i < exits.size(); ++i) {
+      if (edge && entered) {
+        const int order = compare(exits[i], *entered);
+        if (order > 0 || (order == 0 && piece == entry)) continue;
+      }
+      const int order = best_crossing ? compare(exits[i], *best_crossing) : 1;
+      if (order < 0) continue;
+      const First candidate{First::Kind::exit, piece, static_cast<int>(i), static_cast<int>(exits.size())};
+      if (order == 0) {
+        // Walls before edges; two walls at one point that is no joint are a cusp.
+        const bool best_edge = d.boundary.pieces[static_cast<std::size_t>(best.piece)].edge;
+        if (edge && !best_edge) continue;
+        if (!edge && !best_edge && best.kind == First::Kind::exit) best.kind = First::Kind::cusp;
+        if (!best_edge) continue;
+      }
+      best = candidate;
+      best_crossing = exits[i];
+    }
+  }
+  for (const int piece : zero_joints) {
+    if (piece == start_previous && at_joint) continue;
+    const Data::View s = d.view(piece, cell);
+    const ExactCurve& c = d.curve(piece);
+    const ExactPoint joint{c.from.x, c.from.y, Dyadic(1)};
+    const auto [offset, factor] = Data::offset(s, joint);
+    if (dot(offset, offset).sign() == 0) continue;  // the particle stands on it
+    const Crossing k = d.through(s, joint);
+    if (d.omega.sign() == 0 && k.p.sign() <= 0) continue;
+    if (!d.arrives_from_inside(piece, s, k)) continue;
+    if (best_crossing && compare(k, *best_crossing) < 0) continue;
+    best = {First::Kind::joint, piece, 0, 1};
+    best_crossing = k;
+  }
+  return best;
+}
+
+Sign ExactFlight::side(int piece, double u, Cell cell) const {
+  const ExactCurve& c = data_->curve(piece);
+  return static_cast<Sign>(data_->side(data_->view(piece, cell), u < 0 ? c.end_point() : c.point(u)));
+}
+
+bool ExactFlight::exit_within(int piece, int root, Cell cell, double from, double to, bool start) const {
+  const Data& d = *data_;
+  const ExactCurve& c = d.curve(piece);
+  const Data::View s = d.view(piece, cell);
+  std::optional<Crossing> k;
+  if (d.needs_quartic(c)) {
+    const std::vector<Crossing> all = d.exits(piece, cell, start, false, false, nullptr);
+    k = all.at(static_cast<std::size_t>(root));
+  } else {
+    k = quadratic_crossing(d.quadratic(c, s));
+  }
+  if (!k) throw InternalError("a hole was asked for an exit that does not exist");
+  const ExactPoint a = c.point(from), b = to < 0 ? c.end_point() : c.point(to);
+  if (c.segment) {
+    // before(x): is the crossing at or beyond x along the wall? dot(direction, x - a) >= 0.
+    const auto beyond = [&](const ExactPoint& at) {
+      const DyadicVector e{s.x * at.w - at.x * s.w, s.y * at.w - at.y * s.w};
+      const Dyadic f = s.w * at.w, h = one_half() * d.omega;
+      const Dyadic s2 = dot(c.direction, e);
+      return sign_at_crossing(s2, f * dot(c.direction, d.v),
+                              s2 * h * h + h * f * cross(c.direction, d.v), *k) >= 0;
+    };
+    return beyond(a) && !beyond(b);
+  }
+  // A crossing exactly at `from` is inside, at `to` outside.
+  const auto at = [&](const ExactPoint& p) {
+    if (d.side(s, p) != 0) return false;
+    return compare(d.through(s, p), *k) == 0;
+  };
+  if (at(a)) return true;
+  if (at(b)) return false;
+  return d.on_part(c, s, a, b, *k);
+}
+
+Sign ExactFlight::left_of(int piece, Cell cell) const {
+  const ExactCurve& c = data_->curve(piece);
+  const Data::View s = data_->view(piece, cell);
+  return sign_of(cross(c.direction, DyadicVector{s.x - s.w * c.from.x, s.y - s.w * c.from.y}));
+}
+
+}  // namespace carom::geometry
