@@ -1,0 +1,43 @@
+// A curve made ready for many evaluations: its frame with everything exact done once. The functions
+// of curve.hpp are these with the frame built on the spot.
+#pragma once
+
+#include "carom/geometry/curve.hpp"
+#include "carom/geometry/parameter.hpp"
+
+namespace carom::geometry {
+
+struct CurveFrame : Frame<double> {
+  enum class Kind : unsigned char { segment, arc, closed } kind = Kind::segment;
+  bool circular = false;
+  double turn = 0.0;   ///< +1 counter-clockwise, -1 clockwise, 0 segment
+  Vector middle;       ///< centre, rounded
+  double major = 0.0;  ///< semi-axes (radius of a circle, length of a segment)
+  double minor = 0.0;
+  /// Cosine and sine of the eccentric angle of the start, counted in the direction of travel from an
+  /// end of the minor axis.
+  Vector phase{1.0, 0.0};
+};
+
+/// Throws std::invalid_argument for a curve without extent (zero length, radius, axis or ratio).
+CurveFrame frame_of(const Curve&);
+
+inline Vector point_at(const CurveFrame& f, double u) {
+  return f.kind == CurveFrame::Kind::segment ? segment_point(f, u) : conic_point(f, u);
+}
+inline double parameter_of(const CurveFrame& f, Vector point) {
+  return f.kind == CurveFrame::Kind::segment ? segment_parameter(f, point, first_parameter)
+                                             : conic_parameter(f, point, first_parameter);
+}
+/// Tangent of any length in the direction of travel.
+inline Vector direction_at(const CurveFrame& f, double u) {
+  return f.kind == CurveFrame::Kind::segment ? f.a : conic_direction(f, u);
+}
+Vector tangent_at(const CurveFrame&, double u);
+Vector normal_at(const CurveFrame&, double u);
+double curvature_at(const CurveFrame&, double u);
+double length(const CurveFrame&);
+double arc_length_at(const CurveFrame&, double u);
+double parameter_at_length(const CurveFrame&, double s);
+
+}  // namespace carom::geometry
