@@ -1,0 +1,227 @@
+#include "carom/base/exact_number.hpp"
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+#include <mpfr.h>
+
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace carom {
+namespace {
+
+ExactNumber number(const std::string& text) { return ExactNumber(text, Place{}); }
+
+std::string rational(const std::string& text) {
+  const auto r = number(text).to_rational();
+  return r ? r->numerator + "/" + r->denominator : "irrational";
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    (void)ExactNumber(text, Place{"a.toml", 2, 9, "table.width"}).to_double();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ExactNumber, ReadsWhatIsWritten) {
+  EXPECT_EQ(rational("1/3"), "1/3");
+  EXPECT_EQ(rational("0.1"), "1/10");
+  EXPECT_EQ(rational("2^-10"), "1/1024");
+  EXPECT_EQ(rational("-(1+2)*3"), "-9/1");
+  EXPECT_EQ(rational("1e-3"), "1/1000");
+  EXPECT_EQ(rational("-12.50e+2"), "-1250/1");
+  EXPECT_EQ(rational(" 1 - 2 - 3 "), "-4/1");
+  EXPECT_EQ(rational("8/4/2"), "1/1");
+  EXPECT_EQ(rational("-2^2"), "-4/1");
+  EXPECT_EQ(rational("2^3^2"), "512/1");
+  EXPECT_EQ(rational("1_000.000_5"), "2000001/2000");
+  EXPECT_EQ(rational("+.5"), "1/2");
+  EXPECT_EQ(rational("0^0"), "1/1");
+  EXPECT_EQ(rational("-0.0"), "0/1");
+}
+
+TEST(ExactNumber, KnowsRationalRootsAndWhatCancels) {
+  EXPECT_EQ(rational("sqrt(9/16)"), "3/4");
+  EXPECT_EQ(rational("sqrt(2)*sqrt(8)"), "4/1");
+  EXPECT_EQ(rational("sqrt(12) - 2*sqrt(3)"), "0/1");
+  EXPECT_EQ(rational("(sqrt(3)/2)^2"), "3/4");
+  EXPECT_EQ(rational("(2*pi)/pi"), "2/1");
+  EXPECT_EQ(rational("sqrt(pi^2) - pi"), "0/1");
+  EXPECT_EQ(rational("sqrt(3)/2"), "irrational");
+  EXPECT_EQ(rational("pi/4"), "irrational");
+  EXPECT_EQ(rational("1 + sqrt(2)"), "irrational");
+}
+
+TEST(ExactNumber, RoundsToTheNearestDouble) {
+  EXPECT_EQ(number("0.1").to_double(), 0.1);
+  EXPECT_EQ(number("sqrt(3)/2").to_double(), 0x1.bb67ae8584caap-1);
+  EXPECT_EQ(number("pi/4").to_double(), 0x1.921fb54442d18p-1);
+  EXPECT_EQ(number("sqrt(2+sqrt(3))").to_double(), 0x1.ee8dd4748bf15p+0);
+  EXPECT_EQ(number("2^53 + 1").to_double(), 0x1p53);  // a tie goes to the even neighbour
+  EXPECT_EQ(number("2^53 + 3").to_double(), 0x1p53 + 4);
+  EXPECT_EQ(number("2^53 + 1 + 1e-4000").to_double(), 0x1p53 + 2);
+  EXPECT_EQ(number("(sqrt(2)+sqrt(3))^2 - 2*sqrt(6) - 5 + 2^53 + 1").to_double(), 0x1p53);
+  EXPECT_EQ(number("1e5000 + pi - 1e5000").to_double(), number("pi").to_double());
+  EXPECT_EQ(number("2^-1075").to_double(), 0.0);
+  EXPECT_EQ(number("2^-1075 + 1e-5000").to_double(), 0x1p-1074);
+  EXPECT_EQ(number("3*2^-1075").to_double(), 0x1p-1073);
+  EXPECT_EQ(number("1.7976931348623158e308").to_double(), std::numeric_limits<double>::max());
+  EXPECT_EQ(ExactNumber().to_double(), 0.0);
+}
+
+// strtod of glibc is correctly rounded, and written by others.
+TEST(ExactNumber, RoundsDecimalsLikeTheCLibrary) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = std::to_string(random() >> (random() % 60)) + "." + std::to_string(random());
+    text += "e" + std::to_string(static_cast<int>(random() % 680) - 350);
+    const double expected = std::strtod(text.c_str(), nullptr);
+    if (std::isfinite(expected)) {
+      ASSERT_EQ(number(text).to_double(), expected) << text;
+    }
+  }
+}
+
+TEST(ExactNumber, RoundsIrrationalsLikeMpfr) {
+  std::mt19937_64 random(2);
+  mpfr_t value, part;
+  mpfr_inits2(400, value, part, static_cast<mpfr_ptr>(nullptr));
+  for (int i = 0; i < 2000; ++i) {
+    const unsigned long a = random() % 1000000 + 1, b = random() % 1000000 + 1, c = random() % 1000 + 1;
+    const std::string text =
+        "(sqrt(" + std::to_string(a) + ")-sqrt(" + std::to_string(b) + ")/pi)^3/" + std::to_string(c);
+    mpfr_sqrt_ui(part, b, MPFR_RNDN);
+    mpfr_const_pi(value, MPFR_RNDN);
+    mpfr_div(part, part, value, MPFR_RNDN);
+    mpfr_sqrt_ui(value, a, MPFR_RNDN);
+    mpfr_sub(value, value, part, MPFR_RNDN);
+    mpfr_pow_ui(value, value, 3, MPFR_RNDN);
+    mpfr_div_ui(value, value, c, MPFR_RNDN);
+    ASSERT_EQ(number(text).to_double(), mpfr_get_d(value, MPFR_RNDN)) << text;
+  }
+  mpfr_clears(value, part, static_cast<mpfr_ptr>(nullptr));
+}
+
+TEST(ExactNumber, RationalArithmeticIsThatOfGmp) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    mpq_class value = static_cast<unsigned long>(random() % 1000);
+    std::string text = value.get_str();
+    for (int k = 0; k < 6; ++k) {
+      const unsigned long n = random() % 1000 + 1;
+      const mpq_class operand(n);
+      const char symbol = "+-*/"[random() % 4];
+      if (symbol == '+') value += operand;
+      if (symbol == '-') value -= operand;
+      if (symbol == '*') value *= operand;
+      if (symbol == '/') value /= operand;
+      text = "(" + text + symbol + std::to_string(n) + ")";
+    }
+    ASSERT_EQ(rational(text), value.get_num().get_str() + "/" + value.get_den().get_str()) << text;
+  }
+}
+
+TEST(ExactNumber, OfADoubleIsThatDouble) {
+  const ExactNumber tenth(0.1);
+  EXPECT_EQ(tenth.text(), "0.1");
+  EXPECT_EQ(tenth.to_rational()->numerator, "3602879701896397");
+  EXPECT_EQ(tenth.to_rational()->denominator, "36028797018963968");
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = std::bit_cast<double>(random());
+    if (!std::isfinite(x)) continue;
+    const ExactNumber exact(x);
+    ASSERT_EQ(exact.to_double(), x);
+    ASSERT_EQ(number(exact.text()).to_double(), x) << exact.text();
+  }
+  EXPECT_THROW(ExactNumber(std::numeric_limits<double>::infinity()), InputError);
+  EXPECT_THROW(ExactNumber(std::numeric_limits<double>::quiet_NaN()), InputError);
+}
+
+TEST(ExactNumber, PointsAtTheCharacterThatIsWrong) {
+  const std::string place = "a.toml, line 2, column 9: table.width: ";
+  const std::string operand = " (expected a number, pi, sqrt(...) or '(')";
+  const std::string rest = " (expected an operator (+ - * / ^) or the end)";
+  EXPECT_EQ(complaint("1/0"), place + "division by zero at character 2 of \"1/0\"");
+  EXPECT_EQ(complaint("0^-1"), place + "division by zero at character 2 of \"0^-1\"");
+  EXPECT_EQ(complaint("1/(sqrt(2)+1-sqrt(2)-1)"),
+            place + "division by zero at character 2 of \"1/(sqrt(2)+1-sqrt(2)-1)\"");
+  EXPECT_EQ(complaint("2*sqrt(1-2)"),
+            place + "square root of a negative number at character 3 of \"2*sqrt(1-2)\"");
+  EXPECT_EQ(complaint("1+*2"), place + "unexpected '*' at character 3 of \"1+*2\"" + operand);
+  EXPECT_EQ(complaint("2pi"), place + "unexpected 'p' at character 2 of \"2pi\"" + rest);
+  EXPECT_EQ(complaint("1 2"), place + "unexpected '2' at character 3 of \"1 2\"" + rest);
+  EXPECT_EQ(complaint("2*\xcf\x80?"),
+            place + "unexpected '\xcf\x80' at character 3 of \"2*\xcf\x80?\"" + operand);
+  EXPECT_EQ(complaint("1e+x"),
+            place + "unexpected 'x' at character 4 of \"1e+x\" (expected the digits of the exponent)");
+  EXPECT_EQ(complaint("(1"),
+            place +
+                "the number ends too early at character 3 of \"(1\" (expected ')' for the one "
+                "opened at character 1)");
+  EXPECT_EQ(complaint("1)"), place + "')' without '(' at character 2 of \"1)\"");
+  EXPECT_EQ(complaint("Sqrt(2)"),
+            place +
+                "unknown word 'Sqrt' at character 1 of \"Sqrt(2)\" (expected a number, pi or "
+                "sqrt(...); did you mean 'sqrt'?)");
+  EXPECT_EQ(complaint("-inf"), place + "'inf' is not a finite number at character 2 of \"-inf\"");
+  EXPECT_EQ(complaint("nan"), place + "'nan' is not a finite number at character 1 of \"nan\"");
+  EXPECT_EQ(complaint("2^(1/2)"),
+            place +
+                "the exponent is not an integer at character 3 of \"2^(1/2)\" (expected an "
+                "integer; sqrt(...) for a square root)");
+  EXPECT_EQ(complaint(" "), place + "the number is empty (expected a number such as 0.5, 1/3 or sqrt(3)/2)");
+  EXPECT_EQ(complaint("1e400"),
+            place + "the number is too large (expected at most 1.7976931348623157e308 in size)");
+  EXPECT_EQ(complaint("1\n"), place + "unexpected control character at character 2" + rest);
+}
+
+TEST(ExactNumber, RefusesWhatWouldEatTimeOrMemory) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_NE(complaint("1e999999999").find("the exponent of ten is too large"), std::string::npos);
+  EXPECT_NE(complaint("1e99999999999999999999").find("too large"), std::string::npos);
+  EXPECT_NE(complaint("9^9^9^9").find("too l"), std::string::npos);
+  EXPECT_NE(complaint("(1e5000)^10000").find("too long"), std::string::npos);
+  EXPECT_NE(complaint("(((1+pi)^10000)^10000)^10000").find("too large"), std::string::npos);
+  EXPECT_NE(complaint(std::string(100000, '1')).find("too long"), std::string::npos);
+  EXPECT_NE(complaint(std::string(4000, '(')).find("nested too deeply"), std::string::npos);
+  std::string tower = "1";
+  for (int i = 0; i < 1000; ++i) tower += "^-1";
+  EXPECT_NE(complaint(tower).find("nested too deeply"), std::string::npos);
+  EXPECT_EQ(rational(std::string(4000, '-') + "1"), "1/1");
+  std::string chain = "pi";
+  for (int i = 0; i < 190; ++i) chain = "1/(1+" + chain + ")";
+  EXPECT_EQ(complaint(chain), "no error");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
+// Random bytes and random words of the grammar: a value or an InputError, nothing else.
+TEST(ExactNumber, SurvivesAnyText) {
+  const std::vector<std::string> words = {"1", "0",     ".",  "e", "-",    "+", "*",   "/",    "^",   "(",
+                                          ")", "sqrt(", "pi", " ", "9999", "_", "1e9", "\xff", "sqrt"};
+  std::mt19937_64 random(5);
+  int values = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text;
+    const std::uint64_t length = random() % 12 + 1;
+    for (std::uint64_t k = 0; k < length; ++k) text += words[random() % words.size()];
+    try {
+      (void)number(text).to_double();
+      ++values;
+    } catch (const InputError&) {
+    }
+  }
+  EXPECT_GT(values, 100);
+}
+
+}  // namespace
+}  // namespace carom
