@@ -331,7 +331,8 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
       }
       const int order = best_crossing ? compare(exits[i], *best_crossing) : 1;
       if (order < 0) continue;
-      const First candidate{First::Kind::exit, piece, static_cast<int>(i), static_cast<int>(exits.size())};
+      const First candidate{First::Kind::exit, piece, static_cast<int>(i),
+                            exits[i].root ? approximate(*exits[i].root) : 0.0};
       if (order == 0) {
         // Walls before edges; two walls at one point that is no joint are a cusp.
         const bool best_edge = d.boundary.pieces[static_cast<std::size_t>(best.piece)].edge;
@@ -354,7 +355,7 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
     if (d.omega.sign() == 0 && k.p.sign() <= 0) continue;
     if (!d.arrives_from_inside(piece, s, k)) continue;
     if (best_crossing && compare(k, *best_crossing) < 0) continue;
-    best = {First::Kind::joint, piece, 0, 1};
+    best = {First::Kind::joint, piece, 0, 0.0};
     best_crossing = k;
   }
   return best;

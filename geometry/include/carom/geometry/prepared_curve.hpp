@@ -1,0 +1,111 @@
+// A curve made ready for flights in double precision: rounded images of its exact data, with bounds.
+//
+// u = 2^-53 below; every bound is absolute and per coordinate (docs/physics/exactness.md).
+#pragma once
+
+#include <cmath>
+
+#include "carom/geometry/curve.hpp"
+#include "carom/geometry/formulas.hpp"
+
+namespace carom::geometry {
+
+inline constexpr double unit_roundoff = 0x1p-53;
+
+/// Quarter turns plus half-angle tangent of the direction (x, y), a point near the unit circle.
+/// Only comparisons, one addition and one division: the same bits in every engine.
+template <class Number>
+constexpr Number frame_parameter(const Number& x, const Number& y) {
+  if (x > Number(0) && y >= Number(0)) return y / (Number(1) + x);
+  if (y > Number(0)) return Number(1) + (-x) / (Number(1) + y);
+  if (x < Number(0)) return Number(2) + (-y) / (Number(1) - x);
+  return Number(3) + x / (Number(1) - y);
+}
+
+enum class CurveKind : unsigned char { segment, circle, ellipse };
+
+struct PreparedCurve {
+  CurveKind kind = CurveKind::segment;
+  bool closed = false;
+  double orientation = 1.0;  ///< +1: domain inside (counter-clockwise), -1: outside
+  Vector from, to;
+
+  // Segment: direction and its unit vector. The images of the tangent have a relative error of 4u.
+  Vector direction, tangent;
+  double length = 0.0, inverse_length = 0.0;
+
+  // Circle and ellipse: centre, start vector a and its quarter turn b in the direction of travel.
+  Vector centre, a, b;
+  double r2 = 0.0;            ///< circle: squared radius
+  Vector along, across;       ///< rows of the map of e = x - centre to the unit circle of (a, b)
+  double centre_error = 0.0;  ///< of `centre`
+  // Ellipse: rows of the map to the unit circle of its axes, in which flights are intersected.
+  Vector first_axis, second_axis;
+  double extent = 0.0;        ///< largest |coordinate| on the curve, rounded up
+
+  double point_error = 0.0;   ///< of point(u)
+  double last = 1.0;          ///< last_parameter
+
+  explicit PreparedCurve(const Curve& curve);
+
+  /// Rounded image of the exact point at u, u in [0, end).
+  Vector point(double u) const {
+    if (kind == CurveKind::segment) return from + u * direction;
+    const Vector e = seen_from_centre(u);
+    return centre + e;
+  }
+  /// Unit normal into the domain at u.
+  Vector normal(double u) const {
+    if (kind == CurveKind::segment) return left(tangent);
+    const Vector e = seen_from_centre(u);
+    if (kind == CurveKind::circle) {
+      const double f = -orientation * inverse_radius;
+      return f * e;
+    }
+    // Gradient of the ellipse's form, then normalised.
+    const double p = dot(first_axis, e), q = dot(second_axis, e);
+    const Vector g{p * first_axis.x + q * second_axis.x, p * first_axis.y + q * second_axis.y};
+    const double f = -orientation / std::sqrt(dot(g, g));
+    return f * g;
+  }
+  /// Parameter of a point that lies on the curve up to rounding, kept off the joints.
+  double parameter(Vector x) const {
+    double u = 0;
+    if (kind == CurveKind::segment) {
+      u = dot(x - from, tangent) * inverse_length;
+    } else {
+      const Vector e = x - centre;
+      u = frame_parameter(dot(along, e), dot(across, e));
+    }
+    return clamp(u);
+  }
+  double clamp(double u) const { return u < first_parameter ? first_parameter : u > last ? last : u; }
+
+  double inverse_radius = 0.0;
+
+ private:
+  Vector seen_from_centre(double u) const {
+    Vector p = a, q = b;
+    double w = u;
+    if (u >= 1.0) {
+      const int quarters = static_cast<int>(u);
+      w = u - quarters;
+      if (quarters == 1) {
+        p = b;
+        q = -a;
+      } else if (quarters == 2) {
+        p = -a;
+        q = -b;
+      } else {
+        p = -b;
+        q = a;
+      }
+    }
+    const double w2 = w * w;
+    const double f = 1.0 / (1.0 + w2);
+    const double c = (1.0 - w2) * f, s = 2.0 * w * f;
+    return {c * p.x + s * q.x, c * p.y + s * q.y};
+  }
+};
+
+}  // namespace carom::geometry

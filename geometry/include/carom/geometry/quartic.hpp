@@ -1,0 +1,35 @@
+// Real roots of a quartic or cubic with inexact coefficients: a Larmor circle against an ellipse.
+#pragma once
+
+#include "carom/geometry/filter.hpp"
+
+namespace carom::geometry {
+
+/// A root with an interval that is proven to contain exactly one.
+struct CertifiedRoot {
+  double kappa = 0.0;
+  double error = 0.0;
+};
+
+struct RisingRoots {
+  bool decided = true;   ///< false: the coefficients' errors leave their number or order open
+  int count = 0;
+  CertifiedRoot roots[4];
+};
+
+/// Errors of the coefficients of a quartic.
+struct QuarticError {
+  double q[5]{};
+};
+
+/// The roots at which the polynomial of degree 3 or 4 rises, from the largest to the smallest, over the
+/// whole real line. It is cut into [K, inf), [0, K], [-K, 0], (-inf, -K] with the given scale K > 0 and
+/// isolated by Descartes' rule in Bernstein form, with every coefficient's error carried along, so that
+/// no root is missed and none invented: docs/physics/exactness.md. At most `most` roots are returned.
+RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale,
+                         int most = 4);
+
+/// Coefficients' errors for ellipse_quartic; as ellipse_error. `stands`: the start lies on the curve.
+QuarticError quartic_error(const FlightScale& f, double e1, double centre_error, double row, bool stands);
+
+}  // namespace carom::geometry

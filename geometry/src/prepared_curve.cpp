@@ -1,0 +1,67 @@
+#include "carom/geometry/prepared_curve.hpp"
+
+#include <algorithm>
+
+#include "exact_curve.hpp"
+
+namespace carom::geometry {
+
+namespace {
+
+// mpq_class::get_d truncates: a relative error of at most 2u.
+double rounded(const mpq_class& q) { return q.get_d(); }
+double rounded(const Dyadic& d) { return rounded(d.rational()); }
+Vector rounded(const DyadicVector& v) { return {rounded(v.x), rounded(v.y)}; }
+
+}  // namespace
+
+PreparedCurve::PreparedCurve(const Curve& curve) {
+  const ExactCurve exact_curve(curve);
+  closed = exact_curve.closed;
+  orientation = exact_curve.orientation;
+  from = rounded(exact_curve.from);
+  to = rounded(exact_curve.to);
+  last = last_parameter(curve);
+  const Box box = bounding_box(curve);
+  extent = std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)});
+  if (exact_curve.segment) {
+    kind = CurveKind::segment;
+    direction = rounded(exact_curve.direction);
+    length = std::sqrt(dot(direction, direction));
+    inverse_length = 1.0 / length;
+    tangent = {direction.x / length, direction.y / length};
+    // direction: 2u |direction| <= 4u extent; its product with u < 1 and the sum: 3u extent more.
+    point_error = 7.0 * unit_roundoff * extent;
+    return;
+  }
+  kind = exact_curve.metric.euclidean ? CurveKind::circle : CurveKind::ellipse;
+  centre = rounded(exact_curve.centre);
+  a = rounded(exact_curve.start);
+  DyadicVector quarter = exact_curve.metric.quarter(exact_curve.start);
+  if (exact_curve.orientation < 0) quarter = -quarter;
+  const mpq_class scale = exact_curve.metric.scale.rational();
+  const mpq_class bx = quarter.x.rational() / scale, by = quarter.y.rational() / scale;
+  b = {rounded(bx), rounded(by)};
+  centre_error = 2.0 * unit_roundoff * std::max(std::fabs(centre.x), std::fabs(centre.y));
+  // Map of e to the coordinates (M(e, a), M(e, b)) / M(a, a): the inverse of the matrix (a b).
+  const mpq_class ax = exact_curve.start.x.rational(), ay = exact_curve.start.y.rational();
+  const mpq_class determinant = ax * by - ay * bx;
+  along = {rounded(mpq_class(by / determinant)), rounded(mpq_class(-bx / determinant))};
+  across = {rounded(mpq_class(-ay / determinant)), rounded(mpq_class(ax / determinant))};
+  if (kind == CurveKind::circle) {
+    r2 = rounded(exact_curve.r2);
+    inverse_radius = 1.0 / std::sqrt(r2);
+  } else {
+    // M(e, e) / M(a, a) = (e.p)^2 k^2 / M + (e.q)^2 / M: both rows carry 1 / sqrt(M(a, a)).
+    const double root = std::sqrt(rounded(exact_curve.r2));
+    const Vector p = rounded(exact_curve.metric.p);
+    const double k = rounded(exact_curve.metric.k);
+    first_axis = {k * p.x / root, k * p.y / root};
+    second_axis = {-p.y / root, p.x / root};
+  }
+  // centre 2u + sum u of the extents; a, b: 2u; the coefficients c and s: 5u and 3u of at most 1.
+  const double size = std::max(std::fabs(a.x) + std::fabs(b.x), std::fabs(a.y) + std::fabs(b.y));
+  point_error = centre_error + unit_roundoff * (extent + 10.0 * size);
+}
+
+}  // namespace carom::geometry

@@ -1,0 +1,36 @@
+#include "events/locator.hpp"
+
+namespace carom {
+
+using namespace geometry;
+
+Locator::Locator(const Table& table, DecisionOptions options)
+    : domain_(table, options, false, false), complement_(table, options, false, true), cell_(table, options) {}
+
+bool Locator::contains(Vector point) const {
+  Flight flight;
+  flight.start = point;
+  flight.speed = 1.0;
+  // Directions of rational slope in different octants; one that meets no tie is enough.
+  for (const Vector direction : {Vector{0.5625, 0.828125}, Vector{-0.875, 0.484375}, Vector{0.203125, -0.984375},
+                                 Vector{-0.6875, -0.71875}, Vector{0.984375, 0.171875}, Vector{-0.09375, 0.984375}}) {
+    flight.velocity = direction;
+    if (domain_.table().lattice && !cell_.in_cell(flight)) return false;
+    DecisionCounts counts;
+    const Ahead leave = domain_.next(flight, counts);
+    const Ahead enter = complement_.next(flight, counts);
+    const bool leaves = leave.kind == Ahead::Kind::wall, enters = enter.kind == Ahead::Kind::wall;
+    if (leave.kind == Ahead::Kind::none && enter.kind == Ahead::Kind::none)
+      return domain_.table().extent != Extent::bounded;
+    if (leave.kind != Ahead::Kind::none && enter.kind == Ahead::Kind::none) return true;
+    if (enter.kind != Ahead::Kind::none && leave.kind == Ahead::Kind::none) return false;
+    if (!leaves || !enters) continue;
+    const double margin = domain_.error_of(flight, leave) + complement_.error_of(flight, enter);
+    const Sign order = sign_within(leave.kappa - enter.kappa, margin);
+    if (order == Sign::positive) return true;
+    if (order == Sign::negative) return false;
+  }
+  return false;  // on a wall, or nearer to one than rounding tells from every side
+}
+
+}  // namespace carom

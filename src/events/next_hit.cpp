@@ -1,0 +1,340 @@
+#include "events/next_hit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "carom/base/elementary.hpp"
+#include "carom/base/error.hpp"
+
+namespace carom {
+
+using namespace geometry;
+
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
+
+}  // namespace
+
+double duration_at(double kappa, double omega) {
+  if (omega == 0.0) return 1.0 / kappa;
+  const double h = 0.5 * std::fabs(omega);
+  return elementary::atan2(h, kappa) / h;
+}
+
+double kappa_after(double duration, double omega) {
+  if (omega == 0.0) return 1.0 / duration;
+  const double h = 0.5 * omega;
+  const auto [s, c] = elementary::sincos(h * duration);
+  return h * c / s;
+}
+
+Flight HitFinder::from_wall(int wall, double u, Vector velocity, double speed, double omega) const {
+  Flight f;
+  const PreparedCurve& c = curves_[at(wall)];
+  f.wall = wall;
+  f.u = u;
+  f.start = c.point(u);
+  f.start_error = c.point_error;
+  f.velocity = velocity;
+  f.speed = speed;
+  f.omega = omega;
+  return f;
+}
+
+ExactFlight HitFinder::exact_flight(const Flight& f) const {
+  return ExactFlight(*exact_, f.wall, f.u, f.start, f.velocity, f.omega);
+}
+
+int HitFinder::start_piece(const Flight& f) const {
+  if (f.wall < 0) return -1;
+  if (f.cell == Cell{}) return f.wall;  // the pieces begin with the walls in their own cell
+  for (std::size_t i = 0; i < data_.size(); ++i) {
+    const Cell o = offsets_[at(data_[i].offset)];
+    if (data_[i].wall == f.wall && o.first == -f.cell.first && o.second == -f.cell.second)
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+int HitFinder::start_previous(const Flight& f) const {
+  if (f.wall < 0 || f.u != 0.0 || curves_[at(f.wall)].closed) return -1;
+  const int start = start_piece(f);
+  for (std::size_t i = 0; start >= 0 && i < data_.size(); ++i)
+    if (data_[i].next == start && static_cast<int>(i) != start) return static_cast<int>(i);
+  return -1;
+}
+
+void HitFinder::look_from(const Flight& f) const {
+  for (std::size_t k = 0; k < offsets_.size(); ++k) {
+    const Cell c{f.cell.first + offsets_[k].first, f.cell.second + offsets_[k].second};
+    if (c == Cell{}) {
+      origins_[k] = {f.start, f.start_error};
+      continue;
+    }
+    const Lattice& l = *table_.lattice;
+    const Vector p = f.start - l.translation(c);
+    // Two products and a sum for the translation, one difference.
+    const double m = std::fabs(static_cast<double>(c.first)), n = std::fabs(static_cast<double>(c.second));
+    const double size = m * norm_1(l.first) + n * norm_1(l.second);
+    origins_[k] = {p, f.start_error + unit_roundoff * (2.1 * size + norm_1(p))};
+  }
+}
+
+FlightScale HitFinder::scale(const Flight& f, int offset) const {
+  return {origins_[at(offset)].error, norm_1(f.velocity), std::fabs(f.omega), options_.filter_inflation};
+}
+
+HitFinder::Candidate HitFinder::candidate(const Flight& f, int piece, bool stands_on_it) const {
+  Candidate c;
+  c.piece = piece;
+  const PieceData& p = data_[at(piece)];
+  const PreparedCurve& w = curves_[at(p.curve)];
+  const FlightScale s = scale(f, p.offset);
+  const Vector origin = origins_[at(p.offset)].point;
+  if (w.kind == CurveKind::segment) {
+    const Vector e = origin - w.from;
+    c.quadratic = line_quadratic(e, w.tangent, f.velocity, f.omega, 0.5);
+    c.error = line_error(s, norm_1(e));
+  } else if (w.kind == CurveKind::circle) {
+    const Vector e = origin - w.centre;
+    c.quadratic = circle_quadratic(e, w.r2, f.velocity, f.omega, 0.5);
+    c.error = circle_error(s, norm_1(e), w.centre_error, w.r2);
+  } else {
+    const Vector e = origin - w.centre;
+    const Vector em{dot(w.first_axis, e), dot(w.second_axis, e)};
+    const Vector vm{dot(w.first_axis, f.velocity), dot(w.second_axis, f.velocity)};
+    c.quadratic = circle_quadratic(em, 1.0, vm, 0.0, 0.5);
+    const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
+    c.error = ellipse_error(s, norm_1(e), w.centre_error, row);
+  }
+  if (stands_on_it) {
+    // The leading coefficient is zero, and with it its share of the constant one.
+    const double h = 0.5 * f.omega;
+    if (w.kind != CurveKind::ellipse) c.quadratic.c -= c.quadratic.a * (h * h);
+    c.quadratic.a = 0.0;
+    c.error.a = 0.0;
+  }
+  if (w.kind != CurveKind::segment && w.orientation > 0) c.quadratic = -c.quadratic;
+  c.root = rising_root(c.quadratic);
+  return c;
+}
+
+Sign HitFinder::quartic_candidate(const Flight& f, int piece, bool stands, double inflation,
+                                  Candidate& c) const {
+  c.piece = piece;
+  const PieceData& p = data_[at(piece)];
+  const PreparedCurve& w = curves_[at(p.curve)];
+  FlightScale s = scale(f, p.offset);
+  s.inflation = inflation;
+  const Vector origin = origins_[at(p.offset)].point;
+  const Vector e = origin - w.centre, j = right(f.velocity);
+  const Vector em{dot(w.first_axis, e), dot(w.second_axis, e)};
+  const Vector vm{dot(w.first_axis, f.velocity), dot(w.second_axis, f.velocity)};
+  const Vector jm{dot(w.first_axis, j), dot(w.second_axis, j)};
+  const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
+  Quartic<double> q = ellipse_quartic(em, stands ? dot(em, em) : 1.0, vm, jm, f.omega, 0.5);
+  if (w.orientation > 0)
+    for (double& x : q.q) x = -x;
+  const RisingRoots found =
+      rising_roots(q, quartic_error(s, norm_1(e), w.centre_error, row, stands), stands ? 3 : 4,
+                   std::max(0.5 * s.omega, row * s.speed_1), w.closed ? 1 : 4);
+  for (int i = 0; i < found.count; ++i) {
+    c.root.kappa = found.roots[i].kappa;
+    c.kappa_error = found.roots[i].error;
+    if (w.closed) return Sign::positive;
+    const Sign on = on_part(f, piece, c);
+    if (on != Sign::negative) return on;
+  }
+  return found.decided ? Sign::negative : Sign::undecided;
+}
+
+/// Is the crossing of a conic, with its error known, on the arc's side of its chord?
+Sign HitFinder::on_part(const Flight& f, int piece, const Candidate& c) const {
+  const PieceData& p = data_[at(piece)];
+  const PreparedCurve& w = curves_[at(p.curve)];
+  const FlightScale s = scale(f, p.offset);
+  const Vector origin = origins_[at(p.offset)].point;
+  const Vector d = displacement(c.root.kappa, f.velocity, f.omega, 0.5);
+  const Vector chord = w.to - w.from, e = (origin - w.from) + d;
+  const double error = point_error(s, c.root.kappa, c.kappa_error, norm_1(d));
+  const double rounding = unit_roundoff * (6.1 * norm_1(e) + 2.1 * w.extent + 2.1 * norm_1(d));
+  return sign_within(-w.orientation * geometry::cross(chord, e), norm_1(chord) * (error + s.inflation * rounding));
+}
+
+template <bool larmor>
+bool HitFinder::sides(const Flight& f, int start, int previous) const {
+  const Vector v = f.velocity;
+  for (std::size_t i = 0; i < data_.size(); ++i) {
+    const PieceData& p = data_[i];
+    if (curves_[at(p.curve)].closed) continue;
+    if (previous >= 0 && static_cast<int>(i) == start) continue;  // stands on this joint
+    const Vector d = joints_[i] - origins_[at(p.offset)].point;
+    const double side = larmor ? side_of_flight(v, d, f.omega) : 2.0 * geometry::cross(v, d);
+    const Sign sign = sign_within(side, side_error(scale(f, p.offset), norm_1(d)));
+    if (sign == Sign::undecided) return false;
+    side_[i] = static_cast<signed char>(sign);
+  }
+  return true;
+}
+
+/// Both joints of a piece lie on one side: does the flight leave through it all the same?
+template <bool larmor>
+Sign HitFinder::crossed_twice(const Flight& f, int piece, Candidate& c) const {
+  const PieceData& p = data_[at(piece)];
+  const PreparedCurve& w = curves_[at(p.curve)];
+  const FlightScale s = scale(f, p.offset);
+  const Vector origin = origins_[at(p.offset)].point;
+  if (w.kind == CurveKind::segment) {
+    if (!larmor) return Sign::negative;
+    // Both inside the Larmor circle: never, by convexity.
+    if ((side_[at(piece)] > 0) == (f.omega < 0)) return Sign::negative;
+    // The foot of the circle's centre must lie between the ends.
+    const double across = geometry::cross(w.tangent, f.velocity);
+    const double first = f.omega * dot(origin - w.from, w.tangent) + across;
+    const double last = f.omega * dot(origin - w.to, w.tangent) + across;
+    const double d1 = norm_1(origin - w.from) + norm_1(origin - w.to);
+    const double bound = s.inflation * (s.omega * (1.42 * s.delta + 8.1 * unit_roundoff * d1) +
+                                        8.1 * unit_roundoff * s.speed_1);
+    const Sign a = sign_within(f.omega > 0 ? first : -first, bound);
+    const Sign b = sign_within(f.omega > 0 ? -last : last, bound);
+    if (a == Sign::negative || b == Sign::negative) return Sign::negative;
+    if (a == Sign::undecided || b == Sign::undecided) return Sign::undecided;
+  }
+  c = candidate(f, piece, false);
+  const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, c.error));
+  if (cut != Sign::positive || w.kind == CurveKind::segment) return cut;
+  c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
+  return on_part(f, piece, c);
+}
+
+namespace {
+
+/// Without field: is the rising crossing ahead (kappa > 0)?
+Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
+  // A line's constant coefficient is exactly zero: its other crossing, at kappa = 0, is never reached.
+  if (q.b > e.b) return q.c == 0.0 && e.c == 0.0 ? Sign::negative : -sign_within(q.c, e.c);
+  if (q.b < -e.b) return sign_within(q.a, e.a);
+  if (q.a > e.a && q.c < -e.c) return Sign::positive;
+  if (q.a < -e.a && q.c > e.c) return Sign::negative;
+  return Sign::undecided;
+}
+
+}  // namespace
+
+template <bool larmor>
+bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
+  const int start = start_piece(f);
+  const int previous = start_previous(f);
+  if (!sides<larmor>(f, start, previous)) return false;
+  Candidate best;
+  double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
+  if (larmor && f.entry >= 0) {
+    const Candidate entry = candidate(f, f.entry, false);
+    const Root root = falling_root(entry.quadratic);
+    entered = root.kappa;
+    entered_error = kappa_error(-entry.quadratic, entry.error, root);
+  }
+  for (std::size_t i = 0; i < data_.size(); ++i) {
+    const PieceData& p = data_[i];
+    const PreparedCurve& w = curves_[at(p.curve)];
+    const int piece = static_cast<int>(i);
+    const bool starts = piece == start, ends = piece == previous;
+    Candidate c;
+    bool computed = false;
+    if (larmor && w.kind == CurveKind::ellipse) {
+      const Sign leaves = quartic_candidate(f, piece, starts || ends, options_.filter_inflation, c);
+      if (leaves == Sign::undecided) return false;
+      if (leaves != Sign::positive) continue;
+    } else if (w.closed) {
+      c = candidate(f, piece, starts);
+      computed = true;
+      if (!starts) {
+        const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, c.error));
+        if (cut == Sign::undecided) return false;
+        if (cut != Sign::positive) continue;
+      }
+    } else {
+      const int from = starts && previous >= 0 ? 1 : side_[i];
+      const int to = ends ? -1 : p.next == start && previous >= 0 ? 1 : side_[at(p.next)];
+      if (from > 0 && to < 0) continue;
+      if (from == to && !starts && !ends) {
+        const Sign twice = crossed_twice<larmor>(f, piece, c);
+        if (twice == Sign::undecided) return false;
+        if (twice != Sign::positive) continue;
+        computed = true;
+      }
+      if (!computed) c = candidate(f, piece, starts || ends);
+    }
+    if (!larmor) {
+      const Sign forward = ahead_of_start(c.quadratic, c.error);
+      if (forward == Sign::undecided) return false;
+      if (forward == Sign::negative) continue;
+    } else if (p.edge && f.entry >= 0) {
+      if (c.kappa_error < 0) c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
+      const Sign after = sign_within(entered - c.root.kappa, entered_error + c.kappa_error);
+      if (after == Sign::undecided) return false;
+      if (after == Sign::negative) continue;
+    }
+    if (best.piece >= 0) {
+      if (best.kappa_error < 0) best.kappa_error = kappa_error(best.quadratic, best.error, best.root);
+      if (c.kappa_error < 0) c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
+      const Sign order = sign_within(c.root.kappa - best.root.kappa, c.kappa_error + best.kappa_error);
+      if (order == Sign::undecided) return false;
+      if (order == Sign::negative) continue;
+    }
+    best = c;
+  }
+  if (best.piece >= 0) {
+    ahead.kind = data_[at(best.piece)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
+    ahead.piece = best.piece;
+    ahead.kappa = best.root.kappa;
+  }
+  return true;
+}
+
+Ahead HitFinder::exact_next(const Flight& f) const {
+  const ExactFlight::First first =
+      exact_flight(f).first(all_, f.cell, f.entry, start_piece(f), start_previous(f));
+  Ahead ahead;
+  ahead.piece = first.piece;
+  ahead.root = first.root;
+  switch (first.kind) {
+    case ExactFlight::First::Kind::none: return ahead;
+    case ExactFlight::First::Kind::joint: ahead.kind = Ahead::Kind::joint; break;
+    case ExactFlight::First::Kind::cusp: ahead.kind = Ahead::Kind::cusp; break;
+    case ExactFlight::First::Kind::exit:
+      ahead.kind = data_[at(first.piece)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
+      break;
+  }
+  if (ahead.kind == Ahead::Kind::joint) {
+    const PieceData& p = data_[at(ahead.piece)];
+    const Vector d = joints_[at(ahead.piece)] - origins_[at(p.offset)].point;
+    ahead.kappa = dot(d, f.velocity) / dot(d, d);
+  } else if (is_quartic(f, ahead.piece)) {
+    Candidate c;
+    const bool same = quartic_candidate(f, ahead.piece, stands_on(f, ahead.piece), 1.0, c) == Sign::positive;
+    ahead.kappa = same ? c.root.kappa : first.kappa;
+  } else {
+    ahead.kappa = candidate(f, ahead.piece, stands_on(f, ahead.piece)).root.kappa;
+  }
+  return ahead;
+}
+
+Ahead HitFinder::next(const Flight& f, DecisionCounts& counts) const {
+  look_from(f);
+  Ahead ahead;
+  const bool decided = !f.exact_only && (f.omega == 0.0 ? filtered<false>(f, ahead) : filtered<true>(f, ahead));
+  if (decided) {
+    ++counts.filter;
+  } else {
+    ++counts.exact;
+    ahead = exact_next(f);
+  }
+  if (ahead.kind != Ahead::Kind::none) ahead.duration = duration_at(ahead.kappa, f.omega);
+  return ahead;
+}
+
+}  // namespace carom

@@ -1,0 +1,158 @@
+// Which wall a flight meets first: the choosing driver of the event loop.
+//
+// Decisions are taken in double precision with derived bounds; where one of them cannot tell, the
+// whole flight is decided again in exact arithmetic. Numbers (kappa, time, point) come from the same
+// formulas in double precision either way, so that bounds never show in a result.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "carom/events/world.hpp"
+#include "carom/geometry/exact_flight.hpp"
+#include "carom/geometry/filter.hpp"
+#include "carom/geometry/quartic.hpp"
+#include "carom/table/table.hpp"
+
+namespace carom {
+
+/// A flight under way, in the frame of the cell where it started.
+struct Flight {
+  int wall = -1;               ///< start: wall and u, or a free point
+  double u = 0.0;
+  geometry::Vector start;      ///< rounded image (exact for a free point)
+  double start_error = 0.0;
+  geometry::Vector velocity;
+  double omega = 0.0;
+  double speed = 0.0;
+  geometry::Cell cell;         ///< the cell it is in, relative to the one of its start
+  int entry = -1;              ///< edge (piece) through which it came into `cell`
+  bool exact_only = false;     ///< for tests: skip the filter
+};
+
+/// What lies first ahead.
+struct Ahead {
+  enum class Kind : unsigned char { none, wall, edge, joint, cusp } kind = Kind::none;
+  int piece = -1;
+  int root = 0;
+  double kappa = 0.0;
+  double duration = 0.0;       ///< time from the start of the flight
+};
+
+class HitFinder {
+ public:
+  /// `edges`: with the edges of the lattice cell. `complement`: every wall turned round, so that the
+  /// domain becomes the obstacle.
+  explicit HitFinder(const Table& table, DecisionOptions options = {}, bool edges = true,
+                     bool complement = false);
+  ~HitFinder();
+
+  Ahead next(const Flight& flight, DecisionCounts& counts) const;
+
+  /// Puts the flight into the cell that contains its start (lattices): exact.
+  void locate(Flight& flight) const;
+  /// Follows the flight over the edge that `ahead` names.
+  void cross(Flight& flight, const Ahead& ahead) const;
+
+  /// Parameter on the wall where the flight meets it, and the wall's own cell.
+  struct Landing {
+    int wall = -1;
+    double u = 0.0;
+    geometry::Cell cell;
+    geometry::Vector velocity;  ///< on arrival
+    int hole = -1;
+  };
+  Landing land(const Flight& flight, const Ahead& ahead, DecisionCounts& counts) const;
+
+  /// Does v at (wall, u) point into the domain? At u = 0 this is asked of both walls of the joint.
+  Sign inward(int wall, double u, geometry::Vector v, DecisionCounts& counts) const;
+  /// Error of kappa of what lies ahead.
+  double error_of(const Flight& flight, const Ahead& ahead) const;
+  /// Is the start strictly inside the cell (or on its edge, see locate)?
+  bool in_cell(const Flight& flight) const;
+
+  const geometry::PreparedCurve& curve(int wall) const { return curves_[static_cast<std::size_t>(wall)]; }
+  const Table& table() const { return table_; }
+  const geometry::ExactBoundary& exact() const { return *exact_; }
+  int wall_of(int piece) const { return data_[static_cast<std::size_t>(piece)].wall; }
+  /// Unit normal at the end of a wall.
+  geometry::Vector normal_at_end(int wall) const { return end_normals_[static_cast<std::size_t>(wall)]; }
+  /// The rounded image of the exact point (wall, u), with its error.
+  Flight from_wall(int wall, double u, geometry::Vector velocity, double speed, double omega) const;
+
+ private:
+  struct PieceData {
+    int curve = 0;       ///< index into curves_
+    int wall = -1;       ///< -1: edge of the cell
+    int offset = 0;      ///< index into offsets_
+    int next = 0;
+    bool edge = false;
+  };
+  /// The start of a flight seen from its cell, displaced by one offset.
+  struct Origin {
+    geometry::Vector point;
+    double error = 0.0;
+  };
+  /// A crossing that may be the first.
+  struct Candidate {
+    int piece = -1;
+    geometry::Quadratic<double> quadratic;
+    geometry::QuadraticError error{};
+    geometry::Root root;
+    double kappa_error = -1.0;  ///< negative: not computed yet
+  };
+
+  void add_piece(const geometry::Curve& curve, int curve_index, int wall, geometry::Cell offset, bool edge);
+  void add_walls(geometry::Cell offset, bool complement);
+  std::vector<geometry::Cell> image_offsets() const;
+  int edge_crossed_at_start(const Flight& flight) const;
+  void look_from(const Flight& flight) const;
+  geometry::FlightScale scale(const Flight& flight, int offset) const;
+  Candidate candidate(const Flight& flight, int piece, bool stands_on_it) const;
+  /// Larmor circle against an ellipse: its first exit through the piece, if any.
+  Sign quartic_candidate(const Flight& flight, int piece, bool stands_on_it, double inflation,
+                         Candidate& c) const;
+  Sign on_part(const Flight& flight, int piece, const Candidate& c) const;
+  bool is_quartic(const Flight& flight, int piece) const {
+    return flight.omega != 0.0 &&
+           curves_[static_cast<std::size_t>(data_[static_cast<std::size_t>(piece)].curve)].kind ==
+               geometry::CurveKind::ellipse;
+  }
+  bool stands_on(const Flight& flight, int piece) const {
+    return piece == start_piece(flight) || piece == start_previous(flight);
+  }
+  template <bool larmor>
+  bool filtered(const Flight& flight, Ahead& ahead) const;
+  template <bool larmor>
+  bool sides(const Flight& flight, int start, int start_previous) const;
+  template <bool larmor>
+  Sign crossed_twice(const Flight& flight, int piece, Candidate& c) const;
+  Ahead exact_next(const Flight& flight) const;
+  int start_piece(const Flight& flight) const;
+  int start_previous(const Flight& flight) const;
+  geometry::ExactFlight exact_flight(const Flight& flight) const;
+  int hole_at(const Flight& flight, const Ahead& ahead, double u, DecisionCounts& counts) const;
+
+  const Table& table_;
+  DecisionOptions options_;
+  std::vector<geometry::PreparedCurve> curves_;  // walls, then edges
+  std::vector<PieceData> data_;
+  std::vector<geometry::Vector> joints_;         // start of each piece in its own cell
+  std::vector<geometry::Cell> offsets_;          // distinct displacements; the first is zero
+  std::vector<geometry::Piece> pieces_;          // the same pieces for the exact stage
+  std::vector<int> all_;
+  std::vector<geometry::Vector> end_normals_;    // a wall
+  int first_edge_ = 0;
+  std::unique_ptr<geometry::ExactBoundary> exact_;
+  // Scratch of one flight; a finder belongs to one thread.
+  mutable std::vector<Origin> origins_;
+  mutable std::vector<signed char> side_;
+};
+
+/// Duration of a flight to kappa.
+double duration_at(double kappa, double omega);
+/// kappa after a duration (0 < duration < one turn).
+double kappa_after(double duration, double omega);
+
+}  // namespace carom

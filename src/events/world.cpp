@@ -1,0 +1,306 @@
+#include "carom/events/world.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include "carom/base/error.hpp"
+#include "events/locator.hpp"
+#include "events/next_hit.hpp"
+#include "events/queue.hpp"
+#include "motion/free_motion.hpp"
+
+namespace carom {
+
+using geometry::Cell;
+using geometry::Vector;
+
+namespace {
+
+std::string describe_state(const Particle& p, const State& s, const char* what) {
+  char text[400];
+  std::snprintf(text, sizeof text, "%s: wall %d, u %a, x %a, y %a, vx %a, vy %a, omega %a, t %.17g", what, s.wall,
+                s.u, s.position.x, s.position.y, s.velocity.x, s.velocity.y, p.omega, s.time.value());
+  return text;
+}
+
+struct Body {
+  Particle particle;
+  double inverse_square_speed = 1.0;
+  State state;
+  Flight flight;
+  Ahead ahead;
+  std::uint64_t hits = 0;
+  int last_wall = -1;
+  int hole = -1;
+  Fate fate = Fate::survived;
+  bool finished = false;
+  std::string report;
+};
+
+}  // namespace
+
+class World::Implementation {
+ public:
+  Implementation(const Table& table, DecisionOptions options)
+      : finder(table, options), options_(options) {
+    for (std::size_t i = 0; i < table.walls.size(); ++i) {
+      const Wall& w = table.walls[i];
+      corners.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
+                        : w.corner > 0 ? w.corner
+                                       : finder.exact().corner(w.previous, static_cast<int>(i)).order);
+    }
+  }
+
+  void predict(int index);
+  void apply(int index, Observer& observer);
+  void reflect(int index, Observer& observer, const HitFinder::Landing& landing);
+  void end(int index, Fate fate, Time time, Observer* observer);
+  void emit_samples(Time until, bool inclusive, Observer& observer);
+  State state_at(const Body& body, Time t) const;
+
+  HitFinder finder;
+  DecisionOptions options_;
+  std::unique_ptr<Locator> locator;
+  std::vector<int> corners;  // order n of the corner at each wall's start, 0: none
+  std::vector<Body> bodies;
+  EventQueue queue;
+  DecisionCounts counts;
+  std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
+  std::vector<double> sample_times;
+  double sample_interval = 0.0;
+  std::uint64_t next_sample = 0;
+};
+
+/// What comes next for a particle, into its queue entry.
+void World::Implementation::predict(int index) {
+  Body& b = bodies[static_cast<std::size_t>(index)];
+  b.ahead = finder.next(b.flight, counts);
+  Time when = b.state.time + b.ahead.duration;
+  EventKind kind = EventKind::hit;
+  switch (b.ahead.kind) {
+    case Ahead::Kind::wall: break;
+    case Ahead::Kind::edge: kind = EventKind::cell_edge; break;
+    case Ahead::Kind::joint:
+    case Ahead::Kind::cusp: kind = EventKind::singular; break;
+    case Ahead::Kind::none:
+      when = b.state.time;
+      if (b.particle.omega != 0.0 && b.state.wall < 0)
+        kind = EventKind::pinned;
+      else if (b.particle.omega == 0.0 && finder.table().extent == Extent::open_plane)
+        kind = EventKind::unbounded;
+      else
+        kind = EventKind::lost;
+      break;
+  }
+  queue.update(index, {when, static_cast<int>(kind)});
+}
+
+void World::Implementation::end(int index, Fate fate, Time time, Observer* observer) {
+  Body& b = bodies[static_cast<std::size_t>(index)];
+  b.fate = fate;
+  b.finished = true;
+  queue.remove(index);
+  if (fate == Fate::lost || fate == Fate::singular)
+    b.report = describe_state(b.particle, b.state, name_of(fate));
+  if (observer) observer->end({index, fate, time, b.state, b.hole, b.hits});
+}
+
+void World::Implementation::apply(int index, Observer& observer) {
+  Body& b = bodies[static_cast<std::size_t>(index)];
+  const EventQueue::Key key = queue.key(index);
+  switch (static_cast<EventKind>(key.kind)) {
+    case EventKind::pinned: return end(index, Fate::pinned, key.time, &observer);
+    case EventKind::unbounded: return end(index, Fate::unbounded, b.state.time, &observer);
+    case EventKind::cell_edge:
+      finder.cross(b.flight, b.ahead);
+      return predict(index);
+    case EventKind::hit:
+    case EventKind::singular: break;
+    default: return end(index, Fate::lost, b.state.time, &observer);
+  }
+  if (b.ahead.kind == Ahead::Kind::cusp) return end(index, Fate::singular, key.time, &observer);
+  // The finder's view belongs to the flight asked about last: look again before landing.
+  HitFinder::Landing landing = finder.land(b.flight, b.ahead, counts);
+  const Wall& wall = finder.table().walls[static_cast<std::size_t>(landing.wall)];
+  if (b.ahead.kind == Ahead::Kind::joint) {
+    for (const int h : wall.holes)
+      if (finder.table().holes[static_cast<std::size_t>(h)].from == 0.0) landing.hole = h;
+  }
+  if (landing.hole >= 0) {
+    b.hole = landing.hole;
+    return end(index, Fate::escaped, key.time, &observer);
+  }
+  reflect(index, observer, landing);
+}
+
+void World::Implementation::reflect(int index, Observer& observer, const HitFinder::Landing& landing) {
+  Body& b = bodies[static_cast<std::size_t>(index)];
+  const Time now = queue.key(index).time;
+  const auto& curve = finder.curve(landing.wall);
+  const Vector before = landing.velocity;
+  const Vector normal = curve.normal(landing.u);
+  Vector after;
+  int reflections = 1;
+  if (b.ahead.kind == Ahead::Kind::joint) {
+    reflections = corners[static_cast<std::size_t>(landing.wall)];
+    if (reflections == 0) return end(index, Fate::singular, now, &observer);
+    const int previous = finder.table().walls[static_cast<std::size_t>(landing.wall)].previous;
+    after = reflected_at_corner(before, finder.normal_at_end(previous), normal, reflections);
+  } else {
+    after = geometry::reflected(before, normal);
+  }
+  after = on_energy_shell(after, b.inverse_square_speed);
+  Sign inward = finder.inward(landing.wall, landing.u, after, counts);
+  if (inward == Sign::negative && reflections == 1) {
+    // A grazing rounding: reflecting once more turns it back.
+    after = on_energy_shell(geometry::reflected(after, normal), b.inverse_square_speed);
+    inward = finder.inward(landing.wall, landing.u, after, counts);
+  }
+  if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);
+
+  const double flight_time = b.ahead.duration;
+  b.state.wall = landing.wall;
+  b.state.u = landing.u;
+  b.state.position = curve.point(landing.u);
+  b.state.velocity = after;
+  b.state.cell.first += landing.cell.first;
+  b.state.cell.second += landing.cell.second;
+  b.state.time = now;
+  b.hits += static_cast<std::uint64_t>(reflections);
+  b.last_wall = landing.wall;
+  b.flight = finder.from_wall(landing.wall, landing.u, after, b.particle.speed, b.particle.omega);
+  observer.hit({index, landing.wall, landing.u, now, flight_time, b.state.position, b.state.cell, before, after,
+                reflections});
+  if (b.hits >= limit) return end(index, Fate::capped, now, &observer);
+  finder.locate(b.flight);
+  predict(index);
+}
+
+State World::Implementation::state_at(const Body& b, Time t) const {
+  State s = b.state;
+  const double duration = t - b.state.time;
+  s.time = t;
+  if (duration > 0.0) {
+    const auto [position, velocity] = moved(b.state.position, b.state.velocity, b.particle.omega, duration);
+    s.position = position;
+    s.velocity = velocity;
+    s.wall = -1;
+  }
+  return s;
+}
+
+void World::Implementation::emit_samples(Time until, bool inclusive, Observer& observer) {
+  for (;;) {
+    double t = 0.0;
+    if (!sample_times.empty()) {
+      if (next_sample >= sample_times.size()) return;
+      t = sample_times[next_sample];
+    } else if (sample_interval > 0.0) {
+      t = static_cast<double>(next_sample) * sample_interval;
+    } else {
+      return;
+    }
+    if (inclusive ? Time(t) > until : !(Time(t) < until)) return;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (!bodies[i].finished || bodies[i].fate == Fate::pinned)
+        observer.sample(static_cast<int>(i), t, state_at(bodies[i], t));
+    ++next_sample;
+  }
+}
+
+World::World(const Table& table, DecisionOptions options)
+    : implementation_(std::make_unique<Implementation>(table, options)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+
+int World::add(const Particle& particle, const State& state) {
+  Implementation& w = *implementation_;
+  Body b;
+  b.particle = particle;
+  b.state = state;
+  b.last_wall = -1;
+  b.inverse_square_speed = 1.0 / (particle.speed * particle.speed);
+  const bool on_wall = state.wall >= 0;
+  if (on_wall) {
+    b.flight = w.finder.from_wall(state.wall, state.u, state.velocity, particle.speed, particle.omega);
+    b.state.position = b.flight.start;
+    DecisionCounts unused;
+    if (w.finder.inward(state.wall, state.u, state.velocity, unused) != Sign::positive)
+      throw std::invalid_argument("the velocity does not point into the domain");
+  } else {
+    if (!contains(state.position)) throw std::invalid_argument("the point does not lie inside the table");
+    b.flight.start = state.position;
+    b.flight.velocity = state.velocity;
+    b.flight.speed = particle.speed;
+    b.flight.omega = particle.omega;
+  }
+  w.finder.locate(b.flight);
+  w.bodies.push_back(std::move(b));
+  const int index = static_cast<int>(w.bodies.size()) - 1;
+  w.queue.push({});
+  w.predict(index);
+  return index;
+}
+
+void World::clear() {
+  Implementation& w = *implementation_;
+  w.bodies.clear();
+  w.queue.clear();
+  w.next_sample = 0;
+}
+
+void World::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }
+void World::sample_at(std::vector<double> times) {
+  implementation_->sample_times = std::move(times);
+  implementation_->next_sample = 0;
+}
+void World::sample_every(double interval) {
+  implementation_->sample_interval = interval;
+  implementation_->next_sample = 0;
+}
+
+std::uint64_t World::run_until(double t_end, Observer& observer, const std::function<bool()>& interrupted) {
+  Implementation& w = *implementation_;
+  std::uint64_t events = 0;
+  while (!w.queue.empty()) {
+    const int index = w.queue.top();
+    const Time when = w.queue.key(index).time;
+    if (when > Time(t_end)) break;
+    // Asking may cost more than an event.
+    if (interrupted && events % 256 == 0 && interrupted()) return events;
+    w.emit_samples(when, false, observer);
+    w.apply(index, observer);
+    ++events;
+  }
+  w.emit_samples(t_end, true, observer);
+  return events;
+}
+
+int World::size() const { return static_cast<int>(implementation_->bodies.size()); }
+namespace {
+const Body& body(const std::vector<Body>& bodies, int particle) {
+  return bodies.at(static_cast<std::size_t>(particle));
+}
+}  // namespace
+bool World::finished(int p) const { return body(implementation_->bodies, p).finished; }
+Fate World::fate(int p) const { return body(implementation_->bodies, p).fate; }
+const State& World::state(int p) const { return body(implementation_->bodies, p).state; }
+State World::state_at(int p, Time t) const {
+  return implementation_->state_at(body(implementation_->bodies, p), t);
+}
+const Particle& World::particle(int p) const { return body(implementation_->bodies, p).particle; }
+std::uint64_t World::hits(int p) const { return body(implementation_->bodies, p).hits; }
+int World::last_wall(int p) const { return body(implementation_->bodies, p).last_wall; }
+int World::hole(int p) const { return body(implementation_->bodies, p).hole; }
+const DecisionCounts& World::decisions() const { return implementation_->counts; }
+const std::string& World::report(int p) const { return body(implementation_->bodies, p).report; }
+
+bool World::contains(Vector point) const {
+  Implementation& w = *implementation_;
+  if (!w.locator) w.locator = std::make_unique<Locator>(w.finder.table(), w.options_);
+  return w.locator->contains(point);
+}
+
+}  // namespace carom

@@ -1,0 +1,27 @@
+#include "motion/free_motion.hpp"
+
+#include "carom/base/elementary.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+
+Vector reflected_at_corner(Vector v, Vector before, Vector after, int n) {
+  if (n % 2 == 0) return -v;
+  if (n == 1) return geometry::reflected(v, after);
+  for (int i = 0; i < n; ++i) v = geometry::reflected(v, i % 2 == 0 ? before : after);
+  return v;
+}
+
+std::pair<Vector, Vector> moved(Vector x, Vector v, double omega, double duration) {
+  if (omega == 0.0) return {x + duration * v, v};
+  // The chord has length |v| sin(h t)/h along the velocity at half time, h = omega/2.
+  const double h = 0.5 * omega;
+  const auto [s, c] = elementary::sincos(h * duration);
+  const Vector j = geometry::right(v);
+  const Vector middle = c * v + s * j;
+  const Vector turned = (c * c - s * s) * v + (2.0 * s * c) * j;
+  return {x + (s / h) * middle, turned};
+}
+
+}  // namespace carom

@@ -1,0 +1,26 @@
+// How a free particle moves between events, and what a reflection does to its velocity.
+#pragma once
+
+#include <utility>
+
+#include "carom/geometry/formulas.hpp"
+#include "carom/geometry/vector.hpp"
+
+namespace carom {
+
+/// The velocity brought back to the energy shell by one Newton step of 1/sqrt: the correction is of
+/// rounding size, since |v| was right before the reflection.
+inline geometry::Vector on_energy_shell(geometry::Vector v, double inverse_square_speed) {
+  return (1.5 - 0.5 * (dot(v, v) * inverse_square_speed)) * v;
+}
+
+/// Velocity after the n reflections at a corner of angle pi/n between the wall that ends there, with
+/// unit normal `before`, and the one that begins, with unit normal `after`. An even number is a turn
+/// by pi; an odd one is taken alternately at the two walls (the order does not matter in the limit).
+geometry::Vector reflected_at_corner(geometry::Vector v, geometry::Vector before, geometry::Vector after, int n);
+
+/// Position and velocity after `duration` >= 0 of a straight or Larmor flight.
+std::pair<geometry::Vector, geometry::Vector> moved(geometry::Vector position, geometry::Vector velocity,
+                                                    double omega, double duration);
+
+}  // namespace carom
