@@ -8,7 +8,7 @@
 
 namespace carom {
 
-/// 95 % interval of Wilson (1927) for k successes of n.
+/// 95 % interval of Wilson (1927) for k successes of n; all of [0, 1] for n = 0.
 struct Interval {
   double low = 0.0, high = 1.0;
 };
@@ -18,19 +18,26 @@ Interval wilson_interval(std::uint64_t successes, std::uint64_t trials);
 const std::vector<std::uint64_t>& reported_hits();
 
 /// Counts of an ensemble; merging is addition, so that order cannot matter.
+///
+/// A trajectory is *gone* when it escaped or is unbounded. The cap on hits ends a trajectory while it
+/// is still there: it counts as a survivor at every time.
 struct SurvivalCounts {
-  std::vector<double> times;              ///< report times, increasing
-  std::vector<std::uint64_t> gone_by;     ///< gone_by[i]: gone at a time <= times[i]
-  std::vector<std::uint64_t> gone_by_hits;///< per reported_hits()[i]: gone after at most so many hits
+  std::vector<double> times;                ///< report times, increasing
+  std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
+  std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
   std::uint64_t trajectories = 0, escaped = 0, survived = 0, pinned = 0, capped = 0, singular = 0,
                 unbounded = 0, lost = 0, collisions = 0;
+  std::uint64_t most_hits = 0;              ///< of a single trajectory
   std::vector<std::uint64_t> hole_escapes;
 
   SurvivalCounts() = default;
   SurvivalCounts(std::vector<double> times, std::size_t holes);
   /// One trajectory's end. `time` is the time it was gone for escaped and unbounded ones.
   void add(Fate fate, double time, std::uint64_t hits, int hole);
+  /// Adds the counts of another part of the same ensemble (same times, same holes).
   void merge(const SurvivalCounts& other);
+  /// Trajectories whose fate is known: neither singular nor lost. Shares are taken of these.
+  std::uint64_t followed() const { return trajectories - singular - lost; }
 };
 
 struct SurvivalPoint {
@@ -41,11 +48,12 @@ struct SurvivalHitsPoint {
   double p, low, high;
 };
 /// Escapes per unit time, normalised to all non-singular trajectories: p_e(t) = -dP/dt averaged over
-/// [from, to); `t` is the middle of it (geometric where from > 0).
+/// (from, to]; `t` is the middle of it (geometric where from > 0).
 struct RatePoint {
   double t, from, to, value, low, high;
 };
 std::vector<SurvivalPoint> survival(const SurvivalCounts&);
+/// Up to the first reported number that no trajectory exceeded.
 std::vector<SurvivalHitsPoint> survival_by_hits(const SurvivalCounts&);
 std::vector<RatePoint> escape_rate(const SurvivalCounts&);
 

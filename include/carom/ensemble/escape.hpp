@@ -13,10 +13,11 @@
 
 namespace carom {
 
-/// One trajectory, for archives and exit basins.
+/// One particle of one trajectory, for archives and exit basins. `index` is
+/// trajectory * (number of particles) + particle.
 struct TrajectoryRecord {
   std::uint64_t index = 0;
-  double x = 0, y = 0, vx = 0, vy = 0;  ///< start
+  double x = 0, y = 0, vx = 0, vy = 0;  ///< start, unwrapped
   Fate fate = Fate::survived;
   std::int32_t hole = -1;
   double time = 0;                      ///< end: escape, last hit of an unbounded one, else t_max
@@ -44,7 +45,9 @@ struct EscapeResult {
   std::vector<std::string> reports;     ///< first few states that were lost
 };
 
-/// Runs the ensemble. `first` is the index of the first trajectory.
+/// Runs the ensemble: trajectories 0 … System::run.trajectories - 1. Where a trajectory has several
+/// particles, each of them is an entry of its own in every count. Throws InputError where the initial
+/// condition is impossible, and whatever `records` throws.
 EscapeResult run_escape(const System&, const EscapeOptions& = {});
 
 }  // namespace carom

@@ -2,15 +2,62 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "carom/ensemble/system.hpp"
 #include "carom/events/world.hpp"
+#include "carom/geometry/curve_frame.hpp"
 
 namespace carom {
 
-/// Draws the initial state of particle `particle` of trajectory `trajectory`. `world` answers which
-/// points lie in the domain. Throws InputError when the initial condition is impossible (point
-/// outside the table, a velocity that leaves it).
+class RandomStream;
+
+/// Draws initial states (docs/guide: [initial]). Only + - * / sqrt and base/elementary make a state.
+///
+///   uniform    position uniform in the table or cell, direction uniform
+///   rectangle  the same in the part of a rectangle that lies in the domain
+///   line       position uniform in the part of a line that lies in the domain, direction given
+///   boundary   cosine law: uniform in arc length and in the tangential velocity, from one wall or all
+///   hole       cosine law over the opening of one hole or all
+///   birkhoff   given arc length and tangential velocity
+///   point      given position and velocity
+class Sampler {
+ public:
+  explicit Sampler(const System&);
+
+  /// The state of particle `particle` of trajectory `trajectory`. `world` answers which points lie in
+  /// the domain. Throws InputError when the initial condition is impossible.
+  State draw(const World& world, std::uint64_t trajectory, int particle) const;
+
+ private:
+  /// An interval of a wall's parameter that cosine-law starts are drawn from. |dr/du| <= bound on it.
+  struct Source {
+    int wall;
+    double from, to;
+    double bound, weight;  ///< weight: bound * (to - from), summed over the sources before it and itself
+  };
+
+  void add_source(int wall, double from, double to);
+  State in_box(const World&, RandomStream&, geometry::Vector low, geometry::Vector high,
+               double speed, const char* where) const;
+  State on_line(const World&, RandomStream&, double speed) const;
+  State at_point(const World&, double speed) const;
+  State cosine_law(RandomStream&, double speed) const;
+  State birkhoff(std::uint64_t trajectory, double speed) const;
+  /// `tangential` and `normal` give the direction against the wall, in any unit.
+  State on_wall(int wall, double u, double tangential, double normal, double speed) const;
+
+  const System& system_;
+  std::vector<geometry::CurveFrame> frames_;  ///< one a wall
+  std::vector<Source> sources_;
+  geometry::Vector low_, high_;               ///< uniform: box around the domain
+};
+
+/// One state by a sampler made on the spot.
 State draw_initial_state(const System&, const World& world, std::uint64_t trajectory, int particle);
+
+/// The same point of the plane seen from its own cell of the lattice: subtracts lattice vectors from
+/// `position` and counts them in `cell` until it lies in the cell. Tables without a lattice: nothing.
+void fold_into_cell(const Table&, geometry::Vector& position, geometry::Cell& cell);
 
 }  // namespace carom

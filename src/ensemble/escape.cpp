@@ -1,0 +1,249 @@
+#include "carom/ensemble/escape.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "block_order.hpp"
+#include "carom/base/digest.hpp"
+#include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t most_reports = 5;
+
+double cpu_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// What a block, a thread and the whole ensemble are: sums of their parts in any order.
+struct Tally {
+  SurvivalCounts counts;
+  std::uint64_t digest = 0;
+  std::vector<std::pair<std::uint64_t, std::string>> reports;  // lowest indices, sorted
+
+  explicit Tally(const System& system) : counts(system.run.times, system.table->holes.size()) {}
+
+  void merge(const Tally& other) {
+    counts.merge(other.counts);
+    digest += other.digest;
+    reports.insert(reports.end(), other.reports.begin(), other.reports.end());
+    std::sort(reports.begin(), reports.end());
+    if (reports.size() > most_reports) reports.resize(most_reports);
+  }
+};
+
+// The ends of one trajectory's particles.
+class Ends : public Observer {
+ public:
+  explicit Ends(std::size_t particles) : ends_(particles) {}
+  void clear() { std::fill(ends_.begin(), ends_.end(), std::nullopt); }
+  void end(const EndEvent& event) override { ends_[static_cast<std::size_t>(event.particle)] = event; }
+  const std::optional<EndEvent>& of(int particle) const {
+    return ends_[static_cast<std::size_t>(particle)];
+  }
+
+ private:
+  std::vector<std::optional<EndEvent>> ends_;
+};
+
+// Runs trajectories in one thread; the prepared table is kept from one to the next.
+class Runner {
+ public:
+  Runner(const System& system, const Sampler& sampler, DecisionOptions decisions)
+      : system_(system),
+        sampler_(sampler),
+        world_(*system.table, decisions),
+        ends_(system.particles.size()) {
+    if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
+  }
+
+  /// Adds the trajectory to the tally; false when interrupted in the middle of it.
+  bool run(std::uint64_t trajectory, Tally& tally, std::vector<TrajectoryRecord>* records,
+           const std::function<bool()>& interrupted) {
+    world_.clear();
+    ends_.clear();
+    const int count = static_cast<int>(system_.particles.size());
+    for (int particle = 0; particle < count; ++particle) {
+      const Particle& properties = system_.particles[static_cast<std::size_t>(particle)];
+      world_.add(properties, sampler_.draw(world_, trajectory, particle));
+    }
+    const std::size_t first_record = records ? records->size() : 0;
+    for (int particle = 0; records && particle < count; ++particle)
+      records->push_back(start_of(world_.state(particle)));
+    world_.run_until(system_.run.t_max, ends_, interrupted);
+    if (interrupted && interrupted()) return false;
+    for (int particle = 0; particle < count; ++particle) {
+      const std::uint64_t index = trajectory * static_cast<std::uint64_t>(count) +
+                                  static_cast<std::uint64_t>(particle);
+      const TrajectoryRecord end = end_of(particle);
+      tally.counts.add(end.fate, end.time, end.hits, end.hole);
+      tally.digest += trajectory_hash(index, static_cast<std::uint64_t>(end.fate), end.time, end.hits,
+                                      world_.last_wall(particle));
+      if (end.fate == Fate::lost && tally.reports.size() < most_reports)
+        tally.reports.emplace_back(index, world_.report(particle));
+      if (!records) continue;
+      TrajectoryRecord& record = (*records)[first_record + static_cast<std::size_t>(particle)];
+      record.index = index;
+      record.fate = end.fate;
+      record.hole = end.hole;
+      record.time = end.time;
+      record.hits = end.hits;
+    }
+    return true;
+  }
+
+  const DecisionCounts& decisions() const { return world_.decisions(); }
+
+ private:
+  TrajectoryRecord start_of(const State& state) const {
+    TrajectoryRecord record;
+    geometry::Vector position = state.position;
+    if (system_.table->lattice) position = position + system_.table->lattice->translation(state.cell);
+    record.x = position.x;
+    record.y = position.y;
+    record.vx = state.velocity.x;
+    record.vy = state.velocity.y;
+    return record;
+  }
+
+  // A particle that has not ended, or never can, survives until t_max.
+  TrajectoryRecord end_of(int particle) const {
+    TrajectoryRecord record;
+    record.hits = world_.hits(particle);
+    record.time = system_.run.t_max;
+    const std::optional<EndEvent>& end = ends_.of(particle);
+    if (!end) return record;
+    record.fate = end->fate;
+    record.hole = end->hole;
+    if (end->fate != Fate::survived && end->fate != Fate::pinned) record.time = end->time.value();
+    return record;
+  }
+
+  const System& system_;
+  const Sampler& sampler_;
+  World world_;
+  Ends ends_;
+};
+
+// What the threads of one run share.
+class Ensemble {
+ public:
+  Ensemble(const System& system, const EscapeOptions& options)
+      : system_(system), options_(options), sampler_(system), total_(system) {
+    const std::uint64_t threads = static_cast<std::uint64_t>(
+        options.threads > 0 ? options.threads : std::max(1, omp_get_max_threads()));
+    // Small ensembles get small blocks, so that every thread has work.
+    const std::uint64_t share = system.run.trajectories / (threads * 8) + 1;
+    block_ = std::max<std::uint64_t>(1, std::min(options.block, share));
+    blocks_ = (system.run.trajectories + block_ - 1) / block_;
+    threads_ = static_cast<int>(std::max<std::uint64_t>(1, std::min(threads, blocks_)));
+  }
+
+  EscapeResult run() {
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = cpu_time();
+    BlockOrder order(options_.records, 16 * static_cast<std::uint64_t>(threads_));
+#pragma omp parallel num_threads(threads_)
+    work(order);
+    if (error_) std::rethrow_exception(error_);
+    if (options_.records) order.flush();
+    EscapeResult result;
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.cpu_seconds = cpu_time() - cpu_start;
+    result.threads = threads_;
+    result.complete = finished_blocks_ == blocks_;
+    result.decisions = decisions_;
+    result.digest = total_.digest;
+    result.counts = std::move(total_.counts);
+    for (auto& [index, text] : total_.reports) result.reports.push_back(std::move(text));
+    return result;
+  }
+
+ private:
+  bool stopped() const {
+    return failed_.load(std::memory_order_relaxed) ||
+           (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed));
+  }
+
+  // One thread's share. No exception may leave it: it runs inside an OpenMP region.
+  void work(BlockOrder& order) noexcept {
+    try {
+      Runner runner(system_, sampler_, options_.decisions);
+      Tally mine(system_);
+      std::uint64_t blocks = 0;
+      while (!stopped()) {
+        const std::uint64_t block = next_block_.fetch_add(1);
+        if (block >= blocks_) break;
+        if (options_.records) order.await_turn(block);
+        Tally tally(system_);
+        std::vector<TrajectoryRecord> records;
+        if (!run_block(block, runner, tally, options_.records ? &records : nullptr)) break;
+        if (options_.records) order.deliver(block, std::move(records));
+        mine.merge(tally);
+        ++blocks;
+      }
+      const std::lock_guard lock(mutex_);
+      total_.merge(mine);
+      decisions_ += runner.decisions();
+      finished_blocks_ += blocks;
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      failed_ = true;
+    }
+    if (stopped()) order.close();
+  }
+
+  bool run_block(std::uint64_t block, Runner& runner, Tally& tally,
+                 std::vector<TrajectoryRecord>* records) {
+    const std::function<bool()> interrupted = [this] { return stopped(); };
+    const std::uint64_t end = std::min(system_.run.trajectories, (block + 1) * block_);
+    for (std::uint64_t trajectory = block * block_; trajectory < end; ++trajectory) {
+      const std::uint64_t before = tally.counts.collisions;
+      if (stopped() || !runner.run(trajectory, tally, records, interrupted)) return false;
+      if (options_.progress) report_progress(tally.counts.collisions - before);
+    }
+    return true;
+  }
+
+  void report_progress(std::uint64_t hits) {
+    const std::uint64_t done = done_.fetch_add(1, std::memory_order_relaxed) + 1;
+    const std::uint64_t all_hits = hits_.fetch_add(hits, std::memory_order_relaxed) + hits;
+    std::unique_lock lock(progress_mutex_, std::try_to_lock);
+    if (lock) options_.progress(done, all_hits);
+  }
+
+  const System& system_;
+  const EscapeOptions& options_;
+  const Sampler sampler_;
+  std::uint64_t block_ = 1, blocks_ = 0;
+  int threads_ = 1;
+  std::atomic<std::uint64_t> next_block_{0}, done_{0}, hits_{0};
+  std::atomic<bool> failed_{false};
+  std::mutex mutex_, progress_mutex_;
+  Tally total_;
+  DecisionCounts decisions_;
+  std::uint64_t finished_blocks_ = 0;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+EscapeResult run_escape(const System& system, const EscapeOptions& options) {
+  return Ensemble(system, options).run();
+}
+
+}  // namespace carom

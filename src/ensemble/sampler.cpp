@@ -1,0 +1,279 @@
+#include "carom/ensemble/sampler.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "carom/base/elementary.hpp"
+#include "carom/base/error.hpp"
+#include "carom/base/random.hpp"
+
+namespace carom {
+
+namespace {
+
+using geometry::Vector;
+using Kind = InitialCondition::Kind;
+
+// A domain that fills less than this share of its box is reported as missed.
+constexpr int most_rejections = 10'000'000;
+
+InputError impossible(const char* key, const std::string& problem, const std::string& expected = {}) {
+  Place place;
+  place.key = key;
+  return InputError(place, problem, expected);
+}
+
+Vector unit(Vector v) {
+  v = (1.0 / std::max(std::abs(v.x), std::abs(v.y))) * v;  // no overflow in the squares
+  v = (1.0 / std::sqrt(dot(v, v))) * v;
+  // One Newton step: |v| = 1 to rounding.
+  return (1.5 - 0.5 * dot(v, v)) * v;
+}
+
+Vector random_direction(RandomStream& random) {
+  Vector v;
+  random.point_in_disc(v.x, v.y);
+  return unit(v);
+}
+
+State off_walls(const Table& table, Vector position, Vector velocity) {
+  State state;
+  state.position = position;
+  fold_into_cell(table, state.position, state.cell);
+  state.velocity = velocity;
+  return state;
+}
+
+void enlarge(geometry::Box& box, Vector point) {
+  box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
+  box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
+}
+
+geometry::Box domain_box(const Table& table) {
+  if (table.extent == Extent::lattice) {
+    const auto& edges = table.lattice->edges;
+    geometry::Box box{edges.front().segment.from, edges.front().segment.from};
+    for (const auto& edge : edges) enlarge(box, edge.segment.to);
+    return box;
+  }
+  geometry::Box box = geometry::bounding_box(table.walls.front().curve);
+  for (const Wall& wall : table.walls) {
+    const geometry::Box next = geometry::bounding_box(wall.curve);
+    enlarge(box, next.low);
+    enlarge(box, next.high);
+  }
+  return box;
+}
+
+}  // namespace
+
+void fold_into_cell(const Table& table, Vector& position, geometry::Cell& cell) {
+  if (!table.lattice) return;
+  const geometry::Lattice& lattice = *table.lattice;
+  // First the whole number of cells from the solution of position = a first + b second, then edge by
+  // edge. Each subtraction is rounded; the folded position is the start, exactly.
+  const double area = cross(lattice.first, lattice.second);
+  const double a = std::nearbyint(cross(position, lattice.second) / area);
+  const double b = std::nearbyint(cross(lattice.first, position) / area);
+  if (!(std::abs(a) < 0x1p52 && std::abs(b) < 0x1p52)) return;
+  const auto move = [&](const geometry::Cell& by) {
+    position = position - lattice.translation(by);
+    cell.first += by.first;
+    cell.second += by.second;
+  };
+  // A start in the home cell, its edges included, is not touched.
+  const auto edge_passed = [&] {
+    return std::find_if(lattice.edges.begin(), lattice.edges.end(), [&](const geometry::CellEdge& edge) {
+      return cross(edge.segment.to - edge.segment.from, position - edge.segment.from) < 0.0;
+    });
+  };
+  if (edge_passed() == lattice.edges.end()) return;
+  move({static_cast<std::int64_t>(a), static_cast<std::int64_t>(b)});
+  for (int i = 0; i < 16; ++i) {
+    const auto edge = edge_passed();
+    if (edge == lattice.edges.end()) return;
+    move(edge->beyond);
+  }
+}
+
+Sampler::Sampler(const System& system) : system_(system) {
+  const Table& table = *system.table;
+  const InitialCondition& initial = system.initial;
+  for (const Wall& wall : table.walls) frames_.push_back(geometry::frame_of(wall.curve));
+  switch (initial.kind) {
+    case Kind::uniform: {
+      if (table.extent == Extent::open_plane)
+        throw impossible("initial.kind", "a uniform start needs a bounded table or a lattice",
+                         "\"rectangle\", \"line\", \"point\" or \"boundary\"");
+      const geometry::Box box = domain_box(table);
+      low_ = box.low;
+      high_ = box.high;
+      break;
+    }
+    case Kind::boundary:
+      if (initial.hole >= 0) {
+        const Hole& hole = table.holes.at(static_cast<std::size_t>(initial.hole));
+        add_source(hole.wall, hole.from, hole.to);
+      }
+      for (int wall = 0; initial.hole < 0 && wall < static_cast<int>(table.walls.size()); ++wall) {
+        if (initial.wall < 0 || initial.wall == wall)
+          add_source(wall, 0.0, frames_[static_cast<std::size_t>(wall)].end);
+      }
+      if (sources_.empty()) throw impossible("initial.kind", "the table has no wall to start from");
+      break;
+    case Kind::hole:
+      for (int i = 0; i < static_cast<int>(table.holes.size()); ++i) {
+        const Hole& hole = table.holes[static_cast<std::size_t>(i)];
+        if (initial.hole < 0 || initial.hole == i) add_source(hole.wall, hole.from, hole.to);
+      }
+      if (sources_.empty()) throw impossible("initial.hole", "the table has no hole to start from");
+      break;
+    case Kind::birkhoff:
+      if (initial.s.empty() || initial.s.size() != initial.v_parallel.size())
+        throw impossible("initial.s", "s and v_parallel must be given in pairs");
+      break;
+    case Kind::point:
+    case Kind::rectangle:
+    case Kind::line: break;
+  }
+}
+
+void Sampler::add_source(int wall, double from, double to) {
+  const geometry::CurveFrame& frame = frames_[static_cast<std::size_t>(wall)];
+  // Segment: |dr/du| is its length. Conic: |dr/dw| = 2 |dr/dphi| / (1 + w^2) <= 2 major semi-axis; the
+  // few ulps of rounding only shave the acceptance probability's top, where it is 1 anyway.
+  const double bound = frame.kind == geometry::CurveFrame::Kind::segment
+                           ? std::sqrt(dot(frame.a, frame.a))
+                           : 2.0 * std::max(frame.major, frame.minor);
+  const double before = sources_.empty() ? 0.0 : sources_.back().weight;
+  sources_.push_back({wall, from, to, bound, before + bound * (to - from)});
+}
+
+State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) const {
+  const InitialCondition& initial = system_.initial;
+  const double speed = system_.particles.at(static_cast<std::size_t>(particle)).speed;
+  RandomStream random(system_.run.seed, Purpose::initial_state, trajectory,
+                      static_cast<std::uint64_t>(particle));
+  switch (initial.kind) {
+    case Kind::uniform: return in_box(world, random, low_, high_, speed, "the box around the table");
+    case Kind::rectangle: return in_box(world, random, initial.low, initial.high, speed, "the rectangle");
+    case Kind::line: return on_line(world, random, speed);
+    case Kind::point: return at_point(world, speed);
+    case Kind::boundary:
+    case Kind::hole: return cosine_law(random, speed);
+    case Kind::birkhoff: return birkhoff(trajectory, speed);
+  }
+  throw InternalError("unknown kind of initial condition");
+}
+
+State Sampler::in_box(const World& world, RandomStream& random, Vector low, Vector high, double speed,
+                      const char* where) const {
+  for (int tries = 0; tries < most_rejections; ++tries) {
+    const double x = low.x + random.uniform() * (high.x - low.x);
+    const double y = low.y + random.uniform() * (high.y - low.y);
+    State state = off_walls(*system_.table, {x, y}, {});
+    // The box of a lattice's cell overlaps its neighbours: what lies there is drawn again, or points
+    // near the edges would be too frequent.
+    const bool own_cell =
+        system_.initial.kind != Kind::uniform || state.cell == geometry::Cell{};
+    if (!own_cell || !world.contains(state.position)) continue;
+    state.velocity = speed * random_direction(random);
+    return state;
+  }
+  throw impossible("initial", fmt::format("no point of {} was found inside the table", where),
+                   "a region that overlaps the table");
+}
+
+State Sampler::on_line(const World& world, RandomStream& random, double speed) const {
+  const InitialCondition& initial = system_.initial;
+  const elementary::SinCos direction = elementary::sincos(initial.angle);
+  const Vector velocity = speed * unit({direction.cos, direction.sin});
+  for (int tries = 0; tries < most_rejections; ++tries) {
+    const Vector point = initial.from + random.uniform() * (initial.to - initial.from);
+    const State state = off_walls(*system_.table, point, velocity);
+    if (world.contains(state.position)) return state;
+  }
+  throw impossible("initial", "no point of the line was found inside the table",
+                   "a line that crosses the table");
+}
+
+State Sampler::at_point(const World& world, double speed) const {
+  const InitialCondition& initial = system_.initial;
+  const Vector given = initial.velocity;
+  if (given.x == 0.0 && given.y == 0.0) throw impossible("initial.velocity", "the velocity is zero");
+  // A velocity that already has the speed is taken as it is, digit for digit.
+  const Vector velocity = std::sqrt(dot(given, given)) == speed ? given : speed * unit(given);
+  const State state = off_walls(*system_.table, initial.position, velocity);
+  if (!world.contains(state.position))
+    throw impossible("initial.position",
+                     fmt::format("the start ({}, {}) is not inside the table", initial.position.x,
+                                 initial.position.y),
+                     "a point inside, off the walls; kind = \"birkhoff\" starts on a wall");
+  return state;
+}
+
+State Sampler::cosine_law(RandomStream& random, double speed) const {
+  for (;;) {
+    const double target = random.uniform() * sources_.back().weight;
+    const auto source =
+        std::upper_bound(sources_.begin(), sources_.end() - 1, target,
+                         [](double value, const Source& s) { return value < s.weight; });
+    const geometry::CurveFrame& frame = frames_[static_cast<std::size_t>(source->wall)];
+    double u = source->from + random.uniform() * (source->to - source->from);
+    u = std::clamp(u, std::max(source->from, geometry::first_parameter), frame.last);
+    if (frame.kind != geometry::CurveFrame::Kind::segment) {
+      // Uniform in arc length: accept in proportion to |dr/du|.
+      const double w = u - std::floor(u);
+      const Vector tangent = geometry::direction_at(frame, u);
+      const double rate = 2.0 * std::sqrt(dot(tangent, tangent)) / (1.0 + w * w);
+      if (random.uniform() * source->bound >= rate) continue;
+    }
+    const double sine = random.symmetric();
+    const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+    return on_wall(source->wall, u, sine, cosine, speed);
+  }
+}
+
+State Sampler::birkhoff(std::uint64_t trajectory, double speed) const {
+  const InitialCondition& initial = system_.initial;
+  const std::size_t i = static_cast<std::size_t>(trajectory % initial.s.size());
+  double s = initial.s[i];
+  const double tangential = initial.v_parallel[i];
+  if (!(std::abs(tangential) < speed))
+    throw impossible("initial.v_parallel",
+                     fmt::format("v_parallel = {} is not below the speed {}", tangential, speed),
+                     "-speed < v_parallel < speed");
+  // Without a wall, s runs along all walls, one after the other.
+  const bool all = initial.wall < 0;
+  std::size_t wall = all ? 0 : static_cast<std::size_t>(initial.wall);
+  while (all && wall + 1 < frames_.size() && s >= geometry::length(frames_[wall]))
+    s -= geometry::length(frames_[wall++]);
+  const double length = geometry::length(frames_[wall]);
+  if (!(s >= 0.0 && s < length))
+    throw impossible("initial.s", fmt::format("s = {} is not on the wall '{}' of length {}", initial.s[i],
+                                              system_.table->walls[wall].name, length));
+  const double u = std::clamp(geometry::parameter_at_length(frames_[wall], s), geometry::first_parameter,
+                              frames_[wall].last);
+  const double normal = std::sqrt((speed - tangential) * (speed + tangential));
+  return on_wall(static_cast<int>(wall), u, tangential, normal, speed);
+}
+
+State Sampler::on_wall(int wall, double u, double tangential, double normal, double speed) const {
+  const geometry::CurveFrame& frame = frames_[static_cast<std::size_t>(wall)];
+  State state;
+  state.wall = wall;
+  state.u = u;
+  state.position = geometry::point_at(frame, u);
+  const Vector inward = geometry::normal_at(frame, u);
+  state.velocity = speed * unit(tangential * right(inward) + normal * inward);
+  return state;
+}
+
+State draw_initial_state(const System& system, const World& world, std::uint64_t trajectory,
+                         int particle) {
+  return Sampler(system).draw(world, trajectory, particle);
+}
+
+}  // namespace carom
