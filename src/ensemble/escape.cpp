@@ -3,8 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -14,18 +12,13 @@
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/stopwatch.hpp"
 
 namespace carom {
 
 namespace {
 
 constexpr std::size_t most_reports = 5;
-
-double cpu_time() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // What a block, a thread and the whole ensemble are: sums of their parts in any order.
 struct Tally {
@@ -152,17 +145,15 @@ class Ensemble {
   }
 
   EscapeResult run() {
-    const auto start = std::chrono::steady_clock::now();
-    const double cpu_start = cpu_time();
+    const Stopwatch watch;
     BlockOrder order(options_.records, 16 * static_cast<std::uint64_t>(threads_));
 #pragma omp parallel num_threads(threads_)
     work(order);
     if (error_) std::rethrow_exception(error_);
     if (options_.records) order.flush();
     EscapeResult result;
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.cpu_seconds = cpu_time() - cpu_start;
+    result.seconds = watch.seconds();
+    result.cpu_seconds = watch.cpu_seconds();
     result.threads = threads_;
     result.complete = finished_blocks_ == blocks_;
     result.decisions = decisions_;

@@ -44,7 +44,7 @@ struct Body {
 class World::Implementation {
  public:
   Implementation(const Table& table, DecisionOptions options)
-      : finder(table, options), options_(options) {
+      : finder(table, options) {
     for (std::size_t i = 0; i < table.walls.size(); ++i) {
       const Wall& w = table.walls[i];
       corners.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
@@ -61,7 +61,6 @@ class World::Implementation {
   State state_at(const Body& body, Time t) const;
 
   HitFinder finder;
-  DecisionOptions options_;
   std::unique_ptr<Locator> locator;
   std::vector<int> corners;  // order n of the corner at each wall's start, 0: none
   std::vector<Body> bodies;
@@ -215,11 +214,12 @@ World::World(const Table& table, DecisionOptions options)
 World::~World() = default;
 World::World(World&&) noexcept = default;
 
-int World::add(const Particle& particle, const State& state) {
+int World::add(const Particle& particle, const State& state, std::uint64_t hits) {
   Implementation& w = *implementation_;
   Body b;
   b.particle = particle;
   b.state = state;
+  b.hits = hits;
   b.last_wall = -1;
   b.inverse_square_speed = 1.0 / (particle.speed * particle.speed);
   const bool on_wall = state.wall >= 0;
@@ -299,7 +299,7 @@ const std::string& World::report(int p) const { return body(implementation_->bod
 
 bool World::contains(Vector point) const {
   Implementation& w = *implementation_;
-  if (!w.locator) w.locator = std::make_unique<Locator>(w.finder.table(), w.options_);
+  if (!w.locator) w.locator = std::make_unique<Locator>(w.finder.table());
   return w.locator->contains(point);
 }
 

@@ -47,7 +47,8 @@ class World {
 
   /// Adds a particle; returns its index. A state off the walls must lie in the domain, else
   /// std::invalid_argument. Its velocity is kept as it is; Particle::speed must be its length.
-  int add(const Particle& particle, const State& state);
+  /// `hits`: how many it has made before, when a stored trajectory goes on.
+  int add(const Particle& particle, const State& state, std::uint64_t hits = 0);
   /// Removes all particles and sets the clock to 0; keeps the prepared table.
   void clear();
 

@@ -1,0 +1,52 @@
+// One trajectory followed closely: `carom run`.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/system.hpp"
+#include "carom/events/world.hpp"
+
+namespace carom {
+
+/// Everything that a particle's future depends on. A run continued from it repeats the
+/// uninterrupted one bit for bit.
+struct ParticleProgress {
+  State state;             ///< after its last event: exact
+  std::uint64_t hits = 0;
+  std::int32_t last_wall = -1;
+  std::int32_t hole = -1;
+  Fate fate = Fate::survived;
+  Time end;                ///< the clock: t_max, or when the trajectory ended
+};
+
+/// A particle at the end of a run, as people want to see it.
+struct ParticleEnd {
+  ParticleProgress progress;
+  double t = 0, x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped
+  geometry::Cell cell;
+  double energy_error = 0;                     ///< relative, against Particle::speed
+  std::string report;                          ///< of lost and singular ones
+};
+
+struct SingleRunOptions {
+  DecisionOptions decisions;
+  std::vector<ParticleProgress> resume;        ///< empty: start afresh
+  std::function<bool()> interrupted;           ///< asked between events
+  std::uint64_t trajectory = 0;                ///< index: which start is drawn
+};
+
+struct SingleRunResult {
+  std::vector<ParticleEnd> particles;
+  bool interrupted = false;
+  std::uint64_t collisions = 0;
+  DecisionCounts decisions;
+  double seconds = 0, cpu_seconds = 0;
+};
+
+/// Follows the particles until t_max or their cap on hits. Samples every System::run.sample.
+SingleRunResult run_single(const System&, Observer&, const SingleRunOptions& = {});
+
+}  // namespace carom

@@ -1,0 +1,141 @@
+#include "carom/ensemble/single_run.hpp"
+
+#include <optional>
+#include <stdexcept>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/stopwatch.hpp"
+#include "motion/free_motion.hpp"
+
+namespace carom {
+
+namespace {
+
+// Passes events on under the numbers of the system's particles: those that ended in an earlier part
+// of the run are no longer in the world.
+class Renumbering : public Observer {
+ public:
+  Renumbering(Observer& observer, const std::vector<int>& numbers, std::size_t particles)
+      : observer_(observer), numbers_(numbers), ends_(particles) {}
+
+  void hit(const HitEvent& event) override {
+    HitEvent copy = event;
+    copy.particle = number(event.particle);
+    observer_.hit(copy);
+  }
+  void sample(int particle, Time time, const State& state) override {
+    observer_.sample(number(particle), time, state);
+  }
+  void end(const EndEvent& event) override {
+    EndEvent copy = event;
+    copy.particle = number(event.particle);
+    ends_[static_cast<std::size_t>(copy.particle)] = copy;
+    observer_.end(copy);
+  }
+  const std::optional<EndEvent>& end_of(std::size_t particle) const { return ends_[particle]; }
+
+ private:
+  int number(int particle) const { return numbers_[static_cast<std::size_t>(particle)]; }
+  Observer& observer_;
+  const std::vector<int>& numbers_;
+  std::vector<std::optional<EndEvent>> ends_;
+};
+
+// Has the particle ended for good? A cap on hits may have been raised since, and a pinned or
+// surviving particle goes on.
+bool gone(Fate fate) {
+  return fate == Fate::escaped || fate == Fate::singular || fate == Fate::unbounded || fate == Fate::lost;
+}
+
+ParticleEnd as_seen(const System& system, std::size_t particle, const ParticleProgress& progress,
+                    State state) {
+  ParticleEnd end;
+  end.progress = progress;
+  end.t = state.time.value();
+  end.vx = state.velocity.x;
+  end.vy = state.velocity.y;
+  geometry::Vector unwrapped = state.position;
+  if (system.table->lattice) unwrapped = unwrapped + system.table->lattice->translation(state.cell);
+  end.x = unwrapped.x;
+  end.y = unwrapped.y;
+  fold_into_cell(*system.table, state.position, state.cell);
+  end.cell = state.cell;
+  const double speed = system.particles[particle].speed;
+  const geometry::Vector v = (1.0 / speed) * state.velocity;
+  end.energy_error = dot(v, v) - 1.0;
+  return end;
+}
+
+// The state at the end: a flight after the last event.
+State moved_on(const Particle& particle, const ParticleProgress& progress) {
+  State state = progress.state;
+  const double duration = progress.end - state.time;
+  if (!(duration > 0.0)) return state;
+  const auto [position, velocity] = moved(state.position, state.velocity, particle.omega, duration);
+  state.position = position;
+  state.velocity = velocity;
+  state.time = progress.end;
+  return state;
+}
+
+}  // namespace
+
+SingleRunResult run_single(const System& system, Observer& observer, const SingleRunOptions& options) {
+  const Stopwatch watch;
+  World world(*system.table, options.decisions);
+  const std::size_t count = system.particles.size();
+  if (!options.resume.empty() && options.resume.size() != count)
+    throw InputError("the stored run has another number of particles");
+  if (system.run.collisions > 0) world.limit_hits(system.run.collisions);
+  if (system.run.sample > 0.0) world.sample_every(system.run.sample);
+
+  const Sampler sampler(system);
+  std::vector<ParticleProgress> progress(count);
+  std::vector<int> numbers;
+  for (std::size_t p = 0; p < count; ++p) {
+    if (options.resume.empty())
+      progress[p].state = sampler.draw(world, options.trajectory, static_cast<int>(p));
+    else
+      progress[p] = options.resume[p];
+    const ParticleProgress& start = progress[p];
+    const bool capped = system.run.collisions > 0 && start.hits >= system.run.collisions;
+    if (gone(start.fate) || capped) continue;
+    world.add(system.particles[p], start.state, start.hits);
+    numbers.push_back(static_cast<int>(p));
+  }
+
+  Renumbering passed_on(observer, numbers, count);
+  SingleRunResult result;
+  const std::function<bool()> interrupted = [&] {
+    result.interrupted = result.interrupted || (options.interrupted && options.interrupted());
+    return result.interrupted;
+  };
+  world.run_until(system.run.t_max, passed_on, interrupted);
+
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::size_t p = static_cast<std::size_t>(numbers[i]);
+    const int body = static_cast<int>(i);
+    ParticleProgress& now = progress[p];
+    now.state = world.state(body);
+    now.hits = world.hits(body);
+    if (world.last_wall(body) >= 0) now.last_wall = world.last_wall(body);
+    now.hole = world.hole(body);
+    const std::optional<EndEvent>& end = passed_on.end_of(p);
+    now.fate = end ? end->fate : Fate::survived;
+    const bool until_stop = now.fate == Fate::survived || now.fate == Fate::pinned;
+    now.end = !until_stop ? end->time : result.interrupted ? now.state.time : Time(system.run.t_max);
+  }
+  for (std::size_t p = 0; p < count; ++p) {
+    result.particles.push_back(as_seen(system, p, progress[p], moved_on(system.particles[p], progress[p])));
+    result.collisions += progress[p].hits;
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    result.particles[static_cast<std::size_t>(numbers[i])].report = world.report(static_cast<int>(i));
+  result.decisions = world.decisions();
+  result.seconds = watch.seconds();
+  result.cpu_seconds = watch.cpu_seconds();
+  return result;
+}
+
+}  // namespace carom

@@ -1,0 +1,56 @@
+#include "io/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace carom {
+
+Progress::Progress(bool wanted)
+    : enabled_(wanted && isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_(start_) {}
+
+Progress::~Progress() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+bool Progress::due() const {
+  return enabled_ && Clock::now() - last_ >= std::chrono::milliseconds(200);
+}
+
+double Progress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+void Progress::show(double share, const std::string& rate) {
+  if (!enabled_) return;
+  last_ = Clock::now();
+  shown_ = true;
+  const std::string left = share > 0.0 && share < 1.0
+                               ? as_duration(seconds() * (1.0 - share) / share) + " left"
+                               : std::string();
+  const std::string line = fmt::format("\r{:5.1f} %  {}  {}\033[K", 100.0 * share, rate, left);
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+std::string with_prefix(double value) {
+  static constexpr const char* prefixes[] = {"", "k", "M", "G", "T"};
+  std::size_t i = 0;
+  while (i + 1 < std::size(prefixes) && std::abs(value) >= 999.5) {
+    value /= 1000.0;
+    ++i;
+  }
+  const int decimals = i == 0 || value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2;
+  return fmt::format("{:.{}f} {}", value, decimals, prefixes[i]);
+}
+
+std::string as_duration(double seconds) {
+  const double whole = std::ceil(seconds);
+  if (!(whole < 1e12)) return "ages";
+  const auto s = static_cast<long long>(whole);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
+  return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+// A line of progress on standard error, for people only.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace carom {
+
+/// Rewrites one line a few times a second while standard error is a terminal.
+class Progress {
+ public:
+  explicit Progress(bool wanted);
+  Progress(const Progress&) = delete;
+  ~Progress();
+
+  bool enabled() const { return enabled_; }
+  /// `share` of the work done in [0, 1]; `rate` is shown beside it, e.g. "12.3 M hits/s".
+  void show(double share, const std::string& rate);
+  /// Is it time to show again? Cheap enough to ask often.
+  bool due() const;
+  double seconds() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool enabled_, shown_ = false;
+  Clock::time_point start_, last_;
+};
+
+/// "950", "12.3 k", "4.56 M", "7.89 G": three digits and a prefix, with a blank for a unit to follow.
+std::string with_prefix(double value);
+/// "4 s", "3 min 20 s", "2 h 5 min".
+std::string as_duration(double seconds);
+
+}  // namespace carom
