@@ -340,6 +340,18 @@ TEST(Curve, FlatArcsKeepTheirDigits) {
   EXPECT_NEAR(box.low.y, -1.25e-10, 1e-18);  // chord^2/(8 r)
 }
 
+TEST(Curve, FlatEllipticArcsKeepTheirDigits) {
+  // Counter-clockwise with the centre on the left of the chord: the short way round.
+  const Curve arc = EllipticArc{{0.0, 0.0}, {1.0, 0.0}, {0.6, 0.8}, 0.25, 1e9, true};
+  const Reference reference(arc);
+  for (int i = 1; i <= 10; ++i) {
+    const double u = end_parameter(arc) * i / 10.0;
+    EXPECT_NEAR(arc_length_at(arc, u), static_cast<double>(reference.length(Real(u))), 4e-16);
+    EXPECT_NEAR(parameter_at_length(arc, arc_length_at(arc, u)), u, 1e-15 * end_parameter(arc));
+  }
+  EXPECT_NEAR(length(arc), 1.0, 1e-15);
+}
+
 TEST(Curve, HalfTurnsAreHalfTurns) {
   const Curve half = CircularArc{{1.0, 0.0}, {-1.0, 0.0}, 0.0, true};
   EXPECT_EQ(end_parameter(half), 2.0);
