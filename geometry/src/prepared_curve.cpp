@@ -32,6 +32,7 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     tangent = {direction.x / length, direction.y / length};
     // direction: 2u |direction| <= 4u extent; its product with u < 1 and the sum: 3u extent more.
     point_error = 7.0 * unit_roundoff * extent;
+    normal_error = 4.0 * unit_roundoff;
     return;
   }
   kind = exact_curve.metric.euclidean ? CurveKind::circle : CurveKind::ellipse;
@@ -62,6 +63,10 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   // centre 2u + sum u of the extents; a, b: 2u; the coefficients c and s: 5u and 3u of at most 1.
   const double size = std::max(std::fabs(a.x) + std::fabs(b.x), std::fabs(a.y) + std::fabs(b.y));
   point_error = centre_error + unit_roundoff * (extent + 10.0 * size);
+  // e = x - centre errs by 12u of |a|_1 + |b|_1 a coordinate, which the rows of the map to the unit circle
+  // turn into a relative error of the gradient.
+  const auto norm_1 = [](Vector v) { return std::fabs(v.x) + std::fabs(v.y); };
+  normal_error = 16.0 * unit_roundoff * (norm_1(a) + norm_1(b)) * (norm_1(along) + norm_1(across));
 }
 
 }  // namespace carom::geometry

@@ -53,7 +53,7 @@ int HitFinder::hole_at(const Flight& f, const Ahead& ahead, double u, DecisionCo
   const PieceData& p = data_[at(ahead.piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
   const Vector origin = origins_[at(p.offset)].point;
-  const FlightScale s = scale(f, p.offset);
+  const FlightScale& s = origins_[at(p.offset)].scale;
   double error = HUGE_VAL;  // of u
   if (w.kind == CurveKind::segment && f.omega == 0.0) {
     const double from = 2.0 * geometry::cross(f.velocity, w.from - origin);
@@ -99,16 +99,12 @@ int HitFinder::hole_at(const Flight& f, const Ahead& ahead, double u, DecisionCo
   return -1;
 }
 
-Sign HitFinder::inward(int wall, double u, Vector v, DecisionCounts& counts) const {
+Sign HitFinder::inward(int wall, double u, Vector v, Vector n, DecisionCounts& counts) const {
   const PreparedCurve& w = curves_[at(wall)];
   if (u > 0.0) {
-    const Vector n = w.normal(u);
     // Segment: the tangent errs by 4u. Conics: e = x - centre errs by 12u of |a|_1 + |b|_1 a coordinate,
     // which the rows of the map to the unit circle turn into a relative error of the gradient.
-    const double stretch = w.kind == CurveKind::segment
-                               ? 1.0
-                               : (norm_1(w.a) + norm_1(w.b)) * (norm_1(w.along) + norm_1(w.across));
-    const double bound = options_.filter_inflation * 16.0 * unit_roundoff * stretch * norm_1(v);
+    const double bound = options_.filter_inflation * w.normal_error * norm_1(v);
     const Sign sign = sign_within(dot(n, v), bound);
     if (sign != Sign::undecided) {
       ++counts.filter;

@@ -4,8 +4,8 @@ namespace carom {
 
 using namespace geometry;
 
-Locator::Locator(const Table& table, DecisionOptions options)
-    : domain_(table, options, false, false), complement_(table, options, false, true), cell_(table, options) {}
+Locator::Locator(const Table& table)
+    : domain_(table, {}, false, false), complement_(table, {}, false, true), cell_(table) {}
 
 bool Locator::contains(Vector point) const {
   Flight flight;

@@ -11,7 +11,7 @@ namespace carom {
 /// is replaced by another.
 class Locator {
  public:
-  explicit Locator(const Table& table, DecisionOptions options = {});
+  explicit Locator(const Table& table);
   bool contains(geometry::Vector point) const;
 
  private:

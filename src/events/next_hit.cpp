@@ -31,12 +31,13 @@ double kappa_after(double duration, double omega) {
   return h * c / s;
 }
 
-Flight HitFinder::from_wall(int wall, double u, Vector velocity, double speed, double omega) const {
+Flight HitFinder::from_wall(int wall, double u, Vector point, Vector velocity, double speed,
+                            double omega) const {
   Flight f;
   const PreparedCurve& c = curves_[at(wall)];
   f.wall = wall;
   f.u = u;
-  f.start = c.point(u);
+  f.start = point;
   f.start_error = c.point_error;
   f.velocity = velocity;
   f.speed = speed;
@@ -68,56 +69,66 @@ int HitFinder::start_previous(const Flight& f) const {
 }
 
 void HitFinder::look_from(const Flight& f) const {
+  const FlightScale scale{f.start_error, norm_1(f.velocity), std::fabs(f.omega), options_.filter_inflation};
+  origins_[0] = {f.start, scale};
+  if (!table_.lattice) return;
   for (std::size_t k = 0; k < offsets_.size(); ++k) {
     const Cell c{f.cell.first + offsets_[k].first, f.cell.second + offsets_[k].second};
-    if (c == Cell{}) {
-      origins_[k] = {f.start, f.start_error};
-      continue;
-    }
+    origins_[k] = {f.start, scale};
+    if (c == Cell{}) continue;
     const Lattice& l = *table_.lattice;
-    const Vector p = f.start - l.translation(c);
+    origins_[k].point = f.start - l.translation(c);
     // Two products and a sum for the translation, one difference.
     const double m = std::fabs(static_cast<double>(c.first)), n = std::fabs(static_cast<double>(c.second));
     const double size = m * norm_1(l.first) + n * norm_1(l.second);
-    origins_[k] = {p, f.start_error + unit_roundoff * (2.1 * size + norm_1(p))};
+    origins_[k].scale.delta += unit_roundoff * (2.1 * size + norm_1(origins_[k].point));
   }
 }
 
-FlightScale HitFinder::scale(const Flight& f, int offset) const {
-  return {origins_[at(offset)].error, norm_1(f.velocity), std::fabs(f.omega), options_.filter_inflation};
-}
-
-HitFinder::Candidate HitFinder::candidate(const Flight& f, int piece, bool stands_on_it) const {
-  Candidate c;
-  c.piece = piece;
+/// The wall's polynomial in kappa, for all but Larmor circles against ellipses.
+Quadratic<double> HitFinder::quadratic(const Flight& f, int piece, bool stands) const {
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
-  const FlightScale s = scale(f, p.offset);
   const Vector origin = origins_[at(p.offset)].point;
   if (w.kind == CurveKind::segment) {
-    const Vector e = origin - w.from;
-    c.quadratic = line_quadratic(e, w.tangent, f.velocity, f.omega, 0.5);
-    c.error = line_error(s, norm_1(e));
-  } else if (w.kind == CurveKind::circle) {
-    const Vector e = origin - w.centre;
-    c.quadratic = circle_quadratic(e, w.r2, f.velocity, f.omega, 0.5);
-    c.error = circle_error(s, norm_1(e), w.centre_error, w.r2);
+    const Vector e = stands ? Vector{} : origin - w.from;
+    return line_quadratic(e, w.tangent, f.velocity, f.omega, 0.5);
+  }
+  const Vector e = origin - w.centre;
+  Quadratic<double> q;
+  if (w.kind == CurveKind::circle) {
+    q = circle_quadratic(e, stands ? dot(e, e) : w.r2, f.velocity, f.omega, 0.5);
   } else {
-    const Vector e = origin - w.centre;
     const Vector em{dot(w.first_axis, e), dot(w.second_axis, e)};
     const Vector vm{dot(w.first_axis, f.velocity), dot(w.second_axis, f.velocity)};
-    c.quadratic = circle_quadratic(em, 1.0, vm, 0.0, 0.5);
+    q = circle_quadratic(em, stands ? dot(em, em) : 1.0, vm, 0.0, 0.5);
+  }
+  return w.orientation > 0 ? -q : q;
+}
+
+QuadraticError HitFinder::quadratic_error(const Flight& f, int piece, bool stands) const {
+  const PieceData& p = data_[at(piece)];
+  const PreparedCurve& w = curves_[at(p.curve)];
+  const Origin& origin = origins_[at(p.offset)];
+  QuadraticError error{};
+  if (w.kind == CurveKind::segment) {
+    error = line_error(origin.scale, stands ? 0.0 : norm_1(origin.point - w.from));
+  } else if (w.kind == CurveKind::circle) {
+    error = circle_error(origin.scale, norm_1(origin.point - w.centre), w.centre_error, w.r2);
+  } else {
     const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
-    c.error = ellipse_error(s, norm_1(e), w.centre_error, row);
+    error = ellipse_error(origin.scale, norm_1(origin.point - w.centre), w.centre_error, row);
   }
-  if (stands_on_it) {
-    // The leading coefficient is zero, and with it its share of the constant one.
-    const double h = 0.5 * f.omega;
-    if (w.kind != CurveKind::ellipse) c.quadratic.c -= c.quadratic.a * (h * h);
-    c.quadratic.a = 0.0;
-    c.error.a = 0.0;
-  }
-  if (w.kind != CurveKind::segment && w.orientation > 0) c.quadratic = -c.quadratic;
+  (void)f;
+  if (stands) error.a = 0.0;  // exactly zero by algebra
+  return error;
+}
+
+HitFinder::Candidate HitFinder::candidate(const Flight& f, int piece, bool stands) const {
+  Candidate c;
+  c.piece = piece;
+  c.quadratic = quadratic(f, piece, stands);
+  c.error = quadratic_error(f, piece, stands);
   c.root = rising_root(c.quadratic);
   return c;
 }
@@ -127,7 +138,7 @@ Sign HitFinder::quartic_candidate(const Flight& f, int piece, bool stands, doubl
   c.piece = piece;
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
-  FlightScale s = scale(f, p.offset);
+  FlightScale s = origins_[at(p.offset)].scale;
   s.inflation = inflation;
   const Vector origin = origins_[at(p.offset)].point;
   const Vector e = origin - w.centre, j = right(f.velocity);
@@ -145,17 +156,18 @@ Sign HitFinder::quartic_candidate(const Flight& f, int piece, bool stands, doubl
     c.root.kappa = found.roots[i].kappa;
     c.kappa_error = found.roots[i].error;
     if (w.closed) return Sign::positive;
-    const Sign on = on_part(f, piece, c);
+    const Sign on = on_part(f, piece, c, inflation);
     if (on != Sign::negative) return on;
   }
   return found.decided ? Sign::negative : Sign::undecided;
 }
 
 /// Is the crossing of a conic, with its error known, on the arc's side of its chord?
-Sign HitFinder::on_part(const Flight& f, int piece, const Candidate& c) const {
+Sign HitFinder::on_part(const Flight& f, int piece, const Candidate& c, double inflation) const {
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
-  const FlightScale s = scale(f, p.offset);
+  FlightScale s = origins_[at(p.offset)].scale;
+  s.inflation = inflation;
   const Vector origin = origins_[at(p.offset)].point;
   const Vector d = displacement(c.root.kappa, f.velocity, f.omega, 0.5);
   const Vector chord = w.to - w.from, e = (origin - w.from) + d;
@@ -167,17 +179,16 @@ Sign HitFinder::on_part(const Flight& f, int piece, const Candidate& c) const {
 template <bool larmor>
 bool HitFinder::sides(const Flight& f, int start, int previous) const {
   const Vector v = f.velocity;
+  bool decided = true;
   for (std::size_t i = 0; i < data_.size(); ++i) {
-    const PieceData& p = data_[i];
-    if (curves_[at(p.curve)].closed) continue;
-    if (previous >= 0 && static_cast<int>(i) == start) continue;  // stands on this joint
-    const Vector d = joints_[i] - origins_[at(p.offset)].point;
+    const Origin& origin = origins_[at(data_[i].offset)];
+    const Vector d = joints_[i] - origin.point;
     const double side = larmor ? side_of_flight(v, d, f.omega) : 2.0 * geometry::cross(v, d);
-    const Sign sign = sign_within(side, side_error(scale(f, p.offset), norm_1(d)));
-    if (sign == Sign::undecided) return false;
-    side_[i] = static_cast<signed char>(sign);
+    const double bound = side_error(origin.scale, norm_1(d));
+    side_[i] = side > 0.0 ? 1 : -1;
+    decided &= std::fabs(side) > bound || (previous >= 0 && static_cast<int>(i) == start) || closed_[i] != 0;
   }
-  return true;
+  return decided;
 }
 
 /// Both joints of a piece lie on one side: does the flight leave through it all the same?
@@ -185,13 +196,13 @@ template <bool larmor>
 Sign HitFinder::crossed_twice(const Flight& f, int piece, Candidate& c) const {
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
-  const FlightScale s = scale(f, p.offset);
-  const Vector origin = origins_[at(p.offset)].point;
   if (w.kind == CurveKind::segment) {
     if (!larmor) return Sign::negative;
     // Both inside the Larmor circle: never, by convexity.
     if ((side_[at(piece)] > 0) == (f.omega < 0)) return Sign::negative;
     // The foot of the circle's centre must lie between the ends.
+    const FlightScale& s = origins_[at(p.offset)].scale;
+    const Vector origin = origins_[at(p.offset)].point;
     const double across = geometry::cross(w.tangent, f.velocity);
     const double first = f.omega * dot(origin - w.from, w.tangent) + across;
     const double last = f.omega * dot(origin - w.to, w.tangent) + across;
@@ -207,7 +218,7 @@ Sign HitFinder::crossed_twice(const Flight& f, int piece, Candidate& c) const {
   const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, c.error));
   if (cut != Sign::positive || w.kind == CurveKind::segment) return cut;
   c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
-  return on_part(f, piece, c);
+  return on_part(f, piece, c, options_.filter_inflation);
 }
 
 namespace {
@@ -229,7 +240,7 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
   const int start = start_piece(f);
   const int previous = start_previous(f);
   if (!sides<larmor>(f, start, previous)) return false;
-  Candidate best;
+  Candidate best, c;
   double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
   if (larmor && f.entry >= 0) {
     const Candidate entry = candidate(f, f.entry, false);
@@ -237,37 +248,35 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
     entered = root.kappa;
     entered_error = kappa_error(-entry.quadratic, entry.error, root);
   }
-  for (std::size_t i = 0; i < data_.size(); ++i) {
-    const PieceData& p = data_[i];
+  for (int piece = 0; piece < static_cast<int>(data_.size()); ++piece) {
+    const PieceData& p = data_[at(piece)];
     const PreparedCurve& w = curves_[at(p.curve)];
-    const int piece = static_cast<int>(i);
-    const bool starts = piece == start, ends = piece == previous;
-    Candidate c;
-    bool computed = false;
+    const bool starts = piece == start, ends = piece == previous, stands = starts || ends;
+    c.kappa_error = -1.0;
     if (larmor && w.kind == CurveKind::ellipse) {
-      const Sign leaves = quartic_candidate(f, piece, starts || ends, options_.filter_inflation, c);
+      const Sign leaves = quartic_candidate(f, piece, stands, options_.filter_inflation, c);
       if (leaves == Sign::undecided) return false;
       if (leaves != Sign::positive) continue;
     } else if (w.closed) {
-      c = candidate(f, piece, starts);
-      computed = true;
+      c = candidate(f, piece, stands);
       if (!starts) {
         const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, c.error));
         if (cut == Sign::undecided) return false;
         if (cut != Sign::positive) continue;
       }
     } else {
-      const int from = starts && previous >= 0 ? 1 : side_[i];
+      const int from = starts && previous >= 0 ? 1 : side_[at(piece)];
       const int to = ends ? -1 : p.next == start && previous >= 0 ? 1 : side_[at(p.next)];
       if (from > 0 && to < 0) continue;
-      if (from == to && !starts && !ends) {
+      if (from == to && !stands) {
         const Sign twice = crossed_twice<larmor>(f, piece, c);
         if (twice == Sign::undecided) return false;
         if (twice != Sign::positive) continue;
-        computed = true;
+      } else {
+        c = candidate(f, piece, stands);
       }
-      if (!computed) c = candidate(f, piece, starts || ends);
     }
+    c.piece = piece;
     if (!larmor) {
       const Sign forward = ahead_of_start(c.quadratic, c.error);
       if (forward == Sign::undecided) return false;

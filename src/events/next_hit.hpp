@@ -66,7 +66,8 @@ class HitFinder {
   Landing land(const Flight& flight, const Ahead& ahead, DecisionCounts& counts) const;
 
   /// Does v at (wall, u) point into the domain? At u = 0 this is asked of both walls of the joint.
-  Sign inward(int wall, double u, geometry::Vector v, DecisionCounts& counts) const;
+  /// `normal`: the rounded unit normal there.
+  Sign inward(int wall, double u, geometry::Vector v, geometry::Vector normal, DecisionCounts& counts) const;
   /// Error of kappa of what lies ahead.
   double error_of(const Flight& flight, const Ahead& ahead) const;
   /// Is the start strictly inside the cell (or on its edge, see locate)?
@@ -78,8 +79,9 @@ class HitFinder {
   int wall_of(int piece) const { return data_[static_cast<std::size_t>(piece)].wall; }
   /// Unit normal at the end of a wall.
   geometry::Vector normal_at_end(int wall) const { return end_normals_[static_cast<std::size_t>(wall)]; }
-  /// The rounded image of the exact point (wall, u), with its error.
-  Flight from_wall(int wall, double u, geometry::Vector velocity, double speed, double omega) const;
+  /// A flight from the exact point (wall, u), whose rounded image is `point`.
+  Flight from_wall(int wall, double u, geometry::Vector point, geometry::Vector velocity, double speed,
+                   double omega) const;
 
  private:
   struct PieceData {
@@ -92,7 +94,7 @@ class HitFinder {
   /// The start of a flight seen from its cell, displaced by one offset.
   struct Origin {
     geometry::Vector point;
-    double error = 0.0;
+    geometry::FlightScale scale;
   };
   /// A crossing that may be the first.
   struct Candidate {
@@ -108,12 +110,13 @@ class HitFinder {
   std::vector<geometry::Cell> image_offsets() const;
   int edge_crossed_at_start(const Flight& flight) const;
   void look_from(const Flight& flight) const;
-  geometry::FlightScale scale(const Flight& flight, int offset) const;
+  geometry::Quadratic<double> quadratic(const Flight& flight, int piece, bool stands_on_it) const;
+  geometry::QuadraticError quadratic_error(const Flight& flight, int piece, bool stands_on_it) const;
   Candidate candidate(const Flight& flight, int piece, bool stands_on_it) const;
   /// Larmor circle against an ellipse: its first exit through the piece, if any.
   Sign quartic_candidate(const Flight& flight, int piece, bool stands_on_it, double inflation,
                          Candidate& c) const;
-  Sign on_part(const Flight& flight, int piece, const Candidate& c) const;
+  Sign on_part(const Flight& flight, int piece, const Candidate& c, double inflation) const;
   bool is_quartic(const Flight& flight, int piece) const {
     return flight.omega != 0.0 &&
            curves_[static_cast<std::size_t>(data_[static_cast<std::size_t>(piece)].curve)].kind ==
@@ -139,6 +142,7 @@ class HitFinder {
   std::vector<geometry::PreparedCurve> curves_;  // walls, then edges
   std::vector<PieceData> data_;
   std::vector<geometry::Vector> joints_;         // start of each piece in its own cell
+  std::vector<signed char> closed_;              // of each piece: has it no joint?
   std::vector<geometry::Cell> offsets_;          // distinct displacements; the first is zero
   std::vector<geometry::Piece> pieces_;          // the same pieces for the exact stage
   std::vector<int> all_;

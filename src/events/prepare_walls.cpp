@@ -36,6 +36,7 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
       const int next = first_edge_ + static_cast<int>((i + 1) % cell.size());
       data_.push_back({curve, -1, 0, next, true});
       joints_.push_back(cell[i].segment.from);
+      closed_.push_back(0);
       pieces_.push_back({cell[i].segment, {}, next, true});
     }
   }
@@ -58,6 +59,7 @@ void HitFinder::add_walls(Cell offset, bool complement) {
     const int next = base + (complement ? wall.previous : wall.next);
     data_.push_back({static_cast<int>(i), static_cast<int>(i), index, next, false});
     joints_.push_back(curves_[i].from);
+    closed_.push_back(curves_[i].closed ? 1 : 0);
     pieces_.push_back({curve, offset, next, false});
   }
 }
@@ -114,7 +116,7 @@ int HitFinder::edge_crossed_at_start(const Flight& f) const {
     const PreparedCurve& w = curves_[at(data_[at(i)].curve)];
     const Vector e = origins_[0].point - w.from;
     const double side = geometry::cross(w.tangent, e);
-    const double bound = line_error(scale(f, 0), std::fabs(e.x) + std::fabs(e.y)).a;
+    const double bound = line_error(origins_[0].scale, std::fabs(e.x) + std::fabs(e.y)).a;
     Sign sign = sign_within(side, bound);
     if (sign == Sign::undecided) sign = exact_flight(f).left_of(i, f.cell);
     if (sign == Sign::positive) continue;

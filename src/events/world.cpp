@@ -139,7 +139,7 @@ void World::Implementation::reflect(int index, Observer& observer, const HitFind
   const Time now = queue.key(index).time;
   const auto& curve = finder.curve(landing.wall);
   const Vector before = landing.velocity;
-  const Vector normal = curve.normal(landing.u);
+  const auto [point, normal] = curve.frame(landing.u);
   Vector after;
   int reflections = 1;
   if (b.ahead.kind == Ahead::Kind::joint) {
@@ -151,25 +151,25 @@ void World::Implementation::reflect(int index, Observer& observer, const HitFind
     after = geometry::reflected(before, normal);
   }
   after = on_energy_shell(after, b.inverse_square_speed);
-  Sign inward = finder.inward(landing.wall, landing.u, after, counts);
+  Sign inward = finder.inward(landing.wall, landing.u, after, normal, counts);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.
     after = on_energy_shell(geometry::reflected(after, normal), b.inverse_square_speed);
-    inward = finder.inward(landing.wall, landing.u, after, counts);
+    inward = finder.inward(landing.wall, landing.u, after, normal, counts);
   }
   if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);
 
   const double flight_time = b.ahead.duration;
   b.state.wall = landing.wall;
   b.state.u = landing.u;
-  b.state.position = curve.point(landing.u);
+  b.state.position = point;
   b.state.velocity = after;
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;
   b.state.time = now;
   b.hits += static_cast<std::uint64_t>(reflections);
   b.last_wall = landing.wall;
-  b.flight = finder.from_wall(landing.wall, landing.u, after, b.particle.speed, b.particle.omega);
+  b.flight = finder.from_wall(landing.wall, landing.u, point, after, b.particle.speed, b.particle.omega);
   observer.hit({index, landing.wall, landing.u, now, flight_time, b.state.position, b.state.cell, before, after,
                 reflections});
   if (b.hits >= limit) return end(index, Fate::capped, now, &observer);
@@ -224,10 +224,11 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   b.inverse_square_speed = 1.0 / (particle.speed * particle.speed);
   const bool on_wall = state.wall >= 0;
   if (on_wall) {
-    b.flight = w.finder.from_wall(state.wall, state.u, state.velocity, particle.speed, particle.omega);
+    const auto [point, normal] = w.finder.curve(state.wall).frame(state.u);
+    b.flight = w.finder.from_wall(state.wall, state.u, point, state.velocity, particle.speed, particle.omega);
     b.state.position = b.flight.start;
     DecisionCounts unused;
-    if (w.finder.inward(state.wall, state.u, state.velocity, unused) != Sign::positive)
+    if (w.finder.inward(state.wall, state.u, state.velocity, normal, unused) != Sign::positive)
       throw std::invalid_argument("the velocity does not point into the domain");
   } else {
     if (!contains(state.position)) throw std::invalid_argument("the point does not lie inside the table");

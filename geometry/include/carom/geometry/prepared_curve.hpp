@@ -37,6 +37,7 @@ struct PreparedCurve {
   // Circle and ellipse: centre, start vector a and its quarter turn b in the direction of travel.
   Vector centre, a, b;
   double r2 = 0.0;            ///< circle: squared radius
+  double inverse_radius = 0.0;
   Vector along, across;       ///< rows of the map of e = x - centre to the unit circle of (a, b)
   double centre_error = 0.0;  ///< of `centre`
   // Ellipse: rows of the map to the unit circle of its axes, in which flights are intersected.
@@ -44,6 +45,7 @@ struct PreparedCurve {
   double extent = 0.0;        ///< largest |coordinate| on the curve, rounded up
 
   double point_error = 0.0;   ///< of point(u)
+  double normal_error = 0.0;  ///< of the normal
   double last = 1.0;          ///< last_parameter
 
   explicit PreparedCurve(const Curve& curve);
@@ -54,19 +56,18 @@ struct PreparedCurve {
     const Vector e = seen_from_centre(u);
     return centre + e;
   }
-  /// Unit normal into the domain at u.
-  Vector normal(double u) const {
-    if (kind == CurveKind::segment) return left(tangent);
+  /// The point and the unit normal into the domain there.
+  struct Frame {
+    Vector point, normal;
+  };
+  Frame frame(double u) const {
+    if (kind == CurveKind::segment) return {from + u * direction, left(tangent)};
     const Vector e = seen_from_centre(u);
-    if (kind == CurveKind::circle) {
-      const double f = -orientation * inverse_radius;
-      return f * e;
-    }
+    if (kind == CurveKind::circle) return {centre + e, -orientation * inverse_radius * e};
     // Gradient of the ellipse's form, then normalised.
     const double p = dot(first_axis, e), q = dot(second_axis, e);
     const Vector g{p * first_axis.x + q * second_axis.x, p * first_axis.y + q * second_axis.y};
-    const double f = -orientation / std::sqrt(dot(g, g));
-    return f * g;
+    return {centre + e, (-orientation / std::sqrt(dot(g, g))) * g};
   }
   /// Parameter of a point that lies on the curve up to rounding, kept off the joints.
   double parameter(Vector x) const {
@@ -80,8 +81,6 @@ struct PreparedCurve {
     return clamp(u);
   }
   double clamp(double u) const { return u < first_parameter ? first_parameter : u > last ? last : u; }
-
-  double inverse_radius = 0.0;
 
  private:
   Vector seen_from_centre(double u) const {
