@@ -1,0 +1,156 @@
+#include "io/archive_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+
+#include "carom/base/error.hpp"
+#include "carom_version.hpp"
+
+namespace carom {
+
+using hdf5::Handle;
+
+namespace {
+
+constexpr const char* running = "running";
+constexpr std::size_t status_length = 16;
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+// Data are on the disk only after this; a full disk may show only here.
+void sync(const std::string& path, int flags, const std::string& name) {
+  const int descriptor = ::open(path.c_str(), flags);
+  const bool ok = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!ok) throw InputError(fmt::format("cannot write '{}': {}", name, std::strerror(error)));
+}
+
+Handle latest_format(const std::string& name) {
+  Handle access = hdf5::checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name);
+  hdf5::check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST) >= 0, name);
+  return access;
+}
+
+}  // namespace
+
+void prepare_archives() { hdf5::prepare(); }
+
+void refuse_existing(const std::string& file, bool force) {
+  std::error_code ignored;
+  if (!force && std::filesystem::exists(file, ignored))
+    throw InputError(Place{file, 0, 0, ""}, "the output file exists already", "another name, or --force");
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(Place{file, 0, 0, ""}, "the output is a directory", "the name of a file");
+}
+
+ArchiveFile::ArchiveFile(Handle file, std::string path, std::string name)
+    : file_(std::move(file)), path_(std::move(path)), name_(std::move(name)) {}
+
+ArchiveFile::ArchiveFile(ArchiveFile&& other) noexcept
+    : file_(std::move(other.file_)),
+      path_(std::move(other.path_)),
+      name_(std::move(other.name_)),
+      kept_(std::exchange(other.kept_, true)) {}
+
+ArchiveFile::~ArchiveFile() {
+  if (kept_) return;
+  file_.close();
+  std::remove(path_.c_str());
+}
+
+ArchiveFile ArchiveFile::create(const std::string& path, const std::string& name) {
+  const Handle access = latest_format(name);
+  errno = 0;
+  Handle file = hdf5::checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
+                              name);
+  return ArchiveFile(std::move(file), path, name);
+}
+
+ArchiveFile ArchiveFile::open(const std::string& path, const std::string& name) {
+  const Handle access = latest_format(name);
+  errno = 0;
+  Handle file = hdf5::checked(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose, name);
+  return ArchiveFile(std::move(file), path, name);
+}
+
+Handle ArchiveFile::group(const char* path, const char* description) const {
+  Handle group =
+      hdf5::checked(H5Gcreate2(id(), path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name_);
+  hdf5::write_attribute(group.get(), "description", std::string_view(description), name_);
+  return group;
+}
+
+Handle ArchiveFile::open_group(const char* path) const {
+  return hdf5::checked(H5Gopen2(id(), path, H5P_DEFAULT), H5Gclose, name_);
+}
+
+void ArchiveFile::write_head(const char* kind, const LoadedSystem& loaded, const Provenance& origin) const {
+  hdf5::write_attribute(id(), "schema", std::int64_t{archive_schema}, name_);
+  hdf5::write_attribute(id(), "kind", std::string_view(kind), name_);
+  hdf5::write_attribute(id(), "complete", std::int64_t{0}, name_);
+  std::string status = running;
+  status.resize(status_length, '\0');
+  hdf5::write_attribute(id(), "status", std::string_view(status), name_);
+  hdf5::write_text(id(), "system", loaded.resolved_toml,
+                   {"TOML", "The complete resolved system: carom runs it again"}, name_);
+  const Handle provenance = group("provenance", "Where this result comes from");
+  const hid_t to = provenance.get();
+  hdf5::write_attribute(to, "system", std::string_view(loaded.system.name), name_);
+  hdf5::write_attribute(to, "version", std::string_view(version), name_);
+  hdf5::write_attribute(to, "compiler", std::string_view(compiler), name_);
+  hdf5::write_attribute(to, "seed", fmt::format("{}", loaded.system.run.seed), name_);
+  hdf5::write_attribute(to, "engine", std::string_view(origin.engine), name_);
+  hdf5::write_attribute(to, "isa", std::string_view(origin.isa), name_);
+  hdf5::write_attribute(to, "threads", std::int64_t{origin.threads}, name_);
+  hdf5::write_attribute(to, "command", std::string_view(origin.command), name_);
+  hdf5::write_attribute(to, "date", utc_now(), name_);
+  hdf5::write_attribute(to, "continued", std::int64_t{0}, name_);
+}
+
+void ArchiveFile::extend_head(const LoadedSystem& loaded, const Provenance& origin) const {
+  set_status(running, false);
+  hdf5::check(H5Ldelete(id(), "system", H5P_DEFAULT) >= 0, name_);
+  hdf5::write_text(id(), "system", loaded.resolved_toml,
+                   {"TOML", "The complete resolved system: carom runs it again"}, name_);
+  const Handle provenance = open_group("provenance");
+  const std::int64_t times = 1 + hdf5::read_integer_attribute(provenance.get(), "continued", name_);
+  hdf5::change_attribute(provenance.get(), "continued", times, name_);
+  const auto numbered = [&](const char* what) { return fmt::format("{}_{}", what, times + 1); };
+  hdf5::write_attribute(provenance.get(), numbered("command").c_str(), std::string_view(origin.command),
+                        name_);
+  hdf5::write_attribute(provenance.get(), numbered("version").c_str(), std::string_view(version), name_);
+  hdf5::write_attribute(provenance.get(), numbered("date").c_str(), utc_now(), name_);
+}
+
+void ArchiveFile::start_swmr() const { hdf5::check(H5Fstart_swmr_write(id()) >= 0, name_); }
+
+void ArchiveFile::set_status(const std::string& status, bool complete) const {
+  hdf5::change_attribute(id(), "status", std::string_view(status), name_);
+  hdf5::change_attribute(id(), "complete", std::int64_t{complete}, name_);
+}
+
+void ArchiveFile::keep_as(const std::string& target) {
+  hdf5::check(H5Fflush(id(), H5F_SCOPE_GLOBAL) >= 0, name_);
+  hdf5::check(file_.close(), name_);
+  sync(path_, O_RDONLY, name_);
+  if (target != path_ && std::rename(path_.c_str(), target.c_str()) != 0)
+    throw InputError(fmt::format("cannot write '{}': {}", name_, std::strerror(errno)));
+  path_ = target;
+  const std::filesystem::path folder = std::filesystem::path(target).parent_path();
+  sync(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY, name_);
+  kept_ = true;
+}
+
+}  // namespace carom

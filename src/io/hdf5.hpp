@@ -1,0 +1,109 @@
+// The part of the HDF5 C API that archives need, with owners that close what they opened.
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace carom::hdf5 {
+
+/// An HDF5 identifier and how to close it.
+class Handle {
+ public:
+  using Closer = herr_t (*)(hid_t);
+  Handle() = default;
+  Handle(hid_t id, Closer closer) : id_(id), closer_(closer) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(closer_, other.closer_);
+    return *this;
+  }
+  ~Handle() { close(); }
+  /// False when closing failed: for a file or dataset that means lost data.
+  bool close() { return id_ < 0 || closer_(std::exchange(id_, -1)) >= 0; }
+  hid_t get() const { return id_; }
+  explicit operator bool() const { return id_ >= 0; }
+
+ private:
+  hid_t id_ = -1;
+  Closer closer_ = nullptr;
+};
+
+/// Must be called before any other use of HDF5: after a failed close its own exit handler crashes.
+/// Also ignores SIGXFSZ, so that a limit on file sizes is an error of the write, and silences HDF5's
+/// printing of errors.
+void prepare();
+
+/// Throws InputError "cannot write FILE: reason" where `ok` is false; the reason is the system's.
+void check(bool ok, const std::string& file);
+/// The same for identifiers.
+Handle checked(hid_t id, Handle::Closer closer, const std::string& file);
+
+/// What a dataset is: unit "1" for pure numbers.
+struct Description {
+  const char* units;
+  const char* text;
+};
+
+void write_attribute(hid_t object, const char* name, std::string_view value, const std::string& file);
+void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
+void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
+                     const std::string& file);
+/// Overwrites the value of an existing attribute; a string is cut or padded to its length.
+void change_attribute(hid_t object, const char* name, std::string_view value, const std::string& file);
+void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
+std::string read_string_attribute(hid_t object, const char* name, const std::string& file);
+std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file);
+
+template <class T>
+hid_t native_type();
+template <>
+inline hid_t native_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+inline hid_t native_type<std::int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+inline hid_t native_type<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+template <>
+inline hid_t native_type<std::uint64_t>() {
+  return H5T_NATIVE_UINT64;
+}
+
+/// A text as a scalar dataset.
+void write_text(hid_t parent, const char* name, std::string_view text, Description, const std::string& file);
+std::string read_text(hid_t parent, const char* name, const std::string& file);
+
+/// A dataset of fixed size.
+Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description,
+                    const std::string& file);
+/// A dataset that grows by rows.
+Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk, Description,
+                      const std::string& file);
+std::size_t rows_of(hid_t dataset, const std::string& file);
+void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
+                 const std::string& file);
+
+template <class T>
+void write_column(hid_t parent, const char* name, std::span<const T> values, Description description,
+                  const std::string& file) {
+  Handle dataset = create_fixed(parent, name, native_type<T>(), values.size(), description, file);
+  check(values.empty() ||
+            H5Dwrite(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+        file);
+  check(dataset.close(), file);
+}
+template <class T>
+std::vector<T> read_column(hid_t parent, const char* name, const std::string& file);
+
+}  // namespace carom::hdf5

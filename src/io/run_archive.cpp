@@ -1,0 +1,302 @@
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/geometry/curve_frame.hpp"
+#include "io/archive_file.hpp"
+#include "io/columns.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+using hdf5::Description;
+using hdf5::Handle;
+
+namespace {
+
+constexpr const char* kind = "run";
+
+// Position in the plane from the position in a cell.
+Vector unwrapped(const Table& table, Vector position, const geometry::Cell& cell) {
+  return table.lattice ? position + table.lattice->translation(cell) : position;
+}
+
+// One value a particle.
+template <class T, class Get>
+std::vector<T> collect(const std::vector<ParticleEnd>& particles, Get get) {
+  std::vector<T> values;
+  for (const ParticleEnd& particle : particles) values.push_back(static_cast<T>(get(particle)));
+  return values;
+}
+
+// Names and types of /state, where its file layout, writing and reading meet.
+struct StateField {
+  const char* name;
+  bool real;
+  Description description;
+  double (*real_of)(const ParticleProgress&);
+  std::int64_t (*integer_of)(const ParticleProgress&);
+};
+using P = const ParticleProgress&;
+const StateField state_fields[] = {
+    {"wall", false, {"1", "Wall of the last event, -1: off the walls"}, nullptr,
+     [](P p) { return std::int64_t{p.state.wall}; }},
+    {"u", true, {"1", "Exact parameter on that wall"}, [](P p) { return p.state.u; }, nullptr},
+    {"x", true, {"length", "Position in the cell"}, [](P p) { return p.state.position.x; }, nullptr},
+    {"y", true, {"length", "Position in the cell"}, [](P p) { return p.state.position.y; }, nullptr},
+    {"vx", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.x; }, nullptr},
+    {"vy", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.y; }, nullptr},
+    {"cell_first", false, {"1", "Cell of the lattice"}, nullptr, [](P p) { return p.state.cell.first; }},
+    {"cell_second", false, {"1", "Cell of the lattice"}, nullptr, [](P p) { return p.state.cell.second; }},
+    {"t_high", true, {"time", "Time of the last event, leading double"},
+     [](P p) { return p.state.time.high; }, nullptr},
+    {"t_low", true, {"time", "Time of the last event, trailing double"},
+     [](P p) { return p.state.time.low; }, nullptr},
+    {"end_high", true, {"time", "Time of the end, leading double"}, [](P p) { return p.end.high; }, nullptr},
+    {"end_low", true, {"time", "Time of the end, trailing double"}, [](P p) { return p.end.low; }, nullptr},
+    {"hits", false, {"1", "Reflections so far"}, nullptr,
+     [](P p) { return static_cast<std::int64_t>(p.hits); }},
+    {"last_wall", false, {"1", "Wall of the last reflection, -1: none"}, nullptr,
+     [](P p) { return std::int64_t{p.last_wall}; }},
+    {"hole", false, {"1", "Hole it escaped through, -1: none"}, nullptr,
+     [](P p) { return std::int64_t{p.hole}; }},
+    {"fate", false, {"1", "Index into the attribute `names`"}, nullptr,
+     [](P p) { return static_cast<std::int64_t>(p.fate); }},
+};
+
+std::vector<std::string> fate_names() {
+  std::vector<std::string> names;
+  for (int i = 0; i <= static_cast<int>(Fate::lost); ++i) names.push_back(name_of(static_cast<Fate>(i)));
+  return names;
+}
+
+}  // namespace
+
+class RunArchive::Implementation {
+ public:
+  Implementation(ArchiveFile opened, std::string final_path, const LoadedSystem& loaded)
+      : file(std::move(opened)),
+        target(std::move(final_path)),
+        table(loaded.system.table),
+        hits(file.name()),
+        samples(file.name()) {
+    for (const Wall& wall : table->walls) frames.push_back(geometry::frame_of(wall.curve));
+  }
+
+  void create(const LoadedSystem& loaded, const Provenance& origin);
+  void reopen(const LoadedSystem& loaded, const Provenance& origin);
+  void create_state(std::size_t particles);
+  void write_state(const std::vector<ParticleEnd>& particles);
+
+  ArchiveFile file;
+  std::string target;
+  std::shared_ptr<const Table> table;
+  std::vector<geometry::CurveFrame> frames;
+  hdf5::Columns hits, samples;
+  double sampled_until = -std::numeric_limits<double>::infinity();
+};
+
+void RunArchive::Implementation::create(const LoadedSystem& loaded, const Provenance& origin) {
+  file.write_head(kind, loaded, origin);
+  std::vector<std::string> walls;
+  for (const Wall& wall : table->walls) walls.push_back(wall.name);
+  {
+    const Handle group = file.group("collisions", "Reflections in order of time");
+    const hid_t to = group.get();
+    hits.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
+    const hid_t wall = hits.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
+    hdf5::write_attribute(wall, "names", walls, file.name());
+    hits.add<double>(to, "u", {"1", "Exact parameter on the wall"});
+    hits.add<double>(to, "s", {"length", "Arc length along the wall from its start"});
+    hits.add<double>(to, "v_parallel",
+                     {"length/time", "Tangential velocity after the hit, positive in the direction of s"});
+    hits.add<double>(to, "t", {"time", "Time of the hit"});
+    hits.add<double>(to, "x", {"length", "Position, unwrapped"});
+    hits.add<double>(to, "y", {"length", "Position, unwrapped"});
+    hits.add<double>(to, "vx", {"length/time", "Velocity after the hit"});
+    hits.add<double>(to, "vy", {"length/time", "Velocity after the hit"});
+    hits.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
+    hits.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
+    hits.add<std::int32_t>(to, "reflections", {"1", "Reflections counted: n at a corner of angle pi/n"});
+  }
+  {
+    const Handle group = file.group("trajectory", "Samples at even times (run.sample)");
+    const hid_t to = group.get();
+    samples.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
+    samples.add<double>(to, "t", {"time", "Time of the sample"});
+    samples.add<double>(to, "x", {"length", "Position, unwrapped"});
+    samples.add<double>(to, "y", {"length", "Position, unwrapped"});
+    samples.add<double>(to, "vx", {"length/time", "Velocity"});
+    samples.add<double>(to, "vy", {"length/time", "Velocity"});
+    samples.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
+    samples.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
+  }
+  create_state(loaded.system.particles.size());
+}
+
+void RunArchive::Implementation::create_state(std::size_t particles) {
+  const Handle group =
+      file.group("state", "The exact state after the last event of each particle; a run goes on from it");
+  for (const StateField& field : state_fields) {
+    const hid_t type = field.real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+    const Handle dataset =
+        hdf5::create_fixed(group.get(), field.name, type, particles, field.description, file.name());
+    if (std::string_view(field.name) == "fate")
+      hdf5::write_attribute(dataset.get(), "names", fate_names(), file.name());
+  }
+}
+
+void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Provenance& origin) {
+  file.extend_head(loaded, origin);
+  {
+    const Handle group = file.open_group("collisions");
+    const hid_t from = group.get();
+    hits.open<std::int32_t>(from, "particle");
+    hits.open<std::int32_t>(from, "wall");
+    for (const char* name : {"u", "s", "v_parallel", "t", "x", "y", "vx", "vy"}) hits.open<double>(from, name);
+    hits.open<std::int64_t>(from, "cell_first");
+    hits.open<std::int64_t>(from, "cell_second");
+    hits.open<std::int32_t>(from, "reflections");
+  }
+  const Handle group = file.open_group("trajectory");
+  const hid_t from = group.get();
+  const std::vector<double> times = hdf5::read_column<double>(from, "t", file.name());
+  if (!times.empty()) sampled_until = times.back();
+  samples.open<std::int32_t>(from, "particle");
+  for (const char* name : {"t", "x", "y", "vx", "vy"}) samples.open<double>(from, name);
+  samples.open<std::int64_t>(from, "cell_first");
+  samples.open<std::int64_t>(from, "cell_second");
+}
+
+void RunArchive::Implementation::write_state(const std::vector<ParticleEnd>& particles) {
+  const Handle group = file.open_group("state");
+  for (const StateField& field : state_fields) {
+    Handle dataset =
+        hdf5::checked(H5Dopen2(group.get(), field.name, H5P_DEFAULT), H5Dclose, file.name());
+    herr_t written = -1;
+    if (field.real) {
+      const auto values =
+          collect<double>(particles, [&](const ParticleEnd& p) { return field.real_of(p.progress); });
+      written = H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    } else {
+      const auto values =
+          collect<std::int64_t>(particles, [&](const ParticleEnd& p) { return field.integer_of(p.progress); });
+      written = H5Dwrite(dataset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    }
+    hdf5::check(written >= 0, file.name());
+    hdf5::check(dataset.close(), file.name());
+  }
+}
+
+RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+RunArchive::~RunArchive() = default;
+
+std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
+                                               const Provenance& origin, bool force) {
+  refuse_existing(file, force);
+  auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), file, loaded);
+  made->create(loaded, origin);
+  made->file.start_swmr();
+  return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
+}
+
+std::unique_ptr<RunArchive> RunArchive::extend(const std::string& file, const LoadedSystem& loaded,
+                                               const Provenance& origin) {
+  const std::string part = file + ".part";
+  std::error_code error;
+  std::filesystem::copy_file(file, part, std::filesystem::copy_options::overwrite_existing, error);
+  if (error) {
+    std::filesystem::remove(part, error);
+    throw InputError(Place{file, 0, 0, ""}, "cannot copy the archive to '" + part + "'",
+                     "a folder that can be written to and room on the disk");
+  }
+  auto made = std::make_unique<Implementation>(ArchiveFile::open(part, file), file, loaded);
+  made->reopen(loaded, origin);
+  made->file.start_swmr();
+  return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
+}
+
+void RunArchive::hit(const HitEvent& event) {
+  Implementation& a = *implementation_;
+  const geometry::CurveFrame& frame = a.frames[static_cast<std::size_t>(event.wall)];
+  const Vector position = unwrapped(*a.table, event.position, event.cell);
+  a.hits.row(std::int32_t{event.particle}, std::int32_t{event.wall}, event.u,
+             geometry::arc_length_at(frame, event.u), dot(event.after, geometry::tangent_at(frame, event.u)),
+             event.time.value(), position.x, position.y, event.after.x, event.after.y, event.cell.first,
+             event.cell.second, std::int32_t{event.reflections});
+}
+
+void RunArchive::sample(int particle, Time time, const State& state) {
+  Implementation& a = *implementation_;
+  // A run that goes on is asked for its samples from the beginning.
+  if (!(time.value() > a.sampled_until)) return;
+  const Vector position = unwrapped(*a.table, state.position, state.cell);
+  Vector folded = state.position;
+  geometry::Cell cell = state.cell;
+  fold_into_cell(*a.table, folded, cell);
+  a.samples.row(std::int32_t{particle}, time.value(), position.x, position.y, state.velocity.x,
+                state.velocity.y, cell.first, cell.second);
+}
+
+void RunArchive::finish(const SingleRunResult& result, const std::string& status) {
+  Implementation& a = *implementation_;
+  a.hits.close();
+  a.samples.close();
+  a.write_state(result.particles);
+  a.file.set_status(status, !result.interrupted);
+  a.file.keep_as(a.target);
+}
+
+StoredRun read_run(const std::string& name) {
+  const Place place{name, 0, 0, ""};
+  std::error_code error;
+  if (!std::filesystem::exists(name, error)) throw InputError(place, "there is no such file");
+  const Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file)
+    throw InputError(place, "the file is not an archive, or its run was killed or is still going on",
+                     "the archive of a finished or interrupted run");
+  if (hdf5::read_string_attribute(file.get(), "kind", name) != kind)
+    throw InputError(place, "the archive holds an ensemble", "an archive written by carom run");
+  if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
+    throw InputError(place, "the archive has another schema", "one written by this version of carom");
+  StoredRun run;
+  run.status = hdf5::read_string_attribute(file.get(), "status", name);
+  if (run.status == "running")
+    throw InputError(place, "its run was killed", "the archive of a finished or interrupted run");
+  run.system_toml = hdf5::read_text(file.get(), "system", name);
+  const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
+  run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
+
+  const Handle state(H5Gopen2(file.get(), "state", H5P_DEFAULT), H5Gclose);
+  const auto reals = [&](const char* field) { return hdf5::read_column<double>(state.get(), field, name); };
+  const auto integers = [&](const char* field) {
+    return hdf5::read_column<std::int64_t>(state.get(), field, name);
+  };
+  const auto wall = integers("wall"), first = integers("cell_first"), second = integers("cell_second"),
+             hits = integers("hits"), last_wall = integers("last_wall"), hole = integers("hole"),
+             fate = integers("fate");
+  const auto u = reals("u"), x = reals("x"), y = reals("y"), vx = reals("vx"), vy = reals("vy"),
+             high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
+             end_low = reals("end_low");
+  for (std::size_t i = 0; i < wall.size(); ++i) {
+    ParticleProgress p;
+    p.state.wall = static_cast<int>(wall[i]);
+    p.state.u = u.at(i);
+    p.state.position = {x.at(i), y.at(i)};
+    p.state.velocity = {vx.at(i), vy.at(i)};
+    p.state.cell = {first.at(i), second.at(i)};
+    p.state.time = {high.at(i), low.at(i)};
+    p.end = {end_high.at(i), end_low.at(i)};
+    p.hits = static_cast<std::uint64_t>(hits.at(i));
+    p.last_wall = static_cast<std::int32_t>(last_wall.at(i));
+    p.hole = static_cast<std::int32_t>(hole.at(i));
+    p.fate = static_cast<Fate>(fate.at(i));
+    run.particles.push_back(p);
+  }
+  return run;
+}
+
+}  // namespace carom
