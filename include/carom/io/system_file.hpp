@@ -12,7 +12,7 @@ namespace carom {
 
 /// The one table of keys: parser, hints, --set and the guide's page are made from it.
 struct KeyDescription {
-  std::string_view section;   ///< "table", "table.hole", "table.path", "lattice", "field", …
+  std::string_view section;   ///< "table", "table.hole", "table.loop", "lattice", "field", …
   std::string_view kind;      ///< shape or kind the key belongs to ("" : all), several by |
   std::string_view key;
   std::string_view type;      ///< number, integer, string, boolean, point, list of points, …
@@ -20,6 +20,8 @@ struct KeyDescription {
   std::string_view meaning;
 };
 const std::vector<KeyDescription>& key_table();
+/// The table as Markdown, for the guide (docs/guide/system-file.md holds it; a test compares).
+std::string key_table_markdown();
 
 struct BuiltinSystem {
   std::string_view name, toml;

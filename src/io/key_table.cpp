@@ -1,0 +1,127 @@
+// The one table of keys: parser, hints, --set and the guide's page are made from it.
+#include <fmt/format.h>
+
+#include "carom/io/system_file.hpp"
+
+namespace carom {
+
+const std::vector<KeyDescription>& key_table() {
+  static const std::vector<KeyDescription> keys{
+      {"", "", "title", "string", "\"\"", "what the system is; for readers alone"},
+
+      {"table", "", "shape", "string", "",
+       "rectangle, polygon, triangle, regular, circle, ellipse, annulus, stadium, mushroom, lemon, sinai, "
+       "lorentz, discs or path"},
+      {"table", "rectangle", "width", "number", "", "extent along x, from 0"},
+      {"table", "rectangle", "height", "number", "", "extent along y, from 0"},
+      {"table", "polygon|triangle", "points", "list of points", "", "the corners, counter-clockwise"},
+      {"table", "regular", "sides", "whole number", "", "number of sides"},
+      {"table", "regular|circle|stadium|lemon|sinai|lorentz|discs", "radius", "number", "",
+       "of the circle, the caps, the arcs or the discs; of the circumscribed circle for regular"},
+      {"table", "regular", "angle", "number", "0", "direction of the first corner against +x, in radians"},
+      {"table", "ellipse", "a", "number", "", "semi-axis along x"},
+      {"table", "ellipse", "b", "number", "", "semi-axis along y"},
+      {"table", "annulus", "outer", "number", "", "radius of the outer circle, centred at the origin"},
+      {"table", "annulus", "inner", "number", "", "radius of the inner circle"},
+      {"table", "annulus", "offset", "number", "0", "x of the inner circle's centre"},
+      {"table", "stadium", "half_length", "number", "", "half the length of a straight wall"},
+      {"table", "mushroom", "cap_radius", "number", "", "radius of the half-circular cap"},
+      {"table", "mushroom", "stem_width", "number", "", "width of the stem, at most twice cap_radius"},
+      {"table", "mushroom", "stem_height", "number", "", "height of the stem"},
+      {"table", "lemon", "separation", "number", "", "distance of the two circles' centres, below 2 radius"},
+      {"table", "sinai", "side", "number", "", "side of the square"},
+      {"table", "sinai", "torus", "boolean", "true",
+       "true: opposite sides are one; false: the sides are walls"},
+      {"table", "lorentz", "lattice", "string", "\"triangular\"", "triangular or square"},
+      {"table", "lorentz", "spacing", "number", "", "distance of neighbouring discs' centres"},
+      {"table", "discs", "centers", "list of points", "", "the discs' centres"},
+      {"table", "discs", "radii", "list of numbers", "", "a radius for each disc, instead of radius"},
+      {"table", "path", "loop", "list of tables", "", "closed loops of pieces: [[table.loop]]"},
+      {"table", "", "hole", "list of tables", "", "openings of walls: [[table.hole]]"},
+
+      {"table.hole", "", "wall", "string", "", "name of the wall"},
+      {"table.hole", "", "center", "number", "", "arc length from the wall's start to the hole's centre"},
+      {"table.hole", "", "width", "number", "", "arc length of the hole"},
+      {"table.hole", "", "name", "string", "", "a name; hole_1, hole_2 … if not given"},
+
+      {"table.loop", "", "start", "point", "", "where the first piece begins and the last must end"},
+      {"table.loop", "", "pieces", "list of tables", "",
+       "outer loops run counter-clockwise, obstacles clockwise"},
+      {"table.loop.pieces", "line", "line_to", "point", "", "a straight piece to this point"},
+      {"table.loop.pieces", "arc", "arc_to", "point", "", "a circular arc to this point"},
+      {"table.loop.pieces", "arc", "arc_via", "point", "", "a point on that arc"},
+      {"table.loop.pieces", "ellipse", "ellipse_to", "point", "", "an elliptic arc to this point"},
+      {"table.loop.pieces", "ellipse", "ellipse_via", "point", "", "a point on that arc"},
+      {"table.loop.pieces", "ellipse", "ellipse_ratio", "number", "", "minor over major axis"},
+      {"table.loop.pieces", "ellipse", "ellipse_angle", "number", "0",
+       "angle of the major axis against +x, in radians"},
+      {"table.loop.pieces", "", "name", "string", "", "the wall's name; wall_1, wall_2 … if not given"},
+
+      {"lattice", "", "vectors", "list of points", "",
+       "two vectors by which the obstacles of discs or path are repeated"},
+
+      {"field", "", "B", "number", "0", "magnetic field; B > 0 turns a positive charge clockwise"},
+      {"field", "", "larmor_radius", "number", "",
+       "radius of the Larmor circles instead of B, which is then > 0"},
+
+      {"particles", "", "count", "whole number", "1", "number of particles that do not interact"},
+      {"particles", "", "speed", "number or list", "1",
+       "speed; if neither it nor energy is given, the length of initial.velocity"},
+      {"particles", "", "energy", "number or list", "", "kinetic energy, instead of speed"},
+      {"particles", "", "mass", "number or list", "1", "mass"},
+      {"particles", "", "charge", "number or list", "1", "charge, of either sign or 0"},
+
+      {"initial", "", "kind", "string", "\"uniform\"",
+       "uniform, boundary, hole, point, birkhoff, rectangle or line"},
+      {"initial", "boundary|birkhoff", "wall", "string", "",
+       "the wall to start from; boundary without it: all walls"},
+      {"initial", "boundary|hole", "hole", "string", "", "the hole to start from, into the table"},
+      {"initial", "point", "position", "point", "", "where all trajectories start"},
+      {"initial", "point", "velocity", "point", "",
+       "direction of flight, and the speed where [particles] gives none"},
+      {"initial", "point|line", "angle", "number", "", "direction of flight against +x, in radians"},
+      {"initial", "birkhoff", "s", "number, list or grid", "", "arc length along the wall"},
+      {"initial", "birkhoff", "v_parallel", "number, list or grid", "",
+       "component of the velocity along the wall, in the direction of s"},
+      {"initial", "rectangle", "min", "point", "", "corner with the smaller coordinates"},
+      {"initial", "rectangle", "max", "point", "", "corner with the larger coordinates"},
+      {"initial", "line", "from", "point", "", "one end of the line of starts"},
+      {"initial", "line", "to", "point", "", "its other end"},
+      {"initial.grid", "", "from", "number", "", "first value of a grid {from, to, count}"},
+      {"initial.grid", "", "to", "number", "", "its last value"},
+      {"initial.grid", "", "count", "whole number", "", "number of values, at least 2"},
+
+      {"run", "", "t_max", "number", "1000", "when a trajectory stops"},
+      {"run", "", "collisions", "whole number", "", "most hits a trajectory may make; no limit if not given"},
+      {"run", "", "trajectories", "whole number", "100000", "size of an ensemble"},
+      {"run", "", "seed", "whole number", "1", "of the random numbers"},
+      {"run", "", "sample", "number", "", "time between samples; none if not given"},
+      {"run", "", "times", "list or table", "",
+       "when survival is reported; {from = t_max/1000, to = t_max, count = 31, spacing = \"log\"} if not "
+       "given"},
+      {"run.times", "", "from", "number", "", "the first time"},
+      {"run.times", "", "to", "number", "", "the last time, at most t_max"},
+      {"run.times", "", "count", "whole number", "31", "number of times, at least 2"},
+      {"run.times", "", "spacing", "string", "\"log\"", "log or linear"},
+  };
+  return keys;
+}
+
+std::string key_table_markdown() {
+  std::string page;
+  std::string_view section = "none";
+  for (const KeyDescription& key : key_table()) {
+    if (key.section != section) {
+      section = key.section;
+      page += section.empty() ? "### Above all sections\n\n" : fmt::format("\n### {}\n\n", section);
+      page += "| key | for | type | default | meaning |\n|---|---|---|---|---|\n";
+    }
+    std::string kinds(key.kind);
+    for (std::size_t at = 0; (at = kinds.find('|', at)) != std::string::npos;) kinds.replace(at, 1, ", ");
+    const std::string fallback = key.fallback.empty() ? "" : fmt::format("`{}`", key.fallback);
+    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.key, kinds, key.type, fallback, key.meaning);
+  }
+  return page;
+}
+
+}  // namespace carom

@@ -1,0 +1,27 @@
+// The sections of a system, read one by one. Each fills in its defaults.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/system.hpp"
+#include "carom/table/table_spec.hpp"
+#include "io/section.hpp"
+#include "io/value.hpp"
+
+namespace carom::io {
+
+/// [table] with its holes and loops, and [lattice].
+TableSpec read_table(Value& root);
+/// [particles] and [field]; without speed or energy the speed is that of initial.velocity.
+std::vector<Particle> read_particles(Value& root);
+/// [initial]; names of walls and holes are those of the table.
+InitialCondition read_initial(Value& root, const Table& table, const std::vector<Particle>& particles);
+/// [run].
+RunPlan read_run(Value& root);
+
+/// `count` values from `first` to `last`, both exact, evenly spaced or with even ratios. The bits
+/// are the same everywhere.
+std::vector<double> spaced(double first, double last, std::uint64_t count, bool logarithmic);
+
+}  // namespace carom::io

@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <cmath>
+
+#include "io/read.hpp"
+#include "table/direction.hpp"
+
+namespace carom::io {
+namespace {
+
+using Kind = InitialCondition::Kind;
+
+constexpr std::uint64_t most_values = 10000000;
+
+const std::vector<std::pair<std::string, Kind>>& kinds() {
+  static const std::vector<std::pair<std::string, Kind>> list{
+      {"uniform", Kind::uniform}, {"boundary", Kind::boundary}, {"hole", Kind::hole},
+      {"point", Kind::point},     {"birkhoff", Kind::birkhoff}, {"rectangle", Kind::rectangle},
+      {"line", Kind::line}};
+  return list;
+}
+
+int wall_of(const Value& value, const Table& table) {
+  const int wall = table.wall_index(as_text(value));
+  if (wall >= 0) return wall;
+  std::vector<std::string> names;
+  for (const Wall& w : table.walls) names.push_back(w.name);
+  throw InputError(value.place, "unknown wall '" + value.text + "'", "one of " + listed(names),
+                   nearest_name(value.text, names));
+}
+
+int hole_of(const Value& value, const Table& table) {
+  const int hole = table.hole_index(as_text(value));
+  if (hole >= 0) return hole;
+  std::vector<std::string> names;
+  for (const Hole& h : table.holes) {
+    if (std::find(names.begin(), names.end(), h.name) == names.end()) names.push_back(h.name);
+  }
+  throw InputError(value.place, "unknown hole '" + value.text + "'",
+                   names.empty() ? "a table with [[table.hole]]" : "one of " + listed(names),
+                   nearest_name(value.text, names));
+}
+
+/// One coordinate of a Birkhoff start: a number, a list, or a grid.
+struct Axis {
+  std::vector<double> values;
+  bool grid = false;
+  bool list = false;
+};
+
+Axis read_axis(Value& value) {
+  Axis axis;
+  if (value.kind == Value::Kind::table) {
+    Section section(value, "initial.grid");
+    section.check_keys();
+    const double from = as_double(section.get("from")), to = as_double(section.get("to"));
+    axis.values = spaced(from, to, as_count(section.get("count"), 2, most_values), false);
+    axis.grid = true;
+  } else if (value.kind == Value::Kind::list) {
+    for (const Value& item : value.items) axis.values.push_back(as_double(item));
+    axis.list = true;
+    if (axis.values.empty()) throw InputError(value.place, "the list is empty", "at least one number");
+  } else {
+    axis.values.push_back(as_double(value));
+  }
+  return axis;
+}
+
+// Lists go in pairs, grids with everything; s runs fastest.
+void combine(const Axis& s, const Axis& v, const Place& place, InitialCondition& initial) {
+  if (s.list && v.list) {
+    if (s.values.size() != v.values.size()) {
+      throw InputError(place, "the lists s and v_parallel differ in length",
+                       "as many values in one as in the other, or a grid");
+    }
+    initial.s = s.values;
+    initial.v_parallel = v.values;
+    return;
+  }
+  if (s.values.size() * v.values.size() > most_values) {
+    throw InputError(place, "too many starts", "at most " + std::to_string(most_values));
+  }
+  for (const double v_parallel : v.values) {
+    for (const double arc_length : s.values) {
+      initial.s.push_back(arc_length);
+      initial.v_parallel.push_back(v_parallel);
+    }
+  }
+}
+
+void read_birkhoff(Section& section, const Table& table, const std::vector<Particle>& particles,
+                   InitialCondition& initial) {
+  initial.wall = wall_of(section.get("wall"), table);
+  Value& s = section.get("s");
+  const Axis s_axis = read_axis(s);
+  Value& v = section.get("v_parallel");
+  const Axis v_axis = read_axis(v);
+  const double length = geometry::length(table.walls[static_cast<std::size_t>(initial.wall)].curve);
+  for (const double value : s_axis.values) {
+    if (value >= 0 && value < length) continue;
+    throw InputError(s.place, "the wall has no arc length " + shown(value),
+                     "0 <= s < " + shown(length) + ", the length of the wall");
+  }
+  double speed = particles.front().speed;
+  for (const Particle& p : particles) speed = std::min(speed, p.speed);
+  for (const double value : v_axis.values) {
+    if (std::fabs(value) < speed) continue;
+    throw InputError(v.place, "v_parallel " + shown(value) + " leaves nothing of the speed for the flight",
+                     "|v_parallel| < " + shown(speed) + ", the speed");
+  }
+  combine(s_axis, v_axis, v.place, initial);
+}
+
+void read_point(Section& section, InitialCondition& initial) {
+  initial.position = as_vector(section.get("position"));
+  section.exclude("velocity", "angle");
+  if (const Value* angle = section.find("angle")) {
+    initial.velocity = direction(as_number(*angle));
+    return;
+  }
+  if (!section.has("velocity")) {
+    throw InputError(section.place_of("velocity"), "neither velocity nor angle is given", "one of them");
+  }
+  const Value& velocity = section.get("velocity");
+  initial.velocity = as_vector(velocity);
+  if (initial.velocity == geometry::Vector{0, 0}) {
+    throw InputError(velocity.place, "the velocity is zero", "a velocity that is not zero");
+  }
+}
+
+void read_rectangle(Section& section, InitialCondition& initial) {
+  initial.low = as_vector(section.get("min"));
+  const Value& max = section.get("max");
+  initial.high = as_vector(max);
+  if (initial.low.x <= initial.high.x && initial.low.y <= initial.high.y) return;
+  throw InputError(max.place, "max lies below min", "max.x >= min.x and max.y >= min.y");
+}
+
+}  // namespace
+
+InitialCondition read_initial(Value& root, const Table& table, const std::vector<Particle>& particles) {
+  Value& value = *root.find("initial");
+  const Value* written = value.find("kind");
+  if (written != nullptr && (written->text == "file" || written->text == "sobol")) {
+    throw InputError(written->place, "the kind '" + written->text + "' is not in this version",
+                     "uniform, boundary, hole, point, birkhoff, rectangle or line");
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : kinds()) names.push_back(name);
+  const std::string name = read_kind(value, "initial", "kind", names);
+  Section section(value, "initial", name);
+  section.check_keys();
+  InitialCondition initial;
+  for (const auto& [known, kind] : kinds()) {
+    if (known == name) initial.kind = kind;
+  }
+  switch (initial.kind) {
+    case Kind::uniform:
+      if (table.extent == Extent::open_plane) {
+        throw InputError(section.get("kind").place, "the open plane has no uniform distribution",
+                         "kind = \"boundary\", \"rectangle\" or another");
+      }
+      break;
+    case Kind::boundary:
+      section.exclude("wall", "hole");
+      if (const Value* wall = section.find("wall")) initial.wall = wall_of(*wall, table);
+      if (const Value* hole = section.find("hole")) initial.hole = hole_of(*hole, table);
+      break;
+    case Kind::hole:
+      initial.hole = hole_of(section.get("hole"), table);
+      break;
+    case Kind::point:
+      read_point(section, initial);
+      break;
+    case Kind::birkhoff:
+      read_birkhoff(section, table, particles, initial);
+      break;
+    case Kind::rectangle:
+      read_rectangle(section, initial);
+      break;
+    case Kind::line:
+      initial.from = as_vector(section.get("from"));
+      initial.to = as_vector(section.get("to"));
+      initial.angle = as_double(section.get("angle"));
+      initial.velocity = direction(as_number(section.get("angle")));
+      break;
+  }
+  return initial;
+}
+
+}  // namespace carom::io

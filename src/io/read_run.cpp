@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cmath>
+
+#include "carom/base/elementary.hpp"
+#include "io/read.hpp"
+
+namespace carom::io {
+namespace {
+
+constexpr std::uint64_t most_times = 1000000;
+
+// "log:from:to:count", "lin:from:to:count" or "a,b,c", as --times takes it.
+Value parse_times(const Value& written) {
+  const std::string& text = written.text;
+  std::vector<std::string> parts;
+  const bool grid = text.find(':') != std::string::npos;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(grid ? ':' : ',', start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  Value value;
+  value.place = written.place;
+  if (!grid) {
+    value.kind = Value::Kind::list;
+    for (const std::string& part : parts) value.items.push_back(parse_value(part, written.place));
+    return value;
+  }
+  if (parts.size() != 4 || (parts[0] != "log" && parts[0] != "lin")) {
+    throw InputError(written.place, "cannot read the times '" + text + "'",
+                     "a,b,c or log:from:to:count or lin:from:to:count");
+  }
+  value.kind = Value::Kind::table;
+  value.set("from", parse_value(parts[1], written.place));
+  value.set("to", parse_value(parts[2], written.place));
+  value.set("count", parse_value(parts[3], written.place));
+  value.set("spacing", text_value(parts[0] == "log" ? "log" : "linear", written.place));
+  return value;
+}
+
+Value default_times(const Value& t_max, const Place& place) {
+  Value value;
+  value.place = place;
+  Value to = t_max;
+  to.place = place;
+  value.set("from", text_value("(" + t_max.text + ")/1000", place));
+  value.set("to", to);
+  value.set("count", number_value("31", place));
+  value.set("spacing", text_value("log", place));
+  return value;
+}
+
+std::vector<double> read_grid(Value& value) {
+  Section section(value, "run.times");
+  section.check_keys();
+  Value& from = section.get("from");
+  Value& to = section.get("to");
+  Value& count = section.get("count");
+  const Value& spacing = section.get("spacing");
+  const std::string name = as_text(spacing);
+  if (name != "log" && name != "linear") {
+    throw InputError(spacing.place, "unknown spacing '" + name + "'", "\"log\" or \"linear\"",
+                     nearest_name(name, {"log", "linear"}));
+  }
+  const double first = name == "log" ? as_positive(from) : as_double(from);
+  const double last = as_double(to);
+  if (first < 0) throw InputError(from.place, "must not be negative", "a time >= 0");
+  if (!(first < last)) throw InputError(to.place, "the times end before they begin", "to > from");
+  return spaced(first, last, as_count(count, 2, most_times), name == "log");
+}
+
+std::vector<double> read_list(const Value& value) {
+  std::vector<double> times;
+  if (value.items.empty()) throw InputError(value.place, "the list is empty", "at least one time");
+  for (const Value& item : value.items) {
+    const double t = as_double(item);
+    if (t < 0) throw InputError(item.place, "must not be negative, but is " + item.text, "a time >= 0");
+    if (!times.empty() && t <= times.back()) {
+      throw InputError(item.place, "the times do not increase at " + item.text, "times in increasing order");
+    }
+    times.push_back(t);
+  }
+  return times;
+}
+
+std::vector<double> read_times(Section& run, double t_max) {
+  Value& times = run.fill("times", default_times(run.get("t_max"), run.place_of("times")));
+  if (times.kind == Value::Kind::text || times.kind == Value::Kind::number) times = parse_times(times);
+  if (times.kind != Value::Kind::list && times.kind != Value::Kind::table) {
+    throw InputError(times.place, "must be a list of times or a table, not " + name_of(times.kind),
+                     "[1, 10, 100] or {from, to, count, spacing}");
+  }
+  std::vector<double> result = times.kind == Value::Kind::list ? read_list(times) : read_grid(times);
+  if (result.back() > t_max) {
+    throw InputError(times.place, "the time " + shown(result.back()) + " comes after t_max = " + shown(t_max),
+                     "times up to run.t_max");
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> spaced(double first, double last, std::uint64_t count, bool logarithmic) {
+  std::vector<double> values;
+  const double low = logarithmic ? elementary::log(first) : 0.0;
+  const double range = logarithmic ? elementary::log(last) - low : 0.0;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(count - 1);
+    double value = logarithmic ? elementary::exp(low + range * part) : first + (last - first) * part;
+    if (k == 0) value = first;
+    if (k + 1 == count) value = last;
+    values.push_back(value);
+  }
+  return values;
+}
+
+RunPlan read_run(Value& root) {
+  Section section(*root.find("run"), "run");
+  section.check_keys();
+  RunPlan plan;
+  plan.t_max = as_positive(section.get("t_max"));
+  plan.trajectories = as_count(section.get("trajectories"), 1, std::uint64_t{1} << 62);
+  plan.seed = as_count(section.get("seed"), 0);
+  if (const Value* collisions = section.find("collisions")) plan.collisions = as_count(*collisions, 1);
+  if (const Value* sample = section.find("sample")) plan.sample = as_positive(*sample);
+  plan.times = read_times(section, plan.t_max);
+  return plan;
+}
+
+}  // namespace carom::io

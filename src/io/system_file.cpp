@@ -1,0 +1,107 @@
+#include "carom/io/system_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "io/overrides.hpp"
+#include "io/read.hpp"
+
+namespace carom {
+namespace {
+
+using io::Value;
+
+const std::vector<std::string> known_sections{"table", "lattice", "field", "particles", "initial", "run"};
+const std::vector<std::string> later_sections{"potential", "interaction", "integrator"};
+
+bool contains(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+void check_sections(const Value& root) {
+  for (const io::Entry& entry : root.entries) {
+    if (entry.key == "title" || contains(known_sections, entry.key)) continue;
+    if (contains(later_sections, entry.key)) {
+      throw InputError(entry.place,
+                       "this version flies free particles only, [" + entry.key + "] is not in it",
+                       "a system without potential, interaction and integrator");
+    }
+    std::vector<std::string> names = known_sections;
+    names.emplace_back("title");
+    throw InputError(entry.place, "unknown section or key '" + entry.key + "'", "one of " + io::listed(names),
+                     nearest_name(entry.key, names));
+  }
+}
+
+// Sections that may be left out stand empty, in the order in which they are printed. Nothing is
+// added to the root afterwards, so that references into it stay valid.
+void complete_sections(Value& root) {
+  Value ordered;
+  ordered.place = root.place;
+  Value title = io::text_value("", {root.place.file, 0, 0, "title"});
+  ordered.set("title", root.find("title") != nullptr ? *root.find("title") : title);
+  for (const std::string& name : known_sections) {
+    const Value* written = root.find(name);
+    if (written == nullptr && (name == "table" || name == "lattice")) continue;
+    Value empty;
+    empty.place = {root.place.file, 0, 0, name};
+    ordered.set(name, written != nullptr ? *written : empty);
+  }
+  root = std::move(ordered);
+}
+
+std::string text_of_file(const std::string& name) {
+  const Place place{name, 0, 0, ""};
+  std::error_code error;
+  if (std::filesystem::is_directory(name, error)) throw InputError(place, "is a folder", "a TOML file");
+  errno = 0;
+  std::ifstream file(name, std::ios::binary);
+  if (!file) throw InputError(place, "cannot be read: " + std::string(std::strerror(errno)), "a TOML file");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string text_of_builtin(const std::string& name) {
+  std::vector<std::string> names;
+  for (const BuiltinSystem& system : builtin_systems()) {
+    if (system.name == name) return std::string(system.toml);
+    names.emplace_back(system.name);
+  }
+  throw InputError(Place{}, "unknown system '" + name + "'",
+                   "a file (with '/' or ending in .toml), or one of " + io::listed(names),
+                   nearest_name(name, names));
+}
+
+}  // namespace
+
+LoadedSystem read_system(std::string_view toml, const std::string& file, const SystemOverrides& overrides) {
+  Value root = io::parse_document(toml, file);
+  root.place = {file, 0, 0, ""};
+  io::apply(overrides, root);
+  check_sections(root);
+  complete_sections(root);
+  LoadedSystem loaded;
+  System& system = loaded.system;
+  system.name = file;
+  system.title = io::as_text(*root.find("title"));
+  auto table = std::make_shared<Table>(build_table(io::read_table(root)));
+  system.particles = io::read_particles(root);
+  system.initial = io::read_initial(root, *table, system.particles);
+  system.run = io::read_run(root);
+  system.table = std::move(table);
+  loaded.resolved_toml = io::print_document(root);
+  return loaded;
+}
+
+LoadedSystem load_system(const std::string& name, const SystemOverrides& overrides) {
+  const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
+  return read_system(is_file ? text_of_file(name) : text_of_builtin(name), name, overrides);
+}
+
+}  // namespace carom

@@ -1,0 +1,93 @@
+// From a specification to a table.
+#include <set>
+#include <utility>
+
+#include "table/numbers.hpp"
+#include "table/shapes.hpp"
+
+namespace carom {
+namespace shapes {
+
+void add_loop(Table& table, std::vector<NamedCurve> chain) {
+  const int first = static_cast<int>(table.walls.size());
+  const int count = static_cast<int>(chain.size());
+  for (int k = 0; k < count; ++k) {
+    NamedCurve& piece = chain[static_cast<std::size_t>(k)];
+    Wall wall;
+    wall.name = std::move(piece.name);
+    wall.curve = piece.curve;
+    wall.next = first + (k + 1) % count;
+    wall.previous = first + (k + count - 1) % count;
+    wall.corner = piece.corner;
+    table.walls.push_back(std::move(wall));
+  }
+}
+
+std::vector<std::string> numbered(const std::string& stem, std::size_t count) {
+  std::vector<std::string> names;
+  for (std::size_t k = 1; k <= count; ++k) names.push_back(stem + "_" + std::to_string(k));
+  return names;
+}
+
+}  // namespace shapes
+
+namespace {
+
+using Builder = void (*)(const TableSpec&, Table&);
+const std::pair<const char*, Builder> builders[] = {
+    {"rectangle", shapes::rectangle}, {"polygon", shapes::polygon}, {"triangle", shapes::triangle},
+    {"regular", shapes::regular},     {"circle", shapes::circle},   {"ellipse", shapes::ellipse},
+    {"annulus", shapes::annulus},     {"stadium", shapes::stadium}, {"mushroom", shapes::mushroom},
+    {"lemon", shapes::lemon},         {"sinai", shapes::sinai},     {"lorentz", shapes::lorentz},
+    {"discs", shapes::discs},         {"path", shapes::path},
+};
+
+Builder builder_of(const TableSpec& spec) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const auto& [name, builder] : builders) {
+    if (spec.shape == name) return builder;
+    names.emplace_back(name);
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  throw InputError(spec.shape_place, "unknown shape '" + spec.shape + "'", "one of " + list,
+                   nearest_name(spec.shape, names));
+}
+
+void check_names(const TableSpec& spec, const Table& table) {
+  std::set<std::string> names;
+  for (const Wall& wall : table.walls) {
+    if (!names.insert(wall.name).second) {
+      throw InputError(spec.place, "two walls are called '" + wall.name + "'", "a name of its own for each");
+    }
+  }
+}
+
+}  // namespace
+
+int Table::wall_index(const std::string& name) const {
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    if (walls[k].name == name) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+int Table::hole_index(const std::string& name) const {
+  for (std::size_t k = 0; k < holes.size(); ++k) {
+    if (holes[k].name == name) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+Table build_table(const TableSpec& spec) {
+  Table table;
+  table.shape = spec.shape;
+  builder_of(spec)(spec, table);
+  if (spec.lattice) shapes::repeat(*spec.lattice, table);
+  check_names(spec, table);
+  shapes::check_region(spec, table);
+  shapes::add_holes(spec, table);
+  return table;
+}
+
+}  // namespace carom

@@ -1,0 +1,32 @@
+// Numbers of a specification, rounded once and checked.
+#pragma once
+
+#include <string>
+
+#include "carom/geometry/vector.hpp"
+#include "carom/table/table_spec.hpp"
+
+namespace carom::shapes {
+
+/// The number under a key; a missing one is an InputError at the shape.
+const ExactNumber& number(const TableSpec& spec, const std::string& key);
+/// The same, or a value to fall back on.
+ExactNumber number_or(const TableSpec& spec, const std::string& key, const char* fallback);
+
+/// A length: finite and positive, and neither so large nor so small that its powers leave the
+/// range of doubles.
+double size_of(const ExactNumber& value, const std::string& name);
+double size(const TableSpec& spec, const std::string& key);
+/// A coordinate: any sign, bounded as a length is.
+double coordinate(const ExactNumber& value);
+geometry::Vector point(const ExactPoint& value);
+
+/// The number that an expression of other numbers means, exactly; it keeps the place of `origin`.
+ExactNumber derived(const std::string& expression, const ExactNumber& origin);
+/// "(text)" of a number, to be part of an expression.
+std::string quoted(const ExactNumber& value);
+
+/// The place of a key of the table that was not written.
+Place place_of(const TableSpec& spec, const std::string& key);
+
+}  // namespace carom::shapes

@@ -1,0 +1,7 @@
+#include "table/shapes.hpp"
+
+namespace carom::shapes {
+
+void check_region(const TableSpec&, const Table&) {}
+
+}  // namespace carom::shapes
