@@ -62,7 +62,7 @@ class Parser {
     if (byte < 0x20 || byte == 0x7f) return "control character";
     std::size_t end = at + 1;
     while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xc0) == 0x80) ++end;
-    return "'" + std::string(text_.substr(at, end - at)) + "'";
+    return std::string("'").append(text_.substr(at, end - at)).append("'");
   }
 
   // Characters are code points, counted from 1.

@@ -83,7 +83,7 @@ TEST(ExactNumber, RoundsDecimalsLikeTheCLibrary) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 20000; ++i) {
     std::string text = std::to_string(random() >> (random() % 60)) + "." + std::to_string(random());
-    text += "e" + std::to_string(static_cast<int>(random() % 680) - 350);
+    text.append("e").append(std::to_string(static_cast<int>(random() % 680) - 350));
     const double expected = std::strtod(text.c_str(), nullptr);
     if (std::isfinite(expected)) {
       ASSERT_EQ(number(text).to_double(), expected) << text;
