@@ -70,7 +70,7 @@ ExactPoint as_point(const Value& value) {
   if (value.kind != Value::Kind::list || value.items.size() != 2) {
     throw InputError(value.place,
                      value.kind == Value::Kind::list
-                         ? fmt::format("a point has two coordinates, not {}", value.items.size())
+                         ? "a point has two coordinates, not " + std::to_string(value.items.size())
                          : "must be a point, not " + name_of(value.kind),
                      "a point [x, y]");
   }
@@ -147,7 +147,8 @@ void Section::check_keys() const {
 
 Place Section::place_of(std::string_view key) const {
   Place place = table_.place;
-  place.key += (place.key.empty() ? "" : ".") + std::string(key);
+  if (!place.key.empty()) place.key += '.';
+  place.key += key;
   return place;
 }
 
