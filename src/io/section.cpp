@@ -1,8 +1,7 @@
 #include "io/section.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <utility>
 
@@ -99,7 +98,11 @@ std::string listed(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string shown(double x) { return fmt::format("{:.6g}", x); }
+std::string shown(double x) {
+  std::array<char, 32> buffer{};
+  char* const begin = buffer.data();
+  return {begin, std::to_chars(begin, begin + buffer.size(), x, std::chars_format::general, 6).ptr};
+}
 
 bool of_kind(const KeyDescription& description, std::string_view kind) {
   std::string_view kinds = description.kind;
