@@ -32,8 +32,9 @@ double as_positive(const Value& value) {
 }
 
 std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t most) {
-  const std::string expected = most == UINT64_MAX ? fmt::format("a whole number of at least {}", least)
-                                                  : fmt::format("a whole number from {} to {}", least, most);
+  const std::string expected =
+      most == UINT64_MAX ? "a whole number of at least " + std::to_string(least)
+                         : "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
   if (value.kind != Value::Kind::number && value.kind != Value::Kind::text) wrong_type(value, expected);
   std::optional<RationalText> rational;
   try {
@@ -95,7 +96,9 @@ std::vector<ExactPoint> as_points(const Value& value) {
 }
 
 std::string listed(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, ", "));
+  std::string list;
+  for (const std::string& word : words) list.append(list.empty() ? "" : ", ").append(word);
+  return list;
 }
 
 std::string shown(double x) {
