@@ -1,6 +1,7 @@
 #include "carom/geometry/exact_flight.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "algebraic_root.hpp"
 #include "carom/base/error.hpp"
@@ -88,6 +89,14 @@ Crossing rational_crossing(Dyadic p, Dyadic r) {
     c.r = -c.r;
   }
   return c;
+}
+
+double approximate(const Crossing& k) {
+  if (k.root) return approximate(*k.root);
+  constexpr int bits = 512;  // far beyond what p + q sqrt(d) can cancel between doubles
+  const auto real = [](const Dyadic& x) { return mpf_class(x.rational(), bits); };
+  const mpf_class numerator = real(k.p) + real(k.q) * sqrt(real(k.d));
+  return mpf_class(numerator / real(k.r)).get_d();
 }
 
 /// The root of a kappa^2 + 2 b kappa + c at which it rises (rising = +1) or falls (-1), if any.
@@ -332,7 +341,7 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
       const int order = best_crossing ? compare(exits[i], *best_crossing) : 1;
       if (order < 0) continue;
       const First candidate{First::Kind::exit, piece, static_cast<int>(i),
-                            exits[i].root ? approximate(*exits[i].root) : 0.0};
+                            approximate(exits[i])};
       if (order == 0) {
         // Walls before edges; two walls at one point that is no joint are a cusp.
         const bool best_edge = d.boundary.pieces[static_cast<std::size_t>(best.piece)].edge;

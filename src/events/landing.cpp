@@ -40,13 +40,7 @@ HitFinder::Landing HitFinder::land(const Flight& f, const Ahead& ahead, Decision
 }
 
 double HitFinder::error_of(const Flight& f, const Ahead& ahead) const {
-  if (is_quartic(f, ahead.piece)) {
-    Candidate q;
-    const Sign found = quartic_candidate(f, ahead.piece, stands_on(f, ahead.piece), options_.filter_inflation, q);
-    return found == Sign::positive ? q.kappa_error : HUGE_VAL;
-  }
-  const Candidate c = candidate(f, ahead.piece, stands_on(f, ahead.piece));
-  return kappa_error(c.quadratic, c.error, c.root);
+  return kappa_error_of(f, ahead.piece);
 }
 
 int HitFinder::hole_at(const Flight& f, const Ahead& ahead, double u, DecisionCounts& counts) const {

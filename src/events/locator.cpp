@@ -10,13 +10,13 @@ Locator::Locator(const Table& table)
 bool Locator::contains(Vector point) const {
   Flight flight;
   flight.start = point;
-  flight.speed = 1.0;
   // Directions of rational slope in different octants; one that meets no tie is enough.
   for (const Vector direction : {Vector{0.5625, 0.828125}, Vector{-0.875, 0.484375}, Vector{0.203125, -0.984375},
                                  Vector{-0.6875, -0.71875}, Vector{0.984375, 0.171875}, Vector{-0.09375, 0.984375}}) {
     flight.velocity = direction;
     if (domain_.table().lattice && !cell_.in_cell(flight)) return false;
     DecisionCounts counts;
+    flight.start_piece = -1;
     const Ahead leave = domain_.next(flight, counts);
     const Ahead enter = complement_.next(flight, counts);
     const bool leaves = leave.kind == Ahead::Kind::wall, enters = enter.kind == Ahead::Kind::wall;

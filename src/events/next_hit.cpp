@@ -31,41 +31,20 @@ double kappa_after(double duration, double omega) {
   return h * c / s;
 }
 
-Flight HitFinder::from_wall(int wall, double u, Vector point, Vector velocity, double speed,
-                            double omega) const {
-  Flight f;
-  const PreparedCurve& c = curves_[at(wall)];
+void HitFinder::begin_on_wall(Flight& f, int wall, double u, Vector point, Vector velocity) const {
   f.wall = wall;
   f.u = u;
   f.start = point;
-  f.start_error = c.point_error;
+  f.start_error = curves_[at(wall)].point_error;
   f.velocity = velocity;
-  f.speed = speed;
-  f.omega = omega;
-  return f;
+  f.cell = {};
+  if (table_.lattice || u == 0.0) return begin(f);
+  f.start_piece = wall;
+  f.start_previous = -1;
 }
 
 ExactFlight HitFinder::exact_flight(const Flight& f) const {
   return ExactFlight(*exact_, f.wall, f.u, f.start, f.velocity, f.omega);
-}
-
-int HitFinder::start_piece(const Flight& f) const {
-  if (f.wall < 0) return -1;
-  if (f.cell == Cell{}) return f.wall;  // the pieces begin with the walls in their own cell
-  for (std::size_t i = 0; i < data_.size(); ++i) {
-    const Cell o = offsets_[at(data_[i].offset)];
-    if (data_[i].wall == f.wall && o.first == -f.cell.first && o.second == -f.cell.second)
-      return static_cast<int>(i);
-  }
-  return -1;
-}
-
-int HitFinder::start_previous(const Flight& f) const {
-  if (f.wall < 0 || f.u != 0.0 || curves_[at(f.wall)].closed) return -1;
-  const int start = start_piece(f);
-  for (std::size_t i = 0; start >= 0 && i < data_.size(); ++i)
-    if (data_[i].next == start && static_cast<int>(i) != start) return static_cast<int>(i);
-  return -1;
 }
 
 void HitFinder::look_from(const Flight& f) const {
@@ -177,23 +156,24 @@ Sign HitFinder::on_part(const Flight& f, int piece, const Candidate& c, double i
 }
 
 template <bool larmor>
-bool HitFinder::sides(const Flight& f, int start, int previous) const {
+inline bool HitFinder::sides(const Flight& f) const {
   const Vector v = f.velocity;
   bool decided = true;
-  for (std::size_t i = 0; i < data_.size(); ++i) {
-    const Origin& origin = origins_[at(data_[i].offset)];
-    const Vector d = joints_[i] - origin.point;
+  for (const int piece : open_) {
+    const Origin& origin = origins_[at(data_[at(piece)].offset)];
+    const Vector d = joints_[at(piece)] - origin.point;
     const double side = larmor ? side_of_flight(v, d, f.omega) : 2.0 * geometry::cross(v, d);
-    const double bound = side_error(origin.scale, norm_1(d));
-    side_[i] = side > 0.0 ? 1 : -1;
-    decided &= std::fabs(side) > bound || (previous >= 0 && static_cast<int>(i) == start) || closed_[i] != 0;
+    side_[at(piece)] = side > 0.0 ? 1 : -1;
+    // The joint that the particle stands on is judged by algebra.
+    decided &= std::fabs(side) > side_error(origin.scale, norm_1(d)) ||
+               (f.start_previous >= 0 && piece == f.start_piece);
   }
   return decided;
 }
 
 /// Both joints of a piece lie on one side: does the flight leave through it all the same?
 template <bool larmor>
-Sign HitFinder::crossed_twice(const Flight& f, int piece, Candidate& c) const {
+Sign HitFinder::crossed_twice(const Flight& f, int piece) const {
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
   if (w.kind == CurveKind::segment) {
@@ -214,7 +194,7 @@ Sign HitFinder::crossed_twice(const Flight& f, int piece, Candidate& c) const {
     if (a == Sign::negative || b == Sign::negative) return Sign::negative;
     if (a == Sign::undecided || b == Sign::undecided) return Sign::undecided;
   }
-  c = candidate(f, piece, false);
+  Candidate c = candidate(f, piece, false);
   const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, c.error));
   if (cut != Sign::positive || w.kind == CurveKind::segment) return cut;
   c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
@@ -235,12 +215,22 @@ Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
 
 }  // namespace
 
+double HitFinder::kappa_error_of(const Flight& f, int piece) const {
+  const bool stands = stands_on(f, piece);
+  Candidate c;
+  if (is_quartic(f, piece))
+    return quartic_candidate(f, piece, stands, options_.filter_inflation, c) == Sign::positive ? c.kappa_error
+                                                                                               : HUGE_VAL;
+  c = candidate(f, piece, stands);
+  return kappa_error(c.quadratic, c.error, c.root);
+}
+
 template <bool larmor>
 bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
-  const int start = start_piece(f);
-  const int previous = start_previous(f);
-  if (!sides<larmor>(f, start, previous)) return false;
-  Candidate best, c;
+  if (!sides<larmor>(f)) return false;
+  const int start = f.start_piece, previous = f.start_previous;
+  int best = -1;
+  double best_kappa = 0.0, best_error = -1.0;  // negative: not computed yet
   double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
   if (larmor && f.entry >= 0) {
     const Candidate entry = candidate(f, f.entry, false);
@@ -248,65 +238,83 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
     entered = root.kappa;
     entered_error = kappa_error(-entry.quadratic, entry.error, root);
   }
-  for (int piece = 0; piece < static_cast<int>(data_.size()); ++piece) {
+  const int pieces = static_cast<int>(data_.size());
+  for (int piece = 0; piece < pieces; ++piece) {
     const PieceData& p = data_[at(piece)];
     const PreparedCurve& w = curves_[at(p.curve)];
-    const bool starts = piece == start, ends = piece == previous, stands = starts || ends;
-    c.kappa_error = -1.0;
+    const bool stands = piece == start || piece == previous;
+    double kappa = 0.0, error = -1.0;
+    if (!w.closed) {
+      const int from = piece == start && previous >= 0 ? 1 : side_[at(piece)];
+      const int to = piece == previous ? -1 : p.next == start && previous >= 0 ? 1 : side_[at(p.next)];
+      if (from > to) continue;
+      if (from == to && !stands && !(larmor && w.kind == CurveKind::ellipse)) {
+        if (!larmor && w.kind == CurveKind::segment) continue;
+        const Sign twice = crossed_twice<larmor>(f, piece);
+        if (twice == Sign::undecided) return false;
+        if (twice != Sign::positive) continue;
+      }
+    }
     if (larmor && w.kind == CurveKind::ellipse) {
+      Candidate c;
       const Sign leaves = quartic_candidate(f, piece, stands, options_.filter_inflation, c);
       if (leaves == Sign::undecided) return false;
       if (leaves != Sign::positive) continue;
-    } else if (w.closed) {
-      c = candidate(f, piece, stands);
-      if (!starts) {
-        const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, c.error));
-        if (cut == Sign::undecided) return false;
-        if (cut != Sign::positive) continue;
-      }
+      kappa = c.root.kappa;
+      error = c.kappa_error;
+    } else if (!larmor && w.kind == CurveKind::segment) {
+      const Origin& origin = origins_[at(p.offset)];
+      const Vector e = origin.point - w.from;
+      const double a = geometry::cross(w.tangent, e);
+      const double bound = line_error(origin.scale, norm_1(e)).a;
+      if (a < -bound) continue;  // behind
+      if (!(a > bound)) return false;
+      kappa = -geometry::cross(w.tangent, f.velocity) / a;
     } else {
-      const int from = starts && previous >= 0 ? 1 : side_[at(piece)];
-      const int to = ends ? -1 : p.next == start && previous >= 0 ? 1 : side_[at(p.next)];
-      if (from > 0 && to < 0) continue;
-      if (from == to && !stands) {
-        const Sign twice = crossed_twice<larmor>(f, piece, c);
-        if (twice == Sign::undecided) return false;
-        if (twice != Sign::positive) continue;
-      } else {
-        c = candidate(f, piece, stands);
+      const Quadratic<double> q = quadratic(f, piece, stands);
+      const Root root = rising_root(q);
+      kappa = root.kappa;
+      if (!larmor || (w.closed && !stands)) {
+        const QuadraticError e = quadratic_error(f, piece, stands);
+        if (w.closed && !stands) {
+          const Sign cut = sign_within(root.discriminant, discriminant_error(q, e));
+          if (cut == Sign::undecided) return false;
+          if (cut != Sign::positive) continue;
+        }
+        if (!larmor) {
+          const Sign forward = ahead_of_start(q, e);
+          if (forward == Sign::undecided) return false;
+          if (forward == Sign::negative) continue;
+        }
       }
     }
-    c.piece = piece;
-    if (!larmor) {
-      const Sign forward = ahead_of_start(c.quadratic, c.error);
-      if (forward == Sign::undecided) return false;
-      if (forward == Sign::negative) continue;
-    } else if (p.edge && f.entry >= 0) {
-      if (c.kappa_error < 0) c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
-      const Sign after = sign_within(entered - c.root.kappa, entered_error + c.kappa_error);
+    if (larmor && p.edge && f.entry >= 0) {
+      error = kappa_error_of(f, piece);
+      const Sign after = sign_within(entered - kappa, entered_error + error);
       if (after == Sign::undecided) return false;
       if (after == Sign::negative) continue;
     }
-    if (best.piece >= 0) {
-      if (best.kappa_error < 0) best.kappa_error = kappa_error(best.quadratic, best.error, best.root);
-      if (c.kappa_error < 0) c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
-      const Sign order = sign_within(c.root.kappa - best.root.kappa, c.kappa_error + best.kappa_error);
+    if (best >= 0) {
+      if (best_error < 0) best_error = kappa_error_of(f, best);
+      if (error < 0) error = kappa_error_of(f, piece);
+      const Sign order = sign_within(kappa - best_kappa, error + best_error);
       if (order == Sign::undecided) return false;
       if (order == Sign::negative) continue;
     }
-    best = c;
+    best = piece;
+    best_kappa = kappa;
+    best_error = error;
   }
-  if (best.piece >= 0) {
-    ahead.kind = data_[at(best.piece)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
-    ahead.piece = best.piece;
-    ahead.kappa = best.root.kappa;
-  }
+  ahead.piece = best;
+  ahead.root = 0;
+  ahead.kappa = best_kappa;
+  ahead.kind = best < 0 ? Ahead::Kind::none : data_[at(best)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
   return true;
 }
 
 Ahead HitFinder::exact_next(const Flight& f) const {
   const ExactFlight::First first =
-      exact_flight(f).first(all_, f.cell, f.entry, start_piece(f), start_previous(f));
+      exact_flight(f).first(all_, f.cell, f.entry, f.start_piece, f.start_previous);
   Ahead ahead;
   ahead.piece = first.piece;
   ahead.root = first.root;
@@ -328,22 +336,21 @@ Ahead HitFinder::exact_next(const Flight& f) const {
     ahead.kappa = same ? c.root.kappa : first.kappa;
   } else {
     ahead.kappa = candidate(f, ahead.piece, stands_on(f, ahead.piece)).root.kappa;
+    // A flight along a wall to the last digit: the formula in doubles may have lost the sign.
+    if (!std::isfinite(ahead.kappa) || (f.omega == 0.0 && !(ahead.kappa > 0.0))) ahead.kappa = first.kappa;
   }
   return ahead;
 }
 
-Ahead HitFinder::next(const Flight& f, DecisionCounts& counts) const {
+void HitFinder::next(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
   look_from(f);
-  Ahead ahead;
-  const bool decided = !f.exact_only && (f.omega == 0.0 ? filtered<false>(f, ahead) : filtered<true>(f, ahead));
-  if (decided) {
+  if (f.omega == 0.0 ? filtered<false>(f, ahead) : filtered<true>(f, ahead)) {
     ++counts.filter;
   } else {
     ++counts.exact;
     ahead = exact_next(f);
   }
-  if (ahead.kind != Ahead::Kind::none) ahead.duration = duration_at(ahead.kappa, f.omega);
-  return ahead;
+  ahead.duration = ahead.kind == Ahead::Kind::none ? 0.0 : duration_at(ahead.kappa, f.omega);
 }
 
 }  // namespace carom

@@ -25,10 +25,12 @@ struct Flight {
   double start_error = 0.0;
   geometry::Vector velocity;
   double omega = 0.0;
-  double speed = 0.0;
   geometry::Cell cell;         ///< the cell it is in, relative to the one of its start
   int entry = -1;              ///< edge (piece) through which it came into `cell`
-  bool exact_only = false;     ///< for tests: skip the filter
+  // Set by HitFinder::begin and cross: the piece the particle stands on, as seen from `cell` (-1: none),
+  // and, at a joint, the piece that ends there.
+  int start_piece = -1;
+  int start_previous = -1;
 };
 
 /// What lies first ahead.
@@ -48,10 +50,19 @@ class HitFinder {
                      bool complement = false);
   ~HitFinder();
 
-  Ahead next(const Flight& flight, DecisionCounts& counts) const;
+  /// Makes a flight ready whose start, velocity and omega are set: for lattices it is put into the cell
+  /// that contains its start, by exact decisions.
+  void begin(Flight& flight) const;
+  /// A flight from the exact point (wall, u), whose rounded image is `point`; omega and speed are kept.
+  void begin_on_wall(Flight& flight, int wall, double u, geometry::Vector point, geometry::Vector velocity) const;
 
-  /// Puts the flight into the cell that contains its start (lattices): exact.
-  void locate(Flight& flight) const;
+  void next(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
+  Ahead next(const Flight& flight, DecisionCounts& counts) const {
+    Ahead ahead;
+    next(flight, ahead, counts);
+    return ahead;
+  }
+
   /// Follows the flight over the edge that `ahead` names.
   void cross(Flight& flight, const Ahead& ahead) const;
 
@@ -79,9 +90,6 @@ class HitFinder {
   int wall_of(int piece) const { return data_[static_cast<std::size_t>(piece)].wall; }
   /// Unit normal at the end of a wall.
   geometry::Vector normal_at_end(int wall) const { return end_normals_[static_cast<std::size_t>(wall)]; }
-  /// A flight from the exact point (wall, u), whose rounded image is `point`.
-  Flight from_wall(int wall, double u, geometry::Vector point, geometry::Vector velocity, double speed,
-                   double omega) const;
 
  private:
   struct PieceData {
@@ -123,17 +131,17 @@ class HitFinder {
                geometry::CurveKind::ellipse;
   }
   bool stands_on(const Flight& flight, int piece) const {
-    return piece == start_piece(flight) || piece == start_previous(flight);
+    return piece == flight.start_piece || piece == flight.start_previous;
   }
   template <bool larmor>
   bool filtered(const Flight& flight, Ahead& ahead) const;
   template <bool larmor>
-  bool sides(const Flight& flight, int start, int start_previous) const;
+  bool sides(const Flight& flight) const;
   template <bool larmor>
-  Sign crossed_twice(const Flight& flight, int piece, Candidate& c) const;
+  Sign crossed_twice(const Flight& flight, int piece) const;
+  double kappa_error_of(const Flight& flight, int piece) const;
   Ahead exact_next(const Flight& flight) const;
-  int start_piece(const Flight& flight) const;
-  int start_previous(const Flight& flight) const;
+  void find_start(Flight& flight) const;
   geometry::ExactFlight exact_flight(const Flight& flight) const;
   int hole_at(const Flight& flight, const Ahead& ahead, double u, DecisionCounts& counts) const;
 
@@ -142,7 +150,7 @@ class HitFinder {
   std::vector<geometry::PreparedCurve> curves_;  // walls, then edges
   std::vector<PieceData> data_;
   std::vector<geometry::Vector> joints_;         // start of each piece in its own cell
-  std::vector<signed char> closed_;              // of each piece: has it no joint?
+  std::vector<int> open_;                        // pieces that have joints
   std::vector<geometry::Cell> offsets_;          // distinct displacements; the first is zero
   std::vector<geometry::Piece> pieces_;          // the same pieces for the exact stage
   std::vector<int> all_;

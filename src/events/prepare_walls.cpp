@@ -36,7 +36,7 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
       const int next = first_edge_ + static_cast<int>((i + 1) % cell.size());
       data_.push_back({curve, -1, 0, next, true});
       joints_.push_back(cell[i].segment.from);
-      closed_.push_back(0);
+      open_.push_back(static_cast<int>(data_.size()) - 1);
       pieces_.push_back({cell[i].segment, {}, next, true});
     }
   }
@@ -59,7 +59,7 @@ void HitFinder::add_walls(Cell offset, bool complement) {
     const int next = base + (complement ? wall.previous : wall.next);
     data_.push_back({static_cast<int>(i), static_cast<int>(i), index, next, false});
     joints_.push_back(curves_[i].from);
-    closed_.push_back(curves_[i].closed ? 1 : 0);
+    if (!curves_[i].closed) open_.push_back(static_cast<int>(data_.size()) - 1);
     pieces_.push_back({curve, offset, next, false});
   }
 }
@@ -131,17 +131,38 @@ int HitFinder::edge_crossed_at_start(const Flight& f) const {
   return -1;
 }
 
-void HitFinder::locate(Flight& f) const {
-  if (!table_.lattice || first_edge_ == static_cast<int>(data_.size())) return;
-  f.entry = -1;
-  for (;;) {
-    look_from(f);
-    const int edge = edge_crossed_at_start(f);
-    if (edge < 0) return;
-    const Cell beyond = table_.lattice->edges[at(edge - first_edge_)].beyond;
-    f.cell.first += beyond.first;
-    f.cell.second += beyond.second;
+/// The piece the particle stands on, seen from the flight's cell.
+void HitFinder::find_start(Flight& f) const {
+  f.start_piece = f.wall;  // the pieces begin with the walls in their own cell
+  f.start_previous = -1;
+  if (f.wall < 0) return;
+  if (!(f.cell == Cell{})) {
+    f.start_piece = -1;
+    for (std::size_t i = 0; i < data_.size(); ++i) {
+      const Cell o = offsets_[at(data_[i].offset)];
+      if (data_[i].wall == f.wall && o.first == -f.cell.first && o.second == -f.cell.second)
+        f.start_piece = static_cast<int>(i);
+    }
   }
+  if (f.u != 0.0 || f.start_piece < 0 || curves_[at(f.wall)].closed) return;
+  for (std::size_t i = 0; i < data_.size(); ++i)
+    if (data_[i].next == f.start_piece && static_cast<int>(i) != f.start_piece)
+      f.start_previous = static_cast<int>(i);
+}
+
+void HitFinder::begin(Flight& f) const {
+  f.entry = -1;
+  if (table_.lattice && first_edge_ < static_cast<int>(data_.size())) {
+    for (;;) {
+      look_from(f);
+      const int edge = edge_crossed_at_start(f);
+      if (edge < 0) break;
+      const Cell beyond = table_.lattice->edges[at(edge - first_edge_)].beyond;
+      f.cell.first += beyond.first;
+      f.cell.second += beyond.second;
+    }
+  }
+  find_start(f);
 }
 
 bool HitFinder::in_cell(const Flight& f) const {
@@ -157,6 +178,7 @@ void HitFinder::cross(Flight& f, const Ahead& ahead) const {
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (edges[i].beyond.first == -beyond.first && edges[i].beyond.second == -beyond.second)
       f.entry = first_edge_ + static_cast<int>(i);
+  find_start(f);
 }
 
 }  // namespace carom

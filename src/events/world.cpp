@@ -75,7 +75,7 @@ class World::Implementation {
 /// What comes next for a particle, into its queue entry.
 void World::Implementation::predict(int index) {
   Body& b = bodies[static_cast<std::size_t>(index)];
-  b.ahead = finder.next(b.flight, counts);
+  finder.next(b.flight, b.ahead, counts);
   Time when = b.state.time + b.ahead.duration;
   EventKind kind = EventKind::hit;
   switch (b.ahead.kind) {
@@ -169,11 +169,10 @@ void World::Implementation::reflect(int index, Observer& observer, const HitFind
   b.state.time = now;
   b.hits += static_cast<std::uint64_t>(reflections);
   b.last_wall = landing.wall;
-  b.flight = finder.from_wall(landing.wall, landing.u, point, after, b.particle.speed, b.particle.omega);
+  finder.begin_on_wall(b.flight, landing.wall, landing.u, point, after);
   observer.hit({index, landing.wall, landing.u, now, flight_time, b.state.position, b.state.cell, before, after,
                 reflections});
   if (b.hits >= limit) return end(index, Fate::capped, now, &observer);
-  finder.locate(b.flight);
   predict(index);
 }
 
@@ -222,22 +221,20 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   b.hits = hits;
   b.last_wall = -1;
   b.inverse_square_speed = 1.0 / (particle.speed * particle.speed);
-  const bool on_wall = state.wall >= 0;
-  if (on_wall) {
+  b.flight.omega = particle.omega;
+  if (state.wall >= 0) {
     const auto [point, normal] = w.finder.curve(state.wall).frame(state.u);
-    b.flight = w.finder.from_wall(state.wall, state.u, point, state.velocity, particle.speed, particle.omega);
-    b.state.position = b.flight.start;
+    b.state.position = point;
     DecisionCounts unused;
     if (w.finder.inward(state.wall, state.u, state.velocity, normal, unused) != Sign::positive)
       throw std::invalid_argument("the velocity does not point into the domain");
+    w.finder.begin_on_wall(b.flight, state.wall, state.u, point, state.velocity);
   } else {
     if (!contains(state.position)) throw std::invalid_argument("the point does not lie inside the table");
     b.flight.start = state.position;
     b.flight.velocity = state.velocity;
-    b.flight.speed = particle.speed;
-    b.flight.omega = particle.omega;
+    w.finder.begin(b.flight);
   }
-  w.finder.locate(b.flight);
   w.bodies.push_back(std::move(b));
   const int index = static_cast<int>(w.bodies.size()) - 1;
   w.queue.push({});

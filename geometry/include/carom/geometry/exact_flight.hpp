@@ -65,7 +65,7 @@ class ExactFlight {
     enum class Kind { none, exit, joint, cusp } kind = Kind::none;
     int piece = -1;  ///< the piece left through, or the one that starts at the joint
     int root = 0;    ///< which of the piece's exits, counted along the flight (quartics only)
-    double kappa = 0.0;  ///< rounded, quartics only: for the rare crossing that doubles cannot isolate
+    double kappa = 0.0;  ///< rounded, for the rare crossing that doubles cannot resolve
   };
   /// `entry`: the edge through which the flight came into this cell, or -1. Exits through edges
   /// before that crossing do not count. `start` tells which piece of the list, if any, is the one
