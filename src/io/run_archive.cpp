@@ -203,17 +203,18 @@ std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const Lo
   return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
 }
 
-std::unique_ptr<RunArchive> RunArchive::extend(const std::string& file, const LoadedSystem& loaded,
-                                               const Provenance& origin) {
-  const std::string part = file + ".part";
+std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const std::string& target,
+                                               const LoadedSystem& loaded, const Provenance& origin,
+                                               bool force) {
   std::error_code error;
-  std::filesystem::copy_file(file, part, std::filesystem::copy_options::overwrite_existing, error);
-  if (error) {
+  if (!std::filesystem::equivalent(source, target, error)) refuse_existing(target, force);
+  const std::string part = target + ".part";
+  if (!std::filesystem::copy_file(source, part, std::filesystem::copy_options::overwrite_existing, error)) {
+    const std::string reason = error.message();
     std::filesystem::remove(part, error);
-    throw InputError(Place{file, 0, 0, ""}, "cannot copy the archive to '" + part + "'",
-                     "a folder that can be written to and room on the disk");
+    throw InputError("cannot write '" + part + "': " + reason);
   }
-  auto made = std::make_unique<Implementation>(ArchiveFile::open(part, file), file, loaded);
+  auto made = std::make_unique<Implementation>(ArchiveFile::open(part, target), target, loaded);
   made->reopen(loaded, origin);
   made->file.start_swmr();
   return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));

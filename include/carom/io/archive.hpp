@@ -32,9 +32,10 @@ class RunArchive : public Observer {
  public:
   static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&,
                                             const Provenance&, bool force);
-  /// Goes on with a stored run: works on FILE.part, which replaces FILE when finished.
-  static std::unique_ptr<RunArchive> extend(const std::string& file, const LoadedSystem&,
-                                            const Provenance&);
+  /// Goes on with the run stored in `source`: works on a copy TARGET.part, which becomes `target`
+  /// (often the source itself) when finished.
+  static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
+                                            const LoadedSystem&, const Provenance&, bool force);
   ~RunArchive() override;
 
   void hit(const HitEvent&) override;

@@ -1,0 +1,13 @@
+// The subcommands; each returns the exit status.
+#pragma once
+
+#include "cli/options.hpp"
+
+namespace carom::cli {
+
+int systems(const Options&);
+int table(const Options&);
+int run(const Options&);
+int escape(const Options&);
+
+}  // namespace carom::cli

@@ -1,0 +1,106 @@
+#include "cli/common.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "carom/base/error.hpp"
+#include "carom/base/exact_number.hpp"
+#include "carom_version.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_interrupt(int) {
+  if (interrupted.exchange(true)) _exit(stopped);
+}
+
+Place option_place(const char* option) { return Place{"command line", 0, 0, option}; }
+
+}  // namespace
+
+std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least) {
+  const Place place = option_place(option);
+  const auto value = ExactNumber(text, place).to_rational();
+  const std::string expected = fmt::format("a whole number from {} on", least);
+  if (!value || value->denominator != "1" || value->numerator.starts_with('-'))
+    throw InputError(place, fmt::format("'{}' is not a whole number", text), expected);
+  errno = 0;
+  const std::uint64_t number = std::strtoull(value->numerator.c_str(), nullptr, 10);
+  if (errno != 0 || number < least)
+    throw InputError(place, fmt::format("{} is {}", text, errno != 0 ? "too large" : "too small"), expected);
+  return number;
+}
+
+int threads_of(const Options& options) {
+  if (options.threads.empty()) return 0;
+  const std::uint64_t threads = whole_number(options.threads, "--threads", 1);
+  if (threads > 4096)
+    throw InputError(option_place("--threads"), fmt::format("{} threads are too many", threads),
+                     "at most 4096");
+  return static_cast<int>(threads);
+}
+
+void check_engine(const Options& options) {
+  const auto refuse = [](const char* option, const std::string& value, const char* problem,
+                         const char* expected, const std::string& nearest = {}) {
+    throw InputError(option_place(option), fmt::format("'{}' {}", value, problem), expected, nearest);
+  };
+  if (options.engine == "steps")
+    refuse("--engine", "steps", "is not in this version: free particles need no steps", "auto or events");
+  if (options.engine != "auto" && options.engine != "events")
+    refuse("--engine", options.engine, "is not an engine", "auto or events",
+           nearest_name(options.engine, {"auto", "events"}));
+  if (options.isa != "auto" && options.isa != "baseline")
+    refuse("--isa", options.isa, "is not an instruction set of this version", "auto or baseline");
+  if (options.precision != "double")
+    refuse("--precision", options.precision, "is not in this version", "double");
+}
+
+Provenance provenance_of(const Options& options, int threads) {
+  return {options.line, "events", "baseline", threads};
+}
+
+void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds) {
+  json.set("version", version);
+  json.set("system", system.name);
+  json.set("seed", system.run.seed);
+  json.set("threads", threads);
+  json.set("engine", "events");
+  json.set("isa", "baseline");
+  json.set("seconds", seconds);
+  json.set("cpu_seconds", cpu_seconds);
+}
+
+void print(const std::string& text) {
+  errno = 0;
+  const bool ok = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!ok) throw InputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+}
+
+const std::atomic<bool>& catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  return interrupted;
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = fmt::format("{}", number);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, " ");
+  return digits;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,34 @@
+// What the subcommands share.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "carom/ensemble/system.hpp"
+#include "carom/io/archive.hpp"
+#include "cli/options.hpp"
+#include "io/json.hpp"
+
+namespace carom::cli {
+
+/// A whole number written in any way ("1e3"), at least `least`. Throws InputError naming the option.
+std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least);
+/// Threads asked for; 0: all.
+int threads_of(const Options&);
+/// Throws InputError for engines, instruction sets and precisions this version does not have.
+void check_engine(const Options&);
+Provenance provenance_of(const Options&, int threads);
+
+/// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.
+void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds);
+/// Writes to standard output; an output that cannot be written is an InputError.
+void print(const std::string& text);
+
+/// From now on Ctrl-C and SIGTERM set a flag; a second one ends the program at once.
+const std::atomic<bool>& catch_interrupts();
+
+/// "9 012 345".
+std::string grouped(std::uint64_t number);
+
+}  // namespace carom::cli

@@ -1,0 +1,116 @@
+#include "cli/escape_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/common.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+double exact_share(const DecisionCounts& decisions) {
+  const double all = static_cast<double>(decisions.filter) + static_cast<double>(decisions.exact);
+  return all > 0.0 ? static_cast<double>(decisions.exact) / all : 0.0;
+}
+
+std::string survival_table(const SurvivalCounts& counts) {
+  const auto points = survival(counts);
+  const auto rates = escape_rate(counts);
+  std::string text = "\n           t        p(t)   95 % interval            rate -dP/dt   95 % interval\n";
+  for (const SurvivalPoint& point : points) {
+    text += fmt::format("{:>12.6g}  {:>10.6f}   {:.6f} .. {:.6f}", point.t, point.p, point.low, point.high);
+    const auto rate = std::find_if(rates.begin(), rates.end(), [&](const RatePoint& r) { return r.to == point.t; });
+    if (rate != rates.end())
+      text += fmt::format("   {:>12.4e}   {:.3e} .. {:.3e}", rate->value, rate->low, rate->high);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string fates(const System& system, const SurvivalCounts& counts) {
+  const double all = static_cast<double>(std::max<std::uint64_t>(1, counts.trajectories));
+  std::string text = "\nFates\n";
+  const auto line = [&](const std::string& name, std::uint64_t number, const char* note, bool always) {
+    if (number == 0 && !always) return;
+    text += fmt::format("  {:<22}{:>16}  {:>9.5f} %  {}\n", name, grouped(number),
+                        100.0 * static_cast<double>(number) / all, note);
+  };
+  line("escaped", counts.escaped, "", true);
+  for (std::size_t i = 0; counts.hole_escapes.size() > 1 && i < counts.hole_escapes.size(); ++i)
+    line("  by " + system.table->holes[i].name, counts.hole_escapes[i], "", true);
+  line("survived", counts.survived, "", true);
+  line("  pinned", counts.pinned, "on cyclotron orbits that never hit", false);
+  line("  capped", counts.capped, "ended by the cap on hits", false);
+  line("singular", counts.singular, "hit a corner without a limit, or moved along a wall", false);
+  line("unbounded", counts.unbounded, "no wall follows any more", false);
+  line("lost", counts.lost, "an internal error: please report it", false);
+  return text;
+}
+
+}  // namespace
+
+Json escape_json(const System& system, const EscapeResult& result, const std::string& status,
+                 const std::string& output) {
+  const SurvivalCounts& counts = result.counts;
+  Json json = Json::object();
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  json.set("status", status);
+  json.set("trajectories", counts.trajectories);
+  json.set("escaped", counts.escaped);
+  json.set("survived", counts.survived);
+  json.set("pinned", counts.pinned);
+  json.set("capped", counts.capped);
+  json.set("singular", counts.singular);
+  json.set("unbounded", counts.unbounded);
+  json.set("lost", counts.lost);
+  json.set("collisions", counts.collisions);
+  json.set("digest", fmt::format("{:016x}", result.digest));
+  json.set("decisions", Json::object()
+                            .set("filter", result.decisions.filter)
+                            .set("exact", result.decisions.exact)
+                            .set("share", exact_share(result.decisions)));
+  Json holes = Json::array();
+  for (std::size_t i = 0; i < system.table->holes.size(); ++i)
+    holes.push(Json::object()
+                   .set("name", system.table->holes[i].name)
+                   .set("escaped", counts.hole_escapes[i]));
+  json.set("holes", std::move(holes));
+  Json by_time = Json::array(), by_hits = Json::array(), rates = Json::array();
+  for (const auto& [t, p, low, high] : survival(counts))
+    by_time.push(Json::object().set("t", t).set("p", p).set("low", low).set("high", high));
+  for (const auto& [n, p, low, high] : survival_by_hits(counts))
+    by_hits.push(Json::object().set("n", n).set("p", p).set("low", low).set("high", high));
+  for (const auto& [t, from, to, value, low, high] : escape_rate(counts))
+    rates.push(Json::object().set("t", t).set("from", from).set("to", to).set("value", value).set("low", low).set(
+        "high", high));
+  json.set("survival", std::move(by_time));
+  json.set("survival_hits", std::move(by_hits));
+  json.set("rate", std::move(rates));
+  if (!output.empty()) json.set("archive", output);
+  return json;
+}
+
+std::string escape_text(const System& system, const EscapeResult& result, const std::string& output) {
+  const SurvivalCounts& counts = result.counts;
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}\n", grouped(counts.trajectories),
+                      system.run.t_max, system.run.seed,
+                      result.complete ? "" : "  (interrupted: those that were finished)");
+  text += survival_table(counts);
+  text += fates(system, counts);
+  const double hits = static_cast<double>(counts.collisions);
+  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}: {}hits/s", grouped(counts.collisions),
+                      result.seconds, result.threads, result.threads == 1 ? "" : "s",
+                      with_prefix(hits / std::max(result.seconds, 1e-9)));
+  if (counts.collisions > 0)
+    text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
+  text += fmt::format("\ndecisions beyond double precision: {:.2g} %   digest {:016x}\n",
+                      100.0 * exact_share(result.decisions), result.digest);
+  if (!output.empty()) text += fmt::format("archive: {}\n", output);
+  return text;
+}
+
+}  // namespace carom::cli

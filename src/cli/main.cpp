@@ -1,0 +1,31 @@
+// The program. Exceptions become exit codes here and nowhere else.
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "carom/base/error.hpp"
+#include "carom/io/archive.hpp"
+#include "cli/commands.hpp"
+
+int main(int argc, char** argv) {
+  using namespace carom::cli;
+  try {
+    carom::prepare_archives();
+    const Parsed parsed = parse(argc, argv);
+    if (parsed.exit) return *parsed.exit;
+    const Options& options = parsed.options;
+    if (options.command == "escape") return escape(options);
+    if (options.command == "run") return run(options);
+    if (options.command == "table") return table(options);
+    return systems(options);
+  } catch (const carom::InputError& error) {
+    std::fprintf(stderr, "carom: %s\n", error.what());
+    return bad_input;
+  } catch (const std::bad_alloc&) {
+    std::fputs("carom: out of memory\n", stderr);
+    return bad_input;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "carom: internal error, please report it: %s\n", error.what());
+    return lost;
+  }
+}

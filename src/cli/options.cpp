@@ -1,0 +1,201 @@
+#include "cli/options.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "carom_version.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+constexpr const char* introduction =
+    "carom: classical particles in two dimensions. Free particles in billiard tables, with or without a\n"
+    "magnetic field: every wall is met exactly, nothing is stepped over.";
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  carom escape magnetic-square               survival in a square with a hole, in a few seconds\n"
+    "  carom run stadium --collisions 1000 -o orbit.h5\n"
+    "                                             one orbit, every hit in Birkhoff coordinates\n"
+    "  carom table mushroom -o mushroom.svg       area, perimeter, walls; a drawing\n"
+    "\n"
+    "SYSTEM is a built-in name (carom systems) or a TOML file (my.toml, ./my). Any key of it can be\n"
+    "changed: --set table.width=2 --set \"field.B=1/3\". carom COMMAND --help explains a command.";
+
+constexpr const char* times_help = "Report times: a,b,c or log:from:to:count or lin:from:to:count";
+
+// The options of one subcommand, all of them text: CLI11 itself would read -5 as 2^64 - 5.
+class Command {
+ public:
+  Command(CLI::App& app, Options& options, const char* name, const char* text, const char* details)
+      : app_(app.add_subcommand(name, text)), options_(options) {
+    app_->footer(details);
+    app_->add_flag("--json", options_.json, "Print one JSON object and nothing else");
+  }
+
+  Command& text(const char* name, std::string& value, const char* type, const char* help) {
+    // A value of no characters would be dropped without a word.
+    app_->add_option(name, value, help)->type_name(type)->check([name](const std::string& typed) {
+      return typed.empty() ? std::string(name) + " needs a value" : std::string();
+    });
+    return *this;
+  }
+  Command& flag(const char* name, bool& value, const char* help) {
+    app_->add_flag(name, value, help);
+    return *this;
+  }
+  Command& system(const char* name, const char* help) {
+    app_->add_option(name, options_.system, help);
+    return *this;
+  }
+  Command& settings() {
+    SystemOverrides& o = options_.overrides;
+    app_->add_option_function<std::vector<std::string>>(
+            "--set",
+            [&o](const std::vector<std::string>& typed) {
+              for (const std::string& one : typed) {
+                const std::size_t equals = one.find('=');
+                if (equals == 0 || equals == std::string::npos)
+                  throw CLI::ValidationError("--set", "'" + one + "' is not path.to.key=value");
+                o.set.emplace_back(one.substr(0, equals), one.substr(equals + 1));
+              }
+            },
+            "Change a key of the system; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false)
+        ->take_all();
+    return *this;
+  }
+  Command& common() {
+    SystemOverrides& o = options_.overrides;
+    settings();
+    flag("--force", options_.force, "Replace an output file that exists");
+    flag("--quiet", options_.quiet, "No progress on standard error");
+    text("--seed", o.seed, "N", "Seed of the random numbers");
+    text("--threads", options_.threads, "N", "Threads (default: all)");
+    text("--t-max", o.t_max, "T", "Last time");
+    text("--collisions", o.collisions, "N", "Most collisions of a trajectory");
+    text("--times", o.times, "TIMES", times_help);
+    text("--trajectories", o.trajectories, "N", "Size of the ensemble (1e6 is a number)");
+    text("--position", o.position, "X,Y", "Start; exact: 1/10,-1/5");
+    text("--velocity", o.velocity, "U,V", "Velocity of the start; its direction where a speed is set");
+    text("--engine", options_.engine, "NAME", "auto or events");
+    text("--isa", options_.isa, "NAME", "Instruction set: auto or baseline");
+    return *this;
+  }
+
+ private:
+  CLI::App* app_;
+  Options& options_;
+};
+
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$&|;<>()*?[]{}!#`") == std::string::npos;
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+void define(CLI::App& app, Options& o) {
+  Command(app, o, "escape", "Survival probability and escape rate of an ensemble",
+          "Example: carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
+          "A closed table is legal: nothing escapes. Exit status 3 if a trajectory was lost.")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .common()
+      .text("-o,--output", o.output, "FILE.h5", "Write an archive")
+      .flag("--per-trajectory", o.per_trajectory,
+            "Store start, fate, hole, time and hits of each trajectory in the archive");
+  Command(app, o, "run", "One trajectory, followed closely",
+          "Example: carom run circle --position 1/10,0 --velocity 1,2 --collisions 1e6 -o orbit.h5\n"
+          "With --collisions and without --t-max the run has no last time.\n"
+          "carom run --resume orbit.h5 --t-max 2000 goes on from where the archive ends.")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .common()
+      .text("-o,--output", o.output, "FILE.h5", "Write an archive: every hit, and samples if run.sample is set")
+      .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
+      .text("--precision", o.precision, "NAME", "double")
+      .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
+  Command(app, o, "table", "Checks, measures and draws the table",
+          "Example: carom table stadium -o stadium.svg")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .common()
+      .text("-o,--output", o.output, "FILE.svg", "Draw the table");
+  Command(app, o, "systems", "Lists the built-in systems; prints one as TOML",
+          "Example: carom systems mushroom > my-mushroom.toml")
+      .system("NAME", "Built-in system to print");
+}
+
+std::string unknown_word(const std::vector<std::string>& remaining) {
+  for (const std::string& word : remaining) {
+    if (word.empty() || word[0] == '-') continue;
+    const std::string near = nearest_name(word, {"escape", "run", "table", "systems"});
+    return "there is no command '" + word + "'" +
+           (near.empty() ? std::string() : "; did you mean '" + near + "'?");
+  }
+  return {};
+}
+
+}  // namespace
+
+Parsed parse(int argc, char** argv) {
+  Parsed parsed;
+  Options& options = parsed.options;
+  for (int i = 0; i < argc; ++i) options.line += (i ? " " : "") + quoted(i ? argv[i] : "carom");
+
+  CLI::App app(introduction, "carom");
+  app.footer(examples);
+  bool version_wanted = false;
+  app.add_flag("--version", version_wanted, "Print the version");
+  app.require_subcommand(0, 1);
+  define(app, options);
+
+  const auto complain = [&](const std::string& message) {
+    const auto chosen = app.get_subcommands();
+    const std::string command = chosen.empty() ? "carom" : "carom " + chosen.front()->get_name();
+    std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", command.c_str(), message.c_str(), command.c_str());
+    parsed.exit = usage;
+  };
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = app.get_subcommands();
+    std::fputs((chosen.empty() ? app.help() : chosen.front()->help()).c_str(), stdout);
+    parsed.exit = done;
+    return parsed;
+  } catch (const CLI::ExtrasError& error) {
+    const std::string word = app.get_subcommands().empty() ? unknown_word(app.remaining()) : std::string();
+    complain(word.empty() ? error.what() : word);
+    return parsed;
+  } catch (const CLI::ParseError& error) {
+    complain(error.what());
+    return parsed;
+  }
+  if (version_wanted) {
+    std::printf("carom %s\n", version);
+    parsed.exit = done;
+    return parsed;
+  }
+  if (app.get_subcommands().empty()) {
+    std::fputs(app.help().c_str(), stdout);
+    parsed.exit = done;
+    return parsed;
+  }
+  options.command = app.get_subcommands().front()->get_name();
+  const bool resumes = options.command == "run" && !options.resume.empty();
+  if (options.command != "systems" && options.system.empty() && !resumes)
+    complain("SYSTEM is missing: a built-in name (carom systems) or a TOML file");
+  else if (resumes && !options.system.empty())
+    complain("--resume takes the system from the archive: leave SYSTEM out");
+  else if (options.per_trajectory && options.output.empty())
+    complain("--per-trajectory writes to an archive: add -o FILE.h5");
+  return parsed;
+}
+
+}  // namespace carom::cli

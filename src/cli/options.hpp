@@ -1,0 +1,31 @@
+// What was typed, as plain text: options.cpp is the only file that knows how it is parsed.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "carom/io/system_file.hpp"
+
+namespace carom::cli {
+
+struct Options {
+  std::string command;  ///< subcommand, "" : none
+  std::string line;     ///< the whole command line, for provenance
+  std::string system;   ///< SYSTEM, or NAME of `carom systems`
+  bool json = false, force = false, quiet = false, per_trajectory = false;
+  std::string output, threads, trajectory, resume;
+  std::string engine = "auto", isa = "auto", precision = "double";
+  SystemOverrides overrides;
+};
+
+/// Reads the command line. Prints help to standard output or a complaint to standard error itself;
+/// `exit` is then set to the status.
+struct Parsed {
+  Options options;
+  std::optional<int> exit;
+};
+Parsed parse(int argc, char** argv);
+
+enum Status { done = 0, bad_input = 1, usage = 2, lost = 3, stopped = 130 };
+
+}  // namespace carom::cli

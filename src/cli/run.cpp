@@ -1,0 +1,115 @@
+// carom run: one trajectory, or several particles that do not interact.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "cli/commands.hpp"
+#include "cli/common.hpp"
+#include "cli/run_report.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+// Passes everything on and remembers how far the run is.
+class Counting : public Observer {
+ public:
+  explicit Counting(Observer* next) : next_(next) {}
+  void hit(const HitEvent& event) override {
+    ++hits;
+    time = event.time.value();
+    if (next_) next_->hit(event);
+  }
+  void sample(int particle, Time at, const State& state) override {
+    if (next_) next_->sample(particle, at, state);
+  }
+  std::uint64_t hits = 0;
+  double time = 0.0;
+
+ private:
+  Observer* next_;
+};
+
+// A run that is asked for a number of collisions has no last time, unless that is asked for too.
+SystemOverrides run_overrides(const Options& options) {
+  SystemOverrides overrides = options.overrides;
+  if (!overrides.collisions.empty() && overrides.t_max.empty()) overrides.t_max = "1e300";
+  return overrides;
+}
+
+void refuse_going_back(const System& system, const StoredRun& stored) {
+  const bool more_hits = system.run.collisions == 0;
+  for (const ParticleProgress& p : stored.particles) {
+    if (p.state.time > Time(system.run.t_max) ||
+        (p.fate == Fate::survived && p.end > Time(system.run.t_max)))
+      throw InputError(Place{"command line", 0, 0, "--t-max"},
+                       fmt::format("the stored run has already reached t = {}", p.end.value()),
+                       "a later time");
+    if (!more_hits && p.hits > system.run.collisions)
+      throw InputError(Place{"command line", 0, 0, "--collisions"},
+                       fmt::format("the stored run has already {} collisions", p.hits), "a larger number");
+  }
+}
+
+}  // namespace
+
+int run(const Options& options) {
+  check_engine(options);
+  threads_of(options);  // one trajectory takes one thread; a wrong number is an error all the same
+  SingleRunOptions how;
+  if (!options.trajectory.empty()) how.trajectory = whole_number(options.trajectory, "--trajectory", 0);
+
+  LoadedSystem loaded;
+  std::unique_ptr<RunArchive> archive;
+  std::string output = options.output;
+  const Provenance origin = provenance_of(options, 1);
+  if (options.resume.empty()) {
+    loaded = load_system(options.system, run_overrides(options));
+    if (!output.empty()) archive = RunArchive::create(output, loaded, origin, options.force);
+  } else {
+    const StoredRun stored = read_run(options.resume);
+    loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
+    loaded.system.name = stored.system_name;
+    how.resume = stored.particles;
+    refuse_going_back(loaded.system, stored);
+    if (output.empty()) output = options.resume;
+    archive = RunArchive::extend(options.resume, output, loaded, origin, options.force);
+  }
+  const System& system = loaded.system;
+  const std::atomic<bool>& interrupted = catch_interrupts();
+
+  Counting counting(archive.get());
+  SingleRunResult result;
+  {
+    Progress progress(!options.quiet);
+    how.interrupted = [&] {
+      if (progress.due()) {
+        const double by_time = counting.time / system.run.t_max;
+        const double by_hits = system.run.collisions == 0
+                                   ? 0.0
+                                   : static_cast<double>(counting.hits) /
+                                         (static_cast<double>(system.run.collisions) *
+                                          static_cast<double>(system.particles.size()));
+        progress.show(by_time > by_hits ? by_time : by_hits,
+                      with_prefix(static_cast<double>(counting.hits) / progress.seconds()) + "hits/s");
+      }
+      return interrupted.load(std::memory_order_relaxed);
+    };
+    result = run_single(system, counting, how);
+  }
+  const std::string status = run_status(result);
+  if (archive) archive->finish(result, status);
+
+  for (const ParticleEnd& particle : result.particles)
+    if (particle.progress.fate == Fate::lost) std::fprintf(stderr, "carom: %s\n", particle.report.c_str());
+  print(options.json ? run_json(system, result, status, output).text() + "\n"
+                     : run_text(system, result, status, output));
+  if (status == name_of(Fate::lost)) return lost;
+  return result.interrupted ? stopped : done;
+}
+
+}  // namespace carom::cli

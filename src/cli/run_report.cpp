@@ -1,0 +1,103 @@
+#include "cli/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/common.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+std::string status_of(const ParticleEnd& particle, bool interrupted) {
+  switch (particle.progress.fate) {
+    case Fate::survived: return interrupted ? "interrupted" : "completed";
+    case Fate::capped: return "completed";
+    default: return name_of(particle.progress.fate);
+  }
+}
+
+std::string wall_of(const System& system, const ParticleEnd& particle) {
+  const int wall = particle.progress.last_wall;
+  return wall < 0 ? std::string() : system.table->walls[static_cast<std::size_t>(wall)].name;
+}
+
+void add_end(Json& json, const System& system, const ParticleEnd& particle) {
+  const std::string wall = wall_of(system, particle);
+  json.set("wall", wall.empty() ? Json() : Json(wall));
+  json.set("t", particle.t);
+  json.set("x", particle.x);
+  json.set("y", particle.y);
+  json.set("vx", particle.vx);
+  json.set("vy", particle.vy);
+  json.set("cell", Json::array().push(particle.cell.first).push(particle.cell.second));
+  json.set("energy_error", particle.energy_error);
+  const int hole = particle.progress.hole;
+  if (hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(hole)].name);
+}
+
+std::string end_text(const System& system, const ParticleEnd& particle, bool interrupted) {
+  std::string text = fmt::format("  status        {}", status_of(particle, interrupted));
+  const int hole = particle.progress.hole;
+  if (hole >= 0) text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(hole)].name);
+  text += fmt::format("\n  collisions    {}", grouped(particle.progress.hits));
+  const std::string wall = wall_of(system, particle);
+  if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
+  text += fmt::format("\n  t             {}\n  position      {}, {}", particle.t, particle.x, particle.y);
+  if (system.table->lattice) text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
+  text += fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g}\n", particle.vx, particle.vy,
+                      particle.energy_error);
+  return text;
+}
+
+}  // namespace
+
+std::string run_status(const SingleRunResult& result) {
+  if (result.particles.size() == 1) return status_of(result.particles.front(), result.interrupted);
+  const bool any_lost = std::any_of(result.particles.begin(), result.particles.end(), [](const auto& p) {
+    return p.progress.fate == Fate::lost;
+  });
+  return any_lost ? name_of(Fate::lost) : result.interrupted ? "interrupted" : "completed";
+}
+
+Json run_json(const System& system, const SingleRunResult& result, const std::string& status,
+              const std::string& output) {
+  Json json = Json::object();
+  add_common_keys(json, system, 1, result.seconds, result.cpu_seconds);
+  json.set("status", status);
+  json.set("collisions", result.collisions);
+  if (result.particles.size() == 1) {
+    add_end(json, system, result.particles.front());
+  } else {
+    Json particles = Json::array();
+    for (const ParticleEnd& particle : result.particles) {
+      Json one = Json::object();
+      one.set("status", status_of(particle, result.interrupted));
+      one.set("collisions", particle.progress.hits);
+      add_end(one, system, particle);
+      particles.push(std::move(one));
+    }
+    json.set("particles", std::move(particles));
+  }
+  if (!output.empty()) json.set("archive", output);
+  return json;
+}
+
+std::string run_text(const System& system, const SingleRunResult& result, const std::string& status,
+                     const std::string& output) {
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  for (std::size_t i = 0; i < result.particles.size(); ++i) {
+    if (result.particles.size() > 1) text += fmt::format("particle {}\n", i);
+    text += end_text(system, result.particles[i], result.interrupted);
+  }
+  if (result.particles.size() > 1)
+    text += fmt::format("{}: {} collisions\n", status, grouped(result.collisions));
+  text += fmt::format("  computed in   {:.3g} s\n", result.seconds);
+  if (!output.empty()) text += fmt::format("  archive       {}\n", output);
+  return text;
+}
+
+}  // namespace carom::cli

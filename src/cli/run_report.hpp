@@ -1,0 +1,18 @@
+// The end of a run for machines and for people.
+#pragma once
+
+#include <string>
+
+#include "carom/ensemble/single_run.hpp"
+#include "io/json.hpp"
+
+namespace carom::cli {
+
+/// completed, escaped, singular, unbounded, pinned, interrupted or lost; of several particles, lost
+/// if one is, else completed.
+std::string run_status(const SingleRunResult&);
+Json run_json(const System&, const SingleRunResult&, const std::string& status, const std::string& output);
+std::string run_text(const System&, const SingleRunResult&, const std::string& status,
+                     const std::string& output);
+
+}  // namespace carom::cli

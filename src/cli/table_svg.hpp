@@ -1,0 +1,12 @@
+// A drawing of a table: walls, holes, names.
+#pragma once
+
+#include <string>
+
+#include "carom/table/table.hpp"
+
+namespace carom::cli {
+
+std::string table_svg(const Table&, const std::string& title);
+
+}  // namespace carom::cli
