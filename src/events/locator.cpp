@@ -14,7 +14,8 @@ bool Locator::contains(Vector point) const {
   for (const Vector direction : {Vector{0.5625, 0.828125}, Vector{-0.875, 0.484375}, Vector{0.203125, -0.984375},
                                  Vector{-0.6875, -0.71875}, Vector{0.984375, 0.171875}, Vector{-0.09375, 0.984375}}) {
     flight.velocity = direction;
-    if (domain_.table().lattice && !cell_.in_cell(flight)) return false;
+    // A point on an edge of the cell is in it when one looks inwards.
+    if (domain_.table().lattice && !cell_.in_cell(flight)) continue;
     DecisionCounts counts;
     flight.start_piece = -1;
     const Ahead leave = domain_.next(flight, counts);
