@@ -1,0 +1,115 @@
+#include <cmath>
+
+#include "spec.hpp"
+
+namespace carom::tests {
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+const TableSpec square = shape("rectangle", {{"width", "1"}, {"height", "1"}});
+const TableSpec circle = shape("circle", {{"radius", "1"}});
+const TableSpec ellipse = shape("ellipse", {{"a", "1"}, {"b", "3/4"}});
+
+double length_to(const Table& table, const Hole& hole, double u) {
+  const geometry::Curve& curve = table.walls[static_cast<std::size_t>(hole.wall)].curve;
+  return geometry::arc_length_at(curve, u);
+}
+
+TEST(Holes, LieAtTheirArcLength) {
+  const TableSpec tables[] = {
+      with_hole(shape("rectangle", {{"width", "3"}, {"height", "1"}}), "top", "1.3", "0.4"),
+      with_hole(circle, "circle", "1.3", "0.4"), with_hole(ellipse, "ellipse", "1.3", "0.4"),
+      with_hole(shape("stadium", {{"half_length", "1"}, {"radius", "1"}}), "left", "1.3", "0.4"),
+      with_hole(shape("sinai", {{"side", "1"}, {"radius", "0.4"}}), "disc", "1.3", "0.4")};
+  for (const TableSpec& spec : tables) {
+    const Table table = build_table(spec);
+    ASSERT_EQ(table.holes.size(), 1u);
+    const Hole& hole = table.holes[0];
+    EXPECT_EQ(hole.name, "hole_1");
+    EXPECT_NEAR(length_to(table, hole, hole.from), 1.1, 1e-15);
+    EXPECT_NEAR(length_to(table, hole, hole.to), 1.5, 1e-15);
+    EXPECT_EQ(table.walls[static_cast<std::size_t>(hole.wall)].holes, std::vector<int>{0});
+  }
+}
+
+TEST(Holes, RunAlongTheWallWithTheDomainOnTheLeft) {
+  // The top wall runs to -x: arc length 1/4 is x = 3/4.
+  const Table table = build_table(with_hole(square, "top", "1/4", "1/8"));
+  const geometry::Curve& top = table.walls[static_cast<std::size_t>(table.wall_index("top"))].curve;
+  EXPECT_EQ(geometry::point_at(top, table.holes[0].from), (geometry::Vector{0.8125, 1}));
+  // An obstacle's circle runs clockwise from angle 0: a quarter of it ends at the bottom.
+  const Table disc =
+      build_table(with_hole(shape("sinai", {{"side", "2"}, {"radius", "1/2"}}), "disc", "pi/4", "pi/4"));
+  const geometry::Vector middle = geometry::point_at(disc.walls[0].curve, 1.0);
+  EXPECT_EQ(middle, (geometry::Vector{1, 0.5}));
+}
+
+TEST(Holes, RoundTheirEndsOnce) {
+  const Table table =
+      build_table(with_hole(with_hole(square, "bottom", "0.1", "0.2"), "bottom", "0.3", "0.2"));
+  EXPECT_EQ(table.holes[0].from, 0.0);
+  EXPECT_EQ(table.holes[0].to, 0.2);
+  EXPECT_EQ(table.holes[1].from, 0.2);  // neighbours share the end, which belongs to the second
+  EXPECT_EQ(table.holes[1].to, 0.4);
+}
+
+TEST(Holes, MayFillTheirWall) {
+  const Table straight = build_table(with_hole(square, "right", "1/2", "1"));
+  EXPECT_EQ(straight.holes[0].from, 0.0);
+  EXPECT_EQ(straight.holes[0].to, 1.0);
+  const Table cap = build_table(
+      with_hole(shape("stadium", {{"half_length", "1"}, {"radius", "1/3"}}), "right", "pi/6", "pi/3"));
+  EXPECT_EQ(cap.holes[0].from, 0.0);
+  EXPECT_EQ(cap.holes[0].to, geometry::end_parameter(cap.walls[1].curve));
+  const Table all = build_table(with_hole(circle, "circle", "0", "2*pi"));
+  ASSERT_EQ(all.holes.size(), 1u);
+  EXPECT_EQ(all.holes[0].from, 0.0);
+  EXPECT_EQ(all.holes[0].to, 4.0);
+}
+
+TEST(Holes, WrapPastTheStartOfAClosedCurve) {
+  for (const char* center : {"0.1", "2*pi-0.1"}) {
+    const Table table = build_table(with_hole(circle, "circle", center, "0.6", "door"));
+    ASSERT_EQ(table.holes.size(), 2u);
+    EXPECT_EQ(table.holes[0].name, "door");
+    EXPECT_EQ(table.holes[1].name, "door");
+    EXPECT_EQ(table.hole_index("door"), 0);
+    const double width = length_to(table, table.holes[0], table.holes[0].to) -
+                         length_to(table, table.holes[0], table.holes[0].from) +
+                         length_to(table, table.holes[1], table.holes[1].to) -
+                         length_to(table, table.holes[1], table.holes[1].from);
+    EXPECT_NEAR(width, 0.6, 1e-14);
+    EXPECT_EQ(table.holes[0].to, 4.0);
+    EXPECT_EQ(table.holes[1].from, 0.0);
+    EXPECT_EQ(table.walls[0].holes, (std::vector<int>{1, 0}));  // in the order of the parameter
+  }
+}
+
+TEST(Holes, FaultsAreFoundAtTheirPlace) {
+  EXPECT_EQ(fault(with_hole(square, "botom", "1/2", "0.1")),
+            "test.toml, line 21, column 8: table.hole[0].wall: unknown wall 'botom' (expected one of bottom, "
+            "right, top, left; did you mean 'bottom'?)");
+  EXPECT_HAS(fault(with_hole(square, "top", "1/2", "1.1")),
+             "table.hole[0].width: the hole is wider than its wall");
+  EXPECT_HAS(fault(with_hole(circle, "circle", "1", "6.3")), "the hole is wider than its wall");
+  EXPECT_HAS(fault(with_hole(square, "top", "0.05", "0.2")),
+             "table.hole[0].center: the hole reaches over the end");
+  EXPECT_HAS(fault(with_hole(square, "top", "0.95", "0.2")), "reaches over the end of its wall 'top'");
+  EXPECT_HAS(fault(with_hole(circle, "circle", "-1", "0.2")), "not on the wall");
+  EXPECT_HAS(fault(with_hole(circle, "circle", "7", "0.2")), "not on the wall");
+  for (const char* width : {"0", "-0.1"}) {
+    EXPECT_HAS(fault(with_hole(square, "top", "1/2", width)), "must be positive");
+  }
+  EXPECT_HAS(fault(with_hole(square, "top", "1/2", "1e-20")), "too narrow");
+  const TableSpec overlap = with_hole(with_hole(square, "top", "0.5", "0.2", "a"), "top", "0.6", "0.1", "b");
+  EXPECT_HAS(fault(overlap), "table.hole[1].center: the hole 'b' overlaps 'a' on wall 'top'");
+  EXPECT_HAS(fault(with_hole(with_hole(circle, "circle", "0", "1"), "circle", "6", "0.1")),
+             "overlaps 'hole_1'");
+  EXPECT_HAS(fault(with_hole(with_hole(square, "top", "0.2", "0.2", "a"), "left", "0.6", "0.1", "a")),
+             "two holes are called 'a'");
+  EXPECT_EQ(fault(with_hole(with_hole(square, "top", "0.2", "0.2"), "top", "0.6", "0.1")), "no fault");
+}
+
+}  // namespace
+}  // namespace carom::tests
