@@ -25,6 +25,12 @@ class AlgebraicRoot {
 /// The real roots at which the polynomial rises through zero, from the largest to the smallest.
 /// Roots of even multiplicity are touched, not passed, and are left out.
 std::vector<AlgebraicRoot> rising_roots(const Polynomial& polynomial);
+/// All real roots with their multiplicities, ascending. The polynomial must not vanish identically.
+struct RealRoot {
+  AlgebraicRoot value;
+  int multiplicity;
+};
+std::vector<RealRoot> real_roots(const Polynomial& polynomial);
 /// -1, 0, 1 as a < b, a = b, a > b.
 int compare(const AlgebraicRoot& a, const AlgebraicRoot& b);
 int compare(const AlgebraicRoot& a, const mpq_class& b);

@@ -131,13 +131,15 @@ Box bounding_box(const Curve& curve) {
   return box;
 }
 
+double area_beyond_chord(const CurveFrame& f) {
+  if (f.kind == Kind::segment) return 0.0;
+  const double product = f.turn * (f.major * f.minor);
+  return f.kind == Kind::closed ? product * std::numbers::pi : 0.5 * product * angle_minus_sine(f.end);
+}
+
 double area_integral(const Curve& curve) {
   const Vector from = start_point(curve), to = end_point(curve);
-  if (std::holds_alternative<Segment>(curve)) return 0.5 * cross(from, to);
-  const CurveFrame f = frame_of(curve);
-  const double product = f.turn * (f.major * f.minor);
-  if (f.kind == Kind::closed) return product * std::numbers::pi;
-  return 0.5 * cross(from, to) + 0.5 * product * angle_minus_sine(f.end);
+  return 0.5 * cross(from, to) + area_beyond_chord(frame_of(curve));
 }
 
 }  // namespace carom::geometry

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "exact_curve.hpp"
+#include "exact_end.hpp"
 #include "rational.hpp"
 
 namespace carom::geometry {
@@ -25,24 +26,9 @@ DyadicVector form(const Metric& m, const DyadicVector& f) {
   return {along * m.p.x + across * q.x, along * m.p.y + across * q.y};
 }
 
-/// Parameter of `to`: with e = to - centre, w = Y/(1 + X) in the frame of its quarter, an exact
-/// rational number.
-mpq_class exact_end(const ExactCurve& c, const DyadicVector& quarter) {
-  Dyadic x = c.metric.scale * c.metric(c.end, c.start);
-  Dyadic y = c.metric(c.end, quarter);
-  const Dyadic r2 = c.metric.scale * c.r2;
-  int n = 0;
-  while (!(x.sign() > 0 && y.sign() >= 0)) {
-    const Dyadic previous = x;
-    x = y;
-    y = -previous;
-    if (++n > 3) throw std::logic_error("the end of an arc lies on no quarter");
-  }
-  return n + y.rational() / mpq_class(r2.rational() + x.rational());
-}
-
 void set_end(CurveFrame& f, const ExactCurve& c, const DyadicVector& quarter) {
-  const mpq_class end = exact_end(c, quarter);
+  const ExactEnd exact_end = end_of(c, quarter);
+  const mpq_class end = exact_end.quarter + exact_end.w;
   if (sgn(end) == 0) throw std::invalid_argument("an arc starts and ends at the same point");
   f.last = largest_below(end);
   // Rounded upwards: u < end exactly when the point at u lies before the end.
@@ -136,6 +122,21 @@ struct Frames {
 };
 
 }  // namespace
+
+ExactEnd end_of(const ExactCurve& c, const DyadicVector& quarter) {
+  // With e = to - centre, w = Y/(1 + X) in the frame of its quarter.
+  Dyadic x = c.metric.scale * c.metric(c.end, c.start);
+  Dyadic y = c.metric(c.end, quarter);
+  const Dyadic r2 = c.metric.scale * c.r2;
+  int n = 0;
+  while (!(x.sign() > 0 && y.sign() >= 0)) {
+    const Dyadic previous = x;
+    x = y;
+    y = -previous;
+    if (++n > 3) throw std::logic_error("the end of an arc lies on no quarter");
+  }
+  return {n, y.rational() / mpq_class(r2.rational() + x.rational())};
+}
 
 CurveFrame frame_of(const Curve& curve) { return std::visit(Frames{}, curve); }
 

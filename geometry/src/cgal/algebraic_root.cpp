@@ -12,6 +12,7 @@ namespace {
 
 using Kernel = CGAL::Algebraic_kernel_d_1<CORE::BigInt>;
 using IntegerPolynomial = Kernel::Polynomial_1;
+using CommonFactor = CGAL::Polynomial_traits_d<IntegerPolynomial>::Gcd_up_to_constant_factor;
 
 const Kernel& kernel() {
   static const Kernel instance;
@@ -55,6 +56,18 @@ std::vector<AlgebraicRoot> rising_roots(const Polynomial& polynomial) {
   return {rising.rbegin(), rising.rend()};
 }
 
+std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
+  const IntegerPolynomial p = integer_polynomial(polynomial);
+  std::vector<RealRoot> result;
+  if (p.degree() < 1) return result;
+  std::vector<std::pair<Kernel::Algebraic_real_1, Kernel::Multiplicity_type>> roots;
+  kernel().solve_1_object()(p, std::back_inserter(roots));
+  for (const auto& [value, multiplicity] : roots)
+    result.push_back({AlgebraicRoot(std::make_shared<const AlgebraicRoot::Data>(AlgebraicRoot::Data{value})),
+                      static_cast<int>(multiplicity)});
+  return result;
+}
+
 int compare(const AlgebraicRoot& a, const AlgebraicRoot& b) {
   return static_cast<int>(kernel().compare_1_object()(a.data().value, b.data().value));
 }
@@ -65,7 +78,25 @@ int compare(const AlgebraicRoot& a, const mpq_class& b) {
 }
 
 int sign_at(const Polynomial& polynomial, const AlgebraicRoot& root) {
-  return static_cast<int>(kernel().sign_at_1_object()(integer_polynomial(polynomial), root.data().value));
+  // The kernel's own Sign_at_1 (5.5.1) fails when its refinement happens to hit a rational root
+  // exactly: its interval is then a point, which its next step does not allow.
+  const IntegerPolynomial p = integer_polynomial(polynomial);
+  const Kernel::Algebraic_real_1& value = root.data().value;
+  if (CGAL::is_zero(p)) return 0;
+  if (CGAL::degree(p) == 0) return static_cast<int>(CGAL::sign(p.lcoeff()));
+  if (value.low() != value.high()) {
+    const IntegerPolynomial common = CommonFactor{}(p, value.polynomial());
+    if (common.sign_at(value.low()) != common.sign_at(value.high())) return 0;
+  }
+  while (value.low() != value.high()) {
+    const auto low = p.sign_at(value.low()), high = p.sign_at(value.high());
+    IntegerPolynomial copy = p;
+    if (low != CGAL::ZERO && high != CGAL::ZERO &&
+        CGAL::internal::descartes(copy, value.low(), value.high()) == 0)
+      return static_cast<int>(low);
+    value.refine();
+  }
+  return static_cast<int>(p.sign_at(value.low()));
 }
 
 double approximate(const AlgebraicRoot& root) { return CGAL::to_double(root.data().value); }

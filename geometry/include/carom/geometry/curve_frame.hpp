@@ -39,5 +39,7 @@ double curvature_at(const CurveFrame&, double u);
 double length(const CurveFrame&);
 double arc_length_at(const CurveFrame&, double u);
 double parameter_at_length(const CurveFrame&, double s);
+/// Signed area between the curve and the chord from its start to its end.
+double area_beyond_chord(const CurveFrame&);
 
 }  // namespace carom::geometry

@@ -1,0 +1,38 @@
+// All pairs of boxes that overlap, by a sweep along the direction in which they spread most.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "carom/geometry/curve.hpp"
+
+namespace carom::geometry {
+
+/// Calls report(i, j) once for each pair; stops when it answers false.
+template <class Report>
+void overlapping_boxes(const std::vector<Box>& boxes, const Report& report) {
+  if (boxes.empty()) return;
+  Box whole = boxes.front();
+  for (const Box& b : boxes) {
+    whole.low = {std::min(whole.low.x, b.low.x), std::min(whole.low.y, b.low.y)};
+    whole.high = {std::max(whole.high.x, b.high.x), std::max(whole.high.y, b.high.y)};
+  }
+  const bool along_x = whole.high.x - whole.low.x >= whole.high.y - whole.low.y;
+  const auto low = [&](std::size_t i) { return along_x ? boxes[i].low.x : boxes[i].low.y; };
+  const auto high = [&](std::size_t i) { return along_x ? boxes[i].high.x : boxes[i].high.y; };
+  const auto beside = [&](std::size_t i, std::size_t j) {
+    return along_x ? boxes[i].low.y <= boxes[j].high.y && boxes[j].low.y <= boxes[i].high.y
+                   : boxes[i].low.x <= boxes[j].high.x && boxes[j].low.x <= boxes[i].high.x;
+  };
+  std::vector<std::size_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return low(i) < low(j) || (low(i) == low(j) && i < j); });
+  for (std::size_t m = 0; m < order.size(); ++m)
+    for (std::size_t n = m + 1; n < order.size() && low(order[n]) <= high(order[m]); ++n)
+      if (beside(order[m], order[n]) && !report(order[m], order[n])) return;
+}
+
+}  // namespace carom::geometry

@@ -1,0 +1,396 @@
+// The check of a region: closed, simple, oriented, nested.
+#include "carom/geometry/region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <tuple>
+
+#include "carom/geometry/curve_frame.hpp"
+#include "contact.hpp"
+#include "exact_loop.hpp"
+#include "overlapping_boxes.hpp"
+
+namespace carom::geometry {
+
+namespace {
+
+std::string text(Vector p) {
+  char buffer[80];
+  std::snprintf(buffer, sizeof buffer, "(%.4g, %.4g)", p.x, p.y);
+  return buffer;
+}
+
+bool is_finite(const Curve& curve) {
+  const auto sound = [](auto... v) { return (std::isfinite(v) && ...); };
+  struct {
+    decltype(sound)& all;
+    bool operator()(const Segment& s) const { return all(s.from.x, s.from.y, s.to.x, s.to.y); }
+    bool operator()(const CircularArc& a) const { return all(a.from.x, a.from.y, a.to.x, a.to.y, a.offset); }
+    bool operator()(const Circle& c) const { return all(c.centre.x, c.centre.y, c.radius); }
+    bool operator()(const EllipticArc& a) const {
+      return all(a.from.x, a.from.y, a.to.x, a.to.y, a.axis.x, a.axis.y, a.ratio, a.offset);
+    }
+    bool operator()(const Ellipse& e) const {
+      return all(e.centre.x, e.centre.y, e.axis.x, e.axis.y, e.ratio);
+    }
+  } const visitor{sound};
+  return std::visit(visitor, curve);
+}
+
+/// One piece, as itself (copy 0) or repeated by the lattice.
+struct Item {
+  std::size_t loop, piece, copy;
+};
+
+class Check {
+ public:
+  Check(const std::vector<Loop>& loops, RegionKind kind, const std::optional<Lattice>& lattice,
+        std::size_t limit)
+      : loops_(loops), kind_(kind), lattice_(lattice), limit_(limit) {}
+
+  std::vector<RegionFault> run() {
+    for (const Loop& loop : loops_) extent(loop);
+    if (faults_.empty())
+      for (const Loop& loop : loops_) closed(loop);
+    if (faults_.empty()) {
+      place_boxes();
+      meetings();
+      if (!crossed()) orientations();
+      if (faults_.empty()) nesting();
+    }
+    return std::move(faults_);
+  }
+
+ private:
+  using Kind = RegionFault::Kind;
+
+  void fault(Kind kind, const std::string& first, const std::string& second, Vector place,
+             const std::string& sentence) {
+    if (faults_.size() < limit_) faults_.push_back({kind, first, second, place, sentence});
+  }
+  bool full() const { return faults_.size() >= limit_; }
+  bool crossed() const {
+    return std::any_of(faults_.begin(), faults_.end(),
+                       [](const RegionFault& f) { return f.kind == Kind::crossing; });
+  }
+
+  void extent(const Loop& loop) {
+    for (const NamedCurve& c : loop) {
+      if (!is_finite(c.curve)) {
+        fault(Kind::no_extent, c.name, "", {}, "wall '" + c.name + "' has a number that is not finite");
+        continue;
+      }
+      try {
+        frame_of(c.curve);
+      } catch (const std::invalid_argument& e) {
+        fault(Kind::no_extent, c.name, "", start_point(c.curve), "wall '" + c.name + "': " + e.what());
+      }
+    }
+  }
+
+  void closed(const Loop& loop) {
+    if (loop.empty()) fault(Kind::open_loop, "", "", {}, "a loop without walls");
+    if (loop.size() == 1 && !loop.empty() && is_closed(loop[0].curve)) return;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const NamedCurve &c = loop[i], &next = loop[i + 1 == loop.size() ? 0 : i + 1];
+      const Vector end = end_point(c.curve), start = start_point(next.curve);
+      if (is_closed(c.curve)) {
+        fault(Kind::open_loop, c.name, "", end,
+              "wall '" + c.name + "' is closed by itself and cannot be a part of a loop");
+      } else if (!is_closed(next.curve) && end != start) {
+        fault(Kind::open_loop, c.name, next.name, end,
+              "the loop is open: wall '" + c.name + "' ends at " + text(end) + ", but '" + next.name +
+                  "' starts at " + text(start));
+      }
+    }
+  }
+
+  void place_boxes() {
+    Box whole{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    for (std::size_t l = 0; l < loops_.size(); ++l) {
+      loop_boxes_.push_back(whole_of(loops_[l]));
+      whole.low = {std::fmin(whole.low.x, loop_boxes_[l].low.x),
+                   std::fmin(whole.low.y, loop_boxes_[l].low.y)};
+      whole.high = {std::fmax(whole.high.x, loop_boxes_[l].high.x),
+                    std::fmax(whole.high.y, loop_boxes_[l].high.y)};
+    }
+    if (kind_ == RegionKind::lattice && lattice_ && !loops_.empty()) find_copies(whole);
+    for (std::size_t copy = 0; copy < copies_.size(); ++copy)
+      for (std::size_t l = 0; l < loops_.size(); ++l)
+        for (std::size_t p = 0; p < loops_[l].size(); ++p) {
+          const Box box = bounding_box(loops_[l][p].curve);
+          const Box there = copy == 0 ? box : moved(box, lattice_->translation(copies_[copy]));
+          if (copy != 0 && !overlap(there, whole)) continue;
+          items_.push_back({l, p, copy});
+          boxes_.push_back(there);
+        }
+  }
+
+  Box whole_of(const Loop& loop) const {
+    Box whole{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    for (const NamedCurve& c : loop) {
+      const Box b = bounding_box(c.curve);
+      whole.low = {std::fmin(whole.low.x, b.low.x), std::fmin(whole.low.y, b.low.y)};
+      whole.high = {std::fmax(whole.high.x, b.high.x), std::fmax(whole.high.y, b.high.y)};
+    }
+    return whole;
+  }
+
+  /// Half of the cells that could bring something of the whole onto itself: c and -c tell the same.
+  void find_copies(const Box& whole) {
+    const Vector a = lattice_->first, b = lattice_->second, size = whole.high - whole.low;
+    const double area = lattice_->cell_area();
+    const auto count = [&](Vector other) {
+      return 1.0 + std::floor((size.x * std::fabs(other.y) + size.y * std::fabs(other.x)) / area);
+    };
+    const auto first = static_cast<std::int64_t>(count(b)), second = static_cast<std::int64_t>(count(a));
+    for (std::int64_t i = 0; i <= first; ++i)
+      for (std::int64_t j = -second; j <= second; ++j) {
+        if (i == 0 && j <= 0) continue;
+        if (overlap(moved(whole, lattice_->translation({i, j})), whole)) copies_.push_back({i, j});
+      }
+  }
+
+  DyadicVector shift(std::size_t copy) const {
+    if (copy == 0) return {};
+    const Cell c = copies_[copy];
+    return Dyadic(static_cast<double>(c.first)) * exact(lattice_->first) +
+           Dyadic(static_cast<double>(c.second)) * exact(lattice_->second);
+  }
+
+  const ExactLoop& exact_loop(std::size_t loop, std::size_t copy) {
+    std::unique_ptr<ExactLoop>& entry = exact_[{loop, copy}];
+    if (!entry) entry = std::make_unique<ExactLoop>(loops_[loop], shift(copy));
+    return *entry;
+  }
+
+  const std::string& name(const Item& i) const { return loops_[i.loop][i.piece].name; }
+  bool is_disc(const Item& i) const { return std::holds_alternative<Circle>(loops_[i.loop][i.piece].curve); }
+  bool is_obstacle(const Item& i) const {
+    const auto* circle = std::get_if<Circle>(&loops_[i.loop][i.piece].curve);
+    return kind_ != RegionKind::bounded || (circle && !circle->counterclockwise);
+  }
+  std::string quoted(const Item& i) const {
+    if (i.copy == 0) return "'" + name(i) + "'";
+    const Cell c = copies_[i.copy];
+    return "the copy of '" + name(i) + "' in cell (" + std::to_string(c.first) + ", " +
+           std::to_string(c.second) + ")";
+  }
+  void meet(const Item& a, const Item& b, const std::string& verb, Vector place) {
+    fault(Kind::crossing, name(a), name(b), place,
+          (is_disc(a) && is_disc(b) ? "discs " : "walls ") + quoted(a) + " and " + quoted(b) + " " + verb +
+              " near " + text(place));
+  }
+
+  void meetings() {
+    overlapping_boxes(boxes_, [&](std::size_t i, std::size_t j) {
+      Item a = items_[i], b = items_[j];
+      if (a.copy != 0 && b.copy != 0) return !full();
+      if (std::tie(b.copy, b.loop, b.piece) < std::tie(a.copy, a.loop, a.piece)) std::swap(a, b);
+      if (is_disc(a) && is_disc(b)) {
+        discs(a, b);
+      } else {
+        pieces(a, b);
+      }
+      return !full();
+    });
+  }
+
+  void discs(const Item& a, const Item& b) {
+    const Circle& first = std::get<Circle>(loops_[a.loop][a.piece].curve);
+    const Circle& second = std::get<Circle>(loops_[b.loop][b.piece].curve);
+    ExactCurve moved_second{Curve(second)};
+    moved_second.centre = moved_second.centre + shift(b.copy);
+    const Discs how = compare_discs(ExactCurve(Curve(first)), moved_second);
+    const Vector there = second.centre + (b.copy == 0 ? Vector{} : lattice_->translation(copies_[b.copy]));
+    const Vector between = there - first.centre;
+    const double distance = std::sqrt(dot(between, between));
+    // Where the common chord cuts the line of the centres, and half of that chord.
+    const double r = first.radius;
+    const double share =
+        distance > 0.0 ? 0.5 + 0.5 * (r - second.radius) * (r + second.radius) / (distance * distance) : 0.0;
+    const double squared = r * r - share * distance * (share * distance);
+    const double half = squared > 0.0 ? std::sqrt(squared) / distance : 0.0;
+    const Vector chord = first.centre + share * between;
+    if (how == Discs::crossing) {
+      if (is_obstacle(a) && is_obstacle(b)) {
+        meet(a, b, "overlap", chord);
+      } else {
+        meet(a, b, "cross", chord + half * left(between));
+      }
+    }
+    if (how == Discs::equal) meet(a, b, "run along each other", start_point(first));
+    if ((how == Discs::nested || how == Discs::touching_nested) && is_obstacle(a) && is_obstacle(b)) {
+      const bool second_inside = first.radius > second.radius;
+      const Item &inner = second_inside ? b : a, &outer = second_inside ? a : b;
+      fault(Kind::nesting, name(inner), name(outer), second_inside ? there : first.centre,
+            "obstacle " + quoted(inner) + " lies inside obstacle " + quoted(outer));
+    }
+  }
+
+  void pieces(const Item& a, const Item& b) {
+    const ExactLoop &first = exact_loop(a.loop, a.copy), &second = exact_loop(b.loop, b.copy);
+    const bool same_loop = a.loop == b.loop && a.copy == b.copy;
+    for (const Contact& c : contacts(first.piece(a.piece), second.piece(b.piece))) {
+      if (c.kind == Contact::Kind::together) {
+        meet(a, b, "run along each other", c.place);
+      } else if (c.kind == Contact::Kind::cross) {
+        meet(a, b, "cross", c.place);
+      } else if (c.kind == Contact::Kind::touch) {
+        if (same_loop) meet(a, b, "of one loop touch", c.place);
+      } else if (c.on_first != Where::end && c.on_second != Where::end) {
+        // A joint belongs to the wall that begins there, so the joint that neighbours share has been
+        // passed over: one of them ends in it.
+        if (same_loop) {
+          meet(a, b, "of one loop meet", c.place);
+        } else {
+          at_joint(a, b, first, second, c);
+        }
+      }
+    }
+  }
+
+  /// Loops that meet where one of them has a joint may touch, not pass through each other.
+  void at_joint(const Item& a, const Item& b, const ExactLoop& first, const ExactLoop& second,
+                const Contact& c) {
+    const ExactCurve &out_a = first.piece(a.piece).curve(), &out_b = second.piece(b.piece).curve();
+    const DyadicVector& at = c.on_first == Where::start ? out_a.from : out_b.from;
+    const auto rays = [&](const ExactLoop& loop, std::size_t piece, Where on) {
+      const ExactCurve& out = loop.piece(piece).curve();
+      const ExactCurve& in = on == Where::start ? loop.piece(loop.previous(piece)).curve() : out;
+      return rays_at(in, out, {at.x, at.y, Dyadic(1)});
+    };
+    const Sign passes = pass_through(rays(first, a.piece, c.on_first), rays(second, b.piece, c.on_second));
+    if (passes == Sign::positive) meet(a, b, "cross", c.place);
+    if (passes == Sign::zero) meet(a, b, "touch with the same tangent and curvature", c.place);
+  }
+
+  std::string loop_text(std::size_t loop) const {
+    const std::string& wall = loops_[loop][0].name;
+    return loops_[loop].size() == 1 ? "'" + wall + "'" : "of wall '" + wall + "'";
+  }
+
+  bool counterclockwise(std::size_t loop) {
+    const Curve& c = loops_[loop][0].curve;
+    if (const auto* circle = std::get_if<Circle>(&c)) return circle->counterclockwise;
+    return exact_loop(loop, 0).counterclockwise();
+  }
+
+  void orientations() {
+    const auto extent_of = [&](std::size_t l) {
+      const Vector d = loop_boxes_[l].high - loop_boxes_[l].low;
+      return d.x * d.y;
+    };
+    for (std::size_t l = 0; l < loops_.size(); ++l) {
+      if (!counterclockwise(l)) continue;
+      if (kind_ == RegionKind::bounded && (!outer_ || extent_of(l) > extent_of(*outer_))) outer_ = l;
+      turning_left_.push_back(l);
+    }
+    if (kind_ == RegionKind::bounded && !outer_) {
+      std::size_t widest = 0;
+      for (std::size_t l = 1; l < loops_.size(); ++l)
+        if (extent_of(l) > extent_of(widest)) widest = l;
+      if (loops_.empty()) {
+        fault(Kind::orientation, "", "", {}, "a bounded region needs an outer loop");
+        return;
+      }
+      const NamedCurve& c = loops_[widest][0];
+      fault(Kind::orientation, c.name, "", start_point(c.curve),
+            "the outer loop " + loop_text(widest) +
+                " runs clockwise: it must run counter-clockwise, with the domain on its left");
+    }
+    for (const std::size_t l : turning_left_) {
+      if (outer_ && l == *outer_) continue;
+      const NamedCurve& c = loops_[l][0];
+      fault(Kind::orientation, c.name, "", start_point(c.curve),
+            "the obstacle " + loop_text(l) +
+                " runs counter-clockwise: an obstacle must run clockwise, with the domain on its left");
+    }
+  }
+
+  /// Is the loop inside `around`? They do not cross, so any point that is not on `around` tells.
+  bool lies_inside(std::size_t loop, const ExactLoop& around) const {
+    for (int n = 0; n < 8; ++n)
+      for (const NamedCurve& c : loops_[loop]) {
+        const ExactPoint p = sample_point(ExactCurve(c.curve), end_parameter(c.curve), n);
+        if (!around.on_boundary(p)) return around.inside(p);
+      }
+    return false;
+  }
+
+  void nesting() {
+    std::vector<Box> boxes;
+    std::vector<std::size_t> whose;
+    for (std::size_t l = 0; l < loops_.size() && !full(); ++l) {
+      if (outer_ && l == *outer_) continue;
+      boxes.push_back(loop_boxes_[l]);
+      whose.push_back(l);
+      if (!outer_ || lies_inside(l, exact_loop(*outer_, 0))) continue;
+      const NamedCurve& c = loops_[l][0];
+      fault(Kind::nesting, c.name, loops_[*outer_][0].name, start_point(c.curve),
+            "the obstacle " + loop_text(l) + " lies outside the outer loop");
+    }
+    overlapping_boxes(boxes, [&](std::size_t i, std::size_t j) {
+      for (const auto& [inner, outer] : {std::pair{i, j}, std::pair{j, i}}) {
+        const std::size_t a = whose[inner], b = whose[outer];
+        if (is_disc({a, 0, 0}) && is_disc({b, 0, 0})) continue;  // told by their distance
+        if (!within(boxes[inner], boxes[outer]) || !lies_inside(a, exact_loop(b, 0))) continue;
+        const NamedCurve& c = loops_[a][0];
+        fault(Kind::nesting, c.name, loops_[b][0].name, start_point(c.curve),
+              "the obstacle " + loop_text(a) + " lies inside the obstacle " + loop_text(b));
+      }
+      return !full();
+    });
+    // Obstacles wider than the cell could also hold copies of others.
+    for (std::size_t copy = 1; copy < copies_.size() && !full(); ++copy) copies_inside(copy);
+  }
+
+  void copies_inside(std::size_t copy) {
+    const Vector by = lattice_->translation(copies_[copy]);
+    for (std::size_t a = 0; a < loops_.size(); ++a) {
+      if (is_disc({a, 0, 0})) continue;  // discs among themselves: told by their distance
+      for (std::size_t b = 0; b < loops_.size() && !full(); ++b) {
+        if (a == b) continue;
+        const Vector back = -by;
+        inside_copy(a, b, by, shift(copy));
+        inside_copy(a, b, back, -shift(copy));
+        if (!is_disc({b, 0, 0})) continue;  // else its own turn comes
+        inside_copy(b, a, by, shift(copy));
+        inside_copy(b, a, back, -shift(copy));
+      }
+    }
+  }
+
+  void inside_copy(std::size_t inner, std::size_t outer, Vector by, const DyadicVector& exact_by) {
+    if (!within(loop_boxes_[inner], moved(loop_boxes_[outer], by))) return;
+    if (!lies_inside(inner, ExactLoop(loops_[outer], exact_by))) return;
+    const NamedCurve& c = loops_[inner][0];
+    fault(Kind::nesting, c.name, loops_[outer][0].name, start_point(c.curve),
+          "the obstacle " + loop_text(inner) + " lies inside a copy of the obstacle " + loop_text(outer));
+  }
+
+  const std::vector<Loop>& loops_;
+  RegionKind kind_;
+  const std::optional<Lattice>& lattice_;
+  std::size_t limit_;
+  std::vector<RegionFault> faults_;
+  std::vector<Cell> copies_{Cell{}};
+  std::vector<Item> items_;
+  std::vector<Box> boxes_, loop_boxes_;
+  std::vector<std::size_t> turning_left_;
+  std::optional<std::size_t> outer_;
+  std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<ExactLoop>> exact_;
+};
+
+}  // namespace
+
+std::vector<RegionFault> check_region(const std::vector<Loop>& loops, RegionKind kind,
+                                      const std::optional<Lattice>& lattice, std::size_t limit) {
+  return Check(loops, kind, lattice, limit).run();
+}
+
+}  // namespace carom::geometry
