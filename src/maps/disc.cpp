@@ -33,40 +33,30 @@ Phase<Real> Disc<Real>::phase(const DiscHit<Real>& hit) const {
   return {radius_ * c, radius_ * s, -inward * c - along * s, -inward * s + along * c};
 }
 
+// The conserved momentum is R v sin(beta) + omega R^2/2 at the wall, which gives beta; there is a hit
+// where the sine is one. The velocity arrives along cos(beta) e + sin(beta) t, and the centre of a clockwise
+// Larmor circle is then at (R + rho sin beta) e - rho cos(beta) t: its angle gives theta. Every step is well
+// conditioned for weak fields too.
 template <class Real>
 std::optional<DiscHit<Real>> Disc<Real>::first_hit(const Phase<Real>& start) const {
-  Real x = 0, y = 0, vx = start.vx, vy = start.vy, time = 0;
+  const Real momentum = canonical_angular_momentum(start, omega_);
+  const Real sine = (momentum - omega_ * radius_ * radius_ / 2) / (radius_ * speed_);
+  if (!(std::abs(sine) < 1)) return std::nullopt;
+  const Real cosine = std::sqrt((1 - sine) * (1 + sine));
+  const Real beta = std::atan2(sine, cosine);
+  const Real direction = std::atan2(start.vy, start.vx);
   if (omega_ == 0) {
-    const Real along = (start.x * vx + start.y * vy) / speed_;
-    const Real across = (start.x * vy - start.y * vx) / speed_;
-    const Real length = std::sqrt(radius_ * radius_ - across * across) - along;
-    x = start.x + length * vx / speed_;
-    y = start.y + length * vy / speed_;
-    time = length / speed_;
-  } else {
-    const Real turn = omega_ > 0 ? 1 : -1;
-    const Real rho = speed_ / std::abs(omega_);
-    const Real cx = start.x + vy / omega_, cy = start.y - vx / omega_;
-    const Real d = std::hypot(cx, cy);
-    if (d + rho < radius_ || d + radius_ < rho) return std::nullopt;
-    // Angles about the Larmor centre, counted from the side that faces away from the disc's centre and
-    // growing with the motion: the particle is outside the disc from -half to half.
-    const Real half = std::acos((radius_ * radius_ - rho * rho - d * d) / (2 * rho * d));
-    const Real now = turn * (std::atan2(cy, cx) - std::atan2(start.y - cy, start.x - cx));
-    const Real two_pi = 2 * std::numbers::pi_v<Real>;
-    Real sweep = std::fmod(-half - now, two_pi);
-    if (sweep < 0) sweep += two_pi;
-    time = sweep / std::abs(omega_);
-    const Real c = std::cos(omega_ * time), s = std::sin(omega_ * time);
-    vx = c * start.vx + s * start.vy;
-    vy = -s * start.vx + c * start.vy;
-    x = cx - vy / omega_;
-    y = cy + vx / omega_;
+    const Real length = radius_ * cosine - (start.x * start.vx + start.y * start.vy) / speed_;
+    return DiscHit<Real>{direction - beta, beta, length / speed_};
   }
-  const Real theta = std::atan2(y, x);
-  const Real outward = vx * std::cos(theta) + vy * std::sin(theta);
-  const Real along = vy * std::cos(theta) - vx * std::sin(theta);
-  return DiscHit<Real>{theta, std::atan2(along, outward), time};
+  const Real turn = omega_ > 0 ? 1 : -1;
+  const Real rho = speed_ / std::abs(omega_);
+  const Real centre = std::atan2(start.y - start.vx / omega_, start.x + start.vy / omega_);
+  const Real theta = centre + turn * std::atan2(rho * cosine, radius_ + turn * rho * sine);
+  const Real two_pi = 2 * std::numbers::pi_v<Real>;
+  Real sweep = std::fmod(turn * (direction - theta - beta), two_pi);
+  if (sweep < 0) sweep += two_pi;
+  return DiscHit<Real>{theta, beta, sweep / std::abs(omega_)};
 }
 
 template class Disc<double>;
