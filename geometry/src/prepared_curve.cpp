@@ -30,8 +30,9 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     length = std::sqrt(dot(direction, direction));
     inverse_length = 1.0 / length;
     tangent = {direction.x / length, direction.y / length};
-    // direction: 2u |direction| <= 4u extent; its product with u < 1 and the sum: 3u extent more.
-    point_error = 7.0 * unit_roundoff * extent;
+    // settle: x - from, the tangent (4u), s (7u of a length <= 2.83 extent) and its product (5u), the sum;
+    // parameter: the same s, its product with 1/length (4u), taken times the length again.
+    point_error = 48.0 * unit_roundoff * extent;
     normal_error = 4.0 * unit_roundoff;
     return;
   }
@@ -51,7 +52,7 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   across = {rounded(mpq_class(-ay / determinant)), rounded(mpq_class(ax / determinant))};
   if (kind == CurveKind::circle) {
     r2 = rounded(exact_curve.r2);
-    inverse_radius = 1.0 / std::sqrt(r2);
+    inverse_r2 = 1.0 / r2;
   } else {
     // M(e, e) / M(a, a) = (e.p)^2 k^2 / M + (e.q)^2 / M: both rows carry 1 / sqrt(M(a, a)).
     const double root = std::sqrt(rounded(exact_curve.r2));
@@ -60,9 +61,10 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     first_axis = {k * p.x / root, k * p.y / root};
     second_axis = {-p.y / root, p.x / root};
   }
-  // centre 2u + sum u of the extents; a, b: 2u; the coefficients c and s: 5u and 3u of at most 1.
+  // centre 2u, a sum u of the extents; settle: e and its factor back; parameter: the coordinates on the
+  // unit circle (6u each), the half-angle tangent (2u) and u itself below 4 (2u), turned by two lengths.
   const double size = std::max(std::fabs(a.x) + std::fabs(b.x), std::fabs(a.y) + std::fabs(b.y));
-  point_error = centre_error + unit_roundoff * (extent + 10.0 * size);
+  point_error = centre_error + unit_roundoff * (extent + 24.0 * size);
   // e = x - centre errs by 12u of |a|_1 + |b|_1 a coordinate, which the rows of the map to the unit circle
   // turn into a relative error of the gradient.
   const auto norm_1 = [](Vector v) { return std::fabs(v.x) + std::fabs(v.y); };

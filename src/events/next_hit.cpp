@@ -47,10 +47,8 @@ ExactFlight HitFinder::exact_flight(const Flight& f) const {
   return ExactFlight(*exact_, f.wall, f.u, f.start, f.velocity, f.omega);
 }
 
-void HitFinder::look_from(const Flight& f) const {
-  const FlightScale scale{f.start_error, norm_1(f.velocity), std::fabs(f.omega), options_.filter_inflation};
-  origins_[0] = {f.start, scale};
-  if (!table_.lattice) return;
+void HitFinder::look_at_cells(const Flight& f) const {
+  const FlightScale scale = origins_[0].scale;
   for (std::size_t k = 0; k < offsets_.size(); ++k) {
     const Cell c{f.cell.first + offsets_[k].first, f.cell.second + offsets_[k].second};
     origins_[k] = {f.start, scale};
@@ -64,57 +62,59 @@ void HitFinder::look_from(const Flight& f) const {
   }
 }
 
-/// The wall's polynomial in kappa, for all but Larmor circles against ellipses.
-Quadratic<double> HitFinder::quadratic(const Flight& f, int piece, bool stands) const {
-  const PieceData& p = data_[at(piece)];
-  const PreparedCurve& w = curves_[at(p.curve)];
-  const Vector origin = origins_[at(p.offset)].point;
+namespace {
+
+/// The wall's polynomial in kappa, for all but Larmor circles against ellipses. `stands`: the start lies
+/// on the wall, and the leading coefficient is zero by algebra.
+[[gnu::always_inline]] inline Quadratic<double> quadratic(const PreparedCurve& w, Vector origin, Vector v,
+                                                          double omega, bool stands) {
   if (w.kind == CurveKind::segment) {
     const Vector e = stands ? Vector{} : origin - w.from;
-    return line_quadratic(e, w.tangent, f.velocity, f.omega, 0.5);
+    return line_quadratic(e, w.tangent, v, omega, 0.5);
   }
   const Vector e = origin - w.centre;
   Quadratic<double> q;
   if (w.kind == CurveKind::circle) {
-    q = circle_quadratic(e, stands ? dot(e, e) : w.r2, f.velocity, f.omega, 0.5);
+    q = circle_quadratic(e, stands ? dot(e, e) : w.r2, v, omega, 0.5);
   } else {
     const Vector em{dot(w.first_axis, e), dot(w.second_axis, e)};
-    const Vector vm{dot(w.first_axis, f.velocity), dot(w.second_axis, f.velocity)};
+    const Vector vm{dot(w.first_axis, v), dot(w.second_axis, v)};
     q = circle_quadratic(em, stands ? dot(em, em) : 1.0, vm, 0.0, 0.5);
   }
   return w.orientation > 0 ? -q : q;
 }
 
-QuadraticError HitFinder::quadratic_error(const Flight& f, int piece, bool stands) const {
-  const PieceData& p = data_[at(piece)];
-  const PreparedCurve& w = curves_[at(p.curve)];
-  const Origin& origin = origins_[at(p.offset)];
+[[gnu::always_inline]] inline QuadraticError quadratic_error(const PreparedCurve& w, Vector origin,
+                                                             const FlightScale& scale, bool stands) {
   QuadraticError error{};
   if (w.kind == CurveKind::segment) {
-    error = line_error(origin.scale, stands ? 0.0 : norm_1(origin.point - w.from));
+    error = line_error(scale, stands ? 0.0 : norm_1(origin - w.from));
   } else if (w.kind == CurveKind::circle) {
-    error = circle_error(origin.scale, norm_1(origin.point - w.centre), w.centre_error, w.r2);
+    error = circle_error(scale, norm_1(origin - w.centre), w.centre_error, w.r2);
   } else {
     const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
-    error = ellipse_error(origin.scale, norm_1(origin.point - w.centre), w.centre_error, row);
+    error = ellipse_error(scale, norm_1(origin - w.centre), w.centre_error, row);
   }
-  (void)f;
-  if (stands) error.a = 0.0;  // exactly zero by algebra
+  if (stands) error.a = 0.0;
   return error;
 }
 
+}  // namespace
+
 HitFinder::Candidate HitFinder::candidate(const Flight& f, int piece, bool stands) const {
+  const PieceData& p = data_[at(piece)];
+  const PreparedCurve& w = curves_[at(p.curve)];
+  const Origin& origin = origins_[at(p.offset)];
   Candidate c;
-  c.piece = piece;
-  c.quadratic = quadratic(f, piece, stands);
-  c.error = quadratic_error(f, piece, stands);
+  c.quadratic = quadratic(w, origin.point, f.velocity, f.omega, stands);
+  c.error = quadratic_error(w, origin.point, origin.scale, stands);
   c.root = rising_root(c.quadratic);
+  if (stands && f.omega != 0.0) c.root.kappa = -c.quadratic.c / (2.0 * c.quadratic.b);
   return c;
 }
 
 Sign HitFinder::quartic_candidate(const Flight& f, int piece, bool stands, double inflation,
                                   Candidate& c) const {
-  c.piece = piece;
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
   FlightScale s = origins_[at(p.offset)].scale;
@@ -155,29 +155,32 @@ Sign HitFinder::on_part(const Flight& f, int piece, const Candidate& c, double i
   return sign_within(-w.orientation * geometry::cross(chord, e), norm_1(chord) * (error + s.inflation * rounding));
 }
 
-template <bool larmor>
-inline bool HitFinder::sides(const Flight& f) const {
-  const Vector v = f.velocity;
-  bool decided = true;
-  for (const int piece : open_) {
-    const Origin& origin = origins_[at(data_[at(piece)].offset)];
-    const Vector d = joints_[at(piece)] - origin.point;
-    const double side = larmor ? side_of_flight(v, d, f.omega) : 2.0 * geometry::cross(v, d);
-    side_[at(piece)] = side > 0.0 ? 1 : -1;
-    // The joint that the particle stands on is judged by algebra.
-    decided &= std::fabs(side) > side_error(origin.scale, norm_1(d)) ||
-               (f.start_previous >= 0 && piece == f.start_piece);
-  }
-  return decided;
+namespace {
+
+/// Without field: certain that no flight from here leaves through the arc when both its joints lie on one
+/// side. The foot of the centre on the line is the middle of its chord in the circle: if both crossings lay
+/// on the arc, so would the foot lie on the arc's side of the chord of its joints.
+[[gnu::always_inline]] inline bool foot_off_arc(const PreparedCurve& w, Vector origin, Vector v,
+                                                const FlightScale& s) {
+  const Vector e = origin - w.from, chord = w.to - w.from, c = origin - w.centre;
+  const double side = dot(v, v) * geometry::cross(chord, e) - dot(c, v) * geometry::cross(chord, v);
+  // Each coordinate of e and c errs by eta, of the chord by u; four factors, each a sum of products.
+  const double e1 = norm_1(e), c1 = norm_1(c);
+  const double eta = s.delta + w.centre_error + 1.1 * unit_roundoff * (e1 + c1);
+  const double bound = s.inflation * norm_1(chord) * (s.speed_1 * s.speed_1) *
+                       (2.1 * eta + 12.1 * unit_roundoff * (e1 + c1 + w.extent));
+  return w.orientation * side > bound;
 }
+
+}  // namespace
 
 /// Both joints of a piece lie on one side: does the flight leave through it all the same?
 template <bool larmor>
 Sign HitFinder::crossed_twice(const Flight& f, int piece) const {
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
+  if (!table_.lattice) look_from(f);
   if (w.kind == CurveKind::segment) {
-    if (!larmor) return Sign::negative;
     // Both inside the Larmor circle: never, by convexity.
     if ((side_[at(piece)] > 0) == (f.omega < 0)) return Sign::negative;
     // The foot of the circle's centre must lie between the ends.
@@ -216,6 +219,7 @@ Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
 }  // namespace
 
 double HitFinder::kappa_error_of(const Flight& f, int piece) const {
+  if (!table_.lattice) look_from(f);
   const bool stands = stands_on(f, piece);
   Candidate c;
   if (is_quartic(f, piece))
@@ -225,12 +229,29 @@ double HitFinder::kappa_error_of(const Flight& f, int piece) const {
   return kappa_error(c.quadratic, c.error, c.root);
 }
 
-template <bool larmor>
+template <bool larmor, bool cells>
 bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
-  if (!sides<larmor>(f)) return false;
+  const Vector v = f.velocity;
+  const double omega = larmor ? f.omega : 0.0;
   const int start = f.start_piece, previous = f.start_previous;
+  // Without a lattice there is one origin: kept in registers.
+  const Origin single{f.start, {f.start_error, norm_1(v), std::fabs(omega), options_.filter_inflation}};
+  const auto origin_of = [&](const PieceData& p) -> const Origin& { return cells ? origins_[at(p.offset)] : single; };
+
+  bool decided = true;
+  for (const int piece : open_) {
+    const Origin& origin = origin_of(data_[at(piece)]);
+    const Vector d = joints_[at(piece)] - origin.point;
+    const double side = larmor ? side_of_flight(v, d, omega) : 2.0 * geometry::cross(v, d);
+    side_[at(piece)] = side > 0.0 ? 1 : -1;
+    // The joint that the particle stands on is judged by algebra.
+    decided &= std::fabs(side) > side_error(origin.scale, norm_1(d)) || (previous >= 0 && piece == start);
+  }
+  if (!decided) return false;
+
   int best = -1;
   double best_kappa = 0.0, best_error = -1.0;  // negative: not computed yet
+  double best_time = 0.0, best_unit = 1.0;     // without field: kappa = unit / time, divided only if needed
   double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
   if (larmor && f.entry >= 0) {
     const Candidate entry = candidate(f, f.entry, false);
@@ -242,20 +263,23 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
   for (int piece = 0; piece < pieces; ++piece) {
     const PieceData& p = data_[at(piece)];
     const PreparedCurve& w = curves_[at(p.curve)];
+    const Origin& origin = origin_of(p);
     const bool stands = piece == start || piece == previous;
-    double kappa = 0.0, error = -1.0;
+    double kappa = 0.0, error = -1.0, time = 0.0, unit = 1.0;
     if (!w.closed) {
       const int from = piece == start && previous >= 0 ? 1 : side_[at(piece)];
       const int to = piece == previous ? -1 : p.next == start && previous >= 0 ? 1 : side_[at(p.next)];
       if (from > to) continue;
       if (from == to && !stands && !(larmor && w.kind == CurveKind::ellipse)) {
         if (!larmor && w.kind == CurveKind::segment) continue;
+        if (!larmor && w.kind == CurveKind::circle && foot_off_arc(w, origin.point, v, origin.scale)) continue;
         const Sign twice = crossed_twice<larmor>(f, piece);
         if (twice == Sign::undecided) return false;
         if (twice != Sign::positive) continue;
       }
     }
     if (larmor && w.kind == CurveKind::ellipse) {
+      if (!cells) look_from(f);
       Candidate c;
       const Sign leaves = quartic_candidate(f, piece, stands, options_.filter_inflation, c);
       if (leaves == Sign::undecided) return false;
@@ -263,19 +287,23 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
       kappa = c.root.kappa;
       error = c.kappa_error;
     } else if (!larmor && w.kind == CurveKind::segment) {
-      const Origin& origin = origins_[at(p.offset)];
       const Vector e = origin.point - w.from;
       const double a = geometry::cross(w.tangent, e);
       const double bound = line_error(origin.scale, norm_1(e)).a;
       if (a < -bound) continue;  // behind
       if (!(a > bound)) return false;
-      kappa = -geometry::cross(w.tangent, f.velocity) / a;
+      time = a;
+      unit = -geometry::cross(w.tangent, v);
     } else {
-      const Quadratic<double> q = quadratic(f, piece, stands);
-      const Root root = rising_root(q);
+      const Quadratic<double> q = quadratic(w, origin.point, v, omega, stands);
+      const Root root = stands ? Root{q.b * q.b, std::fabs(q.b), larmor ? -q.c / (2.0 * q.b) : 0.0} : rising_root(q);
       kappa = root.kappa;
+      if (!larmor) {
+        time = q.b <= 0.0 ? q.a : -(q.b + root.root);
+        unit = q.b <= 0.0 ? root.root - q.b : q.c;
+      }
       if (!larmor || (w.closed && !stands)) {
-        const QuadraticError e = quadratic_error(f, piece, stands);
+        const QuadraticError e = quadratic_error(w, origin.point, origin.scale, stands);
         if (w.closed && !stands) {
           const Sign cut = sign_within(root.discriminant, discriminant_error(q, e));
           if (cut == Sign::undecided) return false;
@@ -295,6 +323,10 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
       if (after == Sign::negative) continue;
     }
     if (best >= 0) {
+      if (!larmor) {
+        kappa = unit / time;
+        best_kappa = best_unit / best_time;
+      }
       if (best_error < 0) best_error = kappa_error_of(f, best);
       if (error < 0) error = kappa_error_of(f, piece);
       const Sign order = sign_within(kappa - best_kappa, error + best_error);
@@ -304,15 +336,19 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
     best = piece;
     best_kappa = kappa;
     best_error = error;
+    best_time = time;
+    best_unit = unit;
   }
   ahead.piece = best;
   ahead.root = 0;
-  ahead.kappa = best_kappa;
+  ahead.kappa = larmor ? best_kappa : best_unit / best_time;
+  ahead.duration = larmor ? duration_at(best_kappa, f.omega) : best_time / best_unit;
   ahead.kind = best < 0 ? Ahead::Kind::none : data_[at(best)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
   return true;
 }
 
 Ahead HitFinder::exact_next(const Flight& f) const {
+  look_from(f);
   const ExactFlight::First first =
       exact_flight(f).first(all_, f.cell, f.entry, f.start_piece, f.start_previous);
   Ahead ahead;
@@ -335,22 +371,34 @@ Ahead HitFinder::exact_next(const Flight& f) const {
     const bool same = quartic_candidate(f, ahead.piece, stands_on(f, ahead.piece), 1.0, c) == Sign::positive;
     ahead.kappa = same ? c.root.kappa : first.kappa;
   } else {
-    ahead.kappa = candidate(f, ahead.piece, stands_on(f, ahead.piece)).root.kappa;
+    const Candidate c = candidate(f, ahead.piece, stands_on(f, ahead.piece));
+    ahead.kappa = c.root.kappa;
+    if (f.omega == 0.0) {
+      const double unit = c.quadratic.b <= 0.0 ? c.root.root - c.quadratic.b : c.quadratic.c;
+      const double time = c.quadratic.b <= 0.0 ? c.quadratic.a : -(c.quadratic.b + c.root.root);
+      ahead.duration = time / unit;
+    }
     // A flight along a wall to the last digit: the formula in doubles may have lost the sign.
-    if (!std::isfinite(ahead.kappa) || (f.omega == 0.0 && !(ahead.kappa > 0.0))) ahead.kappa = first.kappa;
+    const bool lost = f.omega == 0.0 ? !(ahead.duration > 0.0) || !std::isfinite(ahead.duration)
+                                     : !std::isfinite(ahead.kappa);
+    if (lost) ahead.kappa = first.kappa;
+    if (f.omega == 0.0 && !lost) return ahead;
   }
+  ahead.duration = duration_at(ahead.kappa, f.omega);
   return ahead;
 }
 
 void HitFinder::next(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
-  look_from(f);
-  if (f.omega == 0.0 ? filtered<false>(f, ahead) : filtered<true>(f, ahead)) {
+  const bool cells = table_.lattice.has_value();
+  if (cells) look_from(f);
+  if (f.omega == 0.0 ? (cells ? filtered<false, true>(f, ahead) : filtered<false, false>(f, ahead))
+                     : (cells ? filtered<true, true>(f, ahead) : filtered<true, false>(f, ahead))) {
     ++counts.filter;
   } else {
     ++counts.exact;
     ahead = exact_next(f);
   }
-  ahead.duration = ahead.kind == Ahead::Kind::none ? 0.0 : duration_at(ahead.kappa, f.omega);
+  if (ahead.kind == Ahead::Kind::none) ahead.duration = 0.0;
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 // formulas in double precision either way, so that bounds never show in a result.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -72,12 +73,18 @@ class HitFinder {
     double u = 0.0;
     geometry::Cell cell;
     geometry::Vector velocity;  ///< on arrival
+    geometry::PreparedCurve::Frame frame;
     int hole = -1;
   };
-  Landing land(const Flight& flight, const Ahead& ahead, DecisionCounts& counts) const;
+  void land(const Flight& flight, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const;
+  Landing land(const Flight& flight, const Ahead& ahead, DecisionCounts& counts) const {
+    Landing landing;
+    land(flight, ahead, landing, counts);
+    return landing;
+  }
 
   /// Does v at (wall, u) point into the domain? At u = 0 this is asked of both walls of the joint.
-  /// `normal`: the rounded unit normal there.
+  /// `normal`: a rounded normal there.
   Sign inward(int wall, double u, geometry::Vector v, geometry::Vector normal, DecisionCounts& counts) const;
   /// Error of kappa of what lies ahead.
   double error_of(const Flight& flight, const Ahead& ahead) const;
@@ -106,7 +113,6 @@ class HitFinder {
   };
   /// A crossing that may be the first.
   struct Candidate {
-    int piece = -1;
     geometry::Quadratic<double> quadratic;
     geometry::QuadraticError error{};
     geometry::Root root;
@@ -117,9 +123,14 @@ class HitFinder {
   void add_walls(geometry::Cell offset, bool complement);
   std::vector<geometry::Cell> image_offsets() const;
   int edge_crossed_at_start(const Flight& flight) const;
-  void look_from(const Flight& flight) const;
-  geometry::Quadratic<double> quadratic(const Flight& flight, int piece, bool stands_on_it) const;
-  geometry::QuadraticError quadratic_error(const Flight& flight, int piece, bool stands_on_it) const;
+  /// Sees the walls from the flight's start, in its cell.
+  void look_from(const Flight& f) const {
+    origins_[0].point = f.start;
+    origins_[0].scale = {f.start_error, std::fabs(f.velocity.x) + std::fabs(f.velocity.y), std::fabs(f.omega),
+                         options_.filter_inflation};
+    if (table_.lattice) look_at_cells(f);
+  }
+  void look_at_cells(const Flight& flight) const;
   Candidate candidate(const Flight& flight, int piece, bool stands_on_it) const;
   /// Larmor circle against an ellipse: its first exit through the piece, if any.
   Sign quartic_candidate(const Flight& flight, int piece, bool stands_on_it, double inflation,
@@ -133,16 +144,15 @@ class HitFinder {
   bool stands_on(const Flight& flight, int piece) const {
     return piece == flight.start_piece || piece == flight.start_previous;
   }
-  template <bool larmor>
+  template <bool larmor, bool cells>
   bool filtered(const Flight& flight, Ahead& ahead) const;
-  template <bool larmor>
-  bool sides(const Flight& flight) const;
   template <bool larmor>
   Sign crossed_twice(const Flight& flight, int piece) const;
   double kappa_error_of(const Flight& flight, int piece) const;
   Ahead exact_next(const Flight& flight) const;
   void find_start(Flight& flight) const;
   geometry::ExactFlight exact_flight(const Flight& flight) const;
+  Sign exactly_inward(int wall, double u, geometry::Vector v, DecisionCounts& counts) const;
   int hole_at(const Flight& flight, const Ahead& ahead, double u, DecisionCounts& counts) const;
 
   const Table& table_;
@@ -155,12 +165,52 @@ class HitFinder {
   std::vector<geometry::Piece> pieces_;          // the same pieces for the exact stage
   std::vector<int> all_;
   std::vector<geometry::Vector> end_normals_;    // a wall
+  std::vector<signed char> holed_;               // a wall: has it holes?
   int first_edge_ = 0;
   std::unique_ptr<geometry::ExactBoundary> exact_;
   // Scratch of one flight; a finder belongs to one thread.
   mutable std::vector<Origin> origins_;
   mutable std::vector<signed char> side_;
 };
+
+inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const {
+  if (table_.lattice) look_from(f);  // the view may be another particle's
+  const PieceData& p = data_[static_cast<std::size_t>(ahead.piece)];
+  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(p.curve)];
+  const geometry::Vector origin =
+      table_.lattice ? origins_[static_cast<std::size_t>(p.offset)].point : f.start;
+  landing.wall = p.wall;
+  landing.hole = -1;
+  landing.u = 0.0;
+  const geometry::Cell o = offsets_[static_cast<std::size_t>(p.offset)];
+  landing.cell = {f.cell.first + o.first, f.cell.second + o.second};
+  landing.velocity = f.omega == 0.0 ? f.velocity : geometry::turned(ahead.kappa, f.velocity, f.omega, 0.5);
+  if (ahead.kind == Ahead::Kind::joint) {
+    landing.frame = w.frame(0.0);
+    return;
+  }
+  landing.frame = w.settle(origin + (f.omega == 0.0
+                                         ? ahead.duration * f.velocity
+                                         : geometry::displacement(ahead.kappa, f.velocity, f.omega, 0.5)));
+  landing.u = w.parameter(landing.frame.point);
+  if (landing.u == w.last || landing.u == geometry::first_parameter) landing.frame = w.frame(landing.u);
+  if (holed_[static_cast<std::size_t>(p.wall)] != 0) landing.hole = hole_at(f, ahead, landing.u, counts);
+}
+
+inline Sign HitFinder::inward(int wall, double u, geometry::Vector v, geometry::Vector normal,
+                              DecisionCounts& counts) const {
+  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
+  if (u > 0.0) {
+    const double bound = options_.filter_inflation * w.normal_error * (std::fabs(v.x) + std::fabs(v.y)) *
+                         (std::fabs(normal.x) + std::fabs(normal.y));
+    const Sign sign = sign_within(dot(normal, v), bound);
+    if (sign != Sign::undecided) {
+      ++counts.filter;
+      return sign;
+    }
+  }
+  return exactly_inward(wall, u, v, counts);
+}
 
 /// Duration of a flight to kappa.
 double duration_at(double kappa, double omega);

@@ -19,6 +19,7 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
   for (const Wall& wall : table.walls) curves_.emplace_back(complement ? reversed(wall.curve) : wall.curve);
   for (const Wall& wall : table.walls)
     end_normals_.push_back(is_closed(wall.curve) ? Vector{} : normal_at(wall.curve, end_parameter(wall.curve)));
+  for (const Wall& wall : table.walls) holed_.push_back(wall.holes.empty() ? 0 : 1);
   offsets_.push_back({});
   add_walls({}, complement);
   if (table.lattice) {

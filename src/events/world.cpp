@@ -120,8 +120,8 @@ void World::Implementation::apply(int index, Observer& observer) {
     default: return end(index, Fate::lost, b.state.time, &observer);
   }
   if (b.ahead.kind == Ahead::Kind::cusp) return end(index, Fate::singular, key.time, &observer);
-  // The finder's view belongs to the flight asked about last: look again before landing.
-  HitFinder::Landing landing = finder.land(b.flight, b.ahead, counts);
+  HitFinder::Landing landing;
+  finder.land(b.flight, b.ahead, landing, counts);
   const Wall& wall = finder.table().walls[static_cast<std::size_t>(landing.wall)];
   if (b.ahead.kind == Ahead::Kind::joint) {
     for (const int h : wall.holes)
@@ -137,24 +137,23 @@ void World::Implementation::apply(int index, Observer& observer) {
 void World::Implementation::reflect(int index, Observer& observer, const HitFinder::Landing& landing) {
   Body& b = bodies[static_cast<std::size_t>(index)];
   const Time now = queue.key(index).time;
-  const auto& curve = finder.curve(landing.wall);
   const Vector before = landing.velocity;
-  const auto [point, normal] = curve.frame(landing.u);
+  const Vector normal = landing.frame.normal;
+  const double scale = to_energy_shell(before, b.inverse_square_speed);
   Vector after;
   int reflections = 1;
   if (b.ahead.kind == Ahead::Kind::joint) {
     reflections = corners[static_cast<std::size_t>(landing.wall)];
     if (reflections == 0) return end(index, Fate::singular, now, &observer);
     const int previous = finder.table().walls[static_cast<std::size_t>(landing.wall)].previous;
-    after = reflected_at_corner(before, finder.normal_at_end(previous), normal, reflections);
+    after = scale * reflected_at_corner(before, finder.normal_at_end(previous), normal, reflections);
   } else {
-    after = geometry::reflected(before, normal);
+    after = geometry::reflected(before, normal, landing.frame.square, scale);
   }
-  after = on_energy_shell(after, b.inverse_square_speed);
   Sign inward = finder.inward(landing.wall, landing.u, after, normal, counts);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.
-    after = on_energy_shell(geometry::reflected(after, normal), b.inverse_square_speed);
+    after = geometry::reflected(after, normal, landing.frame.square, 1.0);
     inward = finder.inward(landing.wall, landing.u, after, normal, counts);
   }
   if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);
@@ -162,14 +161,14 @@ void World::Implementation::reflect(int index, Observer& observer, const HitFind
   const double flight_time = b.ahead.duration;
   b.state.wall = landing.wall;
   b.state.u = landing.u;
-  b.state.position = point;
+  b.state.position = landing.frame.point;
   b.state.velocity = after;
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;
   b.state.time = now;
   b.hits += static_cast<std::uint64_t>(reflections);
   b.last_wall = landing.wall;
-  finder.begin_on_wall(b.flight, landing.wall, landing.u, point, after);
+  finder.begin_on_wall(b.flight, landing.wall, landing.u, landing.frame.point, after);
   observer.hit({index, landing.wall, landing.u, now, flight_time, b.state.position, b.state.cell, before, after,
                 reflections});
   if (b.hits >= limit) return end(index, Fate::capped, now, &observer);
@@ -223,12 +222,13 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   b.inverse_square_speed = 1.0 / (particle.speed * particle.speed);
   b.flight.omega = particle.omega;
   if (state.wall >= 0) {
-    const auto [point, normal] = w.finder.curve(state.wall).frame(state.u);
-    b.state.position = point;
+    const auto [point, normal, square] = w.finder.curve(state.wall).frame(state.u);
+    // A state that went on from a hit keeps its point; any other starts at the image of u.
+    if (w.finder.curve(state.wall).parameter(state.position) != state.u) b.state.position = point;
     DecisionCounts unused;
     if (w.finder.inward(state.wall, state.u, state.velocity, normal, unused) != Sign::positive)
       throw std::invalid_argument("the velocity does not point into the domain");
-    w.finder.begin_on_wall(b.flight, state.wall, state.u, point, state.velocity);
+    w.finder.begin_on_wall(b.flight, state.wall, state.u, b.state.position, state.velocity);
   } else {
     if (!contains(state.position)) throw std::invalid_argument("the point does not lie inside the table");
     b.flight.start = state.position;

@@ -8,8 +8,11 @@ using geometry::Vector;
 
 Vector reflected_at_corner(Vector v, Vector before, Vector after, int n) {
   if (n % 2 == 0) return -v;
-  if (n == 1) return geometry::reflected(v, after);
-  for (int i = 0; i < n; ++i) v = geometry::reflected(v, i % 2 == 0 ? before : after);
+  if (n == 1) return geometry::reflected(v, after, dot(after, after), 1.0);
+  for (int i = 0; i < n; ++i) {
+    const Vector normal = i % 2 == 0 ? before : after;
+    v = geometry::reflected(v, normal, dot(normal, normal), 1.0);
+  }
   return v;
 }
 

@@ -8,14 +8,14 @@
 
 namespace carom {
 
-/// The velocity brought back to the energy shell by one Newton step of 1/sqrt: the correction is of
-/// rounding size, since |v| was right before the reflection.
-inline geometry::Vector on_energy_shell(geometry::Vector v, double inverse_square_speed) {
-  return (1.5 - 0.5 * (dot(v, v) * inverse_square_speed)) * v;
+/// The factor that brings |v| back to the speed: one Newton step of 1/sqrt. It is taken from the velocity
+/// before a reflection, so that no hit waits for it; what one reflection errs, the next one mends.
+inline double to_energy_shell(geometry::Vector v, double inverse_square_speed) {
+  return 1.5 - 0.5 * (dot(v, v) * inverse_square_speed);
 }
 
 /// Velocity after the n reflections at a corner of angle pi/n between the wall that ends there, with
-/// unit normal `before`, and the one that begins, with unit normal `after`. An even number is a turn
+/// normal `before`, and the one that begins, with normal `after`. An even number is a turn
 /// by pi; an odd one is taken alternately at the two walls (the order does not matter in the limit).
 geometry::Vector reflected_at_corner(geometry::Vector v, geometry::Vector before, geometry::Vector after, int n);
 

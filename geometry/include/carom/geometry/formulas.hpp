@@ -93,11 +93,12 @@ constexpr BasicVector<Number> turned(const Number& kappa, const BasicVector<Numb
   return {v.x + (p * v.y - q * v.x), v.y - (p * v.x + q * v.y)};
 }
 
-/// Velocity after a reflection by a wall with unit normal n.
+/// Velocity after a reflection by a wall with normal n of squared length n2, times `scale`.
 template <class Number>
-constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n) {
-  const Number twice = Number(2) * dot(v, n);
-  return {v.x - twice * n.x, v.y - twice * n.y};
+constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n,
+                                        const Number& n2, const Number& scale) {
+  const Number twice = Number(2) * dot(v, n) / n2;
+  return {scale * (v.x - twice * n.x), scale * (v.y - twice * n.y)};
 }
 
 }  // namespace carom::geometry

@@ -37,15 +37,15 @@ struct PreparedCurve {
   // Circle and ellipse: centre, start vector a and its quarter turn b in the direction of travel.
   Vector centre, a, b;
   double r2 = 0.0;            ///< circle: squared radius
-  double inverse_radius = 0.0;
+  double inverse_r2 = 0.0;
   Vector along, across;       ///< rows of the map of e = x - centre to the unit circle of (a, b)
   double centre_error = 0.0;  ///< of `centre`
   // Ellipse: rows of the map to the unit circle of its axes, in which flights are intersected.
   Vector first_axis, second_axis;
   double extent = 0.0;        ///< largest |coordinate| on the curve, rounded up
 
-  double point_error = 0.0;   ///< of point(u)
-  double normal_error = 0.0;  ///< of the normal
+  double point_error = 0.0;   ///< of point(u), and of settle(x) against point(parameter(x))
+  double normal_error = 0.0;  ///< of a normal, relative to its l1 norm
   double last = 1.0;          ///< last_parameter
 
   explicit PreparedCurve(const Curve& curve);
@@ -56,18 +56,33 @@ struct PreparedCurve {
     const Vector e = seen_from_centre(u);
     return centre + e;
   }
-  /// The point and the unit normal into the domain there.
+  /// A point on the curve with a normal into the domain, of any length, and its square.
   struct Frame {
     Vector point, normal;
+    double square = 1.0;
   };
-  Frame frame(double u) const {
-    if (kind == CurveKind::segment) return {from + u * direction, left(tangent)};
-    const Vector e = seen_from_centre(u);
-    if (kind == CurveKind::circle) return {centre + e, -orientation * inverse_radius * e};
-    // Gradient of the ellipse's form, then normalised.
+  /// The frame at a point that is on the curve up to rounding, which is brought back to it: hits on one
+  /// wall do not add up their errors across it. The normal of a conic keeps its length, for dividing by
+  /// its own square leaves no bias from hit to hit, as a rounded radius would.
+  Frame settle(Vector x) const {
+    if (kind == CurveKind::segment) {
+      const double s = dot(x - from, tangent);
+      return {from + s * tangent, left(tangent), 1.0};
+    }
+    const Vector e = x - centre;
+    if (kind == CurveKind::circle) {
+      const double square = dot(e, e);
+      const double back = 1.5 - 0.5 * (square * inverse_r2);  // one Newton step towards |e| = r
+      return {centre + back * e, -orientation * e, square};
+    }
     const double p = dot(first_axis, e), q = dot(second_axis, e);
+    const double back = 1.5 - 0.5 * (p * p + q * q);
     const Vector g{p * first_axis.x + q * second_axis.x, p * first_axis.y + q * second_axis.y};
-    return {centre + e, (-orientation / std::sqrt(dot(g, g))) * g};
+    return {centre + back * e, -orientation * g, dot(g, g)};
+  }
+  Frame frame(double u) const {
+    const Frame f = settle(point(u));
+    return {point(u), f.normal, f.square};
   }
   /// Parameter of a point that lies on the curve up to rounding, kept off the joints.
   double parameter(Vector x) const {
