@@ -1,5 +1,10 @@
 #include "algebraic_root.hpp"
 
+// GCC 12 sees a use after free in the reference counts of CGAL's handles at -O3; there is none.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wuse-after-free"
+#endif
+
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/CORE_BigInt.h>
 
@@ -41,21 +46,6 @@ struct AlgebraicRoot::Data {
   Kernel::Algebraic_real_1 value;
 };
 
-std::vector<AlgebraicRoot> rising_roots(const Polynomial& polynomial) {
-  const IntegerPolynomial p = integer_polynomial(polynomial);
-  std::vector<AlgebraicRoot> rising;
-  if (p.degree() < 1) return rising;
-  std::vector<std::pair<Kernel::Algebraic_real_1, Kernel::Multiplicity_type>> roots;
-  kernel().solve_1_object()(p, std::back_inserter(roots));
-  int sign = CGAL::sign(p.lcoeff()) * (p.degree() % 2 == 0 ? 1 : -1);  // at -infinity
-  for (const auto& [value, multiplicity] : roots) {
-    if (multiplicity % 2 == 0) continue;
-    if (sign < 0) rising.emplace_back(std::make_shared<const AlgebraicRoot::Data>(AlgebraicRoot::Data{value}));
-    sign = -sign;
-  }
-  return {rising.rbegin(), rising.rend()};
-}
-
 std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
   const IntegerPolynomial p = integer_polynomial(polynomial);
   std::vector<RealRoot> result;
@@ -66,6 +56,20 @@ std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
     result.push_back({AlgebraicRoot(std::make_shared<const AlgebraicRoot::Data>(AlgebraicRoot::Data{value})),
                       static_cast<int>(multiplicity)});
   return result;
+}
+
+std::vector<AlgebraicRoot> rising_roots(const Polynomial& polynomial) {
+  std::size_t degree = polynomial.size();
+  while (degree > 0 && polynomial[degree - 1].sign() == 0) --degree;
+  if (degree-- < 2) return {};
+  std::vector<AlgebraicRoot> rising;
+  int sign = polynomial[degree].sign() * (degree % 2 == 0 ? 1 : -1);  // at -infinity
+  for (const RealRoot& root : real_roots(polynomial)) {
+    if (root.multiplicity % 2 == 0) continue;
+    if (sign < 0) rising.push_back(root.value);
+    sign = -sign;
+  }
+  return {rising.rbegin(), rising.rend()};
 }
 
 int compare(const AlgebraicRoot& a, const AlgebraicRoot& b) {

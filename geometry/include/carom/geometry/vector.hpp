@@ -18,7 +18,7 @@ struct BasicVector {
   friend constexpr BasicVector operator*(const Number& s, const BasicVector& a) {
     return {s * a.x, s * a.y};
   }
-  friend constexpr bool operator==(const BasicVector&, const BasicVector&) = default;
+  friend bool operator==(const BasicVector&, const BasicVector&) = default;  // constexpr where it can be
 };
 
 using Vector = BasicVector<double>;
