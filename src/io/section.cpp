@@ -121,6 +121,8 @@ bool of_kind(const KeyDescription& description, std::string_view kind) {
 Section::Section(Value& table, std::string name, std::string kind)
     : table_(table), name_(std::move(name)), kind_(std::move(kind)) {
   if (table_.kind != Value::Kind::table) wrong_type(table_, "a section [" + name_ + "]");
+  // Room for every default at once: references to values stay valid while others are filled in.
+  table_.entries.reserve(table_.entries.size() + key_table().size());
 }
 
 const KeyDescription* Section::description(std::string_view key) const {

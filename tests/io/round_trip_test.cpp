@@ -1,0 +1,161 @@
+// The resolved system reads back as the same system.
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "system_text.hpp"
+
+namespace carom::tests {
+namespace {
+
+bool same(const geometry::Curve& a, const geometry::Curve& b) {
+  if (a.index() != b.index() || !(geometry::start_point(a) == geometry::start_point(b))) return false;
+  for (const double part : {0.2, 0.5, 0.9}) {
+    const double u = part * geometry::end_parameter(a);
+    if (!(geometry::point_at(a, u) == geometry::point_at(b, u))) return false;
+  }
+  return geometry::end_parameter(a) == geometry::end_parameter(b);
+}
+
+void expect_same(const Table& a, const Table& b) {
+  EXPECT_EQ(a.shape, b.shape);
+  EXPECT_EQ(a.extent, b.extent);
+  ASSERT_EQ(a.walls.size(), b.walls.size());
+  for (std::size_t k = 0; k < a.walls.size(); ++k) {
+    EXPECT_EQ(a.walls[k].name, b.walls[k].name);
+    EXPECT_EQ(a.walls[k].next, b.walls[k].next);
+    EXPECT_EQ(a.walls[k].corner, b.walls[k].corner);
+    EXPECT_EQ(a.walls[k].holes, b.walls[k].holes);
+    EXPECT_TRUE(same(a.walls[k].curve, b.walls[k].curve)) << a.walls[k].name;
+  }
+  ASSERT_EQ(a.holes.size(), b.holes.size());
+  for (std::size_t k = 0; k < a.holes.size(); ++k) {
+    EXPECT_EQ(a.holes[k].name, b.holes[k].name);
+    EXPECT_EQ(a.holes[k].from, b.holes[k].from);
+    EXPECT_EQ(a.holes[k].to, b.holes[k].to);
+  }
+  ASSERT_EQ(a.lattice.has_value(), b.lattice.has_value());
+  if (a.lattice) {
+    EXPECT_EQ(a.lattice->first, b.lattice->first);
+    EXPECT_EQ(a.lattice->second, b.lattice->second);
+  }
+}
+
+void expect_same(const System& a, const System& b) {
+  EXPECT_EQ(a.title, b.title);
+  expect_same(*a.table, *b.table);
+  ASSERT_EQ(a.particles.size(), b.particles.size());
+  for (std::size_t k = 0; k < a.particles.size(); ++k) {
+    EXPECT_EQ(a.particles[k].mass, b.particles[k].mass);
+    EXPECT_EQ(a.particles[k].charge, b.particles[k].charge);
+    EXPECT_EQ(a.particles[k].speed, b.particles[k].speed);
+    EXPECT_EQ(a.particles[k].omega, b.particles[k].omega);
+  }
+  EXPECT_EQ(a.initial.kind, b.initial.kind);
+  EXPECT_EQ(a.initial.wall, b.initial.wall);
+  EXPECT_EQ(a.initial.hole, b.initial.hole);
+  EXPECT_EQ(a.initial.position, b.initial.position);
+  EXPECT_EQ(a.initial.velocity, b.initial.velocity);
+  EXPECT_EQ(a.initial.low, b.initial.low);
+  EXPECT_EQ(a.initial.high, b.initial.high);
+  EXPECT_EQ(a.initial.from, b.initial.from);
+  EXPECT_EQ(a.initial.to, b.initial.to);
+  EXPECT_EQ(a.initial.angle, b.initial.angle);
+  EXPECT_EQ(a.initial.s, b.initial.s);
+  EXPECT_EQ(a.initial.v_parallel, b.initial.v_parallel);
+  EXPECT_EQ(a.run.t_max, b.run.t_max);
+  EXPECT_EQ(a.run.trajectories, b.run.trajectories);
+  EXPECT_EQ(a.run.collisions, b.run.collisions);
+  EXPECT_EQ(a.run.seed, b.run.seed);
+  EXPECT_EQ(a.run.sample, b.run.sample);
+  EXPECT_EQ(a.run.times, b.run.times);
+}
+
+void expect_round_trip(const LoadedSystem& loaded) {
+  const LoadedSystem again = read_system(loaded.resolved_toml, "again");
+  expect_same(loaded.system, again.system);
+  EXPECT_EQ(loaded.resolved_toml, again.resolved_toml);
+}
+
+TEST(RoundTrip, BuiltInSystems) {
+  const std::vector<std::string> contract{
+      "magnetic-square", "mushroom",           "stadium",        "circle",     "ellipse-magnetic",
+      "sinai",           "lorentz-triangular", "lorentz-square", "three-disc", "siam-photon"};
+  EXPECT_EQ(builtin_systems().size(), contract.size());
+  for (const std::string& name : contract) {
+    SCOPED_TRACE(name);
+    const LoadedSystem loaded = load_system(name);
+    EXPECT_EQ(loaded.system.name, name);
+    EXPECT_FALSE(loaded.system.title.empty());
+    expect_round_trip(loaded);
+  }
+}
+
+TEST(RoundTrip, EverySection) {
+  const std::string hole = "[[table.hole]]\nwall = \"top\"\ncenter = \"1/3\"\nwidth = 0.1\n";
+  for (const std::string& text : {
+           square(hole + "[initial]\nkind = \"hole\"\nhole = \"hole_1\"\n"),
+           square("[field]\nB = \"1/3\"\n[particles]\nmass = [1, \"2/3\"]\ncharge = [-1, 2]\nenergy = 0.1\n"),
+           square("[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nvelocity = [0.3, \"sqrt(2)\"]\n"
+                  "[field]\nlarmor_radius = 0.3\n"),
+           square("[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nangle = 0.3\n"),
+           square("[initial]\nkind = \"birkhoff\"\nwall = \"top\"\ns = {from = 0, to = 0.9, count = 4}\n"
+                  "v_parallel = [0.1, -0.2]\n[run]\nsample = 0.1\ncollisions = 7\ntimes = [1, 2, 3]\n"),
+           square("[initial]\nkind = \"line\"\nfrom = [0.1, 0.1]\nto = [0.9, 0.1]\nangle = \"pi/3\"\n"),
+           square("[initial]\nkind = \"rectangle\"\nmin = [0.1, 0.1]\nmax = [0.2, 0.2]\n"
+                  "[run]\nt_max = \"2*pi\"\nseed = 0x10\n"),
+           std::string(
+               "title = \"a \\\"b\\\" \\n é\"\n[table]\nshape = \"regular\"\nsides = 5\nradius = 1_0.5\n"),
+           std::string(
+               "[table]\nshape = \"path\"\n[[table.loop]]\nstart = [-1, 0]\npieces = [{line_to = [1, 0]},\n"
+               "{arc_via = [0, 1], arc_to = [-1, 0], name = \"dome\"}]\n"),
+           std::string("[table]\nshape = \"discs\"\ncenters = [[0, 0], [3, 0]]\nradii = [1, \"1/2\"]\n"
+                       "[lattice]\nvectors = [[6, 0], [\"1/2\", 4]]\n"),
+       }) {
+    SCOPED_TRACE(text);
+    expect_round_trip(read_system(text, "test.toml"));
+  }
+}
+
+TEST(RoundTrip, OverridesAreInTheResolvedSystem) {
+  SystemOverrides o = set("table.hole[0].width", "1/7");
+  o.seed = "18446744073709551615";
+  o.trajectories = "1e9";
+  o.t_max = "sqrt(2)*100";
+  o.times = "log:1/3:sqrt(2)*100:9";
+  o.position = "1/3,1/4";
+  o.velocity = "-1,1/7";
+  const LoadedSystem loaded = load_system("magnetic-square", o);
+  EXPECT_EQ(loaded.system.run.seed, UINT64_MAX);
+  EXPECT_EQ(loaded.system.run.times.size(), 9u);
+  expect_round_trip(loaded);
+}
+
+TEST(RoundTrip, NumbersStayAsWritten) {
+  const std::string resolved = read_system(square("[run]\nt_max = 1.50e2\n"), "test.toml").resolved_toml;
+  EXPECT_HAS(resolved, "t_max = 1.50e2\n");
+  EXPECT_HAS(resolved, "from = \"(1.50e2)/1000\", to = 1.50e2");
+}
+
+TEST(KeyTable, IsTheOneInTheGuide) {
+  std::ifstream file(CAROM_SOURCE "/docs/guide/system-file.md");
+  ASSERT_TRUE(file);
+  std::ostringstream page;
+  page << file.rdbuf();
+  EXPECT_HAS(page.str(), key_table_markdown());
+}
+
+TEST(KeyTable, DescribesEveryKeyOnce) {
+  std::vector<std::string> seen;
+  for (const KeyDescription& key : key_table()) {
+    EXPECT_FALSE(key.key.empty());
+    EXPECT_FALSE(key.type.empty());
+    EXPECT_FALSE(key.meaning.empty());
+    const std::string name = std::string(key.section) + "." + std::string(key.key);
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), name), 0) << name;
+    seen.push_back(name);
+  }
+}
+
+}  // namespace
+}  // namespace carom::tests

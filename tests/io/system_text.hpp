@@ -1,0 +1,39 @@
+// System files as text, for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "carom/io/system_file.hpp"
+
+namespace carom::tests {
+
+/// A square and whatever else.
+inline std::string square(const std::string& more = "") {
+  return "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n" + more;
+}
+
+inline System read(const std::string& text, const SystemOverrides& overrides = {}) {
+  return read_system(text, "test.toml", overrides).system;
+}
+
+/// The message of the InputError that reading gives.
+inline std::string fault(const std::string& text, const SystemOverrides& overrides = {}) {
+  try {
+    read(text, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+inline SystemOverrides set(const std::string& path, const std::string& value) {
+  SystemOverrides overrides;
+  overrides.set.emplace_back(path, value);
+  return overrides;
+}
+
+#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+}  // namespace carom::tests
