@@ -38,7 +38,7 @@ void HitFinder::begin_on_wall(Flight& f, int wall, double u, Vector point, Vecto
   f.start_error = curves_[at(wall)].point_error;
   f.velocity = velocity;
   f.cell = {};
-  if (table_.lattice || u == 0.0) return begin(f);
+  if (cells_ || u == 0.0) return begin(f);
   f.start_piece = wall;
   f.start_previous = -1;
 }
@@ -179,10 +179,10 @@ template <bool larmor>
 Sign HitFinder::crossed_twice(const Flight& f, int piece) const {
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
-  if (!table_.lattice) look_from(f);
+  if (!cells_) look_from(f);
   if (w.kind == CurveKind::segment) {
     // Both inside the Larmor circle: never, by convexity.
-    if ((side_[at(piece)] > 0) == (f.omega < 0)) return Sign::negative;
+    if ((left_[at(piece)] != 0) == (f.omega < 0)) return Sign::negative;
     // The foot of the circle's centre must lie between the ends.
     const FlightScale& s = origins_[at(p.offset)].scale;
     const Vector origin = origins_[at(p.offset)].point;
@@ -219,7 +219,7 @@ Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
 }  // namespace
 
 double HitFinder::kappa_error_of(const Flight& f, int piece) const {
-  if (!table_.lattice) look_from(f);
+  if (!cells_) look_from(f);
   const bool stands = stands_on(f, piece);
   Candidate c;
   if (is_quartic(f, piece))
@@ -231,29 +231,38 @@ double HitFinder::kappa_error_of(const Flight& f, int piece) const {
 
 template <bool larmor, bool cells>
 bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
+  if (f.start_previous >= 0) return false;  // from a joint: by algebra
   const Vector v = f.velocity;
   const double omega = larmor ? f.omega : 0.0;
-  const int start = f.start_piece, previous = f.start_previous;
+  const int start = f.start_piece;
   // Without a lattice there is one origin: kept in registers.
   const Origin single{f.start, {f.start_error, norm_1(v), std::fabs(omega), options_.filter_inflation}};
   const auto origin_of = [&](const PieceData& p) -> const Origin& { return cells ? origins_[at(p.offset)] : single; };
 
+  const double farthest = cells ? 0.0 : side_error(single.scale, reach_ + norm_1(single.point));
   bool decided = true;
   for (const int piece : open_) {
     const Origin& origin = origin_of(data_[at(piece)]);
     const Vector d = joints_[at(piece)] - origin.point;
     const double side = larmor ? side_of_flight(v, d, omega) : 2.0 * geometry::cross(v, d);
-    side_[at(piece)] = side > 0.0 ? 1 : -1;
-    // The joint that the particle stands on is judged by algebra.
-    decided &= std::fabs(side) > side_error(origin.scale, norm_1(d)) || (previous >= 0 && piece == start);
+    const double bound = cells ? side_error(origin.scale, norm_1(d)) : farthest;
+    left_[at(piece)] = side > 0.0;
+    decided &= std::fabs(side) > bound;
   }
-  if (!decided) return false;
+  if (!decided && cells) return false;
+  if (!decided) {  // once more with a bound for each joint
+    for (const int piece : open_) {
+      const Vector d = joints_[at(piece)] - single.point;
+      const double side = larmor ? side_of_flight(v, d, omega) : 2.0 * geometry::cross(v, d);
+      if (!(std::fabs(side) > side_error(single.scale, norm_1(d)))) return false;
+    }
+  }
 
   int best = -1;
   double best_kappa = 0.0, best_error = -1.0;  // negative: not computed yet
   double best_time = 0.0, best_unit = 1.0;     // without field: kappa = unit / time, divided only if needed
   double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
-  if (larmor && f.entry >= 0) {
+  if (larmor && cells && f.entry >= 0) {
     const Candidate entry = candidate(f, f.entry, false);
     const Root root = falling_root(entry.quadratic);
     entered = root.kappa;
@@ -262,22 +271,23 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
   const int pieces = static_cast<int>(data_.size());
   for (int piece = 0; piece < pieces; ++piece) {
     const PieceData& p = data_[at(piece)];
-    const PreparedCurve& w = curves_[at(p.curve)];
-    const Origin& origin = origin_of(p);
-    const bool stands = piece == start || piece == previous;
-    double kappa = 0.0, error = -1.0, time = 0.0, unit = 1.0;
-    if (!w.closed) {
-      const int from = piece == start && previous >= 0 ? 1 : side_[at(piece)];
-      const int to = piece == previous ? -1 : p.next == start && previous >= 0 ? 1 : side_[at(p.next)];
-      if (from > to) continue;
-      if (from == to && !stands && !(larmor && w.kind == CurveKind::ellipse)) {
-        if (!larmor && w.kind == CurveKind::segment) continue;
-        if (!larmor && w.kind == CurveKind::circle && foot_off_arc(w, origin.point, v, origin.scale)) continue;
+    const bool stands = piece == start;
+    if (!p.closed) {
+      const bool from = left_[at(piece)] != 0, to = left_[at(p.next)] != 0;
+      if (from && !to) continue;
+      if (from == to && !larmor && p.kind == CurveKind::segment) continue;
+      if (from == to && !stands && !(larmor && p.kind == CurveKind::ellipse)) {
+        const PreparedCurve& w = curves_[at(p.curve)];
+        const Origin& origin = origin_of(p);
+        if (!larmor && p.kind == CurveKind::circle && foot_off_arc(w, origin.point, v, origin.scale)) continue;
         const Sign twice = crossed_twice<larmor>(f, piece);
         if (twice == Sign::undecided) return false;
         if (twice != Sign::positive) continue;
       }
     }
+    const PreparedCurve& w = curves_[at(p.curve)];
+    const Origin& origin = origin_of(p);
+    double kappa = 0.0, error = -1.0, time = 0.0, unit = 1.0;
     if (larmor && w.kind == CurveKind::ellipse) {
       if (!cells) look_from(f);
       Candidate c;
@@ -316,7 +326,7 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
         }
       }
     }
-    if (larmor && p.edge && f.entry >= 0) {
+    if (larmor && cells && p.edge && f.entry >= 0) {
       error = kappa_error_of(f, piece);
       const Sign after = sign_within(entered - kappa, entered_error + error);
       if (after == Sign::undecided) return false;
@@ -389,7 +399,7 @@ Ahead HitFinder::exact_next(const Flight& f) const {
 }
 
 void HitFinder::next(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
-  const bool cells = table_.lattice.has_value();
+  const bool cells = cells_;
   if (cells) look_from(f);
   if (f.omega == 0.0 ? (cells ? filtered<false, true>(f, ahead) : filtered<false, false>(f, ahead))
                      : (cells ? filtered<true, true>(f, ahead) : filtered<true, false>(f, ahead))) {

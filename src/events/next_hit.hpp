@@ -105,6 +105,8 @@ class HitFinder {
     int offset = 0;      ///< index into offsets_
     int next = 0;
     bool edge = false;
+    bool closed = false;
+    geometry::CurveKind kind = geometry::CurveKind::segment;
   };
   /// The start of a flight seen from its cell, displaced by one offset.
   struct Origin {
@@ -128,7 +130,7 @@ class HitFinder {
     origins_[0].point = f.start;
     origins_[0].scale = {f.start_error, std::fabs(f.velocity.x) + std::fabs(f.velocity.y), std::fabs(f.omega),
                          options_.filter_inflation};
-    if (table_.lattice) look_at_cells(f);
+    if (cells_) look_at_cells(f);
   }
   void look_at_cells(const Flight& flight) const;
   Candidate candidate(const Flight& flight, int piece, bool stands_on_it) const;
@@ -166,19 +168,21 @@ class HitFinder {
   std::vector<int> all_;
   std::vector<geometry::Vector> end_normals_;    // a wall
   std::vector<signed char> holed_;               // a wall: has it holes?
+  bool cells_ = false;                           // on a lattice
+  double reach_ = 0.0;                           // bounds the l1 norm of every joint
   int first_edge_ = 0;
   std::unique_ptr<geometry::ExactBoundary> exact_;
   // Scratch of one flight; a finder belongs to one thread.
   mutable std::vector<Origin> origins_;
-  mutable std::vector<signed char> side_;
+  mutable std::vector<unsigned char> left_;  // is the joint on the left of the flight?
 };
 
 inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const {
-  if (table_.lattice) look_from(f);  // the view may be another particle's
+  if (cells_) look_from(f);  // the view may be another particle's
   const PieceData& p = data_[static_cast<std::size_t>(ahead.piece)];
   const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(p.curve)];
   const geometry::Vector origin =
-      table_.lattice ? origins_[static_cast<std::size_t>(p.offset)].point : f.start;
+      cells_ ? origins_[static_cast<std::size_t>(p.offset)].point : f.start;
   landing.wall = p.wall;
   landing.hole = -1;
   landing.u = 0.0;

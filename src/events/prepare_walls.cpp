@@ -20,6 +20,9 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
   for (const Wall& wall : table.walls)
     end_normals_.push_back(is_closed(wall.curve) ? Vector{} : normal_at(wall.curve, end_parameter(wall.curve)));
   for (const Wall& wall : table.walls) holed_.push_back(wall.holes.empty() ? 0 : 1);
+  cells_ = table.lattice.has_value();
+  for (const PreparedCurve& c : curves_)
+    reach_ = std::max(reach_, 1.01 * (std::fabs(c.from.x) + std::fabs(c.from.y)));
   offsets_.push_back({});
   add_walls({}, complement);
   if (table.lattice) {
@@ -35,7 +38,7 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
       const int curve = static_cast<int>(curves_.size());
       curves_.emplace_back(cell[i].segment);
       const int next = first_edge_ + static_cast<int>((i + 1) % cell.size());
-      data_.push_back({curve, -1, 0, next, true});
+      data_.push_back({curve, -1, 0, next, true, false, CurveKind::segment});
       joints_.push_back(cell[i].segment.from);
       open_.push_back(static_cast<int>(data_.size()) - 1);
       pieces_.push_back({cell[i].segment, {}, next, true});
@@ -46,7 +49,7 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
   exact_ = std::make_unique<ExactBoundary>(pieces_, table.lattice ? table.lattice->first : none,
                                            table.lattice ? table.lattice->second : none);
   origins_.resize(offsets_.size());
-  side_.resize(data_.size());
+  left_.resize(data_.size());
 }
 
 HitFinder::~HitFinder() = default;
@@ -58,7 +61,7 @@ void HitFinder::add_walls(Cell offset, bool complement) {
     const Wall& wall = table_.walls[i];
     const Curve curve = complement ? reversed(wall.curve) : wall.curve;
     const int next = base + (complement ? wall.previous : wall.next);
-    data_.push_back({static_cast<int>(i), static_cast<int>(i), index, next, false});
+    data_.push_back({static_cast<int>(i), static_cast<int>(i), index, next, false, curves_[i].closed, curves_[i].kind});
     joints_.push_back(curves_[i].from);
     if (!curves_[i].closed) open_.push_back(static_cast<int>(data_.size()) - 1);
     pieces_.push_back({curve, offset, next, false});

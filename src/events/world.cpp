@@ -70,6 +70,7 @@ class World::Implementation {
   std::vector<double> sample_times;
   double sample_interval = 0.0;
   std::uint64_t next_sample = 0;
+  bool sampling = false;
 };
 
 /// What comes next for a particle, into its queue entry.
@@ -200,9 +201,13 @@ void World::Implementation::emit_samples(Time until, bool inclusive, Observer& o
       return;
     }
     if (inclusive ? Time(t) > until : !(Time(t) < until)) return;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (!bodies[i].finished || bodies[i].fate == Fate::pinned)
-        observer.sample(static_cast<int>(i), t, state_at(bodies[i], t));
+    bool any = false;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (bodies[i].finished && bodies[i].fate != Fate::pinned) continue;
+      observer.sample(static_cast<int>(i), t, state_at(bodies[i], t));
+      any = true;
+    }
+    if (!any) return;  // nobody is left to be sampled
     ++next_sample;
   }
 }
@@ -251,10 +256,12 @@ void World::clear() {
 
 void World::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }
 void World::sample_at(std::vector<double> times) {
+  implementation_->sampling = !times.empty();
   implementation_->sample_times = std::move(times);
   implementation_->next_sample = 0;
 }
 void World::sample_every(double interval) {
+  implementation_->sampling = interval > 0.0;
   implementation_->sample_interval = interval;
   implementation_->next_sample = 0;
 }
@@ -268,11 +275,11 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
     if (when > Time(t_end)) break;
     // Asking may cost more than an event.
     if (interrupted && events % 256 == 0 && interrupted()) return events;
-    w.emit_samples(when, false, observer);
+    if (w.sampling) w.emit_samples(when, false, observer);
     w.apply(index, observer);
     ++events;
   }
-  w.emit_samples(t_end, true, observer);
+  if (w.sampling) w.emit_samples(t_end, true, observer);
   return events;
 }
 
