@@ -37,7 +37,7 @@ class Counting : public Observer {
 // A run that is asked for a number of collisions has no last time, unless that is asked for too.
 SystemOverrides run_overrides(const Options& options) {
   SystemOverrides overrides = options.overrides;
-  if (!overrides.collisions.empty() && overrides.t_max.empty()) overrides.t_max = "1e300";
+  if (!overrides.collisions.empty() && overrides.t_max.empty()) overrides.t_max = fmt::format("{}", no_last_time);
   return overrides;
 }
 

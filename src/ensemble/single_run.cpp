@@ -100,7 +100,8 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
       progress[p] = options.resume[p];
     const ParticleProgress& start = progress[p];
     const bool capped = system.run.collisions > 0 && start.hits >= system.run.collisions;
-    if (gone(start.fate) || capped) continue;
+    const bool pinned = start.fate == Fate::pinned && system.run.t_max >= no_last_time;
+    if (gone(start.fate) || capped || pinned) continue;
     world.add(system.particles[p], start.state, start.hits);
     numbers.push_back(static_cast<int>(p));
   }
@@ -111,7 +112,14 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     result.interrupted = result.interrupted || (options.interrupted && options.interrupted());
     return result.interrupted;
   };
-  world.run_until(system.run.t_max, passed_on, interrupted);
+  // Pinned particles are known at the start: without a last time nothing more is to come of them, and
+  // their samples would have no end.
+  const bool without_end = system.run.t_max >= no_last_time;
+  if (without_end && options.resume.empty()) world.run_until(0.0, passed_on, interrupted);
+  bool moving = false;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    moving = moving || !world.finished(static_cast<int>(i));
+  if (moving || !without_end) world.run_until(system.run.t_max, passed_on, interrupted);
 
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::size_t p = static_cast<std::size_t>(numbers[i]);

@@ -133,6 +133,8 @@ void EscapeArchive::finish(const EscapeResult& result, const std::string& status
   Implementation& a = *implementation_;
   a.trajectories.close();
   a.write_counts(result);
+  const Handle provenance = a.file.open_group("provenance");
+  hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);
 }

@@ -46,6 +46,9 @@ struct SingleRunResult {
   double seconds = 0, cpu_seconds = 0;
 };
 
+/// A t_max that means: until the cap on hits, however long it takes.
+inline constexpr double no_last_time = 1e300;
+
 /// Follows the particles until t_max or their cap on hits. Samples every System::run.sample.
 SingleRunResult run_single(const System&, Observer&, const SingleRunOptions& = {});
 
