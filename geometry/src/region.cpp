@@ -3,43 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <tuple>
 
-#include "carom/geometry/curve_frame.hpp"
 #include "contact.hpp"
 #include "exact_loop.hpp"
 #include "overlapping_boxes.hpp"
+#include "region_faults.hpp"
 
 namespace carom::geometry {
 
 namespace {
-
-std::string text(Vector p) {
-  char buffer[80];
-  std::snprintf(buffer, sizeof buffer, "(%.4g, %.4g)", p.x, p.y);
-  return buffer;
-}
-
-bool is_finite(const Curve& curve) {
-  const auto sound = [](auto... v) { return (std::isfinite(v) && ...); };
-  struct {
-    decltype(sound)& all;
-    bool operator()(const Segment& s) const { return all(s.from.x, s.from.y, s.to.x, s.to.y); }
-    bool operator()(const CircularArc& a) const { return all(a.from.x, a.from.y, a.to.x, a.to.y, a.offset); }
-    bool operator()(const Circle& c) const { return all(c.centre.x, c.centre.y, c.radius); }
-    bool operator()(const EllipticArc& a) const {
-      return all(a.from.x, a.from.y, a.to.x, a.to.y, a.axis.x, a.axis.y, a.ratio, a.offset);
-    }
-    bool operator()(const Ellipse& e) const {
-      return all(e.centre.x, e.centre.y, e.axis.x, e.axis.y, e.ratio);
-    }
-  } const visitor{sound};
-  return std::visit(visitor, curve);
-}
 
 /// One piece, as itself (copy 0) or repeated by the lattice.
 struct Item {
@@ -50,64 +25,23 @@ class Check {
  public:
   Check(const std::vector<Loop>& loops, RegionKind kind, const std::optional<Lattice>& lattice,
         std::size_t limit)
-      : loops_(loops), kind_(kind), lattice_(lattice), limit_(limit) {}
+      : loops_(loops), kind_(kind), lattice_(lattice), faults_(limit) {}
 
   std::vector<RegionFault> run() {
-    for (const Loop& loop : loops_) extent(loop);
-    if (faults_.empty())
-      for (const Loop& loop : loops_) closed(loop);
-    if (faults_.empty()) {
+    for (const Loop& loop : loops_) check_extent(loop, faults_);
+    if (faults_.none())
+      for (const Loop& loop : loops_) check_closed(loop, faults_);
+    if (faults_.none()) {
       place_boxes();
       meetings();
-      if (!crossed()) orientations();
-      if (faults_.empty()) nesting();
+      if (!faults_.any(Kind::crossing)) orientations();
+      if (faults_.none()) nesting();
     }
-    return std::move(faults_);
+    return faults_.take();
   }
 
  private:
   using Kind = RegionFault::Kind;
-
-  void fault(Kind kind, const std::string& first, const std::string& second, Vector place,
-             const std::string& sentence) {
-    if (faults_.size() < limit_) faults_.push_back({kind, first, second, place, sentence});
-  }
-  bool full() const { return faults_.size() >= limit_; }
-  bool crossed() const {
-    return std::any_of(faults_.begin(), faults_.end(),
-                       [](const RegionFault& f) { return f.kind == Kind::crossing; });
-  }
-
-  void extent(const Loop& loop) {
-    for (const NamedCurve& c : loop) {
-      if (!is_finite(c.curve)) {
-        fault(Kind::no_extent, c.name, "", {}, "wall '" + c.name + "' has a number that is not finite");
-        continue;
-      }
-      try {
-        frame_of(c.curve);
-      } catch (const std::invalid_argument& e) {
-        fault(Kind::no_extent, c.name, "", start_point(c.curve), "wall '" + c.name + "': " + e.what());
-      }
-    }
-  }
-
-  void closed(const Loop& loop) {
-    if (loop.empty()) fault(Kind::open_loop, "", "", {}, "a loop without walls");
-    if (loop.size() == 1 && !loop.empty() && is_closed(loop[0].curve)) return;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const NamedCurve &c = loop[i], &next = loop[i + 1 == loop.size() ? 0 : i + 1];
-      const Vector end = end_point(c.curve), start = start_point(next.curve);
-      if (is_closed(c.curve)) {
-        fault(Kind::open_loop, c.name, "", end,
-              "wall '" + c.name + "' is closed by itself and cannot be a part of a loop");
-      } else if (!is_closed(next.curve) && end != start) {
-        fault(Kind::open_loop, c.name, next.name, end,
-              "the loop is open: wall '" + c.name + "' ends at " + text(end) + ", but '" + next.name +
-                  "' starts at " + text(start));
-      }
-    }
-  }
 
   void place_boxes() {
     Box whole{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
@@ -181,22 +115,22 @@ class Check {
            std::to_string(c.second) + ")";
   }
   void meet(const Item& a, const Item& b, const std::string& verb, Vector place) {
-    fault(Kind::crossing, name(a), name(b), place,
-          (is_disc(a) && is_disc(b) ? "discs " : "walls ") + quoted(a) + " and " + quoted(b) + " " + verb +
-              " near " + text(place));
+    faults_.add(Kind::crossing, name(a), name(b), place,
+                (is_disc(a) && is_disc(b) ? "discs " : "walls ") + quoted(a) + " and " + quoted(b) + " " +
+                    verb + " near " + place_text(place));
   }
 
   void meetings() {
     overlapping_boxes(boxes_, [&](std::size_t i, std::size_t j) {
       Item a = items_[i], b = items_[j];
-      if (a.copy != 0 && b.copy != 0) return !full();
+      if (a.copy != 0 && b.copy != 0) return !faults_.full();
       if (std::tie(b.copy, b.loop, b.piece) < std::tie(a.copy, a.loop, a.piece)) std::swap(a, b);
       if (is_disc(a) && is_disc(b)) {
         discs(a, b);
       } else {
         pieces(a, b);
       }
-      return !full();
+      return !faults_.full();
     });
   }
 
@@ -227,8 +161,8 @@ class Check {
     if ((how == Discs::nested || how == Discs::touching_nested) && is_obstacle(a) && is_obstacle(b)) {
       const bool second_inside = first.radius > second.radius;
       const Item &inner = second_inside ? b : a, &outer = second_inside ? a : b;
-      fault(Kind::nesting, name(inner), name(outer), second_inside ? there : first.centre,
-            "obstacle " + quoted(inner) + " lies inside obstacle " + quoted(outer));
+      faults_.add(Kind::nesting, name(inner), name(outer), second_inside ? there : first.centre,
+                  "obstacle " + quoted(inner) + " lies inside obstacle " + quoted(outer));
     }
   }
 
@@ -295,20 +229,20 @@ class Check {
       for (std::size_t l = 1; l < loops_.size(); ++l)
         if (extent_of(l) > extent_of(widest)) widest = l;
       if (loops_.empty()) {
-        fault(Kind::orientation, "", "", {}, "a bounded region needs an outer loop");
+        faults_.add(Kind::orientation, "", "", {}, "a bounded region needs an outer loop");
         return;
       }
       const NamedCurve& c = loops_[widest][0];
-      fault(Kind::orientation, c.name, "", start_point(c.curve),
-            "the outer loop " + loop_text(widest) +
-                " runs clockwise: it must run counter-clockwise, with the domain on its left");
+      faults_.add(Kind::orientation, c.name, "", start_point(c.curve),
+                  "the outer loop " + loop_text(widest) +
+                      " runs clockwise: it must run counter-clockwise, with the domain on its left");
     }
     for (const std::size_t l : turning_left_) {
       if (outer_ && l == *outer_) continue;
       const NamedCurve& c = loops_[l][0];
-      fault(Kind::orientation, c.name, "", start_point(c.curve),
-            "the obstacle " + loop_text(l) +
-                " runs counter-clockwise: an obstacle must run clockwise, with the domain on its left");
+      faults_.add(Kind::orientation, c.name, "", start_point(c.curve),
+                  "the obstacle " + loop_text(l) +
+                      " runs counter-clockwise: an obstacle must run clockwise, with the domain on its left");
     }
   }
 
@@ -325,14 +259,14 @@ class Check {
   void nesting() {
     std::vector<Box> boxes;
     std::vector<std::size_t> whose;
-    for (std::size_t l = 0; l < loops_.size() && !full(); ++l) {
+    for (std::size_t l = 0; l < loops_.size() && !faults_.full(); ++l) {
       if (outer_ && l == *outer_) continue;
       boxes.push_back(loop_boxes_[l]);
       whose.push_back(l);
       if (!outer_ || lies_inside(l, exact_loop(*outer_, 0))) continue;
       const NamedCurve& c = loops_[l][0];
-      fault(Kind::nesting, c.name, loops_[*outer_][0].name, start_point(c.curve),
-            "the obstacle " + loop_text(l) + " lies outside the outer loop");
+      faults_.add(Kind::nesting, c.name, loops_[*outer_][0].name, start_point(c.curve),
+                  "the obstacle " + loop_text(l) + " lies outside the outer loop");
     }
     overlapping_boxes(boxes, [&](std::size_t i, std::size_t j) {
       for (const auto& [inner, outer] : {std::pair{i, j}, std::pair{j, i}}) {
@@ -340,20 +274,20 @@ class Check {
         if (is_disc({a, 0, 0}) && is_disc({b, 0, 0})) continue;  // told by their distance
         if (!within(boxes[inner], boxes[outer]) || !lies_inside(a, exact_loop(b, 0))) continue;
         const NamedCurve& c = loops_[a][0];
-        fault(Kind::nesting, c.name, loops_[b][0].name, start_point(c.curve),
-              "the obstacle " + loop_text(a) + " lies inside the obstacle " + loop_text(b));
+        faults_.add(Kind::nesting, c.name, loops_[b][0].name, start_point(c.curve),
+                    "the obstacle " + loop_text(a) + " lies inside the obstacle " + loop_text(b));
       }
-      return !full();
+      return !faults_.full();
     });
     // Obstacles wider than the cell could also hold copies of others.
-    for (std::size_t copy = 1; copy < copies_.size() && !full(); ++copy) copies_inside(copy);
+    for (std::size_t copy = 1; copy < copies_.size() && !faults_.full(); ++copy) copies_inside(copy);
   }
 
   void copies_inside(std::size_t copy) {
     const Vector by = lattice_->translation(copies_[copy]);
     for (std::size_t a = 0; a < loops_.size(); ++a) {
       if (is_disc({a, 0, 0})) continue;  // discs among themselves: told by their distance
-      for (std::size_t b = 0; b < loops_.size() && !full(); ++b) {
+      for (std::size_t b = 0; b < loops_.size() && !faults_.full(); ++b) {
         if (a == b) continue;
         const Vector back = -by;
         inside_copy(a, b, by, shift(copy));
@@ -369,15 +303,15 @@ class Check {
     if (!within(loop_boxes_[inner], moved(loop_boxes_[outer], by))) return;
     if (!lies_inside(inner, ExactLoop(loops_[outer], exact_by))) return;
     const NamedCurve& c = loops_[inner][0];
-    fault(Kind::nesting, c.name, loops_[outer][0].name, start_point(c.curve),
-          "the obstacle " + loop_text(inner) + " lies inside a copy of the obstacle " + loop_text(outer));
+    faults_.add(
+        Kind::nesting, c.name, loops_[outer][0].name, start_point(c.curve),
+        "the obstacle " + loop_text(inner) + " lies inside a copy of the obstacle " + loop_text(outer));
   }
 
   const std::vector<Loop>& loops_;
   RegionKind kind_;
   const std::optional<Lattice>& lattice_;
-  std::size_t limit_;
-  std::vector<RegionFault> faults_;
+  RegionFaults faults_;
   std::vector<Cell> copies_{Cell{}};
   std::vector<Item> items_;
   std::vector<Box> boxes_, loop_boxes_;
