@@ -49,10 +49,10 @@ void prepare_archives() { hdf5::prepare(); }
 
 void refuse_existing(const std::string& file, bool force) {
   std::error_code ignored;
-  if (!force && std::filesystem::exists(file, ignored))
-    throw InputError(Place{file, 0, 0, ""}, "the output file exists already", "another name, or --force");
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(Place{file, 0, 0, ""}, "the output is a directory", "the name of a file");
+  if (!force && std::filesystem::exists(file, ignored))
+    throw InputError(Place{file, 0, 0, ""}, "the output file exists already", "another name, or --force");
 }
 
 ArchiveFile::ArchiveFile(Handle file, std::string path, std::string name)

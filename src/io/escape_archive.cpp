@@ -124,6 +124,7 @@ EscapeArchive::EscapeArchive(const std::string& file, const LoadedSystem& loaded
 EscapeArchive::~EscapeArchive() = default;
 
 void EscapeArchive::append(const std::vector<TrajectoryRecord>& records) {
+  hdf5::silence();
   for (const TrajectoryRecord& r : records)
     implementation_->trajectories.row(r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int32_t>(r.fate), r.hole,
                                       r.time, r.hits);

@@ -52,8 +52,14 @@ std::string trimmed(std::string text) {
 
 void prepare() {
   H5dont_atexit();
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  silence();
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void silence() {
+  thread_local bool silent = false;
+  if (!silent) H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  silent = true;
 }
 
 void check(bool ok, const std::string& file) {

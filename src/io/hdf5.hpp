@@ -36,9 +36,11 @@ class Handle {
 };
 
 /// Must be called before any other use of HDF5: after a failed close its own exit handler crashes.
-/// Also ignores SIGXFSZ, so that a limit on file sizes is an error of the write, and silences HDF5's
-/// printing of errors.
+/// Also ignores SIGXFSZ, so that a limit on file sizes is an error of the write, and calls silence().
 void prepare();
+
+/// Stops HDF5 from printing errors of its own in this thread (each thread has its own setting).
+void silence();
 
 /// Throws InputError "cannot write FILE: reason" where `ok` is false; the reason is the system's.
 void check(bool ok, const std::string& file);
