@@ -77,13 +77,27 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole) {
   collisions += hits;
   most_hits = std::max(most_hits, hits);
   switch (fate) {
-    case Fate::survived: ++survived; return;
-    case Fate::pinned: ++survived, ++pinned; return;
-    case Fate::capped: ++survived, ++capped; return;
-    case Fate::singular: ++singular; return;
-    case Fate::lost: ++lost; return;
-    case Fate::escaped: ++escaped; break;
-    case Fate::unbounded: ++unbounded; break;
+    case Fate::survived:
+      ++survived;
+      return;
+    case Fate::pinned:
+      ++survived, ++pinned;
+      return;
+    case Fate::capped:
+      ++survived, ++capped;
+      return;
+    case Fate::singular:
+      ++singular;
+      return;
+    case Fate::lost:
+      ++lost;
+      return;
+    case Fate::escaped:
+      ++escaped;
+      break;
+    case Fate::unbounded:
+      ++unbounded;
+      break;
   }
   if (fate == Fate::escaped && hole >= 0) ++hole_escapes.at(static_cast<std::size_t>(hole));
   count_in(gone_in, times, time);

@@ -1,4 +1,6 @@
 // carom escape: survival probability and escape rate of an ensemble.
+#include "carom/ensemble/escape.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <memory>
 
 #include "carom/base/error.hpp"
-#include "carom/ensemble/escape.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/escape_report.hpp"

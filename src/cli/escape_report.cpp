@@ -22,7 +22,8 @@ std::string survival_table(const SurvivalCounts& counts) {
   std::string text = "\n           t        p(t)   95 % interval            rate -dP/dt   95 % interval\n";
   for (const SurvivalPoint& point : points) {
     text += fmt::format("{:>12.6g}  {:>10.6f}   {:.6f} .. {:.6f}", point.t, point.p, point.low, point.high);
-    const auto rate = std::find_if(rates.begin(), rates.end(), [&](const RatePoint& r) { return r.to == point.t; });
+    const auto rate =
+        std::find_if(rates.begin(), rates.end(), [&](const RatePoint& r) { return r.to == point.t; });
     if (rate != rates.end())
       text += fmt::format("   {:>12.4e}   {:.3e} .. {:.3e}", rate->value, rate->low, rate->high);
     text += '\n';
@@ -74,9 +75,8 @@ Json escape_json(const System& system, const EscapeResult& result, const std::st
                             .set("share", exact_share(result.decisions)));
   Json holes = Json::array();
   for (std::size_t i = 0; i < system.table->holes.size(); ++i)
-    holes.push(Json::object()
-                   .set("name", system.table->holes[i].name)
-                   .set("escaped", counts.hole_escapes[i]));
+    holes.push(
+        Json::object().set("name", system.table->holes[i].name).set("escaped", counts.hole_escapes[i]));
   json.set("holes", std::move(holes));
   Json by_time = Json::array(), by_hits = Json::array(), rates = Json::array();
   for (const auto& [t, p, low, high] : survival(counts))
@@ -84,8 +84,13 @@ Json escape_json(const System& system, const EscapeResult& result, const std::st
   for (const auto& [n, p, low, high] : survival_by_hits(counts))
     by_hits.push(Json::object().set("n", n).set("p", p).set("low", low).set("high", high));
   for (const auto& [t, from, to, value, low, high] : escape_rate(counts))
-    rates.push(Json::object().set("t", t).set("from", from).set("to", to).set("value", value).set("low", low).set(
-        "high", high));
+    rates.push(Json::object()
+                   .set("t", t)
+                   .set("from", from)
+                   .set("to", to)
+                   .set("value", value)
+                   .set("low", low)
+                   .set("high", high));
   json.set("survival", std::move(by_time));
   json.set("survival_hits", std::move(by_hits));
   json.set("rate", std::move(rates));

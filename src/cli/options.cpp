@@ -118,7 +118,8 @@ void define(CLI::App& app, Options& o) {
           "carom run --resume orbit.h5 --t-max 2000 goes on from where the archive ends.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
-      .text("-o,--output", o.output, "FILE.h5", "Write an archive: every hit, and samples if run.sample is set")
+      .text("-o,--output", o.output, "FILE.h5",
+            "Write an archive: every hit, and samples if run.sample is set")
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
       .text("--precision", o.precision, "NAME", "double")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
@@ -166,7 +167,7 @@ Parsed parse(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     const auto chosen = app.get_subcommands();
-    std::fputs((chosen.empty() ? app.help() : chosen.front()->help()).c_str(), stdout);
+    std::fputs((chosen.empty() ? app.help() : chosen.front()->help("carom")).c_str(), stdout);
     parsed.exit = done;
     return parsed;
   } catch (const CLI::ExtrasError& error) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
@@ -37,15 +38,15 @@ class Counting : public Observer {
 // A run that is asked for a number of collisions has no last time, unless that is asked for too.
 SystemOverrides run_overrides(const Options& options) {
   SystemOverrides overrides = options.overrides;
-  if (!overrides.collisions.empty() && overrides.t_max.empty()) overrides.t_max = fmt::format("{}", no_last_time);
+  if (!overrides.collisions.empty() && overrides.t_max.empty())
+    overrides.t_max = fmt::format("{}", no_last_time);
   return overrides;
 }
 
 void refuse_going_back(const System& system, const StoredRun& stored) {
   const bool more_hits = system.run.collisions == 0;
   for (const ParticleProgress& p : stored.particles) {
-    if (p.state.time > Time(system.run.t_max) ||
-        (p.fate == Fate::survived && p.end > Time(system.run.t_max)))
+    if (p.state.time > Time(system.run.t_max) || (p.fate == Fate::survived && p.end > Time(system.run.t_max)))
       throw InputError(Place{"command line", 0, 0, "--t-max"},
                        fmt::format("the stored run has already reached t = {}", p.end.value()),
                        "a later time");
@@ -69,6 +70,7 @@ int run(const Options& options) {
   const Provenance origin = provenance_of(options, 1);
   if (options.resume.empty()) {
     loaded = load_system(options.system, run_overrides(options));
+    check_start(loaded.system);  // a start that is impossible must not cost an old archive
     if (!output.empty()) archive = RunArchive::create(output, loaded, origin, options.force);
   } else {
     const StoredRun stored = read_run(options.resume);
@@ -89,11 +91,11 @@ int run(const Options& options) {
     how.interrupted = [&] {
       if (progress.due()) {
         const double by_time = counting.time / system.run.t_max;
-        const double by_hits = system.run.collisions == 0
-                                   ? 0.0
-                                   : static_cast<double>(counting.hits) /
-                                         (static_cast<double>(system.run.collisions) *
-                                          static_cast<double>(system.particles.size()));
+        const double by_hits =
+            system.run.collisions == 0
+                ? 0.0
+                : static_cast<double>(counting.hits) / (static_cast<double>(system.run.collisions) *
+                                                        static_cast<double>(system.particles.size()));
         progress.show(by_time > by_hits ? by_time : by_hits,
                       with_prefix(static_cast<double>(counting.hits) / progress.seconds()) + "hits/s");
       }

@@ -14,9 +14,12 @@ namespace {
 
 std::string status_of(const ParticleEnd& particle, bool interrupted) {
   switch (particle.progress.fate) {
-    case Fate::survived: return interrupted ? "interrupted" : "completed";
-    case Fate::capped: return "completed";
-    default: return name_of(particle.progress.fate);
+    case Fate::survived:
+      return interrupted ? "interrupted" : "completed";
+    case Fate::capped:
+      return "completed";
+    default:
+      return name_of(particle.progress.fate);
   }
 }
 
@@ -42,12 +45,14 @@ void add_end(Json& json, const System& system, const ParticleEnd& particle) {
 std::string end_text(const System& system, const ParticleEnd& particle, bool interrupted) {
   std::string text = fmt::format("  status        {}", status_of(particle, interrupted));
   const int hole = particle.progress.hole;
-  if (hole >= 0) text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(hole)].name);
+  if (hole >= 0)
+    text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(hole)].name);
   text += fmt::format("\n  collisions    {}", grouped(particle.progress.hits));
   const std::string wall = wall_of(system, particle);
   if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
   text += fmt::format("\n  t             {}\n  position      {}, {}", particle.t, particle.x, particle.y);
-  if (system.table->lattice) text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
+  if (system.table->lattice)
+    text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
   text += fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g}\n", particle.vx, particle.vy,
                       particle.energy_error);
   return text;
@@ -57,9 +62,8 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
 
 std::string run_status(const SingleRunResult& result) {
   if (result.particles.size() == 1) return status_of(result.particles.front(), result.interrupted);
-  const bool any_lost = std::any_of(result.particles.begin(), result.particles.end(), [](const auto& p) {
-    return p.progress.fate == Fate::lost;
-  });
+  const bool any_lost = std::any_of(result.particles.begin(), result.particles.end(),
+                                    [](const auto& p) { return p.progress.fate == Fate::lost; });
   return any_lost ? name_of(Fate::lost) : result.interrupted ? "interrupted" : "completed";
 }
 

@@ -71,7 +71,8 @@ double axis_angle(const geometry::Curve& curve, bool& axis_is_major) {
 
 // The piece of a curve from u to v as SVG path commands that go on from the point at u. At most a
 // quarter turn is one arc, so that which arc is meant is never in doubt.
-std::string piece(const View& view, const geometry::Curve& curve, const CurveFrame& frame, double u, double v) {
+std::string piece(const View& view, const geometry::Curve& curve, const CurveFrame& frame, double u,
+                  double v) {
   if (frame.kind == CurveFrame::Kind::segment) return " L " + point(view, geometry::point_at(frame, v));
   bool axis_is_major = true;
   const double angle = axis_angle(curve, axis_is_major);
@@ -83,8 +84,8 @@ std::string piece(const View& view, const geometry::Curve& curve, const CurveFra
     const double to = std::min(v, std::floor(from) + 1.0);
     // The end of a closed curve is its start.
     const Vector end = to >= 4.0 ? geometry::start_point(curve) : geometry::point_at(frame, to);
-    path += fmt::format(" A {:.3f} {:.3f} {:.3f} 0 {} {}", view.scale * along, view.scale * across, angle, sweep,
-                        point(view, end));
+    path += fmt::format(" A {:.3f} {:.3f} {:.3f} 0 {} {}", view.scale * along, view.scale * across, angle,
+                        sweep, point(view, end));
     from = to;
   }
   return path;
@@ -97,18 +98,20 @@ std::string whole(const View& view, const Wall& wall, const CurveFrame& frame) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  for (const char c : text)
+    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
   return out;
 }
 
 // A name beside the middle of a piece, on the side away from the domain.
-std::string label(const View& view, const CurveFrame& frame, double u, const std::string& name, const char* kind) {
+std::string label(const View& view, const CurveFrame& frame, double u, const std::string& name,
+                  const char* kind) {
   const Vector normal = geometry::normal_at(frame, u);
   Vector at = view(geometry::point_at(frame, u));
   at = {at.x - 16.0 * normal.x, at.y + 16.0 * normal.y + 4.0};
   const char* anchor = normal.x > 0.5 ? "end" : normal.x < -0.5 ? "start" : "middle";
-  return fmt::format("  <text class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\">{}</text>\n", kind, at.x, at.y,
-                     anchor, escaped(name));
+  return fmt::format("  <text class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\">{}</text>\n", kind,
+                     at.x, at.y, anchor, escaped(name));
 }
 
 // All loops as one path; the domain is where the winding leaves it filled.
@@ -174,9 +177,9 @@ std::string table_svg(const Table& table, const std::string& title) {
                        whole(view, table.walls[i], frames[i]));
   for (const Hole& hole : table.holes) {
     const CurveFrame& frame = frames[static_cast<std::size_t>(hole.wall)];
-    svg += fmt::format("  <path class=\"hole\" d=\"M {}{}\"/>\n", point(view, geometry::point_at(frame, hole.from)),
-                       piece(view, table.walls[static_cast<std::size_t>(hole.wall)].curve, frame, hole.from,
-                             hole.to));
+    svg += fmt::format(
+        "  <path class=\"hole\" d=\"M {}{}\"/>\n", point(view, geometry::point_at(frame, hole.from)),
+        piece(view, table.walls[static_cast<std::size_t>(hole.wall)].curve, frame, hole.from, hole.to));
   }
   for (std::size_t i = 0; i < table.walls.size(); ++i) {
     // A wall's name stands at its middle, or before the hole that is there.

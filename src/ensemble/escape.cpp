@@ -43,9 +43,7 @@ class Ends : public Observer {
   explicit Ends(std::size_t particles) : ends_(particles) {}
   void clear() { std::fill(ends_.begin(), ends_.end(), std::nullopt); }
   void end(const EndEvent& event) override { ends_[static_cast<std::size_t>(event.particle)] = event; }
-  const std::optional<EndEvent>& of(int particle) const {
-    return ends_[static_cast<std::size_t>(particle)];
-  }
+  const std::optional<EndEvent>& of(int particle) const { return ends_[static_cast<std::size_t>(particle)]; }
 
  private:
   std::vector<std::optional<EndEvent>> ends_;
@@ -55,10 +53,7 @@ class Ends : public Observer {
 class Runner {
  public:
   Runner(const System& system, const Sampler& sampler, DecisionOptions decisions)
-      : system_(system),
-        sampler_(sampler),
-        world_(*system.table, decisions),
-        ends_(system.particles.size()) {
+      : system_(system), sampler_(sampler), world_(*system.table, decisions), ends_(system.particles.size()) {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
   }
 
@@ -68,18 +63,15 @@ class Runner {
     world_.clear();
     ends_.clear();
     const int count = static_cast<int>(system_.particles.size());
-    for (int particle = 0; particle < count; ++particle) {
-      const Particle& properties = system_.particles[static_cast<std::size_t>(particle)];
-      world_.add(properties, sampler_.draw(world_, trajectory, particle));
-    }
+    for (int particle = 0; particle < count; ++particle) add_start(world_, sampler_, trajectory, particle);
     const std::size_t first_record = records ? records->size() : 0;
     for (int particle = 0; records && particle < count; ++particle)
       records->push_back(start_of(world_.state(particle)));
     world_.run_until(system_.run.t_max, ends_, interrupted);
     if (interrupted && interrupted()) return false;
     for (int particle = 0; particle < count; ++particle) {
-      const std::uint64_t index = trajectory * static_cast<std::uint64_t>(count) +
-                                  static_cast<std::uint64_t>(particle);
+      const std::uint64_t index =
+          trajectory * static_cast<std::uint64_t>(count) + static_cast<std::uint64_t>(particle);
       const TrajectoryRecord end = end_of(particle);
       tally.counts.add(end.fate, end.time, end.hits, end.hole);
       tally.digest += trajectory_hash(index, static_cast<std::uint64_t>(end.fate), end.time, end.hits,
@@ -198,8 +190,7 @@ class Ensemble {
     if (stopped()) order.close();
   }
 
-  bool run_block(std::uint64_t block, Runner& runner, Tally& tally,
-                 std::vector<TrajectoryRecord>* records) {
+  bool run_block(std::uint64_t block, Runner& runner, Tally& tally, std::vector<TrajectoryRecord>* records) {
     const std::function<bool()> interrupted = [this] { return stopped(); };
     const std::uint64_t end = std::min(system_.run.trajectories, (block + 1) * block_);
     for (std::uint64_t trajectory = block * block_; trajectory < end; ++trajectory) {

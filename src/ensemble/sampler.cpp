@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
@@ -19,9 +20,10 @@ using Kind = InitialCondition::Kind;
 // A domain that fills less than this share of its box is reported as missed.
 constexpr int most_rejections = 10'000'000;
 
-InputError impossible(const char* key, const std::string& problem, const std::string& expected = {}) {
-  Place place;
-  place.key = key;
+InputError impossible(const InitialCondition& initial, const std::string& problem,
+                      const std::string& expected = {}) {
+  Place place = initial.place;
+  if (place.key.empty()) place.key = "initial";
   return InputError(place, problem, expected);
 }
 
@@ -105,7 +107,7 @@ Sampler::Sampler(const System& system) : system_(system) {
   switch (initial.kind) {
     case Kind::uniform: {
       if (table.extent == Extent::open_plane)
-        throw impossible("initial.kind", "a uniform start needs a bounded table or a lattice",
+        throw impossible(initial, "a uniform start needs a bounded table or a lattice",
                          "\"rectangle\", \"line\", \"point\" or \"boundary\"");
       const geometry::Box box = domain_box(table);
       low_ = box.low;
@@ -121,22 +123,23 @@ Sampler::Sampler(const System& system) : system_(system) {
         if (initial.wall < 0 || initial.wall == wall)
           add_source(wall, 0.0, frames_[static_cast<std::size_t>(wall)].end);
       }
-      if (sources_.empty()) throw impossible("initial.kind", "the table has no wall to start from");
+      if (sources_.empty()) throw impossible(initial, "the table has no wall to start from");
       break;
     case Kind::hole:
       for (int i = 0; i < static_cast<int>(table.holes.size()); ++i) {
         const Hole& hole = table.holes[static_cast<std::size_t>(i)];
         if (initial.hole < 0 || initial.hole == i) add_source(hole.wall, hole.from, hole.to);
       }
-      if (sources_.empty()) throw impossible("initial.hole", "the table has no hole to start from");
+      if (sources_.empty()) throw impossible(initial, "the table has no hole to start from");
       break;
     case Kind::birkhoff:
       if (initial.s.empty() || initial.s.size() != initial.v_parallel.size())
-        throw impossible("initial.s", "s and v_parallel must be given in pairs");
+        throw impossible(initial, "s and v_parallel must be given in pairs");
       break;
     case Kind::point:
     case Kind::rectangle:
-    case Kind::line: break;
+    case Kind::line:
+      break;
   }
 }
 
@@ -157,13 +160,19 @@ State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) 
   RandomStream random(system_.run.seed, Purpose::initial_state, trajectory,
                       static_cast<std::uint64_t>(particle));
   switch (initial.kind) {
-    case Kind::uniform: return in_box(world, random, low_, high_, speed, "the box around the table");
-    case Kind::rectangle: return in_box(world, random, initial.low, initial.high, speed, "the rectangle");
-    case Kind::line: return on_line(world, random, speed);
-    case Kind::point: return at_point(world, speed);
+    case Kind::uniform:
+      return in_box(world, random, low_, high_, speed, "the box around the table");
+    case Kind::rectangle:
+      return in_box(world, random, initial.low, initial.high, speed, "the rectangle");
+    case Kind::line:
+      return on_line(world, random, speed);
+    case Kind::point:
+      return at_point(world, speed);
     case Kind::boundary:
-    case Kind::hole: return cosine_law(random, speed);
-    case Kind::birkhoff: return birkhoff(trajectory, speed);
+    case Kind::hole:
+      return cosine_law(random, speed);
+    case Kind::birkhoff:
+      return birkhoff(trajectory, speed);
   }
   throw InternalError("unknown kind of initial condition");
 }
@@ -176,50 +185,52 @@ State Sampler::in_box(const World& world, RandomStream& random, Vector low, Vect
     State state = off_walls(*system_.table, {x, y}, {});
     // The box of a lattice's cell overlaps its neighbours: what lies there is drawn again, or points
     // near the edges would be too frequent.
-    const bool own_cell =
-        system_.initial.kind != Kind::uniform || state.cell == geometry::Cell{};
+    const bool own_cell = system_.initial.kind != Kind::uniform || state.cell == geometry::Cell{};
     if (!own_cell || !world.contains(state.position)) continue;
     state.velocity = speed * random_direction(random);
     return state;
   }
-  throw impossible("initial", fmt::format("no point of {} was found inside the table", where),
+  throw impossible(system_.initial, fmt::format("no point of {} was found inside the table", where),
                    "a region that overlaps the table");
 }
 
 State Sampler::on_line(const World& world, RandomStream& random, double speed) const {
   const InitialCondition& initial = system_.initial;
-  const elementary::SinCos direction = elementary::sincos(initial.angle);
-  const Vector velocity = speed * unit({direction.cos, direction.sin});
+  Vector direction = initial.velocity;
+  if (direction == Vector{}) {
+    const elementary::SinCos turned = elementary::sincos(initial.angle);
+    direction = {turned.cos, turned.sin};
+  }
+  const Vector velocity = speed * unit(direction);
   for (int tries = 0; tries < most_rejections; ++tries) {
     const Vector point = initial.from + random.uniform() * (initial.to - initial.from);
     const State state = off_walls(*system_.table, point, velocity);
     if (world.contains(state.position)) return state;
   }
-  throw impossible("initial", "no point of the line was found inside the table",
+  throw impossible(initial, "no point of the line was found inside the table",
                    "a line that crosses the table");
 }
 
 State Sampler::at_point(const World& world, double speed) const {
   const InitialCondition& initial = system_.initial;
   const Vector given = initial.velocity;
-  if (given.x == 0.0 && given.y == 0.0) throw impossible("initial.velocity", "the velocity is zero");
+  if (given.x == 0.0 && given.y == 0.0) throw impossible(initial, "the velocity is zero");
   // A velocity that already has the speed is taken as it is, digit for digit.
   const Vector velocity = std::sqrt(dot(given, given)) == speed ? given : speed * unit(given);
   const State state = off_walls(*system_.table, initial.position, velocity);
   if (!world.contains(state.position))
-    throw impossible("initial.position",
-                     fmt::format("the start ({}, {}) is not inside the table", initial.position.x,
-                                 initial.position.y),
-                     "a point inside, off the walls; kind = \"birkhoff\" starts on a wall");
+    throw impossible(
+        initial,
+        fmt::format("the start ({}, {}) is not inside the table", initial.position.x, initial.position.y),
+        "a point inside, off the walls; kind = \"birkhoff\" starts on a wall");
   return state;
 }
 
 State Sampler::cosine_law(RandomStream& random, double speed) const {
   for (;;) {
     const double target = random.uniform() * sources_.back().weight;
-    const auto source =
-        std::upper_bound(sources_.begin(), sources_.end() - 1, target,
-                         [](double value, const Source& s) { return value < s.weight; });
+    const auto source = std::upper_bound(sources_.begin(), sources_.end() - 1, target,
+                                         [](double value, const Source& s) { return value < s.weight; });
     const geometry::CurveFrame& frame = frames_[static_cast<std::size_t>(source->wall)];
     double u = source->from + random.uniform() * (source->to - source->from);
     u = std::clamp(u, std::max(source->from, geometry::first_parameter), frame.last);
@@ -242,8 +253,7 @@ State Sampler::birkhoff(std::uint64_t trajectory, double speed) const {
   double s = initial.s[i];
   const double tangential = initial.v_parallel[i];
   if (!(std::abs(tangential) < speed))
-    throw impossible("initial.v_parallel",
-                     fmt::format("v_parallel = {} is not below the speed {}", tangential, speed),
+    throw impossible(initial, fmt::format("v_parallel = {} is not below the speed {}", tangential, speed),
                      "-speed < v_parallel < speed");
   // Without a wall, s runs along all walls, one after the other.
   const bool all = initial.wall < 0;
@@ -252,8 +262,8 @@ State Sampler::birkhoff(std::uint64_t trajectory, double speed) const {
     s -= geometry::length(frames_[wall++]);
   const double length = geometry::length(frames_[wall]);
   if (!(s >= 0.0 && s < length))
-    throw impossible("initial.s", fmt::format("s = {} is not on the wall '{}' of length {}", initial.s[i],
-                                              system_.table->walls[wall].name, length));
+    throw impossible(initial, fmt::format("s = {} is not on the wall '{}' of length {}", initial.s[i],
+                                          system_.table->walls[wall].name, length));
   const double u = std::clamp(geometry::parameter_at_length(frames_[wall], s), geometry::first_parameter,
                               frames_[wall].last);
   const double normal = std::sqrt((speed - tangential) * (speed + tangential));
@@ -271,8 +281,25 @@ State Sampler::on_wall(int wall, double u, double tangential, double normal, dou
   return state;
 }
 
-State draw_initial_state(const System& system, const World& world, std::uint64_t trajectory,
-                         int particle) {
+int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, int particle) {
+  const System& system = sampler.system();
+  const State state = sampler.draw(world, trajectory, particle);
+  try {
+    return world.add(system.particles.at(static_cast<std::size_t>(particle)), state);
+  } catch (const std::invalid_argument& error) {
+    throw impossible(system.initial, fmt::format("trajectory {} cannot start at ({}, {}): {}", trajectory,
+                                                 state.position.x, state.position.y, error.what()));
+  }
+}
+
+void check_start(const System& system) {
+  World world(*system.table);
+  const Sampler sampler(system);
+  for (int particle = 0; particle < static_cast<int>(system.particles.size()); ++particle)
+    add_start(world, sampler, 0, particle);
+}
+
+State draw_initial_state(const System& system, const World& world, std::uint64_t trajectory, int particle) {
   return Sampler(system).draw(world, trajectory, particle);
 }
 

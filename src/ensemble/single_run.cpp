@@ -94,15 +94,15 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   std::vector<ParticleProgress> progress(count);
   std::vector<int> numbers;
   for (std::size_t p = 0; p < count; ++p) {
-    if (options.resume.empty())
-      progress[p].state = sampler.draw(world, options.trajectory, static_cast<int>(p));
-    else
+    if (options.resume.empty()) {
+      add_start(world, sampler, options.trajectory, static_cast<int>(p));
+    } else {
       progress[p] = options.resume[p];
-    const ParticleProgress& start = progress[p];
-    const bool capped = system.run.collisions > 0 && start.hits >= system.run.collisions;
-    const bool pinned = start.fate == Fate::pinned && system.run.t_max >= no_last_time;
-    if (gone(start.fate) || capped || pinned) continue;
-    world.add(system.particles[p], start.state, start.hits);
+      const bool capped = system.run.collisions > 0 && progress[p].hits >= system.run.collisions;
+      const bool pinned = progress[p].fate == Fate::pinned && system.run.t_max >= no_last_time;
+      if (gone(progress[p].fate) || capped || pinned) continue;
+      world.add(system.particles[p], progress[p].state, progress[p].hits);
+    }
     numbers.push_back(static_cast<int>(p));
   }
 
@@ -117,8 +117,7 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   const bool without_end = system.run.t_max >= no_last_time;
   if (without_end && options.resume.empty()) world.run_until(0.0, passed_on, interrupted);
   bool moving = false;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    moving = moving || !world.finished(static_cast<int>(i));
+  for (std::size_t i = 0; i < numbers.size(); ++i) moving = moving || !world.finished(static_cast<int>(i));
   if (moving || !without_end) world.run_until(system.run.t_max, passed_on, interrupted);
 
   for (std::size_t i = 0; i < numbers.size(); ++i) {

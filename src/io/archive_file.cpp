@@ -73,8 +73,8 @@ ArchiveFile::~ArchiveFile() {
 ArchiveFile ArchiveFile::create(const std::string& path, const std::string& name) {
   const Handle access = latest_format(name);
   errno = 0;
-  Handle file = hdf5::checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
-                              name);
+  Handle file =
+      hdf5::checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, name);
   return ArchiveFile(std::move(file), path, name);
 }
 

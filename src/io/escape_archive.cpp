@@ -23,8 +23,7 @@ class EscapeArchive::Implementation {
   void write_counts(const EscapeResult& result);
 
   template <class Points, class Get>
-  void column(const Handle& group, const char* name, const Points& points, Get get,
-              Description description) {
+  void column(const Handle& group, const char* name, const Points& points, Get get, Description description) {
     std::vector<std::decay_t<decltype(get(points.front()))>> values;
     for (const auto& point : points) values.push_back(get(point));
     hdf5::write_column(group.get(), name, std::span(std::as_const(values)), description, target);
@@ -86,8 +85,7 @@ void EscapeArchive::Implementation::write_counts(const EscapeResult& result) {
     column(group, "from", points, [](const auto& p) { return p.from; }, {"time", "Start of the interval"});
     column(group, "to", points, [](const auto& p) { return p.to; }, {"time", "End of the interval"});
     column(group, "value", points, [](const auto& p) { return p.value; }, {"1/time", "Escape rate"});
-    column(group, "low", points, [](const auto& p) { return p.low; },
-           {"1/time", "95 % interval, low end"});
+    column(group, "low", points, [](const auto& p) { return p.low; }, {"1/time", "95 % interval, low end"});
     column(group, "high", points, [](const auto& p) { return p.high; },
            {"1/time", "95 % interval, high end"});
   }
@@ -126,8 +124,8 @@ EscapeArchive::~EscapeArchive() = default;
 void EscapeArchive::append(const std::vector<TrajectoryRecord>& records) {
   hdf5::silence();
   for (const TrajectoryRecord& r : records)
-    implementation_->trajectories.row(r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int32_t>(r.fate), r.hole,
-                                      r.time, r.hits);
+    implementation_->trajectories.row(r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int32_t>(r.fate),
+                                      r.hole, r.time, r.hits);
 }
 
 void EscapeArchive::finish(const EscapeResult& result, const std::string& status) {

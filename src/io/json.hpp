@@ -14,18 +14,17 @@ namespace carom {
 /// (infinities, integers beyond 2^53) prints as a string, NaN as null.
 class Json {
  public:
-  Json() = default;  ///< null
-  Json(bool value) : text_(value ? "true" : "false") {}  // NOLINT: values convert
-  Json(double value);                                    // NOLINT
-  Json(std::string_view value);                          // NOLINT
+  Json() = default;                                                  ///< null
+  Json(bool value) : text_(value ? "true" : "false") {}              // NOLINT: values convert
+  Json(double value);                                                // NOLINT
+  Json(std::string_view value);                                      // NOLINT
   Json(const std::string& value) : Json(std::string_view(value)) {}  // NOLINT
   Json(const char* value) : Json(std::string_view(value)) {}         // NOLINT
   template <std::integral Integer>
-    requires(!std::same_as<Integer, bool>)
-  Json(Integer value) {  // NOLINT
+  requires(!std::same_as<Integer, bool>) Json(Integer value) {  // NOLINT
     if constexpr (std::signed_integral<Integer>)
-      set_integer(value < 0, value < 0 ? 0 - static_cast<std::uint64_t>(value)
-                                       : static_cast<std::uint64_t>(value));
+      set_integer(value < 0,
+                  value < 0 ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value));
     else
       set_integer(false, value);
   }

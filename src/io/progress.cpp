@@ -15,9 +15,7 @@ Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
 }
 
-bool Progress::due() const {
-  return enabled_ && Clock::now() - last_ >= std::chrono::milliseconds(200);
-}
+bool Progress::due() const { return enabled_ && Clock::now() - last_ >= std::chrono::milliseconds(200); }
 
 double Progress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -25,9 +23,8 @@ void Progress::show(double share, const std::string& rate) {
   if (!enabled_) return;
   last_ = Clock::now();
   shown_ = true;
-  const std::string left = share > 0.0 && share < 1.0
-                               ? as_duration(seconds() * (1.0 - share) / share) + " left"
-                               : std::string();
+  const std::string left =
+      share > 0.0 && share < 1.0 ? as_duration(seconds() * (1.0 - share) / share) + " left" : std::string();
   const std::string line = fmt::format("\r{:5.1f} %  {}  {}\033[K", 100.0 * share, rate, left);
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);

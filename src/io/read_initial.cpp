@@ -111,7 +111,9 @@ void read_birkhoff(Section& section, const Table& table, const std::vector<Parti
 }
 
 void read_point(Section& section, InitialCondition& initial) {
-  initial.position = as_vector(section.get("position"));
+  const Value& position = section.get("position");
+  initial.position = as_vector(position);
+  initial.place = position.place;
   section.exclude("velocity", "angle");
   if (const Value* angle = section.find("angle")) {
     initial.velocity = direction(as_number(*angle));
@@ -128,7 +130,9 @@ void read_point(Section& section, InitialCondition& initial) {
 }
 
 void read_rectangle(Section& section, InitialCondition& initial) {
-  initial.low = as_vector(section.get("min"));
+  const Value& min = section.get("min");
+  initial.low = as_vector(min);
+  initial.place = min.place;
   const Value& max = section.get("max");
   initial.high = as_vector(max);
   if (initial.low.x <= initial.high.x && initial.low.y <= initial.high.y) return;
@@ -150,6 +154,7 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
   Section section(value, "initial", name);
   section.check_keys();
   InitialCondition initial;
+  initial.place = value.place;
   for (const auto& [known, kind] : kinds()) {
     if (known == name) initial.kind = kind;
   }
@@ -178,6 +183,7 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
       read_rectangle(section, initial);
       break;
     case Kind::line:
+      initial.place = section.get("from").place;
       initial.from = as_vector(section.get("from"));
       initial.to = as_vector(section.get("to"));
       initial.angle = as_double(section.get("angle"));

@@ -41,7 +41,10 @@ struct StateField {
 };
 using P = const ParticleProgress&;
 const StateField state_fields[] = {
-    {"wall", false, {"1", "Wall of the last event, -1: off the walls"}, nullptr,
+    {"wall",
+     false,
+     {"1", "Wall of the last event, -1: off the walls"},
+     nullptr,
      [](P p) { return std::int64_t{p.state.wall}; }},
     {"u", true, {"1", "Exact parameter on that wall"}, [](P p) { return p.state.u; }, nullptr},
     {"x", true, {"length", "Position in the cell"}, [](P p) { return p.state.position.x; }, nullptr},
@@ -50,19 +53,37 @@ const StateField state_fields[] = {
     {"vy", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.y; }, nullptr},
     {"cell_first", false, {"1", "Cell of the lattice"}, nullptr, [](P p) { return p.state.cell.first; }},
     {"cell_second", false, {"1", "Cell of the lattice"}, nullptr, [](P p) { return p.state.cell.second; }},
-    {"t_high", true, {"time", "Time of the last event, leading double"},
-     [](P p) { return p.state.time.high; }, nullptr},
-    {"t_low", true, {"time", "Time of the last event, trailing double"},
-     [](P p) { return p.state.time.low; }, nullptr},
+    {"t_high",
+     true,
+     {"time", "Time of the last event, leading double"},
+     [](P p) { return p.state.time.high; },
+     nullptr},
+    {"t_low",
+     true,
+     {"time", "Time of the last event, trailing double"},
+     [](P p) { return p.state.time.low; },
+     nullptr},
     {"end_high", true, {"time", "Time of the end, leading double"}, [](P p) { return p.end.high; }, nullptr},
     {"end_low", true, {"time", "Time of the end, trailing double"}, [](P p) { return p.end.low; }, nullptr},
-    {"hits", false, {"1", "Reflections so far"}, nullptr,
+    {"hits",
+     false,
+     {"1", "Reflections so far"},
+     nullptr,
      [](P p) { return static_cast<std::int64_t>(p.hits); }},
-    {"last_wall", false, {"1", "Wall of the last reflection, -1: none"}, nullptr,
+    {"last_wall",
+     false,
+     {"1", "Wall of the last reflection, -1: none"},
+     nullptr,
      [](P p) { return std::int64_t{p.last_wall}; }},
-    {"hole", false, {"1", "Hole it escaped through, -1: none"}, nullptr,
+    {"hole",
+     false,
+     {"1", "Hole it escaped through, -1: none"},
+     nullptr,
      [](P p) { return std::int64_t{p.hole}; }},
-    {"fate", false, {"1", "Index into the attribute `names`"}, nullptr,
+    {"fate",
+     false,
+     {"1", "Index into the attribute `names`"},
+     nullptr,
      [](P p) { return static_cast<std::int64_t>(p.fate); }},
 };
 
@@ -155,7 +176,8 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
     const hid_t from = group.get();
     hits.open<std::int32_t>(from, "particle");
     hits.open<std::int32_t>(from, "wall");
-    for (const char* name : {"u", "s", "v_parallel", "t", "x", "y", "vx", "vy"}) hits.open<double>(from, name);
+    for (const char* name : {"u", "s", "v_parallel", "t", "x", "y", "vx", "vy"})
+      hits.open<double>(from, name);
     hits.open<std::int64_t>(from, "cell_first");
     hits.open<std::int64_t>(from, "cell_second");
     hits.open<std::int32_t>(from, "reflections");
@@ -173,16 +195,15 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
 void RunArchive::Implementation::write_state(const std::vector<ParticleEnd>& particles) {
   const Handle group = file.open_group("state");
   for (const StateField& field : state_fields) {
-    Handle dataset =
-        hdf5::checked(H5Dopen2(group.get(), field.name, H5P_DEFAULT), H5Dclose, file.name());
+    Handle dataset = hdf5::checked(H5Dopen2(group.get(), field.name, H5P_DEFAULT), H5Dclose, file.name());
     herr_t written = -1;
     if (field.real) {
       const auto values =
           collect<double>(particles, [&](const ParticleEnd& p) { return field.real_of(p.progress); });
       written = H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     } else {
-      const auto values =
-          collect<std::int64_t>(particles, [&](const ParticleEnd& p) { return field.integer_of(p.progress); });
+      const auto values = collect<std::int64_t>(
+          particles, [&](const ParticleEnd& p) { return field.integer_of(p.progress); });
       written = H5Dwrite(dataset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     }
     hdf5::check(written >= 0, file.name());

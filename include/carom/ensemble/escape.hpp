@@ -20,13 +20,13 @@ struct TrajectoryRecord {
   double x = 0, y = 0, vx = 0, vy = 0;  ///< start, unwrapped
   Fate fate = Fate::survived;
   std::int32_t hole = -1;
-  double time = 0;                      ///< end: escape, last hit of an unbounded one, else t_max
+  double time = 0;  ///< end: escape, last hit of an unbounded one, else t_max
   std::uint64_t hits = 0;
 };
 
 struct EscapeOptions {
-  int threads = 0;                      ///< 0: as many as OpenMP gives
-  std::uint64_t block = 1024;           ///< trajectories a block; the result does not depend on it
+  int threads = 0;             ///< 0: as many as OpenMP gives
+  std::uint64_t block = 1024;  ///< trajectories a block; the result does not depend on it
   DecisionOptions decisions;
   const std::atomic<bool>* interrupted = nullptr;  ///< asked between blocks and during long ones
   /// Called now and then from one thread at a time with the trajectories done so far.
@@ -39,10 +39,10 @@ struct EscapeResult {
   SurvivalCounts counts;
   std::uint64_t digest = 0;
   DecisionCounts decisions;
-  bool complete = true;                 ///< false when interrupted: whole blocks only
+  bool complete = true;  ///< false when interrupted: whole blocks only
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;
-  std::vector<std::string> reports;     ///< first few states that were lost
+  std::vector<std::string> reports;  ///< first few states that were lost
 };
 
 /// Runs the ensemble: trajectories 0 … System::run.trajectories - 1. Where a trajectory has several

@@ -23,7 +23,8 @@ class RandomStream;
 ///   point      given position and velocity
 class Sampler {
  public:
-  explicit Sampler(const System&);
+  explicit Sampler(const System&);  ///< refers to the system
+  const System& system() const { return system_; }
 
   /// The state of particle `particle` of trajectory `trajectory`. `world` answers which points lie in
   /// the domain. Throws InputError when the initial condition is impossible.
@@ -38,8 +39,8 @@ class Sampler {
   };
 
   void add_source(int wall, double from, double to);
-  State in_box(const World&, RandomStream&, geometry::Vector low, geometry::Vector high,
-               double speed, const char* where) const;
+  State in_box(const World&, RandomStream&, geometry::Vector low, geometry::Vector high, double speed,
+               const char* where) const;
   State on_line(const World&, RandomStream&, double speed) const;
   State at_point(const World&, double speed) const;
   State cosine_law(RandomStream&, double speed) const;
@@ -50,9 +51,13 @@ class Sampler {
   const System& system_;
   std::vector<geometry::CurveFrame> frames_;  ///< one a wall
   std::vector<Source> sources_;
-  geometry::Vector low_, high_;               ///< uniform: box around the domain
+  geometry::Vector low_, high_;  ///< uniform: box around the domain
 };
 
+/// Draws a state and adds it to the world; returns the particle's number there. Throws InputError.
+int add_start(World&, const Sampler&, std::uint64_t trajectory, int particle);
+/// Throws InputError if the first trajectory cannot start.
+void check_start(const System&);
 /// One state by a sampler made on the spot.
 State draw_initial_state(const System&, const World& world, std::uint64_t trajectory, int particle);
 

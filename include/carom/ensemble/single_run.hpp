@@ -14,12 +14,12 @@ namespace carom {
 /// Everything that a particle's future depends on. A run continued from it repeats the
 /// uninterrupted one bit for bit.
 struct ParticleProgress {
-  State state;             ///< after its last event: exact
+  State state;  ///< after its last event: exact
   std::uint64_t hits = 0;
   std::int32_t last_wall = -1;
   std::int32_t hole = -1;
   Fate fate = Fate::survived;
-  Time end;                ///< the clock: t_max, or when the trajectory ended
+  Time end;  ///< the clock: t_max, or when the trajectory ended
 };
 
 /// A particle at the end of a run, as people want to see it.
@@ -27,15 +27,15 @@ struct ParticleEnd {
   ParticleProgress progress;
   double t = 0, x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped
   geometry::Cell cell;
-  double energy_error = 0;                     ///< relative, against Particle::speed
-  std::string report;                          ///< of lost and singular ones
+  double energy_error = 0;  ///< relative, against Particle::speed
+  std::string report;       ///< of lost and singular ones
 };
 
 struct SingleRunOptions {
   DecisionOptions decisions;
-  std::vector<ParticleProgress> resume;        ///< empty: start afresh
-  std::function<bool()> interrupted;           ///< asked between events
-  std::uint64_t trajectory = 0;                ///< index: which start is drawn
+  std::vector<ParticleProgress> resume;  ///< empty: start afresh
+  std::function<bool()> interrupted;     ///< asked between events
+  std::uint64_t trajectory = 0;          ///< index: which start is drawn
 };
 
 struct SingleRunResult {

@@ -24,6 +24,7 @@ struct InitialCondition {
   geometry::Vector from, to;         ///< line
   double angle = 0.0;                ///< line: direction of flight against +x
   std::vector<double> s, v_parallel; ///< birkhoff: trajectory i starts at the i-th pair (cyclic)
+  Place place;                       ///< where it is written, for messages about impossible starts
 };
 
 /// Times at which survival is reported, in increasing order.

@@ -30,8 +30,8 @@ struct Provenance {
 /// stays readable, with the attribute `complete` still 0.
 class RunArchive : public Observer {
  public:
-  static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&,
-                                            const Provenance&, bool force);
+  static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&, const Provenance&,
+                                            bool force);
   /// Goes on with the run stored in `source`: works on a copy TARGET.part, which becomes `target`
   /// (often the source itself) when finished.
   static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
