@@ -6,7 +6,7 @@
 namespace carom::io {
 namespace {
 
-Place command_line(const std::string& key) { return {"command line", 0, 0, key}; }
+Place command_line(const std::string& key) { return {command_line_file, 0, 0, key}; }
 
 struct Step {
   std::string key;

@@ -8,6 +8,9 @@
 
 namespace carom::io {
 
+/// The file of places on the command line.
+inline constexpr const char* command_line_file = "command line";
+
 void apply(const SystemOverrides& overrides, Value& root);
 
 /// Sets the value at a path such as "table.hole[0].width"; missing sections are made, an index one

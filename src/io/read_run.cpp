@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "carom/base/elementary.hpp"
+#include "io/overrides.hpp"
 #include "io/read.hpp"
 
 namespace carom::io {
@@ -83,6 +84,17 @@ std::vector<double> read_list(const Value& value) {
   return times;
 }
 
+bool on_command_line(const Value& value) { return value.place.file == command_line_file; }
+
+Value list_of(const std::vector<double>& numbers, const Place& place) {
+  Value value;
+  value.kind = Value::Kind::list;
+  value.place = place;
+  for (const double x : numbers) value.items.push_back(number_value(ExactNumber(x).text(), place));
+  return value;
+}
+
+// Times of the file beyond a shorter t_max of the command line are left out, and t_max is the last.
 std::vector<double> read_times(Section& run, double t_max) {
   Value& times = run.fill("times", default_times(run.get("t_max"), run.place_of("times")));
   if (times.kind == Value::Kind::text || times.kind == Value::Kind::number) times = parse_times(times);
@@ -91,10 +103,15 @@ std::vector<double> read_times(Section& run, double t_max) {
                      "[1, 10, 100] or {from, to, count, spacing}");
   }
   std::vector<double> result = times.kind == Value::Kind::list ? read_list(times) : read_grid(times);
-  if (result.back() > t_max) {
+  if (result.back() <= t_max) return result;
+  const bool cut_short = on_command_line(run.get("t_max")) && !on_command_line(times);
+  if (!cut_short) {
     throw InputError(times.place, "the time " + shown(result.back()) + " comes after t_max = " + shown(t_max),
                      "times up to run.t_max");
   }
+  std::erase_if(result, [t_max](double t) { return t >= t_max; });
+  result.push_back(t_max);
+  times = list_of(result, times.place);
   return result;
 }
 

@@ -5,7 +5,7 @@
 namespace carom::io {
 namespace {
 
-// The shapes are the words that key_table() gives for them.
+// In the order of the guide.
 const std::vector<std::string>& shapes() {
   static const std::vector<std::string> names{"rectangle", "polygon", "triangle", "regular",  "circle",
                                               "ellipse",   "annulus", "stadium",  "mushroom", "lemon",

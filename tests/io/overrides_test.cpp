@@ -77,6 +77,16 @@ TEST(Overrides, TimesInTheirOwnNotation) {
   }
 }
 
+TEST(Overrides, AShorterRunCutsTheTimesOfTheFile) {
+  SystemOverrides o;
+  o.t_max = "10.5";
+  const LoadedSystem loaded = read_system(square("[run]\ntimes = [0.1, 5, 10.5, 20]\n"), "test.toml", o);
+  EXPECT_EQ(loaded.system.run.times, (std::vector<double>{0.1, 5, 10.5}));
+  EXPECT_EQ(read(loaded.resolved_toml).run.times, loaded.system.run.times);
+  o.times = "1,20";
+  EXPECT_HAS(fault(square(), o), "command line: --times: the time 20 comes after t_max = 10.5");
+}
+
 TEST(Overrides, PositionAndVelocityReplaceTheStart) {
   SystemOverrides o;
   o.position = "1/10,-1/5";
