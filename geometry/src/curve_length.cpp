@@ -120,11 +120,10 @@ double elliptic_length(const CurveFrame& f, double u) {
   const double x = q.x * along - q.y * across, y = q.y * along + q.x * across;
   const Vector now{f.phase.x * x - f.phase.y * y, f.phase.y * x + f.phase.x * y};
   const Place first = place(f, f.phase.x, f.phase.y), second = place(f, now.x, now.y);
+  // The place has passed n or n + 1 ends of quarters since the start. Rounding does not blur that: the
+  // coordinate that changes sign at the n-th is a sum of two terms of one sign.
   int turned = second.quarters - first.quarters;
-  // Right up to whole turns; at the seams rounding may show the neighbouring quarter.
-  if (turned < 0) turned += 4;
-  if (u < 2.0 && turned == 3) turned = -1;
-  if (u >= 2.0 && turned < 2) turned += 4;
+  while (turned < n) turned += 4;
   return turned * quarter + (second.within - first.within);
 }
 

@@ -89,7 +89,7 @@ int crosses_segment(const ExactCurve& c, const ExactPoint& origin, const DyadicV
   };
   const DyadicVector a = seen(c.from), b = seen(c.to);
   const int from = cross(d, a).sign(), to = cross(d, b).sign();
-  if (from == 0 && dot(d, a).sign() >= 0) return -1;
+  // Its start is left to the piece that ends there.
   if (to == 0 && dot(d, b).sign() >= 0) return -1;
   if (from * to >= 0) return 0;
   const int ahead = to * cross(a, c.direction).sign();
@@ -115,7 +115,6 @@ int ExactLoop::crossings(const ExactPoint& origin, const DyadicVector& d, std::s
     for (std::size_t k = 0; k < piece.stretches().size(); ++k) {
       const Stretch& s = piece.stretches()[k];
       const Polynomial across = form_along(s, left(d), origin);
-      if (vanishes(across)) return -1;
       const Polynomial ahead = form_along(s, d, origin);
       for (const RealRoot& root : roots_in_unit(across)) {
         const Where where = piece.where_along(k, root.value);

@@ -403,6 +403,23 @@ TEST(Curve, ThinEllipses) {
   }
 }
 
+TEST(Curve, LengthsOfEllipsesAtTheEndsOfQuarters) {
+  // Starts near the ends of the axes, so that rounding may show either quarter of the ellipse.
+  for (int i = -20; i <= 20; ++i)
+    for (const double angle : {0.0, 0.5, 1.0, 1.5}) {
+      const Curve whole = Ellipse{{0.1, 0.2}, {1.3, 0.7}, 0.3, true};
+      const double at = 2.0 * angle;
+      const CurveFrame f = frame_of(whole);
+      const Vector from = point_at(f, at) + Vector{i * 0x1p-54, -i * 0x1p-54};
+      const Vector opposite = Vector{0.2, 0.4} - from;
+      const Curve half = EllipticArc{from, opposite, {1.3, 0.7}, 0.3, 0.0, i % 2 == 0};
+      const CurveFrame g = frame_of(half);
+      EXPECT_NEAR(length(g), 0.5 * length(f), 5e-14) << i << " " << angle;
+      for (const double u : {1.0 - 0x1p-53, 1.0, 1.0 + 0x1p-52, 2.0 - 0x1p-52})
+        EXPECT_NEAR(arc_length_at(g, u), (u < 1.5 ? 0.25 : 0.5) * length(f), 5e-14) << i << " " << angle;
+    }
+}
+
 TEST(Curve, RefusesWhatHasNoExtent) {
   EXPECT_THROW(arc_through({0, 0}, {1, 1}, {2, 2}), std::invalid_argument);
   EXPECT_THROW(arc_through({0, 0}, {1, 1}, {0, 0}), std::invalid_argument);

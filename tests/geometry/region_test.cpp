@@ -299,6 +299,21 @@ TEST(Region, PointLocationAgainstFormulas) {
   EXPECT_EQ(locate(mushroom(1, 1, 1), {-2.0, 0.0}), -1);
 }
 
+TEST(Region, RaysThroughJointsAndTangents) {
+  // Point location sends its first ray along this direction: through a joint, and along a tangent.
+  const Vector d{1.0, 0.1123046875};
+  const auto ring = [](Vector joint) {
+    return Loop{{"first", CircularArc{joint, -joint, 0.0, true}},
+                {"second", CircularArc{-joint, joint, 0.0, true}}};
+  };
+  EXPECT_EQ(locate(ring(4.0 * d), {0, 0}), 1);
+  EXPECT_EQ(locate(ring(4.0 * d), -8.0 * d), -1);
+  EXPECT_EQ(locate(ring(4.0 * d), left(4.0 * d) - 8.0 * d), -1);
+  EXPECT_EQ(locate(polygon({{0, 0}, 4.0 * d, left(d)}), -d), -1);  // along a side
+  EXPECT_EQ(locate(polygon({{4, -4}, 4.0 * d, {-4, 4}}), {0.0, 0.0}), 0);
+  EXPECT_EQ(locate(polygon({{4, -4}, 4.0 * d, {-4, 4}}), 0.5 * d), 1);
+}
+
 TEST(Region, ManyWalls) {
   std::vector<Vector> corners;
   const int n = 10000;
