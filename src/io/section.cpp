@@ -9,7 +9,7 @@ namespace carom::io {
 namespace {
 
 [[noreturn]] void wrong_type(const Value& value, const std::string& expected) {
-  throw InputError(value.place, "must be " + expected + ", not " + name_of(value.kind), expected);
+  throw InputError(value.place, "must be " + expected + ", not " + name_of(value.kind));
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t mo
     const bool whole = error == std::errc{} && end == digits.data() + digits.size();
     if (whole && count >= least && count <= most) return count;
   }
-  throw InputError(value.place, "must be " + expected + ", not " + value.text, expected);
+  throw InputError(value.place, "must be " + expected + ", not " + value.text);
 }
 
 const std::string& as_text(const Value& value) {

@@ -38,7 +38,7 @@ class Opening {
     if (beyond(width, length)) {
       throw InputError(
           hole_.width.place(), "the hole is wider than its wall",
-          "a width of at most " + std::to_string(length) + ", the length of '" + hole_.wall + "'");
+          "a width of at most " + ExactNumber(length).text() + ", the length of '" + hole_.wall + "'");
     }
     const std::string c = quoted(hole_.center), w = quoted(hole_.width);
     const double centre = hole_.center.to_double();
@@ -46,12 +46,12 @@ class Opening {
     const double to = derived(c + "+" + w + "/2", hole_.center).to_double();
     if (centre < 0 || beyond(centre, length)) {
       throw InputError(hole_.center.place(), "the hole's center is not on the wall",
-                       "an arc length from 0 to " + std::to_string(length));
+                       "an arc length from 0 to " + ExactNumber(length).text());
     }
     const bool closed = geometry::is_closed(curve_);
     if (!closed && (from < 0 || beyond(to, length))) {
       throw InputError(hole_.center.place(), "the hole reaches over the end of its wall '" + hole_.wall + "'",
-                       "a hole within 0 … " + std::to_string(length) + " of arc length");
+                       "a hole within 0 … " + ExactNumber(length).text() + " of arc length");
     }
     if (closed && to - from >= length) {
       add(0.0, end());  // all of it, wherever it begins

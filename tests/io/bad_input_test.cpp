@@ -147,7 +147,7 @@ TEST(BadInput, RunsMustEndAndHaveTrajectories) {
                     {"[run]\nt_max = inf\n", "not a finite number"},
                     {"[run]\nt_max = \"long\"\n", "run.t_max: unknown word 'long'"},
                     {"[run]\ntrajectories = 0\n", "run.trajectories: must be a whole number from 1 to "},
-                    {"[run]\ntrajectories = -5\n", ", not -5 (expected a whole number from 1"},
+                    {"[run]\ntrajectories = -5\n", ", not -5"},
                     {"[run]\ntrajectories = \"many\"\n", ", not many"},
                     {"[run]\ntrajectories = 1.5\n", ", not 1.5"},
                     {"[run]\nseed = -1\n", "run.seed: must be a whole number of at least 0, not -1"},
