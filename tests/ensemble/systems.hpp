@@ -1,0 +1,31 @@
+// Small systems for the tests of this room.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "carom/io/system_file.hpp"
+
+namespace carom {
+
+inline System make_system(const std::string& toml) { return read_system(toml, "test").system; }
+
+inline const char* magnetic_square = R"(
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[[table.hole]]
+wall = "bottom"
+center = 0.5
+width = 0.3
+[field]
+larmor_radius = 0.5075
+[initial]
+kind = "uniform"
+[run]
+t_max = 200
+trajectories = 500
+)";
+
+}  // namespace carom
