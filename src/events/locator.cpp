@@ -5,9 +5,10 @@ namespace carom {
 using namespace geometry;
 
 Locator::Locator(const Table& table)
-    : domain_(table, {}, false, false), complement_(table, {}, false, true), cell_(table) {}
+    : domain_(table, {}, false, false), complement_(table, {}, false, true), cell_(table), touch_(table) {}
 
 bool Locator::contains(Vector point) const {
+  if (touch_.on_wall(point)) return false;
   Flight flight;
   flight.start = point;
   // Directions of rational slope in different octants; one that meets no tie is enough.

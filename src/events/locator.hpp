@@ -2,6 +2,7 @@
 #pragma once
 
 #include "events/next_hit.hpp"
+#include "events/wall_touch.hpp"
 
 namespace carom {
 
@@ -16,6 +17,7 @@ class Locator {
 
  private:
   HitFinder domain_, complement_, cell_;
+  WallTouch touch_;
 };
 
 }  // namespace carom
