@@ -52,7 +52,10 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   across = {rounded(mpq_class(-ay / determinant)), rounded(mpq_class(ax / determinant))};
   if (kind == CurveKind::circle) {
     r2 = rounded(exact_curve.r2);
-    inverse_r2 = 1.0 / r2;
+    weight = 0.75 / r2;
+    int exponent = 0;
+    const double fraction = std::frexp(r2, &exponent);
+    off_power = fraction < 0.625 || fraction > 0.875 ? 0.75 : 1.0;
   } else {
     // M(e, e) / M(a, a) = (e.p)^2 k^2 / M + (e.q)^2 / M: both rows carry 1 / sqrt(M(a, a)).
     const double root = std::sqrt(rounded(exact_curve.r2));
@@ -60,6 +63,11 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     const double k = rounded(exact_curve.metric.k);
     first_axis = {k * p.x / root, k * p.y / root};
     second_axis = {-p.y / root, p.x / root};
+    const double axis = std::sqrt(dot(p, p));
+    first_direction = {p.x / axis, p.y / axis};
+    second_direction = left(first_direction);
+    second_weight = dot(p, p) / rounded(exact_curve.r2);
+    first_weight = k * k * second_weight;
   }
   // centre 2u, a sum u of the extents; settle: e and its factor back; parameter: the coordinates on the
   // unit circle (6u each), the half-angle tangent (2u) and u itself below 4 (2u), turned by two lengths.

@@ -67,7 +67,7 @@ namespace {
 /// The wall's polynomial in kappa, for all but Larmor circles against ellipses. `stands`: the start lies
 /// on the wall, and the leading coefficient is zero by algebra.
 [[gnu::always_inline]] inline Quadratic<double> quadratic(const PreparedCurve& w, Vector origin, Vector v,
-                                                          double omega, bool stands) {
+                                                          double v2, double omega, bool stands) {
   if (w.kind == CurveKind::segment) {
     const Vector e = stands ? Vector{} : origin - w.from;
     return line_quadratic(e, w.tangent, v, omega, 0.5);
@@ -75,11 +75,15 @@ namespace {
   const Vector e = origin - w.centre;
   Quadratic<double> q;
   if (w.kind == CurveKind::circle) {
-    q = circle_quadratic(e, stands ? dot(e, e) : w.r2, v, omega, 0.5);
+    q = circle_quadratic(e, stands ? dot(e, e) : w.r2, v, v2, omega, 0.5);
   } else {
-    const Vector em{dot(w.first_axis, e), dot(w.second_axis, e)};
-    const Vector vm{dot(w.first_axis, v), dot(w.second_axis, v)};
-    q = circle_quadratic(em, stands ? dot(em, em) : 1.0, vm, 0.0, 0.5);
+    // The weights of the axes come after the products: a rounded factor on each coordinate would bias
+    // every flight the same way.
+    const Vector em{dot(w.first_direction, e), dot(w.second_direction, e)};
+    const Vector vm{dot(w.first_direction, v), dot(w.second_direction, v)};
+    const double p = w.first_weight, r = w.second_weight;
+    q = {stands ? 0.0 : p * (em.x * em.x) + r * (em.y * em.y) - 1.0, p * (em.x * vm.x) + r * (em.y * vm.y),
+         p * (vm.x * vm.x) + r * (vm.y * vm.y)};
   }
   return w.orientation > 0 ? -q : q;
 }
@@ -106,7 +110,7 @@ HitFinder::Candidate HitFinder::candidate(const Flight& f, int piece, bool stand
   const PreparedCurve& w = curves_[at(p.curve)];
   const Origin& origin = origins_[at(p.offset)];
   Candidate c;
-  c.quadratic = quadratic(w, origin.point, f.velocity, f.omega, stands);
+  c.quadratic = quadratic(w, origin.point, f.velocity, f.square_speed, f.omega, stands);
   c.error = quadratic_error(w, origin.point, origin.scale, stands);
   c.root = rising_root(c.quadratic);
   if (stands && f.omega != 0.0) c.root.kappa = -c.quadratic.c / (2.0 * c.quadratic.b);
@@ -260,6 +264,13 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
 
   int best = -1;
   double best_kappa = 0.0, best_error = -1.0;  // negative: not computed yet
+  Quadratic<double> best_q;
+  Root best_root;
+  const auto error_of_root = [&](int piece, const Quadratic<double>& f2, const Root& r) {
+    const PieceData& p = data_[at(piece)];
+    const Origin& origin = origin_of(p);
+    return kappa_error(f2, quadratic_error(curves_[at(p.curve)], origin.point, origin.scale, piece == start), r);
+  };
   double best_time = 0.0, best_unit = 1.0;     // without field: kappa = unit / time, divided only if needed
   double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
   if (larmor && cells && f.entry >= 0) {
@@ -288,6 +299,8 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
     const PreparedCurve& w = curves_[at(p.curve)];
     const Origin& origin = origin_of(p);
     double kappa = 0.0, error = -1.0, time = 0.0, unit = 1.0;
+    Quadratic<double> q;
+    Root root;
     if (larmor && w.kind == CurveKind::ellipse) {
       if (!cells) look_from(f);
       Candidate c;
@@ -305,21 +318,24 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
       time = a;
       unit = -geometry::cross(w.tangent, v);
     } else {
-      const Quadratic<double> q = quadratic(w, origin.point, v, omega, stands);
-      const Root root = stands ? Root{q.b * q.b, std::fabs(q.b), larmor ? -q.c / (2.0 * q.b) : 0.0} : rising_root(q);
+      // Standing on the wall, without field: the other crossing of the circle lies ahead exactly when the
+      // particle is inside it.
+      if (!larmor && stands && w.orientation < 0) continue;
+      q = quadratic(w, origin.point, v, f.square_speed, omega, stands);
+      root = stands ? Root{q.b * q.b, std::fabs(q.b), larmor ? -q.c / (2.0 * q.b) : 0.0} : rising_root(q);
       kappa = root.kappa;
       if (!larmor) {
         time = q.b <= 0.0 ? q.a : -(q.b + root.root);
         unit = q.b <= 0.0 ? root.root - q.b : q.c;
       }
-      if (!larmor || (w.closed && !stands)) {
+      if (!stands && (!larmor || w.closed)) {
         const QuadraticError e = quadratic_error(w, origin.point, origin.scale, stands);
-        if (w.closed && !stands) {
+        if (w.closed) {
           const Sign cut = sign_within(root.discriminant, discriminant_error(q, e));
           if (cut == Sign::undecided) return false;
           if (cut != Sign::positive) continue;
         }
-        if (!larmor) {
+        if (!larmor && !(w.orientation > 0 && q.a > e.a)) {  // from inside a circle: always
           const Sign forward = ahead_of_start(q, e);
           if (forward == Sign::undecided) return false;
           if (forward == Sign::negative) continue;
@@ -337,8 +353,8 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
         kappa = unit / time;
         best_kappa = best_unit / best_time;
       }
-      if (best_error < 0) best_error = kappa_error_of(f, best);
-      if (error < 0) error = kappa_error_of(f, piece);
+      if (best_error < 0) best_error = larmor ? error_of_root(best, best_q, best_root) : kappa_error_of(f, best);
+      if (error < 0) error = larmor ? error_of_root(piece, q, root) : kappa_error_of(f, piece);
       const Sign order = sign_within(kappa - best_kappa, error + best_error);
       if (order == Sign::undecided) return false;
       if (order == Sign::negative) continue;
@@ -348,6 +364,8 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
     best_error = error;
     best_time = time;
     best_unit = unit;
+    best_q = q;
+    best_root = root;
   }
   ahead.piece = best;
   ahead.root = 0;

@@ -37,6 +37,7 @@ class EventQueue {
   const Key& key(int entry) const { return keys_[static_cast<std::size_t>(entry)]; }
   void update(int entry, Key key) {
     keys_[static_cast<std::size_t>(entry)] = key;
+    if (heap_.size() == 1) return;
     const std::size_t i = place_[static_cast<std::size_t>(entry)];
     up(i);
     down(place_[static_cast<std::size_t>(entry)]);

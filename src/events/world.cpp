@@ -27,7 +27,7 @@ std::string describe_state(const Particle& p, const State& s, const char* what) 
 
 struct Body {
   Particle particle;
-  double inverse_square_speed = 1.0;
+  double energy_weight = 0.75;
   State state;
   Flight flight;
   Ahead ahead;
@@ -140,21 +140,21 @@ void World::Implementation::reflect(int index, Observer& observer, const HitFind
   const Time now = queue.key(index).time;
   const Vector before = landing.velocity;
   const Vector normal = landing.frame.normal;
-  const double scale = to_energy_shell(before, b.inverse_square_speed);
+  const double step = step_to_energy_shell(before, b.energy_weight);
   Vector after;
   int reflections = 1;
   if (b.ahead.kind == Ahead::Kind::joint) {
     reflections = corners[static_cast<std::size_t>(landing.wall)];
     if (reflections == 0) return end(index, Fate::singular, now, &observer);
     const int previous = finder.table().walls[static_cast<std::size_t>(landing.wall)].previous;
-    after = scale * reflected_at_corner(before, finder.normal_at_end(previous), normal, reflections);
+    after = (1.0 + step) * reflected_at_corner(before, finder.normal_at_end(previous), normal, reflections);
   } else {
-    after = geometry::reflected(before, normal, landing.frame.square, scale);
+    after = geometry::reflected(before, normal, landing.frame.square, landing.frame.k, step);
   }
   Sign inward = finder.inward(landing.wall, landing.u, after, normal, counts);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.
-    after = geometry::reflected(after, normal, landing.frame.square, 1.0);
+    after = geometry::reflected(after, normal, landing.frame.square, landing.frame.k, 0.0);
     inward = finder.inward(landing.wall, landing.u, after, normal, counts);
   }
   if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);
@@ -224,10 +224,11 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   b.state = state;
   b.hits = hits;
   b.last_wall = -1;
-  b.inverse_square_speed = 1.0 / (particle.speed * particle.speed);
+  b.energy_weight = 0.75 / (particle.speed * particle.speed);
   b.flight.omega = particle.omega;
+  b.flight.square_speed = particle.speed * particle.speed;
   if (state.wall >= 0) {
-    const auto [point, normal, square] = w.finder.curve(state.wall).frame(state.u);
+    const auto [point, normal, square, k] = w.finder.curve(state.wall).frame(state.u);
     // A state that went on from a hit keeps its point; any other starts at the image of u.
     if (w.finder.curve(state.wall).parameter(state.position) != state.u) b.state.position = point;
     DecisionCounts unused;

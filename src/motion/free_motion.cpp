@@ -8,10 +8,10 @@ using geometry::Vector;
 
 Vector reflected_at_corner(Vector v, Vector before, Vector after, int n) {
   if (n % 2 == 0) return -v;
-  if (n == 1) return geometry::reflected(v, after, dot(after, after), 1.0);
+  if (n == 1) return geometry::reflected(v, after, dot(after, after), 1.0, 0.0);
   for (int i = 0; i < n; ++i) {
     const Vector normal = i % 2 == 0 ? before : after;
-    v = geometry::reflected(v, normal, dot(normal, normal), 1.0);
+    v = geometry::reflected(v, normal, dot(normal, normal), 1.0, 0.0);
   }
   return v;
 }

@@ -8,10 +8,12 @@
 
 namespace carom {
 
-/// The factor that brings |v| back to the speed: one Newton step of 1/sqrt. It is taken from the velocity
-/// before a reflection, so that no hit waits for it; what one reflection errs, the next one mends.
-inline double to_energy_shell(geometry::Vector v, double inverse_square_speed) {
-  return 1.5 - 0.5 * (dot(v, v) * inverse_square_speed);
+/// The step s for which v + s v has the right speed: one Newton step of 1/sqrt, with `weight` = 0.75 over
+/// the squared speed. 0.75 |v|^2/speed^2 lies in the middle of a binade, where doubles are evenly spaced,
+/// so that the step has no bias. It is taken from the velocity before a reflection, so that no hit waits
+/// for it; what one reflection errs, the next one mends.
+inline double step_to_energy_shell(geometry::Vector v, double weight) {
+  return (0.75 - (weight * v.x * v.x + weight * v.y * v.y)) * (2.0 / 3.0);
 }
 
 /// Velocity after the n reflections at a corner of angle pi/n between the wall that ends there, with

@@ -50,7 +50,7 @@ inline QuadraticError circle_error(const FlightScale& f, double e1, double centr
   const double b = f.speed_1 * (eta + 2.1 * u * e1);
   const double n = 0.25 * f.omega * f.omega;
   const double c = n * (a + 4.1 * u * (e1 * e1 + r2)) + f.omega * f.speed_1 * (eta + 4.1 * u * e1) +
-                   4.1 * u * f.speed_1 * f.speed_1;
+                   12.1 * u * f.speed_1 * f.speed_1;  // |v|^2 is the energy shell's, within 8u
   return {f.inflation * a, f.inflation * b, f.inflation * c};
 }
 
@@ -58,9 +58,9 @@ inline QuadraticError circle_error(const FlightScale& f, double e1, double centr
 /// rows of the map, whose entries err by 4u relative; e = P - C with |e|_1 = e1.
 inline QuadraticError ellipse_error(const FlightScale& f, double e1, double centre_error, double row) {
   const double u = unit_roundoff;
-  const double eta = row * (f.delta + centre_error + 7.1 * u * e1);  // of each mapped coordinate of e
+  const double eta = row * (f.delta + centre_error + 9.1 * u * e1);  // of each mapped coordinate of e
   const double m = 2.01 * row * e1, n = 2.01 * row * f.speed_1;      // mapped |e|_1, |v|_1
-  const double nu = 6.1 * u * row * f.speed_1;                       // of each mapped coordinate of v
+  const double nu = 8.1 * u * row * f.speed_1;                       // of each mapped coordinate of v
   return {f.inflation * (2.01 * m * eta + 2.01 * eta * eta + 3.1 * u * (m * m + 1.0)),
           f.inflation * (m * nu + n * eta + 2.01 * nu * eta + 2.1 * u * m * n),
           f.inflation * (2.01 * n * nu + 2.01 * nu * nu + 2.1 * u * n * n)};

@@ -43,14 +43,14 @@ constexpr Quadratic<Number> line_quadratic(const BasicVector<Number>& e, const B
   return {a, half * cross(d, v), a * (h * h) - h * dot(d, v)};
 }
 
-/// Flight against the circle of squared radius r2 about C, domain outside; e = P - C.
+/// Flight against the circle of squared radius r2 about C, domain outside; e = P - C, v2 = |v|^2.
 template <class Number>
 constexpr Quadratic<Number> circle_quadratic(const BasicVector<Number>& e, const Number& r2,
-                                             const BasicVector<Number>& v, const Number& omega,
-                                             const Number& half) {
+                                             const BasicVector<Number>& v, const Number& v2,
+                                             const Number& omega, const Number& half) {
   const Number a = dot(e, e) - r2;
   const Number h = half * omega;
-  return {a, dot(e, v), a * (h * h) + omega * cross(e, v) + dot(v, v)};
+  return {a, dot(e, v), a * (h * h) + omega * cross(e, v) + v2};
 }
 
 /// Coefficients of kappa^0 … kappa^4.
@@ -93,12 +93,14 @@ constexpr BasicVector<Number> turned(const Number& kappa, const BasicVector<Numb
   return {v.x + (p * v.y - q * v.x), v.y - (p * v.x + q * v.y)};
 }
 
-/// Velocity after a reflection by a wall with normal n of squared length n2, times `scale`.
+/// Velocity after a reflection by a wall with normal n, where n2 = k |n|^2, lengthened by the fraction
+/// `step`.
 template <class Number>
 constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n,
-                                        const Number& n2, const Number& scale) {
-  const Number twice = Number(2) * dot(v, n) / n2;
-  return {scale * (v.x - twice * n.x), scale * (v.y - twice * n.y)};
+                                        const Number& n2, const Number& k, const Number& step) {
+  const Number twice = Number(2) * k * dot(v, n) / n2;
+  const BasicVector<Number> w{v.x - twice * n.x, v.y - twice * n.y};
+  return {w.x + step * w.x, w.y + step * w.y};
 }
 
 }  // namespace carom::geometry

@@ -37,11 +37,14 @@ struct PreparedCurve {
   // Circle and ellipse: centre, start vector a and its quarter turn b in the direction of travel.
   Vector centre, a, b;
   double r2 = 0.0;            ///< circle: squared radius
-  double inverse_r2 = 0.0;
+  double weight = 0.0;        ///< circle: 0.75 / r2
+  double off_power = 1.0;     ///< circle: 1 or 0.75, such that off_power r2 is not near a power of two
   Vector along, across;       ///< rows of the map of e = x - centre to the unit circle of (a, b)
   double centre_error = 0.0;  ///< of `centre`
   // Ellipse: rows of the map to the unit circle of its axes, in which flights are intersected.
   Vector first_axis, second_axis;
+  Vector first_direction, second_direction;       ///< the same as unit vectors …
+  double first_weight = 0.0, second_weight = 0.0; ///< … with the squares of their lengths
   double extent = 0.0;        ///< largest |coordinate| on the curve, rounded up
 
   double point_error = 0.0;   ///< of point(u), and of settle(x) against point(parameter(x))
@@ -56,10 +59,12 @@ struct PreparedCurve {
     const Vector e = seen_from_centre(u);
     return centre + e;
   }
-  /// A point on the curve with a normal into the domain, of any length, and its square.
+  /// A point on the curve with a normal n into the domain, of any length, and square = k |n|^2, where k is
+  /// a short number that keeps squares about r^2 off the powers of two.
   struct Frame {
     Vector point, normal;
     double square = 1.0;
+    double k = 1.0;
   };
   /// The frame at a point that is on the curve up to rounding, which is brought back to it: hits on one
   /// wall do not add up their errors across it. The normal of a conic keeps its length, for dividing by
@@ -67,22 +72,19 @@ struct PreparedCurve {
   Frame settle(Vector x) const {
     if (kind == CurveKind::segment) {
       const double s = dot(x - from, tangent);
-      return {from + s * tangent, left(tangent), 1.0};
+      return {from + s * tangent, left(tangent), 1.0, 1.0};
     }
     const Vector e = x - centre;
     if (kind == CurveKind::circle) {
-      const double square = dot(e, e);
-      const double back = 1.5 - 0.5 * (square * inverse_r2);  // one Newton step towards |e| = r
-      return {centre + back * e, -orientation * e, square};
+      return {centre + back_to(dot(weight * e, e), e), -orientation * e, dot(off_power * e, e), off_power};
     }
     const double p = dot(first_axis, e), q = dot(second_axis, e);
-    const double back = 1.5 - 0.5 * (p * p + q * q);
     const Vector g{p * first_axis.x + q * second_axis.x, p * first_axis.y + q * second_axis.y};
-    return {centre + back * e, -orientation * g, dot(g, g)};
+    return {centre + back_to(0.75 * p * p + 0.75 * q * q, e), -orientation * g, dot(g, g), 1.0};
   }
   Frame frame(double u) const {
     const Frame f = settle(point(u));
-    return {point(u), f.normal, f.square};
+    return {point(u), f.normal, f.square, f.k};
   }
   /// Parameter of a point that lies on the curve up to rounding, kept off the joints.
   double parameter(Vector x) const {
@@ -98,6 +100,12 @@ struct PreparedCurve {
   double clamp(double u) const { return u < first_parameter ? first_parameter : u > last ? last : u; }
 
  private:
+  /// One Newton step of e towards the curve, given 0.75 |e|^2/r^2: in the middle of a binade doubles are
+  /// evenly spaced, so the step has no bias (about 1 they are not, and angular momentum would drift).
+  static Vector back_to(double measure, Vector e) {
+    const double step = (0.75 - measure) * (2.0 / 3.0);
+    return {e.x + step * e.x, e.y + step * e.y};
+  }
   Vector seen_from_centre(double u) const {
     Vector p = a, q = b;
     double w = u;
