@@ -94,6 +94,8 @@ struct PreparedCurve {
     } else {
       const Vector e = x - centre;
       u = frame_parameter(dot(along, e), dot(across, e));
+      // Rounded to beyond the end: to whichever joint is nearer along the whole conic.
+      if (u > last) u = u - last > 4.0 - u ? first_parameter : last;
     }
     return clamp(u);
   }
