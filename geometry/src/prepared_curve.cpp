@@ -21,7 +21,7 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   orientation = exact_curve.orientation;
   from = rounded(exact_curve.from);
   to = rounded(exact_curve.to);
-  last = last_parameter(curve);
+  parametrisation = frame_of(curve);
   const Box box = bounding_box(curve);
   extent = std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)});
   if (exact_curve.segment) {
@@ -34,22 +34,12 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     // parameter: the same s, its product with 1/length (4u), taken times the length again.
     point_error = 48.0 * unit_roundoff * extent;
     normal_error = 4.0 * unit_roundoff;
+    parameter_stretch = 1.42 * inverse_length;
     return;
   }
   kind = exact_curve.metric.euclidean ? CurveKind::circle : CurveKind::ellipse;
   centre = rounded(exact_curve.centre);
-  a = rounded(exact_curve.start);
-  DyadicVector quarter = exact_curve.metric.quarter(exact_curve.start);
-  if (exact_curve.orientation < 0) quarter = -quarter;
-  const mpq_class scale = exact_curve.metric.scale.rational();
-  const mpq_class bx = quarter.x.rational() / scale, by = quarter.y.rational() / scale;
-  b = {rounded(bx), rounded(by)};
   centre_error = 2.0 * unit_roundoff * std::max(std::fabs(centre.x), std::fabs(centre.y));
-  // Map of e to the coordinates (M(e, a), M(e, b)) / M(a, a): the inverse of the matrix (a b).
-  const mpq_class ax = exact_curve.start.x.rational(), ay = exact_curve.start.y.rational();
-  const mpq_class determinant = ax * by - ay * bx;
-  along = {rounded(mpq_class(by / determinant)), rounded(mpq_class(-bx / determinant))};
-  across = {rounded(mpq_class(-ay / determinant)), rounded(mpq_class(ax / determinant))};
   if (kind == CurveKind::circle) {
     r2 = rounded(exact_curve.r2);
     weight = 0.75 / r2;
@@ -69,14 +59,16 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     second_weight = dot(p, p) / rounded(exact_curve.r2);
     first_weight = k * k * second_weight;
   }
+  const Vector a = parametrisation.a, b = parametrisation.b;
+  const auto norm_1 = [](Vector v) { return std::fabs(v.x) + std::fabs(v.y); };
+  parameter_stretch = norm_1(parametrisation.along) + norm_1(parametrisation.across);
   // centre 2u, a sum u of the extents; settle: e and its factor back; parameter: the coordinates on the
   // unit circle (6u each), the half-angle tangent (2u) and u itself below 4 (2u), turned by two lengths.
   const double size = std::max(std::fabs(a.x) + std::fabs(b.x), std::fabs(a.y) + std::fabs(b.y));
   point_error = centre_error + unit_roundoff * (extent + 24.0 * size);
   // e = x - centre errs by 12u of |a|_1 + |b|_1 a coordinate, which the rows of the map to the unit circle
   // turn into a relative error of the gradient.
-  const auto norm_1 = [](Vector v) { return std::fabs(v.x) + std::fabs(v.y); };
-  normal_error = 16.0 * unit_roundoff * (norm_1(a) + norm_1(b)) * (norm_1(along) + norm_1(across));
+  normal_error = 16.0 * unit_roundoff * (norm_1(a) + norm_1(b)) * parameter_stretch;
 }
 
 }  // namespace carom::geometry

@@ -31,9 +31,7 @@ int HitFinder::hole_at(const Flight& f, const Ahead& ahead, double u, DecisionCo
                    s.inflation * (w.centre_error + unit_roundoff * (2.1 * norm_1(origin) + 2.1 * d1 + 4.1 * w.extent));
   // The map of the point to u stretches by at most 1 / length, or by the rows of the map to the unit
   // circle, on which the half-angle tangent grows by at most 1.
-  const double row =
-      w.kind == CurveKind::segment ? 1.42 * w.inverse_length : norm_1(w.along) + norm_1(w.across);
-  const double error = 1.01 * row * x + s.inflation * 16.0 * unit_roundoff;  // of u
+  const double error = 1.01 * w.parameter_stretch * x + s.inflation * 16.0 * unit_roundoff;  // of u
   const Wall& wall = table_.walls[at(p.wall)];
   bool decided = true;
   int inside = -1;

@@ -200,7 +200,7 @@ inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landin
                                          ? ahead.duration * f.velocity
                                          : geometry::displacement(ahead.kappa, f.velocity, f.omega, 0.5)));
   landing.u = w.parameter(landing.frame.point);
-  if (landing.u == w.last || landing.u == geometry::first_parameter) landing.frame = w.frame(landing.u);
+  if (landing.u == w.last() || landing.u == geometry::first_parameter) landing.frame = w.frame(landing.u);
   if (holed_[static_cast<std::size_t>(p.wall)] != 0) landing.hole = hole_at(f, ahead, landing.u, counts);
 }
 

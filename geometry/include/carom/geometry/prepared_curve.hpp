@@ -6,21 +6,12 @@
 #include <cmath>
 
 #include "carom/geometry/curve.hpp"
+#include "carom/geometry/curve_frame.hpp"
 #include "carom/geometry/formulas.hpp"
 
 namespace carom::geometry {
 
 inline constexpr double unit_roundoff = 0x1p-53;
-
-/// Quarter turns plus half-angle tangent of the direction (x, y), a point near the unit circle.
-/// Only comparisons, one addition and one division: the same bits in every engine.
-template <class Number>
-constexpr Number frame_parameter(const Number& x, const Number& y) {
-  if (x > Number(0) && y >= Number(0)) return y / (Number(1) + x);
-  if (y > Number(0)) return Number(1) + (-x) / (Number(1) + y);
-  if (x < Number(0)) return Number(2) + (-y) / (Number(1) - x);
-  return Number(3) + x / (Number(1) - y);
-}
 
 enum class CurveKind : unsigned char { segment, circle, ellipse };
 
@@ -34,12 +25,12 @@ struct PreparedCurve {
   Vector direction, tangent;
   double length = 0.0, inverse_length = 0.0;
 
-  // Circle and ellipse: centre, start vector a and its quarter turn b in the direction of travel.
-  Vector centre, a, b;
+  // Circle and ellipse.
+  Vector centre;
   double r2 = 0.0;            ///< circle: squared radius
   double weight = 0.0;        ///< circle: 0.75 / r2
   double off_power = 1.0;     ///< circle: 1 or 0.75, such that off_power r2 is not near a power of two
-  Vector along, across;       ///< rows of the map of e = x - centre to the unit circle of (a, b)
+  double parameter_stretch = 0.0;  ///< bounds |du| / |dx|_1
   double centre_error = 0.0;  ///< of `centre`
   // Ellipse: rows of the map to the unit circle of its axes, in which flights are intersected.
   Vector first_axis, second_axis;
@@ -49,16 +40,12 @@ struct PreparedCurve {
 
   double point_error = 0.0;   ///< of point(u), and of settle(x) against point(parameter(x))
   double normal_error = 0.0;  ///< of a normal, relative to its l1 norm
-  double last = 1.0;          ///< last_parameter
+  CurveFrame parametrisation;  ///< u to the point and back
 
   explicit PreparedCurve(const Curve& curve);
 
   /// Rounded image of the exact point at u, u in [0, end).
-  Vector point(double u) const {
-    if (kind == CurveKind::segment) return from + u * direction;
-    const Vector e = seen_from_centre(u);
-    return centre + e;
-  }
+  Vector point(double u) const { return point_at(parametrisation, u); }
   /// A point on the curve with a normal n into the domain, of any length, and square = k |n|^2, where k is
   /// a short number that keeps squares about r^2 off the powers of two.
   struct Frame {
@@ -87,19 +74,8 @@ struct PreparedCurve {
     return {point(u), f.normal, f.square, f.k};
   }
   /// Parameter of a point that lies on the curve up to rounding, kept off the joints.
-  double parameter(Vector x) const {
-    double u = 0;
-    if (kind == CurveKind::segment) {
-      u = dot(x - from, tangent) * inverse_length;
-    } else {
-      const Vector e = x - centre;
-      u = frame_parameter(dot(along, e), dot(across, e));
-      // Rounded to beyond the end: to whichever joint is nearer along the whole conic.
-      if (u > last) u = u - last > 4.0 - u ? first_parameter : last;
-    }
-    return clamp(u);
-  }
-  double clamp(double u) const { return u < first_parameter ? first_parameter : u > last ? last : u; }
+  double parameter(Vector x) const { return parameter_of(parametrisation, x); }
+  double last() const { return parametrisation.last; }
 
  private:
   /// One Newton step of e towards the curve, given 0.75 |e|^2/r^2: in the middle of a binade doubles are
@@ -107,28 +83,6 @@ struct PreparedCurve {
   static Vector back_to(double measure, Vector e) {
     const double step = (0.75 - measure) * (2.0 / 3.0);
     return {e.x + step * e.x, e.y + step * e.y};
-  }
-  Vector seen_from_centre(double u) const {
-    Vector p = a, q = b;
-    double w = u;
-    if (u >= 1.0) {
-      const int quarters = static_cast<int>(u);
-      w = u - quarters;
-      if (quarters == 1) {
-        p = b;
-        q = -a;
-      } else if (quarters == 2) {
-        p = -a;
-        q = -b;
-      } else {
-        p = -b;
-        q = a;
-      }
-    }
-    const double w2 = w * w;
-    const double f = 1.0 / (1.0 + w2);
-    const double c = (1.0 - w2) * f, s = 2.0 * w * f;
-    return {c * p.x + s * q.x, c * p.y + s * q.y};
   }
 };
 
