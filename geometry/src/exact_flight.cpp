@@ -401,6 +401,8 @@ bool ExactFlight::exit_within(int piece, int root, Cell cell, double from, doubl
   }
   // A crossing exactly at `from` is inside, at `to` outside.
   const auto at = [&](const ExactPoint& p) {
+    const DyadicVector offset = Data::offset(s, p).first;
+    if (dot(offset, offset).sign() == 0) return false;  // where the particle stands it does not arrive
     if (d.side(s, p) != 0) return false;
     return compare(d.through(s, p), *k) == 0;
   };
