@@ -92,7 +92,8 @@ SurvivalCounts random_counts(unsigned seed, int n) {
   SurvivalCounts counts({0.5, 1.0, 4.0}, 2);
   for (int i = 0; i < n; ++i) {
     const auto fate = static_cast<Fate>(random() % 7);
-    counts.add(fate, static_cast<double>(random() % 600) / 100.0, random() % 50, static_cast<int>(random() % 2));
+    counts.add(fate, static_cast<double>(random() % 600) / 100.0, random() % 50,
+               static_cast<int>(random() % 2));
   }
   return counts;
 }

@@ -121,7 +121,8 @@ TEST(Escape, ErrorsLeaveTheThreads) {
 }
 
 TEST(Escape, ClosedTablesKeepEverything) {
-  System system = make_system("[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[run]\nt_max = 50\n");
+  System system =
+      make_system("[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[run]\nt_max = 50\n");
   system.run.trajectories = 100;
   const EscapeResult result = run_escape(system);
   EXPECT_EQ(result.counts.survived, 100u);
@@ -134,7 +135,8 @@ TEST(Escape, ClosedTablesKeepEverything) {
 
 TEST(Escape, PinnedOrbitsSurvive) {
   System system = make_system(
-      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.1\n[run]\nt_max = 50\n");
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.1\n[run]\nt_max = "
+      "50\n");
   system.run.trajectories = 2000;
   const EscapeResult result = run_escape(system);
   // Pinned: the guiding centre lies in the inner square of side 1 - 2 rho. For each direction the

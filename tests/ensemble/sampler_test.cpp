@@ -16,7 +16,8 @@ using geometry::Vector;
 constexpr int many = 20000;
 
 struct Drawn {
-  explicit Drawn(const std::string& toml) : system(make_system(toml)), world(*system.table), sampler(system) {}
+  explicit Drawn(const std::string& toml)
+      : system(make_system(toml)), world(*system.table), sampler(system) {}
   State operator()(std::uint64_t trajectory, int particle = 0) const {
     return sampler.draw(world, trajectory, particle);
   }
@@ -216,7 +217,8 @@ velocity = [0, 2]
 
 TEST(Sampler, RectangleAndLineKeepToTheTable) {
   const Drawn box(std::string(mushroom) + "kind = \"rectangle\"\nmin = [-2, -0.5]\nmax = [0, 2]");
-  const Drawn line(std::string(mushroom) + "kind = \"line\"\nfrom = [-2, 0.5]\nto = [2, 0.5]\nangle = \"pi/2\"");
+  const Drawn line(std::string(mushroom) +
+                   "kind = \"line\"\nfrom = [-2, 0.5]\nto = [2, 0.5]\nangle = \"pi/2\"");
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const State a = box(i), b = line(i);
     EXPECT_TRUE(box.world.contains(a.position));
@@ -239,8 +241,9 @@ TEST(Sampler, RefusesWhatCannotStart) {
     }
     return std::string("nothing thrown");
   };
-  EXPECT_NE(message("kind = \"point\"\nposition = [0.9, -0.5]\nvelocity = [1, 0]").find("not inside the table"),
-            std::string::npos);
+  EXPECT_NE(
+      message("kind = \"point\"\nposition = [0.9, -0.5]\nvelocity = [1, 0]").find("not inside the table"),
+      std::string::npos);
   EXPECT_NE(message("kind = \"point\"\nposition = [0, -1]\nvelocity = [0, 1]").find("not inside the table"),
             std::string::npos)
       << "a point on a wall";

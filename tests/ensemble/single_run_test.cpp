@@ -89,8 +89,10 @@ TEST(SingleRunEnd, EndsAfterSoManyHitsAndGoesOn) {
 
 TEST(SingleRunEnd, PinnedOrbitsEndARunWithoutLastTime) {
   System system = make_system(
-      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.1\n[initial]\nkind = "
-      "\"point\"\nposition = [0.5, 0.5]\nvelocity = [1, 0]\n[run]\nsample = 1\ncollisions = 5\nt_max = 1e300\n");
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.1\n[initial]\nkind "
+      "= "
+      "\"point\"\nposition = [0.5, 0.5]\nvelocity = [1, 0]\n[run]\nsample = 1\ncollisions = 5\nt_max = "
+      "1e300\n");
   Trace trace;
   const SingleRunResult result = run_single(system, trace);
   EXPECT_EQ(result.particles[0].progress.fate, Fate::pinned);

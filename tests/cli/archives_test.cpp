@@ -1,0 +1,224 @@
+// Archives as the program leaves them: finished, interrupted, refused, on a full disk.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <map>
+
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+// All datasets of a file as bytes, and what is missing of their descriptions.
+struct Contents {
+  std::map<std::string, std::string> datasets;
+  std::vector<std::string> undescribed;
+  std::string status;
+  int complete = -1;
+};
+
+std::string read_all(hid_t dataset) {
+  const hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
+  const auto rows = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+  std::string bytes(rows * H5Tget_size(type), '\0');
+  if (rows > 0) H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
+  H5Sclose(space);
+  H5Tclose(type);
+  return bytes;
+}
+
+herr_t visit(hid_t file, const char* name, const H5O_info_t* info, void* data) {
+  if (info->type != H5O_TYPE_DATASET) return 0;
+  auto& contents = *static_cast<Contents*>(data);
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+  if (H5Aexists(dataset, "units") <= 0 || H5Aexists(dataset, "description") <= 0)
+    contents.undescribed.emplace_back(name);
+  contents.datasets[name] = read_all(dataset);
+  H5Dclose(dataset);
+  return 0;
+}
+
+Contents open_archive(const std::string& path) {
+  Contents contents;
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return contents;
+  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, visit, &contents, H5O_INFO_BASIC);
+  const hid_t complete = H5Aopen(file, "complete", H5P_DEFAULT);
+  H5Aread(complete, H5T_NATIVE_INT, &contents.complete);
+  H5Aclose(complete);
+  const hid_t status = H5Aopen(file, "status", H5P_DEFAULT), type = H5Aget_type(status);
+  std::string text(H5Tget_size(type), '\0');
+  H5Aread(status, type, text.data());
+  contents.status = text.c_str();
+  H5Tclose(type);
+  H5Aclose(status);
+  H5Fclose(file);
+  return contents;
+}
+
+TEST(RunArchive, HoldsEveryHitDescribed) {
+  const Shell shell;
+  const Outcome o = shell("$carom run sinai --collisions 5000 --set run.sample=10 -o a.h5 --json");
+  EXPECT_EQ(o.status, 0) << o.err;
+  const Contents a = open_archive(shell.folder() + "/a.h5");
+  EXPECT_EQ(a.complete, 1);
+  EXPECT_EQ(a.status, "completed");
+  EXPECT_TRUE(a.undescribed.empty()) << a.undescribed.front();
+  EXPECT_EQ(a.datasets.at("collisions/t").size(), 5000 * sizeof(double));
+  EXPECT_GT(a.datasets.at("trajectory/t").size(), 100 * sizeof(double));
+  EXPECT_NE(a.datasets.at("system").find("[table]"), std::string::npos);
+}
+
+TEST(RunArchive, IsTheSameWithAndWithoutSamples) {
+  const Shell shell;
+  shell(
+      "$carom run mushroom --t-max 500 --set field.B=0.2 -o a.h5; "
+      "$carom run mushroom --t-max 500 --set field.B=0.2 --set run.sample=0.7 -o b.h5");
+  const Contents a = open_archive(shell.folder() + "/a.h5"), b = open_archive(shell.folder() + "/b.h5");
+  EXPECT_FALSE(a.datasets.empty());
+  for (const auto& [name, bytes] : a.datasets) {
+    if (name.rfind("collisions/", 0) == 0 || name.rfind("state/", 0) == 0) {
+      EXPECT_EQ(bytes, b.datasets.at(name)) << name;
+    }
+  }
+}
+
+TEST(RunArchive, SystemCanBeRunAgain) {
+  const Shell shell;
+  shell("$carom run ellipse-magnetic --t-max 80 --seed 7 -o a.h5");
+  const std::string text = open_archive(shell.folder() + "/a.h5").datasets.at("system");
+  shell("cat > again.toml << 'END'\n" + text + "\nEND\n$carom run again.toml -o b.h5");
+  EXPECT_EQ(open_archive(shell.folder() + "/a.h5").datasets, open_archive(shell.folder() + "/b.h5").datasets);
+}
+
+TEST(RunArchive, GoesOnAsIfNeverStopped) {
+  const Shell shell;
+  for (const char* system : {"lorentz-triangular", "ellipse-magnetic --set particles.count=2", "stadium"}) {
+    const Outcome o =
+        shell(std::string("run=\"$carom run ") + system +
+              " --set run.sample=0.37 --set run.times=[1,2] --force\"\n"
+              "$run --t-max 200 -o whole.h5 && $run --t-max 31 -o part.h5 &&"
+              "$carom run --resume part.h5 --t-max 100 && $carom run --resume part.h5 --t-max 200");
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(open_archive(shell.folder() + "/whole.h5").datasets,
+              open_archive(shell.folder() + "/part.h5").datasets)
+        << system;
+    EXPECT_FALSE(shell.exists("part.h5.part"));
+  }
+  const Outcome back =
+      shell("$carom run sinai --t-max 50 -o sinai.h5 && $carom run --resume sinai.h5 --t-max 20");
+  EXPECT_EQ(back.status, 1);
+  EXPECT_NE(back.err.find("a later time"), std::string::npos) << back.err;
+}
+
+TEST(RunArchive, SurvivesCtrlC) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; sleep 0.5; "
+      "kill -INT $pid; wait $pid");
+  EXPECT_EQ(o.status, 130);
+  EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"");
+  const Contents a = open_archive(shell.folder() + "/a.h5");
+  EXPECT_EQ(a.status, "interrupted");
+  EXPECT_EQ(std::to_string(a.datasets.at("collisions/t").size() / sizeof(double)),
+            json_value(o.out, "collisions"));
+  // What was interrupted goes on.
+  const std::string more = std::to_string(a.datasets.at("collisions/t").size() / sizeof(double) + 1000);
+  EXPECT_EQ(json_value(shell("$carom run --resume a.h5 --collisions " + more + " --json").out, "collisions"),
+            more);
+}
+
+TEST(RunArchive, CanBeReadWhileItGrowsAndAfterAKill) {
+  const Shell shell;
+  shell("$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; sleep 0.5; kill -9 $pid; wait $pid");
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+  const hid_t file = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
+  ASSERT_GE(file, 0);
+  const hid_t times = H5Dopen2(file, "collisions/t", H5P_DEFAULT);
+  const std::string bytes = read_all(times);
+  EXPECT_GE(bytes.size(), 4096 * sizeof(double));
+  H5Dclose(times);
+  H5Fclose(file);
+  H5Pclose(access);
+  const Outcome resumed = shell("$carom run --resume a.h5 --t-max 1e9");
+  EXPECT_EQ(resumed.status, 1);
+  EXPECT_NE(resumed.err.find("killed"), std::string::npos);
+}
+
+TEST(EscapeArchive, HoldsEveryTrajectory) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom escape mushroom --trajectories 3000 --t-max 50 --per-trajectory -o a.h5 --threads 1 "
+      "&& $carom escape mushroom --trajectories 3000 --t-max 50 --per-trajectory -o b.h5 --threads 2");
+  EXPECT_EQ(o.status, 0) << o.err;
+  const Contents a = open_archive(shell.folder() + "/a.h5");
+  EXPECT_TRUE(a.undescribed.empty()) << a.undescribed.front();
+  EXPECT_EQ(a.complete, 1);
+  EXPECT_EQ(a.datasets.at("trajectories/index").size(), 3000 * sizeof(std::uint64_t));
+  EXPECT_EQ(a.datasets.count("survival/p"), 1u);
+  EXPECT_EQ(a.datasets, open_archive(shell.folder() + "/b.h5").datasets);
+  EXPECT_EQ(shell.files().size(), 2u) << "a .part was left";
+}
+
+TEST(EscapeArchive, SurvivesCtrlC) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom escape sinai --trajectories 1e12 --per-trajectory -o a.h5 --json & pid=$!; "
+      "sleep 0.5; kill -INT $pid; wait $pid");
+  EXPECT_EQ(o.status, 130);
+  EXPECT_TRUE(is_json_object(o.out));
+  const Contents a = open_archive(shell.folder() + "/a.h5");
+  EXPECT_EQ(a.status, "interrupted");
+  EXPECT_EQ(a.complete, 0);
+  EXPECT_EQ(std::to_string(a.datasets.at("trajectories/index").size() / sizeof(std::uint64_t)),
+            json_value(o.out, "trajectories"));
+  EXPECT_EQ(shell.files().size(), 1u);
+}
+
+TEST(Output, ThatExistsIsRefusedAndKept) {
+  const Shell shell;
+  for (const char* command :
+       {"$carom escape sinai --trajectories 10 -o a.h5", "$carom run sinai --t-max 5 -o a.h5"}) {
+    const Outcome refused = shell(std::string("echo mine > a.h5; ") + command);
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(refused.out, "");
+    EXPECT_NE(refused.err.find("--force"), std::string::npos);
+    EXPECT_EQ(shell.read("a.h5"), "mine\n");
+    EXPECT_EQ(shell(std::string(command) + " --force").status, 0);
+    EXPECT_EQ(open_archive(shell.folder() + "/a.h5").complete, 1);
+  }
+  shell("echo mine > a.h5");
+  EXPECT_EQ(shell("$carom run circle --position 5,0 --velocity 1,0 -o a.h5 --force").status, 1);
+  EXPECT_EQ(shell.read("a.h5"), "mine\n") << "bad input must not cost a file";
+}
+
+TEST(FullDisk, LeavesNothing) {
+  const Shell shell;
+  // In blocks of 512 bytes (sh) or 1024 (bash): before the head, within the data.
+  for (const char* size : {"2", "64", "300"}) {
+    for (const char* command :
+         {"$carom run sinai --collisions 1e6 -o a.h5",
+          "$carom escape sinai --trajectories 20000 --t-max 5 --per-trajectory -o a.h5"}) {
+      const Outcome o = shell("( ulimit -f " + std::string(size) + "; " + command + " --json )");
+      EXPECT_EQ(o.status, 1) << command;
+      EXPECT_EQ(o.out, "");
+      EXPECT_EQ(o.err, "carom: cannot write 'a.h5': File too large\n");
+      EXPECT_TRUE(shell.files().empty()) << command;
+    }
+  }
+}
+
+TEST(FullDisk, KeepsTheRunThatWasToGoOn) {
+  const Shell shell;
+  EXPECT_EQ(shell("$carom run sinai --collisions 1000 -o a.h5").status, 0);
+  const std::string before = shell.read("a.h5");
+  const Outcome o = shell("( ulimit -f 600; $carom run --resume a.h5 --collisions 1e6 )");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(shell.read("a.h5"), before);
+  EXPECT_EQ(shell.files().size(), 1u);
+}
+
+}  // namespace
+}  // namespace carom

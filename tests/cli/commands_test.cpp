@@ -1,0 +1,208 @@
+// What the program prints and how it ends.
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+const char* common_keys[] = {"version", "system", "seed",    "threads",
+                             "engine",  "isa",    "seconds", "cpu_seconds"};
+
+void expect_keys(const std::string& json, const std::vector<std::string>& keys) {
+  EXPECT_TRUE(is_json_object(json)) << json;
+  for (const char* key : common_keys) EXPECT_NE(json_value(json, key), "") << key;
+  for (const std::string& key : keys) EXPECT_NE(json_value(json, key), "") << key;
+}
+
+TEST(Program, AloneTeaches) {
+  const Shell shell;
+  for (const char* command : {"$carom", "$carom --help", "$carom -h"}) {
+    const Outcome o = shell(command);
+    EXPECT_EQ(o.status, 0);
+    EXPECT_NE(o.out.find("carom escape magnetic-square"), std::string::npos);
+    EXPECT_NE(o.out.find("carom run stadium"), std::string::npos);
+    EXPECT_NE(o.out.find("carom table mushroom"), std::string::npos);
+    EXPECT_EQ(o.err, "");
+  }
+  for (const char* command : {"escape", "run", "table", "systems"}) {
+    const Outcome o = shell(std::string("$carom ") + command + " --help");
+    EXPECT_EQ(o.status, 0);
+    EXPECT_NE(o.out.find("Example: carom " + std::string(command)), std::string::npos);
+  }
+}
+
+TEST(Systems, ListsAndPrints) {
+  const Shell shell;
+  const Outcome list = shell("$carom systems");
+  EXPECT_EQ(list.status, 0);
+  for (const char* name : {"magnetic-square", "mushroom", "stadium", "circle", "ellipse-magnetic", "sinai",
+                           "lorentz-triangular", "lorentz-square", "three-disc", "siam-photon"})
+    EXPECT_NE(list.out.find(name), std::string::npos) << name;
+  expect_keys(shell("$carom systems --json").out, {"systems"});
+  EXPECT_EQ(shell("$carom systems mushroom > mine.toml && $carom table mine.toml").status, 0);
+  const Outcome unknown = shell("$carom systems mushrom");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.err.find("did you mean 'mushroom'"), std::string::npos);
+}
+
+TEST(Table, MeasuresAndDraws) {
+  const Shell shell;
+  const Outcome o = shell("$carom table stadium --json -o stadium.svg");
+  EXPECT_EQ(o.status, 0);
+  expect_keys(o.out, {"area", "perimeter", "mean_flight", "walls"});
+  const std::string svg = shell.read("stadium.svg");
+  EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
+  EXPECT_NE(svg.find("class=\"hole\""), std::string::npos);
+  for (const char* wall : {">bottom<", ">right<", ">top<", ">left<"})
+    EXPECT_NE(svg.find(wall), std::string::npos);
+  EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
+  EXPECT_EQ(shell("$carom table stadium -o stadium.svg").status, 1) << "exists";
+  EXPECT_EQ(shell("$carom table stadium -o stadium.svg --force").status, 0);
+  const Outcome open = shell("$carom table three-disc --json");
+  EXPECT_EQ(json_value(open.out, "area"), "\"inf\"") << "no double holds it";
+}
+
+TEST(Escape, PrintsItsKeysAndOneDigest) {
+  const Shell shell;
+  const std::string command = "$carom escape magnetic-square --trajectories 2e3 --t-max 100 --json";
+  const Outcome one = shell(command + " --threads 1"), two = shell(command + " --threads 2");
+  EXPECT_EQ(one.status, 0);
+  EXPECT_EQ(one.err, "");
+  expect_keys(one.out,
+              {"trajectories", "escaped", "survived", "pinned", "capped", "singular", "unbounded", "lost",
+               "collisions", "digest", "decisions", "survival", "survival_hits", "rate", "holes"});
+  EXPECT_EQ(json_value(one.out, "trajectories"), "2000");
+  EXPECT_EQ(json_value(one.out, "threads"), "1");
+  EXPECT_EQ(json_value(one.out, "lost"), "0");
+  EXPECT_EQ(json_value(one.out, "digest"), json_value(two.out, "digest"));
+  EXPECT_EQ(json_value(one.out, "survival"), json_value(two.out, "survival"));
+  EXPECT_NE(json_value(one.out, "digest"), json_value(shell(command + " --seed 2").out, "digest"));
+  EXPECT_TRUE(shell.files().empty()) << "nothing is written without -o";
+}
+
+TEST(Escape, PrintsATable) {
+  const Shell shell;
+  const Outcome o = shell("$carom escape magnetic-square --trajectories 500 --times 1,10,100");
+  EXPECT_EQ(o.status, 0);
+  for (const char* part :
+       {"500 trajectories", "p(t)", "95 % interval", "escaped", "survived", "hits/s", "digest"})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part;
+}
+
+TEST(Run, PrintsItsKeys) {
+  const Shell shell;
+  const Outcome o = shell("$carom run siam-photon --t-max 10 --json");
+  EXPECT_EQ(o.status, 0);
+  expect_keys(o.out, {"status", "collisions", "wall", "t", "x", "y", "vx", "vy", "cell", "energy_error"});
+  EXPECT_EQ(json_value(o.out, "status"), "\"completed\"");
+  EXPECT_EQ(json_value(o.out, "collisions"), "14");
+  EXPECT_EQ(json_value(o.out, "t"), "10");
+  EXPECT_NE(shell("$carom run siam-photon --t-max 10").out.find("energy error"), std::string::npos);
+}
+
+TEST(Run, StopsAfterSoManyCollisions) {
+  const Shell shell;
+  const Outcome o = shell("$carom run sinai --collisions 1e4 --json");
+  EXPECT_EQ(json_value(o.out, "collisions"), "10000");
+  EXPECT_EQ(json_value(o.out, "status"), "\"completed\"");
+}
+
+TEST(Run, SeveralParticlesFormAnArray) {
+  const Shell shell;
+  const Outcome o = shell("$carom run sinai --set particles.count=3 --t-max 20 --json");
+  EXPECT_EQ(o.status, 0);
+  expect_keys(o.out, {"status", "collisions", "particles"});
+}
+
+TEST(Run, ReadsExactNumbersThatStartWithAMinus) {
+  const Shell shell;
+  const Outcome apart =
+      shell("$carom run sinai --position 1/10,1/5 --velocity '-sqrt(2),1' --t-max 3 --json");
+  const Outcome joined =
+      shell("$carom run sinai --position=1/10,1/5 --velocity='-sqrt(2),1' --t-max=3 --json");
+  EXPECT_EQ(apart.status, 0) << apart.err;
+  EXPECT_EQ(json_value(apart.out, "x"), json_value(joined.out, "x"));
+  EXPECT_EQ(json_value(apart.out, "vx").front(), '-');
+}
+
+struct Bad {
+  const char* command;
+  int status;
+  const char* message;
+};
+
+class BadInput : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadInput, IsRefusedWithoutAWordOnStandardOutput) {
+  const Shell shell;
+  const Outcome o = shell(GetParam().command);
+  EXPECT_EQ(o.status, GetParam().status);
+  EXPECT_EQ(o.out, "");
+  EXPECT_NE(o.err.find(GetParam().message), std::string::npos) << o.err;
+  EXPECT_TRUE(shell.files().empty()) << "something was written";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadInput,
+    testing::Values(
+        Bad{"$carom escape magnetic-square --trajectories -5 -o a.h5", 1, "--trajectories"},
+        Bad{"$carom escape magnetic-square --trajectories 0", 1, "whole number from 1"},
+        Bad{"$carom escape magnetic-square --trajectories many", 1, "--trajectories"},
+        Bad{"$carom escape magnetic-square --trajectories nan", 1, "--trajectories"},
+        Bad{"$carom escape magnetic-square --t-max 0 -o a.h5", 1, "--t-max"},
+        Bad{"$carom escape magnetic-square --t-max inf", 1, "--t-max"},
+        Bad{"$carom escape magnetic-square --threads 0", 1, "--threads"},
+        Bad{"$carom escape magnetic-square --threads two", 1, "--threads"},
+        Bad{"$carom escape magnetic-square --threads 1.5", 1, "not a whole number"},
+        Bad{"$carom escape magnetic-square --seed -1", 1, "--seed"},
+        Bad{"$carom escape magnetic-square --seed ''", 2, "needs a value"},
+        Bad{"$carom escape magnetic-square --times 1,,2", 1, "--times"},
+        Bad{"$carom escape magnetic-square --times 2,1", 1, "--times"},
+        Bad{"$carom escape magnetic-square --engine steps", 1, "not in this version"},
+        Bad{"$carom escape magnetic-square --engine event", 1, "did you mean 'events'"},
+        Bad{"$carom escape magnetic-square --isa avx512", 1, "--isa"},
+        Bad{"$carom escape magnetic-square --set table.widht=2", 1, "did you mean 'width'"},
+        Bad{"$carom escape magnetic-square --set table.width", 2, "path.to.key=value"},
+        Bad{"$carom escape magnetic-squar", 1, "did you mean 'magnetic-square'"},
+        Bad{"$carom escape ./missing.toml", 1, "No such file"}, Bad{"$carom escape", 2, "SYSTEM is missing"},
+        Bad{"$carom escap sinai", 2, "did you mean 'escape'"}, Bad{"$carom escape sinai --fast", 2, "--fast"},
+        Bad{"$carom escape sinai sinai", 2, "sinai"}, Bad{"$carom escape sinai --seed", 2, "--seed"},
+        Bad{"$carom escape sinai --per-trajectory", 2, "-o FILE.h5"},
+        Bad{"$carom escape sinai -o missing/a.h5", 1, "cannot write 'missing/a.h5'"},
+        Bad{"$carom escape sinai -o .", 1, "is a directory"},
+        Bad{"$carom run sinai -o missing/a.h5", 1, "cannot write 'missing/a.h5': No such file"},
+        Bad{"$carom run sinai --precision 200", 1, "not in this version"},
+        Bad{"$carom run circle --position 5,0 --velocity 1,0 -o a.h5", 1, "not inside the table"},
+        Bad{"$carom run mushroom --position 0.3,-1 --velocity 1,1", 1, "not inside the table"},
+        Bad{"$carom run circle --position 0,0 --velocity 0,0", 1, "velocity is zero"},
+        Bad{"$carom run --resume missing.h5", 1, "no such file"},
+        Bad{"$carom run sinai --resume missing.h5", 2, "leave SYSTEM out"},
+        Bad{"$carom table circle -o circle.png", 1, ".svg"},
+        Bad{"$carom table circle -o missing/circle.svg", 1, "No such file"}));
+
+TEST(BadInputOfFiles, NamesLineAndColumn) {
+  const Shell shell;
+  const Outcome o =
+      shell("printf '[table]\\nshape = \"circle\"\\nradus = 1\\n' > a.toml; $carom escape a.toml");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(o.out, "");
+  EXPECT_NE(o.err.find("a.toml, line 3, column 1"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("did you mean 'radius'"), std::string::npos) << o.err;
+  const Outcome start = shell(
+      "printf '[table]\\nshape = \"circle\"\\nradius = 1\\n[initial]\\nkind = \"point\"\\nposition = [3, "
+      "0]\\n"
+      "velocity = [1, 0]\\n' > b.toml; $carom escape b.toml");
+  EXPECT_EQ(start.status, 1);
+  EXPECT_NE(start.err.find("b.toml, line 6"), std::string::npos) << start.err;
+}
+
+TEST(StandardOutput, ThatIsFullIsAnError) {
+  const Shell shell;
+  const Outcome o = shell("$carom escape sinai --trajectories 10 --json > /dev/full");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("standard output"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,36 @@
+// Runs the program as a user does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace carom {
+
+struct Outcome {
+  int status = -1;  ///< exit status; 128 + signal if killed
+  std::string out, err;
+};
+
+/// Through the shell, in a folder of this test's own: "carom" stands for the program.
+class Shell {
+ public:
+  Shell();
+  ~Shell();
+  /// `command` is a shell line in which $carom is the program.
+  Outcome operator()(const std::string& command) const;
+  bool exists(const std::string& file) const;
+  std::string read(const std::string& file) const;
+  /// Names of all files of the folder but the captured output.
+  std::vector<std::string> files() const;
+  const std::string& folder() const { return folder_; }
+
+ private:
+  std::string folder_;
+};
+
+/// Is the text exactly one JSON object (and white space)?
+bool is_json_object(const std::string& text);
+/// The text of a key's value in an object as this program prints it, "" if there is none.
+std::string json_value(const std::string& text, const std::string& key);
+
+}  // namespace carom
