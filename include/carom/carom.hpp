@@ -1,0 +1,12 @@
+/// @file
+/// The whole library: `#include <carom/carom.hpp>`. For geometry alone take <carom/geometry/…>.
+#pragma once
+
+#include "carom/analysis/survival.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "carom/events/world.hpp"
+#include "carom/io/archive.hpp"
+#include "carom/io/system_file.hpp"
+#include "carom/table/table.hpp"

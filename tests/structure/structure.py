@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""Reads the tree and says where it leaves the plan of the house.
+
+    structure.py includes | libm | length  [ROOT]
+
+Exit status 1 and one line a fault if there is one. The plan is data: the tables below.
+"""
+import pathlib
+import re
+import sys
+
+# Which rooms a room may include, directly; what those may include is allowed too. All may include base.
+# Ensembles feed the accumulators of analysis/, which know nothing of ensembles.
+ARROWS = {
+    "base": [],
+    "geometry": ["base"],
+    "forces": ["base"],
+    "table": ["geometry"],
+    "motion": ["geometry"],
+    "integrators": ["forces", "motion"],
+    "events": ["integrators", "motion", "table"],
+    "analysis": ["events"],
+    "certify": ["events"],
+    "ensemble": ["events", "analysis"],
+    "io": ["ensemble", "certify"],
+    "cli": ["io"],
+}
+# The witness shares nothing with what it testifies against.
+MAPS_MAY_INCLUDE = {"carom/maps/maps.hpp", "carom/base/error.hpp"}
+# Generated into the build folder: header and the room it belongs to.
+GENERATED = {"carom_version.hpp": "base"}
+UMBRELLA = "include/carom/carom.hpp"
+
+# Where a package may be included: pattern of the header, pattern of the file.
+PACKAGES = {
+    r"CGAL/": r"geometry/src/cgal/",
+    r"boost/": r"geometry/src/|src/base/",
+    r"gmp|mpfr": r"geometry/src/|src/base/|src/table/",
+    r"sleef": r"src/base/elementary\.cpp",
+    r"Random123/": r"src/base/random\.cpp",
+    r"toml\+\+/|hdf5": r"src/io/",
+    r"CLI/": r"src/cli/options\.cpp",
+    r"omp\.h": r"src/ensemble/",
+}
+# C++ rooms in which states, times and random numbers are made; base/elementary.cpp is the door.
+LIBM_FREE = r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|ensemble)/"
+LIBM = (
+    "sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p "
+    "pow hypot cbrt erf erfc tgamma lgamma sincos ellint_1 ellint_2 ellint_3 comp_ellint_1 comp_ellint_2 "
+    "comp_ellint_3 polar"
+).split()
+LONG, TOO_LONG = 400, 500
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.M)
+
+
+def without_comments(text, strings=True):
+    """Blanks comments, and strings too unless asked otherwise; line numbers stay."""
+    token = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
+
+    def blank(match):
+        found = match.group()
+        return re.sub(r"[^\n]", " ", found) if strings or found.startswith("/") else found
+
+    # An apostrophe between digits groups them and opens nothing.
+    return token.sub(blank, re.sub(r"(?<=[0-9a-fA-F])'(?=[0-9a-fA-F])", "0", text))
+
+
+def sources(root):
+    """(path relative to root, text) of every C++ file of the library and the program."""
+    for folder in ("include", "geometry", "src"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in (".cpp", ".hpp"):
+                yield path.relative_to(root).as_posix(), path.read_text(encoding="utf-8")
+
+
+def room_of(path):
+    if path.startswith("geometry/"):
+        return "geometry"
+    match = re.match(r"(?:src|include/carom)/(\w+)/", path)
+    return match.group(1) if match else None
+
+
+def included_room(root, path, header):
+    """The room a quoted header belongs to, or None."""
+    if header in GENERATED:
+        return GENERATED[header]
+    here = (root / path).parent
+    for folder in (here, root / "include", root / "geometry/include", root / "src", root / "geometry/src"):
+        found = (folder / header).resolve()
+        if found.is_file() and found.is_relative_to(root.resolve()):
+            return room_of(found.relative_to(root.resolve()).as_posix())
+    return None
+
+
+def reachable(room, seen=()):
+    if room in seen:
+        raise SystemExit(f"the plan itself runs in a circle: {' -> '.join([*seen, room])}")
+    rooms = {room, "base"}
+    for other in ARROWS[room]:
+        rooms |= reachable(other, (*seen, room))
+    return rooms
+
+
+def check_includes(root):
+    allowed = {room: reachable(room) for room in ARROWS}
+    for path, text in sources(root):
+        room = room_of(path)
+        public = "include/" in path
+        code = without_comments(text, strings=False)
+        for match in INCLUDE.finditer(code):
+            quoted, header = match.group(1) == '"', match.group(2)
+            place = f"{path}:{code.count(chr(10), 0, match.start(2)) + 1}"
+            for package, home in PACKAGES.items():
+                if re.match(package, header) and not re.match(home, path):
+                    yield f"{place}: <{header}> belongs in {home}"
+            if public and re.search(r"[./]", header) and not header.startswith("carom/"):
+                yield f"{place}: a public header includes only the standard library and carom/, not {header}"
+            if not quoted:
+                if header.startswith("carom/"):
+                    yield f'{place}: write "{header}" inside the project'
+                continue
+            if path == UMBRELLA:
+                if header.startswith("carom/maps/"):
+                    yield f"{place}: the maps are a witness, not a part of the library"
+                continue
+            target = included_room(root, path, header)
+            if room == "maps":
+                if header not in MAPS_MAY_INCLUDE:
+                    yield f"{place}: maps/ includes nothing of the project but base/error.hpp, not {header}"
+            elif room not in ARROWS:
+                yield f"{place}: the plan has no room '{room}'"
+            elif target is None:
+                yield f"{place}: no such header in the project: {header}"
+            elif target not in allowed[room]:
+                yield f"{place}: {room}/ must not include {target}/ ({header})"
+
+
+def check_libm(root):
+    call = re.compile(r"(?<![\w.>])(?<!elementary::)(?:std::|::)?\b(" + "|".join(LIBM) + r")[fl]?\s*\(")
+    for path, text in sources(root):
+        if not re.match(LIBM_FREE, path) or path in ("src/base/elementary.cpp", "include/carom/base/elementary.hpp"):
+            continue
+        code = without_comments(text)
+        for match in call.finditer(code):
+            line = code.count("\n", 0, match.start(1)) + 1
+            yield f"{path}:{line}: {match.group(1)} of libm; base/elementary.hpp is the door"
+
+
+def check_length(root):
+    paths = [path for folder in ("include", "geometry", "src", "tests", "examples", "validation", "docs")
+             for path in (root / folder).rglob("*") if path.suffix in (".cpp", ".hpp", ".py")]
+    for path in sorted(paths):
+        lines = len(path.read_text(encoding="utf-8").splitlines())
+        name = path.relative_to(root).as_posix()
+        if lines > TOO_LONG:
+            yield f"{name}: {lines} lines; more than {TOO_LONG} are two files"
+        elif lines > LONG:
+            print(f"{name}: {lines} lines (long)")
+
+
+CHECKS = {"includes": check_includes, "libm": check_libm, "length": check_length}
+
+
+def main(arguments):
+    if not arguments or arguments[0] not in CHECKS:
+        raise SystemExit(__doc__)
+    root = pathlib.Path(arguments[1] if len(arguments) > 1 else pathlib.Path(__file__).parents[2])
+    if not any(sources(root)):
+        raise SystemExit(f"no sources in {root}")
+    faults = list(CHECKS[arguments[0]](root))
+    print("\n".join(faults) if faults else "as planned")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""The checks of structure.py must find what they are for: each fault below in a small tree of its own."""
+import pathlib
+import tempfile
+import unittest
+
+import structure
+
+
+def faults(check, files):
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        base = {"include/carom/base/error.hpp": "#pragma once\n", "include/carom/table/table.hpp": "#pragma once\n",
+                "include/carom/events/world.hpp": "#pragma once\n", "src/io/value.hpp": "#pragma once\n"}
+        for name, text in {**base, **files}.items():
+            path = root / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return list(structure.CHECKS[check](root))
+
+
+class Includes(unittest.TestCase):
+    def legal(self, path, line):
+        self.assertEqual(faults("includes", {path: line + "\n"}), [])
+
+    def illegal(self, path, line):
+        self.assertEqual(len(faults("includes", {path: "// first\n" + line + "\n"})), 1, line)
+
+    def test_arrows(self):
+        self.legal("src/events/world.cpp", '#include "carom/table/table.hpp"')
+        self.legal("src/cli/run.cpp", '#include "io/value.hpp"')
+        self.illegal("src/table/build.cpp", '#include "carom/events/world.hpp"')
+        self.illegal("src/events/world.cpp", '#include "io/value.hpp"')
+        self.illegal("geometry/src/curve.cpp", '#include "carom/table/table.hpp"')
+        self.illegal("src/attic/old.cpp", '#include "carom/base/error.hpp"')
+        self.illegal("src/table/build.cpp", '#include "nowhere.hpp"')
+
+    def test_maps_are_a_witness(self):
+        self.legal("src/maps/disc.cpp", '#include "carom/base/error.hpp"')
+        self.illegal("src/maps/disc.cpp", '#include "carom/table/table.hpp"')
+        self.illegal("include/carom/carom.hpp", '#include "carom/maps/maps.hpp"')
+
+    def test_packages_stay_at_home(self):
+        self.legal("geometry/src/cgal/root.cpp", "#include <CGAL/Gmpq.h>")
+        self.illegal("geometry/src/curve.cpp", "#include <CGAL/Gmpq.h>")
+        self.illegal("src/table/build.cpp", "#include <toml++/toml.h>")
+        self.illegal("src/cli/run.cpp", "#include <hdf5.h>")
+        self.illegal("src/cli/run.cpp", "#include <CLI/App.hpp>")
+        self.illegal("src/events/world.cpp", "#include <gmpxx.h>")
+
+    def test_public_headers_are_plain(self):
+        self.legal("include/carom/table/walls.hpp", "#include <vector>")
+        self.illegal("include/carom/table/walls.hpp", "#include <fmt/format.h>")
+
+    def test_comments_do_not_count(self):
+        self.legal("src/table/build.cpp", '// #include "carom/events/world.hpp"')
+        self.legal("src/table/build.cpp", '/*\n#include "carom/events/world.hpp"\n*/')
+
+
+class Libm(unittest.TestCase):
+    def count(self, path, line):
+        return len(faults("libm", {path: line + "\n"}))
+
+    def test_calls_are_found(self):
+        for call in ("std::sin(t)", "cos(t)", "::pow(a, b)", "x+atan2f(y, x)", "std::hypot (x, y)"):
+            self.assertEqual(self.count("src/motion/flight.cpp", f"double a = {call};"), 1, call)
+        self.assertEqual(self.count("geometry/src/curve.cpp", "a = std::exp(b) * log(c);"), 2)
+        self.assertEqual(self.count("src/base/random.cpp", "n = 1'000'000; a = std::log(u);"), 1)
+
+    def test_others_are_not(self):
+        for line in ("a = elementary::sin(t);", "a = std::sqrt(t);", "// sin(t)", 's = "sin(t)";', "a = my_sin(t);",
+                     "a = mpfr_log(t);", "a = curve.exp(t);"):
+            self.assertEqual(self.count("src/motion/flight.cpp", line), 0, line)
+        self.assertEqual(self.count("src/maps/disc.cpp", "a = std::sin(t);"), 0)
+        self.assertEqual(self.count("src/cli/drawing.cpp", "a = std::sin(t);"), 0)
+
+
+class Length(unittest.TestCase):
+    def test_long_files_are_found(self):
+        self.assertEqual(len(faults("length", {"src/io/long.cpp": "\n" * 501})), 1)
+        self.assertEqual(len(faults("length", {"src/io/long.cpp": "\n" * 500})), 0)
+
+
+class Plan(unittest.TestCase):
+    def test_a_circle_in_the_plan_is_found(self):
+        plan = dict(structure.ARROWS)
+        try:
+            structure.ARROWS["base"] = ["cli"]
+            with self.assertRaises(SystemExit):
+                faults("includes", {})
+        finally:
+            structure.ARROWS.clear()
+            structure.ARROWS.update(plan)
+
+
+if __name__ == "__main__":
+    unittest.main()
