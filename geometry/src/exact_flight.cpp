@@ -212,6 +212,7 @@ struct ExactFlight::Data {
 
   std::vector<Crossing> exits(int piece, Cell cell, bool starts_here, bool ends_here, bool start_at_joint,
                               std::vector<int>* zero_joints) const;
+  std::optional<Crossing> touch(int piece, Cell cell) const;
   bool segment_crossed_twice(const ExactCurve& c, const View& s, int side, const Quadratic<Dyadic>& f) const;
   bool arrives_from_inside(int piece, const View& s, const Crossing& k) const;
 };
@@ -297,6 +298,20 @@ std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts
   return found;
 }
 
+/// Where the flight is tangent to a piece without crossing it (not for quartics).
+std::optional<Crossing> ExactFlight::Data::touch(int piece, Cell cell) const {
+  const ExactCurve& c = curve(piece);
+  if (c.segment || needs_quartic(c)) return std::nullopt;
+  const View s = view(piece, cell);
+  const Quadratic<Dyadic> f = quadratic(c, s);
+  if (f.a.sign() == 0 || (f.b * f.b - f.a * f.c).sign() != 0) return std::nullopt;
+  Crossing k = rational_crossing(-f.b, f.a);
+  if (omega.sign() == 0 && k.p.sign() <= 0) return std::nullopt;
+  const ExactPoint a{c.from.x, c.from.y, Dyadic(1)};
+  if (!c.closed && !on_part(c, s, a, c.end_point(), k)) return std::nullopt;
+  return k;
+}
+
 bool ExactFlight::Data::arrives_from_inside(int piece, const View& s, const Crossing& k) const {
   (void)s;
   const ExactCurve& after = curve(piece);
@@ -352,6 +367,19 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
       best = candidate;
       best_crossing = exits[i];
     }
+  }
+  // One tangency is no hit; two at one point are a cusp, through whose tip no flight leads.
+  std::vector<std::pair<int, Crossing>> touches;
+  for (const int piece : pieces) {
+    if (piece == start || d.boundary.pieces[static_cast<std::size_t>(piece)].edge) continue;
+    std::optional<Crossing> k = d.touch(piece, cell);
+    if (!k || (best_crossing && compare(*k, *best_crossing) < 0)) continue;
+    for (const auto& [other, crossing] : touches) {
+      if (compare(crossing, *k) != 0) continue;
+      best = {First::Kind::cusp, piece, 0, approximate(*k)};
+      best_crossing = *k;
+    }
+    touches.emplace_back(piece, std::move(*k));
   }
   for (const int piece : zero_joints) {
     if (piece == start_previous && at_joint) continue;
