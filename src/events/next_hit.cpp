@@ -283,11 +283,12 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
   for (int piece = 0; piece < pieces; ++piece) {
     const PieceData& p = data_[at(piece)];
     const bool stands = piece == start;
-    if (!p.closed) {
+    // At most two crossings: the joints' sides tell. (A Larmor circle may cross an ellipse four times.)
+    if (!p.closed && !(larmor && p.kind == CurveKind::ellipse)) {
       const bool from = left_[at(piece)] != 0, to = left_[at(p.next)] != 0;
       if (from && !to) continue;
       if (from == to && !larmor && p.kind == CurveKind::segment) continue;
-      if (from == to && !stands && !(larmor && p.kind == CurveKind::ellipse)) {
+      if (from == to && !stands) {
         const PreparedCurve& w = curves_[at(p.curve)];
         const Origin& origin = origin_of(p);
         if (!larmor && p.kind == CurveKind::circle && foot_off_arc(w, origin.point, v, origin.scale)) continue;
