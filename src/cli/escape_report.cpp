@@ -36,8 +36,8 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
   std::string text = "\nFates\n";
   const auto line = [&](const std::string& name, std::uint64_t number, const char* note, bool always) {
     if (number == 0 && !always) return;
-    text += fmt::format("  {:<22}{:>16}  {:>9.5f} %  {}\n", name, grouped(number),
-                        100.0 * static_cast<double>(number) / all, note);
+    text += fmt::format("  {:<22}{:>16}  {:>9.5f} %{}{}\n", name, grouped(number),
+                        100.0 * static_cast<double>(number) / all, *note ? "   " : "", note);
   };
   line("escaped", counts.escaped, "", true);
   for (std::size_t i = 0; counts.hole_escapes.size() > 1 && i < counts.hole_escapes.size(); ++i)
