@@ -62,13 +62,28 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   const Vector a = parametrisation.a, b = parametrisation.b;
   const auto norm_1 = [](Vector v) { return std::fabs(v.x) + std::fabs(v.y); };
   parameter_stretch = norm_1(parametrisation.along) + norm_1(parametrisation.across);
-  // centre 2u, a sum u of the extents; settle: e and its factor back; parameter: the coordinates on the
-  // unit circle (6u each), the half-angle tangent (2u) and u itself below 4 (2u), turned by two lengths.
+  // In the plane of the unit circle (X, Y): a coordinate moves by at most `row` times a displacement in the
+  // table's plane, which moves by at most `size` times an angle. Half the angle's tangent w = Y/(1 + X) turns
+  // a displacement D of (X, Y) into an angle of at most sqrt(2)|D|, so twice its larger coordinate.
+  constexpr double u = unit_roundoff;
   const double size = std::max(std::fabs(a.x) + std::fabs(b.x), std::fabs(a.y) + std::fabs(b.y));
-  point_error = centre_error + unit_roundoff * (extent + 24.0 * size);
-  // e = x - centre errs by 12u of |a|_1 + |b|_1 a coordinate, which the rows of the map to the unit circle
-  // turn into a relative error of the gradient.
-  normal_error = 16.0 * unit_roundoff * (norm_1(a) + norm_1(b)) * parameter_stretch;
+  const double row = std::max(norm_1(parametrisation.along), norm_1(parametrisation.across)), k = row * size;
+  // A settled point misses the curve by the centre's error, its last sum and e = x - centre: `placed`; and
+  // along e by the rounding of its squared length, circle: 6u (r2, weight, two products, sum, factor);
+  // ellipse: each axis times e 6u 2k, squared and summed 17u 2k (3/4), times 2/3: 18u k + 3u.
+  // X and Y of the point: its difference from the origin, row, product, sum: 4u of 2k, and u.
+  // w and u below 4: 5u, an angle of 10u.
+  const double placed = centre_error + u * (extent + 2.0 * size);
+  if (kind == CurveKind::circle) {
+    point_error = (1.0 + 2.0 * k) * placed + u * size * (16.0 * k + 35.0);
+    // The normal is e itself: it differs from the exact one by the angle between e and u.
+    normal_error = 1.43 * (2.0 * row * placed + u * (16.0 * k + 14.0));
+  } else {
+    point_error = (1.0 + 2.0 * k) * placed + u * size * (61.0 * k + 20.0);
+    // The gradient is the transposed map of (X, Y): relative to its length an error of (X, Y) grows by at most
+    // 2 row times sqrt(2) size; its own products add 12u k + 6u.
+    normal_error = 2.85 * k * (2.0 * row * placed + u * (28.0 * k + 18.0));
+  }
 }
 
 }  // namespace carom::geometry

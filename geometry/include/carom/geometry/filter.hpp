@@ -23,9 +23,11 @@ struct FlightScale {
 
 /// Error of side_of_flight for d = J - P with |d|_1 = d1.
 inline double side_error(const FlightScale& f, double d1) {
-  // 2 cross(v, d): each coordinate of d errs by eta = delta + u d1, so by 2 V eta, and rounding of two
-  // products and their difference by 4u V d1 at most; omega d.d: 2 w d1 eta + 4u w d1^2.
-  return f.inflation * 2.01 * (f.speed_1 + f.omega * d1) * (f.delta + 3.1 * unit_roundoff * d1);
+  // 2 cross(v, d): with S = |v_x d_y| + |v_y d_x| <= V d1, d errs by delta and by u of itself: 2 V delta + 2u S;
+  // two products and their difference 4u S; the last sum 2u S: together 2 V (delta + 4u d1).
+  // omega d.d: 2 w (d1 delta + delta^2) and 2u w d1^2 from d, products, sum and factor 3u, the last sum u:
+  // together 2 w (d1 + delta)(delta + 3u d1).
+  return f.inflation * 2.01 * (f.speed_1 + f.omega * (d1 + f.delta)) * (f.delta + 4.1 * unit_roundoff * d1);
 }
 
 /// Errors of the coefficients of a quadratic.
@@ -33,12 +35,15 @@ struct QuadraticError {
   double a, b, c;
 };
 
-/// Line: unit tangent with relative error 4u, e = P - A with |e|_1 = e1.
+/// Line, e = P - A with |e|_1 = e1. Each coordinate of the unit tangent errs by 5u of itself: the direction cut
+/// off (2u), its length (2u, of which the cut takes back its own), the quotient (u). With the sum of the two
+/// products' sizes S <= |e|_2:  a: 1.42 delta + (5u + e u + product u + difference u) S;
+/// b: half of 5u + 2u of S' <= V;  c: n a with two roundings and the last, and half of w (5u + 2u + u + u) V.
 inline QuadraticError line_error(const FlightScale& f, double e1) {
   const double u = unit_roundoff;
   const double a = 1.42 * f.delta + 8.0 * u * e1;
   const double n = 0.25 * f.omega * f.omega;
-  return {f.inflation * a, f.inflation * 3.1 * u * f.speed_1,
+  return {f.inflation * a, f.inflation * 3.6 * u * f.speed_1,
           f.inflation * (n * (a + 4.1 * u * e1) + 4.6 * u * f.omega * f.speed_1)};
 }
 
@@ -49,7 +54,7 @@ inline QuadraticError circle_error(const FlightScale& f, double e1, double centr
   const double a = 2.01 * e1 * eta + 2.01 * eta * eta + u * (3.1 * e1 * e1 + 3.1 * r2);
   const double b = f.speed_1 * (eta + 2.1 * u * e1);
   const double n = 0.25 * f.omega * f.omega;
-  const double c = n * (a + 4.1 * u * (e1 * e1 + r2)) + f.omega * f.speed_1 * (eta + 4.1 * u * e1) +
+  const double c = n * (a + 4.1 * u * (e1 * e1 + r2)) + f.omega * f.speed_1 * (eta + 5.1 * u * e1) +
                    12.1 * u * f.speed_1 * f.speed_1;  // |v|^2 is the energy shell's, within 8u
   return {f.inflation * a, f.inflation * b, f.inflation * c};
 }
