@@ -1,0 +1,266 @@
+// Every bound of the filter against the error it bounds: never above it, and not idle.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "carom/geometry/filter.hpp"
+#include "carom/geometry/quartic.hpp"
+#include "geometry/quad.hpp"
+#include "geometry/tables.hpp"
+
+namespace carom::tests {
+namespace {
+
+using namespace geometry;
+
+constexpr double u = unit_roundoff;
+double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
+
+/// Largest error/bound of each name.
+class Ratios {
+ public:
+  void add(const char* name, double error, double bound) {
+    if (!(bound < HUGE_VAL)) return;
+    double& largest_one = largest_[name];
+    ++count_[name];
+    const double ratio = error == 0.0 ? 0.0 : error / bound;
+    if (!(ratio <= largest_one)) largest_one = ratio;
+  }
+  void add(const char* name, const Quad& value, double rounded, double bound) {
+    add(name, double(magnitude(value - Quad(rounded))), bound);
+  }
+  void expect() const {
+    for (const auto& [name, ratio] : largest_) {
+      std::printf("%-34s max(error/bound) %8.5f over %ld cases\n", name.c_str(), ratio, count_.at(name));
+      EXPECT_LE(ratio, 1.0) << name;
+      EXPECT_GT(ratio, 0.01) << name;
+    }
+  }
+
+ private:
+  std::map<std::string, double> largest_;
+  std::map<std::string, long> count_;
+};
+
+/// A flight whose exact start lies within `delta` of the rounded one, at a size.
+struct Sample {
+  double size = 1.0;
+  Vector start, velocity;
+  QuadVector exact_start;
+  double square = 1.0;  // rounded |v|^2, as a constant of the motion
+  FlightScale scale;
+  double omega = 0.0;
+
+  explicit Sample(Dice& dice, bool exact) {
+    size = dice.spread(1e-6, 1e6);
+    start = size * Vector{dice.between(-1, 1), dice.between(-1, 1)};
+    const double speed = dice.spread(1e-3, 1e3);
+    velocity = speed * (dice.whole(0, 5) == 0 ? Vector{1.0, 0x1p-30 * dice.unit()} : dice.direction());
+    if (dice.coin()) std::swap(velocity.x, velocity.y);
+    omega = dice.whole(0, 3) == 0
+                ? 0.0
+                : dice.sign() * (dice.coin() ? dice.spread(1e-6, 1e6) : dice.spread(0.1, 10) * speed / size);
+    scale = {exact ? 0.0 : dice.spread(u, 100 * u) * size, norm_1(velocity), std::fabs(omega), 1.0};
+    exact_start = quad(start) +
+                  QuadVector{Quad(scale.delta) * Quad(dice.sign()), Quad(scale.delta) * Quad(dice.sign())};
+    square = dot(velocity, velocity) * (1.0 + 7.0 * u * dice.whole(-1, 1));
+  }
+};
+
+/// Two ways to fail: rounding alone, and a start that is known to `delta`.
+template <class Measure>
+void sweep(const char* what, Measure&& measure) {
+  for (const bool exact : {true, false}) {
+    std::printf("%s, %s\n", what, exact ? "rounding alone" : "start within delta");
+    Dice dice(exact ? 3 : 4);
+    Ratios ratios;
+    const long count = cases(30000, 5000000);
+    for (long i = 0; i < count; ++i) measure(dice, exact, ratios);
+    ratios.expect();
+  }
+}
+
+Vector near(const Sample& s, Dice& dice) {
+  return s.start + dice.spread(1e-3, 2.0) * s.size * dice.direction();
+}
+
+TEST(Bounds, SideOfAJoint) {
+  sweep("side", [](Dice& dice, bool exact, Ratios& r) {
+    const Sample s(dice, exact);
+    const Vector joint = near(s, dice), d = joint - s.start;
+    const Quad side = side_of_flight(quad(s.velocity), quad(joint) - s.exact_start, Quad(s.omega));
+    r.add("side", side, side_of_flight(s.velocity, d, s.omega), side_error(s.scale, norm_1(d)));
+  });
+}
+
+TEST(Bounds, Line) {
+  sweep("line", [](Dice& dice, bool exact, Ratios& r) {
+    const Sample s(dice, exact);
+    const Curve curve = Segment{near(s, dice), near(s, dice)};
+    const PreparedCurve w(curve);
+    const QuadCurve q(curve);
+    const QuadVector d = q.to - q.from;
+    const QuadVector tangent = (Quad(1) / root(dot(d, d))) * d;
+    const auto value =
+        line_quadratic(s.exact_start - q.from, tangent, quad(s.velocity), Quad(s.omega), Quad(0.5));
+    const Vector e = s.start - w.from;
+    const auto rounded = line_quadratic(e, w.tangent, s.velocity, s.omega, 0.5);
+    const QuadraticError bound = line_error(s.scale, norm_1(e));
+    r.add("line a", value.a, rounded.a, bound.a);
+    r.add("line b", value.b, rounded.b, bound.b);
+    if (s.omega != 0.0) r.add("line c", value.c, rounded.c, bound.c);
+  });
+}
+
+/// An arc or a circle of that size nearby; flat and full ones too.
+Curve random_circle(const Sample& s, Dice& dice) {
+  if (dice.coin()) return Circle{near(s, dice), s.size * dice.spread(1e-3, 1.0), dice.coin()};
+  return CircularArc{near(s, dice), near(s, dice),
+                     dice.sign() * (dice.coin() ? dice.between(0, 2) : dice.spread(1, 1e6)), dice.coin()};
+}
+Curve random_ellipse(const Sample& s, Dice& dice) {
+  const double ratio = dice.spread(0.05, 1.0);
+  if (dice.coin())
+    return Ellipse{near(s, dice), s.size * dice.spread(1e-2, 1.0) * dice.direction(), ratio, dice.coin()};
+  return EllipticArc{near(s, dice),
+                     near(s, dice),
+                     dice.direction(),
+                     ratio,
+                     dice.sign() * (dice.coin() ? dice.between(0, 2) : dice.spread(1, 1e4)),
+                     dice.coin()};
+}
+
+TEST(Bounds, CircleAndDerivedNumbers) {
+  sweep("circle", [](Dice& dice, bool exact, Ratios& r) {
+    const Sample s(dice, exact);
+    const Curve curve = random_circle(s, dice);
+    const PreparedCurve w(curve);
+    const QuadCurve q(curve);
+    const auto value = circle_quadratic(s.exact_start - q.centre, dot(q.a, q.a), quad(s.velocity),
+                                        dot(quad(s.velocity), quad(s.velocity)), Quad(s.omega), Quad(0.5));
+    const Vector e = s.start - w.centre;
+    const auto rounded = circle_quadratic(e, w.r2, s.velocity, s.square, s.omega, 0.5);
+    const QuadraticError bound = circle_error(s.scale, norm_1(e), w.centre_error, w.r2);
+    r.add("circle a", value.a, rounded.a, bound.a);
+    r.add("circle b", value.b, rounded.b, bound.b);
+    r.add("circle c", value.c, rounded.c, bound.c);
+    r.add("circle discriminant", value.b * value.b - value.a * value.c, rising_root(rounded).discriminant,
+          discriminant_error(rounded, bound));
+  });
+}
+
+TEST(Bounds, DiscriminantAndKappa) {
+  // Coefficients at the edge of their errors.
+  Ratios r;
+  Dice dice(5);
+  for (long i = cases(100000, 10000000); i > 0; --i) {
+    const double scale = dice.spread(1e-6, 1e6);
+    Quadratic<double> q{dice.between(-1, 1), dice.between(-1, 1) * scale,
+                        dice.between(-1, 1) * scale * scale};
+    const double part = dice.coin() ? 0.0 : dice.spread(u, 1e-6);
+    const QuadraticError e{part * dice.unit(), part * dice.unit() * scale,
+                           part * dice.unit() * scale * scale};
+    const Quad a = Quad(q.a) + Quad(e.a) * Quad(dice.sign()), b = Quad(q.b) + Quad(e.b) * Quad(dice.sign()),
+               c = Quad(q.c) + Quad(e.c) * Quad(dice.sign()), discriminant = b * b - a * c;
+    const Root found = rising_root(q);
+    const char* kind = part == 0.0 ? "rounding alone" : "with errors";
+    r.add((std::string("discriminant, ") + kind).c_str(), discriminant, found.discriminant,
+          discriminant_error(q, e));
+    const double error = kappa_error(q, e, found);
+    if (!(error < HUGE_VAL)) continue;
+    ASSERT_GT(double(discriminant), 0.0);
+    const Quad n = root(discriminant);
+    const Quad kappa = q.b <= 0.0 ? (n - b) / a : -c / (b + n);
+    r.add((std::string("kappa, ") + kind).c_str(), kappa, found.kappa, error);
+    // The point there: kappa at the edge of its error.
+    Sample s(dice, part == 0.0);
+    s.scale.omega = std::fabs(
+        s.omega = dice.coin() ? 0.0 : dice.sign() * dice.spread(1e-3, 1e3) * std::fabs(found.kappa));
+    const QuadVector x = displacement(kappa, quad(s.velocity), Quad(s.omega), Quad(0.5));
+    const Vector d = displacement(found.kappa, s.velocity, s.omega, 0.5);
+    r.add((std::string("point, ") + kind).c_str(), largest(x + (s.exact_start - quad(s.start)) - quad(d)),
+          point_error(s.scale, found.kappa, error, norm_1(d)));
+  }
+  r.expect();
+}
+
+TEST(Bounds, EllipseWithoutField) {
+  sweep("ellipse", [](Dice& dice, bool exact, Ratios& r) {
+    const Sample s(dice, exact);
+    const Curve curve = random_ellipse(s, dice);
+    const PreparedCurve w(curve);
+    const QuadCurve q(curve);
+    const QuadVector e = s.exact_start - q.centre, v = quad(s.velocity);
+    const Quad r2 = q.metric(q.a, q.a);
+    const Vector f = s.start - w.centre;
+    const Vector em{dot(w.first_direction, f), dot(w.second_direction, f)};
+    const Vector vm{dot(w.first_direction, s.velocity), dot(w.second_direction, s.velocity)};
+    const double m = w.first_weight, n = w.second_weight;
+    const QuadraticError bound = ellipse_error(s.scale, norm_1(f), w.centre_error,
+                                               std::max(norm_1(w.first_axis), norm_1(w.second_axis)));
+    r.add("ellipse a", q.metric(e, e) / r2 - Quad(1), m * (em.x * em.x) + n * (em.y * em.y) - 1.0, bound.a);
+    r.add("ellipse b", q.metric(e, v) / r2, m * (em.x * vm.x) + n * (em.y * vm.y), bound.b);
+    r.add("ellipse c", q.metric(v, v) / r2, m * (vm.x * vm.x) + n * (vm.y * vm.y), bound.c);
+  });
+}
+
+TEST(Bounds, EllipseInAField) {
+  sweep("quartic", [](Dice& dice, bool exact, Ratios& r) {
+    Sample s(dice, exact);
+    if (s.omega == 0.0) s.omega = s.scale.omega = 1.0 / s.size;
+    const Curve curve = random_ellipse(s, dice);
+    const PreparedCurve w(curve);
+    const QuadCurve q(curve);
+    const QuadVector e = s.exact_start - q.centre, v = quad(s.velocity), j = right(v);
+    const Quad r2 = q.metric(q.a, q.a), omega(s.omega), n = Quad(0.25) * omega * omega;
+    const Quad h = q.metric(e, e) / r2 - Quad(1), ev = q.metric(e, v) / r2, ew = omega * q.metric(e, j) / r2;
+    const Quad value[5] = {n * (n * h + ew + q.metric(j, j) / r2),
+                           Quad(2) * n * ev + omega * q.metric(v, j) / r2,
+                           Quad(2) * n * h + ew + q.metric(v, v) / r2, Quad(2) * ev, h};
+    const Vector f = s.start - w.centre, jv = right(s.velocity);
+    const auto map = [&](Vector x) { return Vector{dot(w.first_axis, x), dot(w.second_axis, x)}; };
+    const Quartic<double> rounded = ellipse_quartic(map(f), 1.0, map(s.velocity), map(jv), s.omega, 0.5);
+    const QuarticError bound = quartic_error(s.scale, norm_1(f), w.centre_error,
+                                             std::max(norm_1(w.first_axis), norm_1(w.second_axis)), false);
+    const char* names[] = {"quartic 0", "quartic 1", "quartic 2", "quartic 3", "quartic 4"};
+    for (int i = 0; i < 5; ++i) r.add(names[i], value[i], rounded.q[i], bound.q[i]);
+  });
+}
+
+TEST(Bounds, PointsAndNormals) {
+  Dice dice(6);
+  Ratios r;
+  for (long i = cases(60000, 10000000); i > 0; --i) {
+    Sample s(dice, true);
+    // Now and then a small curve far from the origin.
+    if (dice.whole(0, 3) == 0) s.start = dice.spread(1.0, 1e6) * s.start;
+    const int kind = dice.whole(0, 2);
+    const Curve curve = kind == 0   ? Curve(Segment{near(s, dice), near(s, dice)})
+                        : kind == 1 ? random_circle(s, dice)
+                                    : random_ellipse(s, dice);
+    const char* name = kind == 0 ? "segment" : kind == 1 ? "circle" : "ellipse";
+    const PreparedCurve w(curve);
+    const QuadCurve q(curve);
+    const double at =
+        std::fmin(std::fmax(first_parameter, dice.unit() * end_parameter(curve)), last_parameter(curve));
+    const Vector x = w.point(at);
+    r.add((std::string(name) + " point").c_str(), largest(q.point(at) - quad(x)), w.point_error);
+    // A hit lands beside the curve by the rounding of the flight.
+    const double beside = dice.spread(1e-17, 1e-13) * w.extent;
+    const PreparedCurve::Frame f = w.settle(x + beside * dice.direction());
+    const double v = w.parameter(f.point);
+    if (v == first_parameter || v == last_parameter(curve)) continue;
+    const QuadVector exact = q.point(v);
+    r.add((std::string(name) + " settled point").c_str(), largest(exact - quad(f.point)), w.point_error);
+    const QuadVector n = q.normal(exact), m = quad(f.normal);
+    const Quad length = root(dot(m, m) / dot(n, n));
+    r.add((std::string(name) + " normal").c_str(), largest(length * n - m),
+          w.normal_error * norm_1(f.normal));
+  }
+  r.expect();
+}
+
+}  // namespace
+}  // namespace carom::tests
