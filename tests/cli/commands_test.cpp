@@ -1,6 +1,8 @@
 // What the program prints and how it ends.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "program.hpp"
 
 namespace carom {
@@ -131,6 +133,8 @@ struct Bad {
   int status;
   const char* message;
 };
+
+void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.command; }
 
 class BadInput : public testing::TestWithParam<Bad> {};
 
