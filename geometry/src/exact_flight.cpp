@@ -214,6 +214,8 @@ struct ExactFlight::Data {
                               std::vector<int>* zero_joints) const;
   std::optional<Crossing> touch(int piece, Cell cell) const;
   bool segment_crossed_twice(const ExactCurve& c, const View& s, int side, const Quadratic<Dyadic>& f) const;
+  /// Is the foot of the Larmor circle's centre strictly between the ends of a segment?
+  bool foot_between_ends(const ExactCurve& c, const View& s) const;
   bool arrives_from_inside(int piece, const View& s, const Crossing& k) const;
 };
 
@@ -236,7 +238,11 @@ bool ExactFlight::Data::segment_crossed_twice(const ExactCurve& c, const View& s
                                               const Quadratic<Dyadic>& f) const {
   // Both ends outside the Larmor circle, the foot of its centre between them, the line cut.
   if (omega.sign() == 0 || side_of_joints * omega.sign() < 0) return false;
-  if ((f.b * f.b - f.a * f.c).sign() <= 0) return false;
+  return (f.b * f.b - f.a * f.c).sign() > 0 && foot_between_ends(c, s);
+}
+
+bool ExactFlight::Data::foot_between_ends(const ExactCurve& c, const View& s) const {
+  if (omega.sign() == 0) return false;
   const DyadicVector from{s.x - s.w * c.from.x, s.y - s.w * c.from.y};
   const DyadicVector to{s.x - s.w * c.to.x, s.y - s.w * c.to.y};
   const Dyadic common = s.w * cross(c.direction, v);
@@ -301,14 +307,15 @@ std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts
 /// Where the flight is tangent to a piece without crossing it (not for quartics).
 std::optional<Crossing> ExactFlight::Data::touch(int piece, Cell cell) const {
   const ExactCurve& c = curve(piece);
-  if (c.segment || needs_quartic(c)) return std::nullopt;
+  if (needs_quartic(c)) return std::nullopt;
   const View s = view(piece, cell);
+  if (c.segment && !foot_between_ends(c, s)) return std::nullopt;
   const Quadratic<Dyadic> f = quadratic(c, s);
   if (f.a.sign() == 0 || (f.b * f.b - f.a * f.c).sign() != 0) return std::nullopt;
   Crossing k = rational_crossing(-f.b, f.a);
   if (omega.sign() == 0 && k.p.sign() <= 0) return std::nullopt;
   const ExactPoint a{c.from.x, c.from.y, Dyadic(1)};
-  if (!c.closed && !on_part(c, s, a, c.end_point(), k)) return std::nullopt;
+  if (!c.segment && !c.closed && !on_part(c, s, a, c.end_point(), k)) return std::nullopt;
   return k;
 }
 
