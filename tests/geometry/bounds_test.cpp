@@ -44,7 +44,7 @@ class Ratios {
   std::map<std::string, long> count_;
 };
 
-/// A flight whose exact start lies within `delta` of the rounded one, at a size.
+/// A flight of some size whose exact start lies within `delta` of the rounded one.
 struct Sample {
   double size = 1.0;
   Vector start, velocity;
@@ -53,8 +53,7 @@ struct Sample {
   FlightScale scale;
   double omega = 0.0;
 
-  explicit Sample(Dice& dice, bool exact) {
-    size = dice.spread(1e-6, 1e6);
+  Sample(Dice& dice, bool exact, double of_size) : size(of_size) {
     start = size * Vector{dice.between(-1, 1), dice.between(-1, 1)};
     const double speed = dice.spread(1e-3, 1e3);
     velocity = speed * (dice.whole(0, 5) == 0 ? Vector{1.0, 0x1p-30 * dice.unit()} : dice.direction());
@@ -69,38 +68,64 @@ struct Sample {
   }
 };
 
-/// Two ways to fail: rounding alone, and a start that is known to `delta`.
-template <class Measure>
-void sweep(const char* what, Measure&& measure) {
+double random_size(Dice& dice) { return dice.spread(1e-6, 1e6); }
+
+/// A curve and what is made of it; many flights see it.
+struct Scene {
+  double size;
+  Curve curve;
+  PreparedCurve rounded;
+  QuadCurve exact;
+  Scene(double of_size, const Curve& c) : size(of_size), curve(c), rounded(c), exact(c) {}
+};
+
+/// Rounding alone, and a start that is known to `delta`. `make` builds a scene, `measure` adds to the ratios.
+template <class Make, class Measure>
+void sweep(const char* what, Make&& make, Measure&& measure) {
   for (const bool exact : {true, false}) {
     std::printf("%s, %s\n", what, exact ? "rounding alone" : "start within delta");
     Dice dice(exact ? 3 : 4);
     Ratios ratios;
-    const long count = cases(30000, 5000000);
-    for (long i = 0; i < count; ++i) measure(dice, exact, ratios);
+    constexpr int flights = 25;
+    for (long left = cases(40000, 10000000); left > 0; left -= flights) {
+      const double size = random_size(dice);
+      const Scene scene(size, make(size, dice));
+      for (int i = 0; i < flights; ++i) measure(Sample(dice, exact, size), scene, dice, ratios);
+    }
     ratios.expect();
   }
 }
 
-Vector near(const Sample& s, Dice& dice) {
-  return s.start + dice.spread(1e-3, 2.0) * s.size * dice.direction();
+/// A place about as far away as the size, or much nearer.
+Vector place(double size, Dice& dice) { return (dice.spread(1e-3, 2.0) * size) * dice.direction(); }
+
+Curve random_segment(double size, Dice& dice) { return Segment{place(size, dice), place(size, dice)}; }
+/// Flat and full ones too.
+Curve random_circle(double size, Dice& dice) {
+  if (dice.coin()) return Circle{place(size, dice), size * dice.spread(1e-3, 1.0), dice.coin()};
+  const double offset = dice.sign() * (dice.coin() ? dice.between(0, 2) : dice.spread(1, 1e6));
+  return CircularArc{place(size, dice), place(size, dice), offset, dice.coin()};
+}
+Curve random_ellipse(double size, Dice& dice) {
+  const double ratio = dice.spread(0.05, 1.0);
+  if (dice.coin())
+    return Ellipse{place(size, dice), size * dice.spread(1e-2, 1.0) * dice.direction(), ratio, dice.coin()};
+  const double offset = dice.sign() * (dice.coin() ? dice.between(0, 2) : dice.spread(1, 1e4));
+  return EllipticArc{place(size, dice), place(size, dice), dice.direction(), ratio, offset, dice.coin()};
 }
 
 TEST(Bounds, SideOfAJoint) {
-  sweep("side", [](Dice& dice, bool exact, Ratios& r) {
-    const Sample s(dice, exact);
-    const Vector joint = near(s, dice), d = joint - s.start;
+  sweep("side", random_segment, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
+    const Vector joint = start_point(scene.curve), d = joint - s.start;
     const Quad side = side_of_flight(quad(s.velocity), quad(joint) - s.exact_start, Quad(s.omega));
     r.add("side", side, side_of_flight(s.velocity, d, s.omega), side_error(s.scale, norm_1(d)));
   });
 }
 
 TEST(Bounds, Line) {
-  sweep("line", [](Dice& dice, bool exact, Ratios& r) {
-    const Sample s(dice, exact);
-    const Curve curve = Segment{near(s, dice), near(s, dice)};
-    const PreparedCurve w(curve);
-    const QuadCurve q(curve);
+  sweep("line", random_segment, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
+    const PreparedCurve& w = scene.rounded;
+    const QuadCurve& q = scene.exact;
     const QuadVector d = q.to - q.from;
     const QuadVector tangent = (Quad(1) / root(dot(d, d))) * d;
     const auto value =
@@ -114,30 +139,10 @@ TEST(Bounds, Line) {
   });
 }
 
-/// An arc or a circle of that size nearby; flat and full ones too.
-Curve random_circle(const Sample& s, Dice& dice) {
-  if (dice.coin()) return Circle{near(s, dice), s.size * dice.spread(1e-3, 1.0), dice.coin()};
-  return CircularArc{near(s, dice), near(s, dice),
-                     dice.sign() * (dice.coin() ? dice.between(0, 2) : dice.spread(1, 1e6)), dice.coin()};
-}
-Curve random_ellipse(const Sample& s, Dice& dice) {
-  const double ratio = dice.spread(0.05, 1.0);
-  if (dice.coin())
-    return Ellipse{near(s, dice), s.size * dice.spread(1e-2, 1.0) * dice.direction(), ratio, dice.coin()};
-  return EllipticArc{near(s, dice),
-                     near(s, dice),
-                     dice.direction(),
-                     ratio,
-                     dice.sign() * (dice.coin() ? dice.between(0, 2) : dice.spread(1, 1e4)),
-                     dice.coin()};
-}
-
 TEST(Bounds, CircleAndDerivedNumbers) {
-  sweep("circle", [](Dice& dice, bool exact, Ratios& r) {
-    const Sample s(dice, exact);
-    const Curve curve = random_circle(s, dice);
-    const PreparedCurve w(curve);
-    const QuadCurve q(curve);
+  sweep("circle", random_circle, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
+    const PreparedCurve& w = scene.rounded;
+    const QuadCurve& q = scene.exact;
     const auto value = circle_quadratic(s.exact_start - q.centre, dot(q.a, q.a), quad(s.velocity),
                                         dot(quad(s.velocity), quad(s.velocity)), Quad(s.omega), Quad(0.5));
     const Vector e = s.start - w.centre;
@@ -175,7 +180,7 @@ TEST(Bounds, DiscriminantAndKappa) {
     const Quad kappa = q.b <= 0.0 ? (n - b) / a : -c / (b + n);
     r.add((std::string("kappa, ") + kind).c_str(), kappa, found.kappa, error);
     // The point there: kappa at the edge of its error.
-    Sample s(dice, part == 0.0);
+    Sample s(dice, part == 0.0, random_size(dice));
     s.scale.omega = std::fabs(
         s.omega = dice.coin() ? 0.0 : dice.sign() * dice.spread(1e-3, 1e3) * std::fabs(found.kappa));
     const QuadVector x = displacement(kappa, quad(s.velocity), Quad(s.omega), Quad(0.5));
@@ -187,11 +192,9 @@ TEST(Bounds, DiscriminantAndKappa) {
 }
 
 TEST(Bounds, EllipseWithoutField) {
-  sweep("ellipse", [](Dice& dice, bool exact, Ratios& r) {
-    const Sample s(dice, exact);
-    const Curve curve = random_ellipse(s, dice);
-    const PreparedCurve w(curve);
-    const QuadCurve q(curve);
+  sweep("ellipse", random_ellipse, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
+    const PreparedCurve& w = scene.rounded;
+    const QuadCurve& q = scene.exact;
     const QuadVector e = s.exact_start - q.centre, v = quad(s.velocity);
     const Quad r2 = q.metric(q.a, q.a);
     const Vector f = s.start - w.centre;
@@ -207,12 +210,10 @@ TEST(Bounds, EllipseWithoutField) {
 }
 
 TEST(Bounds, EllipseInAField) {
-  sweep("quartic", [](Dice& dice, bool exact, Ratios& r) {
-    Sample s(dice, exact);
+  sweep("quartic", random_ellipse, [](Sample s, const Scene& scene, Dice&, Ratios& r) {
     if (s.omega == 0.0) s.omega = s.scale.omega = 1.0 / s.size;
-    const Curve curve = random_ellipse(s, dice);
-    const PreparedCurve w(curve);
-    const QuadCurve q(curve);
+    const PreparedCurve& w = scene.rounded;
+    const QuadCurve& q = scene.exact;
     const QuadVector e = s.exact_start - q.centre, v = quad(s.velocity), j = right(v);
     const Quad r2 = q.metric(q.a, q.a), omega(s.omega), n = Quad(0.25) * omega * omega;
     const Quad h = q.metric(e, e) / r2 - Quad(1), ev = q.metric(e, v) / r2, ew = omega * q.metric(e, j) / r2;
@@ -229,35 +230,51 @@ TEST(Bounds, EllipseInAField) {
   });
 }
 
+Curve displaced(Curve curve, Vector by) {
+  std::visit(
+      [&](auto& c) {
+        if constexpr (requires { c.centre; }) {
+          c.centre = c.centre + by;
+        } else {
+          c.from = c.from + by;
+          c.to = c.to + by;
+        }
+      },
+      curve);
+  return curve;
+}
+
 TEST(Bounds, PointsAndNormals) {
   Dice dice(6);
   Ratios r;
-  for (long i = cases(60000, 10000000); i > 0; --i) {
-    Sample s(dice, true);
-    // Now and then a small curve far from the origin.
-    if (dice.whole(0, 3) == 0) s.start = dice.spread(1.0, 1e6) * s.start;
+  constexpr int points = 25;
+  for (long left = cases(120000, 30000000); left > 0; left -= points) {
+    const double size = random_size(dice);
     const int kind = dice.whole(0, 2);
-    const Curve curve = kind == 0   ? Curve(Segment{near(s, dice), near(s, dice)})
-                        : kind == 1 ? random_circle(s, dice)
-                                    : random_ellipse(s, dice);
-    const char* name = kind == 0 ? "segment" : kind == 1 ? "circle" : "ellipse";
+    Curve curve = kind == 0   ? random_segment(size, dice)
+                  : kind == 1 ? random_circle(size, dice)
+                              : random_ellipse(size, dice);
+    // Now and then a small curve far from the origin.
+    if (dice.whole(0, 3) == 0) curve = displaced(curve, (dice.spread(1.0, 1e6) * size) * dice.direction());
+    const std::string name = kind == 0 ? "segment" : kind == 1 ? "circle" : "ellipse";
     const PreparedCurve w(curve);
     const QuadCurve q(curve);
-    const double at =
-        std::fmin(std::fmax(first_parameter, dice.unit() * end_parameter(curve)), last_parameter(curve));
-    const Vector x = w.point(at);
-    r.add((std::string(name) + " point").c_str(), largest(q.point(at) - quad(x)), w.point_error);
-    // A hit lands beside the curve by the rounding of the flight.
-    const double beside = dice.spread(1e-17, 1e-13) * w.extent;
-    const PreparedCurve::Frame f = w.settle(x + beside * dice.direction());
-    const double v = w.parameter(f.point);
-    if (v == first_parameter || v == last_parameter(curve)) continue;
-    const QuadVector exact = q.point(v);
-    r.add((std::string(name) + " settled point").c_str(), largest(exact - quad(f.point)), w.point_error);
-    const QuadVector n = q.normal(exact), m = quad(f.normal);
-    const Quad length = root(dot(m, m) / dot(n, n));
-    r.add((std::string(name) + " normal").c_str(), largest(length * n - m),
-          w.normal_error * norm_1(f.normal));
+    for (int i = 0; i < points; ++i) {
+      const double at =
+          std::fmin(std::fmax(first_parameter, dice.unit() * end_parameter(curve)), last_parameter(curve));
+      const Vector x = w.point(at);
+      r.add((name + " point").c_str(), largest(q.point(at) - quad(x)), w.point_error);
+      // A hit lands beside the curve by the rounding of the flight.
+      const double beside = dice.spread(1e-17, 1e-13) * w.extent;
+      const PreparedCurve::Frame f = w.settle(x + beside * dice.direction());
+      const double v = w.parameter(f.point);
+      if (v == first_parameter || v == last_parameter(curve)) continue;
+      const QuadVector exact = q.point(v);
+      r.add((name + " settled point").c_str(), largest(exact - quad(f.point)), w.point_error);
+      const QuadVector n = q.normal(exact), m = quad(f.normal);
+      const Quad length = root(dot(m, m) / dot(n, n));
+      r.add((name + " normal").c_str(), largest(length * n - m), w.normal_error * norm_1(f.normal));
+    }
   }
   r.expect();
 }
