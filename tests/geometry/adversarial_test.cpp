@@ -113,6 +113,51 @@ TEST(Adversarial, ExactlyThroughJoints) {
   EXPECT_GT(t.joints, t.cases / 4);
 }
 
+/// The same with arcs for some sides.
+Table whole_arcs(Dice& dice) {
+  for (;;) {
+    const Table star = whole_star(dice);
+    std::vector<Curve> sides;
+    for (const Wall& w : star.walls) {
+      const auto& side = std::get<Segment>(w.curve);
+      const double offset = 0.5 * dice.whole(1, 6);
+      if (dice.coin())
+        sides.push_back(side);
+      else if (dice.coin())
+        sides.push_back(CircularArc{side.from, side.to, offset, true});
+      else
+        sides.push_back(CircularArc{side.from, side.to, -offset, false});
+    }
+    Table t = loop(sides);
+    if (sound(t)) return t;
+  }
+}
+
+TEST(Adversarial, ThroughJointsAheadAndBehind) {
+  // A joint exactly behind the particle must not count, and its walls' parity must stay whole.
+  const auto start = [](const Bench& b, Dice& dice, double omega, Start& s) {
+    const auto& walls = b.table().walls;
+    const Vector joint = geometry::start_point(
+        walls[static_cast<std::size_t>(dice.whole(0, static_cast<int>(walls.size()) - 1))].curve);
+    s.point = {0.5 * dice.whole(-20, 20), 0.5 * dice.whole(-20, 20)};
+    std::vector<geometry::NamedCurve> sides;
+    for (const Wall& w : walls) sides.push_back({w.name, w.curve});
+    const Vector d = joint - s.point;
+    if (!(dot(d, d) > 0) || geometry::locate(sides, s.point) <= 0) return false;
+    // side = 2 v x d + omega d.d = 0 for v = d + (omega/2) left(d).
+    s.omega = omega;
+    s.velocity = d + (0.5 * omega) * left(d);
+    if (dice.coin()) {  // the same circle, the other way round
+      s.velocity = -s.velocity;
+      s.omega = -omega;
+    }
+    return true;
+  };
+  for (const double omega : {0.0, 0.25, -1.0})
+    run("through joints of arcs", Stage::exact, count(), whole_arcs,
+        [&](const Bench& b, Dice& dice, Start& s) { return start(b, dice, omega, s); });
+}
+
 TEST(Adversarial, FromJoints) {
   run(
       "from joints", Stage::exact, count(), [](Dice& dice) { return jointed_table(1.0, dice); },
