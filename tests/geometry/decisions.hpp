@@ -143,7 +143,8 @@ class Bench {
     if (!same && tally.differ++ < 3)
       ADD_FAILURE() << "filter " << text(a) << ", integers " << text(b) << "; " << text(s);
     int hole = -2;
-    if (a.kind == Ahead::Kind::wall && !table_.walls[static_cast<std::size_t>(a.piece)].holes.empty()) {
+    if (same && a.kind == Ahead::Kind::wall &&
+        !table_.walls[static_cast<std::size_t>(a.piece)].holes.empty()) {
       DecisionCounts fast, slow;
       hole = fast_.land(f, a, fast).hole;
       if (hole != integers_.land(g, b, slow).hole && tally.differ++ < 3)
