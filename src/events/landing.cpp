@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "carom/base/error.hpp"
+#include "events/crossing.hpp"
 #include "events/next_hit.hpp"
 
 namespace carom {
@@ -12,7 +13,6 @@ using namespace geometry;
 namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
 }  // namespace
 

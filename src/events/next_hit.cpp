@@ -6,6 +6,7 @@
 
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
+#include "events/crossing.hpp"
 
 namespace carom {
 
@@ -14,7 +15,6 @@ using namespace geometry;
 namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
 }  // namespace
 
@@ -29,18 +29,6 @@ double kappa_after(double duration, double omega) {
   const double h = 0.5 * omega;
   const auto [s, c] = elementary::sincos(h * duration);
   return h * c / s;
-}
-
-void HitFinder::begin_on_wall(Flight& f, int wall, double u, Vector point, Vector velocity) const {
-  f.wall = wall;
-  f.u = u;
-  f.start = point;
-  f.start_error = curves_[at(wall)].point_error;
-  f.velocity = velocity;
-  f.cell = {};
-  if (cells_ || u == 0.0) return begin(f);
-  f.start_piece = wall;
-  f.start_previous = -1;
 }
 
 ExactFlight HitFinder::exact_flight(const Flight& f) const {
@@ -62,55 +50,13 @@ void HitFinder::look_at_cells(const Flight& f) const {
   }
 }
 
-namespace {
-
-/// The wall's polynomial in kappa, for all but Larmor circles against ellipses. `stands`: the start lies
-/// on the wall, and the leading coefficient is zero by algebra.
-[[gnu::always_inline]] inline Quadratic<double> quadratic(const PreparedCurve& w, Vector origin, Vector v,
-                                                          double v2, double omega, bool stands) {
-  if (w.kind == CurveKind::segment) {
-    const Vector e = stands ? Vector{} : origin - w.from;
-    return line_quadratic(e, w.tangent, v, omega, 0.5);
-  }
-  const Vector e = origin - w.centre;
-  Quadratic<double> q;
-  if (w.kind == CurveKind::circle) {
-    q = circle_quadratic(e, stands ? dot(e, e) : w.r2, v, v2, omega, 0.5);
-  } else {
-    // The weights of the axes come after the products: a rounded factor on each coordinate would bias
-    // every flight the same way.
-    const Vector em{dot(w.first_direction, e), dot(w.second_direction, e)};
-    const Vector vm{dot(w.first_direction, v), dot(w.second_direction, v)};
-    const double p = w.first_weight, r = w.second_weight;
-    q = {stands ? 0.0 : p * (em.x * em.x) + r * (em.y * em.y) - 1.0, p * (em.x * vm.x) + r * (em.y * vm.y),
-         p * (vm.x * vm.x) + r * (vm.y * vm.y)};
-  }
-  return w.orientation > 0 ? -q : q;
-}
-
-[[gnu::always_inline]] inline QuadraticError quadratic_error(const PreparedCurve& w, Vector origin,
-                                                             const FlightScale& scale, bool stands) {
-  QuadraticError error{};
-  if (w.kind == CurveKind::segment) {
-    error = line_error(scale, stands ? 0.0 : norm_1(origin - w.from));
-  } else if (w.kind == CurveKind::circle) {
-    error = circle_error(scale, norm_1(origin - w.centre), w.centre_error, w.r2);
-  } else {
-    const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
-    error = ellipse_error(scale, norm_1(origin - w.centre), w.centre_error, row);
-  }
-  if (stands) error.a = 0.0;
-  return error;
-}
-
-}  // namespace
-
 HitFinder::Candidate HitFinder::candidate(const Flight& f, int piece, bool stands) const {
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
   const Origin& origin = origins_[at(p.offset)];
   Candidate c;
-  c.quadratic = quadratic(w, origin.point, f.velocity, f.square_speed, f.omega, stands);
+  c.quadratic = f.omega == 0.0 ? quadratic<false>(w, origin.point, f.velocity, f.square_speed, 0.0, stands)
+                               : quadratic<true>(w, origin.point, f.velocity, f.square_speed, f.omega, stands);
   c.error = quadratic_error(w, origin.point, origin.scale, stands);
   c.root = rising_root(c.quadratic);
   if (stands && f.omega != 0.0) c.root.kappa = -c.quadratic.c / (2.0 * c.quadratic.b);
@@ -322,12 +268,13 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
       // Standing on the wall, without field: the other crossing of the circle lies ahead exactly when the
       // particle is inside it.
       if (!larmor && stands && w.orientation < 0) continue;
-      q = quadratic(w, origin.point, v, f.square_speed, omega, stands);
+      q = quadratic<larmor>(w, origin.point, v, f.square_speed, omega, stands);
       root = stands ? Root{q.b * q.b, std::fabs(q.b), larmor ? -q.c / (2.0 * q.b) : 0.0} : rising_root(q);
       kappa = root.kappa;
       if (!larmor) {
-        time = q.b <= 0.0 ? q.a : -(q.b + root.root);
-        unit = q.b <= 0.0 ? root.root - q.b : q.c;
+        const Quotient quotient = straight_time(q, root.root);
+        time = quotient.time;
+        unit = quotient.unit;
       }
       if (!stands && (!larmor || w.closed)) {
         const QuadraticError e = quadratic_error(w, origin.point, origin.scale, stands);
@@ -403,9 +350,8 @@ Ahead HitFinder::exact_next(const Flight& f) const {
     const Candidate c = candidate(f, ahead.piece, stands_on(f, ahead.piece));
     ahead.kappa = c.root.kappa;
     if (f.omega == 0.0) {
-      const double unit = c.quadratic.b <= 0.0 ? c.root.root - c.quadratic.b : c.quadratic.c;
-      const double time = c.quadratic.b <= 0.0 ? c.quadratic.a : -(c.quadratic.b + c.root.root);
-      ahead.duration = time / unit;
+      const Quotient quotient = straight_time(c.quadratic, c.root.root);
+      ahead.duration = quotient.time / quotient.unit;
     }
     // A flight along a wall to the last digit: the formula in doubles may have lost the sign.
     const bool lost = f.omega == 0.0 ? !(ahead.duration > 0.0) || !std::isfinite(ahead.duration)
@@ -420,8 +366,11 @@ Ahead HitFinder::exact_next(const Flight& f) const {
 void HitFinder::next(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
   const bool cells = cells_;
   if (cells) look_from(f);
-  if (f.omega == 0.0 ? (cells ? filtered<false, true>(f, ahead) : filtered<false, false>(f, ahead))
-                     : (cells ? filtered<true, true>(f, ahead) : filtered<true, false>(f, ahead))) {
+  const bool enclosed = f.omega == 0.0 && enclosure_size_ > 0 && filtered_enclosed(f, ahead);
+  if (enclosed) {
+    ++counts.filter;
+  } else if (f.omega == 0.0 ? (cells ? filtered<false, true>(f, ahead) : filtered<false, false>(f, ahead))
+                            : (cells ? filtered<true, true>(f, ahead) : filtered<true, false>(f, ahead))) {
     ++counts.filter;
   } else {
     ++counts.exact;

@@ -48,8 +48,8 @@ struct Ahead {
 
 class HitFinder {
  public:
-  /// `edges`: with the edges of the lattice cell. `complement`: every wall turned round, so that the
-  /// domain becomes the obstacle.
+  /// `edges`: with the edges of the lattice cell, and flights start in the domain (else anywhere).
+  /// `complement`: every wall turned round, so that the domain becomes the obstacle.
   explicit HitFinder(const Table& table, DecisionOptions options = {}, bool edges = true,
                      bool complement = false);
   ~HitFinder();
@@ -103,6 +103,7 @@ class HitFinder {
 
  private:
   struct PieceData {
+    const geometry::PreparedCurve* shape = nullptr;
     int curve = 0;       ///< index into curves_
     int wall = -1;       ///< -1: edge of the cell
     int offset = 0;      ///< index into offsets_
@@ -154,6 +155,9 @@ class HitFinder {
   template <bool larmor>
   Sign crossed_twice(const Flight& flight, int piece) const;
   double kappa_error_of(const Flight& flight, int piece) const;
+  void find_enclosure(bool complement);
+  bool filtered_enclosed(const Flight& flight, Ahead& ahead) const;
+  int exit_of_enclosure(const Flight& flight, geometry::Vector origin, const geometry::FlightScale& scale) const;
   Ahead exact_next(const Flight& flight) const;
   void find_start(Flight& flight) const;
   geometry::ExactFlight exact_flight(const Flight& flight) const;
@@ -174,13 +178,28 @@ class HitFinder {
   bool cells_ = false;                           // on a lattice
   double reach_ = 0.0;                           // bounds the l1 norm of every joint
   int first_edge_ = 0;
+  int enclosure_first_ = 0, enclosure_size_ = 0; // pieces of a convex loop around discs_; size 0: none
+  std::vector<int> discs_;
   std::unique_ptr<geometry::ExactBoundary> exact_;
   // Scratch of one flight; a finder belongs to one thread.
   mutable std::vector<Origin> origins_;
   mutable std::vector<unsigned char> left_;  // is the joint on the left of the flight?
 };
 
-inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const {
+[[gnu::always_inline]] inline void HitFinder::begin_on_wall(Flight& f, int wall, double u, geometry::Vector point,
+                                     geometry::Vector velocity) const {
+  f.wall = wall;
+  f.u = u;
+  f.start = point;
+  f.start_error = curves_[static_cast<std::size_t>(wall)].point_error;
+  f.velocity = velocity;
+  f.cell.first = f.cell.second = 0;
+  if (cells_ || u == 0.0) return begin(f);
+  f.start_piece = wall;
+  f.start_previous = -1;
+}
+
+[[gnu::always_inline]] inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const {
   if (cells_) look_from(f);  // the view may be another particle's
   const PieceData& p = data_[static_cast<std::size_t>(ahead.piece)];
   const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(p.curve)];
@@ -204,7 +223,7 @@ inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landin
   if (holed_[static_cast<std::size_t>(p.wall)] != 0) landing.hole = hole_at(f, ahead, landing.u, counts);
 }
 
-inline Sign HitFinder::inward(int wall, double u, geometry::Vector v, geometry::Vector normal,
+[[gnu::always_inline]] inline Sign HitFinder::inward(int wall, double u, geometry::Vector v, geometry::Vector normal,
                               DecisionCounts& counts) const {
   const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
   if (u > 0.0) {

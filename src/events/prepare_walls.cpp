@@ -21,8 +21,6 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
     end_normals_.push_back(is_closed(wall.curve) ? Vector{} : normal_at(wall.curve, end_parameter(wall.curve)));
   for (const Wall& wall : table.walls) holed_.push_back(wall.holes.empty() ? 0 : 1);
   cells_ = table.lattice.has_value();
-  for (const PreparedCurve& c : curves_)
-    reach_ = std::max(reach_, 1.01 * (std::fabs(c.from.x) + std::fabs(c.from.y)));
   offsets_.push_back({});
   add_walls({}, complement);
   if (table.lattice) {
@@ -38,7 +36,7 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
       const int curve = static_cast<int>(curves_.size());
       curves_.emplace_back(cell[i].segment);
       const int next = first_edge_ + static_cast<int>((i + 1) % cell.size());
-      data_.push_back({curve, -1, 0, next, true, false, CurveKind::segment});
+      data_.push_back({nullptr, curve, -1, 0, next, true, false, CurveKind::segment});
       joints_.push_back(cell[i].segment.from);
       open_.push_back(static_cast<int>(data_.size()) - 1);
       pieces_.push_back({cell[i].segment, {}, next, true});
@@ -48,8 +46,12 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
   const Vector none{0.0, 0.0};
   exact_ = std::make_unique<ExactBoundary>(pieces_, table.lattice ? table.lattice->first : none,
                                            table.lattice ? table.lattice->second : none);
+  for (const PreparedCurve& c : curves_)
+    reach_ = std::max(reach_, 1.01 * (std::fabs(c.from.x) + std::fabs(c.from.y)));
+  for (PieceData& p : data_) p.shape = &curves_[at(p.curve)];  // curves_ is complete
   origins_.resize(offsets_.size());
   left_.resize(data_.size());
+  if (edges) find_enclosure(complement);
 }
 
 HitFinder::~HitFinder() = default;
@@ -61,7 +63,7 @@ void HitFinder::add_walls(Cell offset, bool complement) {
     const Wall& wall = table_.walls[i];
     const Curve curve = complement ? reversed(wall.curve) : wall.curve;
     const int next = base + (complement ? wall.previous : wall.next);
-    data_.push_back({static_cast<int>(i), static_cast<int>(i), index, next, false, curves_[i].closed, curves_[i].kind});
+    data_.push_back({nullptr, static_cast<int>(i), static_cast<int>(i), index, next, false, curves_[i].closed, curves_[i].kind});
     joints_.push_back(curves_[i].from);
     if (!curves_[i].closed) open_.push_back(static_cast<int>(data_.size()) - 1);
     pieces_.push_back({curve, offset, next, false});
@@ -100,7 +102,7 @@ std::vector<Cell> HitFinder::image_offsets() const {
             reach = geometry::cross(d, c.centre + t - e.segment.from) / length + std::sqrt(c.r2);
           } else {
             reach = -HUGE_VAL;
-            for (const Vector corner : {box.low, box.high, Vector{box.low.x, box.high.y}, Vector{box.high.x, box.low.y}})
+            for (const Vector& corner : {box.low, box.high, Vector{box.low.x, box.high.y}, Vector{box.high.x, box.low.y}})
               reach = std::max(reach, geometry::cross(d, corner + t - e.segment.from) / length);
           }
           const double size = std::fabs(t.x) + std::fabs(t.y) + 2.0 * c.extent + 2.0 * cell_size;

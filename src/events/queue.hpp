@@ -35,13 +35,17 @@ class EventQueue {
   }
   int top() const { return heap_.front(); }
   const Key& key(int entry) const { return keys_[static_cast<std::size_t>(entry)]; }
-  void update(int entry, Key key) {
-    keys_[static_cast<std::size_t>(entry)] = key;
+  void update(int entry, const Time& time, int kind) {
+    Key& key = keys_[static_cast<std::size_t>(entry)];
+    key.time.high = time.high;  // number by number: a 16-byte copy would wait for both
+    key.time.low = time.low;
+    key.kind = kind;
     if (heap_.size() == 1) return;
     const std::size_t i = place_[static_cast<std::size_t>(entry)];
     up(i);
     down(place_[static_cast<std::size_t>(entry)]);
   }
+  void update(int entry, const Key& key) { update(entry, key.time, key.kind); }
   /// Takes the entry out; its index is not used again.
   void remove(int entry) {
     const std::size_t i = place_[static_cast<std::size_t>(entry)];

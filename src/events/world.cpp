@@ -65,6 +65,7 @@ class World::Implementation {
   std::vector<int> corners;  // order n of the corner at each wall's start, 0: none
   std::vector<Body> bodies;
   EventQueue queue;
+  HitEvent event;  // filled in place, number by number so that no number waits for another
   DecisionCounts counts;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   std::vector<double> sample_times;
@@ -74,7 +75,7 @@ class World::Implementation {
 };
 
 /// What comes next for a particle, into its queue entry.
-void World::Implementation::predict(int index) {
+inline void World::Implementation::predict(int index) {
   Body& b = bodies[static_cast<std::size_t>(index)];
   finder.next(b.flight, b.ahead, counts);
   Time when = b.state.time + b.ahead.duration;
@@ -94,7 +95,7 @@ void World::Implementation::predict(int index) {
         kind = EventKind::lost;
       break;
   }
-  queue.update(index, {when, static_cast<int>(kind)});
+  queue.update(index, when, static_cast<int>(kind));
 }
 
 void World::Implementation::end(int index, Fate fate, Time time, Observer* observer) {
@@ -107,9 +108,61 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   if (observer) observer->end({index, fate, time, b.state, b.hole, b.hits});
 }
 
-void World::Implementation::apply(int index, Observer& observer) {
+[[gnu::always_inline]] inline void World::Implementation::reflect(int index, Observer& observer, const HitFinder::Landing& landing) {
   Body& b = bodies[static_cast<std::size_t>(index)];
-  const EventQueue::Key key = queue.key(index);
+  const Time now(queue.key(index).time.high, queue.key(index).time.low);
+  const Vector before = landing.velocity;
+  const Vector normal = landing.frame.normal;
+  const double step = step_to_energy_shell(before, b.energy_weight);
+  Vector after;
+  int reflections = 1;
+  if (b.ahead.kind == Ahead::Kind::joint) {
+    reflections = corners[static_cast<std::size_t>(landing.wall)];
+    if (reflections == 0) return end(index, Fate::singular, now, &observer);
+    const int previous = finder.table().walls[static_cast<std::size_t>(landing.wall)].previous;
+    after = (1.0 + step) * reflected_at_corner(before, finder.normal_at_end(previous), normal, reflections);
+  } else {
+    after = geometry::reflected(before, normal, landing.frame.square, landing.frame.k, step);
+  }
+  Sign inward = finder.inward(landing.wall, landing.u, after, normal, counts);
+  if (inward == Sign::negative && reflections == 1) {
+    // A grazing rounding: reflecting once more turns it back.
+    after = geometry::reflected(after, normal, landing.frame.square, landing.frame.k, 0.0);
+    inward = finder.inward(landing.wall, landing.u, after, normal, counts);
+  }
+  if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);
+
+  b.state.wall = landing.wall;
+  b.state.u = landing.u;
+  b.state.position = landing.frame.point;
+  b.state.velocity = after;
+  b.state.cell.first += landing.cell.first;
+  b.state.cell.second += landing.cell.second;
+  b.state.time.high = now.high;
+  b.state.time.low = now.low;
+  b.hits += static_cast<std::uint64_t>(reflections);
+  b.last_wall = landing.wall;
+  finder.begin_on_wall(b.flight, landing.wall, landing.u, landing.frame.point, after);
+  event.particle = index;
+  event.wall = landing.wall;
+  event.u = landing.u;
+  event.time.high = now.high;
+  event.time.low = now.low;
+  event.flight_time = b.ahead.duration;
+  event.position = landing.frame.point;
+  event.cell.first = b.state.cell.first;
+  event.cell.second = b.state.cell.second;
+  event.before = before;
+  event.after = after;
+  event.reflections = reflections;
+  observer.hit(event);
+  if (b.hits >= limit) return end(index, Fate::capped, now, &observer);
+  predict(index);
+}
+
+[[gnu::always_inline]] inline void World::Implementation::apply(int index, Observer& observer) {
+  Body& b = bodies[static_cast<std::size_t>(index)];
+  const EventQueue::Key& key = queue.key(index);
   switch (static_cast<EventKind>(key.kind)) {
     case EventKind::pinned: return end(index, Fate::pinned, key.time, &observer);
     case EventKind::unbounded: return end(index, Fate::unbounded, b.state.time, &observer);
@@ -133,47 +186,6 @@ void World::Implementation::apply(int index, Observer& observer) {
     return end(index, Fate::escaped, key.time, &observer);
   }
   reflect(index, observer, landing);
-}
-
-void World::Implementation::reflect(int index, Observer& observer, const HitFinder::Landing& landing) {
-  Body& b = bodies[static_cast<std::size_t>(index)];
-  const Time now = queue.key(index).time;
-  const Vector before = landing.velocity;
-  const Vector normal = landing.frame.normal;
-  const double step = step_to_energy_shell(before, b.energy_weight);
-  Vector after;
-  int reflections = 1;
-  if (b.ahead.kind == Ahead::Kind::joint) {
-    reflections = corners[static_cast<std::size_t>(landing.wall)];
-    if (reflections == 0) return end(index, Fate::singular, now, &observer);
-    const int previous = finder.table().walls[static_cast<std::size_t>(landing.wall)].previous;
-    after = (1.0 + step) * reflected_at_corner(before, finder.normal_at_end(previous), normal, reflections);
-  } else {
-    after = geometry::reflected(before, normal, landing.frame.square, landing.frame.k, step);
-  }
-  Sign inward = finder.inward(landing.wall, landing.u, after, normal, counts);
-  if (inward == Sign::negative && reflections == 1) {
-    // A grazing rounding: reflecting once more turns it back.
-    after = geometry::reflected(after, normal, landing.frame.square, landing.frame.k, 0.0);
-    inward = finder.inward(landing.wall, landing.u, after, normal, counts);
-  }
-  if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);
-
-  const double flight_time = b.ahead.duration;
-  b.state.wall = landing.wall;
-  b.state.u = landing.u;
-  b.state.position = landing.frame.point;
-  b.state.velocity = after;
-  b.state.cell.first += landing.cell.first;
-  b.state.cell.second += landing.cell.second;
-  b.state.time = now;
-  b.hits += static_cast<std::uint64_t>(reflections);
-  b.last_wall = landing.wall;
-  finder.begin_on_wall(b.flight, landing.wall, landing.u, landing.frame.point, after);
-  observer.hit({index, landing.wall, landing.u, now, flight_time, b.state.position, b.state.cell, before, after,
-                reflections});
-  if (b.hits >= limit) return end(index, Fate::capped, now, &observer);
-  predict(index);
 }
 
 State World::Implementation::state_at(const Body& b, Time t) const {
@@ -272,7 +284,7 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
   std::uint64_t events = 0;
   while (!w.queue.empty()) {
     const int index = w.queue.top();
-    const Time when = w.queue.key(index).time;
+    const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
     if (when > Time(t_end)) break;
     // Asking may cost more than an event.
     if (interrupted && events % 256 == 0 && interrupted()) return events;

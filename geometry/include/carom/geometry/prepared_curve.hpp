@@ -56,7 +56,7 @@ struct PreparedCurve {
   /// The frame at a point that is on the curve up to rounding, which is brought back to it: hits on one
   /// wall do not add up their errors across it. The normal of a conic keeps its length, for dividing by
   /// its own square leaves no bias from hit to hit, as a rounded radius would.
-  Frame settle(Vector x) const {
+  [[gnu::always_inline]] Frame settle(Vector x) const {
     if (kind == CurveKind::segment) {
       const double s = dot(x - from, tangent);
       return {from + s * tangent, left(tangent), 1.0, 1.0};

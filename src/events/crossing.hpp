@@ -1,0 +1,75 @@
+// The polynomial in kappa of a flight against one wall, and its error: what the choosing files share.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "carom/geometry/filter.hpp"
+
+namespace carom {
+
+inline double norm_1(geometry::Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
+
+/// The form that is 1 on a conic, in the frame of its axes. The weights come after the products: a rounded
+/// factor on each coordinate would bias every flight the same way.
+[[gnu::always_inline]] inline geometry::Quadratic<double> ellipse_quadratic(const geometry::PreparedCurve& w,
+                                                                            geometry::Vector e,
+                                                                            geometry::Vector v, bool stands) {
+  const geometry::Vector em{dot(w.first_direction, e), dot(w.second_direction, e)};
+  const geometry::Vector vm{dot(w.first_direction, v), dot(w.second_direction, v)};
+  const double p = w.first_weight, r = w.second_weight;
+  return {stands ? 0.0 : p * (em.x * em.x) + r * (em.y * em.y) - 1.0, p * (em.x * vm.x) + r * (em.y * vm.y),
+          p * (vm.x * vm.x) + r * (vm.y * vm.y)};
+}
+
+/// All but Larmor circles against ellipses. `stands`: the start lies on the wall, and the leading
+/// coefficient is zero by algebra. Without field the terms with omega, which are exact zeros, are left out.
+template <bool larmor>
+[[gnu::always_inline]] inline geometry::Quadratic<double> quadratic(const geometry::PreparedCurve& w,
+                                                                    geometry::Vector origin,
+                                                                    geometry::Vector v, double v2,
+                                                                    double omega, bool stands) {
+  using namespace geometry;
+  if (w.kind == CurveKind::segment) {
+    const Vector e = stands ? Vector{} : origin - w.from;
+    return line_quadratic(e, w.tangent, v, omega, 0.5);
+  }
+  const Vector e = origin - w.centre;
+  Quadratic<double> q;
+  if (w.kind == CurveKind::ellipse) {
+    q = ellipse_quadratic(w, e, v, stands);
+  } else if (larmor) {
+    q = circle_quadratic(e, stands ? dot(e, e) : w.r2, v, v2, omega, 0.5);
+  } else {
+    q = {stands ? 0.0 : dot(e, e) - w.r2, dot(e, v), v2};
+  }
+  return w.orientation > 0 ? -q : q;
+}
+
+[[gnu::always_inline]] inline geometry::QuadraticError quadratic_error(const geometry::PreparedCurve& w,
+                                                                       geometry::Vector origin,
+                                                                       const geometry::FlightScale& scale,
+                                                                       bool stands) {
+  using namespace geometry;
+  QuadraticError error{};
+  if (w.kind == CurveKind::segment) {
+    error = line_error(scale, stands ? 0.0 : norm_1(origin - w.from));
+  } else if (w.kind == CurveKind::circle) {
+    error = circle_error(scale, norm_1(origin - w.centre), w.centre_error, w.r2);
+  } else {
+    const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
+    error = ellipse_error(scale, norm_1(origin - w.centre), w.centre_error, row);
+  }
+  if (stands) error.a = 0.0;
+  return error;
+}
+
+/// Without field, the time of a crossing is a quotient: that of a conic's rising root.
+struct Quotient {
+  double time, unit;
+};
+[[gnu::always_inline]] inline Quotient straight_time(const geometry::Quadratic<double>& q, double root) {
+  return q.b <= 0.0 ? Quotient{q.a, root - q.b} : Quotient{-(q.b + root), q.c};
+}
+
+}  // namespace carom
