@@ -55,7 +55,7 @@ inline QuadraticError circle_error(const FlightScale& f, double e1, double centr
   const double b = f.speed_1 * (eta + 2.1 * u * e1);
   const double n = 0.25 * f.omega * f.omega;
   const double c = n * (a + 4.1 * u * (e1 * e1 + r2)) + f.omega * f.speed_1 * (eta + 5.1 * u * e1) +
-                   12.1 * u * f.speed_1 * f.speed_1;  // |v|^2 is the energy shell's, within 8u
+                   66.1 * u * f.speed_1 * f.speed_1;  // |v|^2 is the energy shell's, within 64u
   return {f.inflation * a, f.inflation * b, f.inflation * c};
 }
 
