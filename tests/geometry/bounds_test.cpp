@@ -64,7 +64,7 @@ struct Sample {
     scale = {exact ? 0.0 : dice.spread(u, 100 * u) * size, norm_1(velocity), std::fabs(omega), 1.0};
     exact_start = quad(start) +
                   QuadVector{Quad(scale.delta) * Quad(dice.sign()), Quad(scale.delta) * Quad(dice.sign())};
-    square = dot(velocity, velocity) * (1.0 + 7.0 * u * dice.whole(-1, 1));
+    square = dot(velocity, velocity) * (1.0 + 60.0 * u * dice.whole(-1, 1));
   }
 };
 
