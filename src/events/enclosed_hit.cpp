@@ -39,6 +39,15 @@ void HitFinder::find_enclosure(bool complement) {
   enclosure_first_ = loop.front();
   enclosure_size_ = static_cast<int>(loop.size());
   discs_ = std::move(discs);
+  discs_within_ = cells_;
+  for (const int disc : discs_)
+    for (const int edge : loop) {
+      const PreparedCurve& w = *data_[at(disc)].shape;
+      const PreparedCurve& e = *data_[at(edge)].shape;
+      // As for the images of walls: with the rounding of this comparison on the safe side.
+      const double gap = geometry::cross(e.tangent, w.centre - e.from) - std::sqrt(w.r2);
+      discs_within_ &= gap > 32.0 * unit_roundoff * (2.0 * w.extent + 2.0 * norm_1(e.from));
+    }
 }
 
 /// A line leaves a convex region once: between a joint on its right and the next one on its left, or, with

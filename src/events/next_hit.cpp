@@ -124,37 +124,41 @@ namespace {
 
 }  // namespace
 
-/// Both joints of a piece lie on one side: does the flight leave through it all the same?
-template <bool larmor>
+/// Both joints of an arc lie on one side: does the flight leave through it all the same?
 Sign HitFinder::crossed_twice(const Flight& f, int piece) const {
-  const PieceData& p = data_[at(piece)];
-  const PreparedCurve& w = curves_[at(p.curve)];
   if (!cells_) look_from(f);
-  if (w.kind == CurveKind::segment) {
-    // Both inside the Larmor circle: never, by convexity.
-    if ((left_[at(piece)] != 0) == (f.omega < 0)) return Sign::negative;
-    // The foot of the circle's centre must lie between the ends.
-    const FlightScale& s = origins_[at(p.offset)].scale;
-    const Vector origin = origins_[at(p.offset)].point;
-    const double across = geometry::cross(w.tangent, f.velocity);
-    const double first = f.omega * dot(origin - w.from, w.tangent) + across;
-    const double last = f.omega * dot(origin - w.to, w.tangent) + across;
-    const double d1 = norm_1(origin - w.from) + norm_1(origin - w.to);
-    const double bound = s.inflation * (s.omega * (1.42 * s.delta + 8.1 * unit_roundoff * d1) +
-                                        8.1 * unit_roundoff * s.speed_1);
-    const Sign a = sign_within(f.omega > 0 ? first : -first, bound);
-    const Sign b = sign_within(f.omega > 0 ? -last : last, bound);
-    if (a == Sign::negative || b == Sign::negative) return Sign::negative;
-    if (a == Sign::undecided || b == Sign::undecided) return Sign::undecided;
-  }
   Candidate c = candidate(f, piece, false);
   const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, c.error));
-  if (cut != Sign::positive || w.kind == CurveKind::segment) return cut;
+  if (cut != Sign::positive) return cut;
   c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
   return on_part(f, piece, c, options_.filter_inflation);
 }
 
 namespace {
+
+/// Is the foot of the Larmor circle's centre on a segment's line between its ends?
+[[gnu::always_inline]] inline Sign foot_between(const PreparedCurve& w, Vector origin, Vector v, double omega,
+                                                const FlightScale& s) {
+  const double across = geometry::cross(w.tangent, v);
+  const Vector e = origin - w.from, g = origin - w.to;
+  const double first = omega * dot(e, w.tangent) + across;
+  const double last = omega * dot(g, w.tangent) + across;
+  const double bound = s.inflation * (s.omega * (1.42 * s.delta + 8.1 * unit_roundoff * (norm_1(e) + norm_1(g))) +
+                                      8.1 * unit_roundoff * s.speed_1);
+  const double a = omega > 0.0 ? first : -first, b = omega > 0.0 ? -last : last;
+  if ((a < -bound) | (b < -bound)) return Sign::negative;
+  return (a > bound) & (b > bound) ? Sign::positive : Sign::undecided;
+}
+
+/// Without field, error of kappa = U / T of a line, T > 0: U = cross(v, tangent) errs by twice the error
+/// of its half, T by its own; |U/T - U'/T'| <= (|U - U'| + kappa |T - T'|) / T, and kappa is rounded.
+[[gnu::always_inline]] inline double straight_line_error(const PreparedCurve& w, Vector origin, const FlightScale& s,
+                                                         double kappa, double time) {
+  const QuadraticError e = line_error(s, norm_1(origin - w.from));
+  if (!(time > e.a)) return HUGE_VAL;
+  const double k = std::fabs(kappa);
+  return (2.0 * e.b + k * e.a) / (time - e.a) + 2.1 * unit_roundoff * k;
+}
 
 /// Without field: is the rising crossing ahead (kappa > 0)?
 Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
@@ -212,10 +216,13 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
   double best_kappa = 0.0, best_error = -1.0;  // negative: not computed yet
   Quadratic<double> best_q;
   Root best_root;
-  const auto error_of_root = [&](int piece, const Quadratic<double>& f2, const Root& r) {
+  const auto error_of = [&](int piece, const Quadratic<double>& f2, const Root& r, double kappa, double time) {
     const PieceData& p = data_[at(piece)];
     const Origin& origin = origin_of(p);
-    return kappa_error(f2, quadratic_error(curves_[at(p.curve)], origin.point, origin.scale, piece == start), r);
+    if (!larmor && p.kind == CurveKind::segment)
+          return straight_line_error(*p.shape, origin.point, origin.scale, kappa, time);
+    return kappa_error(f2, quadratic_error(*p.shape, origin.point, origin.scale, piece == start),
+                       {r.discriminant, r.root, kappa});
   };
   double best_time = 0.0, best_unit = 1.0;     // without field: kappa = unit / time, divided only if needed
   double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
@@ -229,21 +236,29 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
   for (int piece = 0; piece < pieces; ++piece) {
     const PieceData& p = data_[at(piece)];
     const bool stands = piece == start;
+    bool twice = false;
     // At most two crossings: the joints' sides tell. (A Larmor circle may cross an ellipse four times.)
     if (!p.closed && !(larmor && p.kind == CurveKind::ellipse)) {
       const bool from = left_[at(piece)] != 0, to = left_[at(p.next)] != 0;
       if (from && !to) continue;
       if (from == to && !larmor && p.kind == CurveKind::segment) continue;
-      if (from == to && !stands) {
-        const PreparedCurve& w = curves_[at(p.curve)];
+      twice = from == to && !stands;
+      if (larmor && twice && p.kind == CurveKind::segment) {
+        if (from == (omega < 0.0)) continue;  // both inside the Larmor circle: never, by convexity
+        const Origin& origin = origin_of(p);
+        const Sign between = foot_between(*p.shape, origin.point, v, omega, origin.scale);
+        if (between == Sign::undecided) return false;
+        if (between == Sign::negative) continue;
+      } else if (twice) {
+        const PreparedCurve& w = *p.shape;
         const Origin& origin = origin_of(p);
         if (!larmor && p.kind == CurveKind::circle && foot_off_arc(w, origin.point, v, origin.scale)) continue;
-        const Sign twice = crossed_twice<larmor>(f, piece);
-        if (twice == Sign::undecided) return false;
-        if (twice != Sign::positive) continue;
+        const Sign leaves = crossed_twice(f, piece);
+        if (leaves == Sign::undecided) return false;
+        if (leaves != Sign::positive) continue;
       }
     }
-    const PreparedCurve& w = curves_[at(p.curve)];
+    const PreparedCurve& w = *p.shape;
     const Origin& origin = origin_of(p);
     double kappa = 0.0, error = -1.0, time = 0.0, unit = 1.0;
     Quadratic<double> q;
@@ -276,9 +291,10 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
         time = quotient.time;
         unit = quotient.unit;
       }
-      if (!stands && (!larmor || w.closed)) {
+      const bool may_miss = w.closed || (larmor && twice && w.kind == CurveKind::segment);
+      if (!stands && (!larmor || may_miss)) {
         const QuadraticError e = quadratic_error(w, origin.point, origin.scale, stands);
-        if (w.closed) {
+        if (may_miss) {
           const Sign cut = sign_within(root.discriminant, discriminant_error(q, e));
           if (cut == Sign::undecided) return false;
           if (cut != Sign::positive) continue;
@@ -301,11 +317,12 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
         kappa = unit / time;
         best_kappa = best_unit / best_time;
       }
-      if (best_error < 0) best_error = larmor ? error_of_root(best, best_q, best_root) : kappa_error_of(f, best);
-      if (error < 0) error = larmor ? error_of_root(piece, q, root) : kappa_error_of(f, piece);
-      const Sign order = sign_within(kappa - best_kappa, error + best_error);
-      if (order == Sign::undecided) return false;
-      if (order == Sign::negative) continue;
+      if (best_error < 0) best_error = error_of(best, best_q, best_root, best_kappa, best_time);
+      if (error < 0) error = error_of(piece, q, root, kappa, time);
+      // Two questions, so that the processor need not wait for the errors to go on with the first wall.
+      const double gap = kappa - best_kappa;
+      if (!(std::fabs(gap) > error + best_error)) return false;
+      if (gap < 0.0) continue;
     }
     best = piece;
     best_kappa = kappa;

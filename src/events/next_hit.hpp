@@ -152,7 +152,6 @@ class HitFinder {
   }
   template <bool larmor, bool cells>
   bool filtered(const Flight& flight, Ahead& ahead) const;
-  template <bool larmor>
   Sign crossed_twice(const Flight& flight, int piece) const;
   double kappa_error_of(const Flight& flight, int piece) const;
   void find_enclosure(bool complement);
@@ -180,6 +179,8 @@ class HitFinder {
   int first_edge_ = 0;
   int enclosure_first_ = 0, enclosure_size_ = 0; // pieces of a convex loop around discs_; size 0: none
   std::vector<int> discs_;
+  bool discs_within_ = false;                    // they touch no edge: who leaves one is in its cell
+  std::vector<int> opposite_;                    // edge through which one comes in who leaves by this one
   std::unique_ptr<geometry::ExactBoundary> exact_;
   // Scratch of one flight; a finder belongs to one thread.
   mutable std::vector<Origin> origins_;
@@ -194,7 +195,8 @@ class HitFinder {
   f.start_error = curves_[static_cast<std::size_t>(wall)].point_error;
   f.velocity = velocity;
   f.cell.first = f.cell.second = 0;
-  if (cells_ || u == 0.0) return begin(f);
+  f.entry = -1;
+  if (!discs_within_ && (cells_ || u == 0.0)) return begin(f);
   f.start_piece = wall;
   f.start_previous = -1;
 }

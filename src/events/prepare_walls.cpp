@@ -40,6 +40,9 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
       joints_.push_back(cell[i].segment.from);
       open_.push_back(static_cast<int>(data_.size()) - 1);
       pieces_.push_back({cell[i].segment, {}, next, true});
+      for (std::size_t k = 0; k < cell.size(); ++k)
+        if (cell[k].beyond == Cell{-cell[i].beyond.first, -cell[i].beyond.second})
+          opposite_.push_back(first_edge_ + static_cast<int>(k));
     }
   }
   for (int i = 0; i < static_cast<int>(data_.size()); ++i) all_.push_back(i);
@@ -181,9 +184,7 @@ void HitFinder::cross(Flight& f, const Ahead& ahead) const {
   const Cell beyond = edges[at(ahead.piece - first_edge_)].beyond;
   f.cell.first += beyond.first;
   f.cell.second += beyond.second;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    if (edges[i].beyond.first == -beyond.first && edges[i].beyond.second == -beyond.second)
-      f.entry = first_edge_ + static_cast<int>(i);
+  f.entry = opposite_[at(ahead.piece - first_edge_)];
   find_start(f);
 }
 
