@@ -216,7 +216,15 @@ struct ExactFlight::Data {
   bool segment_crossed_twice(const ExactCurve& c, const View& s, int side, const Quadratic<Dyadic>& f) const;
   /// Is the foot of the Larmor circle's centre strictly between the ends of a segment?
   bool foot_between_ends(const ExactCurve& c, const View& s) const;
-  bool arrives_from_inside(int piece, const View& s, const Crossing& k) const;
+  /// On which side of a piece's carrier the flight is just before and after it meets it at k (rational).
+  struct Around {
+    int before, after;
+    bool tangent;
+  };
+  Around around(int piece, Cell cell, const Crossing& k) const;
+  /// Does the flight, which passes through the start of a piece at k, come to it through the domain and not
+  /// merely touch?
+  bool hits_joint(int piece, Cell cell, const Crossing& k) const;
 };
 
 ExactFlight::ExactFlight(const ExactBoundary& boundary, int piece, double u, Vector point, Vector velocity,
@@ -319,26 +327,50 @@ std::optional<Crossing> ExactFlight::Data::touch(int piece, Cell cell) const {
   return k;
 }
 
-bool ExactFlight::Data::arrives_from_inside(int piece, const View& s, const Crossing& k) const {
-  (void)s;
-  const ExactCurve& after = curve(piece);
+ExactFlight::Data::Around ExactFlight::Data::around(int piece, Cell cell, const Crossing& k) const {
+  const ExactCurve& c = curve(piece);
+  const View s = view(piece, cell);
+  Polynomial f;
+  if (needs_quartic(c)) {
+    f = quartic(c, s);
+  } else {
+    const Quadratic<Dyadic> q = quadratic(c, s);
+    f = {q.c, Dyadic(2) * q.b, q.a};
+  }
+  // The first derivative that does not vanish at p/r, r > 0; kappa falls in time.
+  for (bool odd = true; f.size() > 1; odd = !odd) {
+    for (std::size_t i = 1; i < f.size(); ++i) f[i - 1] = Dyadic(static_cast<int>(i)) * f[i];
+    f.pop_back();
+    Dyadic value, power(1);
+    for (std::size_t i = f.size(); i-- > 0; power = power * k.r) value = value * k.p + f[i] * power;
+    if (value.sign() != 0) return {value.sign(), odd ? -value.sign() : value.sign(), !odd};
+  }
+  return {0, 0, true};
+}
+
+bool ExactFlight::Data::hits_joint(int piece, Cell cell, const Crossing& k) const {
   int previous = -1;
   for (std::size_t i = 0; i < boundary.pieces.size(); ++i)
     if (boundary.pieces[i].next == piece && static_cast<int>(i) != piece) previous = static_cast<int>(i);
   if (previous < 0) return true;
   const ExactCurve& before = curve(previous);
+  const ExactCurve& after = curve(piece);
   const DyadicVector in = before.tangent(before.end_point());
   const DyadicVector out = after.tangent(after.point(0.0));
-  // Velocity at the joint, times a positive factor.
+  const Around first = around(previous, cell, k), second = around(piece, cell, k);
+  const int turn = cross(in, out).sign();
+  if (turn > 0) return first.before > 0 && second.before > 0;
+  if (turn < 0) return first.before > 0 || second.before > 0;
+  if (dot(in, out).sign() < 0) return true;  // the tip of a cusp
+  if (!second.tangent) return second.before > 0;
+  // Along the common tangent: it comes beside one wall and goes on beside the other, or through the joint.
   const Dyadic h = one_half() * omega;
   const Dyadic cosine = k.p * k.p - h * h * k.r * k.r, sine = Dyadic(2) * k.p * k.r * h;
-  const DyadicVector jv = right(v);
+  const DyadicVector jv = right(v);  // the velocity there, times a positive factor:
   const DyadicVector w{cosine * v.x + sine * jv.x, cosine * v.y + sine * jv.y};
-  const int left_of_in = cross(w, in).sign(), left_of_out = cross(w, out).sign();  // of -w
-  const int turn = cross(in, out).sign();
-  if (turn > 0) return left_of_in > 0 && left_of_out > 0;
-  if (turn == 0) return left_of_out > 0;
-  return left_of_in > 0 || left_of_out > 0;
+  const bool forwards = dot(w, out).sign() > 0;
+  const int comes = forwards ? first.before : second.before, goes = forwards ? second.after : first.after;
+  return comes > 0 && goes <= 0;
 }
 
 ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell, int entry, int start,
@@ -397,7 +429,7 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
     if (dot(offset, offset).sign() == 0) continue;  // the particle stands on it
     const Crossing k = d.through(s, joint);
     if (d.omega.sign() == 0 && k.p.sign() <= 0) continue;
-    if (!d.arrives_from_inside(piece, s, k)) continue;
+    if (!d.hits_joint(piece, cell, k)) continue;
     if (best_crossing && compare(k, *best_crossing) < 0) continue;
     best = {First::Kind::joint, piece, 0, 0.0};
     best_crossing = k;
