@@ -186,6 +186,22 @@ TEST(Joints, AnExactTangencyIsNoHit) {
   EXPECT_EQ(c.hits[0].wall, 4);
 }
 
+TEST(Joints, AFlightAlongATangentIntoAJointEndsThere) {
+  // Beside a side that bulges inwards, along its tangent at the corner.
+  const Table bulge = loop({Segment{{0, 0}, {4, 0}}, CircularArc{{4, 0}, {4, 4}, -0.5, false},
+                            Segment{{4, 4}, {0, 4}}, Segment{{0, 4}, {0, 0}}});
+  World world(bulge);
+  const Course c = follow(world, {2, 2}, {1, 1}, 0.0, 9);
+  EXPECT_EQ(c.fate, Fate::singular);
+  EXPECT_EQ(c.end, 2.0);
+  // A Larmor circle that meets a stadium's straight side where the narrower cap begins.
+  const Table wide = stadium(5, 10);
+  World smooth(wide);
+  const Course d = follow(smooth, {-7, -6}, {16, -12}, -1.0, 9);
+  EXPECT_EQ(d.fate, Fate::singular);
+  EXPECT_TRUE(d.hits.empty());
+}
+
 TEST(Joints, ACuspIsSingular) {
   Table discs;
   discs.extent = Extent::open_plane;

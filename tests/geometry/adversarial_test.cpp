@@ -37,17 +37,15 @@ long count() { return cases(600, 12000); }
 double norm(Vector v) { return std::sqrt(dot(v, v)); }
 Vector turned_by(Vector v, double small) { return {v.x - small * v.y, v.y + small * v.x}; }
 
-/// Aims from a wall at a joint: the nearest doubles to the direction, turned by `off`.
+/// Aims from a wall at a joint that it sees: the nearest doubles to the direction, turned by `off`.
 bool aim_at_joint(const Bench& bench, Dice& dice, double omega_times_size, double size, double off,
                   Start& s) {
   const auto& walls = bench.table().walls;
-  std::vector<Vector> joints;
-  for (const Wall& w : walls)
-    if (!geometry::is_closed(w.curve)) joints.push_back(geometry::start_point(w.curve));
-  if (joints.empty()) return false;
+  const int wall = dice.whole(0, static_cast<int>(walls.size()) - 1);
+  const Wall& begins = walls[static_cast<std::size_t>(wall)];
+  if (geometry::is_closed(begins.curve)) return false;
   s = bench.on_wall(dice, 1.0, 0.0);
-  const Vector d =
-      joints[static_cast<std::size_t>(dice.whole(0, static_cast<int>(joints.size()) - 1))] - bench.place(s);
+  const Vector d = geometry::start_point(begins.curve) - bench.place(s);
   const double l = norm(d);
   if (!(l > 1e-3 * size)) return false;
   s.omega = omega_times_size / size;
@@ -56,7 +54,9 @@ bool aim_at_joint(const Bench& bench, Dice& dice, double omega_times_size, doubl
   const double cosine = std::sqrt(1.0 - sine * sine);
   s.velocity = s.omega == 0.0 ? d : (1.0 / l) * (cosine * d + sine * left(d));
   s.velocity = turned_by(s.velocity, off);
-  return true;
+  if (!bench.inward(s)) return false;
+  const Ahead a = bench.ahead(s);
+  return a.kind != Ahead::Kind::wall || a.piece == wall || a.piece == begins.previous;
 }
 
 constexpr Shape jointed[] = {Shape::polygon, Shape::arcs, Shape::stadium, Shape::mushroom, Shape::discs};

@@ -97,6 +97,10 @@ class Bench {
            fast_.exact().inward_at_end(table_.walls[static_cast<std::size_t>(s.wall)].previous, s.velocity) ==
                Sign::positive;
   }
+  Ahead ahead(const Start& s) const {
+    DecisionCounts counts;
+    return fast_.next(flight(fast_, s), counts);
+  }
   /// A free start half way to what lies ahead.
   Start half_way(const Start& s) const {
     DecisionCounts counts;
