@@ -380,14 +380,11 @@ Ahead HitFinder::exact_next(const Flight& f) const {
   return ahead;
 }
 
-void HitFinder::next(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
+void HitFinder::next_of_all(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
   const bool cells = cells_;
   if (cells) look_from(f);
-  const bool enclosed = f.omega == 0.0 && enclosure_size_ > 0 && filtered_enclosed(f, ahead);
-  if (enclosed) {
-    ++counts.filter;
-  } else if (f.omega == 0.0 ? (cells ? filtered<false, true>(f, ahead) : filtered<false, false>(f, ahead))
-                            : (cells ? filtered<true, true>(f, ahead) : filtered<true, false>(f, ahead))) {
+  if (f.omega == 0.0 ? (cells ? filtered<false, true>(f, ahead) : filtered<false, false>(f, ahead))
+                     : (cells ? filtered<true, true>(f, ahead) : filtered<true, false>(f, ahead))) {
     ++counts.filter;
   } else {
     ++counts.exact;

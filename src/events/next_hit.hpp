@@ -60,7 +60,16 @@ class HitFinder {
   /// A flight from the exact point (wall, u), whose rounded image is `point`; omega and speed are kept.
   void begin_on_wall(Flight& flight, int wall, double u, geometry::Vector point, geometry::Vector velocity) const;
 
-  void next(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
+  void next(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const {
+    if (flight.omega == 0.0 && enclosure_size_ > 0) {
+      if (cells_) look_from(flight);
+      if (filtered_enclosed(flight, ahead)) {
+        ++counts.filter;
+        return;
+      }
+    }
+    next_of_all(flight, ahead, counts);
+  }
   Ahead next(const Flight& flight, DecisionCounts& counts) const {
     Ahead ahead;
     next(flight, ahead, counts);
@@ -154,6 +163,7 @@ class HitFinder {
   bool filtered(const Flight& flight, Ahead& ahead) const;
   Sign crossed_twice(const Flight& flight, int piece) const;
   double kappa_error_of(const Flight& flight, int piece) const;
+  void next_of_all(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   void find_enclosure(bool complement);
   bool filtered_enclosed(const Flight& flight, Ahead& ahead) const;
   int exit_of_enclosure(const Flight& flight, geometry::Vector origin, const geometry::FlightScale& scale) const;
