@@ -134,6 +134,11 @@ def check_includes(root):
                 yield f"{place}: no such header in the project: {header}"
             elif target not in allowed[room]:
                 yield f"{place}: {room}/ must not include {target}/ ({header})"
+    # Examples see what users see: an installed library.
+    for path in sorted((root / "examples").glob("*.cpp")):
+        for match in INCLUDE.finditer(without_comments(path.read_text(encoding="utf-8"), strings=False)):
+            if match.group(1) == '"' or (re.search("[./]", match.group(2)) and not match.group(2).startswith("carom/")):
+                yield f"examples/{path.name}: only <carom/…> and the standard library, not {match.group(2)}"
 
 
 def check_libm(root):

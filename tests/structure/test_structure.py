@@ -52,6 +52,11 @@ class Includes(unittest.TestCase):
         self.legal("include/carom/table/walls.hpp", "#include <vector>")
         self.illegal("include/carom/table/walls.hpp", "#include <fmt/format.h>")
 
+    def test_examples_see_what_users_see(self):
+        self.legal("examples/mine.cpp", "#include <carom/carom.hpp>\n#include <cstdio>")
+        self.illegal("examples/mine.cpp", '#include "events/next_hit.hpp"')
+        self.illegal("examples/mine.cpp", "#include <fmt/core.h>")
+
     def test_comments_do_not_count(self):
         self.legal("src/table/build.cpp", '// #include "carom/events/world.hpp"')
         self.legal("src/table/build.cpp", '/*\n#include "carom/events/world.hpp"\n*/')
