@@ -75,7 +75,7 @@ class World::Implementation {
 };
 
 /// What comes next for a particle, into its queue entry.
-inline void World::Implementation::predict(int index) {
+[[gnu::always_inline]] inline void World::Implementation::predict(int index) {
   Body& b = bodies[static_cast<std::size_t>(index)];
   finder.next(b.flight, b.ahead, counts);
   Time when = b.state.time + b.ahead.duration;
