@@ -26,7 +26,7 @@ struct Flight {
   double start_error = 0.0;
   geometry::Vector velocity;
   double omega = 0.0;
-  /// The squared speed of the energy shell, to which |v|^2 is equal within 8u: a constant, for rounding
+  /// The squared speed of the energy shell, to which |v|^2 is equal within 64u: a constant, for rounding
   /// |v|^2 anew about a power of two would bias every flight the same way.
   double square_speed = 1.0;
   geometry::Cell cell;         ///< the cell it is in, relative to the one of its start

@@ -1,6 +1,7 @@
 #include "carom/events/world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
@@ -239,6 +240,10 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   b.energy_weight = 0.75 / (particle.speed * particle.speed);
   b.flight.omega = particle.omega;
   b.flight.square_speed = particle.speed * particle.speed;
+  // The bounds of the filter count on the energy shell, as reflections keep it (circle_error).
+  const double shell = particle.speed * particle.speed;
+  if (!(std::fabs(dot(state.velocity, state.velocity) - shell) <= 64.0 * geometry::unit_roundoff * shell))
+    throw std::invalid_argument("the velocity's length is not the particle's speed");
   if (state.wall >= 0) {
     const auto [point, normal, square, k] = w.finder.curve(state.wall).frame(state.u);
     // A state that went on from a hit keeps its point; any other starts at the image of u.

@@ -109,7 +109,7 @@ TEST(World, PinnedOrbitsAreKnownAtOnce) {
   const Table gas = lorentz({4, 0}, {0, 4});
   World wide(gas);
   Recorder there;
-  wide.add(particle(-1.0), start({1.375, 1.25}, {0.75, -0.625}));  // circles about (2, 2), the cells' corner
+  wide.add(particle(-1.0, std::sqrt(0.953125)), start({1.375, 1.25}, {0.75, -0.625}));  // circles about (2, 2), the cells' corner
   wide.run_until(1e9, there);
   ASSERT_EQ(there.ends.size(), 1u);
   EXPECT_EQ(there.ends[0].fate, Fate::pinned);
@@ -135,6 +135,13 @@ TEST(World, RefusesStartsOutsideTheTable) {
   EXPECT_TRUE(world.contains({0.1, 0.1}));
   EXPECT_FALSE(world.contains({0.5, 0.3}));
   EXPECT_FALSE(world.contains({0.0, 0.5}));  // on a wall
+}
+
+TEST(World, RefusesAVelocityOffTheEnergyShell) {
+  const Table table = square();
+  World world(table);
+  EXPECT_THROW(world.add(particle(0.0, 1.0), start({0.5, 0.5}, {1.0, 1e-6})), std::invalid_argument);
+  EXPECT_NO_THROW(world.add(particle(0.0, 2.0), start({0.5, 0.5}, {1.2, 1.6})));
 }
 
 TEST(World, CellsAreCountedAndPositionsUnwrapped) {

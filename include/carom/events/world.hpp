@@ -41,12 +41,15 @@ class Observer {
 /// Free particles (straight or Larmor flights) that do not interact, on one table.
 class World {
  public:
+  /// Keeps a reference to the table, which must live as long.
   explicit World(const Table& table, DecisionOptions options = {});
+  explicit World(Table&&, DecisionOptions = {}) = delete;
   ~World();
   World(World&&) noexcept;
 
   /// Adds a particle; returns its index. A state off the walls must lie in the domain, else
-  /// std::invalid_argument. Its velocity is kept as it is; Particle::speed must be its length.
+  /// std::invalid_argument. Its velocity is kept as it is; its length must be
+  /// Particle::speed within 32 roundings (64u of its square), else std::invalid_argument.
   /// `hits`: how many it has made before, when a stored trajectory goes on.
   int add(const Particle& particle, const State& state, std::uint64_t hits = 0);
   /// Removes all particles and sets the clock to 0; keeps the prepared table.
