@@ -9,5 +9,6 @@ int systems(const Options&);
 int table(const Options&);
 int run(const Options&);
 int escape(const Options&);
+int validate(const Options&);
 
 }  // namespace carom::cli

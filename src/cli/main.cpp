@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     if (options.command == "escape") return escape(options);
     if (options.command == "run") return run(options);
     if (options.command == "table") return table(options);
+    if (options.command == "validate") return validate(options);
     return systems(options);
   } catch (const carom::InputError& error) {
     std::fprintf(stderr, "carom: %s\n", error.what());

@@ -131,12 +131,17 @@ void define(CLI::App& app, Options& o) {
   Command(app, o, "systems", "Lists the built-in systems; prints one as TOML",
           "Example: carom systems mushroom > my-mushroom.toml")
       .system("NAME", "Built-in system to print");
+  Command(app, o, "validate", "Checks the engine against identities: mean flights, nothing lost",
+          "Example: carom validate --soak        (100 times longer)\nExit status 3 if a case fails.")
+      .flag("--soak", o.soak, "The long runs: 10^9 hits a table")
+      .flag("--quiet", o.quiet, "No progress on standard error")
+      .text("--threads", o.threads, "N", "Threads (default: all)");
 }
 
 std::string unknown_word(const std::vector<std::string>& remaining) {
   for (const std::string& word : remaining) {
     if (word.empty() || word[0] == '-') continue;
-    const std::string near = nearest_name(word, {"escape", "run", "table", "systems"});
+    const std::string near = nearest_name(word, {"escape", "run", "table", "systems", "validate"});
     return "there is no command '" + word + "'" +
            (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   }
@@ -190,7 +195,7 @@ Parsed parse(int argc, char** argv) {
   }
   options.command = app.get_subcommands().front()->get_name();
   const bool resumes = options.command == "run" && !options.resume.empty();
-  if (options.command != "systems" && options.system.empty() && !resumes)
+  if (options.command != "systems" && options.command != "validate" && options.system.empty() && !resumes)
     complain("SYSTEM is missing: a built-in name (carom systems) or a TOML file");
   else if (resumes && !options.system.empty())
     complain("--resume takes the system from the archive: leave SYSTEM out");

@@ -12,7 +12,7 @@ struct Options {
   std::string command;  ///< subcommand, "" : none
   std::string line;     ///< the whole command line, for provenance
   std::string system;   ///< SYSTEM, or NAME of `carom systems`
-  bool json = false, force = false, quiet = false, per_trajectory = false;
+  bool json = false, force = false, quiet = false, per_trajectory = false, soak = false;
   std::string output, threads, trajectory, resume;
   std::string engine = "auto", isa = "auto", precision = "double";
   SystemOverrides overrides;
