@@ -133,7 +133,7 @@ void define(CLI::App& app, Options& o) {
       .system("NAME", "Built-in system to print");
   Command(app, o, "validate", "Checks the engine against identities: mean flights, nothing lost",
           "Example: carom validate --soak        (100 times longer)\nExit status 3 if a case fails.")
-      .flag("--soak", o.soak, "The long runs: 10^9 hits a table")
+      .flag("--soak", o.soak, "The long runs: 10^9 hits a table, 10^7 a mean flight")
       .flag("--quiet", o.quiet, "No progress on standard error")
       .text("--threads", o.threads, "N", "Threads (default: all)");
 }

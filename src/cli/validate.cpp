@@ -66,7 +66,7 @@ int validate(const Options& options) {
   };
   for (const Case& c : cases()) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      const System system = system_of(c, "boundary", seed, 1e4, 100);
+      const System system = system_of(c, "boundary", seed, options.soak ? 1e5 : 1e4, 100);
       const TableMeasure size = measure(*system.table);
       const double expected = size.mean_flight * (1.0 - c.no_hit_area / size.area);
       const Comparison m = mean_flight(system, expected);
