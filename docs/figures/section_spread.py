@@ -3,10 +3,10 @@
 
 For ten starts of the magnetic ellipse (figure 3 of Solanpaa et al. 2016):
 
-    for i in 0 1 2 3 4 5 6 7 8 9; do
-      carom run ellipse-magnetic --position 0.$((5 + 9 * i)),0 --velocity 0,1 --collisions 40000 -o orbit$i.h5
+    for x in 0.05 0.145 0.24 0.335 0.43 0.525 0.62 0.715 0.81 0.905; do
+      carom run ellipse-magnetic --position $x,0 --velocity 0,1 --collisions 40000 -o orbit-$x.h5
     done
-    section_spread.py orbit?.h5
+    section_spread.py orbit-*.h5
 
 Each of 400 points is compared with the cubic through its 12 nearest neighbours in the section, across the
 direction in which they lie. A regular orbit fills a curve: the distances are of rounding size. A chaotic one
