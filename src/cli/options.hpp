@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "carom/io/system_file.hpp"
+#include "carom/io/system_overrides.hpp"
 
 namespace carom::cli {
 

@@ -3,10 +3,10 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "carom/ensemble/system.hpp"
+#include "carom/io/system_overrides.hpp"
 
 namespace carom {
 
@@ -27,12 +27,6 @@ struct BuiltinSystem {
   std::string_view name, toml;
 };
 const std::vector<BuiltinSystem>& builtin_systems();
-
-/// Options of the command line that change a system. Values are text; one parser reads them.
-struct SystemOverrides {
-  std::vector<std::pair<std::string, std::string>> set;  ///< --set path.to.key=value
-  std::string seed, trajectories, t_max, collisions, times, position, velocity;  ///< "" : not given
-};
 
 /// A system and the complete resolved TOML it came from (can be read again).
 struct LoadedSystem {
