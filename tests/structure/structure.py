@@ -14,9 +14,9 @@ import sys
 ARROWS = {
     "base": [],
     "geometry": ["base"],
-    "forces": ["base"],
     "table": ["geometry"],
     "motion": ["geometry"],
+    "forces": ["motion"],
     "integrators": ["forces", "motion"],
     "events": ["integrators", "motion", "table"],
     "analysis": ["events"],
@@ -41,6 +41,7 @@ PACKAGES = {
     r"toml\+\+/|hdf5": r"src/io/",
     r"CLI/": r"src/cli/options\.cpp",
     r"omp\.h": r"src/ensemble/",
+    r"sundials|arkode/|cvode/|nvector/|sunlinsol/|sunnonlinsol/": r"src/integrators/",
 }
 # C++ rooms in which states, times and random numbers are made; base/elementary.cpp is the door.
 LIBM_FREE = r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|ensemble)/"

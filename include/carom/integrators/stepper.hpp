@@ -1,0 +1,38 @@
+// How a group of particles is moved where forces act: one step of a numerical scheme.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "carom/geometry/vector.hpp"
+
+namespace carom {
+
+/// Positions and velocities of a group of particles, over any arithmetic.
+template <class Real>
+struct Phase {
+  std::vector<geometry::BasicVector<Real>> position, velocity;
+};
+
+/// The acceleration of each particle of a group (force / mass), without the magnetic part.
+template <class Real>
+class ForceLaw {
+ public:
+  virtual ~ForceLaw() = default;
+  /// Sets every entry of `acceleration`. Both spans have one entry a particle.
+  virtual void accelerations(std::span<const geometry::BasicVector<Real>> position,
+                             std::span<geometry::BasicVector<Real>> acceleration) const = 0;
+};
+
+/// One step of a scheme. The path of a group is a function of its start alone: step(from, t) for
+/// 0 <= t <= h is the scheme's own continuous path, and a step that is cut short at a wall repeats it.
+template <class Real>
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// Moves `from` by a time of at most `at_most` > 0 into `to` (never the same object) and returns the
+  /// time it moved: `at_most` itself for fixed schemes; less where an adaptive one needs a smaller step.
+  virtual Real step(const Phase<Real>& from, Real at_most, Phase<Real>& to) = 0;
+};
+
+}  // namespace carom
