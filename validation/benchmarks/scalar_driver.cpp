@@ -58,6 +58,7 @@ int measure_row(const Row& row, double link, std::uint64_t wanted) {
   const double expected =
       row.mean_flight > 0 ? row.mean_flight : carom::measure(*system.table).mean_flight;
   carom::World world(*system.table);
+  const carom::Sampler sampler(system);
   world.limit_hits(1000);
   const std::uint64_t trajectories = wanted / 1000;
   double best = 1e300, sum = 0.0, squares = 0.0;
@@ -69,7 +70,7 @@ int measure_row(const Row& row, double link, std::uint64_t wanted) {
       Flights flights;
       world.clear();
       const std::uint64_t index = static_cast<std::uint64_t>(repeat) * trajectories + i;
-      world.add(system.particles[0], carom::draw_initial_state(system, world, index, 0));
+      carom::add_start(world, sampler, index, 0);
       world.run_until(1e9, flights);
       const double mean = flights.sum / static_cast<double>(flights.hits);
       sum += mean;
@@ -100,6 +101,7 @@ int measure_row(const Row& row, double link, std::uint64_t wanted) {
 
 int main(int argc, char** argv) {
   const std::uint64_t hits = argc > 1 ? static_cast<std::uint64_t>(std::atof(argv[1])) : 200'000;
+  const char* only = argc > 2 ? argv[2] : nullptr;  // one row
   const double link = chain();
   std::printf("one link of 1 + 1/sqrt(x): %.2f ns\n\n", link);
   std::printf("%-24s %8s %8s   %-19s %9s %6s  %8s  %9s\n", "table", "ns/hit", "in links", "mean flight (error)",
@@ -123,7 +125,8 @@ int main(int argc, char** argv) {
        carom::bench::ellipse},
   };
   int failed = 0;
-  for (const Row& row : rows) failed += measure_row(row, link, hits);
+  for (const Row& row : rows)
+    if (!only || std::string(only) == row.name) failed += measure_row(row, link, hits);
   std::printf("\nns/hit: CPU time, least of 5; exact: decisions beyond double precision;\n"
               "stepper/x: CPU time a hit of the time-stepper (step 1e-4) over that of the engine\n");
   if (failed) std::printf("%d mean flights are off by more than 5 standard errors\n", failed);
