@@ -53,7 +53,8 @@ class Ends : public Observer {
 class Runner {
  public:
   Runner(const System& system, const Sampler& sampler, DecisionOptions decisions)
-      : system_(system), sampler_(sampler), world_(*system.table, decisions), ends_(system.particles.size()) {
+      : system_(system), sampler_(sampler), world_(*system.table, system.dynamics, decisions),
+        ends_(system.particles.size()) {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
   }
 

@@ -293,7 +293,7 @@ int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, in
 }
 
 void check_start(const System& system) {
-  World world(*system.table);
+  World world(*system.table, system.dynamics);
   const Sampler sampler(system);
   for (int particle = 0; particle < static_cast<int>(system.particles.size()); ++particle)
     add_start(world, sampler, 0, particle);

@@ -83,7 +83,7 @@ State moved_on(const Particle& particle, const ParticleProgress& progress) {
 
 SingleRunResult run_single(const System& system, Observer& observer, const SingleRunOptions& options) {
   const Stopwatch watch;
-  World world(*system.table, options.decisions);
+  World world(*system.table, system.dynamics, options.decisions);
   const std::size_t count = system.particles.size();
   if (!options.resume.empty() && options.resume.size() != count)
     throw InputError("the stored run has another number of particles");

@@ -7,9 +7,8 @@
 #include <stdexcept>
 
 #include "carom/base/error.hpp"
-#include "events/locator.hpp"
-#include "events/next_hit.hpp"
-#include "events/queue.hpp"
+#include "events/table_with_supports.hpp"
+#include "events/world_implementation.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {
@@ -26,54 +25,23 @@ std::string describe_state(const Particle& p, const State& s, const char* what) 
   return text;
 }
 
-struct Body {
-  Particle particle;
-  double energy_weight = 0.75;
-  State state;
-  Flight flight;
-  Ahead ahead;
-  std::uint64_t hits = 0;
-  int last_wall = -1;
-  int hole = -1;
-  Fate fate = Fate::survived;
-  bool finished = false;
-  std::string report;
-};
-
 }  // namespace
 
-class World::Implementation {
- public:
-  Implementation(const Table& table, DecisionOptions options)
-      : finder(table, options) {
-    for (std::size_t i = 0; i < table.walls.size(); ++i) {
-      const Wall& w = table.walls[i];
-      corners.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
-                        : w.corner > 0 ? w.corner
-                                       : finder.exact().corner(w.previous, static_cast<int>(i)).order);
-    }
+World::Implementation::Implementation(const Table& the_table, const Dynamics& how, DecisionOptions options)
+    : table(the_table),
+      dynamics(how),
+      with_supports(table_with_supports(the_table, how)),
+      wall_count(static_cast<int>(the_table.walls.size())),
+      finder(with_supports.walls.empty() ? the_table : with_supports, options) {
+  const std::vector<Wall>& walls = finder.table().walls;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Wall& w = walls[i];
+    corners.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
+                      : w.corner > 0 ? w.corner
+                                     : finder.exact().corner(w.previous, static_cast<int>(i)).order);
   }
-
-  void predict(int index);
-  void apply(int index, Observer& observer);
-  void reflect(int index, Observer& observer, const HitFinder::Landing& landing);
-  void end(int index, Fate fate, Time time, Observer* observer);
-  void emit_samples(Time until, bool inclusive, Observer& observer);
-  State state_at(const Body& body, Time t) const;
-
-  HitFinder finder;
-  std::unique_ptr<Locator> locator;
-  std::vector<int> corners;  // order n of the corner at each wall's start, 0: none
-  std::vector<Body> bodies;
-  EventQueue queue;
-  HitEvent event;  // filled in place, number by number so that no number waits for another
-  DecisionCounts counts;
-  std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
-  std::vector<double> sample_times;
-  double sample_interval = 0.0;
-  std::uint64_t next_sample = 0;
-  bool sampling = false;
-};
+  add_barriers();
+}
 
 /// What comes next for a particle, into its queue entry.
 [[gnu::always_inline]] inline void World::Implementation::predict(int index) {
@@ -98,6 +66,8 @@ class World::Implementation {
   }
   queue.update(index, when, static_cast<int>(kind));
 }
+
+void World::Implementation::fly(int index) { predict(index); }
 
 void World::Implementation::end(int index, Fate fate, Time time, Observer* observer) {
   Body& b = bodies[static_cast<std::size_t>(index)];
@@ -163,6 +133,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
 
 [[gnu::always_inline]] inline void World::Implementation::apply(int index, Observer& observer) {
   Body& b = bodies[static_cast<std::size_t>(index)];
+  if (b.group >= 0) return apply_group(index, observer);
   const EventQueue::Key& key = queue.key(index);
   switch (static_cast<EventKind>(key.kind)) {
     case EventKind::pinned: return end(index, Fate::pinned, key.time, &observer);
@@ -177,6 +148,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   if (b.ahead.kind == Ahead::Kind::cusp) return end(index, Fate::singular, key.time, &observer);
   HitFinder::Landing landing;
   finder.land(b.flight, b.ahead, landing, counts);
+  if (is_support(landing.wall)) return enter_support(index, landing);
   const Wall& wall = finder.table().walls[static_cast<std::size_t>(landing.wall)];
   if (b.ahead.kind == Ahead::Kind::joint) {
     for (const int h : wall.holes)
@@ -190,6 +162,12 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
 }
 
 State World::Implementation::state_at(const Body& b, Time t) const {
+  if (b.group >= 0) {
+    Group& group = *groups[static_cast<std::size_t>(b.group)];
+    const auto& members = group.bodies();
+    const auto member = std::find(members.begin(), members.end(), static_cast<int>(&b - bodies.data()));
+    return group.state_at(static_cast<std::size_t>(member - members.begin()), t);
+  }
   State s = b.state;
   const double duration = t - b.state.time;
   s.time = t;
@@ -226,9 +204,38 @@ void World::Implementation::emit_samples(Time until, bool inclusive, Observer& o
 }
 
 World::World(const Table& table, DecisionOptions options)
-    : implementation_(std::make_unique<Implementation>(table, options)) {}
+    : implementation_(std::make_unique<Implementation>(table, Dynamics{}, options)) {}
+World::World(const Table& table, const Dynamics& dynamics, DecisionOptions options)
+    : implementation_(std::make_unique<Implementation>(table, dynamics, options)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
+
+void World::Implementation::check_speed(const Body& b) const {
+  // The bounds of the filter count on the energy shell, as reflections keep it (circle_error).
+  const double shell = b.particle.speed * b.particle.speed;
+  if (!(std::fabs(dot(b.state.velocity, b.state.velocity) - shell) <= 64.0 * geometry::unit_roundoff * shell))
+    throw std::invalid_argument("the velocity's length is not the particle's speed");
+}
+
+/// Starts a flight from the body's state.
+void World::Implementation::begin_free(Body& b) {
+  b.energy_weight = 0.75 / (b.particle.speed * b.particle.speed);
+  b.flight.omega = b.particle.omega;
+  b.flight.square_speed = b.particle.speed * b.particle.speed;
+  if (b.state.wall >= 0) {
+    const auto [point, normal, square, k] = finder.curve(b.state.wall).frame(b.state.u);
+    // A state that went on from a hit keeps its point; any other starts at the image of u.
+    if (finder.curve(b.state.wall).parameter(b.state.position) != b.state.u) b.state.position = point;
+    DecisionCounts unused;
+    if (finder.inward(b.state.wall, b.state.u, b.state.velocity, normal, unused) != Sign::positive)
+      throw std::invalid_argument("the velocity does not point into the domain");
+    finder.begin_on_wall(b.flight, b.state.wall, b.state.u, b.state.position, b.state.velocity);
+  } else {
+    b.flight.start = b.state.position;
+    b.flight.velocity = b.state.velocity;
+    finder.begin(b.flight);
+  }
+}
 
 int World::add(const Particle& particle, const State& state, std::uint64_t hits) {
   Implementation& w = *implementation_;
@@ -236,32 +243,23 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   b.particle = particle;
   b.state = state;
   b.hits = hits;
-  b.last_wall = -1;
-  b.energy_weight = 0.75 / (particle.speed * particle.speed);
-  b.flight.omega = particle.omega;
-  b.flight.square_speed = particle.speed * particle.speed;
-  // The bounds of the filter count on the energy shell, as reflections keep it (circle_error).
-  const double shell = particle.speed * particle.speed;
-  if (!(std::fabs(dot(state.velocity, state.velocity) - shell) <= 64.0 * geometry::unit_roundoff * shell))
-    throw std::invalid_argument("the velocity's length is not the particle's speed");
-  if (state.wall >= 0) {
-    const auto [point, normal, square, k] = w.finder.curve(state.wall).frame(state.u);
-    // A state that went on from a hit keeps its point; any other starts at the image of u.
-    if (w.finder.curve(state.wall).parameter(state.position) != state.u) b.state.position = point;
-    DecisionCounts unused;
-    if (w.finder.inward(state.wall, state.u, state.velocity, normal, unused) != Sign::positive)
-      throw std::invalid_argument("the velocity does not point into the domain");
-    w.finder.begin_on_wall(b.flight, state.wall, state.u, b.state.position, state.velocity);
-  } else {
-    if (!contains(state.position)) throw std::invalid_argument("the point does not lie inside the table");
-    b.flight.start = state.position;
-    b.flight.velocity = state.velocity;
-    w.finder.begin(b.flight);
+  b.last_event = state.time;
+  if (state.wall < 0 && !contains(state.position))
+    throw std::invalid_argument("the point does not lie inside the table");
+  const bool integrated = w.integrates && w.integrated_at(state.position);
+  // Where forces act, the speed is not a constant: it is that of the start.
+  if (w.integrates) b.particle.speed = std::sqrt(dot(state.velocity, state.velocity));
+  if (!integrated) {
+    w.check_speed(b);
+    w.begin_free(b);
   }
   w.bodies.push_back(std::move(b));
   const int index = static_cast<int>(w.bodies.size()) - 1;
   w.queue.push({});
-  w.predict(index);
+  if (integrated)
+    w.waiting.push_back(index);
+  else
+    w.predict(index);
   return index;
 }
 
@@ -269,6 +267,9 @@ void World::clear() {
   Implementation& w = *implementation_;
   w.bodies.clear();
   w.queue.clear();
+  w.idle_groups.clear();
+  for (std::size_t i = 0; i < w.groups.size(); ++i) w.idle_groups.push_back(static_cast<int>(i));
+  w.waiting.clear();
   w.next_sample = 0;
 }
 
@@ -287,6 +288,7 @@ void World::sample_every(double interval) {
 std::uint64_t World::run_until(double t_end, Observer& observer, const std::function<bool()>& interrupted) {
   Implementation& w = *implementation_;
   std::uint64_t events = 0;
+  if (!w.waiting.empty()) w.form_waiting_groups();
   while (!w.queue.empty()) {
     const int index = w.queue.top();
     const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
@@ -320,10 +322,10 @@ int World::hole(int p) const { return body(implementation_->bodies, p).hole; }
 const DecisionCounts& World::decisions() const { return implementation_->counts; }
 const std::string& World::report(int p) const { return body(implementation_->bodies, p).report; }
 
-bool World::contains(Vector point) const {
-  Implementation& w = *implementation_;
-  if (!w.locator) w.locator = std::make_unique<Locator>(w.finder.table());
-  return w.locator->contains(point);
+bool World::Implementation::contains(Vector point) {
+  if (!locator) locator = std::make_unique<Locator>(table);
+  return locator->contains(point);
 }
+bool World::contains(Vector point) const { return implementation_->contains(point); }
 
 }  // namespace carom

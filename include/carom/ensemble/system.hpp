@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "carom/base/exact_number.hpp"
+#include "carom/events/world.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
 
@@ -42,6 +43,7 @@ struct System {
   std::string title;
   std::shared_ptr<const Table> table;
   std::vector<Particle> particles;   ///< one entry a particle; at least one
+  Dynamics dynamics;                 ///< [[potential]], [interaction], [integrator]; --engine steps
   InitialCondition initial;
   RunPlan run;
 };

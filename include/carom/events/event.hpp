@@ -10,7 +10,7 @@
 namespace carom {
 
 /// Kinds of event, in the order in which simultaneous ones are applied.
-enum class EventKind : unsigned char { hit, escape, cell_edge, pinned, unbounded, singular, lost, stop };
+enum class EventKind : unsigned char { hit, escape, cell_edge, pinned, unbounded, singular, lost, group, stop };
 
 /// A reflection, as analyses see it. `before` and `after` are the velocities around it.
 struct HitEvent {

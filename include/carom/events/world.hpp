@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "carom/events/event.hpp"
+#include "carom/forces/force_field.hpp"
+#include "carom/integrators/plan.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
 
@@ -38,17 +40,26 @@ class Observer {
   virtual void end(const EndEvent&) {}
 };
 
-/// Free particles (straight or Larmor flights) that do not interact, on one table.
+/// What acts besides walls and the magnetic field, and how motion under it is computed.
+struct Dynamics {
+  std::shared_ptr<const ForceField> forces;  ///< null: nothing
+  IntegratorPlan integrator;
+  bool everywhere = false;                   ///< integrate also what could be flown exactly
+};
+
+/// Particles on one table. Where nothing acts they fly exactly (straight or Larmor flights). Where a
+/// force acts they are integrated, from the edge of its support on and back (DESIGN §5).
 class World {
  public:
-  /// Keeps a reference to the table, which must live as long.
+  /// Free particles. Keeps a reference to the table, which must live as long.
   explicit World(const Table& table, DecisionOptions options = {});
+  World(const Table& table, const Dynamics& dynamics, DecisionOptions options = {});
   explicit World(Table&&, DecisionOptions = {}) = delete;
   ~World();
   World(World&&) noexcept;
 
   /// Adds a particle; returns its index. A state off the walls must lie in the domain, else
-  /// std::invalid_argument. Its velocity is kept as it is; its length must be
+  /// std::invalid_argument. Its velocity is kept as it is. Without forces its length must be
   /// Particle::speed within 32 roundings (64u of its square), else std::invalid_argument.
   /// `hits`: how many it has made before, when a stored trajectory goes on.
   int add(const Particle& particle, const State& state, std::uint64_t hits = 0);

@@ -1,0 +1,120 @@
+// A curve seen from integrated motion: the sign of a gap, which the path of a particle must not change.
+//
+// Free flights meet curves by algebra (next_hit.hpp). A path that is only known step by step meets the
+// zero of a gap function: the distance from a line, or (1 - |y|^2)/2 where y is the point seen from a
+// conic in units of its axes. The gap is positive on the domain's side.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "carom/geometry/curve.hpp"
+#include "carom/geometry/lattice.hpp"
+
+namespace carom {
+
+template <class Real>
+struct Barrier {
+  using Vector = geometry::BasicVector<Real>;
+
+  bool conic = false;
+  Vector origin;         ///< a point of the line; centre of the conic
+  Vector first, second;  ///< line: unit normal into the domain, and unused; conic: rows of the map to y
+  Real orientation{1};   ///< conic: +1 domain inside, -1 outside
+  bool closed = false;   ///< every point of the carrier belongs to the piece
+  Vector from, to;       ///< ends of the piece, if it has any
+  Real side{1};          ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
+  int wall = -1;         ///< which wall or support it is
+  geometry::Cell cell;   ///< the cell whose copy of it this is
+
+  Real gap(const Vector& x) const {
+    const Vector e = x - origin;
+    if (!conic) return dot(first, e);
+    const Real p = dot(first, e), q = dot(second, e);
+    return orientation * (Real(1) - (p * p + q * q)) / Real(2);
+  }
+  /// Bound on the rounding error of gap(x): differences, two products and two sums a coordinate, each
+  /// within half an epsilon of what it is made of; for a conic |y| is about 1 where it matters.
+  Real rounding(const Vector& x) const {
+    const Real half = std::numeric_limits<Real>::epsilon() / Real(2);
+    const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
+    const Real reach = size(x.x) + size(x.y) + size(origin.x) + size(origin.y);
+    const Real largest = size(first.x) + size(first.y) + size(second.x) + size(second.y);
+    return Real(conic ? 8 : 4) * half * largest * reach;
+  }
+  /// Rate of change of the gap at x for the velocity v.
+  Real rate(const Vector& x, const Vector& v) const {
+    if (!conic) return dot(first, v);
+    const Vector e = x - origin;
+    return -orientation * (dot(first, e) * dot(first, v) + dot(second, e) * dot(second, v));
+  }
+  /// A normal into the domain, of any length.
+  Vector normal(const Vector& x) const {
+    if (!conic) return first;
+    const Vector e = x - origin;
+    return (-orientation * dot(first, e)) * first + (-orientation * dot(second, e)) * second;
+  }
+  /// Does a point on the carrier lie on the piece, ends included?
+  bool covers(const Vector& x) const {
+    if (closed) return true;
+    const Vector chord = to - from, e = x - from;
+    if (conic) return !(side * cross(chord, e) > Real(0));
+    const Real along = dot(chord, e);
+    return !(along < Real(0)) && !(along > dot(chord, chord));
+  }
+};
+
+/// The barrier of a curve displaced by `shift`. Its numbers are those of the curve, computed in Real.
+template <class Real>
+Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVector<Real>& shift) {
+  using Vector = geometry::BasicVector<Real>;
+  using std::sqrt;
+  const auto exact = [](const geometry::Vector& a) { return Vector{Real(a.x), Real(a.y)}; };
+  const auto length = [](const Vector& a) { return sqrt(dot(a, a)); };
+  Barrier<Real> b;
+  const auto conic = [&](const Vector& centre, const Vector& along, const Real& a, const Real& ratio, bool ccw) {
+    const Vector unit = (Real(1) / length(along)) * along;
+    b.conic = true;
+    b.origin = centre + shift;
+    b.first = (Real(1) / a) * unit;
+    b.second = (Real(1) / (a * ratio)) * left(unit);
+    b.orientation = ccw ? Real(1) : Real(-1);
+    b.side = b.orientation;
+  };
+  const auto ends = [&](const geometry::Vector& from, const geometry::Vector& to) {
+    b.from = exact(from) + shift;
+    b.to = exact(to) + shift;
+  };
+  if (const auto* s = std::get_if<geometry::Segment>(&curve)) {
+    ends(s->from, s->to);
+    const Vector chord = b.to - b.from;
+    b.origin = b.from;
+    b.first = left((Real(1) / length(chord)) * chord);
+  } else if (const auto* c = std::get_if<geometry::Circle>(&curve)) {
+    b.closed = true;
+    conic(exact(c->centre), Vector{Real(1), Real(0)}, Real(c->radius), Real(1), c->counterclockwise);
+  } else if (const auto* e = std::get_if<geometry::Ellipse>(&curve)) {
+    b.closed = true;
+    conic(exact(e->centre), exact(e->axis), length(exact(e->axis)), Real(e->ratio), e->counterclockwise);
+  } else if (const auto* a = std::get_if<geometry::CircularArc>(&curve)) {
+    const Vector from = exact(a->from), to = exact(a->to);
+    const Vector centre = Real(0.5) * (from + to) + Real(a->offset) * left(to - from);
+    conic(centre, from - centre, length(from - centre), Real(1), a->counterclockwise);
+    ends(a->from, a->to);
+  } else if (const auto* l = std::get_if<geometry::EllipticArc>(&curve)) {
+    // centre = middle + offset K(to - from), K e = -(e.q) p + k^2 (e.p) q (curve.hpp).
+    const Vector from = exact(l->from), to = exact(l->to), axis = exact(l->axis);
+    const Vector q = left(axis), chord = to - from;
+    const Real k = Real(l->ratio);
+    const Vector centre =
+        Real(0.5) * (from + to) + Real(l->offset) * ((-dot(chord, q)) * axis + (k * k * dot(chord, axis)) * q);
+    const Vector r = from - centre;
+    const Real along = dot(r, axis), across = dot(r, q) / k;
+    conic(centre, axis, sqrt((along * along + across * across) / dot(axis, axis)), k, l->counterclockwise);
+    ends(l->from, l->to);
+  }
+  return b;
+}
+
+}  // namespace carom

@@ -1,0 +1,199 @@
+// The first time within a step at which a particle passes from a barrier's positive side to the other.
+//
+// The gap along the path is bounded by its Bernstein coefficients between two knots. Where they show
+// that the gap keeps its sign, or only grows, there is no crossing; where it only falls, the signs at
+// the ends tell; where it is convex or concave, the knot of its minimum or maximum decides. Otherwise
+// the interval is halved by another knot of the path itself. So a path that leaves and returns within a
+// step is found, and a path that just fails to touch is told from one that touches by the gap at its
+// minimum, computed with the scheme's own partial step.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "events/barrier.hpp"
+#include "events/step_path.hpp"
+
+namespace carom {
+
+/// Values of a polynomial between the smallest and the largest of its Bernstein coefficients.
+template <class Real, std::size_t size>
+struct Bernstein {
+  std::array<Real, size> coefficient;
+
+  Bernstein<Real, size - 1> derivative() const {
+    Bernstein<Real, size - 1> d;
+    for (std::size_t k = 0; k + 1 < size; ++k)
+      d.coefficient[k] = Real(static_cast<int>(size) - 1) * (coefficient[k + 1] - coefficient[k]);
+    return d;
+  }
+  Real lowest() const {
+    Real low = coefficient[0];
+    for (const Real& c : coefficient) low = c < low ? c : low;
+    return low;
+  }
+  Real highest() const {
+    Real high = coefficient[0];
+    for (const Real& c : coefficient) high = high < c ? c : high;
+    return high;
+  }
+};
+
+template <class Real>
+class CrossingSearch {
+ public:
+  using Path = StepPath<Real>;
+  using Knot = typename Path::Knot;
+
+  explicit CrossingSearch(Path& path) : path_(path) {}
+
+  /// Knot of the first crossing of `barrier` by particle `i` between two knots, or nullptr. There the
+  /// particle is on the barrier to rounding.
+  Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to) {
+    return search(barrier, i, from, to, 0);
+  }
+
+ private:
+  // Half a step, halved this often, is less than rounding of its ends.
+  static constexpr int deepest = std::numeric_limits<Real>::digits + 10;
+
+  Real gap(const Barrier<Real>& b, std::size_t i, const Knot& k) const { return b.gap(k.phase.position[i]); }
+  Real rate(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    return b.rate(k.phase.position[i], k.phase.velocity[i]);
+  }
+
+  Knot* search(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to, int depth) {
+    const PathArc<Real> arc(path_, from, to, i);
+    Shape shape = Shape::unknown;
+    if (b.conic) {
+      shape = conic_shape(b, arc);
+    } else {
+      Bernstein<Real, 6> g;
+      for (std::size_t k = 0; k < 6; ++k) g.coefficient[k] = b.gap(arc.points[k]);
+      shape = shape_of(g, arc.error);
+    }
+    switch (shape) {
+      case Shape::none: return nullptr;
+      case Shape::falling: return root(b, i, from, to);
+      case Shape::convex: {
+        const bool falls = rate(b, i, from) < Real(0), rises = rate(b, i, to) > Real(0);
+        if (!falls) return nullptr;
+        if (!rises) return root(b, i, from, to);
+        Knot& lowest = extremum(b, i, from, to);
+        return root(b, i, from, lowest);
+      }
+      case Shape::concave: {
+        const bool rises = rate(b, i, from) > Real(0), falls = rate(b, i, to) < Real(0);
+        if (!falls) return nullptr;
+        if (!rises || gap(b, i, from) > Real(0)) return root(b, i, from, to);
+        Knot& highest = extremum(b, i, from, to);
+        return root(b, i, highest, to);
+      }
+      case Shape::unknown: break;
+    }
+    const Real middle = from.time + (to.time - from.time) / Real(2);
+    if (depth == deepest || !(from.time < middle) || !(middle < to.time)) return root(b, i, from, to);
+    Knot& half = path_.at(middle);
+    if (Knot* found = search(b, i, from, half, depth + 1)) return found;
+    return search(b, i, half, to, depth + 1);
+  }
+
+  enum class Shape { none, falling, convex, concave, unknown };
+
+  // `error` is that of the gap; its derivatives err by what the coefficients of a polynomial that small
+  // may differ by.
+  template <std::size_t size>
+  static Shape shape_of(const Bernstein<Real, size>& g, const Real& error) {
+    if (g.lowest() > error || g.highest() < -error) return Shape::none;
+    const Bernstein<Real, size - 1> rate = g.derivative();
+    const Real rate_error = Real(2 * (static_cast<int>(size) - 1)) * error;
+    if (rate.lowest() > rate_error) return Shape::none;
+    if (rate.highest() < -rate_error) return Shape::falling;
+    const Bernstein<Real, size - 2> bend = rate.derivative();
+    const Real bend_error = Real(2 * (static_cast<int>(size) - 2)) * rate_error;
+    if (bend.lowest() > bend_error) return Shape::convex;
+    if (bend.highest() < -bend_error) return Shape::concave;
+    return Shape::unknown;
+  }
+
+  static Shape conic_shape(const Barrier<Real>& b, const PathArc<Real>& arc) {
+    using Vector = geometry::BasicVector<Real>;
+    std::array<Vector, 6> y;
+    Real size(0);
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Vector e = arc.points[k] - b.origin;
+      y[k] = {dot(b.first, e), dot(b.second, e)};
+      const Real n = PathArc<Real>::norm(y[k]);
+      size = size < n ? n : size;
+    }
+    const Real stretch = PathArc<Real>::norm(b.first) + PathArc<Real>::norm(b.second);
+    const Real error = stretch * arc.error;  // of y
+    static constexpr std::array<int, 6> five = {1, 5, 10, 10, 5, 1};
+    static constexpr std::array<int, 11> ten = {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1};
+    Bernstein<Real, 11> g;
+    for (std::size_t m = 0; m <= 10; ++m) {
+      Real sum(0);
+      for (std::size_t k = m > 5 ? m - 5 : 0; k <= 5 && k <= m; ++k)
+        sum = sum + Real(five[k] * five[m - k]) * dot(y[k], y[m - k]);
+      g.coefficient[m] = b.orientation * (Real(1) - sum / Real(ten[m])) / Real(2);
+    }
+    return shape_of(g, size * error + error * error);
+  }
+
+  // The gap falls from `from` to `to`: its zero, if it has one there and on the piece, to the rounding
+  // of the gap. Newton's steps, kept between the best knots on either side.
+  Knot* root(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
+    if (!(gap(b, i, from) > Real(0)) || gap(b, i, to) > Real(0)) return nullptr;
+    Knot *inside = &from, *outside = &to, *newest = &to;
+    for (int n = 0; n < 2 * deepest; ++n) {
+      const Real g = gap(b, i, *newest);
+      const Real size = g < Real(0) ? -g : g;
+      if (!(size > b.rounding(newest->phase.position[i]))) {
+        inside = newest;
+        break;
+      }
+      const Real middle = inside->time + (outside->time - inside->time) / Real(2);
+      const Real slope = rate(b, i, *newest);
+      Real next = slope < Real(0) ? newest->time - g / slope : middle;
+      if (n % 8 == 7 || !(inside->time < next) || !(next < outside->time)) next = middle;
+      if (!(inside->time < next) || !(next < outside->time)) break;
+      newest = &path_.at(next);
+      (gap(b, i, *newest) > Real(0) ? inside : outside) = newest;
+    }
+    return b.covers(inside->phase.position[i]) ? inside : nullptr;
+  }
+
+  // Where the gap's rate changes sign: regula falsi with halved weights (Illinois).
+  Knot& extremum(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
+    Knot *low = &from, *high = &to;
+    Real at_low = rate(b, i, from), at_high = rate(b, i, to);
+    const bool convex = at_low < Real(0);
+    for (int n = 0; n < 4 * deepest; ++n) {
+      const Real width = high->time - low->time;
+      Real next = low->time + width * (at_low / (at_low - at_high));
+      if (n % 4 == 3 || !(low->time < next) || !(next < high->time)) next = low->time + width / Real(2);
+      if (!(low->time < next) || !(next < high->time)) break;
+      Knot& middle = path_.at(next);
+      const Real r = rate(b, i, middle);
+      if (r == Real(0)) return middle;
+      // A minimum already beyond the barrier, or a maximum before it, says all that is asked.
+      const Real g = gap(b, i, middle);
+      if (convex ? !(g > Real(0)) : g > Real(0)) return middle;
+      if ((r < Real(0)) == convex) {
+        low = &middle;
+        at_low = r;
+        at_high = at_high / Real(2);
+      } else {
+        high = &middle;
+        at_high = r;
+        at_low = at_low / Real(2);
+      }
+    }
+    return (gap(b, i, *low) > gap(b, i, *high)) == convex ? *high : *low;
+  }
+
+  Path& path_;
+};
+
+}  // namespace carom

@@ -1,0 +1,168 @@
+#include "events/group.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "carom/integrators/make_stepper.hpp"
+
+namespace carom {
+
+using geometry::Cell;
+using geometry::Vector;
+
+Time next_multiple(const Time& now, double step) {
+  const auto multiple = [&](double k) {
+    const double high = k * step;
+    return Time(high, std::fma(k, step, -high));
+  };
+  double k = std::floor(now.value() / step);
+  while (multiple(k) > now) k -= 1.0;
+  while (!(multiple(k) > now)) k += 1.0;
+  return multiple(k);
+}
+
+void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
+  bodies_ = std::move(bodies);
+  particles_ = std::move(particles);
+  cells_.assign(bodies_.size(), Cell{});
+  phase_.position.resize(bodies_.size());
+  phase_.velocity.resize(bodies_.size());
+  make_stepper();
+}
+
+/// A stepper belongs to the particles' omegas; it is kept while they stay the same.
+void Group::make_stepper() {
+  std::vector<double> omega;
+  for (const Particle& p : particles_) omega.push_back(p.omega);
+  if (stepper_ && omega == omega_) return;
+  omega_ = std::move(omega);
+  stepper_ = carom::make_stepper(in_.plan, *this, omega_);
+  path_ = std::make_unique<StepPath<double>>(*stepper_, *this, omega_);
+}
+
+Vector Group::separation(std::span<const Vector> x, std::size_t i, std::size_t j) const {
+  Vector d = x[i] - x[j];
+  if (!in_.lattice) return d;
+  // The nearest copy: the one in the lattice's cell about the origin.
+  const auto shift = [&](const Cell& c) { return d - in_.lattice->translation(c); };
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const geometry::CellEdge& e : in_.lattice->edges) {
+      const Vector nearer = shift(e.beyond);
+      if (dot(nearer, nearer) < dot(d, d)) {
+        d = nearer;
+        moved = true;
+      }
+    }
+  }
+  return d;
+}
+
+void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const {
+  std::fill(a.begin(), a.end(), Vector{});
+  if (!in_.forces) return;
+  const ForceField& forces = *in_.forces;
+  if (forces.external())
+    for (std::size_t i = 0; i < x.size(); ++i) forces.add_external(particles_[i], x[i], a[i]);
+  if (forces.interacts()) {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (std::size_t j = i + 1; j < x.size(); ++j) {
+        Vector force{};
+        forces.add_pair(particles_[i], particles_[j], separation(x, i, j), force);
+        a[i] = a[i] + force;
+        a[j] = a[j] - force;
+      }
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (particles_[i].mass != 1.0) a[i] = (1.0 / particles_[i].mass) * a[i];
+}
+
+const Group::Next& Group::predict() {
+  next_ = {};
+  const bool fixed = in_.plan.step > 0.0;
+  if (fixed) step_end_ = next_multiple(time_, in_.plan.step);
+  const double rest = fixed ? step_end_ - time_ : std::numeric_limits<double>::max();
+  next_.duration = path_->begin(phase_, rest);
+  whole_step_ = fixed && !(next_.duration < rest);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Phase<double>& end = path_->end().phase;
+    const double size = (std::fabs(end.position[i].x) + std::fabs(end.position[i].y)) +
+                        (std::fabs(end.velocity[i].x) + std::fabs(end.velocity[i].y));
+    if (!std::isfinite(size)) next_.finite = false;
+  }
+  if (!next_.finite) return next_;
+  near_wall_ = false;
+  CrossingSearch<double> search(*path_);
+  StepPath<double>::Knot* last = &path_->end();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    for (const Barrier<double>& barrier : in_.barriers) {
+      StepPath<double>::Knot* found = search.first(barrier, i, path_->start(), *last);
+      if (!found) continue;
+      last = found;
+      next_.member = static_cast<int>(i);
+      next_.barrier = &barrier;
+      next_.duration = found->time;
+    }
+  }
+  near_wall_ = path_->refined();
+  return next_;
+}
+
+void Group::advance() {
+  if (next_.member < 0) {
+    phase_ = path_->end().phase;
+    time_ = whole_step_ ? step_end_ : time_ + next_.duration;
+  } else {
+    phase_ = path_->at(next_.duration).phase;
+    time_ = time_ + next_.duration;
+  }
+}
+
+State Group::state_at(std::size_t member, const Time& time) {
+  State s;
+  const double duration = time - time_;
+  const Phase<double>& phase = duration > 0.0 ? path_->at(duration).phase : phase_;
+  s.position = phase.position[member];
+  s.velocity = phase.velocity[member];
+  s.cell = cells_[member];
+  s.time = time;
+  return s;
+}
+
+void Group::remove(std::size_t member) {
+  const auto i = static_cast<std::ptrdiff_t>(member);
+  bodies_.erase(bodies_.begin() + i);
+  particles_.erase(particles_.begin() + i);
+  cells_.erase(cells_.begin() + i);
+  phase_.position.erase(phase_.position.begin() + i);
+  phase_.velocity.erase(phase_.velocity.begin() + i);
+  if (!bodies_.empty()) make_stepper();
+}
+
+void Group::fold() {
+  if (!in_.lattice) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Vector& x = phase_.position[i];
+    const auto distance = [&](const Vector& a) { return dot(a - in_.centre, a - in_.centre); };
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const geometry::CellEdge& e : in_.lattice->edges) {
+        const Vector nearer = x - in_.lattice->translation(e.beyond);
+        if (!(distance(nearer) < distance(x))) continue;
+        x = nearer;
+        cells_[i].first += e.beyond.first;
+        cells_[i].second += e.beyond.second;
+        moved = true;
+      }
+    }
+  }
+}
+
+bool Group::supported(Vector x, const Barrier<double>* except) const {
+  return std::any_of(in_.supports.begin(), in_.supports.end(), [&](const Barrier<double>& b) {
+    const bool same = except && b.wall == except->wall && b.cell == except->cell;
+    return !same && b.gap(x) > 0.0;
+  });
+}
+
+}  // namespace carom

@@ -1,0 +1,92 @@
+// Particles that are integrated together: one that a potential acts on, or several that interact.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "carom/base/time.hpp"
+#include "carom/forces/force_field.hpp"
+#include "carom/geometry/lattice.hpp"
+#include "carom/integrators/plan.hpp"
+#include "carom/integrators/stepper.hpp"
+#include "carom/motion/state.hpp"
+#include "events/barrier.hpp"
+#include "events/crossing_in_step.hpp"
+#include "events/step_path.hpp"
+
+namespace carom {
+
+/// Steps end at the multiples of the plan's step: where a step ends depends on the clock alone, not on
+/// what happened before. An event within a step ends it there, and the rest of it is a step of its own.
+class Group final : public ForceLaw<double> {
+ public:
+  /// What the group lives in; shared by all groups of a world, which it must outlive.
+  struct Surroundings {
+    const ForceField* forces = nullptr;        ///< null: nothing acts
+    IntegratorPlan plan;
+    const geometry::Lattice* lattice = nullptr;
+    geometry::Vector centre;                   ///< of the lattice's cell
+    std::vector<Barrier<double>> barriers;     ///< walls and edges of supports, with their copies
+    std::vector<Barrier<double>> supports;     ///< the latter alone: their inside is positive
+  };
+  /// What comes first.
+  struct Next {
+    double duration = 0.0;
+    int member = -1;                           ///< -1: the end of the step
+    const Barrier<double>* barrier = nullptr;
+    bool finite = true;                        ///< false: a force or a state is not a number
+  };
+
+  explicit Group(const Surroundings& in) : in_(in) {}
+  /// Becomes a group of these bodies; phase() and cells() are still to be set.
+  void assign(std::vector<int> bodies, std::vector<Particle> particles);
+
+  const std::vector<int>& bodies() const { return bodies_; }
+  Phase<double>& phase() { return phase_; }
+  const Phase<double>& phase() const { return phase_; }
+  std::vector<geometry::Cell>& cells() { return cells_; }
+  const std::vector<geometry::Cell>& cells() const { return cells_; }
+  const Time& time() const { return time_; }
+  void set_time(const Time& time) { time_ = time; }
+
+  /// Takes the next step from phase() and finds what comes first in it.
+  const Next& predict();
+  const Next& next() const { return next_; }
+  /// Goes to what was predicted.
+  void advance();
+  /// The state of a member at a time within the step under way.
+  State state_at(std::size_t member, const Time& time);
+  /// Takes a member out.
+  void remove(std::size_t member);
+  /// Puts members back into their cells of the lattice.
+  void fold();
+  /// Did the last step come near a wall?
+  bool near_wall() const { return near_wall_; }
+  /// Is the point inside a support other than `except`?
+  bool supported(geometry::Vector x, const Barrier<double>* except) const;
+
+ private:
+  void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
+  geometry::Vector separation(std::span<const geometry::Vector> x, std::size_t i, std::size_t j) const;
+  void make_stepper();
+
+  const Surroundings& in_;
+  std::vector<int> bodies_;
+  std::vector<Particle> particles_;
+  std::vector<double> omega_;
+  std::vector<geometry::Cell> cells_;
+  Phase<double> phase_;
+  Time time_;
+  Next next_;
+  bool near_wall_ = false;
+  bool whole_step_ = false;  ///< the step under way ends on the clock's grid
+  Time step_end_;
+  std::unique_ptr<Stepper<double>> stepper_;
+  std::unique_ptr<StepPath<double>> path_;
+};
+
+/// The multiple k * step of the step that comes next after `now`.
+Time next_multiple(const Time& now, double step);
+
+}  // namespace carom

@@ -1,0 +1,13 @@
+// Edges of supports as walls: where a free flight meets one, integration takes over.
+#pragma once
+
+#include "carom/events/world.hpp"
+#include "carom/table/table.hpp"
+
+namespace carom {
+
+/// The table with a circle for each support, its outside being the domain of free flights. Without
+/// walls where free flights never occur or nothing has a finite support.
+Table table_with_supports(const Table& table, const Dynamics& dynamics);
+
+}  // namespace carom

@@ -1,0 +1,276 @@
+// Integration and hand-over: groups of particles among the events of a world.
+#include <algorithm>
+#include <cmath>
+
+#include "events/table_with_supports.hpp"
+#include "events/world_implementation.hpp"
+#include "motion/free_motion.hpp"
+
+namespace carom {
+
+using geometry::Cell;
+using geometry::Vector;
+
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool acts(const Dynamics& d) { return d.forces && !d.forces->empty(); }
+bool acts_everywhere(const Dynamics& d) {
+  return d.everywhere || (acts(d) && (d.forces->everywhere() || d.forces->interacts()));
+}
+/// Copies of a wall that a particle in the lattice's cell may meet within a step that is shorter than
+/// the cell.
+constexpr std::int64_t copies = 2;
+
+}  // namespace
+
+Table table_with_supports(const Table& table, const Dynamics& dynamics) {
+  Table result;
+  if (!acts(dynamics) || acts_everywhere(dynamics)) return result;
+  result = table;
+  for (const Support& support : dynamics.forces->supports()) {
+    Wall edge;
+    edge.name = "support";
+    edge.curve = geometry::Circle{support.center, support.radius, false};
+    edge.next = edge.previous = static_cast<int>(result.walls.size());
+    result.walls.push_back(edge);
+  }
+  return result;
+}
+
+void World::Implementation::add_barriers() {
+  integrates = acts(dynamics) || dynamics.everywhere;
+  if (!integrates) return;
+  one_group = acts(dynamics) && dynamics.forces->interacts();
+  surroundings.forces = acts(dynamics) ? dynamics.forces.get() : nullptr;
+  surroundings.plan = dynamics.integrator;
+  if (table.lattice) {
+    surroundings.lattice = &*table.lattice;
+    for (const geometry::CellEdge& e : table.lattice->edges)
+      surroundings.centre = surroundings.centre + e.segment.from;
+    surroundings.centre = (1.0 / static_cast<double>(table.lattice->edges.size())) * surroundings.centre;
+  }
+  const std::int64_t range = table.lattice ? copies : 0;
+  const std::vector<Wall>& walls = finder.table().walls;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    geometry::Curve curve = walls[i].curve;
+    const bool support = is_support(static_cast<int>(i));
+    if (support) curve = geometry::reversed(curve);  // what is inside it is integrated
+    for (std::int64_t m = -range; m <= range; ++m)
+      for (std::int64_t n = -range; n <= range; ++n) {
+        const Cell cell{m, n};
+        Barrier<double> barrier =
+            barrier_of<double>(curve, table.lattice ? table.lattice->translation(cell) : Vector{});
+        barrier.wall = static_cast<int>(i);
+        barrier.cell = cell;
+        surroundings.barriers.push_back(barrier);
+        if (support) surroundings.supports.push_back(barrier);
+      }
+  }
+}
+
+bool World::Implementation::integrated_at(Vector x) const {
+  if (acts_everywhere(dynamics)) return true;
+  return std::any_of(surroundings.supports.begin(), surroundings.supports.end(),
+                     [&](const Barrier<double>& b) { return b.gap(x) > 0.0; });
+}
+
+void World::Implementation::form_group(std::vector<int> members) {
+  std::vector<Particle> particles;
+  for (const int i : members) particles.push_back(bodies[at(i)].particle);
+  if (idle_groups.empty()) {
+    idle_groups.push_back(static_cast<int>(groups.size()));
+    groups.push_back(std::make_unique<Group>(surroundings));
+  }
+  const int number = idle_groups.back();
+  idle_groups.pop_back();
+  Group* group = groups[at(number)].get();
+  group->assign(members, std::move(particles));
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    Body& b = bodies[at(members[k])];
+    group->phase().position[k] = b.state.position;
+    group->phase().velocity[k] = b.state.velocity;
+    group->cells()[k] = b.state.cell;
+    b.group = number;
+    b.state.wall = -1;
+    // One entry a group: its first member's.
+    queue.update(members[k], Time(std::numeric_limits<double>::infinity()), static_cast<int>(EventKind::group));
+  }
+  group->set_time(bodies[at(members.front())].state.time);
+  group->fold();
+  predict_group(members.front());
+}
+
+void World::Implementation::form_waiting_groups() {
+  if (one_group) {
+    form_group(waiting);
+  } else {
+    for (const int i : waiting) form_group({i});
+  }
+  waiting.clear();
+}
+
+void World::Implementation::predict_group(int leader) {
+  Group& group = *groups[at(bodies[at(leader)].group)];
+  const Group::Next& next = group.predict();
+  queue.update(leader, group.time() + next.duration, static_cast<int>(EventKind::group));
+}
+
+void World::Implementation::copy_states(const Group& group) {
+  for (std::size_t k = 0; k < group.bodies().size(); ++k) {
+    State& s = bodies[at(group.bodies()[k])].state;
+    s.wall = -1;
+    s.position = group.phase().position[k];
+    s.velocity = group.phase().velocity[k];
+    s.cell = group.cells()[k];
+    s.time = group.time();
+  }
+}
+
+void World::Implementation::apply_group(int leader, Observer& observer) {
+  Group& group = *groups[at(bodies[at(leader)].group)];
+  const Group::Next next = group.next();
+  if (!next.finite) {
+    while (!group.bodies().empty()) {
+      const int body = group.bodies().front();
+      end(body, Fate::lost, group.time(), &observer);
+      bodies[at(body)].report += ": a force or a state is not a number after this step";
+      take_out(group, 0);
+    }
+    return;
+  }
+  group.advance();
+  if (next.member < 0) group.fold();
+  copy_states(group);
+  if (next.member >= 0) {
+    const std::size_t member = at(next.member);
+    if (is_support(next.barrier->wall)) {
+      if (leave_support(group, *next.barrier)) return;
+    } else {
+      hit_in_group(group, member, *next.barrier, observer);
+      if (group.bodies().empty()) return;
+    }
+  } else if (group.near_wall() && table.extent == Extent::bounded) {
+    // Near a wall the search had to decide: nobody may have slipped through.
+    for (std::size_t k = group.bodies().size(); k-- > 0;) {
+      const Vector x = group.phase().position[k];
+      const bool on_wall = std::any_of(
+          surroundings.barriers.begin(), surroundings.barriers.end(), [&](const Barrier<double>& b) {
+            return !is_support(b.wall) && b.covers(x) && std::fabs(b.gap(x)) <= 4.0 * b.rounding(x);
+          });
+      if (on_wall || contains(x)) continue;
+      end(group.bodies()[k], Fate::lost, group.time(), &observer);
+      take_out(group, k);
+    }
+    if (group.bodies().empty()) return;
+  }
+  predict_group(group.bodies().front());
+}
+
+/// A particle of a group is at a wall: it leaves through a hole or is reflected.
+void World::Implementation::hit_in_group(Group& group, std::size_t member, const Barrier<double>& barrier,
+                                         Observer& observer) {
+  const int index = group.bodies()[member];
+  Body& b = bodies[at(index)];
+  Cell cell = group.cells()[member];
+  cell.first += barrier.cell.first;
+  cell.second += barrier.cell.second;
+  Vector x = group.phase().position[member];
+  if (table.lattice) x = x - table.lattice->translation(barrier.cell);
+  const geometry::PreparedCurve& curve = finder.curve(barrier.wall);
+  geometry::PreparedCurve::Frame frame = curve.settle(x);
+  const double u = curve.parameter(frame.point);
+  if (u == curve.last() || u == geometry::first_parameter) frame = curve.frame(u);
+  const Vector before = group.phase().velocity[member];
+  b.state = {barrier.wall, u, frame.point, before, cell, group.time()};
+  b.last_wall = barrier.wall;
+  for (const int h : table.walls[at(barrier.wall)].holes) {
+    const Hole& hole = table.holes[at(h)];
+    if (!(hole.from <= u && u < hole.to)) continue;
+    b.hole = h;
+    end(index, Fate::escaped, group.time(), &observer);
+    take_out(group, member);
+    return;
+  }
+  Vector after = geometry::reflected(before, frame.normal, frame.square, frame.k, 0.0);
+  Sign inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
+  if (inward == Sign::negative) {  // a grazing rounding: reflecting once more turns it back
+    after = geometry::reflected(after, frame.normal, frame.square, frame.k, 0.0);
+    inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
+  }
+  ++b.hits;
+  b.state.velocity = after;
+  group.phase().position[member] = frame.point;
+  group.phase().velocity[member] = after;
+  group.cells()[member] = cell;
+  event.particle = index;
+  event.wall = barrier.wall;
+  event.u = u;
+  event.time = group.time();
+  event.flight_time = group.time() - b.last_event;
+  event.position = frame.point;
+  event.cell = cell;
+  event.before = before;
+  event.after = after;
+  event.reflections = 1;
+  b.last_event = group.time();
+  if (inward != Sign::positive) {
+    end(index, Fate::singular, group.time(), &observer);
+    take_out(group, member);
+    return;
+  }
+  observer.hit(event);
+  if (b.hits >= limit) {
+    end(index, Fate::capped, group.time(), &observer);
+    take_out(group, member);
+  }
+}
+
+/// A particle comes to the edge of a support from inside. True if it flies freely from here on.
+bool World::Implementation::leave_support(Group& group, const Barrier<double>& barrier) {
+  const Vector x = group.phase().position.front();
+  if (group.supported(x, &barrier)) return false;
+  Body& b = bodies[at(group.bodies().front())];
+  const geometry::PreparedCurve& curve = finder.curve(barrier.wall);
+  Cell cell = group.cells().front();
+  cell.first += barrier.cell.first;
+  cell.second += barrier.cell.second;
+  const Vector own = table.lattice ? x - table.lattice->translation(barrier.cell) : x;
+  const geometry::PreparedCurve::Frame frame = curve.settle(own);
+  const double u = curve.parameter(frame.point);
+  const Vector velocity = group.phase().velocity.front();
+  if (finder.inward(barrier.wall, u, velocity, frame.normal, counts) != Sign::positive) return false;
+  const int index = group.bodies().front();
+  b.state = {-1, 0.0, frame.point, velocity, cell, group.time()};
+  b.particle.speed = std::sqrt(dot(velocity, velocity));
+  b.energy_weight = 0.75 / (b.particle.speed * b.particle.speed);
+  b.flight.omega = b.particle.omega;
+  b.flight.square_speed = b.particle.speed * b.particle.speed;
+  finder.begin_on_wall(b.flight, barrier.wall, u, frame.point, velocity);
+  take_out(group, 0);
+  fly(index);
+  return true;
+}
+
+/// A free flight comes to the edge of a support.
+void World::Implementation::enter_support(int index, const HitFinder::Landing& landing) {
+  Body& b = bodies[at(index)];
+  const EventQueue::Key& key = queue.key(index);
+  b.state.position = landing.frame.point;
+  b.state.velocity = landing.velocity;
+  b.state.cell.first += landing.cell.first;
+  b.state.cell.second += landing.cell.second;
+  b.state.time = key.time;
+  form_group({index});
+}
+
+/// Takes a member out of its group; the next one leads it if it was the first.
+void World::Implementation::take_out(Group& group, std::size_t member) {
+  Body& b = bodies[at(group.bodies()[member])];
+  if (group.bodies().size() == 1) idle_groups.push_back(b.group);
+  b.group = -1;
+  group.remove(member);
+}
+
+}  // namespace carom

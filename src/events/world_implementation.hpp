@@ -1,0 +1,90 @@
+// The inside of World: particles, queue and groups. world.cpp holds the loop and free flights,
+// world_groups.cpp what integration and hand-over add.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carom/events/world.hpp"
+#include "events/group.hpp"
+#include "events/locator.hpp"
+#include "events/next_hit.hpp"
+#include "events/queue.hpp"
+
+namespace carom {
+
+/// A particle. It flies freely, or belongs to a group.
+struct Body {
+  Particle particle;
+  double energy_weight = 0.75;
+  State state;
+  Flight flight;
+  Ahead ahead;
+  std::uint64_t hits = 0;
+  int last_wall = -1;
+  int hole = -1;
+  Fate fate = Fate::survived;
+  bool finished = false;
+  int group = -1;       ///< index into groups, -1: free
+  Time last_event;      ///< integrated: its last hit or start
+  std::string report;
+};
+
+class World::Implementation {
+ public:
+  Implementation(const Table& table, const Dynamics& dynamics, DecisionOptions options);
+
+  void predict(int index);
+  void fly(int index);  ///< predict, for callers that it is not inlined into
+  void apply(int index, Observer& observer);
+  void reflect(int index, Observer& observer, const HitFinder::Landing& landing);
+  void end(int index, Fate fate, Time time, Observer* observer);
+  void emit_samples(Time until, bool inclusive, Observer& observer);
+  State state_at(const Body& body, Time t) const;
+  void check_speed(const Body& body) const;
+  void begin_free(Body& body);
+  bool contains(geometry::Vector point);
+
+  // Integration and hand-over (world_groups.cpp).
+  void add_barriers();
+  bool integrated_at(geometry::Vector x) const;
+  void form_group(std::vector<int> members);
+  void form_waiting_groups();
+  void predict_group(int leader);
+  void apply_group(int leader, Observer& observer);
+  void hit_in_group(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer);
+  bool leave_support(Group& group, const Barrier<double>& barrier);
+  void enter_support(int index, const HitFinder::Landing& landing);
+  void take_out(Group& group, std::size_t member);
+  void copy_states(const Group& group);
+  bool is_support(int wall) const { return wall >= wall_count; }
+
+  const Table& table;             ///< the user's
+  Dynamics dynamics;
+  Table with_supports;            ///< the same with the edges of supports as walls, if there are any
+  int wall_count = 0;             ///< of the user's table
+  HitFinder finder;
+  std::unique_ptr<Locator> locator;
+  std::vector<int> corners;  // order n of the corner at each wall's start, 0: none
+  std::vector<Body> bodies;
+  EventQueue queue;
+  HitEvent event;  // filled in place, number by number so that no number waits for another
+  DecisionCounts counts;
+  std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
+  std::vector<double> sample_times;
+  double sample_interval = 0.0;
+  std::uint64_t next_sample = 0;
+  bool sampling = false;
+
+  bool integrates = false;        ///< forces act somewhere, or everything is to be integrated
+  bool one_group = false;         ///< the particles interact
+  Group::Surroundings surroundings;
+  std::vector<std::unique_ptr<Group>> groups;
+  std::vector<int> idle_groups;   ///< kept for the next particle that comes under a force
+  std::vector<int> waiting;       ///< bodies that belong to groups which are not formed yet
+};
+
+}  // namespace carom
