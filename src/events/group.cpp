@@ -94,8 +94,11 @@ const Group::Next& Group::predict() {
   near_wall_ = false;
   CrossingSearch<double> search(*path_);
   StepPath<double>::Knot* last = &path_->end();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (std::size_t i = 0; i < bodies_.size() && !in_.barriers.empty(); ++i) {
+    const PathHull<double> hull(path_->start(), path_->end(), i);
     for (const Barrier<double>& barrier : in_.barriers) {
+      if (stays_off(barrier, hull)) continue;
+      near_wall_ = true;
       StepPath<double>::Knot* found = search.first(barrier, i, path_->start(), *last);
       if (!found) continue;
       last = found;
@@ -104,7 +107,6 @@ const Group::Next& Group::predict() {
       next_.duration = found->time;
     }
   }
-  near_wall_ = path_->refined();
   return next_;
 }
 

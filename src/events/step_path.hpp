@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "carom/integrators/stepper.hpp"
@@ -33,10 +34,16 @@ class StepPath {
 
   /// A new path from `from`, whose first step takes at most `at_most`. Returns the time it takes.
   Real begin(const Phase<Real>& from, Real at_most) {
-    used_ = 0;
-    Knot& start = fresh();
-    start.time = Real(0);
-    start.phase = from;
+    // A path that goes on where the last one ended keeps what is known there.
+    const bool goes_on = used_ > 1 && end().phase.position == from.position && end().phase.velocity == from.velocity;
+    if (goes_on) {
+      std::swap(knots_[0], knots_[1]);
+      used_ = 1;
+    } else {
+      used_ = 0;
+      fresh().phase = from;
+    }
+    start().time = Real(0);
     Knot& end = fresh();
     end.time = stepper_.step(from, at_most, end.phase);
     return end.time;
@@ -53,8 +60,6 @@ class StepPath {
     move(time, knot.phase);
     return knot;
   }
-  /// Has the path been asked for knots besides its ends?
-  bool refined() const { return used_ > 2; }
   /// The phase at a time, without keeping it.
   void move(Real time, Phase<Real>& to) {
     if (!(time > Real(0))) {
@@ -93,6 +98,28 @@ class StepPath {
   std::size_t used_ = 0;
 };
 
+/// Where one particle's path between two knots can be, from positions and velocities alone: the hull of
+/// the cubic's control points, widened by their second differences. These are of the order h^2 |a|, the
+/// cubic errs by h^4 / 384 times the fourth derivative.
+template <class Real>
+struct PathHull {
+  using Vector = geometry::BasicVector<Real>;
+  std::array<Vector, 4> points;
+  Real margin{};
+
+  PathHull(const typename StepPath<Real>::Knot& a, const typename StepPath<Real>::Knot& b, std::size_t i) {
+    const Real third = (b.time - a.time) / Real(3);
+    points = {a.phase.position[i], a.phase.position[i] + third * a.phase.velocity[i],
+              b.phase.position[i] - third * b.phase.velocity[i], b.phase.position[i]};
+    const Vector first = (points[2] - points[1]) - (points[1] - points[0]);
+    const Vector second = (points[3] - points[2]) - (points[2] - points[1]);
+    margin = std::max(norm(first), norm(second));
+  }
+  static Real norm(const Vector& a) {
+    return (a.x < Real(0) ? -a.x : a.x) + (a.y < Real(0) ? -a.y : a.y);
+  }
+};
+
 /// One particle's path between two knots as a Bezier curve of degree 5, with the largest distance
 /// (in the 1-norm) of its control points from those of the cubic.
 template <class Real>
@@ -115,12 +142,9 @@ struct PathArc {
     // Points 2 and 3 of the cubic raised to degree 5; the others agree.
     const Real tenth = Real(1) / Real(10), third = Real(1) / Real(3);
     const Vector c1 = x0 + third * v0, c2 = x1 - third * v1;
+    const auto norm = &PathHull<Real>::norm;
     error = std::max(norm(points[2] - tenth * (x0 + Real(6) * c1 + Real(3) * c2)),
                      norm(points[3] - tenth * (x1 + Real(6) * c2 + Real(3) * c1)));
-  }
-
-  static Real norm(const Vector& a) {
-    return (a.x < Real(0) ? -a.x : a.x) + (a.y < Real(0) ? -a.y : a.y);
   }
 };
 
