@@ -69,7 +69,7 @@ TEST(Corridors, DiscsThatTouchALineFromBothSidesLeaveNone) {
   const std::vector<Curve> open{disc(less), disc(0.25, {0.5, 0.5})};
   const Corridors corridors = free_corridors(square(), open);
   ASSERT_EQ(corridors.list.size(), 6u) << "two strips along each axis more";
-  for (std::size_t k = 2; k < 6; ++k) EXPECT_EQ(corridors.list[k].width, 0x1p-54);
+  for (std::size_t k = 2; k < 6; ++k) EXPECT_EQ(corridors.list[k].width, 0x1p-55);
   // Across a diagonal the roots differ: 1/sqrt(8) is no double.
   const double r = std::sqrt(0.125);
   const bool above = r * r * 8 >= 1;  // rounded, but far from a tie
