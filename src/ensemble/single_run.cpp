@@ -48,8 +48,8 @@ bool gone(Fate fate) {
   return fate == Fate::escaped || fate == Fate::singular || fate == Fate::unbounded || fate == Fate::lost;
 }
 
-ParticleEnd as_seen(const System& system, std::size_t particle, const ParticleProgress& progress,
-                    State state) {
+ParticleEnd as_seen(const System& system, const ParticleProgress& progress, State state,
+                    double energy_error) {
   ParticleEnd end;
   end.progress = progress;
   end.t = state.time.value();
@@ -61,13 +61,17 @@ ParticleEnd as_seen(const System& system, std::size_t particle, const ParticlePr
   end.y = unwrapped.y;
   fold_into_cell(*system.table, state.position, state.cell);
   end.cell = state.cell;
-  const double speed = system.particles[particle].speed;
-  const geometry::Vector v = (1.0 / speed) * state.velocity;
-  end.energy_error = dot(v, v) - 1.0;
+  end.energy_error = energy_error;
   return end;
 }
 
-// The state at the end: a flight after the last event.
+// Without forces: by how much the squared speed differs from what it was.
+double speed_error(const Particle& particle, const State& state) {
+  const geometry::Vector v = (1.0 / particle.speed) * state.velocity;
+  return dot(v, v) - 1.0;
+}
+
+// The state at the end of a particle that is not in the world any more: a flight after the last event.
 State moved_on(const Particle& particle, const ParticleProgress& progress) {
   State state = progress.state;
   const double duration = progress.end - state.time;
@@ -108,6 +112,14 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
 
   Renumbering passed_on(observer, numbers, count);
   SingleRunResult result;
+  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
+  std::vector<Particle> particles;
+  for (const int p : numbers) particles.push_back(system.particles[static_cast<std::size_t>(p)]);
+  if (forces) {
+    std::vector<State> states;
+    for (std::size_t i = 0; i < numbers.size(); ++i) states.push_back(world.state(static_cast<int>(i)));
+    result.energy_at_start = energy_of(particles, states, system.dynamics, *system.table);
+  }
   const std::function<bool()> interrupted = [&] {
     result.interrupted = result.interrupted || (options.interrupted && options.interrupted());
     return result.interrupted;
@@ -133,8 +145,23 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     const bool until_stop = now.fate == Fate::survived || now.fate == Fate::pinned;
     now.end = !until_stop ? end->time : result.interrupted ? now.state.time : Time(system.run.t_max);
   }
+  std::vector<State> last(count);
+  for (std::size_t p = 0; p < count; ++p) last[p] = moved_on(system.particles[p], progress[p]);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::size_t p = static_cast<std::size_t>(numbers[i]);
+    last[p] = world.state_at(static_cast<int>(i), progress[p].end);
+  }
+  double energy_error = 0.0;
+  if (forces) {
+    std::vector<State> states;
+    for (const int p : numbers) states.push_back(last[static_cast<std::size_t>(p)]);
+    result.energy_at_end = energy_of(particles, states, system.dynamics, *system.table);
+    const double start = result.energy_at_start.total(), change = result.energy_at_end.total() - start;
+    energy_error = start == 0.0 ? change : change / start;
+  }
   for (std::size_t p = 0; p < count; ++p) {
-    result.particles.push_back(as_seen(system, p, progress[p], moved_on(system.particles[p], progress[p])));
+    const double error = forces ? energy_error : speed_error(system.particles[p], last[p]);
+    result.particles.push_back(as_seen(system, progress[p], last[p], error));
     result.collisions += progress[p].hits;
   }
   for (std::size_t i = 0; i < numbers.size(); ++i)

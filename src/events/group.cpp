@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "carom/integrators/make_stepper.hpp"
+#include "events/nearest_copy.hpp"
 
 namespace carom {
 
@@ -41,21 +42,8 @@ void Group::make_stepper() {
 }
 
 Vector Group::separation(std::span<const Vector> x, std::size_t i, std::size_t j) const {
-  Vector d = x[i] - x[j];
-  if (!in_.lattice) return d;
-  // The nearest copy: the one in the lattice's cell about the origin.
-  const auto shift = [&](const Cell& c) { return d - in_.lattice->translation(c); };
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (const geometry::CellEdge& e : in_.lattice->edges) {
-      const Vector nearer = shift(e.beyond);
-      if (dot(nearer, nearer) < dot(d, d)) {
-        d = nearer;
-        moved = true;
-      }
-    }
-  }
-  return d;
+  const Vector d = x[i] - x[j];
+  return in_.lattice ? nearest_copy(d, *in_.lattice) : d;
 }
 
 void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const {
@@ -141,21 +129,19 @@ void Group::remove(std::size_t member) {
   if (!bodies_.empty()) make_stepper();
 }
 
-void Group::fold() {
+void Group::fold(std::size_t member) {
   if (!in_.lattice) return;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Vector& x = phase_.position[i];
-    const auto distance = [&](const Vector& a) { return dot(a - in_.centre, a - in_.centre); };
-    for (bool moved = true; moved;) {
-      moved = false;
-      for (const geometry::CellEdge& e : in_.lattice->edges) {
-        const Vector nearer = x - in_.lattice->translation(e.beyond);
-        if (!(distance(nearer) < distance(x))) continue;
-        x = nearer;
-        cells_[i].first += e.beyond.first;
-        cells_[i].second += e.beyond.second;
-        moved = true;
-      }
+  Vector& x = phase_.position[member];
+  const auto distance = [&](const Vector& a) { return dot(a - in_.centre, a - in_.centre); };
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const geometry::CellEdge& e : in_.lattice->edges) {
+      const Vector nearer = x - in_.lattice->translation(e.beyond);
+      if (!(distance(nearer) < distance(x))) continue;  // strictly nearer: no going to and fro
+      x = nearer;
+      cells_[member].first += e.beyond.first;
+      cells_[member].second += e.beyond.second;
+      moved = true;
     }
   }
 }

@@ -59,8 +59,8 @@ class Group final : public ForceLaw<double> {
   State state_at(std::size_t member, const Time& time);
   /// Takes a member out.
   void remove(std::size_t member);
-  /// Puts members back into their cells of the lattice.
-  void fold();
+  /// Puts a member back into the lattice's cell.
+  void fold(std::size_t member);
   /// Did the last step come near a wall?
   bool near_wall() const { return near_wall_; }
   /// Is the point inside a support other than `except`?

@@ -93,12 +93,12 @@ void World::Implementation::form_group(std::vector<int> members) {
     group->phase().velocity[k] = b.state.velocity;
     group->cells()[k] = b.state.cell;
     b.group = number;
-    b.state.wall = -1;
+    // At a hit a particle stays where the wall is until its step ends.
+    if (b.state.wall < 0) group->fold(k);
     // One entry a group: its first member's.
     queue.update(members[k], Time(std::numeric_limits<double>::infinity()), static_cast<int>(EventKind::group));
   }
   group->set_time(bodies[at(members.front())].state.time);
-  group->fold();
   predict_group(members.front());
 }
 
@@ -141,7 +141,8 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     return;
   }
   group.advance();
-  if (next.member < 0) group.fold();
+  if (next.member < 0)
+    for (std::size_t k = 0; k < group.bodies().size(); ++k) group.fold(k);
   copy_states(group);
   if (next.member >= 0) {
     const std::size_t member = at(next.member);
@@ -262,6 +263,7 @@ void World::Implementation::enter_support(int index, const HitFinder::Landing& l
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;
   b.state.time = key.time;
+  b.state.wall = -1;
   form_group({index});
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "carom/ensemble/system.hpp"
+#include "carom/events/energy.hpp"
 #include "carom/events/world.hpp"
 
 namespace carom {
@@ -27,7 +28,8 @@ struct ParticleEnd {
   ParticleProgress progress;
   double t = 0, x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped
   geometry::Cell cell;
-  double energy_error = 0;  ///< relative, against Particle::speed
+  /// Relative. Free particles: each against its own speed; with forces: of all together since the start.
+  double energy_error = 0;
   std::string report;       ///< of lost and singular ones
 };
 
@@ -42,6 +44,7 @@ struct SingleRunResult {
   std::vector<ParticleEnd> particles;
   bool interrupted = false;
   std::uint64_t collisions = 0;
+  Energy energy_at_start, energy_at_end;  ///< with forces: of the particles that are not gone
   DecisionCounts decisions;
   double seconds = 0, cpu_seconds = 0;
 };
