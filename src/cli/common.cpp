@@ -55,19 +55,35 @@ void check_engine(const Options& options) {
                          const char* expected, const std::string& nearest = {}) {
     throw InputError(option_place(option), fmt::format("'{}' {}", value, problem), expected, nearest);
   };
-  if (options.engine == "steps")
-    refuse("--engine", "steps", "is not in this version: free particles need no steps", "auto or events");
-  if (options.engine != "auto" && options.engine != "events")
-    refuse("--engine", options.engine, "is not an engine", "auto or events",
-           nearest_name(options.engine, {"auto", "events"}));
+  if (options.engine != "auto" && options.engine != "events" && options.engine != "steps")
+    refuse("--engine", options.engine, "is not an engine", "auto, events or steps",
+           nearest_name(options.engine, {"auto", "events", "steps"}));
   if (options.isa != "auto" && options.isa != "baseline")
     refuse("--isa", options.isa, "is not an instruction set of this version", "auto or baseline");
   if (options.precision != "double")
     refuse("--precision", options.precision, "is not in this version", "double");
 }
 
-Provenance provenance_of(const Options& options, int threads) {
-  return {options.line, "events", "baseline", threads};
+void choose_engine(const std::string& engine, System& system) {
+  const Dynamics& dynamics = system.dynamics;
+  const bool forces = dynamics.forces && !dynamics.forces->empty();
+  if (engine == "events" && forces)
+    throw InputError(option_place("--engine"), "'events' cannot move particles under forces", "auto or steps");
+  system.dynamics.everywhere = engine == "steps";
+  if (engine == "steps" && !(dynamics.integrator.step > 0.0) && !(dynamics.integrator.tolerance > 0.0))
+    throw InputError(option_place("--engine"), "'steps' needs the length of a step",
+                     "[integrator] step, or --set integrator.step=0.01");
+}
+
+std::string engine_of(const System& system) {
+  const Dynamics& dynamics = system.dynamics;
+  if (dynamics.everywhere) return "steps";
+  if (!dynamics.forces || dynamics.forces->empty()) return "events";
+  return dynamics.forces->everywhere() || dynamics.forces->interacts() ? "steps" : "auto";
+}
+
+Provenance provenance_of(const Options& options, const System& system, int threads) {
+  return {options.line, engine_of(system), "baseline", threads};
 }
 
 void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds) {
@@ -75,7 +91,7 @@ void add_common_keys(Json& json, const System& system, int threads, double secon
   json.set("system", system.name);
   json.set("seed", system.run.seed);
   json.set("threads", threads);
-  json.set("engine", "events");
+  json.set("engine", engine_of(system));
   json.set("isa", "baseline");
   json.set("seconds", seconds);
   json.set("cpu_seconds", cpu_seconds);

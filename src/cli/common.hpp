@@ -18,7 +18,11 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
 int threads_of(const Options&);
 /// Throws InputError for engines, instruction sets and precisions this version does not have.
 void check_engine(const Options&);
-Provenance provenance_of(const Options&, int threads);
+/// Sets what --engine asks for: "auto", "events" (refused where forces act) or "steps".
+void choose_engine(const std::string& engine, System&);
+/// What moves the particles: "events" (exact flights), "steps" (integration) or "auto" (both).
+std::string engine_of(const System&);
+Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.
 void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds);

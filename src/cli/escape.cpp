@@ -19,12 +19,13 @@ int escape(const Options& options) {
   check_engine(options);
   EscapeOptions how;
   how.threads = threads_of(options);
-  const LoadedSystem loaded = load_system(options.system, options.overrides);
+  LoadedSystem loaded = load_system(options.system, options.overrides);
+  choose_engine(options.engine, loaded.system);
   const System& system = loaded.system;
 
   std::unique_ptr<EscapeArchive> archive;
   if (!options.output.empty()) {
-    archive = std::make_unique<EscapeArchive>(options.output, loaded, provenance_of(options, how.threads),
+    archive = std::make_unique<EscapeArchive>(options.output, loaded, provenance_of(options, system, how.threads),
                                               options.force, options.per_trajectory);
     if (options.per_trajectory)
       how.records = [&](const std::vector<TrajectoryRecord>& records) { archive->append(records); };

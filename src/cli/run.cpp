@@ -1,4 +1,4 @@
-// carom run: one trajectory, or several particles that do not interact.
+// carom run: one trajectory, of one or several particles.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -67,19 +67,21 @@ int run(const Options& options) {
   LoadedSystem loaded;
   std::unique_ptr<RunArchive> archive;
   std::string output = options.output;
-  const Provenance origin = provenance_of(options, 1);
   if (options.resume.empty()) {
     loaded = load_system(options.system, run_overrides(options));
+    choose_engine(options.engine, loaded.system);
     check_start(loaded.system);  // a start that is impossible must not cost an old archive
-    if (!output.empty()) archive = RunArchive::create(output, loaded, origin, options.force);
+    if (!output.empty()) archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1), options.force);
   } else {
     const StoredRun stored = read_run(options.resume);
     loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
     loaded.system.name = stored.system_name;
+    choose_engine(options.engine == "auto" && stored.engine == "steps" ? "steps" : options.engine, loaded.system);
     how.resume = stored.particles;
     refuse_going_back(loaded.system, stored);
     if (output.empty()) output = options.resume;
-    archive = RunArchive::extend(options.resume, output, loaded, origin, options.force);
+    archive = RunArchive::extend(options.resume, output, loaded, provenance_of(options, loaded.system, 1),
+                                 options.force);
   }
   const System& system = loaded.system;
   const std::atomic<bool>& interrupted = catch_interrupts();

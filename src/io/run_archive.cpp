@@ -291,6 +291,7 @@ StoredRun read_run(const std::string& name) {
   run.system_toml = hdf5::read_text(file.get(), "system", name);
   const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
   run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
+  run.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);
 
   const Handle state(H5Gopen2(file.get(), "state", H5P_DEFAULT), H5Gclose);
   const auto reals = [&](const char* field) { return hdf5::read_column<double>(state.get(), field, name); };

@@ -51,6 +51,7 @@ class RunArchive : public Observer {
 /// A run as its archive holds it.
 struct StoredRun {
   std::string system_name, system_toml, status;
+  std::string engine;  ///< "events", "steps" or "auto"
   std::vector<ParticleProgress> particles;
 };
 /// Throws InputError for anything but the archive of a finished or interrupted run.
