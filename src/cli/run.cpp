@@ -28,6 +28,10 @@ class Counting : public Observer {
   void sample(int particle, Time at, const State& state) override {
     if (next_) next_->sample(particle, at, state);
   }
+  void sampled(Time at) override {
+    time = at.value();
+    if (next_) next_->sampled(at);
+  }
   std::uint64_t hits = 0;
   double time = 0.0;
 

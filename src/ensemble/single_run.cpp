@@ -27,6 +27,7 @@ class Renumbering : public Observer {
   void sample(int particle, Time time, const State& state) override {
     observer_.sample(number(particle), time, state);
   }
+  void sampled(Time time) override { observer_.sampled(time); }
   void end(const EndEvent& event) override {
     EndEvent copy = event;
     copy.particle = number(event.particle);

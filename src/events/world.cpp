@@ -199,6 +199,7 @@ void World::Implementation::emit_samples(Time until, bool inclusive, Observer& o
       any = true;
     }
     if (!any) return;  // nobody is left to be sampled
+    observer.sampled(t);
     ++next_sample;
   }
 }

@@ -87,6 +87,17 @@ const StateField state_fields[] = {
      [](P p) { return static_cast<std::int64_t>(p.fate); }},
 };
 
+const std::pair<const char*, Description> energy_fields[] = {
+    {"t", {"time", "Time of the sample"}},
+    {"kinetic", {"energy", "Sum of m v^2 / 2"}},
+    {"external", {"energy", "Sum of the external potentials"}},
+    {"pair", {"energy", "Sum of the interactions, each pair once"}},
+    {"total", {"energy", "Their sum"}},
+    {"px", {"momentum", "Sum of m v"}},
+    {"py", {"momentum", "Sum of m v"}},
+    {"angular_momentum", {"angular momentum", "Sum of m (x cross v + omega r^2 / 2), about the origin"}},
+};
+
 std::vector<std::string> fate_names() {
   std::vector<std::string> names;
   for (int i = 0; i <= static_cast<int>(Fate::lost); ++i) names.push_back(name_of(static_cast<Fate>(i)));
@@ -101,8 +112,11 @@ class RunArchive::Implementation {
       : file(std::move(opened)),
         target(std::move(final_path)),
         table(loaded.system.table),
+        dynamics(loaded.system.dynamics),
+        all_particles(loaded.system.particles),
         hits(file.name()),
-        samples(file.name()) {
+        samples(file.name()),
+        energies(file.name()) {
     for (const Wall& wall : table->walls) frames.push_back(geometry::frame_of(wall.curve));
   }
 
@@ -110,12 +124,17 @@ class RunArchive::Implementation {
   void reopen(const LoadedSystem& loaded, const Provenance& origin);
   void create_state(std::size_t particles);
   void write_state(const std::vector<ParticleEnd>& particles);
+  bool with_energies() const { return dynamics.forces && !dynamics.forces->empty(); }
 
   ArchiveFile file;
   std::string target;
   std::shared_ptr<const Table> table;
+  Dynamics dynamics;
+  std::vector<Particle> all_particles;
   std::vector<geometry::CurveFrame> frames;
-  hdf5::Columns hits, samples;
+  hdf5::Columns hits, samples, energies;
+  std::vector<Particle> particles_now;  ///< of the sample's time
+  std::vector<State> states_now;
   double sampled_until = -std::numeric_limits<double>::infinity();
 };
 
@@ -154,6 +173,10 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     samples.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
     samples.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
   }
+  if (with_energies()) {
+    const Handle group = file.group("energy", "Sums over the particles at each sample's time");
+    for (const auto& [name, description] : energy_fields) energies.add<double>(group.get(), name, description);
+  }
   create_state(loaded.system.particles.size());
 }
 
@@ -190,6 +213,10 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
   for (const char* name : {"t", "x", "y", "vx", "vy"}) samples.open<double>(from, name);
   samples.open<std::int64_t>(from, "cell_first");
   samples.open<std::int64_t>(from, "cell_second");
+  if (with_energies()) {
+    const Handle energy = file.open_group("energy");
+    for (const auto& [name, description] : energy_fields) energies.open<double>(energy.get(), name);
+  }
 }
 
 void RunArchive::Implementation::write_state(const std::vector<ParticleEnd>& particles) {
@@ -261,12 +288,27 @@ void RunArchive::sample(int particle, Time time, const State& state) {
   fold_into_cell(*a.table, folded, cell);
   a.samples.row(std::int32_t{particle}, time.value(), position.x, position.y, state.velocity.x,
                 state.velocity.y, cell.first, cell.second);
+  if (!a.with_energies()) return;
+  a.particles_now.push_back(a.all_particles.at(static_cast<std::size_t>(particle)));
+  a.states_now.push_back(state);
+}
+
+void RunArchive::sampled(Time time) {
+  Implementation& a = *implementation_;
+  if (a.states_now.empty()) return;
+  const Energy energy = energy_of(a.particles_now, a.states_now, a.dynamics, *a.table);
+  const Vector momentum = momentum_of(a.particles_now, a.states_now);
+  a.energies.row(time.value(), energy.kinetic, energy.external, energy.pair, energy.total(), momentum.x, momentum.y,
+                 angular_momentum_of(a.particles_now, a.states_now, *a.table));
+  a.particles_now.clear();
+  a.states_now.clear();
 }
 
 void RunArchive::finish(const SingleRunResult& result, const std::string& status) {
   Implementation& a = *implementation_;
   a.hits.close();
   a.samples.close();
+  a.energies.close();
   a.write_state(result.particles);
   a.file.set_status(status, !result.interrupted);
   a.file.keep_as(a.target);

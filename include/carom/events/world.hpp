@@ -37,6 +37,7 @@ class Observer {
   virtual ~Observer() = default;
   virtual void hit(const HitEvent&) {}
   virtual void sample(int /*particle*/, Time, const State&) {}  ///< state at the sample's time
+  virtual void sampled(Time) {}                                 ///< all samples of this time are given
   virtual void end(const EndEvent&) {}
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/io/system_file.hpp"
@@ -40,6 +41,7 @@ class RunArchive : public Observer {
 
   void hit(const HitEvent&) override;
   void sample(int particle, Time, const State&) override;
+  void sampled(Time) override;
   void finish(const SingleRunResult&, const std::string& status);
 
  private:
@@ -67,6 +69,20 @@ class EscapeArchive {
 
   void append(const std::vector<TrajectoryRecord>&);
   void finish(const EscapeResult&, const std::string& status);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// The moments of a diffusing ensemble, written like an EscapeArchive.
+class DiffusionArchive {
+ public:
+  DiffusionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force);
+  DiffusionArchive(const DiffusionArchive&) = delete;
+  ~DiffusionArchive();
+
+  void finish(const DiffusionResult&, const std::vector<MomentPoint>&, const std::string& status);
 
  private:
   class Implementation;
