@@ -65,13 +65,13 @@ void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const 
     if (particles_[i].mass != 1.0) a[i] = (1.0 / particles_[i].mass) * a[i];
 }
 
-const Group::Next& Group::predict() {
+const Group::Next& Group::predict(const Time& limit) {
   next_ = {};
-  const bool fixed = in_.plan.step > 0.0;
-  if (fixed) step_end_ = next_multiple(time_, in_.plan.step);
-  const double rest = fixed ? step_end_ - time_ : std::numeric_limits<double>::max();
+  step_end_ = limit;
+  if (in_.plan.step > 0.0) step_end_ = std::min(limit, next_multiple(time_, in_.plan.step));
+  const double rest = std::min(step_end_ - time_, std::numeric_limits<double>::max());
   next_.duration = path_->begin(phase_, rest);
-  whole_step_ = fixed && !(next_.duration < rest);
+  whole_step_ = !(next_.duration < rest);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Phase<double>& end = path_->end().phase;
     const double size = (std::fabs(end.position[i].x) + std::fabs(end.position[i].y)) +
@@ -99,13 +99,8 @@ const Group::Next& Group::predict() {
 }
 
 void Group::advance() {
-  if (next_.member < 0) {
-    phase_ = path_->end().phase;
-    time_ = whole_step_ ? step_end_ : time_ + next_.duration;
-  } else {
-    phase_ = path_->at(next_.duration).phase;
-    time_ = time_ + next_.duration;
-  }
+  phase_ = next_.member < 0 ? path_->end().phase : path_->at(next_.duration).phase;
+  time_ = next_time();
 }
 
 State Group::state_at(std::size_t member, const Time& time) {

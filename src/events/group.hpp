@@ -50,9 +50,11 @@ class Group final : public ForceLaw<double> {
   const Time& time() const { return time_; }
   void set_time(const Time& time) { time_ = time; }
 
-  /// Takes the next step from phase() and finds what comes first in it.
-  const Next& predict();
+  /// Takes the next step from phase(), which ends at `limit` at the latest, and finds what comes first.
+  const Next& predict(const Time& limit);
   const Next& next() const { return next_; }
+  /// When that is.
+  Time next_time() const { return next_.member < 0 && whole_step_ ? step_end_ : time_ + next_.duration; }
   /// Goes to what was predicted.
   void advance();
   /// The state of a member at a time within the step under way.
@@ -80,7 +82,7 @@ class Group final : public ForceLaw<double> {
   Time time_;
   Next next_;
   bool near_wall_ = false;
-  bool whole_step_ = false;  ///< the step under way ends on the clock's grid
+  bool whole_step_ = false;  ///< the step under way ends at step_end_
   Time step_end_;
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;

@@ -143,6 +143,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
       return predict(index);
     case EventKind::hit:
     case EventKind::singular: break;
+    case EventKind::group: return start_integrating(index, observer);
     default: return end(index, Fate::lost, b.state.time, &observer);
   }
   if (b.ahead.kind == Ahead::Kind::cusp) return end(index, Fate::singular, key.time, &observer);
@@ -195,8 +196,9 @@ void World::Implementation::emit_samples(Time until, bool inclusive, Observer& o
     bool any = false;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies[i].finished && bodies[i].fate != Fate::pinned) continue;
-      observer.sample(static_cast<int>(i), t, state_at(bodies[i], t));
       any = true;
+      if (bodies[i].state.time > Time(t)) continue;  // it is still to come
+      observer.sample(static_cast<int>(i), t, state_at(bodies[i], t));
     }
     if (!any) return;  // nobody is left to be sampled
     observer.sampled(t);
@@ -258,7 +260,7 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   const int index = static_cast<int>(w.bodies.size()) - 1;
   w.queue.push({});
   if (integrated)
-    w.waiting.push_back(index);
+    w.wait(index);
   else
     w.predict(index);
   return index;
@@ -289,7 +291,6 @@ void World::sample_every(double interval) {
 std::uint64_t World::run_until(double t_end, Observer& observer, const std::function<bool()>& interrupted) {
   Implementation& w = *implementation_;
   std::uint64_t events = 0;
-  if (!w.waiting.empty()) w.form_waiting_groups();
   while (!w.queue.empty()) {
     const int index = w.queue.top();
     const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);

@@ -102,19 +102,41 @@ void World::Implementation::form_group(std::vector<int> members) {
   predict_group(members.front());
 }
 
-void World::Implementation::form_waiting_groups() {
+/// The body joins the integrated ones at its time.
+void World::Implementation::wait(int index) {
+  waiting.push_back(index);
+  queue.update(index, bodies[at(index)].state.time, static_cast<int>(EventKind::group));
+}
+
+void World::Implementation::start_integrating(int index, Observer& observer) {
+  const Time now = bodies[at(index)].state.time;
+  std::vector<int> members;
   if (one_group) {
-    form_group(waiting);
+    const auto first = std::find_if(bodies.begin(), bodies.end(), [](const Body& b) { return b.group >= 0; });
+    if (first != bodies.end()) {
+      Group& group = *groups[at(first->group)];
+      // The step under way was cut to end now.
+      if (group.time() < now) apply_group(group.bodies().front(), observer);
+      members = group.bodies();
+      while (!group.bodies().empty()) take_out(group, group.bodies().size() - 1);
+    }
+    for (const int i : waiting)
+      if (bodies[at(i)].state.time == now) members.push_back(i);
+    std::sort(members.begin(), members.end());
   } else {
-    for (const int i : waiting) form_group({i});
+    members = {index};
   }
-  waiting.clear();
+  std::erase_if(waiting, [&](int i) { return std::find(members.begin(), members.end(), i) != members.end(); });
+  form_group(members);
 }
 
 void World::Implementation::predict_group(int leader) {
   Group& group = *groups[at(bodies[at(leader)].group)];
-  const Group::Next& next = group.predict();
-  queue.update(leader, group.time() + next.duration, static_cast<int>(EventKind::group));
+  Time until(std::numeric_limits<double>::infinity());
+  if (one_group)
+    for (const int i : waiting) until = std::min(until, bodies[at(i)].state.time);
+  group.predict(until);
+  queue.update(leader, group.next_time(), static_cast<int>(EventKind::group));
 }
 
 void World::Implementation::copy_states(const Group& group) {

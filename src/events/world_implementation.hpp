@@ -52,7 +52,8 @@ class World::Implementation {
   void add_barriers();
   bool integrated_at(geometry::Vector x) const;
   void form_group(std::vector<int> members);
-  void form_waiting_groups();
+  void wait(int index);
+  void start_integrating(int index, Observer& observer);
   void predict_group(int leader);
   void apply_group(int leader, Observer& observer);
   void hit_in_group(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer);
@@ -84,7 +85,7 @@ class World::Implementation {
   Group::Surroundings surroundings;
   std::vector<std::unique_ptr<Group>> groups;
   std::vector<int> idle_groups;   ///< kept for the next particle that comes under a force
-  std::vector<int> waiting;       ///< bodies that belong to groups which are not formed yet
+  std::vector<int> waiting;       ///< bodies that are to be integrated from their time on
 };
 
 }  // namespace carom

@@ -62,7 +62,8 @@ class World {
   /// Adds a particle; returns its index. A state off the walls must lie in the domain, else
   /// std::invalid_argument. Its velocity is kept as it is. Without forces its length must be
   /// Particle::speed within 32 roundings (64u of its square), else std::invalid_argument.
-  /// `hits`: how many it has made before, when a stored trajectory goes on.
+  /// `hits`: how many it has made before, when a stored trajectory goes on. A state of a later time
+  /// than that of the loop is injected then.
   int add(const Particle& particle, const State& state, std::uint64_t hits = 0);
   /// Removes all particles and sets the clock to 0; keeps the prepared table.
   void clear();
