@@ -1,0 +1,84 @@
+// Free motion under a uniform magnetic field for a given time.
+//
+// With J v = (v_y, -v_x) and theta = omega t the velocity turns clockwise by theta, and the particle moves
+// along a chord: u, the velocity turned by theta/2, times (2/omega) sin(theta/2). Neither cancels for
+// small theta, and nothing is chosen by size; omega = 0 is the straight line.
+#pragma once
+
+#include <utility>
+
+#include "carom/geometry/vector.hpp"
+#include "carom/integrators/arithmetic.hpp"
+
+namespace carom {
+
+/// A turn clockwise as three shears, each of determinant 1 whatever its coefficient is rounded to: many
+/// turns by one angle neither shrink nor stretch a velocity. Quarter turns, which are exact, keep the
+/// shears small.
+template <class Real>
+class ShearTurn {
+ public:
+  using Vector = geometry::BasicVector<Real>;
+
+  ShearTurn() = default;
+  explicit ShearTurn(SineCosine<Real> turn) {
+    while (turn.cosine < turn.sine || turn.cosine < -turn.sine) {  // beyond an eighth
+      const bool clockwise = turn.sine > Real(0);
+      turn =
+          clockwise ? SineCosine<Real>{-turn.cosine, turn.sine} : SineCosine<Real>{turn.cosine, -turn.sine};
+      quarters_ = clockwise ? quarters_ + 1 : quarters_ - 1;
+    }
+    sine_ = turn.sine;
+    half_tangent_ = turn.sine / (Real(1) + turn.cosine);
+  }
+
+  Vector operator()(Vector v) const {
+    for (int i = 0; i < quarters_; ++i) v = right(v);
+    for (int i = 0; i > quarters_; --i) v = left(v);
+    v.x = v.x + half_tangent_ * v.y;
+    v.y = v.y - sine_ * v.x;
+    v.x = v.x + half_tangent_ * v.y;
+    return v;
+  }
+
+ private:
+  Real sine_{}, half_tangent_{};
+  int quarters_ = 0;
+};
+
+template <class Real>
+class LarmorDrift {
+ public:
+  using Vector = geometry::BasicVector<Real>;
+
+  LarmorDrift() = default;
+  LarmorDrift(const Real& omega, const Real& time) : chord_(time) {
+    const Real half_angle = omega * time / Real(2);
+    if (half_angle == Real(0)) return;
+    straight_ = false;
+    const SineCosine<Real> turn = Arithmetic<Real>::turn(half_angle);
+    chord_ = time * (turn.sine / half_angle);
+    half_turn_ = ShearTurn<Real>(turn);
+  }
+
+  void move(Vector& position, Vector& velocity) const {
+    if (straight_) {
+      position = position + chord_ * velocity;
+      return;
+    }
+    const Vector along = half_turn_(velocity);
+    position = position + chord_ * along;
+    velocity = half_turn_(along);
+  }
+  /// The turn alone.
+  void turn(Vector& velocity) const {
+    if (!straight_) velocity = half_turn_(half_turn_(velocity));
+  }
+
+ private:
+  Real chord_{};
+  ShearTurn<Real> half_turn_;
+  bool straight_ = true;
+};
+
+}  // namespace carom
