@@ -9,6 +9,7 @@ int systems(const Options&);
 int table(const Options&);
 int run(const Options&);
 int escape(const Options&);
+int diffusion(const Options&);
 int validate(const Options&);
 
 }  // namespace carom::cli

@@ -85,7 +85,7 @@ class Command {
     text("--trajectories", o.trajectories, "N", "Size of the ensemble (1e6 is a number)");
     text("--position", o.position, "X,Y", "Start; exact: 1/10,-1/5");
     text("--velocity", o.velocity, "U,V", "Velocity of the start; its direction where a speed is set");
-    text("--engine", options_.engine, "NAME", "auto or events");
+    text("--engine", options_.engine, "NAME", "auto, events or steps");
     text("--isa", options_.isa, "NAME", "Instruction set: auto or baseline");
     return *this;
   }
@@ -123,6 +123,13 @@ void define(CLI::App& app, Options& o) {
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
       .text("--precision", o.precision, "NAME", "double")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
+  Command(app, o, "diffusion", "Mean square displacement and diffusion coefficient of an ensemble",
+          "Example: carom diffusion lorentz-triangular --trajectories 1e6\n"
+          "D is a quarter of the slope of the MSD in a window of report times (default: the last decade).")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .common()
+      .text("-o,--output", o.output, "FILE.h5", "Write an archive")
+      .text("--window", o.window, "FROM,TO", "Report times that D and the exponent are taken from");
   Command(app, o, "table", "Checks, measures and draws the table",
           "Example: carom table stadium -o stadium.svg")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -131,9 +138,10 @@ void define(CLI::App& app, Options& o) {
   Command(app, o, "systems", "Lists the built-in systems; prints one as TOML",
           "Example: carom systems mushroom > my-mushroom.toml")
       .system("NAME", "Built-in system to print");
-  Command(app, o, "validate", "Checks the engine against identities: mean flights, nothing lost",
-          "Example: carom validate --soak        (100 times longer)\nExit status 3 if a case fails.")
-      .flag("--soak", o.soak, "The long runs: 10^9 hits a table, 10^7 a mean flight")
+  Command(app, o, "validate", "Checks the engine against identities and published values",
+          "Example: carom validate --soak        (the long runs)\nExit status 3 if a case fails.")
+      .flag("--soak", o.soak, "The long runs: 10^9 hits a closed table, 10^7 a mean flight")
+      .text("--scale", o.scale, "X", "Multiplies the trajectories of each case (default 1)")
       .flag("--quiet", o.quiet, "No progress on standard error")
       .text("--threads", o.threads, "N", "Threads (default: all)");
 }
@@ -141,7 +149,7 @@ void define(CLI::App& app, Options& o) {
 std::string unknown_word(const std::vector<std::string>& remaining) {
   for (const std::string& word : remaining) {
     if (word.empty() || word[0] == '-') continue;
-    const std::string near = nearest_name(word, {"escape", "run", "table", "systems", "validate"});
+    const std::string near = nearest_name(word, {"escape", "run", "diffusion", "table", "systems", "validate"});
     return "there is no command '" + word + "'" +
            (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   }

@@ -13,7 +13,8 @@ struct Options {
   std::string line;     ///< the whole command line, for provenance
   std::string system;   ///< SYSTEM, or NAME of `carom systems`
   bool json = false, force = false, quiet = false, per_trajectory = false, soak = false;
-  std::string output, threads, trajectory, resume;
+  std::string window;  ///< of carom diffusion
+  std::string output, threads, trajectory, resume, scale;
   std::string engine = "auto", isa = "auto", precision = "double";
   SystemOverrides overrides;
 };

@@ -99,6 +99,9 @@ const std::vector<KeyDescription>& key_table() {
       {"run", "", "times", "list or table", "",
        "when survival is reported; {from = t_max/1000, to = t_max, count = 31, spacing = \"log\"} if not "
        "given"},
+      {"run", "", "window", "list of two numbers", "",
+       "report times between which the diffusion coefficient is taken from the slope; the last decade if not "
+       "given"},
       {"run.times", "", "from", "number", "", "the first time"},
       {"run.times", "", "to", "number", "", "the last time, at most t_max"},
       {"run.times", "", "count", "whole number", "31", "number of times, at least 2"},

@@ -141,6 +141,13 @@ RunPlan read_run(Value& root) {
   if (const Value* collisions = section.find("collisions")) plan.collisions = as_count(*collisions, 1);
   if (const Value* sample = section.find("sample")) plan.sample = as_positive(*sample);
   plan.times = read_times(section, plan.t_max);
+  if (const Value* window = section.find("window")) {
+    if (window->kind != Value::Kind::list || window->items.size() != 2)
+      throw InputError(window->place, "must be two times", "[from, to]");
+    const double from = as_double(window->items[0]), to = as_double(window->items[1]);
+    if (!(from >= 0 && from < to)) throw InputError(window->place, "the window is empty", "0 <= from < to");
+    plan.window = {from, to};
+  }
   return plan;
 }
 

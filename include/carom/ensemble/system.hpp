@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "carom/base/exact_number.hpp"
@@ -36,6 +37,7 @@ struct RunPlan {
   std::uint64_t seed = 1;
   double sample = 0.0;               ///< time between samples (0: none)
   std::vector<double> times;
+  std::optional<std::pair<double, double>> window;  ///< report times that D is taken from
 };
 
 struct System {

@@ -1,0 +1,99 @@
+// Mean square displacement, its growth, and the diffusion coefficient.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "carom/base/exact_sum.hpp"
+
+namespace carom {
+
+/// A number with its standard error; NaN where there is none.
+struct Estimate {
+  double value = 0.0, error = 0.0;
+};
+
+/// Sums of |r(t) - r(0)|^2 and |r(t) - r(0)|^4 at given times. Sums are exact and kept apart by group
+/// of trajectories (index modulo the number of groups), so that neither threads nor the order of
+/// merging change a bit.
+class DisplacementSums {
+ public:
+  /// Enough for an error of 6 % in every standard error.
+  static constexpr std::size_t groups = 128;
+
+  DisplacementSums() = default;
+  /// `times` increase.
+  explicit DisplacementSums(std::vector<double> times);
+
+  /// |r(t_k) - r(0)|^2 of a particle of a trajectory.
+  void add(std::uint64_t trajectory, std::size_t k, double square);
+  void merge(const DisplacementSums& other);
+
+  const std::vector<double>& times() const { return times_; }
+  /// Particles of the group that were there at t_k, and their sums.
+  struct Sum {
+    std::uint64_t count = 0;
+    ExactSum square, fourth;
+  };
+  const Sum& of(std::size_t group, std::size_t k) const { return sums_[group * times_.size() + k]; }
+
+ private:
+  std::vector<double> times_;
+  std::vector<Sum> sums_;
+};
+
+/// Moments of the displacement at a time, over the particles that were there.
+struct MomentPoint {
+  double t = 0.0;
+  std::uint64_t count = 0;
+  Estimate square, fourth;
+  /// d ln MSD / d ln t from the report time before to this one, at their geometric mean; NaN for the
+  /// first and for t = 0.
+  double middle = 0.0;
+  Estimate exponent;
+};
+
+/// Report times t with from <= t <= to.
+struct TimeWindow {
+  double from = 0.0, to = 0.0;
+};
+
+/// What the moments say together. Fits are weighted by the inverse variance of each point; points of one
+/// trajectory are correlated, so errors are not those of the fit but the jackknife's over groups.
+struct DiffusionFit {
+  TimeWindow window;
+  std::size_t points = 0;
+  Estimate D;         ///< quarter of the slope of MSD = 4 D t + c
+  Estimate offset;    ///< c
+  /// a of MSD = A t^a + c: the constant that all diffusion starts with does not count. NaN with fewer than
+  /// four points.
+  Estimate exponent;
+  Estimate local_exponent;  ///< slope of ln MSD against ln t; approaches `exponent` as -c/MSD
+};
+
+class DisplacementMoments {
+ public:
+  explicit DisplacementMoments(const DisplacementSums& sums);
+
+  std::vector<MomentPoint> points() const;
+  /// From the first report time that is at least a tenth of the last one, to the last; from the
+  /// first time > 0 where these are fewer than three.
+  TimeWindow default_window() const;
+  /// None with fewer than two times > 0 in the window, or without any displacement there.
+  std::optional<DiffusionFit> fit(const TimeWindow&) const;
+
+ private:
+  struct Means {
+    std::vector<double> square, fourth;
+  };
+  template <class Statistic>
+  double error_of(Statistic, double whole) const;
+
+  std::vector<double> times_;
+  std::vector<std::uint64_t> counts_;
+  Means whole_;
+  std::vector<Means> without_;  ///< one group left out; empty groups have no entry
+};
+
+}  // namespace carom

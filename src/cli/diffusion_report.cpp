@@ -1,0 +1,187 @@
+#include "cli/diffusion_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/common.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+using Kind = Horizon::Kind;
+
+constexpr std::size_t corridors_in_text = 6, corridors_in_json = 1000;
+
+const char* name_of(Kind kind) {
+  switch (kind) {
+    case Kind::finite: return "finite";
+    case Kind::infinite: return "infinite";
+    case Kind::bounded: return "bounded";
+    case Kind::open_plane: return "open plane";
+    case Kind::unknown: break;
+  }
+  return "unknown";
+}
+
+Json json_of(const Estimate& e) { return Json::object().set("value", e.value).set("stderr", e.error); }
+
+// "0.16993 +- 0.00031": as many digits as the error allows, the error with two.
+std::string with_error(const Estimate& e) {
+  if (!(e.error > 0) || !std::isfinite(e.error)) return fmt::format("{:.6g}", e.value);
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(e.error))), 0, 15);
+  return fmt::format("{:.{}f} +- {:.{}f}", e.value, digits, e.error, digits);
+}
+
+std::string moments_table(const std::vector<MomentPoint>& points) {
+  std::string text =
+      "\n           t           MSD        +-       MSD/4t         <r^4>        +-   local exponent\n";
+  for (const MomentPoint& p : points) {
+    text += fmt::format("{:>12.6g}  {:>12.6g}  {:>8.2g}", p.t, p.square.value, p.square.error);
+    text += p.t > 0 ? fmt::format("  {:>11.6g}", p.square.value / (4 * p.t)) : std::string(13, ' ');
+    text += fmt::format("  {:>12.6g}  {:>8.2g}", p.fourth.value, p.fourth.error);
+    if (std::isfinite(p.exponent.value))
+      text += fmt::format("   {:.4f} +- {:.4f}", p.exponent.value, p.exponent.error);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string horizon_text(const Horizon& horizon) {
+  if (horizon.corridors.list.empty()) return {};
+  const auto& list = horizon.corridors.list;
+  std::string text = fmt::format("\nFree corridors: {}{}\n   along                          width\n", list.size(),
+                                 horizon.corridors.complete ? "" : " found, not all directions looked at");
+  for (std::size_t i = 0; i < std::min(list.size(), corridors_in_text); ++i)
+    text += fmt::format("   [{}, {}] = ({:.6g}, {:.6g}){:>{}}\n", list[i].direction.first,
+                        list[i].direction.second, list[i].along.x, list[i].along.y,
+                        fmt::format("{:.6g}", list[i].width), 12);
+  if (list.size() > corridors_in_text) text += "   ...\n";
+  if (horizon.kind == Kind::infinite)
+    text += fmt::format("t P(no hit until t) -> {:.6g} at speed 1\n", horizon.flight_tail);
+  else
+    text += "The field bends all flights: the corridors end, and D exists.\n";
+  return text;
+}
+
+std::string fit_text(const DiffusionSummary& summary) {
+  std::string text = "\n";
+  const auto& fit = summary.fit;
+  if (!summary.no_D.empty()) text += fmt::format("D does not exist: {}.\n", summary.no_D);
+  if (fit && summary.no_D.empty())
+    text += fmt::format("D = {}   from MSD = 4 D t + c, c = {}\n", with_error(fit->D), with_error(fit->offset));
+  if (summary.horizon.machta_zwanzig)
+    text += fmt::format("    {:.6g} by Machta and Zwanzig, for narrow gaps\n", *summary.horizon.machta_zwanzig);
+  if (fit)
+    text += fmt::format(
+        "exponent a = {}   from MSD = A t^a + c;  slope of ln MSD against ln t {}\n"
+        "window {:.6g} <= t <= {:.6g}, {} times; errors by the jackknife over groups of trajectories\n",
+        with_error(fit->exponent), with_error(fit->local_exponent), fit->window.from, fit->window.to, fit->points);
+  return text;
+}
+
+std::string ends_text(const DiffusionResult& result) {
+  std::string text;
+  const auto add = [&](std::uint64_t number, const char* what) {
+    if (number > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(number), what);
+  };
+  add(result.pinned, "pinned on cyclotron orbits that never hit");
+  add(result.escaped, "escaped");
+  add(result.capped, "ended by the cap on hits");
+  add(result.unbounded, "left all walls behind");
+  add(result.singular, "singular");
+  add(result.lost, "lost: an internal error, please report it");
+  return text.empty() ? text : "\nof the particles: " + text + "\n";
+}
+
+}  // namespace
+
+DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
+  DiffusionSummary summary;
+  summary.horizon = horizon_of(system);
+  summary.no_D = no_diffusion(summary.horizon);
+  const DisplacementMoments moments(result.sums);
+  summary.points = moments.points();
+  const auto& window = system.run.window;
+  summary.fit = moments.fit(window ? TimeWindow{window->first, window->second} : moments.default_window());
+  if (!summary.fit && summary.no_D.empty()) summary.no_D = "fewer than two report times > 0 in the window";
+  return summary;
+}
+
+Json diffusion_json(const System& system, const DiffusionResult& result, const DiffusionSummary& summary,
+                    const std::string& status, const std::string& output) {
+  Json json = Json::object();
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  json.set("status", status);
+  json.set("trajectories", result.trajectories);
+  json.set("survived", result.survived);
+  json.set("pinned", result.pinned);
+  json.set("escaped", result.escaped);
+  json.set("capped", result.capped);
+  json.set("unbounded", result.unbounded);
+  json.set("singular", result.singular);
+  json.set("lost", result.lost);
+  json.set("collisions", result.collisions);
+  json.set("digest", fmt::format("{:016x}", result.digest));
+  Json msd = Json::array(), fourth = Json::array(), local = Json::array(), corridors = Json::array();
+  for (const MomentPoint& p : summary.points) {
+    msd.push(Json::object().set("t", p.t).set("value", p.square.value).set("stderr", p.square.error));
+    fourth.push(Json::object().set("t", p.t).set("value", p.fourth.value).set("stderr", p.fourth.error));
+    if (std::isfinite(p.exponent.value))
+      local.push(
+          Json::object().set("t", p.middle).set("value", p.exponent.value).set("stderr", p.exponent.error));
+  }
+  json.set("msd", std::move(msd));
+  json.set("fourth_moment", std::move(fourth));
+  json.set("D", summary.no_D.empty() ? json_of(summary.fit->D) : Json());
+  if (!summary.no_D.empty()) json.set("reason", summary.no_D);
+  json.set("exponent", summary.fit ? json_of(summary.fit->exponent) : Json());
+  json.set("local_exponent", summary.fit ? json_of(summary.fit->local_exponent) : Json());
+  json.set("local_exponents", std::move(local));
+  if (summary.fit) {
+    json.set("offset", json_of(summary.fit->offset));
+    json.set("window", Json::object()
+                           .set("from", summary.fit->window.from)
+                           .set("to", summary.fit->window.to)
+                           .set("times", summary.fit->points));
+  }
+  const Horizon& horizon = summary.horizon;
+  json.set("horizon", name_of(horizon.kind));
+  for (std::size_t i = 0; i < std::min(horizon.corridors.list.size(), corridors_in_json); ++i) {
+    const geometry::Corridor& c = horizon.corridors.list[i];
+    Json cell = Json::array(), along = Json::array();
+    cell.push(c.direction.first).push(c.direction.second);
+    along.push(c.along.x).push(c.along.y);
+    corridors.push(
+        Json::object().set("direction", std::move(cell)).set("along", std::move(along)).set("width", c.width));
+  }
+  json.set("corridors", std::move(corridors));
+  if (horizon.kind == Kind::infinite) json.set("flight_tail", horizon.flight_tail);
+  if (horizon.machta_zwanzig) json.set("machta_zwanzig", *horizon.machta_zwanzig);
+  if (!output.empty()) json.set("archive", output);
+  return json;
+}
+
+std::string diffusion_text(const System& system, const DiffusionResult& result, const DiffusionSummary& summary,
+                           const std::string& output) {
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}\n", grouped(result.trajectories),
+                      system.run.times.back(), system.run.seed,
+                      result.complete ? "" : "  (interrupted: those that were finished)");
+  text += moments_table(summary.points);
+  text += fit_text(summary);
+  text += horizon_text(summary.horizon);
+  text += ends_text(result);
+  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}: {}hits/s   digest {:016x}\n",
+                      grouped(result.collisions), result.seconds, result.threads,
+                      result.threads == 1 ? "" : "s",
+                      with_prefix(static_cast<double>(result.collisions) / std::max(result.seconds, 1e-9)),
+                      result.digest);
+  if (!output.empty()) text += fmt::format("archive: {}\n", output);
+  return text;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,73 @@
+// carom diffusion as a user sees it.
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+TEST(Diffusion, PrintsItsKeysAndOneDigest) {
+  const Shell shell;
+  const std::string command = "$carom diffusion lorentz-triangular --trajectories 500 --t-max 20 --json";
+  const Outcome one = shell(command + " --threads 1"), two = shell(command + " --threads 2");
+  EXPECT_EQ(one.status, 0) << one.err;
+  EXPECT_TRUE(is_json_object(one.out));
+  for (const char* key :
+       {"version", "seconds", "trajectories", "lost", "collisions", "digest", "msd", "fourth_moment", "D", "exponent",
+        "local_exponents", "window", "horizon", "corridors", "machta_zwanzig"})
+    EXPECT_NE(json_value(one.out, key), "") << key;
+  for (const char* key : {"digest", "msd", "fourth_moment", "D", "exponent"})
+    EXPECT_EQ(json_value(one.out, key), json_value(two.out, key)) << key;
+  EXPECT_EQ(json_value(one.out, "horizon"), "\"finite\"");
+  EXPECT_NE(json_value(one.out, "D").find("stderr"), std::string::npos);
+  EXPECT_TRUE(shell.files().empty());
+}
+
+TEST(Diffusion, SaysWhyThereIsNoCoefficient) {
+  const Shell shell;
+  const Outcome square = shell("$carom diffusion lorentz-square --trajectories 200 --t-max 20 --json");
+  EXPECT_EQ(square.status, 0);
+  EXPECT_EQ(json_value(square.out, "D"), "null");
+  EXPECT_NE(json_value(square.out, "reason").find("infinite horizon"), std::string::npos);
+  EXPECT_NE(json_value(square.out, "corridors").find("width"), std::string::npos);
+  const Outcome text = shell("$carom diffusion lorentz-square --trajectories 200 --t-max 20");
+  EXPECT_NE(text.out.find("D does not exist"), std::string::npos);
+  EXPECT_NE(text.out.find("Free corridors: 2"), std::string::npos);
+  const Outcome closed = shell("$carom diffusion stadium --trajectories 200 --t-max 20 --json");
+  EXPECT_NE(json_value(closed.out, "reason").find("bounded"), std::string::npos);
+  // A field bends the flights.
+  const Outcome bent =
+      shell("$carom diffusion lorentz-square --trajectories 200 --t-max 20 --set field.B=1 --json");
+  EXPECT_NE(json_value(bent.out, "D").find("value"), std::string::npos);
+}
+
+TEST(Diffusion, TakesTheWindowItIsTold) {
+  const Shell shell;
+  const std::string command = "$carom diffusion lorentz-triangular --trajectories 300 --times lin:1:10:10 --json ";
+  const Outcome option = shell(command + "--window 2,5"), key = shell(command + "--set run.window=[2,5]");
+  EXPECT_EQ(option.status, 0) << option.err;
+  EXPECT_NE(json_value(option.out, "window").find("4"), std::string::npos) << "2, 3, 4, 5";
+  EXPECT_EQ(json_value(option.out, "D"), json_value(key.out, "D"));
+  for (const char* bad : {"5,2", "1", "a,b", "-1,3"}) {
+    const Outcome o = shell(command + "--window=" + bad);
+    EXPECT_EQ(o.status, 1) << bad;
+    EXPECT_EQ(o.out, "");
+    EXPECT_NE(o.err.find("run.window"), std::string::npos) << o.err;
+  }
+}
+
+TEST(Diffusion, WritesAnArchiveThatReadsAlike) {
+  const Shell shell;
+  const std::string command = "$carom diffusion lorentz-triangular --trajectories 300 --t-max 10 ";
+  EXPECT_EQ(shell(command + "--threads 1 -o a.h5").status, 0);
+  EXPECT_EQ(shell(command + "--threads 2 -o b.h5").status, 0);
+  EXPECT_EQ(shell(command + "-o a.h5").status, 1) << "exists";
+  const Outcome same = shell("h5diff --exclude-path /provenance a.h5 b.h5 2>&1 || echo differ");
+  if (same.out.find("not found") == std::string::npos) {
+    EXPECT_EQ(same.out, "");
+  }
+  EXPECT_FALSE(shell.exists("a.h5.part"));
+}
+
+}  // namespace
+}  // namespace carom
