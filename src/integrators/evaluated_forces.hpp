@@ -40,6 +40,12 @@ class EvaluatedForces {
     return end.acceleration;
   }
 
+  /// What is known at these positions from the start under way, or nothing.
+  std::span<const Vector> remembered(std::span<const Vector> position) const {
+    if (matches(start_, position)) return start_.acceleration;
+    return {};
+  }
+
  private:
   struct Known {
     std::vector<Vector> position, acceleration;

@@ -1,6 +1,8 @@
 #include "carom/integrators/make_stepper.hpp"
 
 #include "carom/integrators/scheme.hpp"
+#include "integrators/arkode_stepper.hpp"
+#include "integrators/cvode_stepper.hpp"
 #include "integrators/splitting.hpp"
 #include "integrators/spreiter_walter.hpp"
 
@@ -8,12 +10,11 @@ namespace carom {
 
 std::unique_ptr<Stepper<double>> make_stepper(const IntegratorPlan& plan, const ForceLaw<double>& law,
                                               std::span<const double> omega) {
+  check_plan(plan);
+  const double tolerance = plan.tolerance > 0.0 ? plan.tolerance : default_tolerance;
+  if (plan.scheme == "arkode") return std::make_unique<ArkodeStepper>(law, omega, tolerance);
+  if (plan.scheme == "cvode") return std::make_unique<CvodeStepper>(law, omega, tolerance);
   const Scheme& scheme = find_scheme(plan.scheme);
-  if (!(plan.step > 0.0)) {
-    throw InputError({"", 0, 0, "integrator.step"},
-                     "the scheme '" + std::string(scheme.name) + "' needs a step",
-                     "a time > 0; or an adaptive scheme, arkode or cvode, with a tolerance");
-  }
   if (scheme.form == Scheme::Form::spreiter_walter) {
     return std::make_unique<SpreiterWalterStepper<double>>(law, omega);
   }

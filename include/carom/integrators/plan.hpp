@@ -3,13 +3,27 @@
 
 #include <string>
 
+#include "carom/base/error.hpp"
+
 namespace carom {
 
 struct IntegratorPlan {
-  std::string scheme;      ///< a name of schemes(), a magnetic scheme, "arkode" or "cvode"; "": the default
-  double step = 0.0;       ///< > 0: time between two ends of steps; 0: not given
-  double tolerance = 0.0;  ///< > 0: relative tolerance of an adaptive scheme; 0: not given
+  std::string scheme;        ///< a name of schemes(), a magnetic scheme, "arkode" or "cvode"; "": the default
+  double step = 0.0;         ///< > 0: time between two ends of steps; 0: not given
+  double tolerance = 0.0;    ///< > 0: relative tolerance of an adaptive scheme; 0: not given
   bool split_walls = false;  ///< walls = "split": walls inside the drift, for comparison only
 };
+
+inline constexpr double default_tolerance = 1e-12;  ///< of an adaptive scheme
+inline constexpr double least_tolerance = 1e-15;    ///< below, rounding is all the error control sees
+
+/// An InputError at that place if the plan cannot be carried out: unknown scheme, a fixed-step scheme
+/// without step, a tolerance for one.
+void check_plan(const IntegratorPlan& plan, const Place& place = {});
+
+/// A step turns velocities by |omega| h at most. Schemes are stable for any, but accurate only far below a
+/// full turn. Returns a warning above 2 ("" below); an InputError above 1 where there are walls, as the path
+/// within a step is searched for hits.
+std::string check_turn(const IntegratorPlan& plan, double largest_omega, bool walls, const Place& place = {});
 
 }  // namespace carom

@@ -1,0 +1,36 @@
+// Adams' method of variable order and step: CVODE of SUNDIALS.
+#pragma once
+
+#include <span>
+
+#include "integrators/ode_problem.hpp"
+
+namespace carom {
+
+/// One call is one internal step of CVODE, or a part of it: between the ends the path is the polynomial of
+/// the method, which is continuous. A chain of steps goes on with CVODE's memory; any other start begins
+/// anew at order 1, so that this method is for long ways between walls. Parts of steps change nothing.
+class CvodeStepper final : public Stepper<double> {
+ public:
+  CvodeStepper(const ForceLaw<double>& law, std::span<const double> omega, double tolerance);
+  CvodeStepper(const CvodeStepper&) = delete;
+  CvodeStepper& operator=(const CvodeStepper&) = delete;
+  ~CvodeStepper() override;
+
+  double step(const Phase<double>& from, double at_most, Phase<double>& to) override;
+
+ private:
+  void begin(const Phase<double>& from);
+  void advance();
+
+  OdeProblem problem_;
+  void* memory_ = nullptr;
+  void* solver_ = nullptr;
+  Phase<double> start_, end_;
+  double start_time_ = 0.0, end_time_ = 0.0;  ///< since the chain, or its last renewal, began
+  double reached_ = 0.0;                      ///< by the last internal step
+  int steps_ = 0;
+  bool failed_ = false;
+};
+
+}  // namespace carom

@@ -1,0 +1,75 @@
+// The motion of a group as a system of ordinary differential equations for SUNDIALS: the vector is all
+// positions, then all velocities.
+#pragma once
+
+#include <nvector/nvector_serial.h>
+
+#include <exception>
+#include <memory>
+#include <span>
+#include <sundials/sundials_context.hpp>
+#include <type_traits>
+#include <vector>
+
+#include "carom/integrators/stepper.hpp"
+#include "integrators/evaluated_forces.hpp"
+
+namespace carom {
+
+class OdeProblem {
+ public:
+  using Vector = geometry::Vector;
+
+  OdeProblem(const ForceLaw<double>& law, std::span<const double> omega, double tolerance);
+  OdeProblem(const OdeProblem&) = delete;
+  OdeProblem& operator=(const OdeProblem&) = delete;
+
+  SUNContext context() const { return context_; }
+  N_Vector state() const { return state_.get(); }
+
+  /// Sizes of positions and velocities that a relative tolerance refers to.
+  struct Scale {
+    double position = 0.0, velocity = 0.0;
+  };
+  /// Those at the beginning of a chain of steps; along it weights() lets them grow with the motion, and
+  /// they never shrink, so
+  /// that a particle that passes the origin or turns round asks for no more than others.
+  Scale first_scale(const Phase<double>& from);
+  void set_scale(const Scale& scale) { scale_ = scale; }
+  const Scale& scale() const { return scale_; }
+  /// A guess of a step that an error estimate of order p accepts.
+  double first_step(const Phase<double>& from, int order);
+
+  void load(const Phase<double>& phase);
+  /// Takes over the state of SUNDIALS. `ok` false: the motion could not be computed, and all is NaN.
+  void unload(Phase<double>& to, bool ok) const;
+  /// Throws what a force law has thrown inside a callback.
+  void rethrow();
+
+  // What SUNDIALS calls; the last argument is this object.
+  static int derivative(double time, N_Vector y, N_Vector dy, void* self);
+  static int weights(N_Vector y, N_Vector weight, void* self);
+  static void no_message(int, const char*, const char*, char*, void*) {}
+
+ private:
+  struct FreeVector {
+    void operator()(N_Vector v) const { N_VDestroy(v); }
+  };
+  void compute(const double* y, double* dy);
+  double largest_acceleration(const Phase<double>& from);
+
+  sundials::Context context_;
+  const ForceLaw<double>& law_;
+  EvaluatedForces<double> known_;  // at the starts of steps: SUNDIALS asks for these more than once
+  std::vector<double> omega_;
+  double tolerance_;
+  Scale scale_;
+  std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector> state_;
+  std::vector<Vector> position_, acceleration_;
+  std::exception_ptr thrown_;
+};
+
+/// Are the phases the same, bit for bit?
+bool same_bits(const Phase<double>& a, const Phase<double>& b);
+
+}  // namespace carom

@@ -1,0 +1,60 @@
+#include "carom/integrators/plan.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "carom/integrators/scheme.hpp"
+
+namespace carom {
+namespace {
+
+Place key(const Place& section, const char* name) {
+  Place place = section;
+  place.key = section.key.empty() ? name : section.key + "." + name;
+  return place;
+}
+
+std::string shown(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+}  // namespace
+
+void check_plan(const IntegratorPlan& plan, const Place& place) {
+  if (is_adaptive(plan.scheme)) {
+    if (plan.tolerance != 0.0 && !(plan.tolerance >= least_tolerance && plan.tolerance < 1.0)) {
+      throw InputError(key(place, "tolerance"), "a tolerance of " + shown(plan.tolerance) + " cannot be met",
+                       "a number from " + shown(least_tolerance) + " to below 1");
+    }
+    return;
+  }
+  const Scheme& scheme = find_scheme(plan.scheme, key(place, "scheme"));
+  if (plan.tolerance != 0.0) {
+    throw InputError(key(place, "tolerance"),
+                     "the scheme '" + std::string(scheme.name) + "' has fixed steps and takes no tolerance",
+                     "step; or one of the adaptive schemes, arkode or cvode");
+  }
+  if (!(plan.step > 0.0) || !std::isfinite(plan.step)) {
+    throw InputError(
+        key(place, "step"),
+        plan.step == 0.0 ? "the scheme '" + std::string(scheme.name) + "' needs a step"
+                         : "a step of " + shown(plan.step) + " leads nowhere",
+        "a time > 0, such as 1/50 of the shortest period; or scheme = \"arkode\" with a tolerance");
+  }
+}
+
+std::string check_turn(const IntegratorPlan& plan, double largest_omega, bool walls, const Place& place) {
+  const double angle = std::fabs(largest_omega) * plan.step;
+  if (walls && angle > 1.0) {
+    throw InputError(key(place, "step"),
+                     "the magnetic field turns the velocity by " + shown(angle) + " within a step",
+                     "a step of at most " + shown(1.0 / std::fabs(largest_omega)) + " where there are walls");
+  }
+  if (!(angle > 2.0)) return "";
+  return "the magnetic field turns the velocity by " + shown(angle) +
+         " within a step: stable, but hardly accurate; 2 is the most to advise";
+}
+
+}  // namespace carom
