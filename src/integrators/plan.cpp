@@ -23,6 +23,9 @@ std::string shown(double x) {
 }  // namespace
 
 void check_plan(const IntegratorPlan& plan, const Place& place) {
+  if (plan.step != 0.0 && !(plan.step > 0.0 && std::isfinite(plan.step))) {
+    throw InputError(key(place, "step"), "a step of " + shown(plan.step) + " leads nowhere", "a time > 0");
+  }
   if (is_adaptive(plan.scheme)) {
     if (plan.tolerance != 0.0 && !(plan.tolerance >= least_tolerance && plan.tolerance < 1.0)) {
       throw InputError(key(place, "tolerance"), "a tolerance of " + shown(plan.tolerance) + " cannot be met",
@@ -36,12 +39,10 @@ void check_plan(const IntegratorPlan& plan, const Place& place) {
                      "the scheme '" + std::string(scheme.name) + "' has fixed steps and takes no tolerance",
                      "step; or one of the adaptive schemes, arkode or cvode");
   }
-  if (!(plan.step > 0.0) || !std::isfinite(plan.step)) {
+  if (plan.step == 0.0) {
     throw InputError(
-        key(place, "step"),
-        plan.step == 0.0 ? "the scheme '" + std::string(scheme.name) + "' needs a step"
-                         : "a step of " + shown(plan.step) + " leads nowhere",
-        "a time > 0, such as 1/50 of the shortest period; or scheme = \"arkode\" with a tolerance");
+        key(place, "step"), "the scheme '" + std::string(scheme.name) + "' needs a step",
+        "a time > 0, about 1/50 of the shortest period; or scheme = \"arkode\" with a tolerance");
   }
 }
 

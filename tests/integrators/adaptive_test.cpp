@@ -67,7 +67,7 @@ TEST_P(Adaptive, ParallelsOfOneMotionAreAlike) {
   for (const double scale : {1.0, 0x1p-40, 0x1p40}) {
     const Scaled law(scale);
     const std::vector<double> omega{0.0};
-    const auto s = make_stepper({.scheme = GetParam()}, law, omega);
+    const auto s = make_stepper(IntegratorPlan{.scheme = GetParam()}, law, omega);
     Phase<double> phase{{scale * law.law.start.position[0]}, {scale * law.law.start.velocity[0]}}, next;
     for (double t = 0.0; t < 5.0;) {
       t += s->step(phase, 5.0 - t, next);
