@@ -17,7 +17,8 @@ int diffusion(const Options& options) {
   how.threads = threads_of(options);
   SystemOverrides overrides = options.overrides;
   if (!options.window.empty()) overrides.set.emplace_back("run.window", "[" + options.window + "]");
-  const LoadedSystem loaded = load_system(options.system, overrides);
+  LoadedSystem loaded = load_system(options.system, overrides);
+  choose_engine(options.engine, loaded.system);
   const System& system = loaded.system;
 
   std::unique_ptr<DiffusionArchive> archive;

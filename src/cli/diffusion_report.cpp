@@ -73,6 +73,7 @@ std::string fit_text(const DiffusionSummary& summary) {
   if (!summary.no_D.empty()) text += fmt::format("D does not exist: {}.\n", summary.no_D);
   if (fit && summary.no_D.empty())
     text += fmt::format("D = {}   from MSD = 4 D t + c, c = {}\n", with_error(fit->D), with_error(fit->offset));
+  if (!summary.note.empty()) text += fmt::format("    {}\n", summary.note);
   if (summary.horizon.machta_zwanzig)
     text += fmt::format("    {:.6g} by Machta and Zwanzig, for narrow gaps\n", *summary.horizon.machta_zwanzig);
   if (fit)
@@ -107,6 +108,11 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
   summary.points = moments.points();
   const auto& window = system.run.window;
   summary.fit = moments.fit(window ? TimeWindow{window->first, window->second} : moments.default_window());
+  if (summary.fit && summary.no_D.empty()) {
+    const Estimate& a = summary.fit->exponent;
+    if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
+      summary.note = "the MSD does not grow as t in the window: D depends on it";
+  }
   if (!summary.fit && summary.no_D.empty()) summary.no_D = "fewer than two report times > 0 in the window";
   return summary;
 }
@@ -138,6 +144,7 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   json.set("fourth_moment", std::move(fourth));
   json.set("D", summary.no_D.empty() ? json_of(summary.fit->D) : Json());
   if (!summary.no_D.empty()) json.set("reason", summary.no_D);
+  if (!summary.note.empty()) json.set("note", summary.note);
   json.set("exponent", summary.fit ? json_of(summary.fit->exponent) : Json());
   json.set("local_exponent", summary.fit ? json_of(summary.fit->local_exponent) : Json());
   json.set("local_exponents", std::move(local));

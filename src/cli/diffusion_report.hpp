@@ -15,6 +15,7 @@ struct DiffusionSummary {
   std::vector<MomentPoint> points;
   std::optional<DiffusionFit> fit;
   std::string no_D;  ///< why there is no D; "" where there is one
+  std::string note;  ///< a doubt about D, or ""
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     const Options& options = parsed.options;
     if (options.command == "escape") return escape(options);
     if (options.command == "diffusion") return diffusion(options);
+    if (options.command == "section") return section(options);
     if (options.command == "run") return run(options);
     if (options.command == "table") return table(options);
     if (options.command == "validate") return validate(options);

@@ -130,6 +130,17 @@ void define(CLI::App& app, Options& o) {
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .text("--window", o.window, "FROM,TO", "Report times that D and the exponent are taken from");
+  Command(app, o, "section", "Boundary map, or section by a line, a circle or a velocity, of many orbits",
+          "Example: carom section ellipse-magnetic --orbits 20 --points 2000 -o section.h5\n"
+          "WHERE is boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r,\n"
+          "x=c, y=c, vx=c or vy=c. With --points and without --t-max a boundary section has no last time.")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .common()
+      .text("-o,--output", o.output, "FILE.h5", "Write an archive")
+      .text("--on", o.on, "WHERE", "Where the section is taken (default: boundary)")
+      .text("--direction", o.direction, "NAME", "Crossings that count: both, positive or negative")
+      .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
+      .text("--orbits", o.orbits, "N", "Number of orbits (default: the listed starts, else at most 50)");
   Command(app, o, "table", "Checks, measures and draws the table",
           "Example: carom table stadium -o stadium.svg")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -149,7 +160,7 @@ void define(CLI::App& app, Options& o) {
 std::string unknown_word(const std::vector<std::string>& remaining) {
   for (const std::string& word : remaining) {
     if (word.empty() || word[0] == '-') continue;
-    const std::string near = nearest_name(word, {"escape", "run", "diffusion", "table", "systems", "validate"});
+    const std::string near = nearest_name(word, {"escape", "run", "diffusion", "section", "table", "systems", "validate"});
     return "there is no command '" + word + "'" +
            (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   }

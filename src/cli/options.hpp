@@ -14,6 +14,7 @@ struct Options {
   std::string system;   ///< SYSTEM, or NAME of `carom systems`
   bool json = false, force = false, quiet = false, per_trajectory = false, soak = false;
   std::string window;  ///< of carom diffusion
+  std::string on, direction, points, orbits;  ///< of carom section
   std::string output, threads, trajectory, resume, scale;
   std::string engine = "auto", isa = "auto", precision = "double";
   SystemOverrides overrides;

@@ -13,11 +13,12 @@
 namespace carom {
 
 /// Holds at most `window` blocks: a thread that is further ahead waits for the slowest block.
-class BlockOrder {
+template <class Record>
+class OrderedBlocks {
  public:
-  using Sink = std::function<void(const std::vector<TrajectoryRecord>&)>;
+  using Sink = std::function<void(const std::vector<Record>&)>;
 
-  BlockOrder(const Sink& sink, std::uint64_t window) : sink_(sink), window_(window) {}
+  OrderedBlocks(const Sink& sink, std::uint64_t window) : sink_(sink), window_(window) {}
 
   /// Waits until `block` is less than `window` blocks ahead, or until closed.
   void await_turn(std::uint64_t block) {
@@ -25,7 +26,7 @@ class BlockOrder {
     turn_.wait(lock, [&] { return closed_ || block < next_ + window_; });
   }
 
-  void deliver(std::uint64_t block, std::vector<TrajectoryRecord> records) {
+  void deliver(std::uint64_t block, std::vector<Record> records) {
     const std::lock_guard lock(mutex_);
     pending_.emplace(block, std::move(records));
     while (!pending_.empty() && pending_.begin()->first == next_) {
@@ -55,9 +56,11 @@ class BlockOrder {
   const std::uint64_t window_;
   std::mutex mutex_;
   std::condition_variable turn_;
-  std::map<std::uint64_t, std::vector<TrajectoryRecord>> pending_;
+  std::map<std::uint64_t, std::vector<Record>> pending_;
   std::uint64_t next_ = 0;
   bool closed_ = false;
 };
+
+using BlockOrder = OrderedBlocks<TrajectoryRecord>;
 
 }  // namespace carom

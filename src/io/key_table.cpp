@@ -106,6 +106,16 @@ const std::vector<KeyDescription>& key_table() {
       {"run.times", "", "to", "number", "", "the last time, at most t_max"},
       {"run.times", "", "count", "whole number", "31", "number of times, at least 2"},
       {"run.times", "", "spacing", "string", "\"log\"", "log or linear"},
+
+      {"section", "", "on", "string", "\"boundary\"",
+       "where `carom section` looks: boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, "
+       "x=c, y=c, vx=c or vy=c"},
+      {"section", "", "direction", "string", "\"both\"",
+       "crossings that count: both, positive (to the left of a line, out of a circle, growing coordinate) or "
+       "negative"},
+      {"section", "", "points", "whole number", "1000", "most points of an orbit"},
+      {"section", "", "orbits", "whole number", "",
+       "number of orbits; if not given, one for each listed start, else trajectories, but at most 50"},
   };
   return keys;
 }

@@ -19,6 +19,8 @@ std::vector<Particle> read_particles(Value& root);
 InitialCondition read_initial(Value& root, const Table& table, const std::vector<Particle>& particles);
 /// [run].
 RunPlan read_run(Value& root);
+/// [section]; the names of walls are those of the table.
+SectionPlan read_section(Value& root, const Table& table);
 
 /// `count` values from `first` to `last`, both exact, evenly spaced or with even ratios. The bits
 /// are the same everywhere.

@@ -16,7 +16,8 @@ namespace {
 
 using io::Value;
 
-const std::vector<std::string> known_sections{"table", "lattice", "field", "particles", "initial", "run"};
+const std::vector<std::string> known_sections{"table", "lattice", "field", "particles", "initial", "run",
+                                              "section"};
 const std::vector<std::string> later_sections{"potential", "interaction", "integrator"};
 
 bool contains(const std::vector<std::string>& list, const std::string& word) {
@@ -47,7 +48,7 @@ void complete_sections(Value& root) {
   ordered.set("title", root.find("title") != nullptr ? *root.find("title") : title);
   for (const std::string& name : known_sections) {
     const Value* written = root.find(name);
-    if (written == nullptr && (name == "table" || name == "lattice")) continue;
+    if (written == nullptr && (name == "table" || name == "lattice" || name == "section")) continue;
     Value empty;
     empty.place = {root.place.file, 0, 0, name};
     ordered.set(name, written != nullptr ? *written : empty);
@@ -94,6 +95,7 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   system.particles = io::read_particles(root);
   system.initial = io::read_initial(root, *table, system.particles);
   system.run = io::read_run(root);
+  system.section = io::read_section(root, *table);
   system.table = std::move(table);
   loaded.resolved_toml = io::print_document(root);
   return loaded;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "carom/analysis/section.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/events/world.hpp"
 #include "carom/motion/state.hpp"
@@ -48,6 +49,7 @@ struct System {
   Dynamics dynamics;                 ///< [[potential]], [interaction], [integrator]; --engine steps
   InitialCondition initial;
   RunPlan run;
+  SectionPlan section;               ///< what `carom section` takes
 };
 
 }  // namespace carom

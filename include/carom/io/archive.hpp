@@ -8,6 +8,7 @@
 
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/io/system_file.hpp"
 
@@ -69,6 +70,21 @@ class EscapeArchive {
 
   void append(const std::vector<TrajectoryRecord>&);
   void finish(const EscapeResult&, const std::string& status);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// The points of a section, orbit after orbit; written like an EscapeArchive.
+class SectionArchive {
+ public:
+  SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force);
+  SectionArchive(const SectionArchive&) = delete;
+  ~SectionArchive();
+
+  void append(const std::vector<SectionPoint>&);
+  void finish(const SectionResult&, const std::string& status);
 
  private:
   class Implementation;

@@ -1,0 +1,43 @@
+// Sections of many orbits.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "carom/analysis/section.hpp"
+#include "carom/ensemble/system.hpp"
+
+namespace carom {
+
+struct SectionOptions {
+  int threads = 0;  ///< 0: as many as OpenMP gives
+  DecisionOptions decisions;
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(std::uint64_t orbits, std::uint64_t points)> progress;
+  /// If set, receives the points, orbit after orbit (one thread at a time).
+  std::function<void(const std::vector<SectionPoint>&)> points;
+};
+
+struct SectionResult {
+  std::uint64_t orbits = 0;      ///< trajectories that were followed to their end
+  std::uint64_t points = 0, collisions = 0;
+  std::uint64_t incomplete = 0;  ///< particles that met the section less often than asked for
+  std::uint64_t pinned = 0, escaped = 0, capped = 0, singular = 0, unbounded = 0, lost = 0;
+  std::uint64_t digest = 0;      ///< sum of a hash of each particle's points
+  bool complete = true;
+  double seconds = 0, cpu_seconds = 0;
+  int threads = 1;
+  std::vector<std::string> reports;  ///< first few states that were lost
+};
+
+/// How many trajectories System::section stands for.
+std::uint64_t section_orbits(const System&);
+
+/// Follows trajectories 0 … section_orbits - 1 until each has its points, or until t_max. The same points
+/// on any number of threads.
+SectionResult run_section(const System&, const SectionOptions& = {});
+
+}  // namespace carom

@@ -1,0 +1,147 @@
+// carom section: where orbits meet the walls, a line, a circle or a condition on the velocity.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "carom/ensemble/section_run.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "cli/commands.hpp"
+#include "cli/common.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+constexpr std::size_t orbits_shown = 12;
+
+// A line of the printed table.
+struct OrbitLine {
+  std::uint64_t orbit = 0, points = 0;
+  double from = 0, to = 0, last_time = 0;
+};
+
+void add(std::vector<OrbitLine>& lines, const std::vector<SectionPoint>& points) {
+  for (const SectionPoint& p : points) {
+    if (lines.empty() || lines.back().orbit != p.orbit) {
+      if (lines.size() == orbits_shown) return;
+      lines.push_back({p.orbit, 0, p.v_parallel, p.v_parallel, 0});
+    }
+    OrbitLine& line = lines.back();
+    ++line.points;
+    line.from = std::min(line.from, p.v_parallel);
+    line.to = std::max(line.to, p.v_parallel);
+    line.last_time = p.t;
+  }
+}
+
+SystemOverrides section_overrides(const Options& options) {
+  SystemOverrides overrides = options.overrides;
+  const std::pair<const char*, const std::string*> keys[] = {{"section.on", &options.on},
+                                                             {"section.direction", &options.direction},
+                                                             {"section.points", &options.points},
+                                                             {"section.orbits", &options.orbits}};
+  for (const auto& [key, text] : keys)
+    if (!text->empty()) overrides.set.emplace_back(key, *text);
+  // Every hit is a point: orbits that are asked for a number of points have no last time.
+  const bool boundary = options.on.empty() || options.on == "boundary";
+  if (boundary && !options.points.empty() && overrides.t_max.empty())
+    overrides.t_max = fmt::format("{}", no_last_time);
+  return overrides;
+}
+
+Json section_json(const System& system, const SectionResult& result, const std::string& status,
+                  const std::string& output) {
+  Json json = Json::object();
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  json.set("status", status);
+  json.set("points", result.points);
+  json.set("orbits", result.orbits);
+  json.set("incomplete", result.incomplete);
+  json.set("pinned", result.pinned);
+  json.set("escaped", result.escaped);
+  json.set("capped", result.capped);
+  json.set("singular", result.singular);
+  json.set("unbounded", result.unbounded);
+  json.set("lost", result.lost);
+  json.set("collisions", result.collisions);
+  json.set("digest", fmt::format("{:016x}", result.digest));
+  if (!output.empty()) json.set("archive", output);
+  return json;
+}
+
+std::string section_text(const System& system, const SectionResult& result, const std::vector<OrbitLine>& lines,
+                         const std::string& output) {
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text += fmt::format("{} points of {} orbit{}{}\n", grouped(result.points), grouped(result.orbits),
+                      result.orbits == 1 ? "" : "s",
+                      result.complete ? "" : "  (interrupted: those that were finished)");
+  if (!lines.empty()) text += "\n   orbit       points     last time   v_parallel\n";
+  for (const OrbitLine& line : lines)
+    text += fmt::format("{:>8}  {:>11}  {:>12.6g}   {:+.4f} .. {:+.4f}\n", line.orbit, grouped(line.points),
+                        line.last_time, line.from, line.to);
+  if (result.orbits > lines.size() && !lines.empty()) text += "     ...\n";
+  std::string ends;
+  const auto end = [&](std::uint64_t number, const char* what) {
+    if (number > 0) ends += fmt::format("{}{} {}", ends.empty() ? "" : ", ", grouped(number), what);
+  };
+  end(result.pinned, "pinned");
+  end(result.escaped, "escaped");
+  end(result.capped, "ended by the cap on hits");
+  end(result.unbounded, "left all walls behind");
+  end(result.singular, "singular");
+  end(result.lost, "lost: an internal error, please report it");
+  if (result.incomplete > 0)
+    text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n", grouped(result.incomplete),
+                        grouped(system.section.points), system.run.t_max, ends.empty() ? "" : " (" + ends + ")");
+  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}   digest {:016x}\n", grouped(result.collisions),
+                      result.seconds, result.threads, result.threads == 1 ? "" : "s", result.digest);
+  text += output.empty() ? "-o FILE.h5 stores the points\n" : fmt::format("archive: {}\n", output);
+  return text;
+}
+
+}  // namespace
+
+int section(const Options& options) {
+  check_engine(options);
+  SectionOptions how;
+  how.threads = threads_of(options);
+  LoadedSystem loaded = load_system(options.system, section_overrides(options));
+  choose_engine(options.engine, loaded.system);
+  const System& system = loaded.system;
+
+  std::unique_ptr<SectionArchive> archive;
+  if (!options.output.empty())
+    archive = std::make_unique<SectionArchive>(options.output, loaded, provenance_of(options, system, how.threads),
+                                               options.force);
+  std::vector<OrbitLine> lines;
+  how.points = [&](const std::vector<SectionPoint>& points) {
+    if (archive) archive->append(points);
+    add(lines, points);
+  };
+  how.interrupted = &catch_interrupts();
+  SectionResult result;
+  {
+    Progress progress(!options.quiet);
+    const double all = static_cast<double>(section_orbits(system));
+    if (progress.enabled())
+      how.progress = [&](std::uint64_t orbits, std::uint64_t points) {
+        if (progress.due())
+          progress.show(static_cast<double>(orbits) / all,
+                        with_prefix(static_cast<double>(points) / progress.seconds()) + "points/s");
+      };
+    result = run_section(system, how);
+  }
+  const std::string status = result.complete ? "completed" : "interrupted";
+  if (archive) archive->finish(result, status);
+  for (const std::string& report : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
+  print(options.json ? section_json(system, result, status, options.output).text() + "\n"
+                     : section_text(system, result, lines, options.output));
+  if (result.lost > 0) return lost;
+  return result.complete ? done : stopped;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,67 @@
+// carom section as a user sees it.
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+TEST(Section, PrintsItsKeysAndStoresItsPoints) {
+  const Shell shell;
+  const std::string command = "$carom section ellipse-magnetic --orbits 5 --points 100 --json ";
+  const Outcome o = shell(command + "--threads 1 -o a.h5");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_TRUE(is_json_object(o.out));
+  EXPECT_EQ(json_value(o.out, "points"), "500");
+  EXPECT_EQ(json_value(o.out, "orbits"), "5");
+  for (const char* key : {"version", "seconds", "digest", "incomplete", "lost", "archive"})
+    EXPECT_NE(json_value(o.out, key), "") << key;
+  const Outcome two = shell(command + "--threads 2 -o b.h5");
+  EXPECT_EQ(json_value(o.out, "digest"), json_value(two.out, "digest"));
+  const Outcome same = shell("h5diff --exclude-path /provenance a.h5 b.h5 2>&1 || echo differ");
+  if (same.out.find("not found") == std::string::npos) {
+    EXPECT_EQ(same.out, "");
+  }
+}
+
+TEST(Section, TakesListsAndGridsOfStarts) {
+  const Shell shell;
+  const std::string command =
+      "$carom section ellipse-magnetic --points 20 --json --set initial.kind=birkhoff --set initial.wall=ellipse "
+      "--set 'initial.s={from=0.1, to=4, count=3}' ";
+  EXPECT_EQ(json_value(shell(command + "--set 'initial.v_parallel=[0.1,0.5]'").out, "points"), "120");
+  EXPECT_EQ(json_value(shell(command + "--set initial.v_parallel=0").out, "points"), "60");
+}
+
+TEST(Section, ReadsEveryForm) {
+  const Shell shell;
+  for (const char* on : {"boundary", "wall:ellipse", "line:0,0:1,1/3", "segment:-1/2,0:1/2,0", "circle:0,0,1/2",
+                         "x=1/10", "y=0", "vx=0", "vy=sqrt(2)/4"}) {
+    const Outcome o = shell("$carom section ellipse-magnetic --orbits 3 --t-max 50 --json --on '" + std::string(on) + "'");
+    EXPECT_EQ(o.status, 0) << on << o.err;
+    EXPECT_NE(json_value(o.out, "points"), "0") << on;
+  }
+  for (const char* on : {"wall:circle", "line:0,0", "line:0,0:0,0", "circle:0,0", "circle:0,0,-1", "z=1", "x=",
+                         "x=a", "", "nowhere"}) {
+    const Outcome o = shell("$carom section ellipse-magnetic --on '" + std::string(on) + "'");
+    EXPECT_NE(o.status, 0) << on;
+    EXPECT_EQ(o.out, "") << on;
+    EXPECT_NE(o.err, "");
+  }
+  const Outcome direction = shell("$carom section ellipse-magnetic --direction positive");
+  EXPECT_EQ(direction.status, 1);
+  EXPECT_NE(direction.err.find("section.direction"), std::string::npos) << direction.err;
+}
+
+TEST(Section, ComesFromTheFileToo) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom systems ellipse-magnetic > a.toml; printf '[section]\\non = \"y=0\"\\npoints = 10\\norbits = 4\\n' >> a.toml; "
+      "$carom section a.toml --json");
+  EXPECT_EQ(json_value(o.out, "points"), "40") << o.err;
+  const Outcome text = shell("$carom section a.toml");
+  EXPECT_NE(text.out.find("40 points of 4 orbits"), std::string::npos) << text.out;
+}
+
+}  // namespace
+}  // namespace carom

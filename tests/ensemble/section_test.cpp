@@ -1,0 +1,221 @@
+#include "carom/ensemble/section_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "systems.hpp"
+
+namespace carom {
+namespace {
+
+constexpr const char* ellipse = "[table]\nshape = \"ellipse\"\na = 1\nb = 0.75\n";
+constexpr const char* circle = "[table]\nshape = \"circle\"\nradius = 1\n";
+
+System with_section(const std::string& toml, const std::string& section, double t_max = 100,
+                    std::uint64_t trajectories = 20) {
+  System system = make_system(toml + "[section]\n" + section + "\n");
+  system.run.t_max = t_max;
+  system.run.trajectories = trajectories;
+  return system;
+}
+
+std::vector<SectionPoint> points_of(const System& system, int threads = 2) {
+  std::vector<SectionPoint> points;
+  SectionOptions options;
+  options.threads = threads;
+  options.points = [&](const std::vector<SectionPoint>& more) { points.insert(points.end(), more.begin(), more.end()); };
+  const SectionResult result = run_section(system, options);
+  EXPECT_TRUE(result.complete);
+  EXPECT_EQ(result.points, points.size());
+  EXPECT_EQ(result.lost, 0u);
+  return points;
+}
+
+TEST(Section, IsTheSameOnAnyNumberOfThreads) {
+  for (const char* on : {"on = \"boundary\"", "on = \"circle:0.1,0.2,0.5\"", "on = \"vy=0.25\""}) {
+    const System system = with_section(std::string(ellipse) + "[field]\nB = 0.5\n", on);
+    SectionOptions options;
+    options.threads = 1;
+    const SectionResult one = run_section(system, options);
+    EXPECT_GT(one.points, 200u);
+    options.threads = 4;
+    const SectionResult four = run_section(system, options);
+    EXPECT_EQ(one.digest, four.digest);
+    EXPECT_EQ(one.points, four.points);
+    const auto points = points_of(system, 3);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const bool next = points[i].orbit == points[i - 1].orbit && points[i].index == points[i - 1].index + 1 &&
+                        points[i].t >= points[i - 1].t;
+      const bool first = points[i].orbit > points[i - 1].orbit && points[i].index == 0;
+      EXPECT_TRUE(next || first);
+    }
+  }
+}
+
+class Hits : public Observer {
+ public:
+  void hit(const HitEvent& event) override { events.push_back(event); }
+  std::vector<HitEvent> events;
+};
+
+TEST(Section, OfTheBoundaryIsTheStartAndEveryHit) {
+  System system = with_section(
+      std::string(ellipse) +
+          "[initial]\nkind = \"birkhoff\"\nwall = \"ellipse\"\ns = [0.5, 1, 2]\nv_parallel = [0.1, -0.3, 0.9]\n",
+      "points = 50", 1e300);
+  const auto points = points_of(system);
+  ASSERT_EQ(points.size(), 150u) << "three listed starts";
+  EXPECT_NEAR(points[50].s, 1.0, 1e-12);
+  EXPECT_NEAR(points[50].v_parallel, -0.3, 1e-12);
+  EXPECT_EQ(points[50].t, 0.0);
+  World world(*system.table);
+  Hits hits;
+  add_start(world, Sampler(system), 1, 0);
+  world.limit_hits(49);
+  world.run_until(1e300, hits);
+  ASSERT_EQ(hits.events.size(), 49u);
+  for (std::size_t k = 0; k < 49; ++k) {
+    EXPECT_EQ(points[51 + k].t, hits.events[k].time.value());
+    EXPECT_EQ(points[51 + k].vx, hits.events[k].after.x);
+  }
+}
+
+TEST(Section, OfOneWallSkipsTheOthers) {
+  const char* square = "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n";
+  const auto all = points_of(with_section(square, "points = 200"));
+  const auto top = points_of(with_section(square, "on = \"wall:top\"\npoints = 200"));
+  std::size_t expected = 0;
+  for (const SectionPoint& p : all) expected += p.wall == 2;
+  EXPECT_EQ(top.size(), expected) << "both until t = 100";
+  for (const SectionPoint& p : top) EXPECT_EQ(p.wall, 2);
+}
+
+// Angular momenta about the foci: their product is a constant of the ellipse; in the circle with a field the
+// tangential velocity at the wall is one.
+TEST(Section, KeepsTheInvariantsOfIntegrableTables) {
+  const double focus = std::sqrt(1 - 0.5625);
+  for (const char* on : {"on = \"boundary\"", "on = \"y=0\"", "on = \"line:-1,0.3:1,-0.2\"", "on = \"circle:0,0,0.4\""}) {
+    double first = 0;
+    for (const SectionPoint& p : points_of(with_section(ellipse, on))) {
+      const double left = (p.x + focus) * p.vy - p.y * p.vx, right = (p.x - focus) * p.vy - p.y * p.vx;
+      if (p.index == 0) first = left * right;
+      EXPECT_NEAR(left * right, first, 1e-12);
+    }
+  }
+  double first = 0;
+  for (const SectionPoint& p : points_of(with_section(std::string(circle) + "[field]\nB = 0.8\n", "points = 100"))) {
+    if (p.index == 0) first = p.v_parallel;
+    EXPECT_NEAR(p.v_parallel, first, 1e-12);
+  }
+}
+
+// Samples so dense that no pair of crossings fits between two of them, or nearly none.
+class Samples : public Observer {
+ public:
+  explicit Samples(const Surface& surface) : surface_(surface) {}
+  void sample(int, Time, const State& state) override {
+    const bool now = surface_function(surface_, state.position, state.velocity) > 0;
+    if (seen_ && now != side_) ++changes[now ? 1 : 0];
+    side_ = now;
+    seen_ = true;
+  }
+  int changes[2] = {0, 0};
+
+ private:
+  const Surface& surface_;
+  bool side_ = false, seen_ = false;
+};
+
+TEST(Section, CountsWhatDenseSamplesSee) {
+  for (const char* field : {"", "[field]\nlarmor_radius = 0.3\n", "[field]\nB = -1\n"}) {
+    for (const char* on : {"on = \"x=1/5\"", "on = \"circle:0.1,0,0.3\"", "on = \"line:-1,-1:1,0.5\""}) {
+      const System system = with_section(std::string(ellipse) + field, on, 40, 10);
+      std::vector<int> up(10), down(10);
+      for (const SectionPoint& p : points_of(system)) ++(p.direction > 0 ? up : down)[p.orbit];
+      const Sampler sampler(system);
+      int differ = 0, all = 0;
+      for (std::uint64_t orbit = 0; orbit < 10; ++orbit) {
+        World world(*system.table);
+        Samples samples(system.section.surface);
+        add_start(world, sampler, orbit, 0);
+        world.sample_every(1e-3);
+        world.run_until(40, samples);
+        const std::size_t i = orbit;
+        differ += std::abs(samples.changes[1] - up[i]) + std::abs(samples.changes[0] - down[i]);
+        all += up[i] + down[i];
+        EXPECT_LE(std::abs(up[i] - down[i]), 1) << "they alternate, over reflections too";
+      }
+      EXPECT_GT(all, 50);
+      EXPECT_LE(differ, all / 50) << on << field;
+    }
+  }
+}
+
+TEST(Section, DirectionsAreParts) {
+  const auto both = points_of(with_section(ellipse, "on = \"x=0\""));
+  const auto positive = points_of(with_section(ellipse, "on = \"x=0\"\ndirection = \"positive\""));
+  const auto negative = points_of(with_section(ellipse, "on = \"x=0\"\ndirection = \"negative\""));
+  EXPECT_EQ(both.size(), positive.size() + negative.size());
+  EXPECT_GT(negative.size(), 100u);
+  for (const SectionPoint& p : positive) EXPECT_GT(p.vx, 0);
+  for (const SectionPoint& p : negative) EXPECT_LT(p.vx, 0);
+}
+
+// Backwards in time, with the field turned round, an orbit meets the section at the same points.
+TEST(Section, IsReversible) {
+  const char* start = "[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nvelocity = [0.8, 0.6]\n[section]\non = \"x=0\"\n";
+  System there = make_system(std::string(ellipse) + "[field]\nB = 0.7\n" + start);
+  there.run.t_max = 40;
+  System back = make_system(std::string(ellipse) + "[field]\nB = -0.7\n" + start);
+  back.run.t_max = 40;
+  World world(*there.table);
+  Observer nothing;
+  add_start(world, Sampler(there), 0, 0);
+  world.run_until(40, nothing);
+  const State end = world.state_at(0, Time(40));
+  back.initial.position = end.position;
+  back.initial.velocity = -end.velocity;
+  const auto a = points_of(there), b = points_of(back);
+  ASSERT_GT(a.size(), 10u);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const SectionPoint& p = b[b.size() - 1 - k];
+    EXPECT_NEAR(a[k].t, 40 - p.t, 1e-9);
+    EXPECT_NEAR(a[k].y, p.y, 1e-9);
+    EXPECT_EQ(a[k].direction, -p.direction);
+  }
+}
+
+TEST(Section, CountsEveryTurnOfAPinnedOrbit) {
+  System system = with_section(std::string(circle) + "[field]\nlarmor_radius = 0.25\n[initial]\nkind = \"point\"\n"
+                                                     "position = [0, 0.25]\nvelocity = [1, 0]\n",
+                               "on = \"y=0.1\"\npoints = 100000", 3.14159265358979 * 0.5 * 1000);
+  const SectionResult result = run_section(system);
+  EXPECT_EQ(result.pinned, 1u);
+  EXPECT_EQ(result.points, 2000u) << "two a turn, a thousand turns";
+  system.section.points = 7;
+  EXPECT_EQ(run_section(system).points, 7u);
+}
+
+TEST(Section, GoesOnBehindTheLastWall) {
+  const System system = with_section("[table]\nshape = \"discs\"\ncenters = [[0, 0]]\nradius = 1\n[initial]\n"
+                                     "kind = \"point\"\nposition = [-3, 0]\nvelocity = [1, 0]\n",
+                                     "on = \"x=-5\"", 100);
+  const auto points = points_of(system);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].t, 6.0, 1e-12);
+}
+
+TEST(Section, ErrorsLeaveTheThreads) {
+  System system = with_section(ellipse, "on = \"x=0\"");
+  SectionOptions options;
+  options.threads = 3;
+  options.points = [](const std::vector<SectionPoint>&) { throw InputError("the disk is full"); };
+  EXPECT_THROW(run_section(system, options), InputError);
+}
+
+}  // namespace
+}  // namespace carom
