@@ -2,7 +2,7 @@
 
 namespace carom {
 
-const Scheme& default_scheme() { return find_scheme("blanes-moan-srkn14a"); }
+const Scheme& default_scheme() { return find_scheme("blanes-moan-srkn11b"); }
 
 bool is_adaptive(std::string_view name) { return name == "arkode" || name == "cvode"; }
 
