@@ -46,6 +46,8 @@ SystemOverrides section_overrides(const Options& options) {
                                                              {"section.orbits", &options.orbits}};
   for (const auto& [key, text] : keys)
     if (!text->empty()) overrides.set.emplace_back(key, *text);
+  if (options.orbits.empty() && !overrides.trajectories.empty())
+    overrides.set.emplace_back("section.orbits", overrides.trajectories);
   // Every hit is a point: orbits that are asked for a number of points have no last time.
   const bool boundary = options.on.empty() || options.on == "boundary";
   if (boundary && !options.points.empty() && overrides.t_max.empty())

@@ -35,19 +35,19 @@ Horizon horizon_of(const System& system) {
   const Table& table = *system.table;
   const bool bent = std::all_of(system.particles.begin(), system.particles.end(),
                                 [](const Particle& p) { return p.omega != 0.0; });
+  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
   switch (table.extent) {
     case Extent::bounded:
       horizon.kind = Horizon::Kind::bounded;
       return horizon;
     case Extent::open_plane:
-      horizon.kind = bent ? Horizon::Kind::unknown : Horizon::Kind::open_plane;
+      horizon.kind = bent || forces ? Horizon::Kind::unknown : Horizon::Kind::open_plane;
       return horizon;
     case Extent::lattice: break;
   }
   std::vector<geometry::Curve> curves;
   for (const Wall& wall : table.walls) curves.push_back(wall.curve);
   horizon.corridors = geometry::free_corridors(*table.lattice, curves);
-  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
   if (forces || !horizon.corridors.decided) return horizon;
   const bool open = !horizon.corridors.list.empty() && !bent;
   horizon.kind = open ? Horizon::Kind::infinite : Horizon::Kind::finite;

@@ -138,6 +138,7 @@ Sampler::Sampler(const System& system) : system_(system) {
       break;
     case Kind::point:
     case Kind::rectangle:
+    case Kind::list:
     case Kind::line:
       break;
   }
@@ -167,7 +168,11 @@ State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) 
     case Kind::line:
       return on_line(world, random, speed);
     case Kind::point:
-      return at_point(world, speed);
+      return at_point(world, initial.position, initial.velocity, speed);
+    case Kind::list: {
+      const auto i = static_cast<std::size_t>(trajectory % initial.positions.size());
+      return at_point(world, initial.positions[i], initial.velocities[i], speed);
+    }
     case Kind::boundary:
     case Kind::hole:
       return cosine_law(random, speed);
@@ -211,17 +216,16 @@ State Sampler::on_line(const World& world, RandomStream& random, double speed) c
                    "a line that crosses the table");
 }
 
-State Sampler::at_point(const World& world, double speed) const {
+State Sampler::at_point(const World& world, Vector position, Vector given, double speed) const {
   const InitialCondition& initial = system_.initial;
-  const Vector given = initial.velocity;
   if (given.x == 0.0 && given.y == 0.0) throw impossible(initial, "the velocity is zero");
   // A velocity that already has the speed is taken as it is, digit for digit.
   const Vector velocity = std::sqrt(dot(given, given)) == speed ? given : speed * unit(given);
-  const State state = off_walls(*system_.table, initial.position, velocity);
+  const State state = off_walls(*system_.table, position, velocity);
   if (!world.contains(state.position))
     throw impossible(
         initial,
-        fmt::format("the start ({}, {}) is not inside the table", initial.position.x, initial.position.y),
+        fmt::format("the start ({}, {}) is not inside the table", position.x, position.y),
         "a point inside, off the walls; kind = \"birkhoff\" starts on a wall");
   return state;
 }

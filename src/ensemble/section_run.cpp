@@ -153,6 +153,7 @@ std::uint64_t section_orbits(const System& system) {
   if (system.section.orbits > 0) return system.section.orbits;
   switch (system.initial.kind) {
     case InitialCondition::Kind::birkhoff: return std::max<std::uint64_t>(1, system.initial.s.size());
+    case InitialCondition::Kind::list: return std::max<std::uint64_t>(1, system.initial.positions.size());
     case InitialCondition::Kind::point: return 1;
     default: return std::min(system.run.trajectories, default_orbits);
   }

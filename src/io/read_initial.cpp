@@ -15,7 +15,7 @@ const std::vector<std::pair<std::string, Kind>>& kinds() {
   static const std::vector<std::pair<std::string, Kind>> list{
       {"uniform", Kind::uniform}, {"boundary", Kind::boundary}, {"hole", Kind::hole},
       {"point", Kind::point},     {"birkhoff", Kind::birkhoff}, {"rectangle", Kind::rectangle},
-      {"line", Kind::line}};
+      {"line", Kind::line},       {"list", Kind::list}};
   return list;
 }
 
@@ -129,6 +129,20 @@ void read_point(Section& section, InitialCondition& initial) {
   }
 }
 
+void read_list(Section& section, InitialCondition& initial) {
+  const Value& starts = section.get("starts");
+  initial.place = starts.place;
+  for (const Value& row : as_list(starts).items) {
+    const std::vector<ExactNumber> numbers = as_numbers(row);
+    if (numbers.size() != 4) throw InputError(row.place, "a start has four numbers", "[x, y, vx, vy]");
+    initial.positions.push_back({numbers[0].to_double(), numbers[1].to_double()});
+    initial.velocities.push_back({numbers[2].to_double(), numbers[3].to_double()});
+    if (initial.velocities.back() == geometry::Vector{0, 0})
+      throw InputError(row.place, "the velocity is zero", "a velocity that is not zero");
+  }
+  if (initial.positions.empty()) throw InputError(starts.place, "the list is empty", "at least one start");
+}
+
 void read_rectangle(Section& section, InitialCondition& initial) {
   const Value& min = section.get("min");
   initial.low = as_vector(min);
@@ -146,7 +160,7 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
   const Value* written = value.find("kind");
   if (written != nullptr && (written->text == "file" || written->text == "sobol")) {
     throw InputError(written->place, "the kind '" + written->text + "' is not in this version",
-                     "uniform, boundary, hole, point, birkhoff, rectangle or line");
+                     "uniform, boundary, hole, point, birkhoff, rectangle, line or list");
   }
   std::vector<std::string> names;
   for (const auto& [name, kind] : kinds()) names.push_back(name);
@@ -178,6 +192,9 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
       break;
     case Kind::birkhoff:
       read_birkhoff(section, table, particles, initial);
+      break;
+    case Kind::list:
+      read_list(section, initial);
       break;
     case Kind::rectangle:
       read_rectangle(section, initial);

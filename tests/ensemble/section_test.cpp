@@ -83,6 +83,25 @@ TEST(Section, OfTheBoundaryIsTheStartAndEveryHit) {
   }
 }
 
+TEST(Section, TakesAListOfStarts) {
+  const System system = with_section(std::string(ellipse) + "[initial]\nkind = \"list\"\nstarts = "
+                                                            "[[0.1, 0.2, 1, -1], [0, \"1/4\", 0, -3]]\n",
+                                     "on = \"y=0\"", 10);
+  const auto points = points_of(system);
+  ASSERT_GT(points.size(), 8u);
+  EXPECT_EQ(points.front().orbit, 0u);
+  EXPECT_NEAR(points.front().x, 0.3, 1e-15);
+  EXPECT_EQ(points.back().orbit, 1u);
+  for (const SectionPoint& p : points) {
+    if (p.orbit == 0) continue;
+    EXPECT_EQ(p.x, 0.0);
+    EXPECT_EQ(std::abs(p.vy), 1.0) << "the speed is that of [particles]";
+    if (p.index == 0) {
+      EXPECT_EQ(p.t, 0.25);
+    }
+  }
+}
+
 TEST(Section, OfOneWallSkipsTheOthers) {
   const char* square = "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n";
   const auto all = points_of(with_section(square, "points = 200"));

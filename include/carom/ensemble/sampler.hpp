@@ -21,6 +21,7 @@ class RandomStream;
 ///   hole       cosine law over the opening of one hole or all
 ///   birkhoff   given arc length and tangential velocity
 ///   point      given position and velocity
+///   list       the same, one of a list for each trajectory
 class Sampler {
  public:
   explicit Sampler(const System&);  ///< refers to the system
@@ -42,7 +43,7 @@ class Sampler {
   State in_box(const World&, RandomStream&, geometry::Vector low, geometry::Vector high, double speed,
                const char* where) const;
   State on_line(const World&, RandomStream&, double speed) const;
-  State at_point(const World&, double speed) const;
+  State at_point(const World&, geometry::Vector position, geometry::Vector velocity, double speed) const;
   State cosine_law(RandomStream&, double speed) const;
   State birkhoff(std::uint64_t trajectory, double speed) const;
   /// `tangential` and `normal` give the direction against the wall, in any unit.

@@ -18,7 +18,7 @@ namespace carom {
 
 /// How initial states are chosen (CONTRACT §1, [initial]).
 struct InitialCondition {
-  enum class Kind { uniform, boundary, hole, point, birkhoff, rectangle, line } kind = Kind::uniform;
+  enum class Kind { uniform, boundary, hole, point, birkhoff, rectangle, line, list } kind = Kind::uniform;
   int wall = -1;                     ///< boundary, birkhoff
   int hole = -1;                     ///< boundary, hole
   geometry::Vector position;         ///< point
@@ -27,6 +27,7 @@ struct InitialCondition {
   geometry::Vector from, to;         ///< line
   double angle = 0.0;                ///< line: direction of flight against +x
   std::vector<double> s, v_parallel; ///< birkhoff: trajectory i starts at the i-th pair (cyclic)
+  std::vector<geometry::Vector> positions, velocities;  ///< list: of trajectory i (cyclic)
   Place place;                       ///< where it is written, for messages about impossible starts
 };
 
