@@ -34,6 +34,7 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     // parameter: the same s, its product with 1/length (4u), taken times the length again.
     point_error = 48.0 * unit_roundoff * extent;
     normal_error = 4.0 * unit_roundoff;
+    normal_bound = 1.42 * normal_error;  // of a unit vector
     parameter_stretch = 1.42 * inverse_length;
     return;
   }
@@ -78,11 +79,14 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     point_error = (1.0 + 2.0 * k) * placed + u * size * (16.0 * k + 35.0);
     // The normal is e itself: it differs from the exact one by the angle between e and u.
     normal_error = 1.43 * (2.0 * row * placed + u * (16.0 * k + 14.0));
+    normal_bound = normal_error * 1.43 * std::sqrt(r2);
   } else {
     point_error = (1.0 + 2.0 * k) * placed + u * size * (61.0 * k + 20.0);
     // The gradient is the transposed map of (X, Y): relative to its length an error of (X, Y) grows by at most
     // 2 row times sqrt(2) size; its own products add 12u k + 6u.
     normal_error = 2.85 * k * (2.0 * row * placed + u * (28.0 * k + 18.0));
+    // The gradient has the rows as weights of X and Y, which lie on the unit circle.
+    normal_bound = normal_error * 1.01 * (norm_1(first_axis) + norm_1(second_axis));
   }
 }
 

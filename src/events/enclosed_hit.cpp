@@ -1,5 +1,6 @@
-// Straight flights in a convex enclosure (a convex table, or the cell of a lattice) that holds nothing but
-// discs: the frequent case, in which signs alone name the wall.
+// Convex enclosures: a convex table, or the cell of a lattice, that holds nothing but discs. Here: which they
+// are, and straight flights among discs.
+#include <algorithm>
 #include <cmath>
 
 #include "events/crossing.hpp"
@@ -48,6 +49,21 @@ void HitFinder::find_enclosure(bool complement) {
       const double gap = geometry::cross(e.tangent, w.centre - e.from) - std::sqrt(w.r2);
       discs_within_ &= gap > 32.0 * unit_roundoff * (2.0 * w.extent + 2.0 * norm_1(e.from));
     }
+  if (!discs_.empty() || cells_ || enclosure_size_ > Enclosure::most) return;
+  // The walls alone, and in their order.
+  Box box = bounding_box(table_.walls.front().curve);
+  without_ellipses_ = true;
+  for (int i = 0; i < enclosure_size_; ++i) {
+    const PreparedCurve& w = curves_[at(i)];
+    const bool bent = w.kind != CurveKind::segment;
+    enclosure_.add(w.from, bent ? Vector{} : w.tangent, w.length, bent);
+    without_ellipses_ &= w.kind != CurveKind::ellipse;
+    const Box next = bounding_box(table_.walls[at(i)].curve);
+    box.low = {std::min(box.low.x, next.low.x), std::min(box.low.y, next.low.y)};
+    box.high = {std::max(box.high.x, next.high.x), std::max(box.high.y, next.high.y)};
+  }
+  enclosure_.set_diameter(1.01 * norm_1(box.high - box.low));
+  enclosure_rounding_ = 4.1 * unit_roundoff * enclosure_.diameter();
 }
 
 /// A line leaves a convex region once: between a joint on its right and the next one on its left, or, with

@@ -18,12 +18,6 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-double duration_at(double kappa, double omega) {
-  if (omega == 0.0) return 1.0 / kappa;
-  const double h = 0.5 * std::fabs(omega);
-  return elementary::atan2(h, kappa) / h;
-}
-
 double kappa_after(double duration, double omega) {
   if (omega == 0.0) return 1.0 / duration;
   const double h = 0.5 * omega;
@@ -36,17 +30,22 @@ ExactFlight HitFinder::exact_flight(const Flight& f) const {
 }
 
 void HitFinder::look_at_cells(const Flight& f) const {
-  const FlightScale scale = origins_[0].scale;
+  const double speed_1 = norm_1(f.velocity), omega = std::fabs(f.omega);
+  const Lattice& l = *table_.lattice;
   for (std::size_t k = 0; k < offsets_.size(); ++k) {
     const Cell c{f.cell.first + offsets_[k].first, f.cell.second + offsets_[k].second};
-    origins_[k] = {f.start, scale};
-    if (c == Cell{}) continue;
-    const Lattice& l = *table_.lattice;
-    origins_[k].point = f.start - l.translation(c);
+    const Vector by = l.translation(c);
+    Origin& o = origins_[k];
+    o.point.x = f.start.x - by.x;
+    o.point.y = f.start.y - by.y;
     // Two products and a sum for the translation, one difference.
     const double m = std::fabs(static_cast<double>(c.first)), n = std::fabs(static_cast<double>(c.second));
     const double size = m * norm_1(l.first) + n * norm_1(l.second);
-    origins_[k].scale.delta += unit_roundoff * (2.1 * size + norm_1(origins_[k].point));
+    const double rounding = unit_roundoff * (2.1 * size + norm_1(o.point));
+    o.scale.delta = c == Cell{} ? f.start_error : f.start_error + rounding;
+    o.scale.speed_1 = speed_1;
+    o.scale.omega = omega;
+    o.scale.inflation = options_.filter_inflation;
   }
 }
 

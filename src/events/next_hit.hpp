@@ -15,6 +15,8 @@
 #include "carom/geometry/filter.hpp"
 #include "carom/geometry/quartic.hpp"
 #include "carom/table/table.hpp"
+#include "base/angle.hpp"
+#include "events/enclosure.hpp"
 
 namespace carom {
 
@@ -60,16 +62,7 @@ class HitFinder {
   /// A flight from the exact point (wall, u), whose rounded image is `point`; omega and speed are kept.
   void begin_on_wall(Flight& flight, int wall, double u, geometry::Vector point, geometry::Vector velocity) const;
 
-  void next(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const {
-    if (flight.omega == 0.0 && enclosure_size_ > 0) {
-      if (cells_) look_from(flight);
-      if (filtered_enclosed(flight, ahead)) {
-        ++counts.filter;
-        return;
-      }
-    }
-    next_of_all(flight, ahead, counts);
-  }
+  void next(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   Ahead next(const Flight& flight, DecisionCounts& counts) const {
     Ahead ahead;
     next(flight, ahead, counts);
@@ -82,11 +75,10 @@ class HitFinder {
   /// Parameter on the wall where the flight meets it, and the wall's own cell.
   struct Landing {
     int wall = -1;
-    double u = 0.0;
+    int hole = -1;
     geometry::Cell cell;
     geometry::Vector velocity;  ///< on arrival
-    geometry::PreparedCurve::Frame frame;
-    int hole = -1;
+    geometry::PreparedCurve::Arrival at;
   };
   void land(const Flight& flight, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const;
   Landing land(const Flight& flight, const Ahead& ahead, DecisionCounts& counts) const {
@@ -138,12 +130,17 @@ class HitFinder {
   void add_walls(geometry::Cell offset, bool complement);
   std::vector<geometry::Cell> image_offsets() const;
   int edge_crossed_at_start(const Flight& flight) const;
-  /// Sees the walls from the flight's start, in its cell.
+  /// Sees the walls from the flight's start, in its cell. Number by number: a 16-byte copy of two numbers
+  /// that were just stored one by one would wait for them.
   void look_from(const Flight& f) const {
-    origins_[0].point = f.start;
-    origins_[0].scale = {f.start_error, std::fabs(f.velocity.x) + std::fabs(f.velocity.y), std::fabs(f.omega),
-                         options_.filter_inflation};
-    if (cells_) look_at_cells(f);
+    Origin& own = origins_[0];
+    own.point.x = f.start.x;
+    own.point.y = f.start.y;
+    own.scale.delta = f.start_error;
+    own.scale.speed_1 = std::fabs(f.velocity.x) + std::fabs(f.velocity.y);
+    own.scale.omega = std::fabs(f.omega);
+    own.scale.inflation = options_.filter_inflation;
+    if (cells_ && (displaced_ || (f.cell.first | f.cell.second) != 0)) look_at_cells(f);
   }
   void look_at_cells(const Flight& flight) const;
   Candidate candidate(const Flight& flight, int piece, bool stands_on_it) const;
@@ -166,6 +163,8 @@ class HitFinder {
   void next_of_all(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   void find_enclosure(bool complement);
   bool filtered_enclosed(const Flight& flight, Ahead& ahead) const;
+  bool line_in_enclosure(const Flight& flight, Ahead& ahead) const;
+  bool circle_in_enclosure(const Flight& flight, Ahead& ahead) const;
   int exit_of_enclosure(const Flight& flight, geometry::Vector origin, const geometry::FlightScale& scale) const;
   Ahead exact_next(const Flight& flight) const;
   void find_start(Flight& flight) const;
@@ -185,10 +184,14 @@ class HitFinder {
   std::vector<geometry::Vector> end_normals_;    // a wall
   std::vector<signed char> holed_;               // a wall: has it holes?
   bool cells_ = false;                           // on a lattice
+  bool displaced_ = false;                       // walls of other cells reach into this one
   double reach_ = 0.0;                           // bounds the l1 norm of every joint
   int first_edge_ = 0;
   int enclosure_first_ = 0, enclosure_size_ = 0; // pieces of a convex loop around discs_; size 0: none
   std::vector<int> discs_;
+  Enclosure enclosure_;                          // the walls of a convex table with nothing in it, else empty
+  double enclosure_rounding_ = 0.0;              // error of a joint's distance in it
+  bool without_ellipses_ = false;
   bool discs_within_ = false;                    // they touch no edge: who leaves one is in its cell
   std::vector<int> opposite_;                    // edge through which one comes in who leaves by this one
   std::unique_ptr<geometry::ExactBoundary> exact_;
@@ -206,41 +209,60 @@ class HitFinder {
   f.velocity = velocity;
   f.cell.first = f.cell.second = 0;
   f.entry = -1;
-  if (!discs_within_ && (cells_ || u == 0.0)) return begin(f);
+  if (!discs_within_ && (cells_ || !(u > 0.0))) return begin(f);
   f.start_piece = wall;
   f.start_previous = -1;
 }
 
+/// geometry::displacement and geometry::turned at once: the same numbers, two quotients at a time.
+[[gnu::always_inline]] inline void arrive(double kappa, geometry::Vector v, double omega, geometry::Vector& way,
+                                          geometry::Vector& velocity) {
+  const double h = 0.5 * omega;
+  const Pair n = both(kappa * kappa + h * h);
+  const Pair d = Pair{kappa * v.x + h * v.y, kappa * v.y - h * v.x} / n;
+  const Pair turn = Pair{omega * kappa, omega * h} / n;
+  way = {d[0], d[1]};
+  velocity = {v.x + (turn[0] * v.y - turn[1] * v.x), v.y - (turn[0] * v.x + turn[1] * v.y)};
+}
+
 [[gnu::always_inline]] inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const {
-  if (cells_) look_from(f);  // the view may be another particle's
-  const PieceData& p = data_[static_cast<std::size_t>(ahead.piece)];
-  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(p.curve)];
-  const geometry::Vector origin =
-      cells_ ? origins_[static_cast<std::size_t>(p.offset)].point : f.start;
-  landing.wall = p.wall;
+  geometry::Vector origin = f.start;
+  landing.wall = ahead.piece;  // the pieces begin with the walls in their own cell
+  landing.cell.first = landing.cell.second = 0;
+  if (cells_) {
+    look_from(f);  // the view may be another particle's
+    const PieceData& p = data_[static_cast<std::size_t>(ahead.piece)];
+    landing.wall = p.wall;
+    const geometry::Cell o = offsets_[static_cast<std::size_t>(p.offset)];
+    landing.cell = {f.cell.first + o.first, f.cell.second + o.second};
+    origin = origins_[static_cast<std::size_t>(p.offset)].point;
+  }
+  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(landing.wall)];
   landing.hole = -1;
-  landing.u = 0.0;
-  const geometry::Cell o = offsets_[static_cast<std::size_t>(p.offset)];
-  landing.cell = {f.cell.first + o.first, f.cell.second + o.second};
-  landing.velocity = f.omega == 0.0 ? f.velocity : geometry::turned(ahead.kappa, f.velocity, f.omega, 0.5);
+  const bool larmor = f.omega != 0.0;
+  geometry::Vector way;
+  if (larmor) {
+    arrive(ahead.kappa, f.velocity, f.omega, way, landing.velocity);
+  } else {
+    way = ahead.duration * f.velocity;
+    landing.velocity = f.velocity;
+  }
   if (ahead.kind == Ahead::Kind::joint) {
-    landing.frame = w.frame(0.0);
+    const geometry::PreparedCurve::Frame at = w.frame(0.0);
+    landing.at.point = at.point;
+    landing.at.normal = at.normal;
+    landing.at.u = 0.0;
     return;
   }
-  landing.frame = w.settle(origin + (f.omega == 0.0
-                                         ? ahead.duration * f.velocity
-                                         : geometry::displacement(ahead.kappa, f.velocity, f.omega, 0.5)));
-  landing.u = w.parameter(landing.frame.point);
-  if (landing.u == w.last() || landing.u == geometry::first_parameter) landing.frame = w.frame(landing.u);
-  if (holed_[static_cast<std::size_t>(p.wall)] != 0) landing.hole = hole_at(f, ahead, landing.u, counts);
+  w.arrive(origin + way, landing.velocity, landing.at);
+  if (holed_[static_cast<std::size_t>(landing.wall)] != 0) landing.hole = hole_at(f, ahead, landing.at.u, counts);
 }
 
 [[gnu::always_inline]] inline Sign HitFinder::inward(int wall, double u, geometry::Vector v, geometry::Vector normal,
                               DecisionCounts& counts) const {
   const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
   if (u > 0.0) {
-    const double bound = options_.filter_inflation * w.normal_error * (std::fabs(v.x) + std::fabs(v.y)) *
-                         (std::fabs(normal.x) + std::fabs(normal.y));
+    const double bound = options_.filter_inflation * w.normal_bound * (std::fabs(v.x) + std::fabs(v.y));
     const Sign sign = sign_within(dot(normal, v), bound);
     if (sign != Sign::undecided) {
       ++counts.filter;
@@ -251,8 +273,14 @@ class HitFinder {
 }
 
 /// Duration of a flight to kappa.
-double duration_at(double kappa, double omega);
+inline double duration_at(double kappa, double omega) {
+  if (omega == 0.0) return 1.0 / kappa;
+  const double h = 0.5 * std::fabs(omega);
+  return elementary::angle(kappa, h) / h;
+}
 /// kappa after a duration (0 < duration < one turn).
 double kappa_after(double duration, double omega);
 
 }  // namespace carom
+
+#include "events/enclosed_hit.hpp"  // the inline functions of convex tables

@@ -29,6 +29,7 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
       add_walls(offset, complement);
     }
   }
+  displaced_ = offsets_.size() > 1;
   first_edge_ = static_cast<int>(data_.size());
   if (table.lattice && edges) {
     const auto& cell = table.lattice->edges;

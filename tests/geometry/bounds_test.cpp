@@ -122,6 +122,26 @@ TEST(Bounds, SideOfAJoint) {
   });
 }
 
+TEST(Bounds, CentreOfALarmorCircle) {
+  sweep("centre", random_segment, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
+    if (s.omega == 0.0) return;
+    const PreparedCurve& w = scene.rounded;
+    const QuadCurve& q = scene.exact;
+    const double turn = s.omega > 0.0 ? 1.0 : -1.0, omega = turn * s.omega;
+    const QuadVector v = quad(turn * s.velocity), d = q.to - q.from;
+    const Quad length = root(dot(d, d));
+    const QuadVector tangent = (Quad(1) / length) * d, centre = centre_of_circle(s.exact_start - q.from, v, Quad(omega));
+    const Vector e = s.start - w.from, rounded = centre_of_circle(e, turn * s.velocity, omega);
+    const CentreError bound = centre_error(s.scale, std::fmax(norm_1(e), std::fmax(norm_1(s.start - w.to), norm_1(w.direction))));
+    r.add("joint inside", dot(centre, centre) - dot(v, v), dot(rounded, rounded) - s.square, bound.joint);
+    r.add("height", root(dot(v, v)) - magnitude(cross(tangent, centre)),
+          std::sqrt(s.square) - std::fabs(cross(w.tangent, rounded)), bound.segment);
+    r.add("foot", dot(tangent, centre), dot(w.tangent, rounded), bound.segment);
+    r.add("far foot", Quad(omega) * length - dot(tangent, centre), omega * w.length - dot(w.tangent, rounded),
+          bound.segment);
+  });
+}
+
 TEST(Bounds, Line) {
   sweep("line", random_segment, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
     const PreparedCurve& w = scene.rounded;

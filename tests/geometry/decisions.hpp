@@ -153,7 +153,7 @@ class Bench {
       hole = fast_.land(f, a, fast).hole;
       if (hole != integers_.land(g, b, slow).hole && tally.differ++ < 3)
         ADD_FAILURE() << "hole " << hole << ", integers " << integers_.land(g, b, slow).hole << " at u "
-                      << fast_.land(f, a, fast).u << "; " << text(a) << "; " << text(s);
+                      << fast_.land(f, a, fast).at.u << "; " << text(a) << "; " << text(s);
       ++tally.hole_decisions;
       tally.hole_by_filter += fast.exact == 0;
       tally.holes += hole >= 0;

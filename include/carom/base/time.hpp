@@ -1,8 +1,6 @@
 // Time in two doubles.
 #pragma once
 
-#include <compare>
-
 namespace carom {
 
 /// An instant as the unevaluated sum high + low with |low| at most half an ulp of high, so that
@@ -18,10 +16,12 @@ struct Time {
   constexpr double value() const { return high + low; }
 
   friend constexpr bool operator==(const Time&, const Time&) = default;
-  friend constexpr auto operator<=>(const Time& a, const Time& b) {
-    if (a.high != b.high) return a.high <=> b.high;
-    return a.low <=> b.low;
+  friend constexpr bool operator<(const Time& a, const Time& b) {
+    return a.high < b.high || (a.high == b.high && a.low < b.low);
   }
+  friend constexpr bool operator>(const Time& a, const Time& b) { return b < a; }
+  friend constexpr bool operator<=(const Time& a, const Time& b) { return !(b < a); }
+  friend constexpr bool operator>=(const Time& a, const Time& b) { return !(a < b); }
 
   /// The instant a duration later.
   friend constexpr Time operator+(const Time& t, double duration) {

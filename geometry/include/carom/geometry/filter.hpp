@@ -30,6 +30,18 @@ inline double side_error(const FlightScale& f, double d1) {
   return f.inflation * 2.01 * (f.speed_1 + f.omega * (d1 + f.delta)) * (f.delta + 4.1 * unit_roundoff * d1);
 }
 
+/// Errors of what is made of centre_of_circle for joints at an l1 distance of at most d: of |c|^2 - |v|^2, with |v|^2
+/// the energy shell's; and of lengths compared on a segment: |v| - |cross(t, c)|, dot(t, c), omega L - dot(t, c).
+struct CentreError {
+  double joint, segment;
+};
+inline CentreError centre_error(const FlightScale& f, double d) {
+  // |c|_1 <= size. Each coordinate: omega delta, and u from the difference, the product and the sum.
+  const double u = unit_roundoff, size = f.omega * d + f.speed_1, c = f.omega * f.delta + 3.1 * u * size;
+  // Squares and sum 2u, the difference 2u, the shell 64u. Tangent 5u, product, difference; |v| 33u; L 5u, last sums.
+  return {f.inflation * (2.01 * c * (size + c) + 70.0 * u * size * size), f.inflation * (1.42 * c + 44.0 * u * size)};
+}
+
 /// Errors of the coefficients of a quadratic.
 struct QuadraticError {
   double a, b, c;

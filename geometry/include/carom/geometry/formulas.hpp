@@ -33,6 +33,14 @@ constexpr Number side_of_flight(const BasicVector<Number>& v, const BasicVector<
   return Number(2) * cross(v, d) + omega * dot(d, d);
 }
 
+/// The centre of the Larmor circle of a clockwise flight, omega > 0, seen from J and times omega; e = P - J. J lies
+/// inside if its square is below |v|^2.
+template <class Number>
+constexpr BasicVector<Number> centre_of_circle(const BasicVector<Number>& e, const BasicVector<Number>& v,
+                                               const Number& omega) {
+  return {omega * e.x + v.y, omega * e.y - v.x};
+}
+
 /// Flight against the line through A along d, domain on the left; e = P - A. `half` is 1/2.
 template <class Number>
 constexpr Quadratic<Number> line_quadratic(const BasicVector<Number>& e, const BasicVector<Number>& d,
@@ -93,14 +101,23 @@ constexpr BasicVector<Number> turned(const Number& kappa, const BasicVector<Numb
   return {v.x + (p * v.y - q * v.x), v.y - (p * v.x + q * v.y)};
 }
 
-/// Velocity after a reflection by a wall with normal n, where n2 = k |n|^2, lengthened by the fraction
-/// `step`.
+/// 2 (v.n)/|n|^2 for n2 = k |n|^2: how much of the normal n a reflection takes from v.
+template <class Number>
+constexpr Number reflection_factor(const BasicVector<Number>& v, const BasicVector<Number>& n, const Number& n2,
+                                   const Number& k) {
+  return Number(2) * k * dot(v, n) / n2;
+}
+/// Velocity after a reflection by a wall with normal n, lengthened by the fraction `step`.
+template <class Number>
+constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n,
+                                        const Number& factor, const Number& step) {
+  const BasicVector<Number> w{v.x - factor * n.x, v.y - factor * n.y};
+  return {w.x + step * w.x, w.y + step * w.y};
+}
 template <class Number>
 constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n,
                                         const Number& n2, const Number& k, const Number& step) {
-  const Number twice = Number(2) * k * dot(v, n) / n2;
-  const BasicVector<Number> w{v.x - twice * n.x, v.y - twice * n.y};
-  return {w.x + step * w.x, w.y + step * w.y};
+  return reflected(v, n, reflection_factor(v, n, n2, k), step);
 }
 
 }  // namespace carom::geometry

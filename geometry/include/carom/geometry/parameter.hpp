@@ -52,6 +52,29 @@ constexpr Number quarter_number(const Number& u) {
   return choose(u < two, choose(u < one, zero, one), choose(u < three, two, three));
 }
 
+/// The quarter of a conic in which (X, Y) lies, by signs alone, with the direction of its start.
+template <class Number>
+struct Quarter {
+  Number n;
+  BasicVector<Number> start;
+};
+template <class Number>
+constexpr Quarter<Number> quarter_of(const Number& x, const Number& y) {
+  const Number zero(0), one(1), two(2), three(3);
+  const auto front = x > zero;
+  const auto back = x < zero;
+  const auto ahead = (y > zero) || ((y == zero) && front);
+  const Number n = choose(ahead, choose(front, zero, one), choose(back, two, three));
+  return {n, quarter_turn(n)};
+}
+inline constexpr Quarter<double> quarters[] = {{0, {1, 0}}, {1, {0, 1}}, {2, {-1, 0}}, {3, {0, -1}}};
+/// The same by looking it up: a processor cannot guess the quarter.
+constexpr const Quarter<double>& quarter_of(const double& x, const double& y) {
+  const unsigned front = x > 0.0, back = x < 0.0;
+  const unsigned ahead = static_cast<unsigned>(y > 0.0) | (static_cast<unsigned>(y == 0.0) & front);
+  return quarters[3 - 2 * ahead - (ahead & front) - (~ahead & back)];
+}
+
 }  // namespace detail
 
 /// Point of a segment.
@@ -107,15 +130,11 @@ constexpr Number segment_parameter(const Frame<Number>& f, const BasicVector<Num
 template <class Number>
 constexpr Number conic_parameter(const Frame<Number>& f, const BasicVector<Number>& point,
                                  const Number& first) {
-  const Number zero(0), one(1), two(2), three(3), four(4);
+  const Number one(1), four(4);
   const BasicVector<Number> e = point - f.origin;
   const Number x = f.start + dot(f.along, e);
   const Number y = dot(f.across, e);
-  const auto front = x > zero;
-  const auto back = x < zero;
-  const auto ahead = (y > zero) || ((y == zero) && front);
-  const Number n = detail::choose(ahead, detail::choose(front, zero, one), detail::choose(back, two, three));
-  const BasicVector<Number> q = detail::quarter_turn(n);
+  const auto& [n, q] = detail::quarter_of(x, y);
   const Number along = q.x * x + q.y * y;
   const Number across = q.x * y - q.y * x;
   const Number u = n + across / (one + along);

@@ -39,7 +39,8 @@ struct PreparedCurve {
   double extent = 0.0;        ///< largest |coordinate| on the curve, rounded up
 
   double point_error = 0.0;   ///< of point(u), and of settle(x) against point(parameter(x))
-  double normal_error = 0.0;  ///< of a normal, relative to its l1 norm
+  double normal_error = 0.0;  ///< of a normal, relative to its l1 norm …
+  double normal_bound = 0.0;  ///< … and in the l1 norm itself, for any normal of this curve
   CurveFrame parametrisation;  ///< u to the point and back
 
   explicit PreparedCurve(const Curve& curve);
@@ -57,17 +58,36 @@ struct PreparedCurve {
   /// wall do not add up their errors across it. The normal of a conic keeps its length, for dividing by
   /// its own square leaves no bias from hit to hit, as a rounded radius would.
   [[gnu::always_inline]] Frame settle(Vector x) const {
+    return kind == CurveKind::segment  ? settle_on_segment(x)
+           : kind == CurveKind::circle ? settle_on_circle(x)
+                                       : settle_on_ellipse(x);
+  }
+  /// Where a particle arrives at x with velocity v: the frame there, the parameter, and the factor of its
+  /// reflection. The same numbers as one by one, with one question for the kind of curve; and set number by
+  /// number, so that none waits for another.
+  struct Arrival {
+    Vector point, normal;
+    double square = 1.0, k = 1.0;  ///< as in Frame
+    double factor = 0.0;
+    double u = 0.0;
+  };
+  [[gnu::always_inline]] void arrive(Vector x, Vector v, Arrival& a) const {
     if (kind == CurveKind::segment) {
-      const double s = dot(x - from, tangent);
-      return {from + s * tangent, left(tangent), 1.0, 1.0};
+      set(a, settle_on_segment(x));
+      a.factor = 2.0 * dot(v, a.normal);  // of a unit vector
+      a.u = segment_parameter(parametrisation, a.point, first_parameter);
+    } else {
+      if (kind == CurveKind::circle)
+        set(a, settle_on_circle(x));
+      else
+        set(a, settle_on_ellipse(x));
+      a.factor = reflection_factor(v, a.normal, a.square, a.k);
+      a.u = conic_parameter(parametrisation, a.point, first_parameter);
     }
-    const Vector e = x - centre;
-    if (kind == CurveKind::circle) {
-      return {centre + back_to(dot(weight * e, e), e), -orientation * e, dot(off_power * e, e), off_power};
+    if (!(a.u > first_parameter && a.u < last())) [[unlikely]] {  // put there, off the joints
+      set(a, frame(a.u));
+      a.factor = reflection_factor(v, a.normal, a.square, a.k);
     }
-    const double p = dot(first_axis, e), q = dot(second_axis, e);
-    const Vector g{p * first_axis.x + q * second_axis.x, p * first_axis.y + q * second_axis.y};
-    return {centre + back_to(0.75 * p * p + 0.75 * q * q, e), -orientation * g, dot(g, g), 1.0};
   }
   Frame frame(double u) const {
     const Frame f = settle(point(u));
@@ -78,6 +98,28 @@ struct PreparedCurve {
   double last() const { return parametrisation.last; }
 
  private:
+  [[gnu::always_inline]] static void set(Arrival& a, const Frame& f) {
+    a.point.x = f.point.x;
+    a.point.y = f.point.y;
+    a.normal.x = f.normal.x;
+    a.normal.y = f.normal.y;
+    a.square = f.square;
+    a.k = f.k;
+  }
+  [[gnu::always_inline]] Frame settle_on_segment(Vector x) const {
+    const double s = dot(x - from, tangent);
+    return {from + s * tangent, left(tangent), 1.0, 1.0};
+  }
+  [[gnu::always_inline]] Frame settle_on_circle(Vector x) const {
+    const Vector e = x - centre;
+    return {centre + back_to(dot(weight * e, e), e), -orientation * e, dot(off_power * e, e), off_power};
+  }
+  [[gnu::always_inline]] Frame settle_on_ellipse(Vector x) const {
+    const Vector e = x - centre;
+    const double p = dot(first_axis, e), q = dot(second_axis, e);
+    const Vector g{p * first_axis.x + q * second_axis.x, p * first_axis.y + q * second_axis.y};
+    return {centre + back_to(0.75 * p * p + 0.75 * q * q, e), -orientation * g, dot(g, g), 1.0};
+  }
   /// One Newton step of e towards the curve, given 0.75 |e|^2/r^2: in the middle of a binade doubles are
   /// evenly spaced, so the step has no bias (about 1 they are not, and angular momentum would drift).
   static Vector back_to(double measure, Vector e) {

@@ -1,0 +1,31 @@
+// Two doubles side by side: what a core does at once on every machine Carom runs on.
+#pragma once
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace carom {
+
+/// Arithmetic of a Pair is that of its two doubles, each rounded by itself.
+using Pair [[gnu::vector_size(16)]] = double;
+using PairMask = decltype(Pair{} < Pair{});  // a lane is 0 or -1
+
+inline Pair both(double x) { return Pair{x, x}; }
+inline Pair magnitude(Pair x) {
+  const PairMask sign = reinterpret_cast<PairMask>(both(-0.0));
+  return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & ~sign);
+}
+inline Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
+/// The sign bits (of a mask: its truth), the first lane's lowest.
+inline unsigned signs(Pair x) {
+#if defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(x));
+#else
+  const PairMask s = reinterpret_cast<PairMask>(x) < 0;
+  return static_cast<unsigned>(s[0] & 1) | static_cast<unsigned>(s[1] & 2);
+#endif
+}
+inline unsigned signs(PairMask m) { return signs(reinterpret_cast<Pair>(m)); }
+
+}  // namespace carom

@@ -1,0 +1,126 @@
+// A convex loop of walls, and through which of them a flight leaves it: by signs of joints, two joints at
+// a time and without a branch, for which wall comes next is what a processor guesses worst.
+// docs/physics/exactness.md derives the rules and the bounds.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "carom/geometry/filter.hpp"
+#include "base/pair.hpp"
+
+namespace carom {
+
+class Enclosure {
+ public:
+  static constexpr int undecided = -1;
+  static constexpr int most = 32;  ///< walls
+
+  /// Adds the wall that starts at `from`; a bent one has no tangent.
+  void add(geometry::Vector from, geometry::Vector tangent, double length, bool bent) {
+    const std::size_t i = static_cast<std::size_t>(size_);
+    // A last wall without a neighbour stands there twice.
+    if (i % 2 == 0)
+      walls_.push_back({{both(from.x), both(from.y)}, {both(tangent.x), both(tangent.y)}, both(length)});
+    Two& w = walls_.back();
+    w.from.x[i % 2] = from.x;
+    w.from.y[i % 2] = from.y;
+    w.tangent.x[i % 2] = tangent.x;
+    w.tangent.y[i % 2] = tangent.y;
+    w.length[i % 2] = length;
+    if (bent) bent_ |= std::uint64_t{1} << i;
+    ++size_;
+    all_ = (std::uint64_t{1} << size_) - 1;
+  }
+  /// Bounds the l1 distance between two points of the loop.
+  void set_diameter(double d) { diameter_ = d; }
+  double diameter() const { return diameter_; }
+  int size() const { return size_; }
+  bool bent(int wall) const { return (bent_ >> wall & 1) != 0; }
+
+  /// A line leaves between a joint on its right and the next one on its left; size(): all lie on one side.
+  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v, double bound) const {
+    const Vectors from{both(origin.x), both(origin.y)}, velocity{both(v.x), both(v.y)};
+    Pair least = both(HUGE_VAL);
+    std::uint64_t right = 0;
+    int shift = 0;
+    for (const Two& w : walls_) {
+      const Pair side = cross(velocity, w.from - from);
+      least = smaller(magnitude(side), least);
+      right |= static_cast<std::uint64_t>(signs(side)) << shift;
+      shift += 2;
+    }
+    if (!((least[0] > bound) & (least[1] > bound))) return undecided;
+    right &= all_;
+    return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1} << size_);
+  }
+
+  /// The walls that may be the first through which a Larmor circle leaves that starts on the wall `start`, as
+  /// bits; first_of tells in which order they come into question. If none is left through, it is `start`.
+  struct Order {
+    std::uint64_t walls = 0;   ///< may be left through
+    std::uint64_t surely = 0;  ///< are, if none before
+    bool decided = false;
+  };
+  [[gnu::always_inline]] Order exits_of_circle(int start, geometry::Vector origin, geometry::Vector v, double omega,
+                                               double square_speed, const geometry::CentreError& error) const {
+    // Run through the other way it is the same circle: with its disc on the right.
+    const double turn = omega > 0.0 ? 1.0 : -1.0;
+    const Vectors from{both(origin.x), both(origin.y)}, velocity{both(turn * v.x), both(turn * v.y)};
+    const Pair w0 = both(turn * omega), square = both(square_speed), radius = both(std::sqrt(square_speed));
+    const Pair bound = both(error.segment);
+    Pair least = both(HUGE_VAL);
+    std::uint64_t inside = 0, missed = 0, open = 0;
+    int shift = 0;
+    for (const Two& w : walls_) {
+      const Vectors centre = geometry::centre_of_circle(from - w.from, velocity, w0);
+      const Pair side = dot(centre, centre) - square;
+      least = smaller(magnitude(side), least);
+      inside |= static_cast<std::uint64_t>(signs(side)) << shift;
+      // The circle cuts the wall twice if its centre is nearer to the line than the radius, and its foot lies
+      // between the ends.
+      const Pair height = cross(w.tangent, centre), foot = dot(w.tangent, centre);
+      const Pair cut = smaller(smaller(foot, w0 * w.length - foot), radius - magnitude(height));
+      missed |= static_cast<std::uint64_t>(signs(cut)) << shift;
+      open |= static_cast<std::uint64_t>(signs(magnitude(cut) <= bound)) << shift;
+      shift += 2;
+    }
+    inside &= all_;
+    // A joint inside the circle ends the outer stretch of the boundary that begins at the start: behind it
+    // (omega > 0) or ahead of it.
+    const std::uint64_t next = rotated(inside, 1), joint = omega > 0.0 ? inside : next;
+    const std::uint64_t outside = all_ & ~(inside | next | std::uint64_t{1} << start);
+    Order order;
+    order.decided = (least[0] > error.joint) & (least[1] > error.joint) & ((open & outside & ~bent_) == 0);
+    order.surely = joint | (outside & ~bent_ & ~missed);
+    order.walls = order.surely | (outside & bent_);
+    return order;
+  }
+  /// Of the walls in question, the first met on the way from `start`: backwards for omega > 0; size(): none.
+  [[gnu::always_inline]] int first_of(std::uint64_t walls, int start, double omega) const {
+    if (walls == 0) return size_;
+    if (omega > 0.0) {
+      const std::uint64_t here = walls & ((std::uint64_t{2} << start) - 1);
+      return 63 - std::countl_zero(here != 0 ? here : walls);
+    }
+    const std::uint64_t here = walls & ~((std::uint64_t{1} << start) - 1);
+    return std::countr_zero(here != 0 ? here : walls);
+  }
+
+ private:
+  /// Bit i of the result is bit i + by.
+  std::uint64_t rotated(std::uint64_t bits, int by) const { return (bits >> by | bits << (size_ - by)) & all_; }
+  using Vectors = geometry::BasicVector<Pair>;
+  struct Two {
+    Vectors from, tangent;
+    Pair length;
+  };
+  std::vector<Two> walls_;
+  std::uint64_t bent_ = 0, all_ = 0;
+  int size_ = 0;
+  double diameter_ = 0.0;
+};
+
+}  // namespace carom
