@@ -296,7 +296,6 @@ void World::sample_every(double interval) {
 std::uint64_t World::run_until(double t_end, Observer& observer, const std::function<bool()>& interrupted) {
   Implementation& w = *implementation_;
   std::uint64_t events = 0;
-  if (w.surface) w.begin_watching();
   while (!w.queue.empty()) {
     const int index = w.queue.top();
     const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
@@ -305,11 +304,9 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
     if (interrupted && events % 256 == 0 && interrupted()) return events;
     if (w.sampling) w.emit_samples(when, false, observer);
     w.apply(index, observer);
-    if (w.surface) w.watch_event(index, when, observer);
     ++events;
   }
   if (w.sampling) w.emit_samples(t_end, true, observer);
-  if (w.surface) w.watch_until(t_end, observer);
   return events;
 }
 

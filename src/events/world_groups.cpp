@@ -162,7 +162,6 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     }
     return;
   }
-  if (surface) watch_group(group, next.duration, observer);
   group.advance();
   if (next.member < 0)
     for (std::size_t k = 0; k < group.bodies().size(); ++k) group.fold(k);
