@@ -62,6 +62,10 @@ class Follower {
         order_(order),
         done_(done) {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
+    // One direction takes at least every other crossing.
+    const std::uint64_t points = system.section.points;
+    const std::size_t most = points == 0 ? SIZE_MAX : static_cast<std::size_t>(2 * points + 2);
+    if (!system.section.boundary) world_.watch(&system.section.surface, most);
   }
 
   bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
@@ -100,7 +104,6 @@ class Follower {
     const auto enough = [&] { return stopped() || recorder_.done(); };
     world_.run_until(system_.run.t_max, recorder_, enough);
     if (stopped()) return false;
-    if (!recorder_.done()) recorder_.close(system_.run.t_max);
     count(orbit);
     return true;
   }
@@ -161,10 +164,6 @@ std::uint64_t section_orbits(const System& system) {
 
 SectionResult run_section(const System& system, const SectionOptions& options) {
   const Stopwatch watch;
-  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
-  if (!system.section.boundary && (forces || system.dynamics.everywhere))
-    throw InputError(Place{"", 0, 0, "section.on"}, "where particles are integrated, only the walls can be a section",
-                     "\"boundary\" or \"wall:NAME\", or --engine events");
   const Sampler sampler(system);
   // Blocks wait for their turn in memory.
   const std::uint64_t each = system.section.points;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carom/base/time.hpp"
+#include "carom/events/surface.hpp"
 #include "carom/forces/force_field.hpp"
 #include "carom/geometry/lattice.hpp"
 #include "carom/integrators/plan.hpp"
@@ -59,6 +60,10 @@ class Group final : public ForceLaw<double> {
   void advance();
   /// The state of a member at a time within the step under way.
   State state_at(std::size_t member, const Time& time);
+  /// Crossings of a surface by a member between two times since the start of the step under way, not
+  /// after what comes first; `origin`: of its cell.
+  void crossings(const Surface& surface, std::size_t member, double from, double to, geometry::Vector origin,
+                 std::vector<SurfaceCrossing>& found);
   /// Takes a member out.
   void remove(std::size_t member);
   /// Puts a member back into the lattice's cell.

@@ -14,20 +14,6 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-// dg/dt where the velocity changes by omega (v_y, -v_x).
-double rate(const Surface& s, Vector position, Vector velocity, double omega) {
-  switch (s.kind) {
-    case Surface::Kind::line:
-    case Surface::Kind::segment: return cross(s.to - s.from, velocity);
-    case Surface::Kind::circle: return 2.0 * dot(position - s.from, velocity);
-    case Surface::Kind::position_x: return velocity.x;
-    case Surface::Kind::position_y: return velocity.y;
-    case Surface::Kind::velocity_x: return omega * velocity.y;
-    case Surface::Kind::velocity_y: break;
-  }
-  return -omega * velocity.x;
-}
-
 struct Point {
   double time;
   double g;
@@ -46,7 +32,7 @@ Point refined(const Surface& s, const FreeFlight& f, Point low, Point high) {
   const auto nearer = [&] { return std::fabs(low.g) < std::fabs(high.g) ? low : high; };
   Point best = nearer();
   for (int i = 0; i < 200 && best.g != 0.0; ++i) {
-    const double newton = best.g / rate(s, best.position, best.velocity, f.omega);
+    const double newton = best.g / surface_rate(s, best.position, best.velocity, f.omega * geometry::right(best.velocity));
     if (std::fabs(newton) <= 0x1p-52 * best.time) break;
     double time = best.time - newton;
     if (!(time > low.time && time < high.time)) time = low.time + 0.5 * (high.time - low.time);
@@ -99,12 +85,6 @@ double first_extreme(const Surface& s, const FreeFlight& f) {
   return phase < pi ? phase : 0.0;
 }
 
-bool on_segment(const Surface& s, Vector position) {
-  const Vector along = s.to - s.from;
-  const double part = dot(position - s.from, along);
-  return part >= 0.0 && part < dot(along, along);
-}
-
 }  // namespace
 
 bool of_velocity(const Surface& s) {
@@ -125,6 +105,26 @@ double surface_function(const Surface& s, Vector position, Vector velocity) {
     case Surface::Kind::velocity_y: break;
   }
   return velocity.y - s.value;
+}
+
+double surface_rate(const Surface& s, Vector position, Vector velocity, Vector acceleration) {
+  switch (s.kind) {
+    case Surface::Kind::line:
+    case Surface::Kind::segment: return cross(s.to - s.from, velocity);
+    case Surface::Kind::circle: return 2.0 * dot(position - s.from, velocity);
+    case Surface::Kind::position_x: return velocity.x;
+    case Surface::Kind::position_y: return velocity.y;
+    case Surface::Kind::velocity_x: return acceleration.x;
+    case Surface::Kind::velocity_y: break;
+  }
+  return acceleration.y;
+}
+
+bool on_surface_part(const Surface& s, Vector position) {
+  if (s.kind != Surface::Kind::segment) return true;
+  const Vector along = s.to - s.from;
+  const double part = dot(position - s.from, along);
+  return part >= 0.0 && part < dot(along, along);
 }
 
 SurfaceCoordinates surface_coordinates(const Surface& s, Vector position, Vector velocity) {
@@ -149,7 +149,7 @@ void crossings(const Surface& s, const FreeFlight& f, std::size_t most, std::vec
   const auto stretch = [&](const Point& after) {
     if ((before.g > 0.0) != (after.g > 0.0)) {
       const Point p = refined(s, f, before, after);
-      if (s.kind != Surface::Kind::segment || on_segment(s, p.position))
+      if (on_surface_part(s, p.position))
         found.push_back({p.time, after.g > 0.0 ? 1 : -1, p.position, p.velocity});
     }
     before = after;

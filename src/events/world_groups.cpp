@@ -162,6 +162,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     }
     return;
   }
+  if (surface) watch_group(group, next.duration, observer);
   group.advance();
   if (next.member < 0)
     for (std::size_t k = 0; k < group.bodies().size(); ++k) group.fold(k);
@@ -280,7 +281,7 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
 void World::Implementation::enter_support(int index, const HitFinder::Landing& landing) {
   Body& b = bodies[at(index)];
   const EventQueue::Key& key = queue.key(index);
-  b.state.position = landing.at.point;
+  b.state.position = landing.frame.point;
   b.state.velocity = landing.velocity;
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;

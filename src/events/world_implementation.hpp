@@ -30,6 +30,12 @@ struct Body {
   bool finished = false;
   int group = -1;       ///< index into groups, -1: free
   Time last_event;      ///< integrated: its last hit or start
+  /// How far crossings of the watched surface have been reported, and the state there in the plane.
+  struct Watched {
+    bool begun = false;
+    geometry::Vector position, velocity;
+    Time time;
+  } watched;
   std::string report;
 };
 
@@ -47,6 +53,14 @@ class World::Implementation {
   void check_speed(const Body& body) const;
   void begin_free(Body& body);
   bool contains(geometry::Vector point);
+
+  // Sections (world_sections.cpp).
+  void begin_watching();
+  void watch_event(int index, Time when, Observer& observer);  ///< after an event was applied
+  void watch_group(Group& group, double until, Observer& observer);
+  void watch_until(Time t_end, Observer& observer);
+  void watch_flight(int index, Time until, const geometry::Vector* end, Observer& observer);
+  geometry::Vector in_plane(geometry::Vector position, const geometry::Cell& cell) const;
 
   // Integration and hand-over (world_groups.cpp).
   void add_barriers();
@@ -79,6 +93,9 @@ class World::Implementation {
   double sample_interval = 0.0;
   std::uint64_t next_sample = 0;
   bool sampling = false;
+  const Surface* surface = nullptr;     ///< watched, or null
+  std::size_t most_crossings = 0;       ///< of one flight
+  std::vector<SurfaceCrossing> found;
 
   bool integrates = false;        ///< forces act somewhere, or everything is to be integrated
   bool one_group = false;         ///< the particles interact

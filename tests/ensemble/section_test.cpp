@@ -228,6 +228,30 @@ TEST(Section, GoesOnBehindTheLastWall) {
   EXPECT_NEAR(points[0].t, 6.0, 1e-12);
 }
 
+// The same orbits flown and integrated: a splitting scheme with the exact drift is exact but for rounding.
+TEST(Section, OfIntegratedMotionIsThatOfFlights) {
+  for (const char* field : {"", "[field]\nB = 1.2\n"}) {
+    for (const char* on : {"on = \"x=0.1\"", "on = \"circle:0.1,0,0.3\"", "on = \"segment:-0.5,-0.2:0.5,0.4\"",
+                           "on = \"vy=0.1\""}) {
+      System system = with_section(std::string(ellipse) + field, on, 8, 10);
+      const auto flown = points_of(system);
+      system.dynamics.everywhere = true;
+      system.dynamics.integrator.step = 0.05;
+      const auto integrated = points_of(system);
+      if (std::string(on) != "on = \"vy=0.1\"" || *field) {
+        EXPECT_GT(flown.size(), 10u);
+      }
+      ASSERT_EQ(flown.size(), integrated.size()) << on << field;
+      for (std::size_t k = 0; k < flown.size(); ++k) {
+        EXPECT_EQ(flown[k].direction, integrated[k].direction);
+        EXPECT_NEAR(flown[k].t, integrated[k].t, 1e-9);
+        EXPECT_NEAR(flown[k].s, integrated[k].s, 1e-9);
+        EXPECT_NEAR(flown[k].v_parallel, integrated[k].v_parallel, 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Section, ErrorsLeaveTheThreads) {
   System system = with_section(ellipse, "on = \"x=0\"");
   SectionOptions options;

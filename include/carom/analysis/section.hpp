@@ -30,8 +30,7 @@ struct SectionPoint {
   double x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped; after the hit at the boundary
 };
 
-/// Collects the section of one trajectory after another. Crossings of a surface are found on the free
-/// flights between events.
+/// Collects the section of one trajectory after another, from a world that watches the plan's surface.
 class SectionRecorder : public Observer {
  public:
   SectionRecorder(const Table&, const SectionPlan&);
@@ -40,10 +39,7 @@ class SectionRecorder : public Observer {
   void begin(std::uint64_t orbit, const World&);
   void hit(const HitEvent&) override;
   void end(const EndEvent&) override;
-  /// A crossing that is known: found inside a step of an integrator.
-  void crossing(int particle, Time, const State&, int direction);
-  /// The clock has reached `time`; particles that still move fly until then.
-  void close(Time time);
+  void crossing(int particle, Time, const State&, int direction) override;
 
   /// Has every particle all its points?
   bool done() const;
@@ -51,17 +47,12 @@ class SectionRecorder : public Observer {
 
  private:
   struct Orbit {
-    Particle particle;
-    geometry::Vector position, velocity;  ///< after the last event, unwrapped
-    Time time;
     std::uint64_t count = 0;
     bool moving = true;
   };
   geometry::Vector unwrapped(geometry::Vector position, const geometry::Cell& cell) const;
   bool full(const Orbit& orbit) const { return plan_.points > 0 && orbit.count >= plan_.points; }
   void add_hit(int particle, int wall, double u, Time, geometry::Vector position, geometry::Vector velocity);
-  void add(int particle, Orbit&, double time, int direction, geometry::Vector position, geometry::Vector velocity);
-  void fly(int particle, double duration, const geometry::Vector* end);
 
   const Table& table_;
   const SectionPlan& plan_;
@@ -69,7 +60,6 @@ class SectionRecorder : public Observer {
   std::uint64_t orbit_ = 0;
   std::vector<Orbit> orbits_;
   std::vector<SectionPoint> points_;
-  std::vector<SurfaceCrossing> found_;
 };
 
 }  // namespace carom

@@ -31,6 +31,13 @@ bool of_velocity(const Surface&);
 /// g, up to a positive factor.
 double surface_function(const Surface&, geometry::Vector position, geometry::Vector velocity);
 
+/// dg/dt, in the same unit.
+double surface_rate(const Surface&, geometry::Vector position, geometry::Vector velocity,
+                    geometry::Vector acceleration);
+
+/// Is the point on the part of the line that a segment is? Always true for others.
+bool on_surface_part(const Surface&, geometry::Vector position);
+
 /// Where on the surface a state lies: length along it and the velocity along it. Both 0 for conditions on
 /// the velocity.
 struct SurfaceCoordinates {

@@ -1,6 +1,7 @@
 // The event loop: particles on a table from now until then.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "carom/events/event.hpp"
+#include "carom/events/surface.hpp"
 #include "carom/forces/force_field.hpp"
 #include "carom/integrators/plan.hpp"
 #include "carom/motion/state.hpp"
@@ -39,6 +41,9 @@ class Observer {
   virtual void sample(int /*particle*/, Time, const State&) {}  ///< state at the sample's time
   virtual void sampled(Time) {}                                 ///< all samples of this time are given
   virtual void end(const EndEvent&) {}
+  /// A crossing of the surface that is watched: the state there with its position in the plane (cell 0),
+  /// and the direction, +1 or -1. Those of a flight come after the event that ends it.
+  virtual void crossing(int /*particle*/, Time, const State&, int /*direction*/) {}
 };
 
 /// What acts besides walls and the magnetic field, and how motion under it is computed.
@@ -74,6 +79,10 @@ class World {
   void sample_at(std::vector<double> times);
   /// Samples at k * interval, k = 0, 1, 2, …
   void sample_every(double interval);
+
+  /// Reports every crossing of the surface from the next run_until on; it must live as long (null: none).
+  /// `most`: of one flight; a pinned orbit would go on for ever.
+  void watch(const Surface* surface, std::size_t most = SIZE_MAX);
 
   /// Runs until `t_end` or until no particle moves any more. `interrupted`, if set, is asked
   /// between events; true returns early. Returns the number of events applied.
