@@ -83,7 +83,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   Body& b = bodies[static_cast<std::size_t>(index)];
   const Time now(queue.key(index).time.high, queue.key(index).time.low);
   const Vector before = landing.velocity;
-  const Vector normal = landing.frame.normal;
+  const Vector normal = landing.at.normal;
   const double step = step_to_energy_shell(before, b.energy_weight);
   Vector after;
   int reflections = 1;
@@ -93,19 +93,19 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
     const int previous = finder.table().walls[static_cast<std::size_t>(landing.wall)].previous;
     after = (1.0 + step) * reflected_at_corner(before, finder.normal_at_end(previous), normal, reflections);
   } else {
-    after = geometry::reflected(before, normal, landing.frame.square, landing.frame.k, step);
+    after = geometry::reflected(before, normal, landing.at.factor, step);
   }
-  Sign inward = finder.inward(landing.wall, landing.u, after, normal, counts);
+  Sign inward = finder.inward(landing.wall, landing.at.u, after, normal, counts);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.
-    after = geometry::reflected(after, normal, landing.frame.square, landing.frame.k, 0.0);
-    inward = finder.inward(landing.wall, landing.u, after, normal, counts);
+    after = geometry::reflected(after, normal, landing.at.square, landing.at.k, 0.0);
+    inward = finder.inward(landing.wall, landing.at.u, after, normal, counts);
   }
   if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);
 
   b.state.wall = landing.wall;
-  b.state.u = landing.u;
-  b.state.position = landing.frame.point;
+  b.state.u = landing.at.u;
+  b.state.position = landing.at.point;
   b.state.velocity = after;
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;
@@ -113,29 +113,32 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   b.state.time.low = now.low;
   b.hits += static_cast<std::uint64_t>(reflections);
   b.last_wall = landing.wall;
-  finder.begin_on_wall(b.flight, landing.wall, landing.u, landing.frame.point, after);
+  finder.begin_on_wall(b.flight, landing.wall, landing.at.u, landing.at.point, after);
   event.particle = index;
   event.wall = landing.wall;
-  event.u = landing.u;
+  event.u = landing.at.u;
   event.time.high = now.high;
   event.time.low = now.low;
   event.flight_time = b.ahead.duration;
-  event.position = landing.frame.point;
+  event.position = landing.at.point;
   event.cell.first = b.state.cell.first;
   event.cell.second = b.state.cell.second;
   event.before = before;
   event.after = after;
   event.reflections = reflections;
+  if (b.hits >= limit) {
+    observer.hit(event);
+    return end(index, Fate::capped, now, &observer);
+  }
+  predict(index);  // first, while its numbers are at hand
   observer.hit(event);
-  if (b.hits >= limit) return end(index, Fate::capped, now, &observer);
-  predict(index);
 }
 
 [[gnu::always_inline]] inline void World::Implementation::apply(int index, Observer& observer) {
   Body& b = bodies[static_cast<std::size_t>(index)];
   if (b.group >= 0) return apply_group(index, observer);
   const EventQueue::Key& key = queue.key(index);
-  switch (static_cast<EventKind>(key.kind)) {
+  if (key.kind != static_cast<int>(EventKind::hit)) switch (static_cast<EventKind>(key.kind)) {
     case EventKind::pinned: return end(index, Fate::pinned, key.time, &observer);
     case EventKind::unbounded: return end(index, Fate::unbounded, b.state.time, &observer);
     case EventKind::cell_edge:
@@ -149,10 +152,12 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   if (b.ahead.kind == Ahead::Kind::cusp) return end(index, Fate::singular, key.time, &observer);
   HitFinder::Landing landing;
   finder.land(b.flight, b.ahead, landing, counts);
-  if (is_support(landing.wall)) return enter_support(index, landing);
-  const Wall& wall = finder.table().walls[static_cast<std::size_t>(landing.wall)];
+  if (is_support(landing.wall)) [[unlikely]] {
+    const HitFinder::Landing there = landing;  // a copy, or the landing would live in memory
+    return enter_support(index, there);
+  }
   if (b.ahead.kind == Ahead::Kind::joint) {
-    for (const int h : wall.holes)
+    for (const int h : finder.table().walls[static_cast<std::size_t>(landing.wall)].holes)
       if (finder.table().holes[static_cast<std::size_t>(h)].from == 0.0) landing.hole = h;
   }
   if (landing.hole >= 0) {
@@ -295,7 +300,7 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
   while (!w.queue.empty()) {
     const int index = w.queue.top();
     const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
-    if (when > Time(t_end)) break;
+    if (!(when.high < t_end) && when > Time(t_end)) break;
     // Asking may cost more than an event.
     if (interrupted && events % 256 == 0 && interrupted()) return events;
     if (w.sampling) w.emit_samples(when, false, observer);

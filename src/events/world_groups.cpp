@@ -281,7 +281,7 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
 void World::Implementation::enter_support(int index, const HitFinder::Landing& landing) {
   Body& b = bodies[at(index)];
   const EventQueue::Key& key = queue.key(index);
-  b.state.position = landing.frame.point;
+  b.state.position = landing.at.point;
   b.state.velocity = landing.velocity;
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;
