@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "carom/ensemble/system.hpp"
+#include "carom/forces/force_spec.hpp"
 #include "carom/table/table_spec.hpp"
 #include "io/section.hpp"
 #include "io/value.hpp"
@@ -19,6 +20,10 @@ std::vector<Particle> read_particles(Value& root);
 InitialCondition read_initial(Value& root, const Table& table, const std::vector<Particle>& particles);
 /// [run].
 RunPlan read_run(Value& root);
+/// [[potential]] and [interaction].
+ForceSpec read_forces(Value& root, std::size_t particles);
+/// [integrator].
+IntegratorPlan read_integrator(Value& root);
 /// [section]; the names of walls are those of the table.
 SectionPlan read_section(Value& root, const Table& table);
 

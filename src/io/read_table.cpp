@@ -9,7 +9,7 @@ namespace {
 const std::vector<std::string>& shapes() {
   static const std::vector<std::string> names{"rectangle", "polygon", "triangle", "regular",  "circle",
                                               "ellipse",   "annulus", "stadium",  "mushroom", "lemon",
-                                              "sinai",     "lorentz", "discs",    "path"};
+                                              "sinai",     "lorentz", "discs",    "path",     "plane"};
   return names;
 }
 
@@ -101,8 +101,14 @@ void read_lattice(Value& value, TableSpec& spec) {
 TableSpec read_table(Value& root) {
   Value* table = root.find("table");
   if (table == nullptr) {
-    throw InputError({root.place.file, 0, 0, "table"}, "the section [table] is missing",
-                     "[table] with a shape");
+    // Forces may hold the particles; without them somebody has forgotten the table.
+    if (root.find("potential") == nullptr && root.find("interaction") == nullptr)
+      throw InputError({root.place.file, 0, 0, "table"}, "the section [table] is missing",
+                       "[table] with a shape");
+    TableSpec spec;
+    spec.shape = "plane";
+    if (Value* lattice = root.find("lattice")) read_lattice(*lattice, spec);
+    return spec;
   }
   TableSpec spec;
   spec.shape = read_kind(*table, "table", "shape", shapes());

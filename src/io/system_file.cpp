@@ -16,9 +16,11 @@ namespace {
 
 using io::Value;
 
-const std::vector<std::string> known_sections{"table", "lattice", "field", "particles", "initial", "run",
-                                              "section"};
-const std::vector<std::string> later_sections{"potential", "interaction", "integrator"};
+const std::vector<std::string> known_sections{"table",     "lattice",   "field",   "potential",  "interaction",
+                                              "particles", "initial",   "integrator", "run", "section"};
+/// Sections that stay away unless they are written.
+const std::vector<std::string> optional_sections{"table",       "lattice",    "potential",
+                                                 "interaction", "integrator", "section"};
 
 bool contains(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
@@ -27,11 +29,6 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
 void check_sections(const Value& root) {
   for (const io::Entry& entry : root.entries) {
     if (entry.key == "title" || contains(known_sections, entry.key)) continue;
-    if (contains(later_sections, entry.key)) {
-      throw InputError(entry.place,
-                       "this version flies free particles only, [" + entry.key + "] is not in it",
-                       "a system without potential, interaction and integrator");
-    }
     std::vector<std::string> names = known_sections;
     names.emplace_back("title");
     throw InputError(entry.place, "unknown section or key '" + entry.key + "'", "one of " + io::listed(names),
@@ -48,7 +45,7 @@ void complete_sections(Value& root) {
   ordered.set("title", root.find("title") != nullptr ? *root.find("title") : title);
   for (const std::string& name : known_sections) {
     const Value* written = root.find(name);
-    if (written == nullptr && (name == "table" || name == "lattice" || name == "section")) continue;
+    if (written == nullptr && contains(optional_sections, name)) continue;
     Value empty;
     empty.place = {root.place.file, 0, 0, name};
     ordered.set(name, written != nullptr ? *written : empty);
@@ -93,6 +90,14 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   system.title = io::as_text(*root.find("title"));
   auto table = std::make_shared<Table>(build_table(io::read_table(root)));
   system.particles = io::read_particles(root);
+  system.dynamics.forces =
+      ForceField::build(io::read_forces(root, system.particles.size()), system.particles, table->lattice);
+  system.dynamics.integrator = io::read_integrator(root);
+  if (!system.dynamics.forces->empty()) {
+    check_plan(system.dynamics.integrator, {file, 0, 0, "integrator"});
+    for (const Particle& p : system.particles)
+      check_turn(system.dynamics.integrator, p.omega, !table->walls.empty(), {file, 0, 0, "integrator"});
+  }
   system.initial = io::read_initial(root, *table, system.particles);
   system.run = io::read_run(root);
   system.section = io::read_section(root, *table);

@@ -39,7 +39,7 @@ const std::pair<const char*, Builder> builders[] = {
     {"regular", shapes::regular},     {"circle", shapes::circle},   {"ellipse", shapes::ellipse},
     {"annulus", shapes::annulus},     {"stadium", shapes::stadium}, {"mushroom", shapes::mushroom},
     {"lemon", shapes::lemon},         {"sinai", shapes::sinai},     {"lorentz", shapes::lorentz},
-    {"discs", shapes::discs},         {"path", shapes::path},
+    {"discs", shapes::discs},         {"path", shapes::path},       {"plane", shapes::plane},
 };
 
 Builder builder_of(const TableSpec& spec) {
@@ -85,7 +85,7 @@ Table build_table(const TableSpec& spec) {
   builder_of(spec)(spec, table);
   if (spec.lattice) shapes::repeat(*spec.lattice, table);
   check_names(spec, table);
-  shapes::check_region(spec, table);
+  if (!table.walls.empty()) shapes::check_region(spec, table);
   shapes::add_holes(spec, table);
   return table;
 }

@@ -93,6 +93,8 @@ void discs(const TableSpec& spec, Table& table) {
   table.extent = Extent::open_plane;
 }
 
+void plane(const TableSpec&, Table& table) { table.extent = Extent::open_plane; }
+
 void repeat(const LatticeSpec& lattice, Table& table) {
   if (table.extent == Extent::lattice) {
     throw InputError(lattice.place, "the shape '" + table.shape + "' has a lattice of its own",
@@ -102,6 +104,8 @@ void repeat(const LatticeSpec& lattice, Table& table) {
     throw InputError(lattice.place, "the table is closed by its walls, nothing leads to another cell",
                      "[lattice] with obstacles in the open plane: discs, or a path of clockwise loops");
   }
+  if (table.walls.empty())
+    return set_lattice(table, point(lattice.first), point(lattice.second), {0, 0}, lattice.place);
   geometry::Box box = geometry::bounding_box(table.walls.front().curve);
   for (const Wall& wall : table.walls) {
     const geometry::Box b = geometry::bounding_box(wall.curve);

@@ -40,6 +40,8 @@ void lemon(const TableSpec& spec, Table& table);
 void sinai(const TableSpec& spec, Table& table);
 void lorentz(const TableSpec& spec, Table& table);
 void discs(const TableSpec& spec, Table& table);
+/// No walls: for particles that forces hold, or on a lattice.
+void plane(const TableSpec& spec, Table& table);
 /// [lattice]: repeats the obstacles of any open table.
 void repeat(const LatticeSpec& lattice, Table& table);
 

@@ -192,11 +192,24 @@ TEST(BadInput, PathsAreCheckedWithTheirPlace) {
   EXPECT_HAS(fault(head), "table.loop[0].pieces: the key 'pieces' is missing");
 }
 
-TEST(BadInput, LaterSectionsSaySo) {
-  for (const char* section :
-       {"[[potential]]\nkind = \"fermi\"\n", "[interaction]\n", "[integrator]\nstep = 1\n"}) {
-    EXPECT_HAS(fault(square(section)), "this version flies free particles only");
-  }
+TEST(BadInput, Forces) {
+  EXPECT_HAS(fault(square("[[potential]]\nkind = \"ferni\"\n")), "did you mean 'fermi'?");
+  EXPECT_HAS(fault(square("[[potential]]\nkind = \"fermi\"\nradius = 0.1\n")), "softness");
+  EXPECT_HAS(fault(square("[[potential]]\nkind = \"gaussian\"\nwidth = -1\n")), "must be positive");
+  EXPECT_HAS(fault(square("[[potential]]\nkind = \"coulomb\"\ncharge = -1\n[integrator]\nstep = 0.1\n")), "attracts");
+  EXPECT_HAS(fault(square("[[potential]]\nkind = \"gaussian\"\nwidth = 1\nlattice = true\n")), "there is none");
+  EXPECT_HAS(fault(square("[[potential]]\nkind = \"harmonic\"\n")), "needs a step");
+  EXPECT_HAS(fault(square("[potential]\nkind = \"harmonic\"\n")), "[[potential]], with two brackets");
+  EXPECT_HAS(fault(square("[interaction]\nkind = \"coulom\"\n")), "did you mean 'coulomb'?");
+  EXPECT_HAS(fault(square("[interaction]\nkind = \"hard-discs\"\nradii = [1, 2]\n")), "2 radii for 1 particles");
+}
+
+TEST(BadInput, Integrator) {
+  EXPECT_HAS(fault(square("[integrator]\nscheme = \"forest-ruth\"\n")), "did you mean 'forest-ruth-4'?");
+  EXPECT_HAS(fault(square("[integrator]\nscheme = \"forest-ruth\"\n")), "velocity-verlet");
+  EXPECT_HAS(fault(square("[integrator]\nstep = 0\n")), "must be positive");
+  EXPECT_HAS(fault(square("[integrator]\nstep = -1\n")), "must be positive");
+  EXPECT_HAS(fault(square("[integrator]\nwalls = \"soft\"\n")), "unknown treatment of walls");
 }
 
 TEST(BadInput, FilesAndNames) {

@@ -2,6 +2,8 @@
 // the same bits on every x86-64 and ARM machine, scalar or SIMD (SLEEF's cinz functions).
 #pragma once
 
+#include <span>
+
 namespace carom::elementary {
 
 /// Each function is within 1.0 ulp of the truth; sincos may differ from sin and cos
@@ -16,5 +18,7 @@ SinCos sincos(double x);
 double atan2(double y, double x);
 double exp(double x);
 double log(double x);
+/// exp of every entry, in place: the same bits as one by one, by the widest instructions there are.
+void exp(std::span<double> x);
 
 }  // namespace carom::elementary

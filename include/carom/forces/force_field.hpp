@@ -2,8 +2,12 @@
 #pragma once
 
 #include <limits>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "carom/forces/force_spec.hpp"
+#include "carom/geometry/lattice.hpp"
 #include "carom/geometry/vector.hpp"
 #include "carom/motion/state.hpp"
 
@@ -15,19 +19,51 @@ struct Support {
   double radius = 0.0;
 };
 
+class Potential;
+class Interaction;
+
+/// External potentials, superposed, and the interaction of pairs. Immutable: threads share it.
 class ForceField {
  public:
-  bool empty() const { return true; }
-  bool external() const { return false; }
-  bool interacts() const { return false; }
-  double add_external(const Particle&, geometry::Vector, geometry::Vector&) const { return 0.0; }
-  double add_pair(const Particle&, const Particle&, geometry::Vector, geometry::Vector&) const { return 0.0; }
-  bool everywhere() const { return true; }
+  ForceField();
+  ~ForceField();
+
+  /// Nothing acts (hard discs do not act: they meet).
+  bool empty() const { return !external() && !interacts(); }
+  bool external() const { return !potentials_.empty(); }
+  bool interacts() const { return interaction_ != nullptr; }
+
+  /// Adds -grad V at x to `force` and returns V. On a lattice x lies in the cell, or near it.
+  double add_external(const Particle&, geometry::Vector x, geometry::Vector& force) const;
+  /// Adds the force on particle a to `force` and returns W; b feels the opposite, exactly.
+  /// `separation` = x_a - x_b.
+  double add_pair(const Particle& a, const Particle& b, geometry::Vector separation,
+                  geometry::Vector& force) const;
+
+  /// Does some external potential reach everywhere?
+  bool everywhere() const { return everywhere_; }
+  /// Otherwise: discs, in the cell of a lattice, outside which each potential is below tail_bound().
   const std::vector<Support>& supports() const { return supports_; }
-  double pair_range() const { return std::numeric_limits<double>::infinity(); }
+  /// Beyond it |W| is below tail_bound(); infinity for Coulomb forces and typed ones.
+  double pair_range() const { return pair_range_; }
+  /// Largest energy that any one potential has outside its support: 1e-16 of its height or depth.
+  double tail_bound() const { return tail_bound_; }
+  /// Radii of hard discs, one a particle; empty without them.
+  const std::vector<double>& disc_radii() const { return disc_radii_; }
+
+  /// Throws InputError at the place of the fault. `particles`: whose charges decide whether a Coulomb
+  /// force attracts. `lattice`: the table's, if it has one.
+  static std::shared_ptr<const ForceField> build(const ForceSpec&, const std::vector<Particle>& particles,
+                                                 const std::optional<geometry::Lattice>& lattice);
 
  private:
+  std::vector<std::unique_ptr<const Potential>> potentials_;
+  std::unique_ptr<const Interaction> interaction_;
   std::vector<Support> supports_;
+  bool everywhere_ = false;
+  double pair_range_ = std::numeric_limits<double>::infinity();
+  double tail_bound_ = 0.0;
+  std::vector<double> disc_radii_;
 };
 
 }  // namespace carom

@@ -1,0 +1,61 @@
+// Elementary functions of many numbers at once.
+#include <cstddef>
+
+#include "carom/base/elementary.hpp"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+// SLEEF's header shows these only to files that are compiled for such machines as a whole.
+extern "C" {
+[[gnu::target("avx512f")]] __m512d Sleef_cinz_expd8_u10avx512fnofma(__m512d);
+[[gnu::target("avx")]] __m256d Sleef_cinz_expd4_u10avx(__m256d);
+__m128d Sleef_cinz_expd2_u10sse2(__m128d);
+}
+#endif
+
+namespace carom::elementary {
+
+#if defined(__x86_64__)
+
+namespace {
+
+// The exponential takes the same steps in every lane, so that lanes do not see each other.
+[[gnu::target("avx512f")]] void exp_by_eight(double* x, std::size_t n) {
+  for (std::size_t i = 0; i < n; i += 8)
+    _mm512_storeu_pd(x + i, Sleef_cinz_expd8_u10avx512fnofma(_mm512_loadu_pd(x + i)));
+}
+[[gnu::target("avx")]] void exp_by_four(double* x, std::size_t n) {
+  for (std::size_t i = 0; i < n; i += 4)
+    _mm256_storeu_pd(x + i, Sleef_cinz_expd4_u10avx(_mm256_loadu_pd(x + i)));
+}
+void exp_by_two(double* x, std::size_t n) {
+  for (std::size_t i = 0; i < n; i += 2)
+    _mm_storeu_pd(x + i, Sleef_cinz_expd2_u10sse2(_mm_loadu_pd(x + i)));
+}
+
+using Several = void (*)(double*, std::size_t);
+Several widest() {
+  if (__builtin_cpu_supports("avx512f")) return exp_by_eight;
+  if (__builtin_cpu_supports("avx")) return exp_by_four;
+  return exp_by_two;
+}
+
+}  // namespace
+
+void exp(std::span<double> x) {
+  static const Several several = widest();
+  const std::size_t whole = x.size() / 8 * 8;
+  several(x.data(), whole);
+  for (double& one : x.subspan(whole)) one = exp(one);
+}
+
+#else
+
+void exp(std::span<double> x) {
+  for (double& one : x) one = exp(one);
+}
+
+#endif
+
+}  // namespace carom::elementary

@@ -1,0 +1,236 @@
+#include "forces/bumps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "carom/base/elementary.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+
+namespace {
+
+// Bumps are taken eight at a time. Eight running sums, added up in one fixed order at the end, make the
+// result the same whatever the width of the machine's vectors.
+constexpr std::size_t lanes = 8;
+using Lanes [[gnu::vector_size(lanes * sizeof(double))]] = double;
+
+CAROM_INLINE void load(Lanes& lane, const double* from) { std::memcpy(&lane, from, sizeof lane); }
+CAROM_INLINE void store(const Lanes& lane, double* to) { std::memcpy(to, &lane, sizeof lane); }
+double total(const Lanes& s) { return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7])); }
+
+/// Centres in columns, filled up to a multiple of eight with bumps of weight 0.
+struct Centers {
+  std::vector<double> x, y, weight;
+  explicit Centers(const std::vector<Vector>& points) {
+    for (const Vector& p : points) {
+      x.push_back(p.x);
+      y.push_back(p.y);
+      weight.push_back(1.0);
+    }
+    while (x.size() % lanes != 0) {
+      x.push_back(points.front().x);
+      y.push_back(points.front().y);
+      weight.push_back(0.0);
+    }
+  }
+};
+
+/// The largest number of bumps (a multiple of eight) whose distances are kept on the stack at a time.
+constexpr std::size_t batch = 64;
+
+struct Batch {
+  alignas(64) std::array<double, batch> dx, dy, r, e;
+};
+
+class FermiBumps final : public Potential {
+ public:
+  FermiBumps(double height, double radius, double softness, const std::vector<Vector>& centers)
+      : height_(height), radius_(radius), softness_(softness), inverse_(1.0 / softness), centers_(centers) {}
+
+  double add_force(const Particle&, Vector x, Vector& force) const override {
+    Lanes value{}, fx{}, fy{};
+    Batch b;
+    for (std::size_t from = 0; from < centers_.x.size(); from += batch) {
+      const std::size_t n = std::min(batch, centers_.x.size() - from);
+      distances(x, from, n, b);
+      elementary::exp(std::span(b.e.data(), n));
+      sum(from, n, b, value, fx, fy);
+    }
+    force.x += height_ * inverse_ * total(fx);
+    force.y += height_ * inverse_ * total(fy);
+    return height_ * total(value);
+  }
+  double reach() const override { return radius_ + tail_exponent * softness_; }
+  double tail() const override { return tail_share * std::fabs(height_); }
+
+ private:
+  CAROM_VECTORISED void distances(Vector x, std::size_t from, std::size_t n, Batch& b) const {
+    for (std::size_t i = 0; i < n; i += lanes) {
+      Lanes cx, cy;
+      load(cx, &centers_.x[from + i]);
+      load(cy, &centers_.y[from + i]);
+      const Lanes dx = x.x - cx, dy = x.y - cy;
+      store(dx, &b.dx[i]);
+      store(dy, &b.dy[i]);
+      // The smallest normal number keeps 1/r finite at a centre, where the force has no direction.
+      store(dx * dx + dy * dy + 0x1p-1022, &b.r[i]);
+    }
+    double* __restrict r = b.r.data();
+    double* __restrict e = b.e.data();
+    const double radius = radius_, inverse = inverse_;
+    for (std::size_t i = 0; i < n; ++i) {
+      r[i] = std::sqrt(r[i]);
+      e[i] = (r[i] - radius) * inverse;
+    }
+  }
+  // With q = 1/(1 + e): V = q and -dV/dr = q^2 e / softness; one division gives q and 1/r.
+  CAROM_VECTORISED void sum(std::size_t from, std::size_t n, const Batch& b, Lanes& value, Lanes& fx,
+                            Lanes& fy) const {
+    for (std::size_t i = 0; i < n; i += lanes) {
+      Lanes e, r, dx, dy, weight;
+      load(e, &b.e[i]);
+      load(r, &b.r[i]);
+      load(dx, &b.dx[i]);
+      load(dy, &b.dy[i]);
+      load(weight, &centers_.weight[from + i]);
+      const Lanes one = 1.0 + e;
+      const Lanes inverse = 1.0 / (r * one);
+      const Lanes q = r * inverse;
+      const Lanes f = weight * (q * q * e * (one * inverse));
+      value += weight * q;
+      fx += f * dx;
+      fy += f * dy;
+    }
+  }
+
+  double height_, radius_, softness_, inverse_;
+  Centers centers_;
+};
+
+class GaussianBumps final : public Potential {
+ public:
+  GaussianBumps(double height, double width, const std::vector<Vector>& centers)
+      : height_(height), width_(width), inverse_square_(1.0 / (width * width)), centers_(centers) {}
+
+  double add_force(const Particle&, Vector x, Vector& force) const override {
+    Lanes value{}, fx{}, fy{};
+    Batch b;
+    for (std::size_t from = 0; from < centers_.x.size(); from += batch) {
+      const std::size_t n = std::min(batch, centers_.x.size() - from);
+      distances(x, from, n, b);
+      elementary::exp(std::span(b.e.data(), n));
+      sum(from, n, b, value, fx, fy);
+    }
+    force.x += height_ * inverse_square_ * total(fx);
+    force.y += height_ * inverse_square_ * total(fy);
+    return height_ * total(value);
+  }
+  double reach() const override { return std::sqrt(2.0 * tail_exponent) * width_; }
+  double tail() const override { return tail_share * std::fabs(height_); }
+
+ private:
+  CAROM_VECTORISED void distances(Vector x, std::size_t from, std::size_t n, Batch& b) const {
+    for (std::size_t i = 0; i < n; i += lanes) {
+      Lanes cx, cy;
+      load(cx, &centers_.x[from + i]);
+      load(cy, &centers_.y[from + i]);
+      const Lanes dx = x.x - cx, dy = x.y - cy;
+      store(dx, &b.dx[i]);
+      store(dy, &b.dy[i]);
+      store((-0.5 * inverse_square_) * (dx * dx + dy * dy), &b.e[i]);
+    }
+  }
+  CAROM_VECTORISED void sum(std::size_t from, std::size_t n, const Batch& b, Lanes& value, Lanes& fx,
+                            Lanes& fy) const {
+    for (std::size_t i = 0; i < n; i += lanes) {
+      Lanes e, dx, dy, weight;
+      load(e, &b.e[i]);
+      load(dx, &b.dx[i]);
+      load(dy, &b.dy[i]);
+      load(weight, &centers_.weight[from + i]);
+      const Lanes g = weight * e;
+      value += g;
+      fx += g * dx;
+      fy += g * dy;
+    }
+  }
+
+  double height_, width_, inverse_square_;
+  Centers centers_;
+};
+
+}  // namespace
+
+std::vector<Vector> copies_that_reach(const std::vector<Vector>& centers, const geometry::Lattice& lattice,
+                                      double reach) {
+  Vector middle{};
+  for (const geometry::CellEdge& e : lattice.edges) middle = middle + e.segment.from;
+  middle = (1.0 / static_cast<double>(lattice.edges.size())) * middle;
+  double cell = 0.0;
+  for (const geometry::CellEdge& e : lattice.edges) {
+    const Vector d = e.segment.from - middle;
+    cell = std::max(cell, std::sqrt(dot(d, d)));
+  }
+  const double longest =
+      std::sqrt(std::max(dot(lattice.first, lattice.first), dot(lattice.second, lattice.second)));
+  std::vector<Vector> found;
+  for (const Vector& center : centers) {
+    const Vector offset = center - middle;
+    const double far = reach + cell + std::sqrt(dot(offset, offset));
+    // |m a + n b| >= max(|m|, |n|) area / longest
+    const auto range = static_cast<std::int64_t>(std::ceil(far * longest / lattice.cell_area())) + 1;
+    for (std::int64_t m = -range; m <= range; ++m)
+      for (std::int64_t n = -range; n <= range; ++n) {
+        const Vector copy = center + lattice.translation({m, n});
+        const Vector d = copy - middle;
+        if (dot(d, d) <= (reach + cell) * (reach + cell)) found.push_back(copy);
+      }
+  }
+  return found;
+}
+
+namespace {
+
+/// Half the distance of neighbouring lattice points.
+double inner_radius(const geometry::Lattice& lattice) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const geometry::CellEdge& e : lattice.edges) {
+    const Vector t = lattice.translation(e.beyond);
+    smallest = std::min(smallest, dot(t, t));
+  }
+  return 0.5 * std::sqrt(smallest);
+}
+
+}  // namespace
+
+// Beyond its centre's neighbourhood a bump's tail is subharmonic: its value at a lattice point is at most
+// its mean over a disc of radius s about it. Discs of neighbours do not overlap if s <= inner_radius, so the
+// sum over the points beyond R is at most 1/(pi s^2) times the integral over r > R - s.
+double fermi_sum_reach(double radius, double softness, const geometry::Lattice& lattice) {
+  const double s = std::min(2.0 * softness, inner_radius(lattice));
+  const double single = radius + tail_exponent * softness;
+  // 2 softness (R - s + softness)/s^2 exp(-(R - s - radius)/softness) <= tail_share; R < 2 single + s here.
+  const double sum = 2.0 * softness * (2.0 * single + softness) / (s * s);
+  return single + s + softness * std::max(0.0, elementary::log(sum));
+}
+double gaussian_sum_reach(double width, const geometry::Lattice& lattice) {
+  const double s = std::min(0.5 * width, inner_radius(lattice));
+  // 2 width^2/s^2 exp(-(R - s)^2/(2 width^2)) <= tail_share
+  return s + width * std::sqrt(2.0 * (tail_exponent + std::max(0.0, elementary::log(2.0 * width * width / (s * s)))));
+}
+
+std::unique_ptr<const Potential> make_fermi_bumps(double height, double radius, double softness,
+                                                  const std::vector<Vector>& centers) {
+  return std::make_unique<FermiBumps>(height, radius, softness, centers);
+}
+std::unique_ptr<const Potential> make_gaussian_bumps(double height, double width,
+                                                     const std::vector<Vector>& centers) {
+  return std::make_unique<GaussianBumps>(height, width, centers);
+}
+
+}  // namespace carom

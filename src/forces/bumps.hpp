@@ -1,0 +1,31 @@
+// Sums over many equal bumps: Fermi discs and Gaussians at given centres, or on a lattice.
+#pragma once
+
+#include "forces/potential.hpp"
+
+/// Compiled for several widths of vectors, of which the machine chooses one. All give the same bits: no
+/// contraction, and sums in a fixed order.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define CAROM_VECTORISED [[gnu::target_clones("avx512f", "avx2", "default")]]
+#else
+#define CAROM_VECTORISED
+#endif
+#define CAROM_INLINE [[gnu::always_inline]] inline
+
+namespace carom {
+
+/// The copies, on a lattice, that are nearer than `reach` to some point of the cell.
+std::vector<geometry::Vector> copies_that_reach(const std::vector<geometry::Vector>& centers,
+                                                const geometry::Lattice& lattice, double reach);
+
+/// Distances beyond which all copies of a bump together add less than tail_share of its height
+/// (docs/physics/forces.md derives them).
+double fermi_sum_reach(double radius, double softness, const geometry::Lattice&);
+double gaussian_sum_reach(double width, const geometry::Lattice&);
+
+std::unique_ptr<const Potential> make_fermi_bumps(double height, double radius, double softness,
+                                                  const std::vector<geometry::Vector>& centers);
+std::unique_ptr<const Potential> make_gaussian_bumps(double height, double width,
+                                                     const std::vector<geometry::Vector>& centers);
+
+}  // namespace carom

@@ -1,0 +1,94 @@
+#include "carom/forces/force_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "forces/potential.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+
+ForceField::ForceField() = default;
+ForceField::~ForceField() = default;
+
+double ForceField::add_external(const Particle& p, Vector x, Vector& force) const {
+  double value = 0.0;
+  for (const auto& potential : potentials_) value += potential->add_force(p, x, force);
+  return value;
+}
+
+double ForceField::add_pair(const Particle& a, const Particle& b, Vector separation, Vector& force) const {
+  return interaction_ ? interaction_->add_force(a, b, separation, force) : 0.0;
+}
+
+namespace {
+
+void check(const PotentialSpec& s, const std::vector<Particle>& particles, bool lattice) {
+  using Kind = PotentialSpec::Kind;
+  if (s.lattice && !lattice)
+    throw InputError(s.place, "the potential is to be repeated on a lattice, but there is none",
+                     "[lattice] vectors, or lattice = false");
+  if (s.lattice && s.kind != Kind::fermi && s.kind != Kind::gaussian)
+    throw InputError(s.place, "only potentials that fall off fast can be summed over a lattice",
+                     "kind = \"fermi\" or \"gaussian\"");
+  if (s.kind != Kind::coulomb) return;
+  for (const Particle& p : particles)
+    if (p.charge * s.charge < 0.0)
+      throw InputError(s.place,
+                       "the Coulomb centre attracts: a particle that falls into it has no energy bound and no "
+                       "step is short enough",
+                       "charges of the same sign, or a soft potential (gaussian with height < 0)");
+}
+
+/// Do the discs of this radius about the lattice points cover the plane?
+bool covers(const geometry::Lattice& lattice, double radius) {
+  Vector middle{};
+  for (const geometry::CellEdge& e : lattice.edges) middle = middle + e.segment.from;
+  middle = (1.0 / static_cast<double>(lattice.edges.size())) * middle;
+  return std::all_of(lattice.edges.begin(), lattice.edges.end(), [&](const geometry::CellEdge& e) {
+    const Vector d = e.segment.from - middle;
+    return dot(d, d) <= radius * radius;
+  });
+}
+
+}  // namespace
+
+std::shared_ptr<const ForceField> ForceField::build(const ForceSpec& spec, const std::vector<Particle>& particles,
+                                                    const std::optional<geometry::Lattice>& lattice) {
+  auto field = std::make_shared<ForceField>();
+  for (const PotentialSpec& s : spec.potentials) {
+    check(s, particles, lattice.has_value());
+    field->potentials_.push_back(make_potential(s, lattice));
+    const Potential& p = *field->potentials_.back();
+    field->tail_bound_ = std::max(field->tail_bound_, p.tail());
+    // On a lattice a potential that is not repeated would depend on the cell.
+    if (lattice && !s.lattice)
+      throw InputError(s.place, "on a lattice every potential has to be repeated", "lattice = true");
+    if (!std::isfinite(p.reach()) || (lattice && covers(*lattice, p.reach()))) field->everywhere_ = true;
+    for (const Vector& center : s.centers) field->supports_.push_back({center, p.reach()});
+  }
+  if (spec.interaction) {
+    const InteractionSpec& s = *spec.interaction;
+    if (s.kind == InteractionSpec::Kind::hard_discs) {
+      field->disc_radii_ = s.radii;
+    } else if (particles.size() > 1) {
+      if ((s.kind == InteractionSpec::Kind::coulomb || s.kind == InteractionSpec::Kind::yukawa))
+        for (std::size_t i = 0; i < particles.size(); ++i)
+          for (std::size_t j = 0; j < i; ++j)
+            if (particles[i].charge * particles[j].charge * s.strength < 0.0)
+              throw InputError(s.place, "the particles attract each other without bound",
+                               "charges of one sign and strength > 0");
+      field->interaction_ = make_interaction(s);
+      field->pair_range_ = field->interaction_->reach();
+      field->tail_bound_ = std::max(field->tail_bound_, field->interaction_->tail());
+      if (lattice && !std::isfinite(field->pair_range_))
+        throw InputError(s.place, "this interaction reaches infinitely far, which a lattice has no sum for",
+                         "yukawa, lennard-jones or soft-sphere");
+    }
+  }
+  if (field->everywhere_) field->supports_.clear();
+  return field;
+}
+
+}  // namespace carom

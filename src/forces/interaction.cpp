@@ -1,0 +1,105 @@
+// Interactions of pairs.
+#include <cmath>
+
+#include "carom/base/elementary.hpp"
+#include "carom/forces/typed_expression.hpp"
+#include "forces/potential.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+using Kind = InteractionSpec::Kind;
+
+namespace {
+
+double whole_power(double x, int n) {
+  double result = 1.0;
+  for (; n > 0; n >>= 1, x *= x)
+    if (n & 1) result *= x;
+  return result;
+}
+
+/// `law` gives W and -W'/r at a squared distance, for unit charges where `charged`.
+template <class Law>
+class Central final : public Interaction {
+ public:
+  Central(Law law, bool charged, double reach, double tail)
+      : law_(std::move(law)), charged_(charged), reach_(reach), tail_(tail) {}
+  double add_force(const Particle& a, const Particle& b, Vector separation, Vector& force) const override {
+    const auto [w, over_r] = law_(dot(separation, separation));
+    const double charges = charged_ ? a.charge * b.charge : 1.0;
+    force = force + (charges * over_r) * separation;
+    return charges * w;
+  }
+  double reach() const override { return reach_; }
+  double tail() const override { return tail_; }
+
+ private:
+  Law law_;
+  bool charged_;
+  double reach_, tail_;
+};
+
+template <class Law>
+std::unique_ptr<const Interaction> central(Law law, bool charged, double reach, double tail) {
+  return std::make_unique<Central<Law>>(std::move(law), charged, reach, tail);
+}
+
+constexpr double everywhere = std::numeric_limits<double>::infinity();
+
+struct Pair {
+  double value, over_r;
+};
+
+}  // namespace
+
+std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
+  switch (s.kind) {
+    case Kind::coulomb:
+      return central(
+          [k = s.strength](double r2) {
+            const double inverse = 1.0 / std::sqrt(r2), w = k * inverse;
+            return Pair{w, w * (inverse * inverse)};
+          },
+          true, everywhere, 0.0);
+    case Kind::yukawa:
+      // Beyond r the potential is below its value at the range times exp(-(r/range - 1)).
+      return central(
+          [k = s.strength, range = s.range](double r2) {
+            const double r = std::sqrt(r2), inverse = 1.0 / r;
+            const double w = k * inverse * elementary::exp(-r / range);
+            return Pair{w, w * (inverse + 1.0 / range) * inverse};
+          },
+          true, (tail_exponent + 1.0) * s.range, tail_share * std::fabs(s.strength) / s.range);
+    case Kind::lennard_jones:
+      // (d/r)^6 = tail_share / 4 at r = d (4e16)^(1/6) < 585 d.
+      return central(
+          [e = s.depth, d2 = s.diameter * s.diameter](double r2) {
+            const double inverse = 1.0 / r2, s2 = d2 * inverse, s6 = s2 * s2 * s2;
+            return Pair{4.0 * e * s6 * (s6 - 1.0), 24.0 * e * s6 * (2.0 * s6 - 1.0) * inverse};
+          },
+          false, 585.0 * s.diameter, tail_share * std::fabs(s.depth));
+    case Kind::soft_sphere:
+      return central(
+          [k = s.strength, d = s.diameter, n = s.exponent](double r2) {
+            const double inverse = 1.0 / r2;
+            const double w = n % 2 == 0 ? k * whole_power(d * d * inverse, n / 2)
+                                        : k * whole_power(d * std::sqrt(inverse), n);
+            return Pair{w, n * w * inverse};
+          },
+          false, s.diameter * elementary::exp(tail_exponent / s.exponent), tail_share * std::fabs(s.strength));
+    case Kind::expression:
+      return central(
+          [v = s.expression](double r2) {
+            const double r = std::sqrt(r2), at[] = {r};
+            double slope[1];
+            const double w = v->value_and_gradient(at, slope);
+            return Pair{w, -slope[0] / r};
+          },
+          false, everywhere, 0.0);
+    case Kind::hard_discs: break;
+  }
+  return nullptr;
+}
+
+}  // namespace carom

@@ -1,0 +1,161 @@
+// The potentials that need no sum over many centres.
+#include "forces/potential.hpp"
+
+#include <cmath>
+
+#include "carom/base/elementary.hpp"
+#include "carom/forces/typed_expression.hpp"
+#include "forces/bumps.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+using Kind = PotentialSpec::Kind;
+
+namespace {
+
+double whole_power(double x, int n) {
+  double result = 1.0;
+  for (; n > 0; n >>= 1, x *= x)
+    if (n & 1) result *= x;
+  return result;
+}
+
+double square(const Vector& a) { return dot(a, a); }
+
+/// A potential of one place, repeated at each centre.
+template <class Formula>
+class AtCenters final : public Potential {
+ public:
+  AtCenters(Formula formula, std::vector<Vector> centers)
+      : formula_(std::move(formula)), centers_(std::move(centers)) {}
+  double add_force(const Particle& p, Vector x, Vector& force) const override {
+    double value = 0.0;
+    for (const Vector& c : centers_) value += formula_(p, x - c, force);
+    return value;
+  }
+
+ private:
+  Formula formula_;
+  std::vector<Vector> centers_;
+};
+
+template <class Formula>
+std::unique_ptr<const Potential> at_centers(Formula formula, const PotentialSpec& spec) {
+  return std::make_unique<AtCenters<Formula>>(std::move(formula), spec.centers);
+}
+
+/// V = h/(1 + e), e = exp((radius - r)/softness): its force points inwards along `out` = grad r.
+double soft_wall(const PotentialSpec& s, double r, const Vector& out, Vector& force) {
+  const double e = elementary::exp((s.radius - r) / s.softness);
+  const double q = 1.0 / (1.0 + e);
+  // Far inside e overflows to infinity and q is 0: e q is then 1, not 0 * infinity.
+  const double f = s.height / s.softness * q * (1.0 - q);
+  force = force - f * out;
+  return s.height * q;
+}
+
+}  // namespace
+
+std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
+                                                const std::optional<geometry::Lattice>& lattice) {
+  switch (s.kind) {
+    case Kind::fermi: {
+      if (!s.lattice) return make_fermi_bumps(s.height, s.radius, s.softness, s.centers);
+      const double reach = fermi_sum_reach(s.radius, s.softness, *lattice);
+      return make_fermi_bumps(s.height, s.radius, s.softness, copies_that_reach(s.centers, *lattice, reach));
+    }
+    case Kind::gaussian: {
+      if (!s.lattice) return make_gaussian_bumps(s.height, s.width, s.centers);
+      const double reach = gaussian_sum_reach(s.width, *lattice);
+      return make_gaussian_bumps(s.height, s.width, copies_that_reach(s.centers, *lattice, reach));
+    }
+    case Kind::harmonic:
+      return at_centers(
+          [x2 = s.omega_x * s.omega_x, y2 = s.omega_y * s.omega_y](const Particle& p, Vector d, Vector& force) {
+            const Vector f{p.mass * x2 * d.x, p.mass * y2 * d.y};
+            force = force - f;
+            return 0.5 * dot(f, d);
+          },
+          s);
+    case Kind::quartic:
+      return at_centers(
+          [k = s.strength](const Particle&, Vector d, Vector& force) {
+            const double r2 = square(d);
+            force = force - (4.0 * k * r2) * d;
+            return k * r2 * r2;
+          },
+          s);
+    case Kind::power:
+      return at_centers(
+          [k = s.strength, n = s.exponent](const Particle&, Vector d, Vector& force) {
+            const double r2 = square(d);
+            // A whole even power is a product; another one goes through the logarithm.
+            const double half = 0.5 * n;
+            const bool whole = half == std::floor(half) && half > 0.0 && half <= 64.0;
+            const double lower = whole ? whole_power(r2, static_cast<int>(half) - 1)
+                                       : elementary::exp((half - 1.0) * elementary::log(r2));  // r^(n - 2)
+            force = force - (k * n * lower) * d;
+            return k * lower * r2;
+          },
+          s);
+    case Kind::coulomb:
+      return at_centers(
+          [charge = s.charge](const Particle& p, Vector d, Vector& force) {
+            const double inverse = 1.0 / std::sqrt(square(d));
+            const double value = p.charge * charge * inverse;
+            force = force + (value * inverse * inverse) * d;
+            return value;
+          },
+          s);
+    case Kind::henon_heiles:
+      return at_centers(
+          [](const Particle&, Vector d, Vector& force) {
+            const double x2 = d.x * d.x, y2 = d.y * d.y;
+            force.x -= d.x + 2.0 * d.x * d.y;
+            force.y -= d.y + (x2 - y2);
+            return 0.5 * (x2 + y2) + d.y * (x2 - y2 / 3.0);
+          },
+          s);
+    case Kind::linear:
+      return at_centers(
+          [f = s.force](const Particle&, Vector d, Vector& force) {
+            force = force + f;
+            return -dot(f, d);
+          },
+          s);
+    case Kind::soft_circle:
+      return at_centers(
+          [s](const Particle&, Vector d, Vector& force) {
+            const double r = std::sqrt(square(d));
+            return soft_wall(s, r, r > 0.0 ? (1.0 / r) * d : Vector{}, force);
+          },
+          s);
+    case Kind::soft_stadium:
+      return at_centers(
+          [s](const Particle&, Vector d, Vector& force) {
+            // From the nearest point of the segment between the caps' centres.
+            const double beyond = d.x > s.half_length    ? d.x - s.half_length
+                                  : d.x < -s.half_length ? d.x + s.half_length
+                                                         : 0.0;
+            const Vector e{beyond, d.y};
+            const double r = std::sqrt(square(e));
+            return soft_wall(s, r, r > 0.0 ? (1.0 / r) * e : Vector{}, force);
+          },
+          s);
+    case Kind::expression:
+      return at_centers(
+          [v = s.expression](const Particle&, Vector d, Vector& force) {
+            const double at[] = {d.x, d.y};
+            double gradient[2];
+            const double value = v->value_and_gradient(at, gradient);
+            force.x -= gradient[0];
+            force.y -= gradient[1];
+            return value;
+          },
+          s);
+  }
+  return nullptr;
+}
+
+}  // namespace carom

@@ -1,0 +1,42 @@
+// One external potential, or one kind of interaction: a value and its force.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "carom/forces/force_field.hpp"
+
+namespace carom {
+
+/// The share of its height below which a potential is cut off.
+inline constexpr double tail_share = 1e-16;
+
+class Potential {
+ public:
+  virtual ~Potential() = default;
+  /// Adds -grad V to `force`, returns V.
+  virtual double add_force(const Particle&, geometry::Vector x, geometry::Vector& force) const = 0;
+  /// Distance from a centre beyond which |V| is below `tail`; infinity if there is none.
+  virtual double reach() const { return std::numeric_limits<double>::infinity(); }
+  virtual double tail() const { return 0.0; }
+};
+
+class Interaction {
+ public:
+  virtual ~Interaction() = default;
+  /// Adds the force on a to `force`, returns W.
+  virtual double add_force(const Particle& a, const Particle& b, geometry::Vector separation,
+                           geometry::Vector& force) const = 0;
+  virtual double reach() const { return std::numeric_limits<double>::infinity(); }
+  virtual double tail() const { return 0.0; }
+};
+
+std::unique_ptr<const Potential> make_potential(const PotentialSpec&, const std::optional<geometry::Lattice>&);
+std::unique_ptr<const Interaction> make_interaction(const InteractionSpec&);
+
+/// Where exp(-t) = tail_share, rounded up.
+inline constexpr double tail_exponent = 36.85;
+
+}  // namespace carom
