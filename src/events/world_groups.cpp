@@ -162,7 +162,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     }
     return;
   }
-  if (surface) watch_group(group, next.duration, observer);
+  if (surface) watch_group(group, group.next_time(), observer);
   group.advance();
   if (next.member < 0)
     for (std::size_t k = 0; k < group.bodies().size(); ++k) group.fold(k);

@@ -57,7 +57,7 @@ class World::Implementation {
   // Sections (world_sections.cpp).
   void begin_watching();
   void watch_event(int index, Time when, Observer& observer);  ///< after an event was applied
-  void watch_group(Group& group, double until, Observer& observer);
+  void watch_group(Group& group, Time until, Observer& observer);
   void watch_until(Time t_end, Observer& observer);
   void watch_flight(int index, Time until, const geometry::Vector* end, Observer& observer);
   geometry::Vector in_plane(geometry::Vector position, const geometry::Cell& cell) const;

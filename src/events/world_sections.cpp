@@ -53,14 +53,16 @@ void World::Implementation::watch_event(int index, Time when, Observer& observer
   if (b.watched.time == b.state.time) b.watched = {true, here, b.state.velocity, b.state.time};
 }
 
-/// The step of a group until a time since its start.
-void World::Implementation::watch_group(Group& group, double until, Observer& observer) {
+/// The step of a group until a time within it.
+void World::Implementation::watch_group(Group& group, Time until, Observer& observer) {
+  // The end of a step is a multiple of its length; it may differ from start and duration by rounding.
+  const double to = until == group.next_time() ? group.next().duration : until - group.time();
   for (std::size_t k = 0; k < group.bodies().size(); ++k) {
     const int index = group.bodies()[k];
     Body& b = bodies[static_cast<std::size_t>(index)];
     const double from = b.watched.begun ? b.watched.time - group.time() : 0.0;
     const Vector origin = in_plane({}, group.cells()[k]);
-    group.crossings(*surface, k, from > 0.0 ? from : 0.0, until, origin, found);
+    group.crossings(*surface, k, from > 0.0 ? from : 0.0, to, origin, found);
     for (const SurfaceCrossing& c : found) {
       State state;
       state.position = c.position;
@@ -68,7 +70,7 @@ void World::Implementation::watch_group(Group& group, double until, Observer& ob
       state.time = group.time() + c.time;
       observer.crossing(index, state.time, state, c.direction);
     }
-    b.watched.time = group.time() + until;
+    b.watched.time = until;
     b.watched.begun = true;
   }
 }
@@ -80,7 +82,7 @@ void World::Implementation::watch_until(Time t_end, Observer& observer) {
     if (flies_on && b.group < 0) watch_flight(static_cast<int>(i), t_end, nullptr, observer);
   }
   for (const auto& group : groups) {
-    if (!group->bodies().empty() && group->time() < t_end) watch_group(*group, t_end - group->time(), observer);
+    if (!group->bodies().empty() && group->time() < t_end) watch_group(*group, t_end, observer);
   }
 }
 

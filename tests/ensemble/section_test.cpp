@@ -252,6 +252,46 @@ TEST(Section, OfIntegratedMotionIsThatOfFlights) {
   }
 }
 
+TEST(Section, OfALatticeIsTakenInThePlane) {
+  System system = with_section("[table]\nshape = \"lorentz\"\nspacing = 2.2\nradius = 1\n", "on = \"x=1.5\"", 8);
+  system.section.orbits = 300;
+  const auto flown = points_of(system);
+  EXPECT_GT(flown.size(), 40u);
+  double farthest = 0;
+  for (const SectionPoint& p : flown) {
+    EXPECT_NEAR(p.x, 1.5, 1e-14);
+    farthest = std::max(farthest, std::abs(p.y));
+  }
+  EXPECT_GT(farthest, 1.5) << "beyond the first cell";
+  system.dynamics.everywhere = true;
+  system.dynamics.integrator.step = 0.05;
+  const auto integrated = points_of(system);
+  ASSERT_EQ(flown.size(), integrated.size());
+  for (std::size_t k = 0; k < flown.size(); ++k) EXPECT_NEAR(flown[k].s, integrated[k].s, 1e-4);
+}
+
+TEST(Section, WatchingChangesNoBit) {
+  for (const bool everywhere : {false, true}) {
+    System system = with_section("[table]\nshape = \"lorentz\"\nspacing = 2.2\nradius = 1\n[field]\nB = 0.3\n",
+                                 "on = \"circle:1.1,0.6,0.5\"", 30);
+    system.dynamics.everywhere = everywhere;
+    system.dynamics.integrator.step = 0.05;
+    const Sampler sampler(system);
+    Observer nothing;
+    State ends[2];
+    for (const bool watched : {false, true}) {
+      World world(*system.table, system.dynamics);
+      add_start(world, sampler, 3, 0);
+      if (watched) world.watch(&system.section.surface);
+      world.run_until(30, nothing);
+      ends[watched] = world.state_at(0, Time(30));
+    }
+    EXPECT_EQ(ends[0].position, ends[1].position);
+    EXPECT_EQ(ends[0].velocity, ends[1].velocity);
+    EXPECT_EQ(ends[0].cell, ends[1].cell);
+  }
+}
+
 TEST(Section, ErrorsLeaveTheThreads) {
   System system = with_section(ellipse, "on = \"x=0\"");
   SectionOptions options;
