@@ -81,8 +81,8 @@ class Walker : public Observer {
       trajectory_ = trajectory;
       const int particles = static_cast<int>(system_.particles.size());
       world_.clear();
+      add_starts(world_, sampler_, trajectory);
       for (int p = 0; p < particles; ++p) {
-        add_start(world_, sampler_, trajectory, p);
         starts_[index(p)] = world_.state(p);
         squares_[index(p)].clear();
         ends_[index(p)] = {Fate::survived, system_.run.times.back()};

@@ -64,7 +64,7 @@ class Runner {
     world_.clear();
     ends_.clear();
     const int count = static_cast<int>(system_.particles.size());
-    for (int particle = 0; particle < count; ++particle) add_start(world_, sampler_, trajectory, particle);
+    add_starts(world_, sampler_, trajectory);
     const std::size_t first_record = records ? records->size() : 0;
     for (int particle = 0; records && particle < count; ++particle)
       records->push_back(start_of(world_.state(particle)));

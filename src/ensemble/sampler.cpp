@@ -156,10 +156,19 @@ void Sampler::add_source(int wall, double from, double to) {
 }
 
 State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) const {
-  const InitialCondition& initial = system_.initial;
-  const double speed = system_.particles.at(static_cast<std::size_t>(particle)).speed;
+  const Dynamics& dynamics = system_.dynamics;
+  if (dynamics.forces && dynamics.forces->interacts() && system_.particles.size() > 1)
+    return draw_all(world, trajectory)[static_cast<std::size_t>(particle)];
+  if (dynamics.forces && dynamics.forces->external()) return draw_external(world, trajectory, particle);
   RandomStream random(system_.run.seed, Purpose::initial_state, trajectory,
                       static_cast<std::uint64_t>(particle));
+  return draw_free(world, random, trajectory, particle);
+}
+
+/// The start of a particle on which nothing acts, at its own speed.
+State Sampler::draw_free(const World& world, RandomStream& random, std::uint64_t trajectory, int particle) const {
+  const InitialCondition& initial = system_.initial;
+  const double speed = system_.particles.at(static_cast<std::size_t>(particle)).speed;
   switch (initial.kind) {
     case Kind::uniform:
       return in_box(world, random, low_, high_, speed, "the box around the table");
@@ -170,7 +179,8 @@ State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) 
     case Kind::point:
       return at_point(world, initial.position, initial.velocity, speed);
     case Kind::list: {
-      const auto i = static_cast<std::size_t>(trajectory % initial.positions.size());
+      const std::uint64_t number = trajectory * system_.particles.size() + static_cast<std::uint64_t>(particle);
+      const auto i = static_cast<std::size_t>(number % initial.positions.size());
       return at_point(world, initial.positions[i], initial.velocities[i], speed);
     }
     case Kind::boundary:
@@ -285,9 +295,10 @@ State Sampler::on_wall(int wall, double u, double tangential, double normal, dou
   return state;
 }
 
-int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, int particle) {
+namespace {
+
+int add_state(World& world, const Sampler& sampler, const State& state, std::uint64_t trajectory, int particle) {
   const System& system = sampler.system();
-  const State state = sampler.draw(world, trajectory, particle);
   try {
     return world.add(system.particles.at(static_cast<std::size_t>(particle)), state);
   } catch (const std::invalid_argument& error) {
@@ -296,11 +307,21 @@ int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, in
   }
 }
 
+}  // namespace
+
+void add_starts(World& world, const Sampler& sampler, std::uint64_t trajectory) {
+  const std::vector<State> states = sampler.draw_all(world, trajectory);
+  for (std::size_t p = 0; p < states.size(); ++p)
+    add_state(world, sampler, states[p], trajectory, static_cast<int>(p));
+}
+
+int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, int particle) {
+  return add_state(world, sampler, sampler.draw(world, trajectory, particle), trajectory, particle);
+}
+
 void check_start(const System& system) {
   World world(*system.table, system.dynamics);
-  const Sampler sampler(system);
-  for (int particle = 0; particle < static_cast<int>(system.particles.size()); ++particle)
-    add_start(world, sampler, 0, particle);
+  add_starts(world, Sampler(system), 0);
 }
 
 State draw_initial_state(const System& system, const World& world, std::uint64_t trajectory, int particle) {

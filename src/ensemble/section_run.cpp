@@ -98,8 +98,7 @@ class Follower {
 
   bool follow(std::uint64_t orbit, const std::function<bool()>& stopped) {
     world_.clear();
-    const int particles = static_cast<int>(system_.particles.size());
-    for (int p = 0; p < particles; ++p) add_start(world_, sampler_, orbit, p);
+    add_starts(world_, sampler_, orbit);
     recorder_.begin(orbit, world_);
     const auto enough = [&] { return stopped() || recorder_.done(); };
     world_.run_until(system_.run.t_max, recorder_, enough);

@@ -98,10 +98,9 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   const Sampler sampler(system);
   std::vector<ParticleProgress> progress(count);
   std::vector<int> numbers;
+  if (options.resume.empty()) add_starts(world, sampler, options.trajectory);
   for (std::size_t p = 0; p < count; ++p) {
-    if (options.resume.empty()) {
-      add_start(world, sampler, options.trajectory, static_cast<int>(p));
-    } else {
+    if (!options.resume.empty()) {
       progress[p] = options.resume[p];
       const bool capped = system.run.collisions > 0 && progress[p].hits >= system.run.collisions;
       const bool pinned = progress[p].fate == Fate::pinned && system.run.t_max >= no_last_time;

@@ -64,10 +64,10 @@ const std::vector<KeyDescription>& key_table() {
       {"field", "", "larmor_radius", "number", "",
        "radius of the Larmor circles instead of B, which is then > 0"},
 
-      {"particles", "", "count", "whole number", "1", "number of particles that do not interact"},
+      {"particles", "", "count", "whole number", "1", "number of particles"},
       {"particles", "", "speed", "number or list", "1",
        "speed; if neither it nor energy is given, the length of initial.velocity"},
-      {"particles", "", "energy", "number or list", "", "kinetic energy, instead of speed"},
+      {"particles", "", "energy", "number or list", "", "energy instead of speed: kinetic, and potential where forces act; interacting particles share the sum"},
       {"particles", "", "mass", "number or list", "1", "mass"},
       {"particles", "", "charge", "number or list", "1", "charge, of either sign or 0"},
 
@@ -126,10 +126,11 @@ const std::vector<KeyDescription>& key_table() {
       {"interaction", "expression", "expression", "string", "", "W in r"},
       {"interaction", "expression", "parameters", "table", "", "names in it and their numbers"},
 
-      {"integrator", "", "scheme", "string", "",
-       "name of a scheme, arkode or cvode; the default is blanes-moan-srkn11b"},
-      {"integrator", "", "step", "number", "", "time of a step; adaptive schemes: the longest step"},
-      {"integrator", "", "tolerance", "number", "", "of adaptive schemes: error of a step, relative to the state"},
+      {"integrator", "", "scheme", "string", "\"blanes-moan-srkn11b\"", "name of a scheme, arkode or cvode"},
+      {"integrator", "", "step", "number", "",
+       "time of a step; needed where forces act, except with arkode and cvode: there it is the longest step"},
+      {"integrator", "", "tolerance", "number", "",
+       "of arkode and cvode, 1e-12 if not given: error of a step, relative to the state"},
       {"integrator", "", "walls", "string", "\"reflect\"", "reflect: found and refined within the steps"},
 
       {"run", "", "t_max", "number", "1000", "when a trajectory stops"},

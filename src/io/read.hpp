@@ -20,10 +20,12 @@ std::vector<Particle> read_particles(Value& root);
 InitialCondition read_initial(Value& root, const Table& table, const std::vector<Particle>& particles);
 /// [run].
 RunPlan read_run(Value& root);
+/// The energies of the particles where these are given; empty where speeds are.
+std::vector<double> read_energies(Value& root, std::size_t particles);
 /// [[potential]] and [interaction].
 ForceSpec read_forces(Value& root, std::size_t particles);
-/// [integrator].
-IntegratorPlan read_integrator(Value& root);
+/// [integrator]. Where `forces` act it is checked whether the plan can be carried out.
+IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Particle>& particles, bool walls);
 /// [section]; the names of walls are those of the table.
 SectionPlan read_section(Value& root, const Table& table);
 

@@ -1,28 +1,46 @@
 // [integrator].
+#include <algorithm>
+#include <cmath>
+
 #include "carom/integrators/scheme.hpp"
 #include "io/read.hpp"
 
 namespace carom::io {
 
-IntegratorPlan read_integrator(Value& root) {
+IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Particle>& particles, bool walls) {
   IntegratorPlan plan;
   Value* value = root.find("integrator");
-  if (value == nullptr) return plan;
+  if (value == nullptr) {
+    if (forces) check_plan(plan, {root.place.file, 0, 0, "integrator"});  // says what is missing
+    return plan;
+  }
   Section section(*value, "integrator");
   section.check_keys();
-  if (const Value* scheme = section.find("scheme")) {
-    plan.scheme = as_text(*scheme);
-    if (!is_adaptive(plan.scheme)) find_scheme(plan.scheme, scheme->place);
+  const Value& scheme = section.get("scheme");
+  plan.scheme = as_text(scheme);
+  if (!is_adaptive(plan.scheme)) find_scheme(plan.scheme, scheme.place);
+  Place place = value->place;
+  if (const Value* step = section.find("step")) {
+    plan.step = as_positive(*step);
+    place = step->place;
   }
-  if (const Value* step = section.find("step")) plan.step = as_positive(*step);
   if (const Value* tolerance = section.find("tolerance")) {
     plan.tolerance = as_positive(*tolerance);
-    if (!is_adaptive(plan.scheme))
-      throw InputError(tolerance->place, "a scheme of fixed steps has no tolerance", "step, or scheme = \"arkode\"");
+    place = tolerance->place;
+  } else if (is_adaptive(plan.scheme)) {
+    plan.tolerance = default_tolerance;
+    section.fill("tolerance", number_value("1e-12", section.place_of("tolerance")));
   }
-  const Value& walls = section.get("walls");
-  if (as_text(walls) != "reflect")
-    throw InputError(walls.place, "unknown treatment of walls '" + walls.text + "'", "\"reflect\"");
+  const Value& treatment = section.get("walls");
+  if (as_text(treatment) != "reflect")
+    throw InputError(treatment.place, "unknown treatment of walls '" + treatment.text + "'", "\"reflect\"");
+  place.key = "integrator";  // the checks add the key at fault
+  if (forces || plan.tolerance > 0.0) check_plan(plan, place);
+  if (forces) {
+    double largest = 0.0;
+    for (const Particle& p : particles) largest = std::max(largest, std::fabs(p.omega));
+    check_turn(plan, largest, walls, place);
+  }
   return plan;
 }
 

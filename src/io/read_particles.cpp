@@ -171,6 +171,15 @@ class Reader {
 
 }  // namespace
 
+std::vector<double> read_energies(Value& root, std::size_t particles) {
+  std::vector<double> energies;
+  const Value* value = root.find("particles")->find("energy");
+  if (value == nullptr) return energies;
+  const Quantity energy(*value);
+  for (std::size_t k = 0; k < particles; ++k) energies.push_back(energy[k].to_double());
+  return energies;
+}
+
 std::vector<Particle> read_particles(Value& root) { return Reader(root).read(); }
 
 }  // namespace carom::io

@@ -92,12 +92,9 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   system.particles = io::read_particles(root);
   system.dynamics.forces =
       ForceField::build(io::read_forces(root, system.particles.size()), system.particles, table->lattice);
-  system.dynamics.integrator = io::read_integrator(root);
-  if (!system.dynamics.forces->empty()) {
-    check_plan(system.dynamics.integrator, {file, 0, 0, "integrator"});
-    for (const Particle& p : system.particles)
-      check_turn(system.dynamics.integrator, p.omega, !table->walls.empty(), {file, 0, 0, "integrator"});
-  }
+  system.dynamics.integrator = io::read_integrator(root, !system.dynamics.forces->empty(), system.particles,
+                                                   !table->walls.empty());
+  if (!system.dynamics.forces->empty()) system.energies = io::read_energies(root, system.particles.size());
   system.initial = io::read_initial(root, *table, system.particles);
   system.run = io::read_run(root);
   system.section = io::read_section(root, *table);

@@ -21,7 +21,12 @@ class RandomStream;
 ///   hole       cosine law over the opening of one hole or all
 ///   birkhoff   given arc length and tangential velocity
 ///   point      given position and velocity
-///   list       the same, one of a list for each trajectory
+///   list       the same, one of a list for each particle of each trajectory
+///
+/// Where forces act and energies are given, they are total energies: positions are drawn again where the
+/// potential is above, and the speed follows from what is left of it. Interacting particles share the
+/// sum of their energies: what their potential leaves is kinetic energy, in equal parts (Bill2d,
+/// section 4.1), and all of them are drawn again if it leaves nothing.
 class Sampler {
  public:
   explicit Sampler(const System&);  ///< refers to the system
@@ -30,6 +35,8 @@ class Sampler {
   /// The state of particle `particle` of trajectory `trajectory`. `world` answers which points lie in
   /// the domain. Throws InputError when the initial condition is impossible.
   State draw(const World& world, std::uint64_t trajectory, int particle) const;
+  /// The states of all particles of a trajectory.
+  std::vector<State> draw_all(const World& world, std::uint64_t trajectory) const;
 
  private:
   /// An interval of a wall's parameter that cosine-law starts are drawn from. |dr/du| <= bound on it.
@@ -39,6 +46,9 @@ class Sampler {
     double bound, weight;  ///< weight: bound * (to - from), summed over the sources before it and itself
   };
 
+  State draw_free(const World&, RandomStream&, std::uint64_t trajectory, int particle) const;
+  State draw_external(const World&, std::uint64_t trajectory, int particle) const;
+  bool random_positions() const;
   void add_source(int wall, double from, double to);
   State in_box(const World&, RandomStream&, geometry::Vector low, geometry::Vector high, double speed,
                const char* where) const;
@@ -57,6 +67,8 @@ class Sampler {
 
 /// Draws a state and adds it to the world; returns the particle's number there. Throws InputError.
 int add_start(World&, const Sampler&, std::uint64_t trajectory, int particle);
+/// The same for all particles of a trajectory.
+void add_starts(World&, const Sampler&, std::uint64_t trajectory);
 /// Throws InputError if the first trajectory cannot start.
 void check_start(const System&);
 /// One state by a sampler made on the spot.

@@ -47,6 +47,7 @@ struct System {
   std::string title;
   std::shared_ptr<const Table> table;
   std::vector<Particle> particles;   ///< one entry a particle; at least one
+  std::vector<double> energies;      ///< total energy of each where energies are given, not speeds
   Dynamics dynamics;                 ///< [[potential]], [interaction], [integrator]; --engine steps
   InitialCondition initial;
   RunPlan run;

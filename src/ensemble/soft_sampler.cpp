@@ -1,0 +1,96 @@
+// Starts of particles under forces: total energies, and particles that feel each other.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "carom/base/error.hpp"
+#include "carom/base/random.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/energy.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+using Kind = InitialCondition::Kind;
+
+namespace {
+
+/// If so few of the draws lie below the energy, it is below all that matters.
+constexpr int most_draws = 100000;
+
+Vector with_speed(Vector velocity, double speed) {
+  return (speed / std::sqrt(dot(velocity, velocity))) * velocity;
+}
+
+InputError too_little_energy(const System& system, double energy, double lowest) {
+  Place place = system.initial.place;
+  place.key = "particles.energy";
+  return InputError(place, fmt::format("no start has less potential energy than {:.6g}: the lowest seen is {:.6g}",
+                                       energy, lowest),
+                    "an energy above the potential's minimum, or another region to start from");
+}
+
+}  // namespace
+
+bool Sampler::random_positions() const {
+  const Kind kind = system_.initial.kind;
+  return kind != Kind::point && kind != Kind::list && kind != Kind::birkhoff;
+}
+
+State Sampler::draw_external(const World& world, std::uint64_t trajectory, int particle) const {
+  RandomStream random(system_.run.seed, Purpose::initial_state, trajectory, static_cast<std::uint64_t>(particle));
+  if (system_.energies.empty()) return draw_free(world, random, trajectory, particle);
+  const Particle& p = system_.particles.at(static_cast<std::size_t>(particle));
+  const double energy = system_.energies.at(static_cast<std::size_t>(particle));
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int draw = 0; draw < (random_positions() ? most_draws : 1); ++draw) {
+    State state = draw_free(world, random, trajectory, particle);
+    Vector unused{};
+    const double potential = system_.dynamics.forces->add_external(p, state.position, unused);
+    lowest = std::min(lowest, potential);
+    if (!(potential < energy)) continue;
+    state.velocity = with_speed(state.velocity, std::sqrt(2.0 * (energy - potential) / p.mass));
+    return state;
+  }
+  throw too_little_energy(system_, energy, lowest);
+}
+
+std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajectory) const {
+  const std::size_t count = system_.particles.size();
+  const Dynamics& dynamics = system_.dynamics;
+  std::vector<State> states;
+  if (!dynamics.forces || !dynamics.forces->interacts() || count == 1) {
+    for (std::size_t p = 0; p < count; ++p) states.push_back(draw(world, trajectory, static_cast<int>(p)));
+    return states;
+  }
+  std::vector<RandomStream> random;
+  for (std::size_t p = 0; p < count; ++p)
+    random.emplace_back(system_.run.seed, Purpose::initial_state, trajectory, p);
+  double energy = 0.0;
+  for (const double e : system_.energies) energy += e;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int draw = 0; draw < (random_positions() ? most_draws : 1); ++draw) {
+    states.clear();
+    for (std::size_t p = 0; p < count; ++p)
+      states.push_back(draw_free(world, random[p], trajectory, static_cast<int>(p)));
+    const Energy now = energy_of(system_.particles, states, dynamics, *system_.table);
+    const double potential = now.external + now.pair;
+    if (!std::isfinite(potential)) {
+      if (random_positions()) continue;
+      Place place = system_.initial.place;
+      throw InputError(place, "two particles start at the same point, or at a pole of a potential",
+                       "positions of their own");
+    }
+    if (system_.energies.empty()) return states;
+    lowest = std::min(lowest, potential);
+    if (!(potential < energy)) continue;
+    const double each = (energy - potential) / static_cast<double>(count);
+    for (std::size_t p = 0; p < count; ++p)
+      states[p].velocity = with_speed(states[p].velocity, std::sqrt(2.0 * each / system_.particles[p].mass));
+    return states;
+  }
+  throw too_little_energy(system_, energy, lowest);
+}
+
+}  // namespace carom
