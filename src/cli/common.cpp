@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +13,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
+#include "carom/integrators/scheme.hpp"
 #include "carom_version.hpp"
 
 namespace carom::cli {
@@ -70,9 +73,15 @@ void choose_engine(const std::string& engine, System& system) {
   if (engine == "events" && forces)
     throw InputError(option_place("--engine"), "'events' cannot move particles under forces", "auto or steps");
   system.dynamics.everywhere = engine == "steps";
-  if (engine == "steps" && !(dynamics.integrator.step > 0.0) && !(dynamics.integrator.tolerance > 0.0))
+  if (!forces && engine != "steps") return;
+  if (!(dynamics.integrator.step > 0.0) && !is_adaptive(dynamics.integrator.scheme))
     throw InputError(option_place("--engine"), "'steps' needs the length of a step",
                      "[integrator] step, or --set integrator.step=0.01");
+  double omega = 0.0;
+  for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
+  const std::string warning =
+      check_turn(dynamics.integrator, omega, !system.table->walls.empty(), {system.name, 0, 0, "integrator"});
+  if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 std::string engine_of(const System& system) {
