@@ -270,6 +270,34 @@ TEST(Section, OfALatticeIsTakenInThePlane) {
   for (std::size_t k = 0; k < flown.size(); ++k) EXPECT_NEAR(flown[k].s, integrated[k].s, 1e-4);
 }
 
+// Henon and Heiles: every point of the section lies on it, and on the energy shell of its orbit.
+TEST(Section, OfASoftSystemKeepsTheEnergy) {
+  const System system = with_section(R"(
+[table]
+shape = "plane"
+[[potential]]
+kind = "henon-heiles"
+[particles]
+energy = "1/8"
+[initial]
+kind = "list"
+starts = [[0, 0, 1, 0.2], [0, 0.1, 1, 0], [0, -0.2, 1, 0.1]]
+[integrator]
+step = 0.05
+)",
+                                     "on = \"x=0\"", 600);
+  double first = 0;
+  const auto points = points_of(system);
+  EXPECT_GT(points.size(), 500u);
+  for (const SectionPoint& p : points) {
+    const double energy = 0.5 * (p.vx * p.vx + p.vy * p.vy) + 0.5 * p.y * p.y - p.y * p.y * p.y / 3;
+    if (p.index == 0) first = energy;
+    EXPECT_NEAR(energy, first, 1e-12);
+    EXPECT_NEAR(p.x, 0.0, 1e-15);
+    EXPECT_EQ(p.direction, p.vx > 0 ? 1 : -1);
+  }
+}
+
 TEST(Section, WatchingChangesNoBit) {
   for (const bool everywhere : {false, true}) {
     System system = with_section("[table]\nshape = \"lorentz\"\nspacing = 2.2\nradius = 1\n[field]\nB = 0.3\n",
