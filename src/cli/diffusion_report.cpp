@@ -131,6 +131,7 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   json.set("singular", result.singular);
   json.set("lost", result.lost);
   json.set("collisions", result.collisions);
+  if (engine_of(system) != "events") json.set("energy_change", result.energy_change);
   json.set("digest", fmt::format("{:016x}", result.digest));
   Json msd = Json::array(), fourth = Json::array(), local = Json::array(), corridors = Json::array();
   for (const MomentPoint& p : summary.points) {
@@ -182,6 +183,8 @@ std::string diffusion_text(const System& system, const DiffusionResult& result, 
   text += fit_text(summary);
   text += horizon_text(summary.horizon);
   text += ends_text(result);
+  if (engine_of(system) != "events")
+    text += fmt::format("\nlargest change of a trajectory's energy {:.2g}\n", result.energy_change);
   text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}: {}hits/s   digest {:016x}\n",
                       grouped(result.collisions), result.seconds, result.threads,
                       result.threads == 1 ? "" : "s",

@@ -1,12 +1,14 @@
 #include "carom/ensemble/diffusion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
+#include "carom/events/energy.hpp"
 #include "ensemble/parallel_blocks.hpp"
 
 namespace carom {
@@ -46,6 +48,7 @@ struct Tally {
     result.capped += r.capped;
     result.lost += r.lost;
     result.collisions += r.collisions;
+    result.energy_change = std::max(result.energy_change, r.energy_change);
     result.digest += r.digest;
     result.decisions += r.decisions;
     reports.insert(reports.end(), other.reports.begin(), other.reports.end());
@@ -87,8 +90,12 @@ class Walker : public Observer {
         squares_[index(p)].clear();
         ends_[index(p)] = {Fate::survived, system_.run.times.back()};
       }
+      const bool forces = system_.dynamics.forces && !system_.dynamics.forces->empty();
+      const double energy = forces ? energy_now() : 0.0;
       world_.run_until(system_.run.times.back(), *this, stopped);
       if (stopped()) return false;
+      if (forces && everybody_is_left())
+        tally.result.energy_change = std::max(tally.result.energy_change, std::fabs(energy_now() - energy));
       std::uint64_t hits = 0;
       for (int p = 0; p < particles; ++p) hits += finish(p);
       if (done_) done_(hits);
@@ -122,6 +129,15 @@ class Walker : public Observer {
     double time = 0.0;
   };
   static std::size_t index(int particle) { return static_cast<std::size_t>(particle); }
+
+  double energy_now() const {
+    std::vector<State> states;
+    for (int p = 0; p < world_.size(); ++p) states.push_back(world_.state(p));
+    return energy_of(system_.particles, states, system_.dynamics, *system_.table).total();
+  }
+  bool everybody_is_left() const {
+    return std::all_of(ends_.begin(), ends_.end(), [](const End& e) { return e.fate == Fate::survived; });
+  }
 
   std::uint64_t finish(int particle) {
     const std::uint64_t number =

@@ -47,6 +47,7 @@ struct DiffusionResult {
   std::uint64_t trajectories = 0, survived = 0, pinned = 0, escaped = 0, singular = 0, unbounded = 0,
                 capped = 0, lost = 0;
   std::uint64_t collisions = 0;
+  double energy_change = 0.0;  ///< with forces: the largest of a trajectory from its start to its end
   std::uint64_t digest = 0;
   DecisionCounts decisions;
   bool complete = true;
