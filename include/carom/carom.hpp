@@ -3,8 +3,10 @@
 #pragma once
 
 #include "carom/analysis/survival.hpp"
+#include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
 #include "carom/io/archive.hpp"
