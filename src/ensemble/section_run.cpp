@@ -64,7 +64,7 @@ class Follower {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
     // One direction takes at least every other crossing.
     const std::uint64_t points = system.section.points;
-    const std::size_t most = points == 0 ? SIZE_MAX : static_cast<std::size_t>(2 * points + 2);
+    const std::size_t most = points == 0 || points > SIZE_MAX / 4 ? SIZE_MAX : static_cast<std::size_t>(2 * points + 2);
     if (!system.section.boundary) world_.watch(&system.section.surface, most);
   }
 
