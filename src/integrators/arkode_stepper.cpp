@@ -23,7 +23,8 @@ ArkodeStepper::ArkodeStepper(const ForceLaw<double>& law, std::span<const double
   ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, static_cast<ARKODE_ERKTableID>(table.id));
   ARKStepWFtolerances(memory_, OdeProblem::weights);
   ARKStepSetAdaptivityMethod(memory_, ARK_ADAPT_I, 1, 0, nullptr);  // each step stands alone
-  ARKStepSetMaxFirstGrowth(memory_, 20.0);
+  ARKStepSetMaxFirstGrowth(memory_, 5.0);
+  ARKStepSetMaxErrTestFails(memory_, 20);
 }
 
 ArkodeStepper::~ArkodeStepper() { ARKStepFree(&memory_); }
@@ -66,6 +67,13 @@ void ArkodeStepper::part(double duration, Phase<double>& to) {
 }
 
 void ArkodeStepper::whole(double at_most) {
+  asked_ = at_most;
+  if (at_most < guess_ / 1024.0) {  // its error is nothing, and ARKODE's checks fear so short a way
+    part(at_most, end_);
+    duration_ = at_most;
+    proposed_ = guess_;
+    return;
+  }
   problem_.load(start_);
   problem_.set_scale(scale_);
   ARKStepReInit(memory_, OdeProblem::derivative, nullptr, 0.0, problem_.state());
@@ -75,10 +83,10 @@ void ArkodeStepper::whole(double at_most) {
   problem_.rethrow();
   problem_.unload(end_, status >= 0);
   if (status < 0) duration_ = at_most;
-  asked_ = at_most;
   // A step cut short by who asks says little about the next one.
   ARKStepGetCurrentStep(memory_, &proposed_);
   if (duration_ == at_most) proposed_ = std::max(proposed_, guess_);
+  proposed_ = std::min(proposed_, problem_.longest_step());
 }
 
 }  // namespace carom

@@ -24,6 +24,7 @@ CvodeStepper::CvodeStepper(const ForceLaw<double>& law, std::span<const double> 
   CVodeSetErrHandlerFn(memory_, OdeProblem::no_message, nullptr);
   CVodeInit(memory_, OdeProblem::derivative, 0.0, problem_.state());
   CVodeSetUserData(memory_, &problem_);
+  CVodeSetMaxErrTestFails(memory_, 20);
   CVodeWFtolerances(memory_, OdeProblem::weights);
   const SUNNonlinearSolver solver = SUNNonlinSol_FixedPoint(problem_.state(), 0, problem_.context());
   solver_ = solver;
@@ -67,6 +68,7 @@ double CvodeStepper::step(const Phase<double>& from, double at_most, Phase<doubl
 void CvodeStepper::begin(const Phase<double>& from) {
   problem_.load(from);
   CVodeReInit(memory_, 0.0, problem_.state());
+  CVodeSetMaxStep(memory_, problem_.longest_step());
   CVodeSetInitStep(memory_, problem_.first_step(from, 1));
   start_time_ = reached_ = 0.0;
   steps_ = 0;

@@ -51,7 +51,7 @@ OdeProblem::Scale OdeProblem::first_scale(const Phase<double>& from) {
 
 double OdeProblem::first_step(const Phase<double>& from, int order) {
   const double a = largest_acceleration(from);
-  double time = scale_.position / scale_.velocity;
+  double time = longest_step();
   if (a > 0.0) time = std::min(time, scale_.velocity / a);
   return time * elementary::exp(elementary::log(tolerance_) / (order + 1));
 }

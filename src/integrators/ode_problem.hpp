@@ -37,6 +37,9 @@ class OdeProblem {
   Scale first_scale(const Phase<double>& from);
   void set_scale(const Scale& scale) { scale_ = scale; }
   const Scale& scale() const { return scale_; }
+  /// The time in which the motion goes through its own size. No step is longer: where no force acts the
+  /// error control would let steps grow without bound, and over the next force.
+  double longest_step() const { return scale_.position / scale_.velocity; }
   /// A guess of a step that an error estimate of order p accepts.
   double first_step(const Phase<double>& from, int order);
 

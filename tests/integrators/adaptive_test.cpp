@@ -1,6 +1,7 @@
 // Adaptive schemes: accuracy follows the tolerance; looking into a step changes nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -113,6 +114,49 @@ TEST_P(Adaptive, PathWithinAStepIsTheMotion) {
       EXPECT_LT(distance(part, walk(*fine, phase, share * duration / 16, 16)), 2e-9);
     }
     std::swap(phase, next);
+  }
+}
+
+TEST_P(Adaptive, TinyPartsAndStepsAreTaken) {
+  // A hit just after a step's start, or the clock's next multiple just ahead.
+  const CoulombParticles<double> problem("1.5");
+  for (const double tiny : {1e-8, 1e-17, 1e-30, 1e-300}) {
+    const auto s = stepper(problem, 1e-10);
+    Phase<double> phase = problem.start, next, part;
+    for (int k = 0; k < 3; ++k) {
+      const double duration = s->step(phase, 1.0, next);
+      ASSERT_EQ(s->step(phase, tiny * duration, part), tiny * duration);
+      EXPECT_LT(distance(part, phase), 10 * tiny * duration + 1e-15);
+      std::swap(phase, next);
+      ASSERT_EQ(s->step(phase, tiny, next), tiny);
+      EXPECT_LT(distance(phase, next), 10 * tiny + 1e-15);
+      std::swap(phase, next);
+    }
+    double t = 0.0;
+    int steps = 0;
+    for (; t < 1.0 && steps < 1000; ++steps) {  // the tiny one has not made the next ones so
+      t += s->step(phase, 1.0 - t, next);
+      std::swap(phase, next);
+    }
+    EXPECT_EQ(t, 1.0);
+  }
+}
+
+TEST_P(Adaptive, StepsDoNotGrowOverTheNextForce) {
+  // Nothing acts between soft walls at |x| = 1: the error control alone would jump over them.
+  struct SoftBox final : ForceLaw<double> {
+    void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+      const double beyond = std::max(std::fabs(x[0].x) - 1.0, 0.0);
+      a[0] = {-std::copysign(100.0 * beyond * beyond * beyond, x[0].x), 0.0};
+    }
+  } law;
+  const std::vector<double> omega{0.0};
+  const auto s = make_stepper(IntegratorPlan{.scheme = GetParam(), .tolerance = 1e-9}, law, omega);
+  Phase<double> phase{{{0.1, 0.0}}, {{1.0, 0.0}}}, next;
+  for (double t = 0.0; t < 100.0;) {
+    t += s->step(phase, std::numeric_limits<double>::max(), next);
+    std::swap(phase, next);
+    ASSERT_LT(std::fabs(phase.position[0].x), 2.0) << t;
   }
 }
 
