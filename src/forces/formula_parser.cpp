@@ -272,6 +272,8 @@ class Parser {
     if (peek() == '(') {
       fail(at, "unknown function '" + word + "'", joined(of_functions), nearest_name(word, all));
     }
+    if (word == "inf" || word == "nan" || word == "infinity")
+      fail(at, "'" + word + "' is not a finite number");
     std::vector<std::string> values = names(variables_);
     values.insert(values.end(), of_parameters.begin(), of_parameters.end());
     values.insert(values.end(), of_constants.begin(), of_constants.end());
