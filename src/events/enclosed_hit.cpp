@@ -19,6 +19,7 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// A table is enclosed if one loop of convex pieces, in their order, holds everything else, which is discs.
 void HitFinder::find_enclosure(bool complement) {
   if (complement || offsets_.size() > 1) return;  // a displaced wall reaches into the cell
+  if (table_.crossing) return;                    // then a disc may reach beyond the loop
   std::vector<int> loop, discs;
   for (int i = 0; i < static_cast<int>(data_.size()); ++i) {
     const PreparedCurve& w = curves_[at(data_[at(i)].curve)];

@@ -29,6 +29,7 @@ Table table_with_supports(const Table& table, const Dynamics& dynamics) {
   Table result;
   if (!acts(dynamics) || acts_everywhere(dynamics)) return result;
   result = table;
+  result.crossing = !table.walls.empty();
   for (const Support& support : dynamics.forces->supports()) {
     Wall edge;
     edge.name = "support";

@@ -40,6 +40,8 @@ struct Table {
   std::vector<Hole> holes;
   Extent extent = Extent::bounded;
   std::optional<geometry::Lattice> lattice;  ///< set exactly when extent == lattice
+  /// May walls cross? Not those of a table that was built; the edges of supports of forces do.
+  bool crossing = false;
 
   /// Index of the wall or hole with that name, or -1.
   int wall_index(const std::string& name) const;
