@@ -103,7 +103,7 @@ class Builder {
   Formula finish(Part result);
 
  private:
-  using Key = std::tuple<Operation, std::uint16_t, std::uint16_t, int, std::uint64_t>;
+  using Key = std::tuple<Operation, std::uint16_t, std::uint16_t, std::uint64_t>;
   Part append(Instruction);
   Part in_slot(Part);
   static Part fold(Instruction, double a, double b);

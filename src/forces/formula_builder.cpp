@@ -17,7 +17,7 @@ Part Builder::fold(Instruction instruction, double a, double b) {
 Part Builder::append(Instruction i) {
   const bool commutes = i.operation == Operation::sum || i.operation == Operation::product;
   if (commutes && i.b < i.a) std::swap(i.a, i.b);
-  const Key key{i.operation, i.a, i.b, i.n, std::bit_cast<std::uint64_t>(i.c)};
+  const Key key{i.operation, i.a, i.b, std::bit_cast<std::uint64_t>(i.c)};
   if (const auto found = known_.find(key); found != known_.end()) return {false, 0.0, found->second};
   const std::size_t slot = formula_.variables + formula_.instructions.size();
   if (slot >= most_slots) throw TooLong{};

@@ -128,13 +128,8 @@ class Parser {
   }
   std::string found() const { return at_end() ? "the formula ends too early" : "unexpected " + shown(at_); }
 
-  // Characters are code points, counted from 1.
-  std::size_t character(std::size_t at) const { return 1 + code_points(0, at); }
-  std::size_t code_points(std::size_t from, std::size_t to) const {
-    const std::string_view part = text_.substr(from, to - from);
-    return part.size() -
-           static_cast<std::size_t>(std::count_if(part.begin(), part.end(), continues_character));
-  }
+  // Characters are counted from 1. Bytes serve: the first that is not ASCII is itself to blame.
+  static std::size_t character(std::size_t at) { return 1 + at; }
 
   // Where the character stands in the file, if the file is known.
   Place place_of(std::size_t at) const {
@@ -143,10 +138,10 @@ class Parser {
     const std::string_view before = text_.substr(0, at);
     const std::size_t last_line = before.rfind('\n');
     if (last_line == std::string_view::npos) {
-      place.column += static_cast<int>(code_points(0, at));
+      place.column += static_cast<int>(at);
     } else {
       place.line += static_cast<int>(std::count(before.begin(), before.end(), '\n'));
-      place.column = 1 + static_cast<int>(code_points(last_line + 1, at));
+      place.column = static_cast<int>(at - last_line);
     }
     return place;
   }

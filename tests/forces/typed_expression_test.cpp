@@ -70,6 +70,16 @@ TEST(TypedExpression, PolynomialsHaveTheBitsOfTheSameLineOfCode) {
   }
 }
 
+TEST(TypedExpression, ComputesWhatIsWrittenTwiceAlikeAndDropsWhatIsNotNeeded) {
+  const TypedExpression f = formula("(x*y - 3)^0 + (x + y)*(x - y) + (x + y)^2 + (x + y)^3 + (y + x)^2.5");
+  const double at[] = {1.25, 2.75};
+  EXPECT_EQ(f.value(at), 1.0 + 4.0 * -1.5 + 16.0 + 64.0 + 32.0);
+  EXPECT_EQ(gradient_at(f, 1.25, 2.75).x, (-1.5 + 4.0) + 8.0 + 48.0 + 20.0);
+  EXPECT_EQ(gradient_at(f, 1.25, 2.75).y, (-1.5 - 4.0) + 8.0 + 48.0 + 20.0);
+  EXPECT_EQ(gradient_at(formula("(x*y)^0"), 1.25, 2.75).x, 0.0);
+  EXPECT_EQ(gradient_at(formula("y"), 1.25, 2.75).y, 1.0);
+}
+
 TEST(TypedExpression, ElementaryFunctionsAreThoseOfTheProject) {
   for (double x = -3.0; x < 3.0; x += 0.0371) {
     EXPECT_EQ(value_at(formula("exp(x)"), x, 0.0), elementary::exp(x));
