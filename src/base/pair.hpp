@@ -17,6 +17,11 @@ inline Pair magnitude(Pair x) {
   return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & ~sign);
 }
 inline Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
+/// x, or zero.
+inline Pair keep_if(bool condition, Pair x) {
+  const PairMask mask = PairMask{} - static_cast<decltype(PairMask{}[0] + 0)>(condition);
+  return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & mask);
+}
 /// The sign bits (of a mask: its truth), the first lane's lowest.
 inline unsigned signs(Pair x) {
 #if defined(__SSE2__)

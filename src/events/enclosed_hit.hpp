@@ -17,7 +17,7 @@ namespace detail {
   return p / Pair{p[1], p[0]};
 }
 
-/// Squares below this lose digits: such flights are looked at by the general formulas.
+/// Squares below this lose digits, and the root of b^2 is not |b|: for the general formulas.
 inline constexpr double least_square = 0x1p-900;
 
 }  // namespace detail
@@ -43,12 +43,17 @@ inline constexpr double least_square = 0x1p-900;
     const Pair p{geometry::cross(w.tangent, origin - w.from), -geometry::cross(w.tangent, v)};
     found = p / Pair{p[1], p[0]};
   } else {
+    // A conic about the domain: all signs turned.
     const bool stands = wall == f.start_piece;
-    const geometry::Quadratic<double> q = quadratic<false>(w, origin, v, f.square_speed, 0.0, stands);
-    const double root = std::sqrt(q.b * q.b - q.a * q.c);  // |b| if it stands there
-    const double n = std::fabs(q.b) + root;
-    if (!(n * n > detail::least_square)) return false;
-    found = detail::quotients(q.b, Pair{q.a, n}, Pair{n, -q.c});
+    geometry::Quadratic<double> q;
+    if (w.kind == geometry::CurveKind::circle) {
+      const Vector e = origin - w.centre;
+      q = {stands ? 0.0 : dot(e, e) - w.r2, dot(e, v), f.square_speed};
+    } else {
+      q = ellipse_quadratic(w, origin - w.centre, v, stands);
+    }
+    const double n = std::fabs(q.b) + (stands ? std::fabs(q.b) : std::sqrt(q.b * q.b - q.a * q.c));
+    found = detail::quotients(-q.b, Pair{-q.a, n}, Pair{n, q.c});
   }
   const double duration = found[0];
   if (!(duration > 0.0 && duration < HUGE_VAL)) return false;  // too short a way for doubles
@@ -88,7 +93,14 @@ inline constexpr double least_square = 0x1p-900;
     }
   }
   const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
-  const geometry::Quadratic<double> q = quadratic<true>(w, origin, v, f.square_speed, f.omega, wall == f.start_piece);
+  geometry::Quadratic<double> q;
+  if (w.kind == geometry::CurveKind::segment) {
+    const Vector d = origin - w.from;
+    const Pair e = keep_if(wall != f.start_piece, Pair{d.x, d.y});
+    q = geometry::line_quadratic(Vector{e[0], e[1]}, w.tangent, v, f.omega, 0.5);
+  } else {
+    q = quadratic<true>(w, origin, v, f.square_speed, f.omega, wall == f.start_piece);
+  }
   const double discriminant = q.b * q.b - q.a * q.c;
   const double n = std::fabs(q.b) + std::sqrt(discriminant > 0.0 ? discriminant : 0.0);
   const double kappa = detail::quotients(q.b, Pair{n, q.a}, Pair{-q.c, n})[0];

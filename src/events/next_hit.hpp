@@ -273,10 +273,10 @@ class HitFinder {
 }
 
 /// Duration of a flight to kappa.
-inline double duration_at(double kappa, double omega) {
+[[gnu::always_inline]] inline double duration_at(double kappa, double omega) {
   if (omega == 0.0) return 1.0 / kappa;
   const double h = 0.5 * std::fabs(omega);
-  return elementary::angle(kappa, h) / h;
+  return elementary::angle(kappa, h) * (1.0 / h);  // nobody waits for this quotient
 }
 /// kappa after a duration (0 < duration < one turn).
 double kappa_after(double duration, double omega);
