@@ -192,6 +192,7 @@ TEST(Plan, FieldsThatTurnTooFarInAStepAreSeen) {
   EXPECT_THROW(check_turn(plan, -10.1, true), InputError);
   EXPECT_EQ(check_turn(plan, 20.0, false), "");
   EXPECT_NE(check_turn(plan, -20.1, false), "");
+  EXPECT_EQ(check_turn(IntegratorPlan{.scheme = "arkode", .step = 0.1}, 1000.0, true), "");
 }
 
 }  // namespace
