@@ -331,6 +331,12 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
     best_q = q;
     best_root = root;
   }
+  // Bounds are allowed to change where a quartic's root is looked for, not the number that is found.
+  if (larmor && best >= 0 && options_.filter_inflation != 1.0 && is_quartic(f, best)) {
+    Candidate c;
+    if (quartic_candidate(f, best, best == start, 1.0, c) != Sign::positive) return false;
+    best_kappa = c.root.kappa;
+  }
   ahead.piece = best;
   ahead.root = 0;
   ahead.kappa = larmor ? best_kappa : best_unit / best_time;

@@ -278,7 +278,8 @@ TEST(World, TheCapEndsATrajectory) {
 }
 
 TEST(World, InflatedBoundsChangeNoBit) {
-  for (const Table& table : {stadium(), sinai(), lorentz({2.2, 0}, {1.1, 1.9}), disc(1.5)})
+  for (const Table& table : {square(), stadium(), sinai(), lorentz({2.2, 0}, {1.1, 1.9}), disc(1.5),
+                             loop({Ellipse{{0, 0}, {1, 0}, 0.75, true}})})
     for (const double omega : {0.0, 0.6, -2.0}) {
       Recorder usual, inflated, exact;
       const std::pair<double, Recorder*> runs[] = {{1.0, &usual}, {0x1p20, &inflated}, {1e300, &exact}};
