@@ -23,6 +23,11 @@ Time next_multiple(const Time& now, double step) {
 }
 
 void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
+  const auto alike = [](const Particle& a, const Particle& b) {
+    return a.mass == b.mass && a.charge == b.charge && a.omega == b.omega;
+  };
+  // A stepper may remember accelerations by position: it is kept for particles that are accelerated alike.
+  if (!std::equal(particles.begin(), particles.end(), particles_.begin(), particles_.end(), alike)) stepper_.reset();
   bodies_ = std::move(bodies);
   particles_ = std::move(particles);
   cells_.assign(bodies_.size(), Cell{});
@@ -31,12 +36,10 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   make_stepper();
 }
 
-/// A stepper belongs to the particles' omegas; it is kept while they stay the same.
 void Group::make_stepper() {
-  std::vector<double> omega;
-  for (const Particle& p : particles_) omega.push_back(p.omega);
-  if (stepper_ && omega == omega_) return;
-  omega_ = std::move(omega);
+  if (stepper_) return;
+  omega_.clear();
+  for (const Particle& p : particles_) omega_.push_back(p.omega);
   stepper_ = carom::make_stepper(in_.plan, *this, omega_);
   path_ = std::make_unique<StepPath<double>>(*stepper_, *this, omega_);
 }
@@ -115,13 +118,15 @@ State Group::state_at(std::size_t member, const Time& time) {
 }
 
 void Group::remove(std::size_t member) {
+  if (bodies_.size() == 1) return bodies_.clear();  // the rest is kept for whoever comes next
   const auto i = static_cast<std::ptrdiff_t>(member);
   bodies_.erase(bodies_.begin() + i);
   particles_.erase(particles_.begin() + i);
   cells_.erase(cells_.begin() + i);
   phase_.position.erase(phase_.position.begin() + i);
   phase_.velocity.erase(phase_.velocity.begin() + i);
-  if (!bodies_.empty()) make_stepper();
+  stepper_.reset();
+  make_stepper();
 }
 
 void Group::fold(std::size_t member) {

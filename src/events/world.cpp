@@ -47,6 +47,12 @@ World::Implementation::Implementation(const Table& the_table, const Dynamics& ho
 [[gnu::always_inline]] inline void World::Implementation::predict(int index) {
   Body& b = bodies[static_cast<std::size_t>(index)];
   finder.next(b.flight, b.ahead, counts);
+  enqueue(index);
+}
+
+/// The particle's entry, from what lies ahead of it.
+[[gnu::always_inline]] inline void World::Implementation::enqueue(int index) {
+  const Body& b = bodies[static_cast<std::size_t>(index)];
   Time when = b.state.time + b.ahead.duration;
   EventKind kind = EventKind::hit;
   switch (b.ahead.kind) {
@@ -64,10 +70,19 @@ World::Implementation::Implementation(const Table& the_table, const Dynamics& ho
         kind = EventKind::lost;
       break;
   }
+  if (by_range) {
+    // Nothing but another particle may lie ahead.
+    if (kind == EventKind::pinned || kind == EventKind::unbounded) when = never;
+    if (b.check < when) {
+      when = b.check;
+      kind = EventKind::group;
+    }
+  }
   queue.update(index, when, static_cast<int>(kind));
 }
 
 void World::Implementation::fly(int index) { predict(index); }
+void World::Implementation::fly_on(int index) { enqueue(index); }
 
 void World::Implementation::end(int index, Fate fate, Time time, Observer* observer) {
   Body& b = bodies[static_cast<std::size_t>(index)];
@@ -146,7 +161,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
       return predict(index);
     case EventKind::hit:
     case EventKind::singular: break;
-    case EventKind::group: return start_integrating(index, observer);
+    case EventKind::group: return meet(index, observer);
     default: return end(index, Fate::lost, b.state.time, &observer);
   }
   if (b.ahead.kind == Ahead::Kind::cusp) return end(index, Fate::singular, key.time, &observer);
@@ -228,6 +243,7 @@ void World::Implementation::check_speed(const Body& b) const {
 /// Starts a flight from the body's state.
 void World::Implementation::begin_free(Body& b) {
   b.energy_weight = 0.75 / (b.particle.speed * b.particle.speed);
+  b.flight = Flight();
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;
   if (b.state.wall >= 0) {
@@ -260,6 +276,7 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   if (!integrated) {
     w.check_speed(b);
     w.begin_free(b);
+    if (w.by_range) b.check = state.time;
   }
   w.bodies.push_back(std::move(b));
   const int index = static_cast<int>(w.bodies.size()) - 1;

@@ -1,6 +1,7 @@
 // Integration and hand-over: groups of particles among the events of a world.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "events/table_with_supports.hpp"
 #include "events/world_implementation.hpp"
@@ -17,7 +18,8 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool acts(const Dynamics& d) { return d.forces && !d.forces->empty(); }
 bool acts_everywhere(const Dynamics& d) {
-  return d.everywhere || (acts(d) && (d.forces->everywhere() || d.forces->interacts()));
+  const bool far = acts(d) && d.forces->interacts() && !std::isfinite(d.forces->pair_range());
+  return d.everywhere || far || (acts(d) && d.forces->everywhere());
 }
 /// Copies of a wall that a particle in the lattice's cell may meet within a step that is shorter than
 /// the cell.
@@ -43,7 +45,12 @@ Table table_with_supports(const Table& table, const Dynamics& dynamics) {
 void World::Implementation::add_barriers() {
   integrates = acts(dynamics) || dynamics.everywhere;
   if (!integrates) return;
-  one_group = acts(dynamics) && dynamics.forces->interacts();
+  if (acts(dynamics) && dynamics.forces->interacts()) {
+    by_range = !dynamics.everywhere && std::isfinite(dynamics.forces->pair_range());
+    one_group = !by_range;
+    if (by_range && !(dynamics.integrator.step > 0.0))
+      throw std::invalid_argument("particles that meet within a range need the length of a step");
+  }
   surroundings.forces = acts(dynamics) ? dynamics.forces.get() : nullptr;
   surroundings.plan = dynamics.integrator;
   if (table.lattice) {
@@ -97,7 +104,7 @@ void World::Implementation::form_group(std::vector<int> members) {
     // At a hit a particle stays where the wall is until its step ends.
     if (b.state.wall < 0) group->fold(k);
     // One entry a group: its first member's.
-    queue.update(members[k], Time(std::numeric_limits<double>::infinity()), static_cast<int>(EventKind::group));
+    queue.update(members[k], never, static_cast<int>(EventKind::group));
   }
   group->set_time(bodies[at(members.front())].state.time);
   predict_group(members.front());
@@ -107,6 +114,12 @@ void World::Implementation::form_group(std::vector<int> members) {
 void World::Implementation::wait(int index) {
   waiting.push_back(index);
   queue.update(index, bodies[at(index)].state.time, static_cast<int>(EventKind::group));
+}
+
+/// A particle that was waiting starts, or a free one looks whether another is near.
+void World::Implementation::meet(int index, Observer& observer) {
+  if (std::find(waiting.begin(), waiting.end(), index) != waiting.end()) return start_integrating(index, observer);
+  look_around(index, queue.key(index).time);
 }
 
 void World::Implementation::start_integrating(int index, Observer& observer) {
@@ -133,9 +146,10 @@ void World::Implementation::start_integrating(int index, Observer& observer) {
 
 void World::Implementation::predict_group(int leader) {
   Group& group = *groups[at(bodies[at(leader)].group)];
-  Time until(std::numeric_limits<double>::infinity());
+  Time until = never;
   if (one_group)
-    for (const int i : waiting) until = std::min(until, bodies[at(i)].state.time);
+    for (const int i : waiting)
+      if (bodies[at(i)].state.time > group.time()) until = std::min(until, bodies[at(i)].state.time);
   group.predict(until);
   queue.update(leader, group.next_time(), static_cast<int>(EventKind::group));
 }
@@ -190,6 +204,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     }
     if (group.bodies().empty()) return;
   }
+  if (by_range && next.member < 0 && regroup(group, observer)) return;
   predict_group(group.bodies().front());
 }
 
@@ -254,6 +269,7 @@ void World::Implementation::hit_in_group(Group& group, std::size_t member, const
 
 /// A particle comes to the edge of a support from inside. True if it flies freely from here on.
 bool World::Implementation::leave_support(Group& group, const Barrier<double>& barrier) {
+  if (group.bodies().size() > 1) return false;  // the others hold it
   const Vector x = group.phase().position.front();
   if (group.supported(x, &barrier)) return false;
   Body& b = bodies[at(group.bodies().front())];
@@ -275,6 +291,7 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
   finder.begin_on_wall(b.flight, barrier.wall, u, frame.point, velocity);
   take_out(group, 0);
   fly(index);
+  if (by_range) look_around(index, b.state.time);
   return true;
 }
 
@@ -289,6 +306,13 @@ void World::Implementation::enter_support(int index, const HitFinder::Landing& l
   b.state.time = key.time;
   b.state.wall = -1;
   form_group({index});
+}
+
+void World::Implementation::take_out_of_group(int index) {
+  Group& group = *groups[at(bodies[at(index)].group)];
+  const auto& members = group.bodies();
+  const auto member = std::find(members.begin(), members.end(), index) - members.begin();
+  take_out(group, static_cast<std::size_t>(member));
 }
 
 /// Takes a member out of its group; the next one leads it if it was the first.

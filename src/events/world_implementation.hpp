@@ -16,6 +16,8 @@
 
 namespace carom {
 
+inline constexpr Time never{std::numeric_limits<double>::infinity()};
+
 /// A particle. It flies freely, or belongs to a group.
 struct Body {
   Particle particle;
@@ -30,6 +32,7 @@ struct Body {
   bool finished = false;
   int group = -1;       ///< index into groups, -1: free
   Time last_event;      ///< integrated: its last hit or start
+  Time check = never;   ///< free: when another particle may be near at the earliest
   /// How far crossings of the watched surface have been reported, and the state there in the plane.
   struct Watched {
     bool begun = false;
@@ -44,8 +47,10 @@ class World::Implementation {
   Implementation(const Table& table, const Dynamics& dynamics, DecisionOptions options);
 
   void predict(int index);
+  void enqueue(int index);
   void fly(int index);  ///< predict, for callers that it is not inlined into
   void apply(int index, Observer& observer);
+  void fly_on(int index);  ///< enqueue, likewise
   void reflect(int index, Observer& observer, const HitFinder::Landing& landing);
   void end(int index, Fate fate, Time time, Observer* observer);
   void emit_samples(Time until, bool inclusive, Observer& observer);
@@ -62,11 +67,18 @@ class World::Implementation {
   void watch_flight(int index, Time until, const geometry::Vector* end, Observer& observer);
   geometry::Vector in_plane(geometry::Vector position, const geometry::Cell& cell) const;
 
+  // Interactions of finite range (world_ranges.cpp).
+  double gap_between(const Body& a, geometry::Vector x, const Body& b, geometry::Vector y) const;
+  void look_around(int index, const Time& now);
+  bool regroup(Group& group, Observer& observer);
+  bool split(const std::vector<int>& members);
+
   // Integration and hand-over (world_groups.cpp).
   void add_barriers();
   bool integrated_at(geometry::Vector x) const;
   void form_group(std::vector<int> members);
   void wait(int index);
+  void meet(int index, Observer& observer);
   void start_integrating(int index, Observer& observer);
   void predict_group(int leader);
   void apply_group(int leader, Observer& observer);
@@ -74,6 +86,7 @@ class World::Implementation {
   bool leave_support(Group& group, const Barrier<double>& barrier);
   void enter_support(int index, const HitFinder::Landing& landing);
   void take_out(Group& group, std::size_t member);
+  void take_out_of_group(int index);
   void copy_states(const Group& group);
   bool is_support(int wall) const { return wall >= wall_count; }
 
@@ -98,7 +111,8 @@ class World::Implementation {
   std::vector<SurfaceCrossing> found;
 
   bool integrates = false;        ///< forces act somewhere, or everything is to be integrated
-  bool one_group = false;         ///< the particles interact
+  bool one_group = false;         ///< the particles interact at any distance
+  bool by_range = false;          ///< they interact within a range: groups merge and split
   Group::Surroundings surroundings;
   std::vector<std::unique_ptr<Group>> groups;
   std::vector<int> idle_groups;   ///< kept for the next particle that comes under a force
