@@ -51,8 +51,9 @@ std::shared_ptr<const TypedExpression> expression_in(Section& section, std::vect
       throw InputError(table->place, "the parameters are not a table", "{ name = number, … }");
     for (const Entry& entry : table->entries) parameters[entry.key] = as_double(entry.value);
   }
-  return std::make_shared<TypedExpression>(
-      TypedExpression::parse(as_text(text), variables, parameters, text.place));
+  Place first = text.place;  // of the opening quote
+  if (first.column > 0) ++first.column;
+  return std::make_shared<TypedExpression>(TypedExpression::parse(as_text(text), variables, parameters, first));
 }
 
 double number(Section& section, const char* key) { return as_double(section.get(key)); }
