@@ -1,6 +1,6 @@
 #include "carom/events/energy.hpp"
 
-#include "events/nearest_copy.hpp"
+#include "forces/nearest_copy.hpp"
 
 namespace carom {
 

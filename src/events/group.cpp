@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "carom/integrators/make_stepper.hpp"
-#include "events/nearest_copy.hpp"
 
 namespace carom {
 
@@ -44,26 +43,13 @@ void Group::make_stepper() {
   path_ = std::make_unique<StepPath<double>>(*stepper_, *this, omega_);
 }
 
-Vector Group::separation(std::span<const Vector> x, std::size_t i, std::size_t j) const {
-  const Vector d = x[i] - x[j];
-  return in_.lattice ? nearest_copy(d, *in_.lattice) : d;
-}
-
 void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const {
   std::fill(a.begin(), a.end(), Vector{});
   if (!in_.forces) return;
   const ForceField& forces = *in_.forces;
   if (forces.external())
     for (std::size_t i = 0; i < x.size(); ++i) forces.add_external(particles_[i], x[i], a[i]);
-  if (forces.interacts()) {
-    for (std::size_t i = 0; i < x.size(); ++i)
-      for (std::size_t j = i + 1; j < x.size(); ++j) {
-        Vector force{};
-        forces.add_pair(particles_[i], particles_[j], separation(x, i, j), force);
-        a[i] = a[i] + force;
-        a[j] = a[j] - force;
-      }
-  }
+  if (forces.interacts()) forces.add_pairs(particles_, x, in_.lattice, a);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (particles_[i].mass != 1.0) a[i] = (1.0 / particles_[i].mass) * a[i];
 }

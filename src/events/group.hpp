@@ -75,7 +75,6 @@ class Group final : public ForceLaw<double> {
 
  private:
   void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
-  geometry::Vector separation(std::span<const geometry::Vector> x, std::size_t i, std::size_t j) const;
   void make_stepper();
 
   const Surroundings& in_;

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "events/nearest_copy.hpp"
+#include "forces/nearest_copy.hpp"
 #include "events/world_implementation.hpp"
 
 namespace carom {

@@ -22,6 +22,11 @@ double ForceField::add_pair(const Particle& a, const Particle& b, Vector separat
   return interaction_ ? interaction_->add_force(a, b, separation, force) : 0.0;
 }
 
+void ForceField::add_pairs(std::span<const Particle> particles, std::span<const Vector> x,
+                           const geometry::Lattice* lattice, std::span<Vector> force) const {
+  if (interaction_) interaction_->add_forces(particles, x, lattice, force);
+}
+
 namespace {
 
 void check(const PotentialSpec& s, const std::vector<Particle>& particles, bool lattice) {

@@ -3,6 +3,7 @@
 
 #include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
+#include "forces/nearest_copy.hpp"
 #include "forces/potential.hpp"
 
 namespace carom {
@@ -30,6 +31,20 @@ class Central final : public Interaction {
     const double charges = charged_ ? a.charge * b.charge : 1.0;
     force = force + (charges * over_r) * separation;
     return charges * w;
+  }
+  void add_forces(std::span<const Particle> particles, std::span<const Vector> x, const geometry::Lattice* lattice,
+                  std::span<Vector> force) const override {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      Vector sum{};
+      for (std::size_t j = i + 1; j < x.size(); ++j) {
+        const Vector d = lattice ? nearest_copy(x[i] - x[j], *lattice) : x[i] - x[j];
+        const double charges = charged_ ? particles[i].charge * particles[j].charge : 1.0;
+        const Vector f = (charges * law_(dot(d, d)).over_r) * d;
+        sum = sum + f;
+        force[j] = force[j] - f;
+      }
+      force[i] = force[i] + sum;
+    }
   }
   double reach() const override { return reach_; }
   double tail() const override { return tail_; }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "carom/forces/force_field.hpp"
@@ -29,6 +30,9 @@ class Interaction {
   /// Adds the force on a to `force`, returns W.
   virtual double add_force(const Particle& a, const Particle& b, geometry::Vector separation,
                            geometry::Vector& force) const = 0;
+  /// The same for all pairs at once.
+  virtual void add_forces(std::span<const Particle>, std::span<const geometry::Vector> x, const geometry::Lattice*,
+                          std::span<geometry::Vector> force) const = 0;
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
 };

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "carom/forces/force_spec.hpp"
@@ -39,6 +40,10 @@ class ForceField {
   /// `separation` = x_a - x_b.
   double add_pair(const Particle& a, const Particle& b, geometry::Vector separation,
                   geometry::Vector& force) const;
+
+  /// Adds the forces of all pairs. On a lattice a pair feels its nearest copies.
+  void add_pairs(std::span<const Particle> particles, std::span<const geometry::Vector> x,
+                 const geometry::Lattice* lattice, std::span<geometry::Vector> force) const;
 
   /// Does some external potential reach everywhere?
   bool everywhere() const { return everywhere_; }
