@@ -106,6 +106,26 @@ void add_common_keys(Json& json, const System& system, int threads, double secon
   json.set("cpu_seconds", cpu_seconds);
 }
 
+namespace {
+
+double exact_share(const DecisionCounts& decisions) {
+  const double all = static_cast<double>(decisions.filter) + static_cast<double>(decisions.exact);
+  return all > 0.0 ? static_cast<double>(decisions.exact) / all : 0.0;
+}
+
+}  // namespace
+
+Json decisions_json(const DecisionCounts& decisions) {
+  return Json::object()
+      .set("filter", decisions.filter)
+      .set("exact", decisions.exact)
+      .set("share", exact_share(decisions));
+}
+
+std::string decisions_text(const DecisionCounts& decisions) {
+  return fmt::format("decisions beyond double precision: {:.2g} %", 100.0 * exact_share(decisions));
+}
+
 void print(const std::string& text) {
   errno = 0;
   const bool ok = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "carom/ensemble/system.hpp"
+#include "carom/events/world.hpp"
 #include "carom/io/archive.hpp"
 #include "cli/options.hpp"
 #include "io/json.hpp"
@@ -26,6 +27,10 @@ Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.
 void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds);
+/// {filter, exact, share}: how many decisions each stage took, and the share that left the filter.
+Json decisions_json(const DecisionCounts&);
+/// "decisions beyond double precision: 0.0001 %".
+std::string decisions_text(const DecisionCounts&);
 /// Writes to standard output; an output that cannot be written is an InputError.
 void print(const std::string& text);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "cli/common.hpp"
 #include "io/progress.hpp"
@@ -11,9 +13,19 @@ namespace carom::cli {
 
 namespace {
 
-double exact_share(const DecisionCounts& decisions) {
-  const double all = static_cast<double>(decisions.filter) + static_cast<double>(decisions.exact);
-  return all > 0.0 ? static_cast<double>(decisions.exact) / all : 0.0;
+// A hole across the parameter 0 of a closed wall is stored as two of one name.
+struct HoleEscapes {
+  std::string name;
+  std::uint64_t escaped = 0;
+};
+std::vector<HoleEscapes> escapes_by_hole(const System& system, const SurvivalCounts& counts) {
+  std::vector<HoleEscapes> list;
+  for (std::size_t i = 0; i < counts.hole_escapes.size(); ++i) {
+    const std::string& name = system.table->holes[i].name;
+    if (list.empty() || list.back().name != name) list.push_back({name, 0});
+    list.back().escaped += counts.hole_escapes[i];
+  }
+  return list;
 }
 
 std::string survival_table(const SurvivalCounts& counts) {
@@ -40,8 +52,9 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
                         100.0 * static_cast<double>(number) / all, *note ? "   " : "", note);
   };
   line("escaped", counts.escaped, "", true);
-  for (std::size_t i = 0; counts.hole_escapes.size() > 1 && i < counts.hole_escapes.size(); ++i)
-    line("  by " + system.table->holes[i].name, counts.hole_escapes[i], "", true);
+  const std::vector<HoleEscapes> holes = escapes_by_hole(system, counts);
+  for (std::size_t i = 0; holes.size() > 1 && i < holes.size(); ++i)
+    line("  by " + holes[i].name, holes[i].escaped, "", true);
   line("survived", counts.survived, "", true);
   line("  pinned", counts.pinned, "on cyclotron orbits that never hit", false);
   line("  capped", counts.capped, "ended by the cap on hits", false);
@@ -69,14 +82,10 @@ Json escape_json(const System& system, const EscapeResult& result, const std::st
   json.set("lost", counts.lost);
   json.set("collisions", counts.collisions);
   json.set("digest", fmt::format("{:016x}", result.digest));
-  json.set("decisions", Json::object()
-                            .set("filter", result.decisions.filter)
-                            .set("exact", result.decisions.exact)
-                            .set("share", exact_share(result.decisions)));
+  json.set("decisions", decisions_json(result.decisions));
   Json holes = Json::array();
-  for (std::size_t i = 0; i < system.table->holes.size(); ++i)
-    holes.push(
-        Json::object().set("name", system.table->holes[i].name).set("escaped", counts.hole_escapes[i]));
+  for (const HoleEscapes& hole : escapes_by_hole(system, counts))
+    holes.push(Json::object().set("name", hole.name).set("escaped", hole.escaped));
   json.set("holes", std::move(holes));
   Json by_time = Json::array(), by_hits = Json::array(), rates = Json::array();
   for (const auto& [t, p, low, high] : survival(counts))
@@ -112,8 +121,7 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
                       with_prefix(hits / std::max(result.seconds, 1e-9)));
   if (counts.collisions > 0)
     text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
-  text += fmt::format("\ndecisions beyond double precision: {:.2g} %   digest {:016x}\n",
-                      100.0 * exact_share(result.decisions), result.digest);
+  text += fmt::format("\n{}   digest {:016x}\n", decisions_text(result.decisions), result.digest);
   if (!output.empty()) text += fmt::format("archive: {}\n", output);
   return text;
 }

@@ -73,6 +73,7 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
   add_common_keys(json, system, 1, result.seconds, result.cpu_seconds);
   json.set("status", status);
   json.set("collisions", result.collisions);
+  json.set("decisions", decisions_json(result.decisions));
   if (result.particles.size() == 1) {
     add_end(json, system, result.particles.front());
   } else {
@@ -99,7 +100,7 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
   }
   if (result.particles.size() > 1)
     text += fmt::format("{}: {} collisions\n", status, grouped(result.collisions));
-  text += fmt::format("  computed in   {:.3g} s\n", result.seconds);
+  text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds, decisions_text(result.decisions));
   if (!output.empty()) text += fmt::format("  archive       {}\n", output);
   return text;
 }

@@ -115,10 +115,7 @@ Sampler::Sampler(const System& system) : system_(system) {
       break;
     }
     case Kind::boundary:
-      if (initial.hole >= 0) {
-        const Hole& hole = table.holes.at(static_cast<std::size_t>(initial.hole));
-        add_source(hole.wall, hole.from, hole.to);
-      }
+      if (initial.hole >= 0) add_holes(initial.hole);
       for (int wall = 0; initial.hole < 0 && wall < static_cast<int>(table.walls.size()); ++wall) {
         if (initial.wall < 0 || initial.wall == wall)
           add_source(wall, 0.0, frames_[static_cast<std::size_t>(wall)].end);
@@ -126,10 +123,7 @@ Sampler::Sampler(const System& system) : system_(system) {
       if (sources_.empty()) throw impossible(initial, "the table has no wall to start from");
       break;
     case Kind::hole:
-      for (int i = 0; i < static_cast<int>(table.holes.size()); ++i) {
-        const Hole& hole = table.holes[static_cast<std::size_t>(i)];
-        if (initial.hole < 0 || initial.hole == i) add_source(hole.wall, hole.from, hole.to);
-      }
+      add_holes(initial.hole);
       if (sources_.empty()) throw impossible(initial, "the table has no hole to start from");
       break;
     case Kind::birkhoff:
@@ -142,6 +136,14 @@ Sampler::Sampler(const System& system) : system_(system) {
     case Kind::line:
       break;
   }
+}
+
+/// One hole or all (-1). A hole across the parameter 0 of a closed wall is stored as two of one name.
+void Sampler::add_holes(int hole) {
+  const std::vector<Hole>& holes = system_.table->holes;
+  for (const Hole& one : holes)
+    if (hole < 0 || one.name == holes.at(static_cast<std::size_t>(hole)).name)
+      add_source(one.wall, one.from, one.to);
 }
 
 void Sampler::add_source(int wall, double from, double to) {

@@ -1,62 +1,281 @@
 #include "carom/ensemble/validation.hpp"
 
-#include <cmath>
+#include <omp.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <vector>
+
+#include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/world.hpp"
 
 namespace carom {
 
 namespace {
 
+constexpr double most_errors = 4.0;
+
+// An integrable orbit may have no scatter at all: then the numbers agree to rounding.
+bool agrees(const ValidationCase& c, Allowance allowance) {
+  const double rounding = 1e-12 * std::fabs(c.expected);
+  const double reach = most_errors * c.error + rounding;
+  return c.value >= c.expected - reach - allowance.below && c.value <= c.expected + reach + allowance.above;
+}
+
+void judge(ValidationCase& c, Allowance allowance) {
+  c.distance = c.error > 0.0 ? (c.value - c.expected) / c.error : c.value - c.expected;
+  c.passed = c.complete && c.lost == 0 && agrees(c, allowance);
+}
+
+// Runs the ensemble and fills in everything but the value.
+EscapeResult run(const System& system, const ValidationOptions& options, ValidationCase& c) {
+  EscapeOptions how;
+  how.threads = options.threads;
+  how.interrupted = options.interrupted;
+  EscapeResult result = run_escape(system, how);
+  c.complete = result.complete;
+  c.seed = system.run.seed;
+  c.hits = result.counts.collisions;
+  c.lost = result.counts.lost;
+  c.seconds = result.seconds;
+  c.cpu_seconds = result.cpu_seconds;
+  c.singular = result.counts.singular;
+  c.digest = result.digest;
+  c.threads = result.threads;
+  const double filter = static_cast<double>(result.decisions.filter);
+  c.filter_share = filter / (filter + static_cast<double>(result.decisions.exact));
+  if (!result.reports.empty()) c.report = result.reports.front();
+  return result;
+}
+
+// Standard error of k / n, not 0 at the ends of [0, 1].
+double binomial_error(double k, double n) {
+  const double p = (k + 1.0) / (n + 2.0);
+  return std::sqrt(p * (1.0 - p) / n);
+}
+
+// Follows the trajectories by themselves: what one of them is does not depend on the thread that runs it.
+// A probe observes one trajectory after the other; at the end of its thread it hands in what it has kept.
+template <class Probe>
+class Follower {
+ public:
+  Follower(const System& system, const ValidationOptions& options, ValidationCase& c)
+      : system_(system), options_(options), sampler_(system), case_(c) {
+    c.seed = system.run.seed;
+    c.threads = options.threads > 0 ? options.threads : std::max(1, omp_get_max_threads());
+#pragma omp parallel num_threads(c.threads)
+    work();
+    if (error_) std::rethrow_exception(error_);
+    c.complete = !interrupted();
+    c.seconds = watch_.seconds();
+    c.cpu_seconds = watch_.cpu_seconds();
+    // In the order of the trajectories, so that threads change no bit of a sum.
+    std::sort(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+  }
+  const std::vector<typename Probe::Kept>& kept() const { return kept_; }
+
+ private:
+  // No exception may leave it: it runs inside an OpenMP region.
+  void work() noexcept {
+    try {
+      Probe probe(system_);
+      World world(*system_.table, system_.dynamics);
+      world.limit_hits(system_.run.collisions);
+      std::uint64_t lost = 0, singular = 0;
+      const auto stopped = [&] { return failed_ || interrupted(); };
+      for (std::uint64_t i = next_++; i < system_.run.trajectories && !stopped(); i = next_++) {
+        probe.begin(i);
+        world.clear();
+        add_start(world, sampler_, i, 0);
+        world.run_until(system_.run.t_max, probe);
+        probe.end();
+        lost += world.fate(0) == Fate::lost;
+        singular += world.fate(0) == Fate::singular;
+      }
+      const std::lock_guard lock(mutex_);
+      case_.hits += probe.hits;
+      case_.lost += lost;
+      case_.singular += singular;
+      kept_.insert(kept_.end(), probe.kept.begin(), probe.kept.end());
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+  bool interrupted() const { return options_.interrupted && *options_.interrupted; }
+
+  const Stopwatch watch_;
+  const System& system_;
+  const ValidationOptions& options_;
+  const Sampler sampler_;
+  ValidationCase& case_;
+  std::vector<typename Probe::Kept> kept_;
+  std::atomic<std::uint64_t> next_{0};
+  std::atomic<bool> failed_{false};
+  std::mutex mutex_;
+  std::exception_ptr error_;
+};
+
+// The mean flight of each trajectory.
 struct Flights : Observer {
-  double sum = 0.0;
-  std::uint64_t hits = 0;
+  struct Kept {
+    std::uint64_t index;
+    double mean;
+  };
+  explicit Flights(const System&) {}
+  void begin(std::uint64_t i) {
+    index = i;
+    sum = 0.0;
+    own = 0;
+  }
   void hit(const HitEvent& event) override {
     sum += event.flight_time;
+    ++own;
     ++hits;
   }
+  void end() {
+    if (own > 0) kept.push_back({index, sum / static_cast<double>(own)});
+  }
+  std::uint64_t index = 0, own = 0, hits = 0;
+  double sum = 0.0;
+  std::vector<Kept> kept;
+};
+
+// The times of the last two hits before the cap, of those that came so far.
+struct LastHits : Observer {
+  struct Kept {
+    std::uint64_t index;
+    double before, last;
+    bool reached;  ///< the last one
+  };
+  explicit LastHits(const System& system) : cap(system.run.collisions) {}
+  void begin(std::uint64_t i) {
+    own = 0;
+    one = {i, 0.0, 0.0, false};
+  }
+  void hit(const HitEvent& event) override {
+    ++own;
+    ++hits;
+    if (own + 1 == cap) one.before = event.time.value();
+    if (own == cap) one.last = event.time.value();
+  }
+  void end() {
+    one.reached = own == cap;
+    if (own + 1 >= cap) kept.push_back(one);
+  }
+  std::uint64_t own = 0, hits = 0, cap;
+  Kept one{};
+  std::vector<Kept> kept;
 };
 
 }  // namespace
 
-Comparison mean_flight(const System& system, double expected) {
+ValidationCase check_mean_flight(const System& system, double no_hit_area, const ValidationOptions& options) {
   if (system.run.trajectories < 2 || system.run.collisions == 0)
     throw InternalError("a mean flight needs trajectories and a number of hits");
-  const Sampler sampler(system);
-  World world(*system.table);
-  world.limit_hits(system.run.collisions);
+  const TableMeasure size = measure(*system.table);
+  ValidationCase c;
+  c.expected = size.mean_flight * (1.0 - no_hit_area / size.area);
+  const Follower<Flights> flights(system, options, c);
   double sum = 0.0, squares = 0.0;
-  for (std::uint64_t i = 0; i < system.run.trajectories; ++i) {
-    Flights flights;
-    world.clear();
-    add_start(world, sampler, i, 0);
-    world.run_until(system.run.t_max, flights);
-    const double mean = flights.sum / static_cast<double>(flights.hits) - expected;
-    sum += mean;
-    squares += mean * mean;
+  for (const Flights::Kept& one : flights.kept()) {
+    sum += one.mean - c.expected;
+    squares += (one.mean - c.expected) * (one.mean - c.expected);
   }
-  const double n = static_cast<double>(system.run.trajectories);
+  const double n = static_cast<double>(flights.kept().size());
   const double mean = sum / n;
-  return {expected + mean, std::sqrt((squares / n - mean * mean) / (n - 1.0)), expected};
+  c.value = c.expected + mean;
+  c.error = std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1.0));
+  judge(c, {});
+  return c;
 }
 
-Soak soak(const System& system, int threads) {
-  EscapeOptions options;
-  options.threads = threads;
-  const EscapeResult result = run_escape(system, options);
-  Soak s;
-  s.hits = result.counts.collisions;
-  s.lost = result.counts.lost;
-  s.singular = result.counts.singular;
-  s.digest = result.digest;
-  const double filter = static_cast<double>(result.decisions.filter);
-  s.filter_share = filter / (filter + static_cast<double>(result.decisions.exact));
-  s.cpu_seconds = result.cpu_seconds;
-  if (!result.reports.empty()) s.report = result.reports.front();
-  return s;
+ValidationCase check_nothing_lost(const System& system, const ValidationOptions& options) {
+  ValidationCase c;
+  run(system, options, c);
+  c.value = static_cast<double>(c.lost);
+  judge(c, {});
+  return c;
+}
+
+ValidationCase check_survival_per_hit(const System& system, double expected, const ValidationOptions& options) {
+  ValidationCase c;
+  c.expected = expected;
+  const Follower<LastHits> walkers(system, options, c);
+  double reached = 0.0;
+  for (const LastHits::Kept& one : walkers.kept()) reached += one.reached;
+  const double n = static_cast<double>(walkers.kept().size());
+  c.value = reached / n;
+  c.error = binomial_error(reached, n);
+  judge(c, {});
+  return c;
+}
+
+ValidationCase check_escape_rate(const System& system, double expected, const ValidationOptions& options) {
+  ValidationCase c;
+  c.expected = expected;
+  const Follower<LastHits> walkers(system, options, c);
+  double rate = 0.0, step = 1.0;
+  for (int i = 0; i < 50 && std::fabs(step) > 1e-13; ++i) {
+    // Newton's method for the logarithm of the ratio of the two sums.
+    double before = 0.0, last = 0.0, before_time = 0.0, last_time = 0.0, squares = 0.0;
+    for (const LastHits::Kept& one : walkers.kept()) {
+      const double a = elementary::exp(rate * one.before);
+      const double b = one.reached ? elementary::exp(rate * one.last) : 0.0;
+      before += a;
+      last += b;
+      before_time += a * one.before;
+      last_time += b * one.last;
+      squares += (b - a) * (b - a);
+    }
+    const double slope = last_time / last - before_time / before;
+    step = -elementary::log(last / before) / slope;
+    rate += step;
+    // At the root the terms b - a have the mean 0; their sum's error is that of the logarithm, times `before`.
+    c.error = std::sqrt(squares) / (before * slope);
+  }
+  c.value = rate;
+  judge(c, {});
+  return c;
+}
+
+ValidationCase check_survivors(const System& system, double factor, double expected, Allowance allowance,
+                               const ValidationOptions& options) {
+  ValidationCase c;
+  c.expected = expected;
+  const EscapeResult result = run(system, options, c);
+  const double n = static_cast<double>(result.counts.followed());
+  const double survived = static_cast<double>(result.counts.survived);
+  c.value = factor * survived / n;
+  c.error = factor * binomial_error(survived, n);
+  judge(c, allowance);
+  return c;
+}
+
+ValidationCase check_distance(const System& system, double expected, Allowance allowance) {
+  ValidationCase c;
+  c.expected = expected;
+  c.seed = system.run.seed;
+  Observer nothing;
+  const SingleRunResult result = run_single(system, nothing);
+  const ParticleEnd& end = result.particles.front();
+  c.value = std::sqrt(end.x * end.x + end.y * end.y);
+  c.hits = end.progress.hits;
+  c.lost = end.progress.fate == Fate::lost;
+  c.report = end.report;
+  c.seconds = result.seconds;
+  c.cpu_seconds = result.cpu_seconds;
+  judge(c, allowance);
+  return c;
 }
 
 }  // namespace carom

@@ -92,15 +92,27 @@ TEST(Escape, PrintsATable) {
     EXPECT_NE(o.out.find(part), std::string::npos) << part;
 }
 
+TEST(Escape, CountsAHoleAcrossTheStartOfAWallOnce) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom systems circle | sed 's/\"pi\"/0/' >wrapped.toml; $carom escape wrapped.toml --trajectories 1000 --json");
+  EXPECT_EQ(o.status, 0) << o.err;
+  const std::string holes = json_value(o.out, "holes");
+  EXPECT_NE(holes.find("\"escaped\": " + json_value(o.out, "escaped")), std::string::npos) << holes;
+}
+
 TEST(Run, PrintsItsKeys) {
   const Shell shell;
   const Outcome o = shell("$carom run siam-photon --t-max 10 --json");
   EXPECT_EQ(o.status, 0);
-  expect_keys(o.out, {"status", "collisions", "wall", "t", "x", "y", "vx", "vy", "cell", "energy_error"});
+  expect_keys(o.out, {"status", "collisions", "wall", "t", "x", "y", "vx", "vy", "cell", "energy_error", "decisions"});
   EXPECT_EQ(json_value(o.out, "status"), "\"completed\"");
   EXPECT_EQ(json_value(o.out, "collisions"), "14");
   EXPECT_EQ(json_value(o.out, "t"), "10");
-  EXPECT_NE(shell("$carom run siam-photon --t-max 10").out.find("energy error"), std::string::npos);
+  EXPECT_NE(json_value(o.out, "decisions").find("\"share\": "), std::string::npos);
+  const std::string text = shell("$carom run siam-photon --t-max 10").out;
+  EXPECT_NE(text.find("energy error"), std::string::npos);
+  EXPECT_NE(text.find("decisions beyond double precision"), std::string::npos);
 }
 
 TEST(Run, StopsAfterSoManyCollisions) {
@@ -126,6 +138,16 @@ TEST(Run, ReadsExactNumbersThatStartWithAMinus) {
   EXPECT_EQ(apart.status, 0) << apart.err;
   EXPECT_EQ(json_value(apart.out, "x"), json_value(joined.out, "x"));
   EXPECT_EQ(json_value(apart.out, "vx").front(), '-');
+}
+
+TEST(Validate, PassesItsCases) {
+  const Shell shell;
+  const Outcome o = shell("$carom validate --scale 0.002 --json");
+  EXPECT_EQ(o.status, 0) << o.out;
+  expect_keys(o.out, {"passed", "failed", "cases"});
+  EXPECT_EQ(json_value(o.out, "failed"), "0");
+  for (const char* part : {"three-disc: escape rate", "siam-photon", "\"source\"", "\"filter_share\"", "\"digest\""})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part;
 }
 
 struct Bad {
@@ -182,6 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"$carom run circle --position 0,0 --velocity 0,0", 1, "velocity is zero"},
         Bad{"$carom run --resume missing.h5", 1, "no such file"},
         Bad{"$carom run sinai --resume missing.h5", 2, "leave SYSTEM out"},
+        Bad{"$carom validate --scale 0", 1, "--scale"}, Bad{"$carom validate --scale x", 1, "--scale"},
         Bad{"$carom table circle -o circle.png", 1, ".svg"},
         Bad{"$carom table circle -o missing/circle.svg", 1, "No such file"}));
 

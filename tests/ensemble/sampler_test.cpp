@@ -156,6 +156,33 @@ hole = "hole_1"
             rare);
 }
 
+TEST(Sampler, HoleAcrossTheStartOfAClosedWallIsOneOpening) {
+  const std::string table = R"(
+[table]
+shape = "circle"
+radius = 1
+[[table.hole]]
+wall = "circle"
+center = 0.1
+width = 0.5
+name = "gap"
+[[table.hole]]
+wall = "circle"
+center = 3
+width = 0.5
+)";
+  // By either kind of start, the arc lengths fill [-0.15, 0.35) evenly.
+  for (const char* initial : {"[initial]\nkind = \"hole\"\nhole = \"gap\"\n", "[initial]\nkind = \"boundary\"\nhole = \"gap\"\n"}) {
+    const Drawn draw(table + initial);
+    const geometry::Curve& curve = draw.system.table->walls[0].curve;
+    EXPECT_LT(chi_squared([&](std::uint64_t i) {
+                const double s = geometry::arc_length_at(curve, draw(i).u);
+                return ((s > 3.2 ? s - geometry::length(curve) : s) + 0.15 + 1e-13) / (0.5 + 2e-13);
+              }),
+              rare);
+  }
+}
+
 TEST(Sampler, BirkhoffStartsWhereItIsTold) {
   const Drawn draw(R"(
 [table]

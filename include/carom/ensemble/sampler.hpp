@@ -49,6 +49,7 @@ class Sampler {
   State draw_free(const World&, RandomStream&, std::uint64_t trajectory, int particle) const;
   State draw_external(const World&, std::uint64_t trajectory, int particle) const;
   bool random_positions() const;
+  void add_holes(int hole);
   void add_source(int wall, double from, double to);
   State in_box(const World&, RandomStream&, geometry::Vector low, geometry::Vector high, double speed,
                const char* where) const;

@@ -1,0 +1,116 @@
+// The checks of carom validate: they pass where they should, and can fail.
+#include "carom/ensemble/validation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <string>
+
+#include "systems.hpp"
+
+namespace carom {
+namespace {
+
+System closed_circle(const char* initial, const char* run) {
+  return make_system(std::string("[table]\nshape = \"circle\"\nradius = 1\n[initial]\nkind = \"") + initial +
+                     "\"\n[run]\nt_max = 1e12\n" + run);
+}
+
+TEST(Validation, MeanFlightOfADisc) {
+  const System system = closed_circle("boundary", "collisions = 100\ntrajectories = 2000\n");
+  const ValidationCase c = check_mean_flight(system, 0.0);
+  EXPECT_TRUE(c.passed);
+  EXPECT_NEAR(c.expected, 1.5707963267948966, 1e-15);
+  EXPECT_EQ(c.hits, 200000u);
+  EXPECT_LT(c.error, 0.02);
+  // A wrong area of centres is noticed.
+  EXPECT_FALSE(check_mean_flight(system, 0.5).passed);
+}
+
+TEST(Validation, IsTheSameOnAnyNumberOfThreads) {
+  const System system = closed_circle("boundary", "collisions = 20\ntrajectories = 500\n");
+  const ValidationCase one = check_mean_flight(system, 0.0, {1, nullptr});
+  const ValidationCase three = check_mean_flight(system, 0.0, {3, nullptr});
+  EXPECT_EQ(one.value, three.value);
+  EXPECT_EQ(one.error, three.error);
+  EXPECT_EQ(three.threads, 3);
+}
+
+TEST(Validation, NothingIsLostInADisc) {
+  const ValidationCase c =
+      check_nothing_lost(closed_circle("uniform", "collisions = 1000\ntrajectories = 100\n"));
+  EXPECT_TRUE(c.passed);
+  EXPECT_EQ(c.hits, 100000u);
+  EXPECT_EQ(c.lost, 0u);
+  EXPECT_NE(c.digest, 0u);
+}
+
+TEST(Validation, TwoDiscsLoseByTheirMultiplier) {
+  const System system = make_system(R"(
+[table]
+shape = "discs"
+centers = [[0, 0], [6, 0]]
+radius = 1
+[initial]
+kind = "line"
+from = [3, -0.1]
+to = [3, 0.1]
+angle = 0
+[run]
+t_max = 1e12
+collisions = 4
+trajectories = 200000
+)");
+  const double multiplier = 5.0 + std::sqrt(24.0);
+  const ValidationCase share = check_survival_per_hit(system, 1.0 / multiplier);
+  EXPECT_TRUE(share.passed) << share.value;
+  EXPECT_LT(share.error, 0.003);
+  const ValidationCase rate = check_escape_rate(system, std::log(multiplier) / 4.0);
+  EXPECT_TRUE(rate.passed) << rate.value;
+  EXPECT_LT(rate.error, 0.01);
+  EXPECT_FALSE(check_survival_per_hit(system, 1.2 / multiplier).passed);
+  EXPECT_FALSE(check_escape_rate(system, std::log(multiplier) / 3.7).passed);
+}
+
+TEST(Validation, SurvivorsWithinAnAllowance) {
+  // Nobody leaves a closed disc.
+  const System system = closed_circle("uniform", "collisions = 10\ntrajectories = 1000\n");
+  EXPECT_TRUE(check_survivors(system, 2.0, 2.0, {}).passed);
+  EXPECT_FALSE(check_survivors(system, 2.0, 1.8, {}).passed);
+  EXPECT_TRUE(check_survivors(system, 2.0, 1.8, {0.0, 0.2}).passed);
+  EXPECT_FALSE(check_survivors(system, 2.0, 1.8, {0.2, 0.0}).passed);
+}
+
+TEST(Validation, DistanceOfOneOrbit) {
+  const System system = make_system(R"(
+[table]
+shape = "rectangle"
+width = 4
+height = 4
+[particles]
+speed = 1
+[initial]
+kind = "point"
+position = [3, 1]
+velocity = [0, 1]
+[run]
+t_max = 3
+)");
+  // One reflection at most: at (3, 4), whose distance is 5.
+  const ValidationCase c = check_distance(system, 5.0, {});
+  EXPECT_TRUE(c.passed) << c.value;
+  EXPECT_FALSE(check_distance(system, 5.1, {0.0, 1.0}).passed);
+  EXPECT_TRUE(check_distance(system, 5.1, {0.2, 0.0}).passed);
+}
+
+TEST(Validation, WhatIsInterruptedHasNeitherPassedNorFailed) {
+  const std::atomic<bool> interrupted{true};
+  const ValidationCase c = check_mean_flight(
+      closed_circle("boundary", "collisions = 100\ntrajectories = 2000\n"), 0.0, {2, &interrupted});
+  EXPECT_FALSE(c.complete);
+  EXPECT_FALSE(c.passed);
+}
+
+}  // namespace
+}  // namespace carom
