@@ -24,6 +24,12 @@ class Renumbering : public Observer {
     copy.particle = number(event.particle);
     observer_.hit(copy);
   }
+  void contact(const ContactEvent& event) override {
+    ContactEvent copy = event;
+    copy.first = number(event.first);
+    copy.second = number(event.second);
+    observer_.contact(copy);
+  }
   void sample(int particle, Time time, const State& state) override {
     observer_.sample(number(particle), time, state);
   }
@@ -112,7 +118,9 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
 
   Renumbering passed_on(observer, numbers, count);
   SingleRunResult result;
-  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
+  // Energy is shared by particles that interact, by forces or by contacts.
+  const ForceField* field = system.dynamics.forces.get();
+  const bool forces = field != nullptr && (!field->empty() || !field->disc_radii().empty());
   std::vector<Particle> particles;
   for (const int p : numbers) particles.push_back(system.particles[static_cast<std::size_t>(p)]);
   if (forces) {

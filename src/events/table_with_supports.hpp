@@ -10,4 +10,7 @@ namespace carom {
 /// walls where free flights never occur or nothing has a finite support.
 Table table_with_supports(const Table& table, const Dynamics& dynamics);
 
+/// The table as the centres of hard discs see it. Throws InputError where it cannot be built.
+Table table_of_discs(const Table& table, const Dynamics& dynamics);
+
 }  // namespace carom

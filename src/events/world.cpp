@@ -41,6 +41,7 @@ World::Implementation::Implementation(const Table& the_table, const Dynamics& ho
                                      : finder.exact().corner(w.previous, static_cast<int>(i)).order);
   }
   add_barriers();
+  add_contacts();
 }
 
 /// What comes next for a particle, into its queue entry.
@@ -83,6 +84,7 @@ World::Implementation::Implementation(const Table& the_table, const Dynamics& ho
 
 void World::Implementation::fly(int index) { predict(index); }
 void World::Implementation::fly_on(int index) { enqueue(index); }
+void World::Implementation::apply_own(int index, Observer& observer) { apply(index, observer); }
 
 void World::Implementation::end(int index, Fate fate, Time time, Observer* observer) {
   Body& b = bodies[static_cast<std::size_t>(index)];
@@ -273,9 +275,10 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   const bool integrated = w.integrates && w.integrated_at(state.position);
   // Where forces act, the speed is not a constant: it is that of the start.
   if (w.integrates) b.particle.speed = std::sqrt(dot(state.velocity, state.velocity));
+  if (w.contacts) w.check_disc(b);
   if (!integrated) {
     w.check_speed(b);
-    w.begin_free(b);
+    if (!w.contacts || b.particle.speed > 0.0) w.begin_free(b);
     if (w.by_range) b.check = state.time;
   }
   w.bodies.push_back(std::move(b));
@@ -283,6 +286,8 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   w.queue.push({});
   if (integrated)
     w.wait(index);
+  else if (w.contacts)
+    w.add_disc(index);
   else
     w.predict(index);
   return index;
@@ -295,6 +300,8 @@ void World::clear() {
   w.idle_groups.clear();
   for (std::size_t i = 0; i < w.groups.size(); ++i) w.idle_groups.push_back(static_cast<int>(i));
   w.waiting.clear();
+  if (w.contacts) w.contacts->clear();
+  w.clock = Time();
   w.next_sample = 0;
 }
 
@@ -314,6 +321,7 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
   Implementation& w = *implementation_;
   std::uint64_t events = 0;
   if (w.surface) w.begin_watching();
+  if (w.unprepared) w.prepare_contacts();
   while (!w.queue.empty()) {
     const int index = w.queue.top();
     const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
@@ -321,7 +329,10 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
     // Asking may cost more than an event.
     if (interrupted && events % 256 == 0 && interrupted()) return events;
     if (w.sampling) w.emit_samples(when, false, observer);
-    w.apply(index, observer);
+    if (w.contacts) [[unlikely]]
+      w.apply_disc(index, observer);
+    else
+      w.apply(index, observer);
     if (w.surface) w.watch_event(index, when, observer);
     ++events;
   }
@@ -350,7 +361,7 @@ const DecisionCounts& World::decisions() const { return implementation_->counts;
 const std::string& World::report(int p) const { return body(implementation_->bodies, p).report; }
 
 bool World::Implementation::contains(Vector point) {
-  if (!locator) locator = std::make_unique<Locator>(table);
+  if (!locator) locator = std::make_unique<Locator>(contacts ? finder.table() : table);
   return locator->contains(point);
 }
 bool World::contains(Vector point) const { return implementation_->contains(point); }

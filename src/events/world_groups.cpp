@@ -29,6 +29,7 @@ constexpr std::int64_t copies = 2;
 
 Table table_with_supports(const Table& table, const Dynamics& dynamics) {
   Table result;
+  if (dynamics.forces && !dynamics.forces->disc_radii().empty()) return table_of_discs(table, dynamics);
   if (!acts(dynamics) || acts_everywhere(dynamics)) return result;
   result = table;
   result.crossing = !table.walls.empty();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "carom/events/world.hpp"
+#include "events/contacts.hpp"
 #include "events/group.hpp"
 #include "events/locator.hpp"
 #include "events/next_hit.hpp"
@@ -50,6 +51,7 @@ class World::Implementation {
   void enqueue(int index);
   void fly(int index);  ///< predict, for callers that it is not inlined into
   void apply(int index, Observer& observer);
+  void apply_own(int index, Observer& observer);  ///< apply, likewise
   void fly_on(int index);  ///< enqueue, likewise
   void reflect(int index, Observer& observer, const HitFinder::Landing& landing);
   void end(int index, Fate fate, Time time, Observer* observer);
@@ -90,9 +92,25 @@ class World::Implementation {
   void copy_states(const Group& group);
   bool is_support(int wall) const { return wall >= wall_count; }
 
+  // Hard discs (world_contacts.cpp).
+  void add_contacts();
+  void add_disc(int index);
+  void check_disc(Body& body) const;
+  void prepare_contacts();
+  void apply_disc(int index, Observer& observer);
+  void look_ahead(int index, const Time& now);
+  void look_again(int index, int partner, const Time& now);
+  void enter_disc(int index, const Time& now);
+  void keep_own(int index);
+  void collide(int index, Observer& observer);
+  geometry::Cell advance_disc(int index, const Time& now);
+  void start_disc(int index, double way, Observer& observer);
+  bool settle_on_wall(int index, double way, Observer& observer);
+
   const Table& table;             ///< the user's
   Dynamics dynamics;
-  Table with_supports;            ///< the same with the edges of supports as walls, if there are any
+  /// The same with the edges of supports as walls, or as the centres of hard discs see it, if there are any.
+  Table with_supports;
   int wall_count = 0;             ///< of the user's table
   HitFinder finder;
   std::unique_ptr<Locator> locator;
@@ -116,6 +134,10 @@ class World::Implementation {
   Group::Surroundings surroundings;
   std::vector<std::unique_ptr<Group>> groups;
   std::vector<int> idle_groups;   ///< kept for the next particle that comes under a force
+  std::unique_ptr<Contacts> contacts;  ///< of hard discs, or null
+  bool unprepared = false;        ///< discs have been added
+  Time clock;                     ///< of the last event of discs
+  std::vector<int> partners;
   std::vector<int> waiting;       ///< bodies that are to be integrated from their time on
 };
 

@@ -92,6 +92,8 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   system.particles = io::read_particles(root);
   system.dynamics.forces =
       ForceField::build(io::read_forces(root, system.particles.size()), system.particles, table->lattice);
+  const std::vector<double>& radii = system.dynamics.forces->disc_radii();
+  for (std::size_t p = 0; p < radii.size(); ++p) system.particles[p].radius = radii[p];
   system.dynamics.integrator = io::read_integrator(root, !system.dynamics.forces->empty(), system.particles,
                                                    !table->walls.empty());
   if (!system.dynamics.forces->empty()) system.energies = io::read_energies(root, system.particles.size());

@@ -10,7 +10,9 @@
 namespace carom {
 
 /// Kinds of event, in the order in which simultaneous ones are applied.
-enum class EventKind : unsigned char { hit, escape, cell_edge, pinned, unbounded, singular, lost, group, stop };
+enum class EventKind : unsigned char {
+  hit, escape, cell_edge, contact, neighbours, pinned, unbounded, singular, lost, group, stop
+};
 
 /// A reflection, as analyses see it. `before` and `after` are the velocities around it.
 struct HitEvent {
@@ -23,6 +25,18 @@ struct HitEvent {
   geometry::Cell cell;
   geometry::Vector before, after;
   int reflections = 1;          ///< n at a corner of angle pi/n, else 1
+};
+
+/// Two hard discs touch. Positions are rounded, each in its cell.
+struct ContactEvent {
+  int first = 0, second = 0;
+  Time time;
+  geometry::Vector first_position, second_position;
+  geometry::Cell first_cell, second_cell;
+  geometry::Vector separation;  ///< from the second's centre to the first's, of the copies that touch
+  geometry::Vector first_before, first_after;
+  geometry::Vector second_before, second_after;
+  double transfer = 0.0;        ///< momentum exchanged along the line of centres, >= 0
 };
 
 /// The end of one particle's trajectory.

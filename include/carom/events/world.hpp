@@ -38,6 +38,7 @@ class Observer {
  public:
   virtual ~Observer() = default;
   virtual void hit(const HitEvent&) {}
+  virtual void contact(const ContactEvent&) {}                  ///< of two hard discs
   virtual void sample(int /*particle*/, Time, const State&) {}  ///< state at the sample's time
   virtual void sampled(Time) {}                                 ///< all samples of this time are given
   virtual void end(const EndEvent&) {}
@@ -68,7 +69,9 @@ class World {
   /// std::invalid_argument. Its velocity is kept as it is. Without forces its length must be
   /// Particle::speed within 32 roundings (64u of its square), else std::invalid_argument.
   /// `hits`: how many it has made before, when a stored trajectory goes on. A state of a later time
-  /// than that of the loop is injected then.
+  /// than that of the loop is injected then. Hard discs (Particle::radius > 0): no disc may overlap another,
+  /// else std::invalid_argument; the velocity may be of any length, and their positions and those of
+  /// their hits are those of their centres.
   int add(const Particle& particle, const State& state, std::uint64_t hits = 0);
   /// Removes all particles and sets the clock to 0; keeps the prepared table.
   void clear();

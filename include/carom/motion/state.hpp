@@ -7,12 +7,14 @@
 
 namespace carom {
 
-/// What does not change along an orbit. omega = charge B / mass (a = omega (v_y, -v_x)).
+/// What does not change along an orbit (but for the speed: by forces and contacts). omega = charge B / mass
+/// (a = omega (v_y, -v_x)).
 struct Particle {
   double mass = 1.0;
   double charge = 1.0;
   double speed = 1.0;
   double omega = 0.0;
+  double radius = 0.0;  ///< of a hard disc; 0: a point
 };
 
 /// The state after the last event that moved the particle. On a wall the exact position is

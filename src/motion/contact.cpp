@@ -1,0 +1,168 @@
+#include "motion/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angle.hpp"
+#include "carom/geometry/formulas.hpp"
+#include "carom/geometry/prepared_curve.hpp"
+#include "motion/free_motion.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+
+double time_to_contact(Vector d, Vector v, double omega, double reach) {
+  const double b = dot(d, v);
+  if (omega == 0.0 && !(b < 0.0)) return no_contact;  // moving apart, for ever
+  const double distance2 = dot(d, d), reach2 = reach * reach;
+  const double gap = distance2 - reach2;
+  if (gap <= 0.0 && b < 0.0) return 0.0;
+  const double v2 = dot(v, v);
+  if (omega == 0.0) {
+    // |d + v t| = reach; reach^2 v^2 - (d x v)^2 is b^2 - gap v^2 without its cancellation.
+    const double across = geometry::cross(d, v);
+    const double length = std::sqrt(v2);
+    const double discriminant = (reach * length - across) * (reach * length + across);
+    if (!(discriminant > 0.0)) return no_contact;
+    return gap / (std::sqrt(discriminant) - b);
+  }
+  if (!(v2 > 0.0)) return no_contact;
+  // The relative motion is a Larmor flight of the same omega against a circle: the crossing at which the
+  // distance falls. For a pair that has just touched (gap = 0, b > 0) the formula does not see the gap.
+  const geometry::Quadratic<double> q = geometry::circle_quadratic(d, reach2, v, v2, omega, 0.5);
+  const double discriminant = q.b * q.b - q.a * q.c;
+  if (!(discriminant > 0.0)) return no_contact;
+  const double root = std::sqrt(discriminant);
+  const double kappa = q.b < 0.0 ? (root - q.b) / q.a : -q.c / (q.b + root);
+  if (!std::isfinite(kappa)) return no_contact;
+  const double h = 0.5 * std::fabs(omega);
+  return kappa > 0x1p500 * h ? 1.0 / kappa : elementary::angle(kappa, h) / h;
+}
+
+namespace {
+
+/// The squared distance less the squared reach, and how it changes.
+class Gap {
+ public:
+  Gap(const PairFlight& pair, double reach)
+      : pair_(pair),
+        reach2_(reach * reach),
+        acceleration_(std::fabs(pair.first_omega) * length(pair.first) +
+                      std::fabs(pair.second_omega) * length(pair.second)) {}
+
+  struct At {
+    double gap, rate;        ///< g, dg/dt
+    double distance, speed;  ///< |d|, |dd/dt|
+  };
+  At at(double t) const {
+    const auto [x1, v1] = moved({}, pair_.first, pair_.first_omega, t);
+    const auto [x2, v2] = moved({}, pair_.second, pair_.second_omega, t);
+    const Vector d = pair_.separation + (x1 - x2), v = v1 - v2;
+    return {dot(d, d) - reach2_, 2.0 * dot(d, v), length(d), length(v)};
+  }
+  /// A bound of |d2g/dt2| within h of the time of `m`: |g''| <= 2 |d'|^2 + 2 |d| |d''|.
+  double curvature(const At& m, double h) const {
+    const double speed = m.speed + acceleration_ * h;
+    const double distance = m.distance + speed * h;
+    return 2.0 * (speed * speed + distance * acceleration_);
+  }
+  /// An interval to begin with, which depends on the pair alone: a share of a turn.
+  double stride() const {
+    const double omega = std::max(std::fabs(pair_.first_omega), std::fabs(pair_.second_omega));
+    return omega > 0.0 ? 1.0 / omega : std::sqrt(reach2_) / (length(pair_.first) + length(pair_.second));
+  }
+
+ private:
+  static double length(Vector v) { return std::sqrt(dot(v, v)); }
+  const PairFlight& pair_;
+  double reach2_, acceleration_;
+};
+
+/// The zero between a < b of a falling gap, to the last digits: Newton's steps, halved where they leave.
+double refined(const Gap& gap, double a, double b) {
+  double t = 0.5 * (a + b);
+  for (int i = 0; i < 200 && a < t && t < b; ++i) {
+    const Gap::At now = gap.at(t);
+    if (now.gap == 0.0) return t;
+    (now.gap > 0.0 ? a : b) = t;
+    double next = t - now.gap / now.rate;
+    if (!(next > a && next < b)) next = 0.5 * (a + b);
+    if (next == t) return t;
+    if (std::fabs(next - t) <= 2.0 * geometry::unit_roundoff * t) return next;
+    t = next;
+  }
+  return t;
+}
+
+/// The first fall through zero in [a, b], or no_contact.
+double first_fall(const Gap& gap, double a, double b, int depth) {
+  const double h = 0.5 * (b - a), middle = a + h;
+  const Gap::At m = gap.at(middle);
+  const double bend = gap.curvature(m, h) * h;
+  if (m.gap - std::fabs(m.rate) * h - 0.5 * bend * h > 0.0) return no_contact;  // positive throughout
+  const bool falls = m.rate<-bend, rises = m.rate> bend;
+  if (rises) return no_contact;
+  if (falls) {
+    if (!(gap.at(a).gap > 0.0)) return a;
+    return gap.at(b).gap > 0.0 ? no_contact : refined(gap, a, b);
+  }
+  // Shorter than rounding can tell: a passage that touches at most.
+  if (depth == 0 || !(middle > a && middle < b)) return no_contact;
+  const double first = first_fall(gap, a, middle, depth - 1);
+  return first < no_contact ? first : first_fall(gap, middle, b, depth - 1);
+}
+
+}  // namespace
+
+double enclosed_time_to_contact(const PairFlight& pair, double reach, double until) {
+  const Gap gap(pair, reach);
+  const Gap::At start = gap.at(0.0);
+  if (start.gap <= 0.0 && start.rate < 0.0) return 0.0;
+  const double stride = gap.stride();
+  for (double k = 0.0; k * stride < until; ++k) {
+    const double t = first_fall(gap, k * stride, (k + 1.0) * stride, 60);
+    if (t < no_contact) return t;
+  }
+  return no_contact;
+}
+
+double time_to_contact(const PairFlight& pair, double reach, double until) {
+  if (pair.first_omega == pair.second_omega)
+    return time_to_contact(pair.separation, pair.first - pair.second, pair.first_omega, reach);
+  return enclosed_time_to_contact(pair, reach, until);
+}
+
+ElasticContact elastic_contact(Vector d, Vector first, Vector second, double first_mass, double second_mass) {
+  const double mass = first_mass + second_mass;
+  const double reduced = first_mass * (second_mass / mass);
+  const double d2 = dot(d, d), length = std::sqrt(d2);
+  const Vector v = first - second;
+  const double along = dot(d, v), across = geometry::cross(d, v);
+  ElasticContact c;
+  c.transfer = 2.0 * reduced * std::fabs(along) / length;
+  const auto push = [&](double size) {  // size: of the change of v along d, over |d|
+    const Vector p = size * d;
+    c.first = first - (second_mass / mass) * p;
+    c.second = second + (first_mass / mass) * p;
+  };
+  if (first_mass == second_mass && std::fabs(across) <= std::fabs(along)) {
+    // Each takes the other's velocity along the line of centres and keeps its own across it.
+    const Vector t = (across / d2) * geometry::left(d);
+    c.first = second + t;
+    c.second = first - t;
+  } else {
+    push(2.0 * along / d2);
+  }
+  // A grazing contact whose change of velocity was rounded away: the smallest push that shows.
+  double size = std::fabs(along) / d2;
+  const double unit =
+      geometry::unit_roundoff * (std::sqrt(dot(first, first)) + std::sqrt(dot(second, second))) / length;
+  for (double extra = unit; !(dot(d, c.first - c.second) > 0.0) && std::isfinite(extra); extra *= 2.0) {
+    size = std::max(size, 0.0);
+    push(-(2.0 * size + extra));
+  }
+  return c;
+}
+
+}  // namespace carom
