@@ -6,7 +6,7 @@
 
 #include "carom/events/world.hpp"
 #include "geometry/quad.hpp"
-#include "geometry/tables.hpp"
+#include "random_tables.hpp"
 
 namespace carom::tests {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdio>
 
 #include "carom/geometry/curve.hpp"
-#include "tables.hpp"
+#include "events/recorder.hpp"
 
-namespace carom::test {
+namespace carom::tests {
 namespace {
 
 /// Largest departure of a function of a hit from its first value, over an orbit.
@@ -180,4 +180,4 @@ TEST(Invariants, LarmorRadiiOverEighteenDecades) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::tests

@@ -6,7 +6,7 @@
 
 #include "carom/events/world.hpp"
 #include "events/next_hit.hpp"
-#include "geometry/tables.hpp"
+#include "random_tables.hpp"
 
 namespace carom::tests {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "tables.hpp"
+#include "events/recorder.hpp"
 
-namespace carom::test {
+namespace carom::tests {
 namespace {
 
 using geometry::EllipticArc;
@@ -60,4 +60,4 @@ TEST(EllipticArc, NoOrbitIsLost) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::tests

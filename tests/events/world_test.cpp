@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
-#include "tables.hpp"
+#include "events/recorder.hpp"
 
-namespace carom::test {
+namespace carom::tests {
 namespace {
 
 Vector unwrapped(const Table& t, const State& s) { return s.position + t.lattice->translation(s.cell); }
@@ -299,4 +300,4 @@ TEST(World, InflatedBoundsChangeNoBit) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::tests

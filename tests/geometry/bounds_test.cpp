@@ -8,7 +8,7 @@
 #include "carom/geometry/filter.hpp"
 #include "carom/geometry/quartic.hpp"
 #include "geometry/quad.hpp"
-#include "geometry/tables.hpp"
+#include "random_tables.hpp"
 
 namespace carom::tests {
 namespace {

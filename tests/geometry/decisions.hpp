@@ -12,7 +12,7 @@
 #include "carom/geometry/region.hpp"
 #include "events/next_hit.hpp"
 #include "geometry/oracle.hpp"
-#include "geometry/tables.hpp"
+#include "random_tables.hpp"
 
 namespace carom::tests {
 

@@ -1,68 +1,21 @@
-// Tables and flights for tests of decisions, built by hand: walls and nothing else.
+// Random tables and flights for tests of decisions.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <random>
-#include <string>
-#include <utility>
+#include <variant>
 #include <vector>
 
-#include "carom/base/elementary.hpp"
-#include "carom/table/table.hpp"
+#include "tables_by_hand.hpp"
 
 namespace carom::tests {
-
-using geometry::Circle;
-using geometry::CircularArc;
-using geometry::Curve;
-using geometry::Ellipse;
-using geometry::EllipticArc;
-using geometry::Segment;
-using geometry::Vector;
 
 /// How many cases: `few` by default, `many` when CAROM_SOAK is set (ctest -C Soak -L soak).
 inline long cases(long few, long many) {
   static const bool soak = std::getenv("CAROM_SOAK") != nullptr;
   return soak ? many : few;
-}
-
-inline void add_loop(Table& t, const std::vector<Curve>& curves) {
-  const int base = static_cast<int>(t.walls.size()), n = static_cast<int>(curves.size());
-  for (int i = 0; i < n; ++i) {
-    Wall w;
-    w.name = "wall_" + std::to_string(base + i);
-    w.curve = curves[static_cast<std::size_t>(i)];
-    w.next = base + (i + 1) % n;
-    w.previous = base + (i + n - 1) % n;
-    t.walls.push_back(w);
-  }
-}
-inline Table loop(const std::vector<Curve>& curves) {
-  Table t;
-  add_loop(t, curves);
-  return t;
-}
-inline Table polygon(const std::vector<Vector>& points) {
-  std::vector<Curve> sides;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    sides.push_back(Segment{points[i], points[(i + 1) % points.size()]});
-  return loop(sides);
-}
-inline Table rectangle(double a, double b) { return polygon({{0, 0}, {a, 0}, {a, b}, {0, b}}); }
-inline Table stadium(double half, double radius, Vector at = {}) {
-  const double l = at.x - half, r = at.x + half, b = at.y - radius, t = at.y + radius;
-  return loop({Segment{{l, b}, {r, b}}, CircularArc{{r, b}, {r, t}, 0.0, true}, Segment{{r, t}, {l, t}},
-               CircularArc{{l, t}, {l, b}, 0.0, true}});
-}
-inline Table mushroom(double cap, double half, double height) {
-  return loop({Segment{{-half, -height}, {half, -height}}, Segment{{half, -height}, {half, 0}},
-               Segment{{half, 0}, {cap, 0}}, CircularArc{{cap, 0}, {-cap, 0}, 0.0, true},
-               Segment{{-cap, 0}, {-half, 0}}, Segment{{-half, 0}, {-half, -height}}});
-}
-inline Table with_disc(Table t, Vector centre, double radius) {
-  add_loop(t, {Circle{centre, radius, false}});
-  return t;
 }
 
 /// Random numbers of the tests.
