@@ -85,7 +85,9 @@ class FermiBumps final : public Potential {
     const double radius = radius_, inverse = inverse_;
     for (std::size_t i = 0; i < n; ++i) {
       r[i] = std::sqrt(r[i]);
-      e[i] = (r[i] - radius) * inverse;
+      // Where a bump is 1e-130 its exponential stays finite, lest 0 times infinity be no number.
+      const double t = (r[i] - radius) * inverse;
+      e[i] = t < 300.0 ? t : 300.0;
     }
   }
   // With q = 1/(1 + e): V = q and -dV/dr = q^2 e / softness; one division gives q and 1/r.

@@ -45,6 +45,17 @@ std::unique_ptr<const Potential> at_centers(Formula formula, const PotentialSpec
   return std::make_unique<AtCenters<Formula>>(std::move(formula), spec.centers);
 }
 
+/// More bumps than that overlap in a point only where the potential is flat.
+constexpr double most_copies = 1e5;
+
+std::vector<Vector> summed_centers(const PotentialSpec& s, const geometry::Lattice& lattice, double reach) {
+  const double each = 4.0 * reach * reach / lattice.cell_area();
+  if (!(each * static_cast<double>(s.centers.size()) < most_copies))
+    throw InputError(s.place, "more than 100000 bumps overlap: the potential is as good as flat",
+                     "a softness or width of a few cells at most");
+  return copies_that_reach(s.centers, lattice, reach);
+}
+
 /// V = h/(1 + e), e = exp((radius - r)/softness): its force points inwards along `out` = grad r.
 double soft_wall(const PotentialSpec& s, double r, const Vector& out, Vector& force) {
   const double e = elementary::exp((s.radius - r) / s.softness);
@@ -63,12 +74,12 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
     case Kind::fermi: {
       if (!s.lattice) return make_fermi_bumps(s.height, s.radius, s.softness, s.centers);
       const double reach = fermi_sum_reach(s.radius, s.softness, *lattice);
-      return make_fermi_bumps(s.height, s.radius, s.softness, copies_that_reach(s.centers, *lattice, reach));
+      return make_fermi_bumps(s.height, s.radius, s.softness, summed_centers(s, *lattice, reach));
     }
     case Kind::gaussian: {
       if (!s.lattice) return make_gaussian_bumps(s.height, s.width, s.centers);
       const double reach = gaussian_sum_reach(s.width, *lattice);
-      return make_gaussian_bumps(s.height, s.width, copies_that_reach(s.centers, *lattice, reach));
+      return make_gaussian_bumps(s.height, s.width, summed_centers(s, *lattice, reach));
     }
     case Kind::harmonic:
       return at_centers(
