@@ -1,4 +1,4 @@
-// What motion conserves, over long orbits; reversal of time; Larmor radii over eighteen decades.
+// What motion conserves, over long orbits; reversal of time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -133,50 +133,6 @@ TEST(Invariants, RegularOrbitsRunBack) {
 TEST(Invariants, ChaoticOrbitsRunBackAsFarAsRoundingLets) {
   EXPECT_LT(reversal_error(stadium(), 0.0, {0.1, 0.2}, {0.6, 0.8}, 8), 1e-9);
   EXPECT_LT(reversal_error(stadium(), 0.5, {0.1, 0.2}, {0.6, 0.8}, 8), 1e-9);
-}
-
-// One flight from (0.125, 0) on the bottom of the unit square against the same in long double by the formula of
-// the chord: t from the height, without the variable kappa of the engine.
-TEST(Invariants, LarmorRadiiOverEighteenDecades) {
-  const Table table = square();
-  for (int decade = -6; decade <= 12; ++decade) {
-    if (decade == 0) continue;  // ends at a side: covered by the map of the rectangle
-    const double radius = std::pow(10.0, decade), omega = 1.0 / radius;
-    World world(table);
-    State s;
-    s.wall = 0;
-    s.u = 0.125;
-    s.velocity = {0.6, 0.8};
-    world.add(particle(omega), s);
-    world.limit_hits(1);
-    Recorder seen;
-    world.run_until(1e300, seen);
-    ASSERT_EQ(seen.hits.size(), 1u);
-    const HitEvent& hit = seen.hits[0];
-    const long double r = 1.0L / omega;  // the exact radius of the rounded omega
-    // Velocity at angle a = theta - omega t; y(t) = r (cos(a) - cos(theta)).
-    const long double theta = std::atan2(0.8L, 0.6L);
-    long double t = 0.0L;
-    if (decade < 0 || r * (1.0L - 0.6L) < 1.0L) {
-      t = 2.0L * theta * r;  // back to the bottom: cos(theta - omega t) = cos(theta)
-      EXPECT_EQ(hit.wall, 0);
-    } else {
-      // y = 2 r sin(omega t/2) sin(theta - omega t/2) = 1, by Newton from the straight flight.
-      t = 1.25L;
-      for (int i = 0; i < 60; ++i) {
-        const long double half = 0.5L * t / r;
-        const long double y = 2.0L * r * std::sin(half) * std::sin(theta - half);
-        t -= (y - 1.0L) / std::sin(theta - 2.0L * half);
-      }
-      EXPECT_EQ(hit.wall, 2);
-    }
-    EXPECT_NEAR(hit.time.value() / static_cast<double>(t), 1.0, 8e-16) << "radius 1e" << decade;
-    const long double half = 0.5L * t / r;
-    const double x = static_cast<double>(0.125L + 2.0L * r * std::sin(half) * std::cos(theta - half));
-    EXPECT_NEAR(hit.position.x, x, 4e-16) << "radius 1e" << decade;
-    EXPECT_NEAR(hit.before.x, static_cast<double>(std::cos(theta - 2.0L * half)), 6e-16) << "radius 1e" << decade;
-    EXPECT_NEAR(hit.before.y, static_cast<double>(std::sin(theta - 2.0L * half)), 6e-16) << "radius 1e" << decade;
-  }
 }
 
 }  // namespace
