@@ -72,6 +72,7 @@ struct DiffusionFit {
   Estimate local_exponent;  ///< slope of ln MSD against ln t; approaches `exponent` as -c/MSD
 };
 
+/// Moments of the displacement with their errors, and what follows from them: D and exponents.
 class DisplacementMoments {
  public:
   explicit DisplacementMoments(const DisplacementSums& sums);

@@ -20,6 +20,7 @@ struct SectionPlan {
   std::uint64_t orbits = 0;   ///< trajectories; 0: one a listed start, else at most 50
 };
 
+/// One point of a section.
 struct SectionPoint {
   std::uint64_t orbit = 0;  ///< index of the trajectory
   std::uint64_t index = 0;  ///< counts the points of a particle's orbit from 0

@@ -40,9 +40,11 @@ struct SurvivalCounts {
   std::uint64_t followed() const { return trajectories - singular - lost; }
 };
 
+/// Share `p` that is still there at time t, with its 95 % interval (low, high).
 struct SurvivalPoint {
   double t, p, low, high;
 };
+/// Share `p` that made more than n hits, with its 95 % interval.
 struct SurvivalHitsPoint {
   std::uint64_t n;
   double p, low, high;

@@ -32,6 +32,7 @@ Horizon horizon_of(const System&);
 /// Why there is no D, as a phrase; "" where there is one.
 std::string no_diffusion(const Horizon&);
 
+/// How to run, without influence on the result.
 struct DiffusionOptions {
   int threads = 0;             ///< 0: as many as OpenMP gives
   std::uint64_t block = 1024;  ///< trajectories a block; the result does not depend on it
@@ -41,6 +42,7 @@ struct DiffusionOptions {
   std::function<void(std::uint64_t done, std::uint64_t hits)> progress;
 };
 
+/// What a diffusion run adds up.
 struct DiffusionResult {
   DisplacementSums sums;
   /// Particles of all trajectories by how they ended before the last report time.

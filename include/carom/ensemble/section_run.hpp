@@ -12,6 +12,7 @@
 
 namespace carom {
 
+/// How to run, without influence on the result.
 struct SectionOptions {
   int threads = 0;  ///< 0: as many as OpenMP gives
   DecisionOptions decisions;
@@ -21,6 +22,7 @@ struct SectionOptions {
   std::function<void(const std::vector<SectionPoint>&)> points;
 };
 
+/// What a section run counts; the points themselves go to SectionOptions::points.
 struct SectionResult {
   std::uint64_t orbits = 0;      ///< trajectories that were followed to their end
   std::uint64_t points = 0, collisions = 0;

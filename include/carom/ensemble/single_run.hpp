@@ -33,6 +33,7 @@ struct ParticleEnd {
   std::string report;       ///< of lost and singular ones
 };
 
+/// How to run one trajectory, and from where to go on.
 struct SingleRunOptions {
   DecisionOptions decisions;
   std::vector<ParticleProgress> resume;  ///< empty: start afresh
@@ -40,6 +41,7 @@ struct SingleRunOptions {
   std::uint64_t trajectory = 0;          ///< index: which start is drawn
 };
 
+/// How one trajectory ended.
 struct SingleRunResult {
   std::vector<ParticleEnd> particles;
   bool interrupted = false;

@@ -6,6 +6,7 @@
 
 namespace carom {
 
+/// Time by the clock and of the processor since it was made.
 class Stopwatch {
  public:
   double seconds() const {

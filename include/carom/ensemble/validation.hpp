@@ -26,6 +26,7 @@ struct ValidationCase {
   double seconds = 0.0, cpu_seconds = 0.0;
 };
 
+/// How to run, without influence on the result.
 struct ValidationOptions {
   int threads = 0;  ///< 0: as many as OpenMP gives
   const std::atomic<bool>* interrupted = nullptr;

@@ -7,6 +7,7 @@
 
 namespace carom {
 
+/// The parts of the total energy.
 struct Energy {
   double kinetic = 0.0, external = 0.0, pair = 0.0;
   double total() const { return kinetic + external + pair; }

@@ -53,6 +53,7 @@ struct FreeFlight {
   geometry::Vector end;  ///< position at the end as the next flight will know it
 };
 
+/// A passage through the surface within one flight.
 struct SurfaceCrossing {
   double time = 0.0;  ///< since the start of the flight
   int direction = 1;

@@ -55,6 +55,7 @@ struct InteractionSpec {
   std::shared_ptr<const TypedExpression> expression;
 };
 
+/// The forces of a system, as its file gives them.
 struct ForceSpec {
   std::vector<PotentialSpec> potentials;
   std::optional<InteractionSpec> interaction;

@@ -8,6 +8,7 @@
 
 namespace carom {
 
+/// Sine and cosine of one angle.
 template <class Real>
 struct SineCosine {
   Real sine{}, cosine{};
@@ -18,6 +19,7 @@ struct SineCosine {
 template <class Real>
 struct Arithmetic;
 
+/// The arithmetic of every run: the same bits on every machine.
 template <>
 struct Arithmetic<double> {
   static double parse(std::string_view decimal) {

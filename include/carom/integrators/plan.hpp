@@ -7,6 +7,7 @@
 
 namespace carom {
 
+/// The section [integrator] of a system file.
 struct IntegratorPlan {
   std::string scheme;        ///< a name of schemes(), a magnetic scheme, "arkode" or "cvode"; "": the default
   double step = 0.0;         ///< > 0: time between two ends of steps; 0: not given

@@ -34,6 +34,7 @@ struct Wall {
 /// cell of a lattice whose edges lead to the neighbouring cells.
 enum class Extent { bounded, open_plane, lattice };
 
+/// A billiard table: its walls, the holes on them, and the plane or lattice around.
 struct Table {
   std::string shape;
   std::vector<Wall> walls;

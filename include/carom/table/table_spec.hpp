@@ -10,6 +10,7 @@
 
 namespace carom {
 
+/// A point with exact coordinates.
 struct ExactPoint {
   ExactNumber x, y;
 };
@@ -25,12 +26,14 @@ struct PieceSpec {
   Place place;
 };
 
+/// One closed path of walls, piece by piece.
 struct LoopSpec {
   ExactPoint start;
   std::vector<PieceSpec> pieces;       ///< the last must end at `start`
   Place place;
 };
 
+/// A hole as the system file gives it.
 struct HoleSpec {
   std::string wall;
   ExactNumber center, width;           ///< arc lengths along the wall
@@ -38,6 +41,7 @@ struct HoleSpec {
   Place place, wall_place;
 };
 
+/// The two vectors of a lattice.
 struct LatticeSpec {
   ExactPoint first, second;
   Place place;

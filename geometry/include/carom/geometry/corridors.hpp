@@ -15,6 +15,7 @@ struct Corridor {
   double width = 0.0;  ///< > 0, rounded
 };
 
+/// The free corridors of a lattice of obstacles.
 struct Corridors {
   std::vector<Corridor> list;  ///< widest first
   /// False where there were too many directions to look at all of them: then only those with the

@@ -25,22 +25,26 @@
 
 namespace carom::geometry {
 
+/// A straight line from `from` to `to`.
 struct Segment {
   Vector from, to;
 };
 
+/// A circular arc, exactly through both of its ends; its centre lies `offset` chords from the chord.
 struct CircularArc {
   Vector from, to;
   double offset = 0.0;  ///< 0: half circle; > 0: centre on the left of from -> to
   bool counterclockwise = true;
 };
 
+/// A full circle.
 struct Circle {
   Vector centre;
   double radius = 1.0;
   bool counterclockwise = true;  ///< starts and ends at angle 0
 };
 
+/// An arc of an ellipse of any orientation, exactly through both of its ends.
 struct EllipticArc {
   Vector from, to;
   Vector axis;         ///< direction of one axis; its length is free
@@ -49,6 +53,7 @@ struct EllipticArc {
   bool counterclockwise = true;
 };
 
+/// A full ellipse of any orientation.
 struct Ellipse {
   Vector centre;
   Vector axis;         ///< semi-axis as a vector: the curve starts at centre + axis
@@ -86,6 +91,7 @@ double length(const Curve&);
 double arc_length_at(const Curve&, double u);
 double parameter_at_length(const Curve&, double s);
 
+/// A rectangle along the axes.
 struct Box {
   Vector low, high;
 };

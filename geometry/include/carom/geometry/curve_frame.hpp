@@ -7,6 +7,7 @@
 
 namespace carom::geometry {
 
+/// A curve with everything exact done, in doubles.
 struct CurveFrame : Frame<double> {
   enum class Kind : unsigned char { segment, arc, closed } kind = Kind::segment;
   bool circular = false;

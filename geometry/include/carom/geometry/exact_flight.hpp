@@ -20,6 +20,7 @@
 
 namespace carom::geometry {
 
+/// A curve as exact decisions see it: what follows it, and where in the lattice it lies.
 struct Piece {
   Curve curve;
   Cell offset;        ///< displaced by this lattice vector
@@ -27,6 +28,7 @@ struct Piece {
   bool edge = false;  ///< edge of the lattice cell: it leads on instead of reflecting
 };
 
+/// The pieces of a table in integers, made once, for decisions that are always right.
 class ExactBoundary {
  public:
   ExactBoundary(const std::vector<Piece>& pieces, Vector first, Vector second);
@@ -52,6 +54,7 @@ class ExactBoundary {
   std::unique_ptr<Data> data_;
 };
 
+/// One flight over an ExactBoundary, straight or Larmor, in exact numbers.
 class ExactFlight {
  public:
   /// From the exact point u of `piece` (u = 0: its start, shared with the piece before), or from

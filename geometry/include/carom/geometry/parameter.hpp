@@ -14,6 +14,7 @@
 
 namespace carom::geometry {
 
+/// What the map from the parameter u to a point and back needs of a curve, in one kind of number.
 template <class Number>
 struct Frame {
   BasicVector<Number> origin;         ///< start of a segment or arc; centre of a closed curve

@@ -15,6 +15,7 @@ inline constexpr double unit_roundoff = 0x1p-53;
 
 enum class CurveKind : unsigned char { segment, circle, ellipse };
 
+/// A curve with all that the filter's formulas and bounds take from it, computed once.
 struct PreparedCurve {
   CurveKind kind = CurveKind::segment;
   bool closed = false;

@@ -11,6 +11,7 @@ struct CertifiedRoot {
   double error = 0.0;
 };
 
+/// The roots of a quartic at which it rises, in increasing order, each with a bound of its error.
 struct RisingRoots {
   bool decided = true;   ///< false: the coefficients' errors leave their number or order open
   int count = 0;

@@ -15,6 +15,7 @@
 
 namespace carom::geometry {
 
+/// A curve under the name that faults call it by.
 struct NamedCurve {
   std::string name;
   Curve curve;
@@ -30,6 +31,7 @@ enum class RegionKind {
   lattice,  ///< clockwise obstacles, repeated by a lattice
 };
 
+/// What keeps curves from bounding a region, with the names of the culprits and the place.
 struct RegionFault {
   enum class Kind {
     no_extent,    ///< a curve without length, radius, axis or ratio, or with a number not finite
