@@ -30,12 +30,21 @@ struct PairStart {
 
 namespace {
 
-PairStart start_of(const Contacts::Disc& a, const Contacts::Disc& b) {
+/// Where a disc is after a duration; the same numbers as of moved.
+struct Moved {
+  Vector position, velocity;
+};
+inline Moved after(const Contacts::Disc& d, double duration) {
+  if (d.omega == 0.0) return {d.position + duration * d.velocity, d.velocity};
+  const auto [x, v] = moved(d.position, d.velocity, d.omega, duration);
+  return {x, v};
+}
+
+inline PairStart start_of(const Contacts::Disc& a, const Contacts::Disc& b) {
   PairStart s;
   s.time = std::max(a.time, b.time);
-  const auto [x, v] = moved(a.position, a.velocity, a.omega, s.time - a.time);
-  const auto [y, w] = moved(b.position, b.velocity, b.omega, s.time - b.time);
-  s.flight = {x - y, v, w, a.omega, b.omega};
+  const Moved first = after(a, s.time - a.time), second = after(b, s.time - b.time);
+  s.flight = {first.position - second.position, first.velocity, second.velocity, a.omega, b.omega};
   return s;
 }
 
@@ -69,24 +78,30 @@ void Contacts::first_contact(int i, int j, const Time& now, const Time& until) {
   const Time end = std::min(until, std::min(b.own, b.check));
   const PairStart start = start_of(a, b);
   if (!(start.time < end)) return;
+  const bool straight = a.omega == 0.0 && b.omega == 0.0;
+  const Vector v = start.flight.first - start.flight.second;
   if (lattice_ == nullptr) {
-    const bool straight = a.omega == 0.0 && b.omega == 0.0;
-    if (straight && !(dot(start.flight.separation, a.velocity - b.velocity) < 0.0)) return;
+    if (straight && !(dot(start.flight.separation, v) < 0.0)) return;  // moving apart
     return try_copy(i, j, start, {}, end);
   }
   // Where they are now says which copies are near.
   const Time from = std::max(now, start.time);
   Vector d = start.flight.separation;
   const double since = from - start.time;
-  if (since > 0.0)
+  if (straight)
+    d = d + since * v;
+  else if (since > 0.0)
     d = d + (moved({}, start.flight.first, a.omega, since).first -
              moved({}, start.flight.second, b.omega, since).first);
   const Cell near = nearest(d);
-  if (binned_) return try_copy(i, j, start, near, end);
+  if (binned_) {
+    if (straight && !(dot(separation(start.flight.separation, {}, near), v) < 0.0)) return;
+    return try_copy(i, j, start, near, end);
+  }
   const double left = end - from;
   double way = reach_within(a, left) + reach_within(b, left);
   if (a.omega == b.omega) {
-    const double relative = length(start.flight.first - start.flight.second);
+    const double relative = length(v);
     way = std::min(way, a.omega == 0.0 ? relative * left
                                        : std::min(relative * left, 2.0 * relative / std::fabs(a.omega)));
     if (!(relative > 0.0)) way = 0.0;
@@ -139,6 +154,7 @@ void Contacts::partners_of(int i, std::vector<int>& found) const {
 
 Cell Contacts::nearest(Vector d) const {
   Cell copy;
+  if (dot(d, d) < unique_ * unique_) return copy;  // nearer than any other copy can be
   for (bool moved_on = true; moved_on;) {
     moved_on = false;
     for (const geometry::CellEdge& e : lattice_->edges) {
@@ -228,8 +244,20 @@ void Contacts::choose_bins(const Time& now) {
   height_ = up / rows_;
 }
 
+bool Contacts::tell_partner(int i) {
+  const int j = partner(i);
+  const Disc& a = disc(i);
+  Disc& b = disc(j);
+  if (partner(j) >= 0 && !(a.meeting < b.meeting)) return false;
+  partners_[at(j)] = i;
+  b.meeting = a.meeting;
+  b.copy = {-a.copy.first, -a.copy.second};
+  return true;
+}
+
+Contacts::Contacts(const geometry::Lattice* lattice) : lattice_(lattice), unique_(largest_radius()) {}
+
 void Contacts::prepare(const Time& now) {
-  unique_ = lattice_ != nullptr ? largest_radius() : infinity;
   double omega = 0.0;
   bool equal = true;
   for (const Disc& d : discs_) {

@@ -36,7 +36,7 @@ class Contacts {
     int bin = -1;
   };
 
-  explicit Contacts(const geometry::Lattice* lattice) : lattice_(lattice) {}
+  explicit Contacts(const geometry::Lattice* lattice);
 
   void clear() {
     discs_.clear();
@@ -59,6 +59,9 @@ class Contacts {
   /// Finds the first contact of i before its own next event and its check, and before the partner's: then
   /// the partner looks again.
   void predict(int i, const Time& now);
+  /// Makes the contact of i its partner's, if it is the partner's first. Then both stand in the queue, and
+  /// the order of simultaneous contacts does not depend on who found them.
+  bool tell_partner(int i);
   /// All whose first contact is with i.
   void partners_of(int i, std::vector<int>& found) const;
 

@@ -116,12 +116,16 @@ void World::Implementation::keep_own(int index) {
 void World::Implementation::look_ahead(int index, const Time& now) {
   Contacts::Disc& disc = contacts->disc(index);
   contacts->predict(index, now);
-  if (contacts->partner(index) >= 0)
-    queue.update(index, disc.meeting, static_cast<int>(EventKind::contact));
-  else if (disc.check < disc.own)
+  constexpr int contact = static_cast<int>(EventKind::contact);
+  const int partner = contacts->partner(index);
+  if (partner >= 0) {
+    queue.update(index, disc.meeting, contact);
+    if (contacts->tell_partner(index)) queue.update(partner, disc.meeting, contact);
+  } else if (disc.check < disc.own) {
     queue.update(index, disc.check, static_cast<int>(EventKind::neighbours));
-  else
+  } else {
     queue.update(index, disc.own, disc.own_kind);
+  }
 }
 
 /// Those who were to touch a disc that has changed its course.
@@ -189,10 +193,12 @@ Cell World::Implementation::advance_disc(int index, const Time& now) {
   return by;
 }
 
-void World::Implementation::collide(int index, Observer& observer) {
-  const int other = contacts->partner(index);
-  const Time now = queue.key(index).time;
-  Cell copy = contacts->disc(index).copy;
+void World::Implementation::collide(int finding, Observer& observer) {
+  const Time now = queue.key(finding).time;
+  const int index = std::min(finding, contacts->partner(finding)),
+            other = std::max(finding, contacts->partner(finding));
+  Cell copy = contacts->disc(finding).copy;
+  if (index != finding) copy = {-copy.first, -copy.second};
   Body& a = bodies[at(index)];
   Body& b = bodies[at(other)];
   const double way = a.particle.speed * (now - a.state.time),
@@ -225,7 +231,7 @@ void World::Implementation::collide(int index, Observer& observer) {
   if (!b.finished) look_ahead(other, now);
   look_again(index, other, now);
   look_again(other, index, now);
-  if (surface) watch_event(other, now, observer);
+  if (surface) watch_event(finding == index ? other : index, now, observer);
 }
 
 /// A disc goes on from its state after a contact.

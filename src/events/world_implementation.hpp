@@ -102,7 +102,7 @@ class World::Implementation {
   void look_again(int index, int partner, const Time& now);
   void enter_disc(int index, const Time& now);
   void keep_own(int index);
-  void collide(int index, Observer& observer);
+  void collide(int finding, Observer& observer);
   geometry::Cell advance_disc(int index, const Time& now);
   void start_disc(int index, double way, Observer& observer);
   bool settle_on_wall(int index, double way, Observer& observer);

@@ -29,7 +29,7 @@ struct HitEvent {
 
 /// Two hard discs touch. Positions are rounded, each in its cell.
 struct ContactEvent {
-  int first = 0, second = 0;
+  int first = 0, second = 0;    ///< first < second
   Time time;
   geometry::Vector first_position, second_position;
   geometry::Cell first_cell, second_cell;

@@ -1,0 +1,134 @@
+// Hard discs on a torus: contacts a second, what is conserved, and the compressibility factor against the
+// virial series. Every timing comes with its physical check.
+//
+//   hard_discs [discs across] [packing fraction] [contacts in millions] [seed]
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <vector>
+
+#include "carom/base/random.hpp"
+#include "carom/events/world.hpp"
+
+using namespace carom;
+using geometry::Vector;
+
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+struct Virial : Observer {
+  double sum = 0.0;
+  long contacts = 0;
+  void contact(const ContactEvent& c) override {
+    sum += c.transfer * std::sqrt(dot(c.separation, c.separation));
+    ++contacts;
+  }
+};
+
+// B_k / B_2^(k-1) of hard discs, k = 2 … 10 (Clisby & McCoy 2006, table 1).
+constexpr double b[] = {1.0,       0.78200444, 0.53223180, 0.33355604, 0.1988425,
+                        0.1148728, 0.0649930,  0.0362193,  0.0199537};
+double virial_series(double eta) {
+  double z = 1.0, power = 1.0;
+  for (const double c : b) z += c * (power *= 2.0 * eta);
+  return z;
+}
+// What a torus with N discs has: Z - (rho/2N) d/drho log(d(rho Z)/drho), docs/physics/hard-discs.md.
+double of_discs(double eta, int count) {
+  double first = 1.0, second = 0.0, power = 1.0, k = 1.0;  // d(rho Z)/drho and rho times its derivative
+  for (const double c : b) {
+    power *= 2.0 * eta;
+    first += (k + 1.0) * c * power;
+    second += k * (k + 1.0) * c * power;
+    k += 1.0;
+  }
+  return virial_series(eta) - second / first / (2.0 * count);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int across = argc > 1 ? std::atoi(argv[1]) : 10;
+  const double eta = argc > 2 ? std::atof(argv[2]) : 0.3;
+  const double millions = argc > 3 ? std::atof(argv[3]) : 1.0;
+  const auto seed = static_cast<std::uint64_t>(argc > 4 ? std::atoi(argv[4]) : 1);
+  const int count = across * across;
+  const double side = across;
+  const double radius = std::sqrt(eta / pi);
+  Table table;
+  table.extent = Extent::lattice;
+  table.lattice = geometry::make_lattice({side, 0}, {0, side}, {0, 0});
+  ForceSpec spec;
+  spec.interaction = InteractionSpec{};
+  spec.interaction->kind = InteractionSpec::Kind::hard_discs;
+  spec.interaction->radii.assign(static_cast<std::size_t>(count), radius);
+  Dynamics dynamics;
+  dynamics.forces =
+      ForceField::build(spec, std::vector<Particle>(static_cast<std::size_t>(count)), table.lattice);
+
+  RandomStream random(seed, Purpose::initial_state, 0);
+  std::vector<Vector> v;
+  Vector mean{};
+  for (int i = 0; i < count; ++i) {
+    v.push_back({random.symmetric() + random.symmetric() + random.symmetric(),
+                 random.symmetric() + random.symmetric() + random.symmetric()});
+    mean = mean + (1.0 / count) * v.back();
+  }
+  World world(table, dynamics);
+  Particle particle;
+  particle.radius = radius;
+  for (int i = 0; i < count; ++i) {
+    State s;
+    s.position = {i % across + 0.5 - 0.5 * side, i / across + 0.5 - 0.5 * side};
+    s.velocity = v[static_cast<std::size_t>(i)] - mean;
+    world.add(particle, s);
+  }
+  const auto energy = [&] {
+    double e = 0.0;
+    for (int i = 0; i < count; ++i) e += 0.5 * dot(world.state(i).velocity, world.state(i).velocity);
+    return e;
+  };
+  const auto momentum = [&] {
+    Vector p{};
+    for (int i = 0; i < count; ++i) p = p + world.state(i).velocity;
+    return std::sqrt(dot(p, p));
+  };
+  const double start = energy(), momentum_start = momentum(), speed = std::sqrt(2.0 * start / count);
+  Virial warm, seen;
+  double t = 30.0 / speed;  // forgets the square order
+  world.run_until(t, warm);
+
+  // Blocks of equal time: N kT (Z - 1) = sum sigma |J| / (2 t), and E = (N - 1) kT as the momentum is zero.
+  std::vector<double> z;
+  double worst = 0.0, seconds = 0.0, sum_t = 0, sum_e = 0, sum_tt = 0, sum_te = 0;
+  const double block = 20.0 / speed;
+  long events = 0;
+  while (static_cast<double>(seen.contacts) < millions * 1e6) {
+    const double before = seen.sum;
+    const std::clock_t begin = std::clock();
+    events += static_cast<long>(world.run_until(t += block, seen));
+    seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    z.push_back(1.0 + (seen.sum - before) / (2.0 * start * block) * (count - 1.0) / count);
+    const double error = energy() / start - 1.0;
+    worst = std::max(worst, std::fabs(error));
+    sum_t += t, sum_e += error, sum_tt += t * t, sum_te += t * error;
+  }
+  const double n = static_cast<double>(z.size());
+  double average = 0.0, square = 0.0;
+  for (const double x : z) average += x / n;
+  for (const double x : z) square += (x - average) * (x - average);
+  const double slope = (n * sum_te - sum_t * sum_e) / (n * sum_tt - sum_t * sum_t);
+  fmt::print("N {} eta {} contacts {} events {}: {:.0f} contacts/s, {:.0f} events/s\n", count, eta,
+             seen.contacts, events, static_cast<double>(seen.contacts) / seconds,
+             static_cast<double>(events) / seconds);
+  fmt::print(
+      "energy: largest relative error {:.2e}, slope times length {:.2e}; momentum {:.2e} -> {:.2e} (N v = "
+      "{:.1f})\n",
+      worst, slope * n * block, momentum_start, momentum(), count * speed);
+  fmt::print("Z = {:.5f} +- {:.5f} ({} blocks); {} discs by the virial series: {:.5f}, without end {:.5f}\n",
+             average, std::sqrt(square / (n * (n - 1.0))), z.size(), count, of_discs(eta, count),
+             virial_series(eta));
+}
