@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "cli/commands.hpp"
@@ -75,12 +76,14 @@ int run(const Options& options) {
     loaded = load_system(options.system, run_overrides(options));
     choose_engine(options.engine, loaded.system);
     check_start(loaded.system);  // a start that is impossible must not cost an old archive
-    if (!output.empty()) archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1), options.force);
+    if (!output.empty()) archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1), options.force,
+                                                      how.trajectory);
   } else {
     const StoredRun stored = read_run(options.resume);
     loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
     loaded.system.name = stored.system_name;
     choose_engine(options.engine == "auto" && stored.engine == "steps" ? "steps" : options.engine, loaded.system);
+    refuse_injections(loaded.system, "a run that is continued");
     how.resume = stored.particles;
     refuse_going_back(loaded.system, stored);
     if (output.empty()) output = options.resume;

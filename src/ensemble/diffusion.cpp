@@ -6,6 +6,7 @@
 
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/energy.hpp"
@@ -172,6 +173,7 @@ DiffusionResult run_diffusion(const System& system, const DiffusionOptions& opti
   if (system.run.times.size() > most_times)
     throw InputError(Place{"", 0, 0, "run.times"}, std::to_string(system.run.times.size()) + " times are too many",
                      "at most " + std::to_string(most_times) + " report times");
+  refuse_injections(system, "an ensemble that diffuses");
   const Sampler sampler(system);
   const BlockPlan plan(system.run.trajectories, options.threads, options.block);
   std::atomic<std::uint64_t> done{0}, hits{0};

@@ -11,6 +11,7 @@
 #include "block_order.hpp"
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 
@@ -40,8 +41,7 @@ struct Tally {
 // The ends of one trajectory's particles.
 class Ends : public Observer {
  public:
-  explicit Ends(std::size_t particles) : ends_(particles) {}
-  void clear() { std::fill(ends_.begin(), ends_.end(), std::nullopt); }
+  void clear(int particles) { ends_.assign(static_cast<std::size_t>(particles), std::nullopt); }
   void end(const EndEvent& event) override { ends_[static_cast<std::size_t>(event.particle)] = event; }
   const std::optional<EndEvent>& of(int particle) const { return ends_[static_cast<std::size_t>(particle)]; }
 
@@ -52,9 +52,8 @@ class Ends : public Observer {
 // Runs trajectories in one thread; the prepared table is kept from one to the next.
 class Runner {
  public:
-  Runner(const System& system, const Sampler& sampler, DecisionOptions decisions)
-      : system_(system), sampler_(sampler), world_(*system.table, system.dynamics, decisions),
-        ends_(system.particles.size()) {
+  Runner(const System& system, const Sampler& sampler, const Injector& injector, DecisionOptions decisions)
+      : system_(system), sampler_(sampler), injector_(injector), world_(*system.table, system.dynamics, decisions) {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
   }
 
@@ -62,17 +61,17 @@ class Runner {
   bool run(std::uint64_t trajectory, Tally& tally, std::vector<TrajectoryRecord>* records,
            const std::function<bool()>& interrupted) {
     world_.clear();
-    ends_.clear();
-    const int count = static_cast<int>(system_.particles.size());
     add_starts(world_, sampler_, trajectory);
+    if (!system_.injections.empty()) injector_.add(world_, trajectory);
+    const int count = world_.size();
+    ends_.clear(count);
     const std::size_t first_record = records ? records->size() : 0;
     for (int particle = 0; records && particle < count; ++particle)
       records->push_back(start_of(world_.state(particle)));
     world_.run_until(system_.run.t_max, ends_, interrupted);
     if (interrupted && interrupted()) return false;
     for (int particle = 0; particle < count; ++particle) {
-      const std::uint64_t index =
-          trajectory * static_cast<std::uint64_t>(count) + static_cast<std::uint64_t>(particle);
+      const std::uint64_t index = particle_index(system_, trajectory, static_cast<std::uint64_t>(particle));
       const TrajectoryRecord end = end_of(particle);
       tally.counts.add(end.fate, end.time, end.hits, end.hole);
       tally.digest += trajectory_hash(index, static_cast<std::uint64_t>(end.fate), end.time, end.hits,
@@ -119,6 +118,7 @@ class Runner {
 
   const System& system_;
   const Sampler& sampler_;
+  const Injector& injector_;
   World world_;
   Ends ends_;
 };
@@ -127,7 +127,7 @@ class Runner {
 class Ensemble {
  public:
   Ensemble(const System& system, const EscapeOptions& options)
-      : system_(system), options_(options), sampler_(system), total_(system) {
+      : system_(system), options_(options), sampler_(system), injector_(system), total_(system) {
     const std::uint64_t threads = static_cast<std::uint64_t>(
         options.threads > 0 ? options.threads : std::max(1, omp_get_max_threads()));
     // Small ensembles get small blocks, so that every thread has work.
@@ -165,7 +165,7 @@ class Ensemble {
   // One thread's share. No exception may leave it: it runs inside an OpenMP region.
   void work(BlockOrder& order) noexcept {
     try {
-      Runner runner(system_, sampler_, options_.decisions);
+      Runner runner(system_, sampler_, injector_, options_.decisions);
       Tally mine(system_);
       std::uint64_t blocks = 0;
       while (!stopped()) {
@@ -212,6 +212,7 @@ class Ensemble {
   const System& system_;
   const EscapeOptions& options_;
   const Sampler sampler_;
+  const Injector injector_;
   std::uint64_t block_ = 1, blocks_ = 0;
   int threads_ = 1;
   std::atomic<std::uint64_t> next_block_{0}, done_{0}, hits_{0};

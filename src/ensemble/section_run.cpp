@@ -7,6 +7,7 @@
 
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "ensemble/block_order.hpp"
@@ -163,6 +164,7 @@ std::uint64_t section_orbits(const System& system) {
 
 SectionResult run_section(const System& system, const SectionOptions& options) {
   const Stopwatch watch;
+  refuse_injections(system, "sections");
   const Sampler sampler(system);
   // Blocks wait for their turn in memory.
   const std::uint64_t each = system.section.points;

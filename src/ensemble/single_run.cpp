@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "motion/free_motion.hpp"
@@ -16,8 +17,8 @@ namespace {
 // of the run are no longer in the world.
 class Renumbering : public Observer {
  public:
-  Renumbering(Observer& observer, const std::vector<int>& numbers, std::size_t particles)
-      : observer_(observer), numbers_(numbers), ends_(particles) {}
+  Renumbering(Observer& observer, const std::vector<int>& numbers, std::vector<Time> entries)
+      : observer_(observer), numbers_(numbers), entries_(std::move(entries)), ends_(entries_.size()) {}
 
   void hit(const HitEvent& event) override {
     HitEvent copy = event;
@@ -31,6 +32,8 @@ class Renumbering : public Observer {
     observer_.contact(copy);
   }
   void sample(int particle, Time time, const State& state) override {
+    // Before it enters it is nowhere.
+    if (time < entries_[static_cast<std::size_t>(number(particle))]) return;
     observer_.sample(number(particle), time, state);
   }
   void sampled(Time time) override { observer_.sampled(time); }
@@ -46,6 +49,7 @@ class Renumbering : public Observer {
   int number(int particle) const { return numbers_[static_cast<std::size_t>(particle)]; }
   Observer& observer_;
   const std::vector<int>& numbers_;
+  std::vector<Time> entries_;  ///< when each particle entered
   std::vector<std::optional<EndEvent>> ends_;
 };
 
@@ -95,34 +99,42 @@ State moved_on(const Particle& particle, const ParticleProgress& progress) {
 SingleRunResult run_single(const System& system, Observer& observer, const SingleRunOptions& options) {
   const Stopwatch watch;
   World world(*system.table, system.dynamics, options.decisions);
-  const std::size_t count = system.particles.size();
-  if (!options.resume.empty() && options.resume.size() != count)
+  std::vector<Particle> all = system.particles;
+  if (!options.resume.empty()) refuse_injections(system, "a run that is continued");
+  if (system.run.t_max >= no_last_time) refuse_injections(system, "a run without t_max");
+  if (!options.resume.empty() && options.resume.size() != all.size())
     throw InputError("the stored run has another number of particles");
   if (system.run.collisions > 0) world.limit_hits(system.run.collisions);
   if (system.run.sample > 0.0) world.sample_every(system.run.sample);
 
   const Sampler sampler(system);
-  std::vector<ParticleProgress> progress(count);
   std::vector<int> numbers;
   if (options.resume.empty()) add_starts(world, sampler, options.trajectory);
+  std::vector<Time> entries(all.size());
+  for (const InjectedParticle& late : Injector(system).add(world, options.trajectory)) {
+    all.push_back(late.particle);
+    entries.push_back(late.state.time);
+  }
+  const std::size_t count = all.size();
+  std::vector<ParticleProgress> progress(count);
   for (std::size_t p = 0; p < count; ++p) {
     if (!options.resume.empty()) {
       progress[p] = options.resume[p];
       const bool capped = system.run.collisions > 0 && progress[p].hits >= system.run.collisions;
       const bool pinned = progress[p].fate == Fate::pinned && system.run.t_max >= no_last_time;
       if (gone(progress[p].fate) || capped || pinned) continue;
-      world.add(system.particles[p], progress[p].state, progress[p].hits);
+      world.add(all[p], progress[p].state, progress[p].hits);
     }
     numbers.push_back(static_cast<int>(p));
   }
 
-  Renumbering passed_on(observer, numbers, count);
+  Renumbering passed_on(observer, numbers, std::move(entries));
   SingleRunResult result;
   // Energy is shared by particles that interact, by forces or by contacts.
   const ForceField* field = system.dynamics.forces.get();
   const bool forces = field != nullptr && (!field->empty() || !field->disc_radii().empty());
   std::vector<Particle> particles;
-  for (const int p : numbers) particles.push_back(system.particles[static_cast<std::size_t>(p)]);
+  for (const int p : numbers) particles.push_back(all[static_cast<std::size_t>(p)]);
   if (forces) {
     std::vector<State> states;
     for (std::size_t i = 0; i < numbers.size(); ++i) states.push_back(world.state(static_cast<int>(i)));
@@ -154,7 +166,7 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     now.end = !until_stop ? end->time : result.interrupted ? now.state.time : Time(system.run.t_max);
   }
   std::vector<State> last(count);
-  for (std::size_t p = 0; p < count; ++p) last[p] = moved_on(system.particles[p], progress[p]);
+  for (std::size_t p = 0; p < count; ++p) last[p] = moved_on(all[p], progress[p]);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::size_t p = static_cast<std::size_t>(numbers[i]);
     last[p] = world.state_at(static_cast<int>(i), progress[p].end);
@@ -168,7 +180,7 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     energy_error = start == 0.0 ? change : change / start;
   }
   for (std::size_t p = 0; p < count; ++p) {
-    const double error = forces ? energy_error : speed_error(system.particles[p], last[p]);
+    const double error = forces ? energy_error : speed_error(all[p], last[p]);
     result.particles.push_back(as_seen(system, progress[p], last[p], error));
     result.collisions += progress[p].hits;
   }

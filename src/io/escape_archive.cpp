@@ -38,7 +38,7 @@ class EscapeArchive::Implementation {
 void EscapeArchive::Implementation::create_trajectories() {
   const Handle group = file.group("trajectories", "Start and end of each trajectory, by index");
   const hid_t to = group.get();
-  trajectories.add<std::uint64_t>(to, "index", {"1", "trajectory * particles + particle"});
+  trajectories.add<std::uint64_t>(to, "index", {"1", "trajectory * particles + particle; with injections trajectory * 2^20 + particle"});
   trajectories.add<double>(to, "x", {"length", "Start, unwrapped"});
   trajectories.add<double>(to, "y", {"length", "Start, unwrapped"});
   trajectories.add<double>(to, "vx", {"length/time", "Velocity at the start"});

@@ -93,6 +93,12 @@ const std::vector<KeyDescription>& key_table() {
       {"initial.grid", "", "to", "number", "", "its last value"},
       {"initial.grid", "", "count", "whole number", "", "number of values, at least 2"},
 
+      {"injection", "", "hole", "string", "", "the hole that particles enter through"},
+      {"injection", "", "times", "list of numbers", "", "when one enters each, in increasing order, at most t_max"},
+      {"injection", "", "rate", "number", "",
+       "mean number that enter per unit time, at random until t_max; instead of times"},
+      {"injection", "", "speed", "number", "", "their speed; if not given, that of the first particle"},
+
       {"potential", "", "kind", "string", "",
        "fermi, harmonic, gaussian, quartic, power, coulomb, henon-heiles, linear, soft-circle, soft-stadium or "
        "expression"},

@@ -18,6 +18,9 @@ TableSpec read_table(Value& root);
 std::vector<Particle> read_particles(Value& root);
 /// [initial]; names of walls and holes are those of the table.
 InitialCondition read_initial(Value& root, const Table& table, const std::vector<Particle>& particles);
+/// [[injection]]: each particle that enters is like the first one, at its own speed.
+std::vector<Injection> read_injections(Value& root, const Table& table, const std::vector<Particle>& particles,
+                                       double t_max);
 /// [run].
 RunPlan read_run(Value& root);
 /// The energies of the particles where these are given; empty where speeds are.

@@ -73,7 +73,6 @@ class Reader {
     charge_ = Quantity(particles_.get("charge"));
     if (const Value* energy = particles_.find("energy")) {
       energy_ = Quantity(*energy);
-      energy_.check_positive();
     } else if (!particles_.has("speed") && speed_from_velocity()) {
       // the length of initial.velocity, see there
     } else {
@@ -89,6 +88,7 @@ class Reader {
     }
     count_ = as_count(particles_.get("count"), 1, most_particles);
     for (const Quantity* q : {&mass_, &charge_, &energy_, &speed_}) q->check_count(count_);
+    if (!energy_is_total()) energy_.check_positive();
     if (const Value* radius = field_.find("larmor_radius")) {
       as_positive(*radius);
       larmor_radius_ = as_number(*radius);
@@ -96,6 +96,15 @@ class Reader {
     } else {
       field_strength_ = as_number(field_.get("B"));
     }
+  }
+
+  // Where forces act, energies are total, and a well holds particles of less than none.
+  bool energy_is_total() const {
+    if (root_.find("potential") != nullptr) return true;
+    const Value* interaction = root_.find("interaction");
+    if (interaction == nullptr || count_ < 2) return false;
+    const Value* kind = interaction->find("kind");
+    return kind == nullptr || kind->text != "hard-discs";
   }
 
   // [initial] of kind point with a velocity: its length is the speed.
@@ -117,6 +126,14 @@ class Reader {
 
   Speed speed(std::size_t k) const {
     if (velocity_.rounded > 0) return velocity_;
+    if (energy_.given() && !(energy_[k].to_double() > 0)) {
+      if (field_.has("larmor_radius"))
+        throw InputError(
+            energy_[k].place(),
+            "there is no speed, and so no Larmor radius, at a total energy of " + energy_[k].text(),
+            "B instead of larmor_radius");
+      return {ExactNumber(1.0), 1.0};  // gives starts a direction; their speed follows from the energy
+    }
     ExactNumber exact =
         speed_.given() ? speed_[k]
                        : ExactNumber("sqrt(2*" + in_brackets(energy_[k]) + "/" + in_brackets(mass_[k]) + ")",

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "io/archive_file.hpp"
@@ -120,7 +121,7 @@ class RunArchive::Implementation {
     for (const Wall& wall : table->walls) frames.push_back(geometry::frame_of(wall.curve));
   }
 
-  void create(const LoadedSystem& loaded, const Provenance& origin);
+  void create(const LoadedSystem& loaded, const Provenance& origin, std::uint64_t trajectory);
   void reopen(const LoadedSystem& loaded, const Provenance& origin);
   void create_state(std::size_t particles);
   void write_state(const std::vector<ParticleEnd>& particles);
@@ -138,7 +139,8 @@ class RunArchive::Implementation {
   double sampled_until = -std::numeric_limits<double>::infinity();
 };
 
-void RunArchive::Implementation::create(const LoadedSystem& loaded, const Provenance& origin) {
+void RunArchive::Implementation::create(const LoadedSystem& loaded, const Provenance& origin,
+                                        std::uint64_t trajectory) {
   file.write_head(kind, loaded, origin);
   std::vector<std::string> walls;
   for (const Wall& wall : table->walls) walls.push_back(wall.name);
@@ -177,7 +179,7 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     const Handle group = file.group("energy", "Sums over the particles at each sample's time");
     for (const auto& [name, description] : energy_fields) energies.add<double>(group.get(), name, description);
   }
-  create_state(loaded.system.particles.size());
+  create_state(loaded.system.particles.size() + injected_count(loaded.system, trajectory));
 }
 
 void RunArchive::Implementation::create_state(std::size_t particles) {
@@ -243,10 +245,10 @@ RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
 RunArchive::~RunArchive() = default;
 
 std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
-                                               const Provenance& origin, bool force) {
+                                               const Provenance& origin, bool force, std::uint64_t trajectory) {
   refuse_existing(file, force);
   auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), file, loaded);
-  made->create(loaded, origin);
+  made->create(loaded, origin, trajectory);
   made->file.start_swmr();
   return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
 }

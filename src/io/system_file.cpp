@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "carom/ensemble/injection.hpp"
 #include "io/overrides.hpp"
 #include "io/read.hpp"
 
@@ -17,10 +18,10 @@ namespace {
 using io::Value;
 
 const std::vector<std::string> known_sections{"table",     "lattice",   "field",   "potential",  "interaction",
-                                              "particles", "initial",   "integrator", "run", "section"};
+                                              "particles", "initial",   "injection", "integrator", "run", "section"};
 /// Sections that stay away unless they are written.
 const std::vector<std::string> optional_sections{"table",       "lattice",    "potential",
-                                                 "interaction", "integrator", "section"};
+                                                 "interaction", "injection",  "integrator", "section"};
 
 bool contains(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
@@ -99,6 +100,9 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   if (!system.dynamics.forces->empty()) system.energies = io::read_energies(root, system.particles.size());
   system.initial = io::read_initial(root, *table, system.particles);
   system.run = io::read_run(root);
+  system.injections = io::read_injections(root, *table, system.particles, system.run.t_max);
+  if (!system.dynamics.forces->empty()) refuse_injections(system, "a system with forces");
+  if (!radii.empty()) refuse_injections(system, "a system of hard discs");
   system.section = io::read_section(root, *table);
   system.table = std::move(table);
   loaded.resolved_toml = io::print_document(root);

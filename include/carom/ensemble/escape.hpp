@@ -14,7 +14,7 @@
 namespace carom {
 
 /// One particle of one trajectory, for archives and exit basins. `index` is
-/// trajectory * (number of particles) + particle.
+/// trajectory * (number of particles) + particle; with injections see particle_index().
 struct TrajectoryRecord {
   std::uint64_t index = 0;
   double x = 0, y = 0, vx = 0, vy = 0;  ///< start, unwrapped
@@ -24,6 +24,7 @@ struct TrajectoryRecord {
   std::uint64_t hits = 0;
 };
 
+/// How to run, without influence on the result.
 struct EscapeOptions {
   int threads = 0;             ///< 0: as many as OpenMP gives
   std::uint64_t block = 1024;  ///< trajectories a block; the result does not depend on it
@@ -35,6 +36,7 @@ struct EscapeOptions {
   std::function<void(const std::vector<TrajectoryRecord>&)> records;
 };
 
+/// What an escape run adds up.
 struct EscapeResult {
   SurvivalCounts counts;
   std::uint64_t digest = 0;
@@ -46,7 +48,8 @@ struct EscapeResult {
 };
 
 /// Runs the ensemble: trajectories 0 … System::run.trajectories - 1. Where a trajectory has several
-/// particles, each of them is an entry of its own in every count. Throws InputError where the initial
+/// particles, each of them is an entry of its own in every count; one
+/// that is injected counts from the time 0 on as one that is not gone. Throws InputError where the initial
 /// condition is impossible, and whatever `records` throws.
 EscapeResult run_escape(const System&, const EscapeOptions& = {});
 

@@ -37,6 +37,8 @@ class Sampler {
   State draw(const World& world, std::uint64_t trajectory, int particle) const;
   /// The states of all particles of a trajectory.
   std::vector<State> draw_all(const World& world, std::uint64_t trajectory) const;
+  /// A start on the boundary, of the kinds `boundary` and `hole`.
+  State cosine_law(RandomStream&, double speed) const;
 
  private:
   /// An interval of a wall's parameter that cosine-law starts are drawn from. |dr/du| <= bound on it.
@@ -55,7 +57,6 @@ class Sampler {
                const char* where) const;
   State on_line(const World&, RandomStream&, double speed) const;
   State at_point(const World&, geometry::Vector position, geometry::Vector velocity, double speed) const;
-  State cosine_law(RandomStream&, double speed) const;
   State birkhoff(std::uint64_t trajectory, double speed) const;
   /// `tangential` and `normal` give the direction against the wall, in any unit.
   State on_wall(int wall, double u, double tangential, double normal, double speed) const;

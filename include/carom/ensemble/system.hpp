@@ -42,6 +42,16 @@ struct RunPlan {
   std::optional<std::pair<double, double>> window;  ///< report times that D is taken from
 };
 
+/// Particles that enter through a hole during a run: the cosine law over its opening, inwards.
+struct Injection {
+  int hole = -1;
+  std::vector<double> times;         ///< of entry, increasing; empty: by rate
+  double rate = 0.0;                 ///< mean number per unit time (Poisson process)
+  Particle particle;                 ///< of each that enters
+  Place place;                       ///< where it is written
+};
+
+/// A system file, read and checked: everything a run needs.
 struct System {
   std::string name;                  ///< as asked for on the command line
   std::string title;
@@ -50,6 +60,7 @@ struct System {
   std::vector<double> energies;      ///< total energy of each where energies are given, not speeds
   Dynamics dynamics;                 ///< [[potential]], [interaction], [integrator]; --engine steps
   InitialCondition initial;
+  std::vector<Injection> injections; ///< [[injection]]
   RunPlan run;
   SectionPlan section;               ///< what `carom section` takes
 };

@@ -33,7 +33,7 @@ struct Provenance {
 class RunArchive : public Observer {
  public:
   static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&, const Provenance&,
-                                            bool force);
+                                            bool force, std::uint64_t trajectory = 0);
   /// Goes on with the run stored in `source`: works on a copy TARGET.part, which becomes `target`
   /// (often the source itself) when finished.
   static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
