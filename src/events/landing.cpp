@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "carom/base/error.hpp"
+#include "events/bounded.hpp"
 #include "events/crossing.hpp"
 #include "events/next_hit.hpp"
 
@@ -27,11 +28,7 @@ int HitFinder::hole_at(const Flight& f, const Ahead& ahead, double u, DecisionCo
   const Vector origin = origins_[at(p.offset)].point;
   const FlightScale& s = origins_[at(p.offset)].scale;
   const double d1 = norm_1(displacement(ahead.kappa, f.velocity, f.omega, 0.5));
-  const double x = point_error(s, ahead.kappa, error_of(f, ahead), d1) +
-                   s.inflation * (w.centre_error + unit_roundoff * (2.1 * norm_1(origin) + 2.1 * d1 + 4.1 * w.extent));
-  // The map of the point to u stretches by at most 1 / length, or by the rows of the map to the unit
-  // circle, on which the half-angle tangent grows by at most 1.
-  const double error = 1.01 * w.parameter_stretch * x + s.inflation * 16.0 * unit_roundoff;  // of u
+  const double error = parameter_error(w, origin, d1, ahead.kappa, error_of(f, ahead), s);
   const Wall& wall = table_.walls[at(p.wall)];
   bool decided = true;
   int inside = -1;

@@ -6,6 +6,7 @@
 
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
+#include "events/bounded.hpp"
 #include "events/crossing.hpp"
 
 namespace carom {
@@ -96,12 +97,7 @@ Sign HitFinder::on_part(const Flight& f, int piece, const Candidate& c, double i
   const PreparedCurve& w = curves_[at(p.curve)];
   FlightScale s = origins_[at(p.offset)].scale;
   s.inflation = inflation;
-  const Vector origin = origins_[at(p.offset)].point;
-  const Vector d = displacement(c.root.kappa, f.velocity, f.omega, 0.5);
-  const Vector chord = w.to - w.from, e = (origin - w.from) + d;
-  const double error = point_error(s, c.root.kappa, c.kappa_error, norm_1(d));
-  const double rounding = unit_roundoff * (6.1 * norm_1(e) + 2.1 * w.extent + 2.1 * norm_1(d));
-  return sign_within(-w.orientation * geometry::cross(chord, e), norm_1(chord) * (error + s.inflation * rounding));
+  return side_of_chord(w, origins_[at(p.offset)].point, f.velocity, f.omega, c.root.kappa, c.kappa_error, s).sign();
 }
 
 namespace {
@@ -111,14 +107,8 @@ namespace {
 /// on the arc, so would the foot lie on the arc's side of the chord of its joints.
 [[gnu::always_inline]] inline bool foot_off_arc(const PreparedCurve& w, Vector origin, Vector v,
                                                 const FlightScale& s) {
-  const Vector e = origin - w.from, chord = w.to - w.from, c = origin - w.centre;
-  const double side = dot(v, v) * geometry::cross(chord, e) - dot(c, v) * geometry::cross(chord, v);
-  // Each coordinate of e and c errs by eta, of the chord by u; four factors, each a sum of products.
-  const double e1 = norm_1(e), c1 = norm_1(c);
-  const double eta = s.delta + w.centre_error + 1.1 * unit_roundoff * (e1 + c1);
-  const double bound = s.inflation * norm_1(chord) * (s.speed_1 * s.speed_1) *
-                       (2.1 * eta + 12.1 * unit_roundoff * (e1 + c1 + w.extent));
-  return w.orientation * side > bound;
+  const Bounded foot = foot_beyond_chord(w, origin, v, s);
+  return foot.value > foot.bound;
 }
 
 }  // namespace
@@ -138,25 +128,9 @@ namespace {
 /// Is the foot of the Larmor circle's centre on a segment's line between its ends?
 [[gnu::always_inline]] inline Sign foot_between(const PreparedCurve& w, Vector origin, Vector v, double omega,
                                                 const FlightScale& s) {
-  const double across = geometry::cross(w.tangent, v);
-  const Vector e = origin - w.from, g = origin - w.to;
-  const double first = omega * dot(e, w.tangent) + across;
-  const double last = omega * dot(g, w.tangent) + across;
-  const double bound = s.inflation * (s.omega * (1.42 * s.delta + 8.1 * unit_roundoff * (norm_1(e) + norm_1(g))) +
-                                      8.1 * unit_roundoff * s.speed_1);
-  const double a = omega > 0.0 ? first : -first, b = omega > 0.0 ? -last : last;
-  if ((a < -bound) | (b < -bound)) return Sign::negative;
-  return (a > bound) & (b > bound) ? Sign::positive : Sign::undecided;
-}
-
-/// Without field, error of kappa = U / T of a line, T > 0: U = cross(v, tangent) errs by twice the error
-/// of its half, T by its own; |U/T - U'/T'| <= (|U - U'| + kappa |T - T'|) / T, and kappa is rounded.
-[[gnu::always_inline]] inline double straight_line_error(const PreparedCurve& w, Vector origin, const FlightScale& s,
-                                                         double kappa, double time) {
-  const QuadraticError e = line_error(s, norm_1(origin - w.from));
-  if (!(time > e.a)) return HUGE_VAL;
-  const double k = std::fabs(kappa);
-  return (2.0 * e.b + k * e.a) / (time - e.a) + 2.1 * unit_roundoff * k;
+  const Feet feet = feet_of_centre(w, origin, v, omega, s);
+  if ((feet.first < -feet.bound) | (feet.last < -feet.bound)) return Sign::negative;
+  return (feet.first > feet.bound) & (feet.last > feet.bound) ? Sign::positive : Sign::undecided;
 }
 
 /// Without field: is the rising crossing ahead (kappa > 0)?
