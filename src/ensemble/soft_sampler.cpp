@@ -31,6 +31,13 @@ InputError too_little_energy(const System& system, double energy, double lowest)
                     "an energy above the potential's minimum, or another region to start from");
 }
 
+InputError at_a_pole(const System& system, Vector x) {
+  return InputError(
+      system.initial.place,
+      fmt::format("the potential or its force has no finite value at the start ({}, {})", x.x, x.y),
+      "a start off the poles of the potential");
+}
+
 }  // namespace
 
 bool Sampler::random_positions() const {
@@ -39,9 +46,16 @@ bool Sampler::random_positions() const {
 }
 
 State Sampler::draw_external(const World& world, std::uint64_t trajectory, int particle) const {
-  RandomStream random(system_.run.seed, Purpose::initial_state, trajectory, static_cast<std::uint64_t>(particle));
-  if (system_.energies.empty()) return draw_free(world, random, trajectory, particle);
+  RandomStream random(system_.run.seed, Purpose::initial_state, trajectory,
+                      static_cast<std::uint64_t>(particle));
   const Particle& p = system_.particles.at(static_cast<std::size_t>(particle));
+  if (system_.energies.empty()) {
+    const State state = draw_free(world, random, trajectory, particle);
+    Vector force{};
+    const double potential = system_.dynamics.forces->add_external(p, state.position, force);
+    if (std::isfinite(potential) && std::isfinite(force.x) && std::isfinite(force.y)) return state;
+    throw at_a_pole(system_, state.position);
+  }
   const double energy = system_.energies.at(static_cast<std::size_t>(particle));
   double lowest = std::numeric_limits<double>::infinity();
   for (int draw = 0; draw < (random_positions() ? most_draws : 1); ++draw) {

@@ -84,10 +84,16 @@ class CrossingSearch {
   /// Knot of the first crossing of `barrier` by particle `i` between two knots, or nullptr. There the
   /// particle is on the barrier to rounding.
   Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to) {
+    splits_ = 0;
     return search(barrier, i, from, to, 0);
   }
+  /// Was a search given up, as however short a part of the path looked too rough?
+  bool gave_up() const { return gave_up_; }
 
  private:
+  // Smooth paths need a few, those that graze some tens. Near a pole of a potential every part would be
+  // halved down to rounding.
+  static constexpr int most_splits = 2000;
   // Half a step, halved this often, is less than rounding of its ends.
   static constexpr int deepest = std::numeric_limits<Real>::digits + 10;
 
@@ -127,6 +133,10 @@ class CrossingSearch {
     }
     const Real middle = from.time + (to.time - from.time) / Real(2);
     if (depth == deepest || !(from.time < middle) || !(middle < to.time)) return root(b, i, from, to);
+    if (++splits_ > most_splits) {
+      gave_up_ = true;
+      return nullptr;
+    }
     Knot& half = path_.at(middle);
     if (Knot* found = search(b, i, from, half, depth + 1)) return found;
     return search(b, i, half, to, depth + 1);
@@ -227,6 +237,8 @@ class CrossingSearch {
   }
 
   Path& path_;
+  int splits_ = 0;  ///< of the search under way
+  bool gave_up_ = false;
 };
 
 }  // namespace carom

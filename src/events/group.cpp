@@ -84,6 +84,7 @@ const Group::Next& Group::predict(const Time& limit) {
       next_.duration = found->time;
     }
   }
+  next_.smooth = !search.gave_up();
   return next_;
 }
 

@@ -37,6 +37,7 @@ class Group final : public ForceLaw<double> {
     int member = -1;                           ///< -1: the end of the step
     const Barrier<double>* barrier = nullptr;
     bool finite = true;                        ///< false: a force or a state is not a number
+    bool smooth = true;                        ///< false: the path is too rough to find walls on it
   };
 
   explicit Group(const Surroundings& in) : in_(in) {}

@@ -169,11 +169,14 @@ void World::Implementation::copy_states(const Group& group) {
 void World::Implementation::apply_group(int leader, Observer& observer) {
   Group& group = *groups[at(bodies[at(leader)].group)];
   const Group::Next next = group.next();
-  if (!next.finite) {
+  if (!next.finite || !next.smooth) {
     while (!group.bodies().empty()) {
       const int body = group.bodies().front();
       end(body, Fate::lost, group.time(), &observer);
-      bodies[at(body)].report += ": a force or a state is not a number after this step";
+      bodies[at(body)].report +=
+          next.finite ? ": the path of this step is too rough to find walls on it; the step is too long, or a "
+                        "potential has a pole"
+                      : ": a force or a state is not a number after this step";
       take_out(group, 0);
     }
     return;

@@ -86,7 +86,11 @@ std::shared_ptr<const ForceField> ForceField::build(const ForceSpec& spec, const
                                "charges of one sign and strength > 0");
       field->interaction_ = make_interaction(s);
       field->pair_range_ = field->interaction_->reach();
-      field->tail_bound_ = std::max(field->tail_bound_, field->interaction_->tail());
+      // The Yukawa tail is that of unit charges.
+      double charge = 1.0;
+      for (const Particle& p : particles)
+        if (s.kind == InteractionSpec::Kind::yukawa) charge = std::max(charge, std::fabs(p.charge));
+      field->tail_bound_ = std::max(field->tail_bound_, charge * charge * field->interaction_->tail());
       if (lattice && !std::isfinite(field->pair_range_))
         throw InputError(s.place, "this interaction reaches infinitely far, which a lattice has no sum for",
                          "yukawa, lennard-jones or soft-sphere");

@@ -204,6 +204,42 @@ TEST(BadInput, Forces) {
   EXPECT_HAS(fault(square("[interaction]\nkind = \"hard-discs\"\nradii = [1, 2]\n")), "2 radii for 1 particles");
 }
 
+TEST(BadInput, ForcesThatHaveNoMeaning) {
+  const std::string formula = "[[potential]]\nkind = \"expression\"\n", step = "[integrator]\nstep = 0.1\n";
+  const std::string point = "[initial]\nkind = \"point\"\nposition = [0.5, 0.5]\nangle = 0\n";
+  const auto expression = [&](const std::string& text) {
+    return fault(
+        square(formula + "expression = \"" + text + "\"\nparameters = {depth = 2}\n" + step + point));
+  };
+  EXPECT_EQ(expression("depth*x^2"), "no fault");
+  // The column is that of the character within the line, quotation mark and all.
+  EXPECT_HAS(expression("dpeth*x^2"),
+             "test.toml, line 7, column 15: potential[0].expression: unknown name 'dpeth'");
+  EXPECT_HAS(expression("dpeth*x^2"), "did you mean 'depth'?");
+  EXPECT_HAS(expression("x^2 + sen(y)"), "line 7, column 21");
+  EXPECT_HAS(expression("x^2 + sen(y)"), "did you mean 'sin'?");
+  EXPECT_HAS(expression("x + 1/0"), "line 7, column 20: potential[0].expression: this is not finite");
+  EXPECT_HAS(expression("(x + 1"), "line 7");
+  const std::string sums =
+      "[lattice]\nvectors = [[1, 0], [0, 1]]\n[[potential]]\nkind = \"fermi\"\nradius = 0.1\n";
+  EXPECT_HAS(fault(sums + "softness = 1000\nlattice = true\n" + step + point), "as good as flat");
+  EXPECT_HAS(fault(sums + "softness = 0.1\n" + step + point), "every potential has to be repeated");
+  EXPECT_HAS(fault("[interaction]\nkind = \"coulomb\"\n[particles]\ncharge = [1, -1]\n" + step),
+             "attract each other");
+}
+
+TEST(BadInput, EnergiesAreTotalOnlyWhereForcesAct) {
+  const std::string well =
+      "[[potential]]\nkind = \"gaussian\"\nheight = -2\nwidth = 1\n[integrator]\nstep = 0.1\n";
+  const std::string negative = "[particles]\nenergy = -1\n";
+  EXPECT_EQ(fault(square(well + negative)), "no fault");
+  EXPECT_HAS(fault(square(negative)), "must be positive");
+  EXPECT_HAS(fault(square("[interaction]\nkind = \"coulomb\"\n" + negative)), "must be positive");
+  EXPECT_HAS(fault(square("[interaction]\nkind = \"hard-discs\"\nradius = 0.1\n" + negative + "count = 2\n")),
+             "must be positive");
+  EXPECT_HAS(fault(square(well + negative + "[field]\nlarmor_radius = 1\n")), "no Larmor radius");
+}
+
 TEST(BadInput, Integrator) {
   EXPECT_HAS(fault(square("[integrator]\nscheme = \"forest-ruth\"\n")), "did you mean 'forest-ruth-4'?");
   EXPECT_HAS(fault(square("[integrator]\nscheme = \"forest-ruth\"\n")), "velocity-verlet");

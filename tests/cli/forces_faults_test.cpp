@@ -1,0 +1,122 @@
+// What goes wrong where forces act: a clear message or fate, never a silent NaN.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "carom/integrators/scheme.hpp"
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The line must be refused with exit status 1 and one line of message that says all of these.
+void expect_refused(const Shell& shell, const std::string& line, std::initializer_list<const char*> parts) {
+  const Outcome o = shell(line);
+  EXPECT_EQ(o.status, 1) << line;
+  EXPECT_EQ(o.out, "") << line;
+  EXPECT_EQ(o.err.rfind("carom: ", 0), 0u) << line << "\n" << o.err;
+  for (const char* part : parts) EXPECT_TRUE(holds(o.err, part)) << line << "\n" << o.err;
+}
+
+const char* const pair = R"(cat > pair.toml << 'END'
+[interaction]
+kind = "coulomb"
+[particles]
+count = 2
+speed = 1
+[integrator]
+step = 0.01
+[initial]
+kind = "point"
+position = [0.25, 0]
+angle = 0
+[run]
+t_max = 1
+END
+)";
+
+TEST(ForceFaults, ParticlesPlacedOnEachOther) {
+  const Shell shell;
+  shell(pair);
+  for (const char* interaction :
+       {"", "kind=yukawa --set interaction.range=1", "kind=lennard-jones --set interaction.diameter=1",
+        "kind=soft-sphere --set interaction.diameter=1", "kind=expression --set 'interaction.expression=\"1/r\"'"}) {
+    const std::string set = *interaction ? std::string(" --set interaction.") + interaction : "";
+    for (const char* command : {"run", "escape --trajectories 3"})
+      expect_refused(shell, std::string("$carom ") + command + " ./pair.toml" + set,
+                     {"./pair.toml, line 10", "initial.position", "two particles start at the same point"});
+  }
+}
+
+TEST(ForceFaults, TooLittleEnergy) {
+  const Shell shell;
+  // V = 7/192 at the start.
+  expect_refused(shell, "$carom run henon-heiles --set particles.energy=0.03",
+                 {"no start has less potential energy than 0.03", "the lowest seen is 0.0364583", "above the potential"});
+  expect_refused(shell, "$carom run wigner --set particles.energy=0.1",
+                 {"particles.energy", "no start has less potential energy"});
+  expect_refused(shell, "$carom escape wigner --set particles.energy=0.1 --trajectories 2",
+                 {"particles.energy", "no start has less potential energy"});
+  expect_refused(shell, "$carom run soft-lorentz --set particles.energy=0", {"particles.energy", "no start has less potential energy than 0"});
+}
+
+TEST(ForceFaults, Attraction) {
+  const Shell shell;
+  shell(std::string(pair) + "sed -i '1,2d; s/count = 2/count = 1/' pair.toml; printf '[[potential]]\\nkind = "
+                            "\"coulomb\"\\ncharge = 1\\n' >> pair.toml");
+  EXPECT_EQ(shell("$carom run ./pair.toml").status, 0);
+  for (const char* set : {"'potential[0].charge=-1'", "particles.charge=-1"})
+    expect_refused(shell, std::string("$carom run ./pair.toml --set ") + set,
+                   {"potential[0]", "the Coulomb centre attracts", "charges of the same sign"});
+  shell(pair);
+  for (const char* set : {"interaction.strength=-1", "'particles.charge=[1,-2]'"})
+    expect_refused(shell, std::string("$carom run ./pair.toml --set ") + set, {"interaction", "attract each other"});
+}
+
+TEST(ForceFaults, Steps) {
+  const Shell shell;
+  for (const char* step : {"0", "-0.1", "nan", "inf", "1e-400"})
+    expect_refused(shell, std::string("$carom run henon-heiles --set integrator.step=") + step, {"integrator.step"});
+  expect_refused(shell, "$carom run sinai --engine steps", {"step"});
+}
+
+TEST(ForceFaults, UnknownSchemeListsTheKnownOnes) {
+  const Shell shell;
+  const Outcome o = shell("$carom run henon-heiles --set integrator.scheme=velocity-verlett");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_TRUE(holds(o.err, "unknown scheme 'velocity-verlett'")) << o.err;
+  EXPECT_TRUE(holds(o.err, "did you mean 'velocity-verlet'?")) << o.err;
+  for (const Scheme& scheme : schemes()) EXPECT_TRUE(holds(o.err, std::string(scheme.name))) << scheme.name;
+  EXPECT_TRUE(holds(o.err, "arkode, cvode")) << o.err;
+}
+
+/// A particle in a box that flies towards x = 1.
+void write_box(const Shell& shell, const std::string& expression) {
+  shell("cat > box.toml << 'END'\n[table]\nshape = \"rectangle\"\nwidth = 2\nheight = 1\n[[potential]]\n"
+        "kind = \"expression\"\nexpression = \"" +
+        expression +
+        "\"\n[particles]\nspeed = 1\n[integrator]\nstep = 0.01\n[initial]\nkind = \"point\"\n"
+        "position = [0.5, 0.5]\nangle = 0.3\n[run]\nt_max = 20\nEND\n");
+}
+
+// Poles and ends of a formula's domain that orbits come to: the right answer, or the particle is lost and
+// the reason said; never a number that is none, never a run without end.
+TEST(ForceFaults, PolesInTheRegion) {
+  const Shell shell;
+  for (const char* expression : {"0.1/(x - 1)", "0.1*sqrt(1 - x)", "0.1*log(1 - x)",
+                                 "0.1/(1 - x)^3", "0.1*(1 - x)^1.5"}) {
+    write_box(shell, expression);
+    for (const char* scheme : {"blanes-moan-srkn11b", "velocity-verlet", "arkode"}) {
+      const Outcome o = shell(std::string("timeout -s KILL 20 $carom run ./box.toml --set integrator.scheme=") + scheme);
+      EXPECT_FALSE(holds(o.out, "nan")) << expression << " " << scheme << o.out;
+      if (o.status == 0) continue;
+      EXPECT_EQ(o.status, 3) << expression << " " << scheme << o.err;
+      EXPECT_TRUE(holds(o.err, "is not a number") || holds(o.err, "too rough")) << expression << " " << scheme << o.err;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom
