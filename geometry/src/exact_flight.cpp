@@ -212,7 +212,7 @@ struct ExactFlight::Data {
 
   std::vector<Crossing> exits(int piece, Cell cell, bool starts_here, bool ends_here, bool start_at_joint,
                               std::vector<int>* zero_joints) const;
-  std::optional<Crossing> touch(int piece, Cell cell) const;
+  std::vector<Crossing> touches(int piece, Cell cell) const;
   bool segment_crossed_twice(const ExactCurve& c, const View& s, int side, const Quadratic<Dyadic>& f) const;
   /// Is the foot of the Larmor circle's centre strictly between the ends of a segment?
   bool foot_between_ends(const ExactCurve& c, const View& s) const;
@@ -312,19 +312,28 @@ std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts
   return found;
 }
 
-/// Where the flight is tangent to a piece without crossing it (not for quartics).
-std::optional<Crossing> ExactFlight::Data::touch(int piece, Cell cell) const {
+/// Where the flight is tangent to a piece without crossing it.
+std::vector<Crossing> ExactFlight::Data::touches(int piece, Cell cell) const {
   const ExactCurve& c = curve(piece);
-  if (needs_quartic(c)) return std::nullopt;
   const View s = view(piece, cell);
-  if (c.segment && !foot_between_ends(c, s)) return std::nullopt;
-  const Quadratic<Dyadic> f = quadratic(c, s);
-  if (f.a.sign() == 0 || (f.b * f.b - f.a * f.c).sign() != 0) return std::nullopt;
-  Crossing k = rational_crossing(-f.b, f.a);
-  if (omega.sign() == 0 && k.p.sign() <= 0) return std::nullopt;
   const ExactPoint a{c.from.x, c.from.y, Dyadic(1)};
-  if (!c.segment && !c.closed && !on_part(c, s, a, c.end_point(), k)) return std::nullopt;
-  return k;
+  std::vector<Crossing> found;
+  if (needs_quartic(c)) {
+    for (RealRoot& root : real_roots(quartic(c, s))) {
+      if (root.multiplicity % 2 != 0) continue;
+      Crossing k;
+      k.root = std::move(root.value);
+      if (c.closed || on_part(c, s, a, c.end_point(), k)) found.push_back(std::move(k));
+    }
+    return found;
+  }
+  if (c.segment && !foot_between_ends(c, s)) return found;
+  const Quadratic<Dyadic> f = quadratic(c, s);
+  if (f.a.sign() == 0 || (f.b * f.b - f.a * f.c).sign() != 0) return found;
+  Crossing k = rational_crossing(-f.b, f.a);
+  if (omega.sign() == 0 && k.p.sign() <= 0) return found;
+  if (c.segment || c.closed || on_part(c, s, a, c.end_point(), k)) found.push_back(std::move(k));
+  return found;
 }
 
 ExactFlight::Data::Around ExactFlight::Data::around(int piece, Cell cell, const Crossing& k) const {
@@ -408,17 +417,20 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
     }
   }
   // One tangency is no hit; two at one point are a cusp, through whose tip no flight leads.
-  std::vector<std::pair<int, Crossing>> touches;
+  std::vector<Crossing> touched;
   for (const int piece : pieces) {
-    if (piece == start || d.boundary.pieces[static_cast<std::size_t>(piece)].edge) continue;
-    std::optional<Crossing> k = d.touch(piece, cell);
-    if (!k || (best_crossing && compare(*k, *best_crossing) < 0)) continue;
-    for (const auto& [other, crossing] : touches) {
-      if (compare(crossing, *k) != 0) continue;
-      best = {First::Kind::cusp, piece, 0, approximate(*k)};
-      best_crossing = *k;
+    if (d.boundary.pieces[static_cast<std::size_t>(piece)].edge) continue;
+    // A circle or line that is crossed at the start is nowhere touched.
+    if (piece == start && !d.needs_quartic(d.curve(piece))) continue;
+    for (Crossing& k : d.touches(piece, cell)) {
+      if (best_crossing && compare(k, *best_crossing) < 0) continue;
+      for (const Crossing& other : touched) {
+        if (compare(other, k) != 0) continue;
+        best = {First::Kind::cusp, piece, 0, approximate(k)};
+        best_crossing = k;
+      }
+      touched.push_back(std::move(k));
     }
-    touches.emplace_back(piece, std::move(*k));
   }
   for (const int piece : zero_joints) {
     if (piece == start_previous && at_joint) continue;

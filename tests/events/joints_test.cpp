@@ -221,5 +221,37 @@ TEST(Joints, ACuspIsSingular) {
   EXPECT_EQ(follow(larmor, {6, 4}, {2, 0}, 1.0, 9, 1.0).fate, Fate::survived);
 }
 
+TEST(Joints, ACuspOfEllipsesInAFieldIsSingular) {
+  // A circle of radius 8 about (32, 8) that rolls between an ellipse and the wall, another ellipse or a disc below.
+  const Ellipse above{{32, 1}, {2, 0}, 0.5, false};
+  Table on_wall = rectangle(64, 64);
+  add_loop(on_wall, {above});
+  Table two = loop({Segment{{0, -8}, {64, -8}}, Segment{{64, -8}, {64, 64}}, Segment{{64, 64}, {0, 64}},
+                    Segment{{0, 64}, {0, -8}}});
+  Table mixed = two;
+  add_loop(two, {above});
+  add_loop(two, {Ellipse{{32, -3}, {4, 0}, 0.75, false}});
+  add_loop(mixed, {above});
+  add_loop(mixed, {Circle{{32, -1}, 1.0, false}});
+  for (const Table& table : {on_wall, two, mixed}) {
+    World world(table);
+    const Course c = follow(world, {24, 8}, {0, -8}, -1.0, 9, 6.0);
+    EXPECT_EQ(c.fate, Fate::singular);
+    EXPECT_DOUBLE_EQ(c.end, std::acos(0.0));  // a quarter turn
+    EXPECT_TRUE(c.hits.empty());
+    EXPECT_EQ(follow(world, {40, 8}, {0, -8}, 1.0, 9, 6.0).fate, Fate::singular);  // the other way round
+    // One digit off it is a hit, or none.
+    const Course beside = follow(world, {24, std::nextafter(8.0, 9.0)}, {0, -8}, -1.0, 9, 6.0);
+    EXPECT_NE(beside.fate, Fate::singular);
+    EXPECT_NE(beside.fate, Fate::lost);
+  }
+  // Of the ellipse alone a tangency is none: it never hits.
+  Table alone = loop({Segment{{0, -8}, {64, -8}}, Segment{{64, -8}, {64, 64}}, Segment{{64, 64}, {0, 64}},
+                      Segment{{0, 64}, {0, -8}}});
+  add_loop(alone, {above});
+  World once(alone);
+  EXPECT_EQ(follow(once, {24, 8}, {0, -8}, -1.0, 9, 6.0).fate, Fate::pinned);
+}
+
 }  // namespace
 }  // namespace carom::tests
