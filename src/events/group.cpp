@@ -61,13 +61,8 @@ const Group::Next& Group::predict(const Time& limit) {
   const double rest = std::min(step_end_ - time_, std::numeric_limits<double>::max());
   next_.duration = path_->begin(phase_, rest);
   whole_step_ = !(next_.duration < rest);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Phase<double>& end = path_->end().phase;
-    const double size = (std::fabs(end.position[i].x) + std::fabs(end.position[i].y)) +
-                        (std::fabs(end.velocity[i].x) + std::fabs(end.velocity[i].y));
-    if (!std::isfinite(size)) next_.finite = false;
-  }
-  if (!next_.finite) return next_;
+  next_.fault = fault_at(path_->end().phase);
+  if (!next_.fault.empty()) return next_;
   near_wall_ = false;
   CrossingSearch<double> search(*path_);
   StepPath<double>::Knot* last = &path_->end();
@@ -84,8 +79,30 @@ const Group::Next& Group::predict(const Time& limit) {
       next_.duration = found->time;
     }
   }
-  next_.smooth = !search.gave_up();
+  if (search.gave_up())
+    next_.fault =
+        "the path of this step is too rough to find walls on it; the step is too long, or a potential has a pole";
+  else if (next_.member >= 0)
+    next_.fault = fault_at(last->phase);
   return next_;
+}
+
+/// Exact decisions are for numbers, and their squares must not overflow.
+std::string_view Group::fault_at(const Phase<double>& phase) const {
+  constexpr double absurd = 1e100;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Vector &x = phase.position[i], &v = phase.velocity[i];
+    const double way = std::max(std::fabs(x.x - phase_.position[i].x), std::fabs(x.y - phase_.position[i].y));
+    const double size = (std::fabs(x.x) + std::fabs(x.y)) + (std::fabs(v.x) + std::fabs(v.y));
+    if (std::isnan(size))
+      return stepper_->failure().empty() ? "a force or a state is not a number after this step"
+                                         : stepper_->failure();
+    if (!(size <= absurd)) return "it runs away: a position or velocity is beyond 1e100 after this step";
+    if (way > in_.longest_way)
+      return "the step is too long for these walls: it leads a thousand times through the table, or beyond the "
+             "next cell";
+  }
+  return {};
 }
 
 void Group::advance() {

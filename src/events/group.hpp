@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "carom/base/time.hpp"
@@ -30,14 +31,14 @@ class Group final : public ForceLaw<double> {
     geometry::Vector centre;                   ///< of the lattice's cell
     std::vector<Barrier<double>> barriers;     ///< walls and edges of supports, with their copies
     std::vector<Barrier<double>> supports;     ///< the latter alone: their inside is positive
+    double longest_way = std::numeric_limits<double>::infinity();  ///< most that walls allow in one step
   };
   /// What comes first.
   struct Next {
     double duration = 0.0;
     int member = -1;                           ///< -1: the end of the step
     const Barrier<double>* barrier = nullptr;
-    bool finite = true;                        ///< false: a force or a state is not a number
-    bool smooth = true;                        ///< false: the path is too rough to find walls on it
+    std::string_view fault;                    ///< why there is no path that walls can be found on; "": there is
   };
 
   explicit Group(const Surroundings& in) : in_(in) {}
@@ -77,6 +78,7 @@ class Group final : public ForceLaw<double> {
  private:
   void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
   void make_stepper();
+  std::string_view fault_at(const Phase<double>& phase) const;
 
   const Surroundings& in_;
   std::vector<int> bodies_;

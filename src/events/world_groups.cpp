@@ -25,6 +25,26 @@ bool acts_everywhere(const Dynamics& d) {
 /// the cell.
 constexpr std::int64_t copies = 2;
 
+/// How far a step may lead where there are walls: through a bounded table a thousand times, as it would
+/// hit them about as often; on a lattice to the next cell.
+double longest_way(const Table& table) {
+  double length = std::numeric_limits<double>::infinity();
+  if (table.lattice) {
+    for (const geometry::CellEdge& e : table.lattice->edges) {
+      const Vector t = table.lattice->translation(e.beyond);
+      length = std::min(length, std::sqrt(dot(t, t)));
+    }
+  } else if (table.extent == Extent::bounded) {
+    length = 0.0;
+    for (const Wall& wall : table.walls) {
+      const geometry::Box box = geometry::bounding_box(wall.curve);
+      length = std::max({length, box.high.x - box.low.x, box.high.y - box.low.y});
+    }
+    length *= 1000.0;
+  }
+  return length;
+}
+
 }  // namespace
 
 Table table_with_supports(const Table& table, const Dynamics& dynamics) {
@@ -62,6 +82,7 @@ void World::Implementation::add_barriers() {
   }
   const std::int64_t range = table.lattice ? copies : 0;
   const std::vector<Wall>& walls = finder.table().walls;
+  if (!walls.empty()) surroundings.longest_way = longest_way(table);
   for (std::size_t i = 0; i < walls.size(); ++i) {
     geometry::Curve curve = walls[i].curve;
     const bool support = is_support(static_cast<int>(i));
@@ -169,14 +190,11 @@ void World::Implementation::copy_states(const Group& group) {
 void World::Implementation::apply_group(int leader, Observer& observer) {
   Group& group = *groups[at(bodies[at(leader)].group)];
   const Group::Next next = group.next();
-  if (!next.finite || !next.smooth) {
+  if (!next.fault.empty()) {
     while (!group.bodies().empty()) {
       const int body = group.bodies().front();
       end(body, Fate::lost, group.time(), &observer);
-      bodies[at(body)].report +=
-          next.finite ? ": the path of this step is too rough to find walls on it; the step is too long, or a "
-                        "potential has a pole"
-                      : ": a force or a state is not a number after this step";
+      bodies[at(body)].report.append(": ").append(next.fault);
       take_out(group, 0);
     }
     return;
@@ -203,7 +221,10 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
             return !is_support(b.wall) && b.covers(x) && std::fabs(b.gap(x)) <= 4.0 * b.rounding(x);
           });
       if (on_wall || contains(x)) continue;
-      end(group.bodies()[k], Fate::lost, group.time(), &observer);
+      const int body = group.bodies()[k];
+      end(body, Fate::lost, group.time(), &observer);
+      bodies[at(body)].report +=
+          ": it has left the table within this step and no wall was found; the step is too long";
       take_out(group, k);
     }
     if (group.bodies().empty()) return;

@@ -62,6 +62,7 @@ void ArkodeStepper::part(double duration, Phase<double>& to) {
   const int status = ARKStepEvolve(memory_, duration, problem_.state(), &reached, ARK_ONE_STEP);
   ARKStepSetFixedStep(memory_, 0.0);
   problem_.rethrow();
+  problem_.set_failure(status < 0 ? OdeProblem::no_step : std::string_view());
   problem_.unload(to, status >= 0);
   problem_.set_scale(kept);
 }
@@ -81,8 +82,10 @@ void ArkodeStepper::whole(double at_most) {
   ARKStepSetStopTime(memory_, at_most);
   const int status = ARKStepEvolve(memory_, at_most, problem_.state(), &duration_, ARK_ONE_STEP);
   problem_.rethrow();
-  problem_.unload(end_, status >= 0);
-  if (status < 0) duration_ = at_most;
+  problem_.set_failure(status < 0 ? OdeProblem::no_step : std::string_view());
+  const bool ok = status >= 0 && (duration_ == at_most || problem_.leads_on(duration_));
+  problem_.unload(end_, ok);
+  if (!ok) duration_ = at_most;
   // A step cut short by who asks says little about the next one.
   ARKStepGetCurrentStep(memory_, &proposed_);
   if (duration_ == at_most) proposed_ = std::max(proposed_, guess_);

@@ -28,6 +28,7 @@ class ArkodeStepper final : public Stepper<double> {
   ~ArkodeStepper() override;
 
   double step(const Phase<double>& from, double at_most, Phase<double>& to) override;
+  std::string_view failure() const override { return problem_.failure(); }
 
  private:
   void part(double duration, Phase<double>& to);

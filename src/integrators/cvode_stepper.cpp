@@ -55,7 +55,7 @@ double CvodeStepper::step(const Phase<double>& from, double at_most, Phase<doubl
     time = reached_;
     duration = reached_ - start_time_;
   }
-  const bool ok = !failed_ && CVodeGetDky(memory_, time, 0, problem_.state()) >= 0;
+  const bool ok = problem_.failure().empty() && CVodeGetDky(memory_, time, 0, problem_.state()) >= 0;
   problem_.unload(to, ok);
   if (!ok) return at_most;
   if (!again || time > end_time_) {
@@ -72,15 +72,17 @@ void CvodeStepper::begin(const Phase<double>& from) {
   CVodeSetInitStep(memory_, problem_.first_step(from, 1));
   start_time_ = reached_ = 0.0;
   steps_ = 0;
-  failed_ = false;
+  problem_.set_failure({});
 }
 
 void CvodeStepper::advance() {
   ++steps_;
+  const double before = reached_;
   const double ahead = std::numeric_limits<double>::max();  // one step, as far as it goes
   const int status = CVode(memory_, ahead, problem_.state(), &reached_, CV_ONE_STEP);
   problem_.rethrow();
-  failed_ = status < 0;
+  if (status < 0) problem_.set_failure(OdeProblem::no_step);
+  problem_.leads_on(reached_ - before);
 }
 
 }  // namespace carom

@@ -18,6 +18,7 @@ class CvodeStepper final : public Stepper<double> {
   ~CvodeStepper() override;
 
   double step(const Phase<double>& from, double at_most, Phase<double>& to) override;
+  std::string_view failure() const override { return problem_.failure(); }
 
  private:
   void begin(const Phase<double>& from);
@@ -30,7 +31,6 @@ class CvodeStepper final : public Stepper<double> {
   double start_time_ = 0.0, end_time_ = 0.0;  ///< since the chain, or its last renewal, began
   double reached_ = 0.0;                      ///< by the last internal step
   int steps_ = 0;
-  bool failed_ = false;
 };
 
 }  // namespace carom

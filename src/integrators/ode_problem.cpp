@@ -49,6 +49,16 @@ OdeProblem::Scale OdeProblem::first_scale(const Phase<double>& from) {
   return scale;
 }
 
+bool OdeProblem::leads_on(double duration) {
+  // 10000 steps of this size are a millionth of the way through the motion's own size.
+  constexpr double tiny = 1e-10;
+  constexpr int most = 10000;
+  tiny_steps_ = duration < tiny * longest_step() ? tiny_steps_ + 1 : 0;
+  if (tiny_steps_ <= most) return true;
+  failure_ = "the adaptive scheme has reached its limit of 10000 steps in a row that lead nowhere";
+  return false;
+}
+
 double OdeProblem::first_step(const Phase<double>& from, int order) {
   const double a = largest_acceleration(from);
   double time = longest_step();

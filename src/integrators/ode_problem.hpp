@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <sundials/sundials_context.hpp>
 #include <type_traits>
 #include <vector>
@@ -40,6 +41,13 @@ class OdeProblem {
   /// The time in which the motion goes through its own size. No step is longer: where no force acts the
   /// error control would let steps grow without bound, and over the next force.
   double longest_step() const { return scale_.position / scale_.velocity; }
+  /// Counts a step of that duration, shorter than asked for. False if it is the last of too many in a row
+  /// that lead nowhere: the error control shrinks its steps towards a singular point and never gets there.
+  bool leads_on(double duration);
+  /// Why the last step failed; "" if it did not.
+  std::string_view failure() const { return failure_; }
+  void set_failure(std::string_view why) { failure_ = why; }
+  static constexpr std::string_view no_step = "the adaptive scheme finds no step that keeps to its tolerance";
   /// A guess of a step that an error estimate of order p accepts.
   double first_step(const Phase<double>& from, int order);
 
@@ -66,6 +74,8 @@ class OdeProblem {
   EvaluatedForces<double> known_;  // at the starts of steps: SUNDIALS asks for these more than once
   std::vector<double> omega_;
   double tolerance_;
+  int tiny_steps_ = 0;  ///< in a row
+  std::string_view failure_;
   Scale scale_;
   std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector> state_;
   std::vector<Vector> position_, acceleration_;

@@ -105,17 +105,42 @@ void write_box(const Shell& shell, const std::string& expression) {
 // the reason said; never a number that is none, never a run without end.
 TEST(ForceFaults, PolesInTheRegion) {
   const Shell shell;
-  for (const char* expression : {"0.1/(x - 1)", "0.1*sqrt(1 - x)", "0.1*log(1 - x)",
-                                 "0.1/(1 - x)^3", "0.1*(1 - x)^1.5"}) {
+  for (const char* expression :
+       {"0.1/(x - 1)", "-0.1/abs(x - 1)", "-1/((x - 1)^2 + (y - 0.6)^2)", "0.1*sqrt(1 - x)", "0.1*log(1 - x)",
+        "0.1/(1 - x)^3", "0.1*(1 - x)^1.5", "-1000000*(x - 1)^6", "-exp(20*x)"}) {
     write_box(shell, expression);
-    for (const char* scheme : {"blanes-moan-srkn11b", "velocity-verlet", "arkode"}) {
+    for (const char* scheme : {"blanes-moan-srkn11b", "velocity-verlet", "arkode", "cvode"}) {
+      if (*expression == '-' && expression[1] != '0' && holds(scheme, "ode")) continue;  // right, and long
       const Outcome o = shell(std::string("timeout -s KILL 20 $carom run ./box.toml --set integrator.scheme=") + scheme);
       EXPECT_FALSE(holds(o.out, "nan")) << expression << " " << scheme << o.out;
       if (o.status == 0) continue;
       EXPECT_EQ(o.status, 3) << expression << " " << scheme << o.err;
-      EXPECT_TRUE(holds(o.err, "is not a number") || holds(o.err, "too rough")) << expression << " " << scheme << o.err;
+      bool reason = false;
+      for (const char* one : {"is not a number", "too rough", "finds no step", "lead nowhere", "runs away", "too long"})
+        reason = reason || holds(o.err, one);
+      EXPECT_TRUE(reason) << expression << " " << scheme << o.err;
     }
   }
+}
+
+// An adaptive scheme that shrinks its steps towards a singular point stops, and says at which limit.
+TEST(ForceFaults, AdaptiveStepsThatLeadNowhere) {
+  const Shell shell;
+  for (const char* expression : {"0.1/(x - 1)", "0.1*sqrt(1 - x)", "0.1*log(1 - x)"}) {
+    write_box(shell, expression);
+    const Outcome o = shell("timeout -s KILL 20 $carom run ./box.toml --set integrator.scheme=cvode");
+    EXPECT_EQ(o.status, 3) << expression;
+    EXPECT_TRUE(holds(o.err, "limit of 10000 steps in a row")) << expression << o.err;
+  }
+}
+
+// Steps so long that walls could not be found on their way.
+TEST(ForceFaults, StepsOverTheTable) {
+  const Shell shell;
+  write_box(shell, "0.001*x");
+  const Outcome o = shell("$carom run ./box.toml --set integrator.step=5000 --t-max 20000");
+  EXPECT_EQ(o.status, 3);
+  EXPECT_TRUE(holds(o.err, "the step is too long for these walls")) << o.err;
 }
 
 }  // namespace
