@@ -1,0 +1,64 @@
+// How far an orbit in double precision can be trusted: rounding errors and those of the start, carried along
+// the orbit by its tangent map. docs/physics/tangent-map.md has the estimate and what it is worth.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "carom/events/world.hpp"
+#include "carom/motion/tangent.hpp"
+
+namespace carom {
+
+/// Mean products of the errors of a state: the columns of a symmetric matrix, in the order x, y, vx, vy.
+using ErrorSpread = std::array<Deviation, 4>;
+
+/// What is known of one particle's errors; a run goes on from it.
+struct Trust {
+  bool known = false;      ///< false: nothing is estimated (forces, hard discs)
+  bool open = false;       ///< no error has become too large yet
+  std::uint64_t hits = 0;  ///< reflections before the first whose error is too large
+  Time time;               ///< of the last of these; while open: of the last event
+  ErrorSpread spread{};    ///< of the state after the last event, while open
+};
+
+/// Estimated errors of a hit, as many standard deviations as TrustRecorder::deviations says.
+struct HitError {
+  double arc = 0.0;    ///< along the wall
+  double delay = 0.0;  ///< of its time
+  double angle = 0.0;  ///< of the velocity's direction
+};
+
+/// The length that tolerances are measured by: the longer side of the box around the walls, on a lattice the
+/// longer of its vectors.
+double size_of(const Table&);
+
+/// Watches free particles. An orbit is trusted up to a hit if the errors of its point and of its time
+/// times the speed stay below the tolerance times the table's size, that of its direction below the
+/// tolerance, and every orbit within these errors has met the same walls.
+class TrustRecorder : public Observer {
+ public:
+  static constexpr double usual_tolerance = 1e-3;
+  /// Errors are taken this many times as large as their standard deviation.
+  static constexpr double deviations = 6.0;
+
+  /// Keeps a reference to the table, which must live as long.
+  explicit TrustRecorder(const Table&, double tolerance = usual_tolerance);
+  ~TrustRecorder() override;
+
+  /// Follows the world's next particle from its state, which has made `hits` hits; `before`: what was known
+  /// when an earlier part of the run ended there.
+  void follow(const Particle&, const State&, std::uint64_t hits, const Trust* before = nullptr);
+  void hit(const HitEvent&) override;
+  const Trust& trust(int particle) const;
+  const HitError& last_error(int particle) const;
+  /// The same at the end of a run, a free flight after the last event.
+  Trust trust_at(int particle, Time end) const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace carom

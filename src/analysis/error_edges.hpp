@@ -1,0 +1,35 @@
+// The two edges of a beam of orbits: what the engine does with them tells whether an error can change a
+// decision.
+#pragma once
+
+#include "carom/events/world.hpp"
+#include "carom/motion/tangent.hpp"
+#include "events/next_hit.hpp"
+
+namespace carom {
+
+/// Flies neighbours of an orbit from one event to the next, deciding as the engine does.
+class ErrorEdges {
+ public:
+  explicit ErrorEdges(const Table& table) : table_(table), finder_(table) {}
+
+  /// The wall that was hit, the cell of its copy and the point there.
+  struct Arrival {
+    int wall = -1;
+    geometry::Cell cell;
+    geometry::Vector position;
+  };
+
+  /// Does the orbit that deviates by d from `start` arrive at the same copy of the same wall, not farther
+  /// than `farthest` from there, and beside its holes?
+  bool same_arrival(const Particle&, const State& start, const Deviation& d, const Arrival&, double farthest);
+
+ private:
+  bool begin(const Particle&, const State& start, const Deviation& d, Flight& flight);
+
+  const Table& table_;
+  HitFinder finder_;
+  DecisionCounts counts_;
+};
+
+}  // namespace carom
