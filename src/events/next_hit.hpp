@@ -60,7 +60,12 @@ class HitFinder {
   /// that contains its start, by exact decisions.
   void begin(Flight& flight) const;
   /// A flight from the exact point (wall, u), whose rounded image is `point`; omega and speed are kept.
-  void begin_on_wall(Flight& flight, int wall, double u, geometry::Vector point, geometry::Vector velocity) const;
+  void begin_on_wall(Flight& flight, int wall, double u, geometry::Vector point, geometry::Vector velocity) const {
+    begin_on_wall(flight, wall, curve(wall), u, point, velocity);
+  }
+  /// The same for who has the wall's curve at hand.
+  void begin_on_wall(Flight& flight, int wall, const geometry::PreparedCurve& curve, double u, geometry::Vector point,
+                     geometry::Vector velocity) const;
 
   void next(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   Ahead next(const Flight& flight, DecisionCounts& counts) const {
@@ -79,6 +84,7 @@ class HitFinder {
     geometry::Cell cell;
     geometry::Vector velocity;  ///< on arrival
     geometry::PreparedCurve::Arrival at;
+    const geometry::PreparedCurve* curve = nullptr;
   };
   void land(const Flight& flight, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const;
   Landing land(const Flight& flight, const Ahead& ahead, DecisionCounts& counts) const {
@@ -89,7 +95,11 @@ class HitFinder {
 
   /// Does v at (wall, u) point into the domain? At u = 0 this is asked of both walls of the joint.
   /// `normal`: a rounded normal there.
-  Sign inward(int wall, double u, geometry::Vector v, geometry::Vector normal, DecisionCounts& counts) const;
+  Sign inward(int wall, double u, geometry::Vector v, geometry::Vector normal, DecisionCounts& counts) const {
+    return inward(wall, curve(wall), u, v, normal, counts);
+  }
+  Sign inward(int wall, const geometry::PreparedCurve& curve, double u, geometry::Vector v, geometry::Vector normal,
+              DecisionCounts& counts) const;
   /// Error of kappa of what lies ahead.
   double error_of(const Flight& flight, const Ahead& ahead) const;
   /// Is the start strictly inside the cell (or on its edge, see locate)?
@@ -200,12 +210,13 @@ class HitFinder {
   mutable std::vector<unsigned char> left_;  // is the joint on the left of the flight?
 };
 
-[[gnu::always_inline]] inline void HitFinder::begin_on_wall(Flight& f, int wall, double u, geometry::Vector point,
-                                     geometry::Vector velocity) const {
+[[gnu::always_inline]] inline void HitFinder::begin_on_wall(Flight& f, int wall, const geometry::PreparedCurve& w,
+                                                            double u, geometry::Vector point,
+                                                            geometry::Vector velocity) const {
   f.wall = wall;
   f.u = u;
   f.start = point;
-  f.start_error = curves_[static_cast<std::size_t>(wall)].point_error;
+  f.start_error = w.point_error;
   f.velocity = velocity;
   f.cell.first = f.cell.second = 0;
   f.entry = -1;
@@ -238,6 +249,7 @@ class HitFinder {
     origin = origins_[static_cast<std::size_t>(p.offset)].point;
   }
   const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(landing.wall)];
+  landing.curve = &w;
   landing.hole = -1;
   const bool larmor = f.omega != 0.0;
   geometry::Vector way;
@@ -258,9 +270,9 @@ class HitFinder {
   if (holed_[static_cast<std::size_t>(landing.wall)] != 0) landing.hole = hole_at(f, ahead, landing.at.u, counts);
 }
 
-[[gnu::always_inline]] inline Sign HitFinder::inward(int wall, double u, geometry::Vector v, geometry::Vector normal,
-                              DecisionCounts& counts) const {
-  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
+[[gnu::always_inline]] inline Sign HitFinder::inward(int wall, const geometry::PreparedCurve& w, double u,
+                                                     geometry::Vector v, geometry::Vector normal,
+                                                     DecisionCounts& counts) const {
   if (u > 0.0) {
     const double bound = options_.filter_inflation * w.normal_bound * (std::fabs(v.x) + std::fabs(v.y));
     const Sign sign = sign_within(dot(normal, v), bound);

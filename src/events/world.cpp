@@ -45,15 +45,13 @@ World::Implementation::Implementation(const Table& the_table, const Dynamics& ho
 }
 
 /// What comes next for a particle, into its queue entry.
-[[gnu::always_inline]] inline void World::Implementation::predict(int index) {
-  Body& b = bodies[static_cast<std::size_t>(index)];
+[[gnu::always_inline]] inline void World::Implementation::predict(int index, Body& b) {
   finder.next(b.flight, b.ahead, counts);
-  enqueue(index);
+  enqueue(index, b);
 }
 
 /// The particle's entry, from what lies ahead of it.
-[[gnu::always_inline]] inline void World::Implementation::enqueue(int index) {
-  const Body& b = bodies[static_cast<std::size_t>(index)];
+[[gnu::always_inline]] inline void World::Implementation::enqueue(int index, const Body& b) {
   Time when = b.state.time + b.ahead.duration;
   EventKind kind = EventKind::hit;
   switch (b.ahead.kind) {
@@ -82,9 +80,9 @@ World::Implementation::Implementation(const Table& the_table, const Dynamics& ho
   queue.update(index, when, static_cast<int>(kind));
 }
 
-void World::Implementation::fly(int index) { predict(index); }
-void World::Implementation::fly_on(int index) { enqueue(index); }
-void World::Implementation::apply_own(int index, Observer& observer) { apply(index, observer); }
+void World::Implementation::fly(int index) { predict(index, bodies[static_cast<std::size_t>(index)]); }
+void World::Implementation::fly_on(int index) { enqueue(index, bodies[static_cast<std::size_t>(index)]); }
+void World::Implementation::apply_own(int index, Observer& observer) { apply(index, queue.key(index).time, observer); }
 
 void World::Implementation::end(int index, Fate fate, Time time, Observer* observer) {
   Body& b = bodies[static_cast<std::size_t>(index)];
@@ -96,9 +94,8 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   if (observer) observer->end({index, fate, time, b.state, b.hole, b.hits});
 }
 
-[[gnu::always_inline]] inline void World::Implementation::reflect(int index, Observer& observer, const HitFinder::Landing& landing) {
-  Body& b = bodies[static_cast<std::size_t>(index)];
-  const Time now(queue.key(index).time.high, queue.key(index).time.low);
+[[gnu::always_inline]] inline void World::Implementation::reflect(int index, Body& b, Time now, Observer& observer,
+                                                              const HitFinder::Landing& landing) {
   const Vector before = landing.velocity;
   const Vector normal = landing.at.normal;
   const double step = step_to_energy_shell(before, b.energy_weight);
@@ -112,11 +109,11 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   } else {
     after = geometry::reflected(before, normal, landing.at.factor, step);
   }
-  Sign inward = finder.inward(landing.wall, landing.at.u, after, normal, counts);
+  Sign inward = finder.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.
     after = geometry::reflected(after, normal, landing.at.square, landing.at.k, 0.0);
-    inward = finder.inward(landing.wall, landing.at.u, after, normal, counts);
+    inward = finder.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts);
   }
   if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);
 
@@ -130,7 +127,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   b.state.time.low = now.low;
   b.hits += static_cast<std::uint64_t>(reflections);
   b.last_wall = landing.wall;
-  finder.begin_on_wall(b.flight, landing.wall, landing.at.u, landing.at.point, after);
+  finder.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point, after);
   event.particle = index;
   event.wall = landing.wall;
   event.u = landing.at.u;
@@ -147,26 +144,26 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
     observer.hit(event);
     return end(index, Fate::capped, now, &observer);
   }
-  predict(index);  // first, while its numbers are at hand
+  predict(index, b);  // first, while its numbers are at hand
   observer.hit(event);
 }
 
-[[gnu::always_inline]] inline void World::Implementation::apply(int index, Observer& observer) {
+[[gnu::always_inline]] inline void World::Implementation::apply(int index, Time now, Observer& observer) {
   Body& b = bodies[static_cast<std::size_t>(index)];
   if (b.group >= 0) return apply_group(index, observer);
-  const EventQueue::Key& key = queue.key(index);
-  if (key.kind != static_cast<int>(EventKind::hit)) switch (static_cast<EventKind>(key.kind)) {
-    case EventKind::pinned: return end(index, Fate::pinned, key.time, &observer);
+  const int kind = queue.key(index).kind;
+  if (kind != static_cast<int>(EventKind::hit)) switch (static_cast<EventKind>(kind)) {
+    case EventKind::pinned: return end(index, Fate::pinned, now, &observer);
     case EventKind::unbounded: return end(index, Fate::unbounded, b.state.time, &observer);
     case EventKind::cell_edge:
       finder.cross(b.flight, b.ahead);
-      return predict(index);
+      return predict(index, b);
     case EventKind::hit:
     case EventKind::singular: break;
     case EventKind::group: return meet(index, observer);
     default: return end(index, Fate::lost, b.state.time, &observer);
   }
-  if (b.ahead.kind == Ahead::Kind::cusp) return end(index, Fate::singular, key.time, &observer);
+  if (b.ahead.kind == Ahead::Kind::cusp) return end(index, Fate::singular, now, &observer);
   HitFinder::Landing landing;
   finder.land(b.flight, b.ahead, landing, counts);
   if (is_support(landing.wall)) [[unlikely]] {
@@ -179,9 +176,9 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   }
   if (landing.hole >= 0) {
     b.hole = landing.hole;
-    return end(index, Fate::escaped, key.time, &observer);
+    return end(index, Fate::escaped, now, &observer);
   }
-  reflect(index, observer, landing);
+  reflect(index, b, now, observer, landing);
 }
 
 State World::Implementation::state_at(const Body& b, Time t) const {
@@ -289,7 +286,7 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   else if (w.contacts)
     w.add_disc(index);
   else
-    w.predict(index);
+    w.fly(index);
   return index;
 }
 
@@ -332,7 +329,7 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
     if (w.contacts) [[unlikely]]
       w.apply_disc(index, observer);
     else
-      w.apply(index, observer);
+      w.apply(index, when, observer);
     if (w.surface) w.watch_event(index, when, observer);
     ++events;
   }

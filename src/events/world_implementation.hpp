@@ -47,13 +47,13 @@ class World::Implementation {
  public:
   Implementation(const Table& table, const Dynamics& dynamics, DecisionOptions options);
 
-  void predict(int index);
-  void enqueue(int index);
+  void predict(int index, Body& body);
+  void enqueue(int index, const Body& body);
   void fly(int index);  ///< predict, for callers that it is not inlined into
-  void apply(int index, Observer& observer);
+  void apply(int index, Time now, Observer& observer);
   void apply_own(int index, Observer& observer);  ///< apply, likewise
   void fly_on(int index);  ///< enqueue, likewise
-  void reflect(int index, Observer& observer, const HitFinder::Landing& landing);
+  void reflect(int index, Body& body, Time now, Observer& observer, const HitFinder::Landing& landing);
   void end(int index, Fate fate, Time time, Observer* observer);
   void emit_samples(Time until, bool inclusive, Observer& observer);
   State state_at(const Body& body, Time t) const;
