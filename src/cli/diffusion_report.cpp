@@ -133,6 +133,7 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   json.set("collisions", result.collisions);
   if (engine_of(system) != "events") json.set("energy_change", result.energy_change);
   json.set("digest", fmt::format("{:016x}", result.digest));
+  json.set("decisions", decisions_json(result.decisions));
   Json msd = Json::array(), fourth = Json::array(), local = Json::array(), corridors = Json::array();
   for (const MomentPoint& p : summary.points) {
     msd.push(Json::object().set("t", p.t).set("value", p.square.value).set("stderr", p.square.error));
@@ -185,11 +186,11 @@ std::string diffusion_text(const System& system, const DiffusionResult& result, 
   text += ends_text(result);
   if (engine_of(system) != "events")
     text += fmt::format("\nlargest change of a trajectory's energy {:.2g}\n", result.energy_change);
-  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}: {}hits/s   digest {:016x}\n",
+  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}: {}hits/s\n{}   digest {:016x}\n",
                       grouped(result.collisions), result.seconds, result.threads,
                       result.threads == 1 ? "" : "s",
                       with_prefix(static_cast<double>(result.collisions) / std::max(result.seconds, 1e-9)),
-                      result.digest);
+                      decisions_text(result.decisions), result.digest);
   if (!output.empty()) text += fmt::format("archive: {}\n", output);
   return text;
 }

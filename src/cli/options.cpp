@@ -15,8 +15,9 @@ namespace carom::cli {
 namespace {
 
 constexpr const char* introduction =
-    "carom: classical particles in two dimensions. Free particles in billiard tables, with or without a\n"
-    "magnetic field: every wall is met exactly, nothing is stepped over.";
+    "carom: classical particles in two dimensions. Between walls they fly freely, with or without a\n"
+    "magnetic field: every wall is met exactly, nothing is stepped over. Where potentials or other\n"
+    "particles act, motion is integrated.";
 
 constexpr const char* examples =
     "Examples:\n"
@@ -105,7 +106,11 @@ std::string quoted(const std::string& word) {
 
 void define(CLI::App& app, Options& o) {
   Command(app, o, "escape", "Survival probability and escape rate of an ensemble",
-          "Example: carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
+          "Examples:\n"
+          "  carom escape magnetic-square\n"
+          "  carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
+          "  carom escape stadium --trajectories 1e5 --per-trajectory -o basins.h5\n"
+          "\n"
           "A closed table is legal: nothing escapes. Exit status 3 if a trajectory was lost.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
@@ -113,9 +118,12 @@ void define(CLI::App& app, Options& o) {
       .flag("--per-trajectory", o.per_trajectory,
             "Store start, fate, hole, time and hits of each trajectory in the archive");
   Command(app, o, "run", "One trajectory, followed closely",
-          "Example: carom run circle --position 1/10,0 --velocity 1,2 --collisions 1e6 -o orbit.h5\n"
-          "With --collisions and without --t-max the run has no last time.\n"
-          "carom run --resume orbit.h5 --t-max 2000 goes on from where the archive ends.")
+          "Examples:\n"
+          "  carom run mushroom --trajectory 7 --t-max 100\n"
+          "  carom run circle --position 1/10,0 --velocity 1,2 --collisions 1e4 -o orbit.h5\n"
+          "  carom run --resume orbit.h5 --collisions 2e4     goes on from where the archive ends\n"
+          "\n"
+          "With --collisions and without --t-max the run has no last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.h5",
@@ -124,14 +132,22 @@ void define(CLI::App& app, Options& o) {
       .text("--precision", o.precision, "NAME", "double")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
   Command(app, o, "diffusion", "Mean square displacement and diffusion coefficient of an ensemble",
-          "Example: carom diffusion lorentz-triangular --trajectories 1e6\n"
+          "Examples:\n"
+          "  carom diffusion lorentz-triangular\n"
+          "  carom diffusion lorentz-triangular --set field.B=0.5 --window 20,200 --json\n"
+          "  carom diffusion soft-lorentz --t-max 100 -o msd.h5\n"
+          "\n"
           "D is a quarter of the slope of the MSD in a window of report times (default: the last decade).")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .text("--window", o.window, "FROM,TO", "Report times that D and the exponent are taken from");
   Command(app, o, "section", "Boundary map, or section by a line, a circle or a velocity, of many orbits",
-          "Example: carom section ellipse-magnetic --orbits 20 --points 2000 -o section.h5\n"
+          "Examples:\n"
+          "  carom section ellipse-magnetic --orbits 20 --points 2000 -o section.h5\n"
+          "  carom section stadium --set 'table.hole=[]' --on line:0,-1:0,1 --direction positive\n"
+          "  carom section henon-heiles --on x=0 --direction positive --points 500 --json\n"
+          "\n"
           "WHERE is boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r,\n"
           "x=c, y=c, vx=c or vy=c. With --points and without --t-max a boundary section has no last time.")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -142,15 +158,26 @@ void define(CLI::App& app, Options& o) {
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
       .text("--orbits", o.orbits, "N", "Number of orbits (default: the listed starts, else at most 50)");
   Command(app, o, "table", "Checks, measures and draws the table",
-          "Example: carom table stadium -o stadium.svg")
+          "Examples:\n"
+          "  carom table stadium\n"
+          "  carom table mushroom --set table.stem_width=0.6 -o mushroom.svg\n"
+          "  carom table three-disc --json")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.svg", "Draw the table");
   Command(app, o, "systems", "Lists the built-in systems; prints one as TOML",
-          "Example: carom systems mushroom > my-mushroom.toml")
+          "Examples:\n"
+          "  carom systems\n"
+          "  carom systems mushroom > my-mushroom.toml\n"
+          "  carom systems --json")
       .system("NAME", "Built-in system to print");
   Command(app, o, "validate", "Checks the engine against identities and published values",
-          "Example: carom validate --soak        (the long runs)\nExit status 3 if a case fails.")
+          "Examples:\n"
+          "  carom validate                  10^7 hits in each of five closed tables, published values\n"
+          "  carom validate --scale 0.01     a quick look\n"
+          "  carom validate --soak --json    the long runs\n"
+          "\n"
+          "Exit status 3 if a case fails.")
       .flag("--soak", o.soak, "The long runs: 10^9 hits a closed table, 10^7 a mean flight")
       .text("--scale", o.scale, "X", "Multiplies the trajectories of each case (default 1)")
       .flag("--quiet", o.quiet, "No progress on standard error")

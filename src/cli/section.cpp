@@ -71,6 +71,7 @@ Json section_json(const System& system, const SectionResult& result, const std::
   json.set("lost", result.lost);
   json.set("collisions", result.collisions);
   json.set("digest", fmt::format("{:016x}", result.digest));
+  json.set("decisions", decisions_json(result.decisions));
   if (!output.empty()) json.set("archive", output);
   return json;
 }
@@ -99,8 +100,9 @@ std::string section_text(const System& system, const SectionResult& result, cons
   if (result.incomplete > 0)
     text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n", grouped(result.incomplete),
                         grouped(system.section.points), system.run.t_max, ends.empty() ? "" : " (" + ends + ")");
-  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}   digest {:016x}\n", grouped(result.collisions),
-                      result.seconds, result.threads, result.threads == 1 ? "" : "s", result.digest);
+  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}\n{}   digest {:016x}\n", grouped(result.collisions),
+                      result.seconds, result.threads, result.threads == 1 ? "" : "s",
+                      decisions_text(result.decisions), result.digest);
   text += output.empty() ? "-o FILE.h5 stores the points\n" : fmt::format("archive: {}\n", output);
   return text;
 }

@@ -78,6 +78,8 @@ class Follower {
     }
   }
 
+  const DecisionCounts& decisions() const { return world_.decisions(); }
+
   Tally tally;
 
  private:
@@ -181,7 +183,10 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
   Tally total;
   const bool complete = run_blocks(
       plan, options.interrupted, [&] { return Follower(system, sampler, options, order, report); },
-      [&](Follower& follower) { total.merge(follower.tally); });
+      [&](Follower& follower) {
+        total.merge(follower.tally);
+        total.result.decisions += follower.decisions();
+      });
   if (options.points) order.flush();
   SectionResult result = std::move(total.result);
   result.complete = complete;

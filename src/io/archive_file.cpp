@@ -117,6 +117,9 @@ void ArchiveFile::write_head(const char* kind, const LoadedSystem& loaded, const
   hdf5::write_attribute(to, "command", std::string_view(origin.command), name_);
   hdf5::write_attribute(to, "date", utc_now(), name_);
   hdf5::write_attribute(to, "continued", std::int64_t{0}, name_);
+  // Beside the results: how a decision was taken changes none of them.
+  hdf5::write_attribute(to, "decisions_filter", std::int64_t{0}, name_);
+  hdf5::write_attribute(to, "decisions_exact", std::int64_t{0}, name_);
 }
 
 void ArchiveFile::extend_head(const LoadedSystem& loaded, const Provenance& origin) const {
@@ -139,6 +142,16 @@ void ArchiveFile::start_swmr() const { hdf5::check(H5Fstart_swmr_write(id()) >= 
 void ArchiveFile::set_status(const std::string& status, bool complete) const {
   hdf5::change_attribute(id(), "status", std::string_view(status), name_);
   hdf5::change_attribute(id(), "complete", std::int64_t{complete}, name_);
+}
+
+void ArchiveFile::add_decisions(const DecisionCounts& counts) const {
+  const Handle provenance = open_group("provenance");
+  const auto add = [&](const char* name, std::uint64_t number) {
+    const std::int64_t before = hdf5::read_integer_attribute(provenance.get(), name, name_);
+    hdf5::change_attribute(provenance.get(), name, before + static_cast<std::int64_t>(number), name_);
+  };
+  add("decisions_filter", counts.filter);
+  add("decisions_exact", counts.exact);
 }
 
 void ArchiveFile::keep_as(const std::string& target) {

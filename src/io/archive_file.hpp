@@ -29,6 +29,8 @@ class ArchiveFile {
   void extend_head(const LoadedSystem&, const Provenance&) const;
   void start_swmr() const;
   void set_status(const std::string& status, bool complete) const;
+  /// Where decisions were taken: to what /provenance holds of earlier parts of the run.
+  void add_decisions(const DecisionCounts&) const;
 
   /// Closes, syncs and renames to `target` (may be the path itself).
   void keep_as(const std::string& target);

@@ -85,6 +85,7 @@ void DiffusionArchive::finish(const DiffusionResult& result, const std::vector<M
     const Handle provenance = a.file.open_group("provenance");
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   }
+  a.file.add_decisions(result.decisions);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);
 }

@@ -136,6 +136,7 @@ void EscapeArchive::finish(const EscapeResult& result, const std::string& status
   hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);
+  a.file.add_decisions(result.decisions);
 }
 
 }  // namespace carom

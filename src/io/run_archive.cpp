@@ -333,6 +333,7 @@ StoredRun read_run(const std::string& name) {
   if (run.status == "running")
     throw InputError(place, "its run was killed", "the archive of a finished or interrupted run");
   run.system_toml = hdf5::read_text(file.get(), "system", name);
+  a.file.add_decisions(result.decisions);
   const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
   run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
   run.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);

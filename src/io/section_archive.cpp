@@ -74,6 +74,7 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
     const Handle provenance = a.file.open_group("provenance");
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   }
+  a.file.add_decisions(result.decisions);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);
 }

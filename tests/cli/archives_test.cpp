@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <cstring>
 #include <map>
 
 #include "program.hpp"
@@ -55,6 +56,42 @@ Contents open_archive(const std::string& path) {
   H5Aclose(status);
   H5Fclose(file);
   return contents;
+}
+
+std::int64_t provenance_number(const std::string& path, const char* name) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t number = H5Aopen_by_name(file, "provenance", name, H5P_DEFAULT, H5P_DEFAULT);
+  std::int64_t value = -1;
+  H5Aread(number, H5T_NATIVE_INT64, &value);
+  H5Aclose(number);
+  H5Fclose(file);
+  return value;
+}
+
+TEST(Archives, HoldTheSharesOfDecisions) {
+  const Shell shell;
+  // The run meets corners exactly: double precision cannot decide that.
+  const std::string commands[] = {
+      "escape magnetic-square --trajectories 100 --t-max 50", "diffusion sinai --trajectories 100 --t-max 10",
+      "section stadium --points 50",
+      "run magnetic-square --set field.B=0 --set table.hole=[] --position 1/4,1/4 --velocity 1,1 --t-max 3"};
+  for (const std::string& command : commands) {
+    const Outcome o = shell("$carom " + command + " -o a.h5 --force --json");
+    ASSERT_EQ(o.status, 0) << o.err;
+    const std::string counts = json_value(o.out, "decisions");
+    const std::string path = shell.folder() + "/a.h5";
+    const std::string expected = "\"filter\": " + std::to_string(provenance_number(path, "decisions_filter")) +
+                                 ", \"exact\": " + std::to_string(provenance_number(path, "decisions_exact"));
+    EXPECT_NE(counts.find(expected), std::string::npos) << command << counts << expected;
+    EXPECT_GT(provenance_number(path, command.starts_with("run") ? "decisions_exact" : "decisions_filter"), 0);
+  }
+  // A run that goes on adds to them.
+  const std::string part = "$carom run sinai --t-max ";
+  shell(part + "20 -o whole.h5; " + part + "10 -o part.h5; $carom run --resume part.h5 --t-max 20");
+  const auto whole = provenance_number(shell.folder() + "/whole.h5", "decisions_filter");
+  const auto both = provenance_number(shell.folder() + "/part.h5", "decisions_filter");
+  EXPECT_GE(both, whole);
+  EXPECT_LE(both, whole + 4);  // the flight under way is looked at again
 }
 
 TEST(RunArchive, HoldsEveryHitDescribed) {
@@ -160,6 +197,56 @@ TEST(EscapeArchive, HoldsEveryTrajectory) {
   EXPECT_EQ(a.datasets.count("survival/p"), 1u);
   EXPECT_EQ(a.datasets, open_archive(shell.folder() + "/b.h5").datasets);
   EXPECT_EQ(shell.files().size(), 2u) << "a .part was left";
+}
+
+// One column of a group of an archive.
+template <class T>
+std::vector<T> numbers(const Contents& contents, const std::string& name) {
+  const std::string& bytes = contents.datasets.at(name);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+TEST(EscapeArchive, RowsAreTheTrajectoriesThatWereCounted) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom escape mushroom --trajectories 2000 --t-max 60 --per-trajectory -o a.h5 --json "
+      "--set 'table.hole=[{wall=\"stem_bottom\",center=0.5,width=0.2},{wall=\"cap\",center=1,width=0.1}]'");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Contents a = open_archive(shell.folder() + "/a.h5");
+  const auto fate = numbers<std::int32_t>(a, "trajectories/fate"), hole = numbers<std::int32_t>(a, "trajectories/hole");
+  const auto hits = numbers<std::uint64_t>(a, "trajectories/hits");
+  const auto t = numbers<double>(a, "trajectories/t"), x = numbers<double>(a, "trajectories/x"),
+             y = numbers<double>(a, "trajectories/y"), vx = numbers<double>(a, "trajectories/vx"),
+             vy = numbers<double>(a, "trajectories/vy");
+  ASSERT_EQ(fate.size(), 2000u);
+  std::uint64_t escaped = 0, collisions = 0, by_hole[2] = {0, 0};
+  for (std::size_t i = 0; i < fate.size(); ++i) {
+    collisions += hits[i];
+    EXPECT_NEAR(vx[i] * vx[i] + vy[i] * vy[i], 1.0, 1e-14);
+    EXPECT_EQ(hole[i] >= 0, t[i] < 60.0);
+    if (hole[i] < 0) continue;
+    ++escaped;
+    ++by_hole[hole[i]];
+  }
+  EXPECT_EQ(std::to_string(escaped), json_value(o.out, "escaped"));
+  EXPECT_EQ(std::to_string(collisions), json_value(o.out, "collisions"));
+  EXPECT_EQ(numbers<std::uint64_t>(a, "fates/holes"), (std::vector<std::uint64_t>{by_hole[0], by_hole[1]}));
+  // The starts are those of single runs.
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Outcome one = shell("$carom run mushroom --trajectory " + std::to_string(i) + " --t-max 0.001 --json");
+    EXPECT_NEAR(std::stod(json_value(one.out, "x")), x[i] + 0.001 * vx[i], 1e-12);
+    EXPECT_NEAR(std::stod(json_value(one.out, "y")), y[i] + 0.001 * vy[i], 1e-12);
+  }
+  // By hits: those who were not gone within n.
+  const auto n = numbers<std::uint64_t>(a, "survival_hits/n");
+  const auto p = numbers<double>(a, "survival_hits/p");
+  for (std::size_t k = 0; k < n.size(); ++k) {
+    std::uint64_t there = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) there += hole[i] < 0 || hits[i] > n[k];
+    EXPECT_DOUBLE_EQ(p[k], static_cast<double>(there) / 2000.0) << n[k];
+  }
 }
 
 TEST(EscapeArchive, SurvivesCtrlC) {

@@ -27,10 +27,13 @@ TEST(Program, AloneTeaches) {
     EXPECT_NE(o.out.find("carom table mushroom"), std::string::npos);
     EXPECT_EQ(o.err, "");
   }
-  for (const char* command : {"escape", "run", "table", "systems"}) {
+  for (const char* command : {"escape", "run", "diffusion", "section", "table", "systems", "validate"}) {
     const Outcome o = shell(std::string("$carom ") + command + " --help");
     EXPECT_EQ(o.status, 0);
-    EXPECT_NE(o.out.find("Example: carom " + std::string(command)), std::string::npos);
+    int examples = 0;
+    const std::string example = "\n  carom " + std::string(command);
+    for (std::size_t at = o.out.find("Examples:"); (at = o.out.find(example, at)) != std::string::npos; ++at) ++examples;
+    EXPECT_EQ(examples, 3) << o.out;
   }
 }
 

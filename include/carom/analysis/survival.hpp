@@ -44,7 +44,7 @@ struct SurvivalCounts {
 struct SurvivalPoint {
   double t, p, low, high;
 };
-/// Share `p` that made more than n hits, with its 95 % interval.
+/// Share `p` that was not gone within n hits, with its 95 % interval.
 struct SurvivalHitsPoint {
   std::uint64_t n;
   double p, low, high;

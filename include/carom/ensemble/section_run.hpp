@@ -32,6 +32,7 @@ struct SectionResult {
   bool complete = true;
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;
+  DecisionCounts decisions;
   std::vector<std::string> reports;  ///< first few states that were lost
 };
 
