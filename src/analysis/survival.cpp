@@ -117,6 +117,7 @@ void SurvivalCounts::merge(const SurvivalCounts& other) {
   unbounded += other.unbounded;
   lost += other.lost;
   collisions += other.collisions;
+  contacts += other.contacts;
   most_hits = std::max(most_hits, other.most_hits);
 }
 

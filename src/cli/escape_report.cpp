@@ -81,6 +81,7 @@ Json escape_json(const System& system, const EscapeResult& result, const std::st
   json.set("unbounded", counts.unbounded);
   json.set("lost", counts.lost);
   json.set("collisions", counts.collisions);
+  if (system.of_discs()) json.set("contacts", counts.contacts);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
   Json holes = Json::array();
@@ -116,7 +117,8 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
   text += survival_table(counts);
   text += fates(system, counts);
   const double hits = static_cast<double>(counts.collisions);
-  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}: {}hits/s", grouped(counts.collisions),
+  text += fmt::format("\n{} collisions{} in {:.3g} s on {} thread{}: {}hits/s", grouped(counts.collisions),
+                      system.of_discs() ? fmt::format(" and {} contacts", grouped(counts.contacts)) : "",
                       result.seconds, result.threads, result.threads == 1 ? "" : "s",
                       with_prefix(hits / std::max(result.seconds, 1e-9)));
   if (counts.collisions > 0)

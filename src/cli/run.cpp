@@ -26,6 +26,10 @@ class Counting : public Observer {
     time = event.time.value();
     if (next_) next_->hit(event);
   }
+  void contact(const ContactEvent& event) override {
+    time = event.time.value();
+    if (next_) next_->contact(event);
+  }
   void sample(int particle, Time at, const State& state) override {
     if (next_) next_->sample(particle, at, state);
   }

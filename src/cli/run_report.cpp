@@ -50,6 +50,7 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
   text += fmt::format("\n  collisions    {}", grouped(particle.progress.hits));
   const std::string wall = wall_of(system, particle);
   if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
+  if (system.of_discs()) text += fmt::format("\n  contacts      {}", grouped(particle.progress.contacts));
   text += fmt::format("\n  t             {}\n  position      {}, {}", particle.t, particle.x, particle.y);
   if (system.table->lattice)
     text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
@@ -73,6 +74,7 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
   add_common_keys(json, system, 1, result.seconds, result.cpu_seconds);
   json.set("status", status);
   json.set("collisions", result.collisions);
+  if (system.of_discs()) json.set("contacts", result.contacts);
   json.set("decisions", decisions_json(result.decisions));
   if (result.particles.size() == 1) {
     add_end(json, system, result.particles.front());
@@ -82,6 +84,7 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
       Json one = Json::object();
       one.set("status", status_of(particle, result.interrupted));
       one.set("collisions", particle.progress.hits);
+      if (system.of_discs()) one.set("contacts", particle.progress.contacts);
       add_end(one, system, particle);
       particles.push(std::move(one));
     }
@@ -99,7 +102,8 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
     text += end_text(system, result.particles[i], result.interrupted);
   }
   if (result.particles.size() > 1)
-    text += fmt::format("{}: {} collisions\n", status, grouped(result.collisions));
+    text += fmt::format("{}: {} collisions{}\n", status, grouped(result.collisions),
+                        system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "");
   text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds, decisions_text(result.decisions));
   if (!output.empty()) text += fmt::format("  archive       {}\n", output);
   return text;

@@ -38,12 +38,17 @@ struct Tally {
   }
 };
 
-// The ends of one trajectory's particles.
+// The ends of one trajectory's particles, and how often they touched.
 class Ends : public Observer {
  public:
-  void clear(int particles) { ends_.assign(static_cast<std::size_t>(particles), std::nullopt); }
+  void clear(int particles) {
+    ends_.assign(static_cast<std::size_t>(particles), std::nullopt);
+    contacts = 0;
+  }
+  void contact(const ContactEvent&) override { ++contacts; }
   void end(const EndEvent& event) override { ends_[static_cast<std::size_t>(event.particle)] = event; }
   const std::optional<EndEvent>& of(int particle) const { return ends_[static_cast<std::size_t>(particle)]; }
+  std::uint64_t contacts = 0;
 
  private:
   std::vector<std::optional<EndEvent>> ends_;
@@ -70,6 +75,7 @@ class Runner {
       records->push_back(start_of(world_.state(particle)));
     world_.run_until(system_.run.t_max, ends_, interrupted);
     if (interrupted && interrupted()) return false;
+    tally.counts.contacts += ends_.contacts;
     for (int particle = 0; particle < count; ++particle) {
       const std::uint64_t index = particle_index(system_, trajectory, static_cast<std::uint64_t>(particle));
       const TrajectoryRecord end = end_of(particle);

@@ -104,6 +104,11 @@ Sampler::Sampler(const System& system) : system_(system) {
   const Table& table = *system.table;
   const InitialCondition& initial = system.initial;
   for (const Wall& wall : table.walls) frames_.push_back(geometry::frame_of(wall.curve));
+  const bool on_a_wall =
+      initial.kind == Kind::boundary || initial.kind == Kind::hole || initial.kind == Kind::birkhoff;
+  if (on_a_wall && system.of_discs())
+    throw impossible(initial, "a hard disc cannot start on a wall",
+                     "\"uniform\", \"rectangle\", \"line\", \"point\" or \"list\"");
   switch (initial.kind) {
     case Kind::uniform: {
       if (table.extent == Extent::open_plane)
@@ -159,7 +164,7 @@ void Sampler::add_source(int wall, double from, double to) {
 
 State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) const {
   const Dynamics& dynamics = system_.dynamics;
-  if (dynamics.forces && dynamics.forces->interacts() && system_.particles.size() > 1)
+  if (dynamics.forces && (dynamics.forces->interacts() || system_.of_discs()) && system_.particles.size() > 1)
     return draw_all(world, trajectory)[static_cast<std::size_t>(particle)];
   if (dynamics.forces && dynamics.forces->external()) return draw_external(world, trajectory, particle);
   RandomStream random(system_.run.seed, Purpose::initial_state, trajectory,
@@ -205,6 +210,7 @@ State Sampler::in_box(const World& world, RandomStream& random, Vector low, Vect
     const bool own_cell = system_.initial.kind != Kind::uniform || state.cell == geometry::Cell{};
     if (!own_cell || !world.contains(state.position)) continue;
     state.velocity = speed * random_direction(random);
+    if (speed == 0.0) state.velocity = {};
     return state;
   }
   throw impossible(system_.initial, fmt::format("no point of {} was found inside the table", where),
@@ -231,14 +237,16 @@ State Sampler::on_line(const World& world, RandomStream& random, double speed) c
 State Sampler::at_point(const World& world, Vector position, Vector given, double speed) const {
   const InitialCondition& initial = system_.initial;
   if (given.x == 0.0 && given.y == 0.0) throw impossible(initial, "the velocity is zero");
-  // A velocity that already has the speed is taken as it is, digit for digit.
-  const Vector velocity = std::sqrt(dot(given, given)) == speed ? given : speed * unit(given);
+  // A disc may rest; a velocity that already has the speed is taken as it is, digit for digit.
+  Vector velocity = std::sqrt(dot(given, given)) == speed ? given : speed * unit(given);
+  if (speed == 0.0) velocity = {};
   const State state = off_walls(*system_.table, position, velocity);
   if (!world.contains(state.position))
     throw impossible(
         initial,
         fmt::format("the start ({}, {}) is not inside the table", position.x, position.y),
-        "a point inside, off the walls; kind = \"birkhoff\" starts on a wall");
+        system_.of_discs() ? "a point farther from the walls than the disc's radius"
+                   : "a point inside, off the walls; kind = \"birkhoff\" starts on a wall");
   return state;
 }
 

@@ -18,7 +18,11 @@ namespace {
 class Renumbering : public Observer {
  public:
   Renumbering(Observer& observer, const std::vector<int>& numbers, std::vector<Time> entries)
-      : observer_(observer), numbers_(numbers), entries_(std::move(entries)), ends_(entries_.size()) {}
+      : observer_(observer),
+        numbers_(numbers),
+        entries_(std::move(entries)),
+        ends_(entries_.size()),
+        contacts_(entries_.size()) {}
 
   void hit(const HitEvent& event) override {
     HitEvent copy = event;
@@ -29,6 +33,8 @@ class Renumbering : public Observer {
     ContactEvent copy = event;
     copy.first = number(event.first);
     copy.second = number(event.second);
+    ++contacts_[static_cast<std::size_t>(copy.first)];
+    ++contacts_[static_cast<std::size_t>(copy.second)];
     observer_.contact(copy);
   }
   void sample(int particle, Time time, const State& state) override {
@@ -44,6 +50,7 @@ class Renumbering : public Observer {
     observer_.end(copy);
   }
   const std::optional<EndEvent>& end_of(std::size_t particle) const { return ends_[particle]; }
+  std::uint64_t contacts_of(std::size_t particle) const { return contacts_[particle]; }
 
  private:
   int number(int particle) const { return numbers_[static_cast<std::size_t>(particle)]; }
@@ -51,6 +58,7 @@ class Renumbering : public Observer {
   const std::vector<int>& numbers_;
   std::vector<Time> entries_;  ///< when each particle entered
   std::vector<std::optional<EndEvent>> ends_;
+  std::vector<std::uint64_t> contacts_;
 };
 
 // Has the particle ended for good? A cap on hits may have been raised since, and a pinned or
@@ -158,6 +166,7 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     ParticleProgress& now = progress[p];
     now.state = world.state(body);
     now.hits = world.hits(body);
+    now.contacts += passed_on.contacts_of(p);
     if (world.last_wall(body) >= 0) now.last_wall = world.last_wall(body);
     now.hole = world.hole(body);
     const std::optional<EndEvent>& end = passed_on.end_of(p);
@@ -183,7 +192,9 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     const double error = forces ? energy_error : speed_error(all[p], last[p]);
     result.particles.push_back(as_seen(system, progress[p], last[p], error));
     result.collisions += progress[p].hits;
+    result.contacts += progress[p].contacts;
   }
+  result.contacts /= 2;
   for (std::size_t i = 0; i < numbers.size(); ++i)
     result.particles[static_cast<std::size_t>(numbers[i])].report = world.report(static_cast<int>(i));
   result.decisions = world.decisions();

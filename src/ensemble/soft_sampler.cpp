@@ -74,6 +74,7 @@ std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajector
   const std::size_t count = system_.particles.size();
   const Dynamics& dynamics = system_.dynamics;
   std::vector<State> states;
+  if (system_.of_discs()) return draw_discs(world, trajectory);
   if (!dynamics.forces || !dynamics.forces->interacts() || count == 1) {
     for (std::size_t p = 0; p < count; ++p) states.push_back(draw(world, trajectory, static_cast<int>(p)));
     return states;

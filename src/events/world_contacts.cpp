@@ -75,7 +75,8 @@ void World::Implementation::check_disc(Body& b) const {
   disc.radius = b.particle.radius;
   disc.speed = b.particle.speed;
   const int other = contacts->overlapped(disc);
-  if (other >= 0) throw std::invalid_argument("the disc overlaps disc " + std::to_string(other));
+  if (other >= 0)
+    throw std::invalid_argument("disc " + std::to_string(bodies.size()) + " overlaps disc " + std::to_string(other));
 }
 
 void World::Implementation::add_disc(int index) {

@@ -13,7 +13,10 @@ class EscapeArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
                  bool per_trajectory)
-      : target(path), file(ArchiveFile::create(path + ".part", path)), trajectories(path) {
+      : target(path),
+        file(ArchiveFile::create(path + ".part", path)),
+        trajectories(path),
+        of_discs(loaded.system.of_discs()) {
     for (const Hole& hole : loaded.system.table->holes) holes.push_back(hole.name);
     file.write_head("escape", loaded, origin);
     if (per_trajectory) create_trajectories();
@@ -32,6 +35,7 @@ class EscapeArchive::Implementation {
   std::string target;
   ArchiveFile file;
   hdf5::Columns trajectories;
+  bool of_discs;
   std::vector<std::string> holes;
 };
 
@@ -102,6 +106,7 @@ void EscapeArchive::Implementation::write_counts(const EscapeResult& result) {
   number("unbounded", counts.unbounded, "No wall follows any more");
   number("lost", counts.lost, "Internal errors: always 0");
   number("collisions", counts.collisions, "Reflections of all trajectories");
+  if (of_discs) number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
   number("digest", result.digest, "Sum of a hash of each trajectory: equal digests, equal bits");
   if (!holes.empty()) {
     const Handle dataset =
@@ -136,7 +141,6 @@ void EscapeArchive::finish(const EscapeResult& result, const std::string& status
   hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);
-  a.file.add_decisions(result.decisions);
 }
 
 }  // namespace carom

@@ -27,6 +27,11 @@ class Quantity {
     throw InputError(place_, std::to_string(size()) + " values for " + std::to_string(count) + " particles",
                      "a number for each particle");
   }
+  void check_not_negative() const {
+    for (const ExactNumber& n : numbers_) {
+      if (!(n.to_double() >= 0)) throw InputError(n.place(), "must not be negative: " + n.text(), "a number >= 0");
+    }
+  }
   void check_positive() const {
     for (const ExactNumber& n : numbers_) {
       if (!(n.to_double() > 0)) {
@@ -77,7 +82,10 @@ class Reader {
       // the length of initial.velocity, see there
     } else {
       speed_ = Quantity(particles_.get("speed"));
-      speed_.check_positive();
+      if (hard_discs() && !field_.has("larmor_radius"))
+        speed_.check_not_negative();  // others will set a resting disc in motion
+      else
+        speed_.check_positive();
     }
     for (const Quantity* q : {&mass_, &charge_, &energy_, &speed_}) {
       if (!q->is_list()) continue;
@@ -101,10 +109,12 @@ class Reader {
   // Where forces act, energies are total, and a well holds particles of less than none.
   bool energy_is_total() const {
     if (root_.find("potential") != nullptr) return true;
+    return root_.find("interaction") != nullptr && count_ > 1 && !hard_discs();
+  }
+  bool hard_discs() const {
     const Value* interaction = root_.find("interaction");
-    if (interaction == nullptr || count_ < 2) return false;
-    const Value* kind = interaction->find("kind");
-    return kind == nullptr || kind->text != "hard-discs";
+    const Value* kind = interaction == nullptr ? nullptr : interaction->find("kind");
+    return kind != nullptr && kind->text == "hard-discs";
   }
 
   // [initial] of kind point with a velocity: its length is the speed.

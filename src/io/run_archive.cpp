@@ -8,6 +8,7 @@
 #include "carom/geometry/curve_frame.hpp"
 #include "io/archive_file.hpp"
 #include "io/columns.hpp"
+#include "io/contact_columns.hpp"
 
 namespace carom {
 
@@ -71,6 +72,11 @@ const StateField state_fields[] = {
      {"1", "Reflections so far"},
      nullptr,
      [](P p) { return static_cast<std::int64_t>(p.hits); }},
+    {"contacts",
+     false,
+     {"1", "Contacts with other hard discs so far"},
+     nullptr,
+     [](P p) { return static_cast<std::int64_t>(p.contacts); }},
     {"last_wall",
      false,
      {"1", "Wall of the last reflection, -1: none"},
@@ -117,6 +123,8 @@ class RunArchive::Implementation {
         all_particles(loaded.system.particles),
         hits(file.name()),
         samples(file.name()),
+        contacts(file.name()),
+        of_discs(loaded.system.of_discs()),
         energies(file.name()) {
     for (const Wall& wall : table->walls) frames.push_back(geometry::frame_of(wall.curve));
   }
@@ -125,7 +133,7 @@ class RunArchive::Implementation {
   void reopen(const LoadedSystem& loaded, const Provenance& origin);
   void create_state(std::size_t particles);
   void write_state(const std::vector<ParticleEnd>& particles);
-  bool with_energies() const { return dynamics.forces && !dynamics.forces->empty(); }
+  bool with_energies() const { return of_discs || (dynamics.forces && !dynamics.forces->empty()); }
 
   ArchiveFile file;
   std::string target;
@@ -133,7 +141,10 @@ class RunArchive::Implementation {
   Dynamics dynamics;
   std::vector<Particle> all_particles;
   std::vector<geometry::CurveFrame> frames;
-  hdf5::Columns hits, samples, energies;
+  hdf5::Columns hits, samples;
+  ContactColumns contacts;
+  bool of_discs;
+  hdf5::Columns energies;
   std::vector<Particle> particles_now;  ///< of the sample's time
   std::vector<State> states_now;
   double sampled_until = -std::numeric_limits<double>::infinity();
@@ -175,6 +186,10 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     samples.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
     samples.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
   }
+  if (of_discs) {
+    const Handle group = file.group("contacts", "Contacts of hard discs in order of time");
+    contacts.create(group.get());
+  }
   if (with_energies()) {
     const Handle group = file.group("energy", "Sums over the particles at each sample's time");
     for (const auto& [name, description] : energy_fields) energies.add<double>(group.get(), name, description);
@@ -215,6 +230,7 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
   for (const char* name : {"t", "x", "y", "vx", "vy"}) samples.open<double>(from, name);
   samples.open<std::int64_t>(from, "cell_first");
   samples.open<std::int64_t>(from, "cell_second");
+  if (of_discs) contacts.open(file.open_group("contacts").get());
   if (with_energies()) {
     const Handle energy = file.open_group("energy");
     for (const auto& [name, description] : energy_fields) energies.open<double>(energy.get(), name);
@@ -280,6 +296,10 @@ void RunArchive::hit(const HitEvent& event) {
              event.cell.second, std::int32_t{event.reflections});
 }
 
+void RunArchive::contact(const ContactEvent& event) {
+  implementation_->contacts.add(event, *implementation_->table);
+}
+
 void RunArchive::sample(int particle, Time time, const State& state) {
   Implementation& a = *implementation_;
   // A run that goes on is asked for its samples from the beginning.
@@ -310,6 +330,7 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   Implementation& a = *implementation_;
   a.hits.close();
   a.samples.close();
+  a.contacts.close();
   a.energies.close();
   a.write_state(result.particles);
   a.file.set_status(status, !result.interrupted);
@@ -333,7 +354,6 @@ StoredRun read_run(const std::string& name) {
   if (run.status == "running")
     throw InputError(place, "its run was killed", "the archive of a finished or interrupted run");
   run.system_toml = hdf5::read_text(file.get(), "system", name);
-  a.file.add_decisions(result.decisions);
   const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
   run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
   run.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);
@@ -344,8 +364,8 @@ StoredRun read_run(const std::string& name) {
     return hdf5::read_column<std::int64_t>(state.get(), field, name);
   };
   const auto wall = integers("wall"), first = integers("cell_first"), second = integers("cell_second"),
-             hits = integers("hits"), last_wall = integers("last_wall"), hole = integers("hole"),
-             fate = integers("fate");
+             hits = integers("hits"), contacts = integers("contacts"), last_wall = integers("last_wall"),
+             hole = integers("hole"), fate = integers("fate");
   const auto u = reals("u"), x = reals("x"), y = reals("y"), vx = reals("vx"), vy = reals("vy"),
              high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
              end_low = reals("end_low");
@@ -359,6 +379,7 @@ StoredRun read_run(const std::string& name) {
     p.state.time = {high.at(i), low.at(i)};
     p.end = {end_high.at(i), end_low.at(i)};
     p.hits = static_cast<std::uint64_t>(hits.at(i));
+    p.contacts = static_cast<std::uint64_t>(contacts.at(i));
     p.last_wall = static_cast<std::int32_t>(last_wall.at(i));
     p.hole = static_cast<std::int32_t>(hole.at(i));
     p.fate = static_cast<Fate>(fate.at(i));

@@ -27,6 +27,7 @@ struct SurvivalCounts {
   std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
   std::uint64_t trajectories = 0, escaped = 0, survived = 0, pinned = 0, capped = 0, singular = 0,
                 unbounded = 0, lost = 0, collisions = 0;
+  std::uint64_t contacts = 0;   ///< of hard discs, each pair once; counted by whoever follows them
   std::uint64_t most_hits = 0;  ///< of a single trajectory
   std::vector<std::uint64_t> hole_escapes;
 

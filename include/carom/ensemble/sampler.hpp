@@ -26,7 +26,8 @@ class RandomStream;
 /// Where forces act and energies are given, they are total energies: positions are drawn again where the
 /// potential is above, and the speed follows from what is left of it. Interacting particles share the
 /// sum of their energies: what their potential leaves is kinetic energy, in equal parts (Bill2d,
-/// section 4.1), and all of them are drawn again if it leaves nothing.
+/// section 4.1), and all of them are drawn again if it leaves nothing. Hard discs are drawn again until none
+/// overlap; they cannot start on a wall.
 class Sampler {
  public:
   explicit Sampler(const System&);  ///< refers to the system
@@ -50,6 +51,7 @@ class Sampler {
 
   State draw_free(const World&, RandomStream&, std::uint64_t trajectory, int particle) const;
   State draw_external(const World&, std::uint64_t trajectory, int particle) const;
+  std::vector<State> draw_discs(const World&, std::uint64_t trajectory) const;
   bool random_positions() const;
   void add_holes(int hole);
   void add_source(int wall, double from, double to);

@@ -17,6 +17,7 @@ namespace carom {
 struct ParticleProgress {
   State state;  ///< after its last event: exact
   std::uint64_t hits = 0;
+  std::uint64_t contacts = 0;  ///< with other hard discs
   std::int32_t last_wall = -1;
   std::int32_t hole = -1;
   Fate fate = Fate::survived;
@@ -46,6 +47,7 @@ struct SingleRunResult {
   std::vector<ParticleEnd> particles;
   bool interrupted = false;
   std::uint64_t collisions = 0;
+  std::uint64_t contacts = 0;  ///< of hard discs, each pair once
   Energy energy_at_start, energy_at_end;  ///< with forces: of the particles that are not gone
   DecisionCounts decisions;
   double seconds = 0, cpu_seconds = 0;

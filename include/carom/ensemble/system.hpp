@@ -63,6 +63,9 @@ struct System {
   std::vector<Injection> injections; ///< [[injection]]
   RunPlan run;
   SectionPlan section;               ///< what `carom section` takes
+
+  /// Are the particles hard discs?
+  bool of_discs() const { return dynamics.forces && !dynamics.forces->disc_radii().empty(); }
 };
 
 }  // namespace carom

@@ -41,6 +41,7 @@ class RunArchive : public Observer {
   ~RunArchive() override;
 
   void hit(const HitEvent&) override;
+  void contact(const ContactEvent&) override;
   void sample(int particle, Time, const State&) override;
   void sampled(Time) override;
   void finish(const SingleRunResult&, const std::string& status);

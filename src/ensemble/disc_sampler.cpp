@@ -1,0 +1,74 @@
+// Starts of hard discs: none may overlap another.
+#include <fmt/format.h>
+
+#include "carom/base/error.hpp"
+#include "carom/base/random.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "forces/nearest_copy.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+
+namespace {
+
+// All discs are drawn again so often until none overlap, each of them so often until it finds room.
+constexpr int draws_of_all = 10'000, draws_of_one = 100'000;
+
+bool overlap(const System& system, const State& a, const State& b, double reach) {
+  Vector d = a.position - b.position;
+  if (system.table->lattice) d = nearest_copy(d, *system.table->lattice);
+  return dot(d, d) < reach * reach;
+}
+
+}  // namespace
+
+/// Where the discs are that are drawn until none overlap, every allowed arrangement is as likely as any
+/// other. Where so many are so large that this finds none, they are placed one after the other.
+std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t trajectory) const {
+  const std::size_t count = system_.particles.size();
+  const auto fits = [&](const std::vector<State>& placed, const State& next) {
+    const double radius = system_.particles[placed.size()].radius;
+    for (std::size_t q = 0; q < placed.size(); ++q)
+      if (overlap(system_, next, placed[q], radius + system_.particles[q].radius)) return false;
+    return true;
+  };
+  std::vector<RandomStream> random;
+  for (std::size_t p = 0; p < count; ++p)
+    random.emplace_back(system_.run.seed, Purpose::initial_state, trajectory, p);
+  const auto draw_next = [&](const std::vector<State>& placed) {
+    return draw_free(world, random[placed.size()], trajectory, static_cast<int>(placed.size()));
+  };
+  std::vector<State> states;
+  if (!random_positions()) {
+    while (states.size() < count) states.push_back(draw_next(states));
+    return states;  // the world says which overlap
+  }
+  for (int draw = 0; draw < draws_of_all; ++draw) {
+    states.clear();
+    while (states.size() < count) {
+      State next = draw_next(states);
+      if (!fits(states, next)) break;
+      states.push_back(next);
+    }
+    if (states.size() == count) return states;
+  }
+  states.clear();
+  while (states.size() < count) {
+    State next = draw_next(states);
+    for (int draw = 0; !fits(states, next); ++draw) {
+      if (draw == draws_of_one) {
+        Place place = system_.initial.place;
+        place.key = "particles.count";
+        throw InputError(place,
+                         fmt::format("no room was found for disc {} of {} beside the others", states.size(), count),
+                         "fewer or smaller discs, or kind = \"list\" with their places");
+      }
+      next = draw_next(states);
+    }
+    states.push_back(next);
+  }
+  return states;
+}
+
+}  // namespace carom
