@@ -139,6 +139,7 @@ void EscapeArchive::finish(const EscapeResult& result, const std::string& status
   a.write_counts(result);
   const Handle provenance = a.file.open_group("provenance");
   hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
+  a.file.add_decisions(result.decisions);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);
 }

@@ -333,6 +333,7 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   a.contacts.close();
   a.energies.close();
   a.write_state(result.particles);
+  a.file.add_decisions(result.decisions);
   a.file.set_status(status, !result.interrupted);
   a.file.keep_as(a.target);
 }
