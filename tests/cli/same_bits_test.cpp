@@ -13,7 +13,7 @@ namespace {
 const char* systems[] = {"magnetic-square", "stadium", "ellipse-magnetic", "sinai", "lorentz-triangular", "mushroom"};
 
 std::string ensemble(const std::string& system) {
-  return " escape " + system + " --trajectories 2000 --t-max 40 --json --quiet";
+  return " escape " + system + " --trajectories 1e4 --t-max 40 --json --quiet";
 }
 
 TEST(SameBits, WithoutFusedMultiplyAdd) {

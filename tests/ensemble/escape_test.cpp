@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "carom/base/error.hpp"
 #include "systems.hpp"
@@ -45,6 +46,33 @@ TEST(Escape, DoesNotDependOnTheFilter) {
   const EscapeResult inflated = run_escape(system, options);
   expect_equal(plain, inflated);
   EXPECT_GE(inflated.decisions.exact, plain.decisions.exact);
+}
+
+// Ten thousand trajectories of each kind of table, with field and without: larger bounds and the other number of
+// threads change no bit.
+TEST(Escape, TenThousandTrajectoriesWithInflatedBounds) {
+  for (const char* name : {"magnetic-square", "mushroom", "stadium", "sinai", "lorentz-triangular", "circle", "three-disc",
+                           "ellipse-magnetic"}) {
+    SystemOverrides changes;
+    changes.trajectories = "1e4";
+    changes.t_max = "3";
+    changes.times = "3";
+    const System system = load_system(name, changes).system;
+    EscapeOptions options;
+    options.threads = 1;
+    const EscapeResult plain = run_escape(system, options);
+    options.threads = 2;
+    options.decisions.filter_inflation = 0x1p20;
+    const EscapeResult inflated = run_escape(system, options);
+    expect_equal(plain, inflated);
+    EXPECT_EQ(plain.counts.lost, 0u) << name;
+    EXPECT_GE(inflated.decisions.exact, plain.decisions.exact) << name;
+    std::printf("%-20s %8llu hits, beyond the filter %8llu, with bounds 2^20 times as large %8llu of %llu decisions\n", name,
+                static_cast<unsigned long long>(plain.counts.collisions),
+                static_cast<unsigned long long>(plain.decisions.exact),
+                static_cast<unsigned long long>(inflated.decisions.exact),
+                static_cast<unsigned long long>(inflated.decisions.exact + inflated.decisions.filter));
+  }
 }
 
 TEST(Escape, DigestTellsTrajectoriesApart) {

@@ -13,7 +13,7 @@ Tally run(const char* name, Stage stage, long count, MakeBench&& make_bench, Mak
           int per_table = 40, double share = 0.99) {
   Dice dice(static_cast<std::uint64_t>(std::string(name).size()) * 7919);
   Tally tally;
-  const long cgal_every = 5;
+  const long cgal_every = 4;
   for (long tables = 0; tally.cases < count && tables < 100 * count; ++tables) {
     Bench bench(make_bench(dice));
     for (int i = 0; i < per_table && tally.cases < count; ++i) {

@@ -41,8 +41,8 @@ TEST_P(RandomFlights, FilterIntegersAndCgalAgree) {
   for (const double size : {1.0, 1e-6, 1e6}) {
     // A quartic's exact root costs a hundred times a quadratic's.
     const bool quartic = shape == Shape::ellipse || shape == Shape::elliptic_arcs;
-    const Tally t = random_flights(shape, size, quartic ? cases(500, 20000) : cases(2500, 50000),
-                                   quartic ? cases(120, 4000) : cases(1000, 50000),
+    const Tally t = random_flights(shape, size, quartic ? cases(500, 20000) : cases(2500, 60000),
+                                   quartic ? cases(120, 4000) : cases(1000, 60000),
                                    static_cast<std::uint64_t>(shape) + 1);
     t.print((std::string(name) + " of size " + (size == 1.0 ? "1" : size < 1.0 ? "1e-6" : "1e6")).c_str());
     EXPECT_EQ(t.differ, 0);
