@@ -2,7 +2,8 @@
 // decision.
 #pragma once
 
-#include "carom/events/world.hpp"
+#include "carom/events/decisions.hpp"
+#include "carom/motion/state.hpp"
 #include "carom/motion/tangent.hpp"
 #include "events/next_hit.hpp"
 

@@ -1,4 +1,5 @@
 #include "carom/analysis/section.hpp"
+#include "carom/events/world.hpp"
 
 #include <algorithm>
 

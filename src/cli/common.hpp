@@ -6,7 +6,7 @@
 #include <string>
 
 #include "carom/ensemble/system.hpp"
-#include "carom/events/world.hpp"
+#include "carom/events/decisions.hpp"
 #include "carom/io/archive.hpp"
 #include "cli/options.hpp"
 #include "io/json.hpp"

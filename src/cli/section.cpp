@@ -8,6 +8,7 @@
 
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
+#include "carom/events/world.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "io/progress.hpp"

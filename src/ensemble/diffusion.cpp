@@ -10,6 +10,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/energy.hpp"
+#include "carom/events/world.hpp"
 #include "ensemble/parallel_blocks.hpp"
 
 namespace carom {

@@ -14,6 +14,7 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
+#include "carom/events/world.hpp"
 
 namespace carom {
 

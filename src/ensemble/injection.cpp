@@ -5,6 +5,7 @@
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/random.hpp"
+#include "carom/events/world.hpp"
 
 namespace carom {
 

@@ -10,6 +10,7 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
+#include "carom/events/world.hpp"
 #include "ensemble/block_order.hpp"
 #include "ensemble/parallel_blocks.hpp"
 

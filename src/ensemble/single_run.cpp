@@ -7,6 +7,7 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
+#include "carom/events/world.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "carom/events/world.hpp"
+#include "carom/events/decisions.hpp"
 #include "carom/geometry/exact_flight.hpp"
 #include "carom/geometry/filter.hpp"
 #include "carom/geometry/quartic.hpp"

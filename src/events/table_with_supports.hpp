@@ -1,7 +1,7 @@
 // Edges of supports as walls: where a free flight meets one, integration takes over.
 #pragma once
 
-#include "carom/events/world.hpp"
+#include "carom/events/dynamics.hpp"
 #include "carom/table/table.hpp"
 
 namespace carom {

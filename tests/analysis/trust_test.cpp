@@ -1,5 +1,6 @@
 // How far double precision can be trusted, against orbits in 113 bits.
 #include "carom/analysis/trust.hpp"
+#include "carom/events/world.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,6 +12,7 @@
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
+#include "carom/events/world.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "systems.hpp"
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "carom/base/error.hpp"
+#include "carom/events/world.hpp"
 #include "systems.hpp"
 
 namespace carom {

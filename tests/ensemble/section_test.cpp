@@ -6,6 +6,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/events/world.hpp"
 #include "systems.hpp"
 
 namespace carom {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "carom/base/error.hpp"
+#include "carom/events/world.hpp"
 #include "events/discs.hpp"
 #include "motion/free_motion.hpp"
 

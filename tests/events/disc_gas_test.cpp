@@ -7,6 +7,8 @@
 
 #include "events/discs.hpp"
 
+#include "carom/events/world.hpp"
+
 namespace carom::tests {
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/energy.hpp"
+#include "carom/events/world.hpp"
 #include "carom/io/system_file.hpp"
 
 namespace carom {

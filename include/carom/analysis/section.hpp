@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "carom/events/observer.hpp"
 #include "carom/events/surface.hpp"
-#include "carom/events/world.hpp"
 #include "carom/geometry/curve_frame.hpp"
+#include "carom/table/table.hpp"
 
 namespace carom {
+
+class World;
 
 /// Which section is taken ([section] of the system file).
 struct SectionPlan {

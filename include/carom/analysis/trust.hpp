@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "carom/events/world.hpp"
+#include "carom/events/decisions.hpp"
+#include "carom/events/observer.hpp"
 #include "carom/motion/tangent.hpp"
+#include "carom/table/table.hpp"
 
 namespace carom {
 

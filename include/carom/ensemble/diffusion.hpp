@@ -10,7 +10,7 @@
 
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/ensemble/system.hpp"
-#include "carom/events/world.hpp"
+#include "carom/events/decisions.hpp"
 #include "carom/geometry/corridors.hpp"
 
 namespace carom {

@@ -9,7 +9,7 @@
 
 #include "carom/analysis/survival.hpp"
 #include "carom/ensemble/system.hpp"
-#include "carom/events/world.hpp"
+#include "carom/events/decisions.hpp"
 
 namespace carom {
 

@@ -7,9 +7,10 @@
 
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/system.hpp"
-#include "carom/events/world.hpp"
 
 namespace carom {
+
+class World;
 
 struct InjectedParticle {
   Particle particle;

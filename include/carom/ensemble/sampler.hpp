@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "carom/ensemble/system.hpp"
-#include "carom/events/world.hpp"
 #include "carom/geometry/curve_frame.hpp"
 
 namespace carom {
 
 class RandomStream;
+class World;
 
 /// Draws initial states (docs/guide: [initial]). Only + - * / sqrt and base/elementary make a state.
 ///

@@ -9,6 +9,7 @@
 
 #include "carom/analysis/section.hpp"
 #include "carom/ensemble/system.hpp"
+#include "carom/events/decisions.hpp"
 
 namespace carom {
 

@@ -8,7 +8,8 @@
 
 #include "carom/ensemble/system.hpp"
 #include "carom/events/energy.hpp"
-#include "carom/events/world.hpp"
+#include "carom/events/decisions.hpp"
+#include "carom/events/observer.hpp"
 
 namespace carom {
 

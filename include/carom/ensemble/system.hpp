@@ -10,7 +10,7 @@
 
 #include "carom/analysis/section.hpp"
 #include "carom/base/exact_number.hpp"
-#include "carom/events/world.hpp"
+#include "carom/events/dynamics.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
 

@@ -3,7 +3,8 @@
 
 #include <span>
 
-#include "carom/events/world.hpp"
+#include "carom/events/dynamics.hpp"
+#include "carom/table/table.hpp"
 
 namespace carom {
 

@@ -8,51 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "carom/events/decisions.hpp"
+#include "carom/events/dynamics.hpp"
 #include "carom/events/event.hpp"
+#include "carom/events/observer.hpp"
 #include "carom/events/surface.hpp"
-#include "carom/forces/force_field.hpp"
-#include "carom/integrators/plan.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
 
 namespace carom {
-
-/// How decisions are taken. Results never depend on it, only the time they take.
-struct DecisionOptions {
-  double filter_inflation = 1.0;  ///< factor on every bound of the filter (>= 1)
-};
-
-/// Where decisions were taken.
-struct DecisionCounts {
-  std::uint64_t filter = 0;   ///< by double precision with its bound
-  std::uint64_t exact = 0;    ///< by exact arithmetic
-  DecisionCounts& operator+=(const DecisionCounts& o) {
-    filter += o.filter;
-    exact += o.exact;
-    return *this;
-  }
-};
-
-/// Receives what happens. Every function may be left alone. Observing changes no bit of an orbit.
-class Observer {
- public:
-  virtual ~Observer() = default;
-  virtual void hit(const HitEvent&) {}
-  virtual void contact(const ContactEvent&) {}                  ///< of two hard discs
-  virtual void sample(int /*particle*/, Time, const State&) {}  ///< state at the sample's time
-  virtual void sampled(Time) {}                                 ///< all samples of this time are given
-  virtual void end(const EndEvent&) {}
-  /// A crossing of the surface that is watched: the state there with its position in the plane (cell 0),
-  /// and the direction, +1 or -1. Those of a flight come after the event that ends it.
-  virtual void crossing(int /*particle*/, Time, const State&, int /*direction*/) {}
-};
-
-/// What acts besides walls and the magnetic field, and how motion under it is computed.
-struct Dynamics {
-  std::shared_ptr<const ForceField> forces;  ///< null: nothing
-  IntegratorPlan integrator;
-  bool everywhere = false;                   ///< integrate also what could be flown exactly
-};
 
 /// Particles on one table. Where nothing acts they fly exactly (straight or Larmor flights). Where a
 /// force acts they are integrated, from the edge of its support on and back (DESIGN §5).

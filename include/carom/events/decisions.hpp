@@ -1,0 +1,24 @@
+// Where and how the signs behind every event are decided.
+#pragma once
+
+#include <cstdint>
+
+namespace carom {
+
+/// How decisions are taken. Results never depend on it, only the time they take.
+struct DecisionOptions {
+  double filter_inflation = 1.0;  ///< factor on every bound of the filter (>= 1)
+};
+
+/// Where decisions were taken.
+struct DecisionCounts {
+  std::uint64_t filter = 0;   ///< by double precision with its bound
+  std::uint64_t exact = 0;    ///< by exact arithmetic
+  DecisionCounts& operator+=(const DecisionCounts& o) {
+    filter += o.filter;
+    exact += o.exact;
+    return *this;
+  }
+};
+
+}  // namespace carom

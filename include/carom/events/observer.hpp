@@ -1,0 +1,23 @@
+// Who is told what happens in a world.
+#pragma once
+
+#include "carom/events/event.hpp"
+#include "carom/motion/state.hpp"
+
+namespace carom {
+
+/// Receives what happens. Every function may be left alone. Observing changes no bit of an orbit.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void hit(const HitEvent&) {}
+  virtual void contact(const ContactEvent&) {}                  ///< of two hard discs
+  virtual void sample(int /*particle*/, Time, const State&) {}  ///< state at the sample's time
+  virtual void sampled(Time) {}                                 ///< all samples of this time are given
+  virtual void end(const EndEvent&) {}
+  /// A crossing of the surface that is watched: the state there with its position in the plane (cell 0),
+  /// and the direction, +1 or -1. Those of a flight come after the event that ends it.
+  virtual void crossing(int /*particle*/, Time, const State&, int /*direction*/) {}
+};
+
+}  // namespace carom
