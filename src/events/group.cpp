@@ -32,6 +32,7 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   cells_.assign(bodies_.size(), Cell{});
   phase_.position.resize(bodies_.size());
   phase_.velocity.resize(bodies_.size());
+  if (splits_) splits_->under_way = splits_->in_drift = false;
   make_stepper();
 }
 
@@ -39,6 +40,7 @@ void Group::make_stepper() {
   if (stepper_) return;
   omega_.clear();
   for (const Particle& p : particles_) omega_.push_back(p.omega);
+  if (in_.plan.split_walls) return make_drift();
   stepper_ = carom::make_stepper(in_.plan, *this, omega_);
   path_ = std::make_unique<StepPath<double>>(*stepper_, *this, omega_);
 }
@@ -54,12 +56,17 @@ void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const 
     if (particles_[i].mass != 1.0) a[i] = (1.0 / particles_[i].mass) * a[i];
 }
 
+/// Where the step that begins now ends.
+Time Group::step_end(const Time& limit) const {
+  return in_.plan.step > 0.0 ? std::min(limit, next_multiple(time_, in_.plan.step)) : limit;
+}
+
 const Group::Next& Group::predict(const Time& limit) {
   next_ = {};
-  step_end_ = limit;
-  if (in_.plan.step > 0.0) step_end_ = std::min(limit, next_multiple(time_, in_.plan.step));
-  const double rest = std::min(step_end_ - time_, std::numeric_limits<double>::max());
-  next_.duration = path_->begin(phase_, rest);
+  const Phase<double>& from = splits_ ? begin_drift(limit) : phase_;
+  if (!splits_) path_end_ = step_end(limit);
+  const double rest = std::clamp(path_end_ - time_, 0.0, std::numeric_limits<double>::max());
+  next_.duration = path_->begin(from, rest);
   whole_step_ = !(next_.duration < rest);
   next_.fault = fault_at(path_->end().phase);
   if (!next_.fault.empty()) return next_;
@@ -108,6 +115,7 @@ std::string_view Group::fault_at(const Phase<double>& phase) const {
 void Group::advance() {
   phase_ = next_.member < 0 ? path_->end().phase : path_->at(next_.duration).phase;
   time_ = next_time();
+  if (splits_) end_drift();
 }
 
 State Group::state_at(std::size_t member, const Time& time) {
@@ -116,6 +124,7 @@ State Group::state_at(std::size_t member, const Time& time) {
   const Phase<double>& phase = duration > 0.0 ? path_->at(duration).phase : phase_;
   s.position = phase.position[member];
   s.velocity = phase.velocity[member];
+  if (splits_) s.velocity = s.velocity + outstanding_kick(phase, member, time);
   s.cell = cells_[member];
   s.time = time;
   return s;

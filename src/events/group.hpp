@@ -16,6 +16,7 @@
 #include "events/barrier.hpp"
 #include "events/crossing_in_step.hpp"
 #include "events/step_path.hpp"
+#include "integrators/stages.hpp"
 
 namespace carom {
 
@@ -54,10 +55,13 @@ class Group final : public ForceLaw<double> {
   void set_time(const Time& time) { time_ = time; }
 
   /// Takes the next step from phase(), which ends at `limit` at the latest, and finds what comes first.
+  /// With walls = "split" this is the next drift of the step under way, or the rest of it.
   const Next& predict(const Time& limit);
   const Next& next() const { return next_; }
   /// When that is.
-  Time next_time() const { return next_.member < 0 && whole_step_ ? step_end_ : time_ + next_.duration; }
+  Time next_time() const { return next_.member < 0 && whole_step_ ? path_end_ : time_ + next_.duration; }
+  /// Is phase() that after whole steps, and not between the drifts of one?
+  bool between_steps() const { return !splits_ || !splits_->under_way; }
   /// Goes to what was predicted.
   void advance();
   /// The state of a member at a time within the step under way.
@@ -78,6 +82,12 @@ class Group final : public ForceLaw<double> {
  private:
   void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
   void make_stepper();
+  Time step_end(const Time& limit) const;
+  void make_drift();
+  const Phase<double>& begin_drift(const Time& limit);
+  void end_drift();
+  geometry::Vector outstanding_kick(const Phase<double>& phase, std::size_t member, const Time& time) const;
+  void kick(Phase<double>& phase, std::size_t first, std::size_t end);
   std::string_view fault_at(const Phase<double>& phase) const;
 
   const Surroundings& in_;
@@ -89,8 +99,20 @@ class Group final : public ForceLaw<double> {
   Time time_;
   Next next_;
   bool near_wall_ = false;
-  bool whole_step_ = false;  ///< the step under way ends at step_end_
-  Time step_end_;
+  bool whole_step_ = false;  ///< the path under way ends at path_end_
+  Time path_end_;            ///< of the step; of the drift with walls = "split"
+  /// walls = "split": kicks at once, drifts that see the walls and nothing else.
+  struct Splits {
+    std::vector<Stage<double>> stages;
+    std::size_t stage = 0;   ///< next to be done
+    bool under_way = false;  ///< a step is
+    bool in_drift = false;   ///< a hit has cut the drift that comes next
+    Time step_end;
+    double step = 0.0;
+    Phase<double> kicked;    ///< where the drift begins
+    std::vector<geometry::Vector> position, acceleration;  ///< of the last kick
+  };
+  std::unique_ptr<Splits> splits_;  ///< null: walls = "reflect"
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
 };

@@ -229,7 +229,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     }
     if (group.bodies().empty()) return;
   }
-  if (by_range && next.member < 0 && regroup(group, observer)) return;
+  if (by_range && next.member < 0 && group.between_steps() && regroup(group, observer)) return;
   predict_group(group.bodies().front());
 }
 

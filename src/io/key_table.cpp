@@ -137,7 +137,8 @@ const std::vector<KeyDescription>& key_table() {
        "time of a step; needed where forces act, except with arkode and cvode: there it is the longest step"},
       {"integrator", "", "tolerance", "number", "",
        "of arkode and cvode, 1e-12 if not given: error of a step, relative to the state"},
-      {"integrator", "", "walls", "string", "\"reflect\"", "reflect: found and refined within the steps"},
+      {"integrator", "", "walls", "string", "\"reflect\"",
+       "reflect: found and refined within the steps; split: walls inside the drifts, for comparison only"},
 
       {"run", "", "t_max", "number", "1000", "when a trajectory stops"},
       {"run", "", "collisions", "whole number", "", "most hits a trajectory may make; no limit if not given"},

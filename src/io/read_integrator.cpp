@@ -32,8 +32,13 @@ IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Parti
     section.fill("tolerance", number_value("1e-12", section.place_of("tolerance")));
   }
   const Value& treatment = section.get("walls");
-  if (as_text(treatment) != "reflect")
-    throw InputError(treatment.place, "unknown treatment of walls '" + treatment.text + "'", "\"reflect\"");
+  plan.split_walls = as_text(treatment) == "split";
+  if (!plan.split_walls && as_text(treatment) != "reflect")
+    throw InputError(treatment.place, "unknown treatment of walls '" + treatment.text + "'",
+                     "\"reflect\" or \"split\"");
+  Place split_place = treatment.place;
+  split_place.key = "integrator";
+  check_split_walls(plan, split_place);
   place.key = "integrator";  // the checks add the key at fault
   if (forces || plan.tolerance > 0.0) check_plan(plan, place);
   if (forces) {

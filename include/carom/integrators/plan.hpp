@@ -22,6 +22,9 @@ inline constexpr double least_tolerance = 1e-15;    ///< below, rounding is all 
 /// without step, a tolerance for one.
 void check_plan(const IntegratorPlan& plan, const Place& place = {});
 
+/// An InputError if walls = "split" does not go with the scheme: it takes drifts that all go forward.
+void check_split_walls(const IntegratorPlan& plan, const Place& place = {});
+
 /// A fixed step turns velocities by |omega| h at most. Schemes are stable for any, but accurate only far below a
 /// full turn. Returns a warning above 2 ("" below); an InputError above 1 where there are walls, as the path
 /// within a step is searched for hits.
