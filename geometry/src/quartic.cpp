@@ -58,22 +58,23 @@ bool refine(const Bernstein& p, int degree, double& t, double& low, double& high
   double l = 0.0, h = 1.0, error = 0.0;
   const bool rises = p.b[0] < 0.0;
   t = p.b[0] / (p.b[0] - p.b[degree]);
-  // Newton, guarded by the bracket.
+  // Newton, guarded by the bracket. What is less than its error is still nearly right: one step more.
   double last = 1.0;
-  for (int i = 0; i < 100; ++i) {
+  bool closing = false;
+  for (int i = 0; i < 100 && !closing; ++i) {
     const double f = value_at(p, degree, t, error);
-    if (std::fabs(f) <= error) break;
-    if ((f < 0.0) == rises)
-      l = t;
-    else
-      h = t;
+    closing = std::fabs(f) <= error;
+    if (!closing) ((f < 0.0) == rises ? l : h) = t;
     // Derivative in Bernstein form: degree (b[i+1] - b[i]).
     double d[4];
     for (int k = 0; k < degree; ++k) d[k] = degree * (p.b[k + 1] - p.b[k]);
     for (int k = degree - 1; k > 0; --k)
       for (int j = 0; j < k; ++j) d[j] += t * (d[j + 1] - d[j]);
     double next = t - f / d[0];
-    if (!(next > l && next < h)) next = 0.5 * (l + h);
+    if (!(next > l && next < h)) {
+      if (closing) break;
+      next = 0.5 * (l + h);
+    }
     const double step = std::fabs(next - t);
     t = next;
     if (step == 0.0 || (i > 60 && step >= last)) break;

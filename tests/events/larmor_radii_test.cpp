@@ -23,6 +23,7 @@ Real length(const RealVector& v) { return sqrt(dot(v, v)); }
 struct Wall60 {
   bool bent = false, closed = false;
   RealVector from, to, centre;
+  Real ratio = 1;  ///< of an ellipse: the semi-axis left of from - centre over that one
   Real turn = 1;  ///< counter-clockwise: 1
 
   explicit Wall60(const Curve& curve) {
@@ -35,32 +36,80 @@ struct Wall60 {
       centre = Real(0.5) * (from + to) + Real(a->offset) * left(to - from);
       turn = a->counterclockwise ? 1 : -1;
       bent = true;
+    } else if (const auto* c = std::get_if<Circle>(&curve)) {
+      centre = real(c->centre);
+      from = to = centre + RealVector{Real(c->radius), Real(0)};
+      turn = c->counterclockwise ? 1 : -1;
+      bent = closed = true;
     } else {
-      const auto& c = std::get<Circle>(curve);
-      centre = real(c.centre);
-      from = to = centre + RealVector{Real(c.radius), Real(0)};
-      turn = c.counterclockwise ? 1 : -1;
+      const auto& e = std::get<Ellipse>(curve);
+      centre = real(e.centre);
+      from = to = centre + real(e.axis);
+      ratio = Real(e.ratio);
+      turn = e.counterclockwise ? 1 : -1;
       bent = closed = true;
     }
+  }
+  /// The ellipse pressed from a circle: the same in its plane.
+  RealVector pressed(const RealVector& d) const {
+    if (ratio == 1) return d;
+    const RealVector a = from - centre, b = left(a);
+    return (dot(a, d) / dot(a, a)) * a + (ratio * dot(b, d) / dot(a, a)) * b;
   }
   /// The rational parametrisation.
   RealVector point(double u) const {
     if (!bent) return from + Real(u) * (to - from);
-    RealVector a = from - centre, b = turn * left(a);
+    RealVector a = from - centre, b = turn * left(a);  // of the circle
     for (; u >= 1.0; u -= 1.0) {
       const RealVector next = -a;
       a = b;
       b = next;
     }
     const Real w = u, n = 1 + w * w;
-    return centre + ((1 - w * w) / n) * a + (2 * w / n) * b;
+    return centre + pressed(((1 - w * w) / n) * a + (2 * w / n) * b);
   }
   RealVector inward(const RealVector& x) const {
-    const RealVector n = bent ? turn * (centre - x) : left(to - from);
+    RealVector n = bent ? turn * (centre - x) : left(to - from);
+    if (ratio != 1) {
+      const RealVector a = from - centre, b = left(a), d = turn * (centre - x);
+      n = dot(a, d) * a + (dot(b, d) / (ratio * ratio)) * b;
+    }
     return (Real(1) / length(n)) * n;
   }
+  /// An ellipse's other points on the circle about c through `start`, which lies on both: where the squared distance
+  /// from c changes from less to more than the start's, once the start is divided out. Two crossings between
+  /// neighbours of the grid would be missed.
+  std::vector<RealVector> crossings_of_ellipse(const RealVector& c, const RealVector& start) const {
+    const RealVector a = from - centre, b = ratio * left(a);
+    const Real begin = atan2(dot(b, start - centre) / dot(b, b), dot(a, start - centre) / dot(a, a));
+    const Real square = dot(start - c, start - c), whole_turn = 8 * atan(Real(1));
+    const auto at = [&](const Real& angle) { return centre + cos(angle) * a + sin(angle) * b; };
+    const auto beyond = [&](const Real& way) {
+      const RealVector e = at(begin + way) - c;
+      return Real((dot(e, e) - square) / sin(way / 2));
+    };
+    constexpr int grid = 400;
+    std::vector<RealVector> found;
+    Real low = Real(1e-20), low_value = beyond(low);
+    for (int i = 1; i <= grid; ++i) {
+      const Real high = i == grid ? Real(whole_turn - Real(1e-20)) : Real(whole_turn * i / grid), high_value = beyond(high);
+      if ((low_value < 0) != (high_value < 0)) {
+        Real x = low, y = high;
+        for (int k = 0; k < 190; ++k) {
+          const Real middle = (x + y) / 2;
+          ((beyond(middle) < 0) == (low_value < 0) ? x : y) = middle;
+        }
+        found.push_back(at(begin + x));
+      }
+      low = high;
+      low_value = high_value;
+    }
+    return found;
+  }
   /// The points that it shares with a circle.
-  std::vector<RealVector> crossings(const RealVector& c, const Real& radius) const {
+  std::vector<RealVector> crossings(const RealVector& c, const RealVector& start) const {
+    if (ratio != 1) return crossings_of_ellipse(c, start);
+    const Real radius = length(start - c);
     std::vector<RealVector> found;
     if (!bent) {
       const RealVector d = to - from, e = from - c;
@@ -96,7 +145,7 @@ Hit60 first_hit(const std::vector<Wall60>& walls, const RealVector& x, const Rea
   const Real whole_turn = 8 * atan(Real(1));
   Hit60 first;
   for (std::size_t i = 0; i < walls.size(); ++i)
-    for (const RealVector& p : walls[i].crossings(centre, length(e))) {
+    for (const RealVector& p : walls[i].crossings(centre, x)) {
       if (length(p - x) < Real(1e-25)) continue;  // the start
       Real angle = atan2(cross(p - centre, e), dot(p - centre, e));  // clockwise
       if (omega < 0) angle = -angle;
@@ -158,7 +207,8 @@ TEST(LarmorRadii, OverEighteenDecadesAgainstSixtyDigits) {
   };
   const Case all[] = {{"segments", square(), 1.0, 8.0, 5.0},
                       {"segments and arcs", stadium(), 2.0, 46.0, 30.0},
-                      {"circle", disc(1.0), 1.0, 14.0, 18.0}};
+                      {"circle", disc(1.0), 1.0, 14.0, 18.0},
+                      {"ellipse", loop({Ellipse{{0.1, -0.2}, {0.8, 0.6}, 0.7, true}}), 1.0, 16.0, 20.0}};
   std::printf("largest errors in units of 2^-53, times the cosine of incidence\n");
   for (const Case& one : all) {
     Dice dice(7);
