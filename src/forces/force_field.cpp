@@ -1,7 +1,10 @@
 #include "carom/forces/force_field.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "forces/potential.hpp"
 
@@ -57,6 +60,30 @@ bool covers(const geometry::Lattice& lattice, double radius) {
   });
 }
 
+/// The shortest vector of the lattice, which is one of those over an edge of the cell.
+double shortest_period(const geometry::Lattice& lattice) {
+  double square = std::numeric_limits<double>::infinity();
+  for (const geometry::CellEdge& e : lattice.edges) {
+    const Vector across = lattice.translation(e.beyond);
+    square = std::min(square, dot(across, across));
+  }
+  return std::sqrt(square);
+}
+
+/// Pairs feel their nearest copies alone: all others must be out of range.
+void check_range(const InteractionSpec& s, double range, const geometry::Lattice& lattice) {
+  if (!std::isfinite(range))
+    throw InputError(s.place, "this interaction reaches infinitely far, which a lattice has no sum for",
+                     "yukawa, lennard-jones or soft-sphere");
+  const double half = 0.5 * shortest_period(lattice);
+  if (range > half)
+    throw InputError(s.place,
+                     fmt::format("the interaction reaches {:.4g}, further than half the lattice's shortest period, "
+                                 "{:.4g}: a particle would feel several copies of another",
+                                 range, half),
+                     "a shorter range, or longer lattice vectors");
+}
+
 }  // namespace
 
 std::shared_ptr<const ForceField> ForceField::build(const ForceSpec& spec, const std::vector<Particle>& particles,
@@ -91,9 +118,7 @@ std::shared_ptr<const ForceField> ForceField::build(const ForceSpec& spec, const
       for (const Particle& p : particles)
         if (s.kind == InteractionSpec::Kind::yukawa) charge = std::max(charge, std::fabs(p.charge));
       field->tail_bound_ = std::max(field->tail_bound_, charge * charge * field->interaction_->tail());
-      if (lattice && !std::isfinite(field->pair_range_))
-        throw InputError(s.place, "this interaction reaches infinitely far, which a lattice has no sum for",
-                         "yukawa, lennard-jones or soft-sphere");
+      if (lattice) check_range(s, field->pair_range_, *lattice);
     }
   }
   if (field->everywhere_) field->supports_.clear();

@@ -228,6 +228,13 @@ TEST(BadInput, ForcesThatHaveNoMeaning) {
              "attract each other");
 }
 
+TEST(BadInput, PairsOnALatticeFeelTheirNearestCopiesAlone) {
+  const std::string pairs = "[lattice]\nvectors = [[1, 0], [0.5, 0.8]]\n[particles]\ncount = 2\nspeed = 1\n[integrator]\n"
+                            "step = 0.01\n[interaction]\nkind = \"yukawa\"\nstrength = 1\nrange = ";
+  EXPECT_EQ(fault(pairs + "0.01\n"), "no fault");
+  EXPECT_HAS(fault(pairs + "0.02\n"), "further than half the lattice's shortest period, 0.4717");  // |(1, 0) - (0.5, 0.8)| / 2
+}
+
 TEST(BadInput, EnergiesAreTotalOnlyWhereForcesAct) {
   const std::string well =
       "[[potential]]\nkind = \"gaussian\"\nheight = -2\nwidth = 1\n[integrator]\nstep = 0.1\n";
