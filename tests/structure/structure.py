@@ -21,7 +21,8 @@ ARROWS = {
     "events": ["integrators", "motion", "table"],
     "analysis": ["events"],
     "certify": ["events"],
-    "ensemble": ["events", "analysis"],
+    "lanes": ["events"],
+    "ensemble": ["events", "lanes", "analysis"],
     "io": ["ensemble", "certify"],
     "cli": ["io"],
 }
@@ -36,6 +37,7 @@ PACKAGES = {
     r"CGAL/": r"geometry/src/cgal/",
     r"boost/": r"geometry/src/|src/base/",
     r"gmp|mpfr": r"geometry/src/|src/base/|src/table/",
+    r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
     r"sleef": r"src/base/elementary.*\.cpp",
     r"Random123/": r"src/base/random\.cpp",
     r"toml\+\+/|hdf5": r"src/io/",
@@ -44,7 +46,7 @@ PACKAGES = {
     r"sundials|arkode/|cvode/|nvector/|sunlinsol/|sunnonlinsol/": r"src/integrators/",
 }
 # C++ rooms in which states, times and random numbers are made; base/elementary.cpp is the door.
-LIBM_FREE = r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|ensemble)/"
+LIBM_FREE = r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|lanes|ensemble)/"
 LIBM = (
     "sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p "
     "pow hypot cbrt erf erfc tgamma lgamma sincos ellint_1 ellint_2 ellint_3 comp_ellint_1 comp_ellint_2 "

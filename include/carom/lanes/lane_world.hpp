@@ -1,0 +1,74 @@
+// Many independent trajectories of free particles at once, in the lanes of SIMD registers.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "carom/events/world.hpp"
+
+namespace carom {
+
+/// Instruction sets that lanes were compiled for, widest last. Results never depend on it.
+enum class InstructionSet { baseline, avx2, avx512 };
+const char* name_of(InstructionSet);
+/// Can this machine run it?
+bool available(InstructionSet);
+/// Those it can, and the widest of them.
+std::vector<InstructionSet> available_instruction_sets();
+InstructionSet widest_instruction_set();
+
+/// A trajectory of one free particle that is to be followed.
+struct LaneStart {
+  std::uint64_t tag = 0;     ///< the caller's own
+  Particle particle;
+  State state;               ///< as for World::add
+  std::uint64_t hits = 0;
+};
+
+/// Its end.
+struct LaneEnd {
+  std::uint64_t tag = 0;
+  Fate fate = Fate::survived;
+  Time time;                 ///< of the end; survivors: that of their last event
+  State state;               ///< after the last event
+  int hole = -1;
+  std::uint64_t hits = 0;
+  int last_wall = -1;        ///< as World::last_wall
+  std::string report;        ///< as World::report
+};
+
+/// Runs free particles on one table, each by itself: the same orbits as World, bit for bit. A lane decides
+/// only what is certain in double precision; everything else is decided by a World.
+class LaneWorld {
+ public:
+  /// Can lanes fly such particles on that table? Straight flights between segments and circles.
+  static bool suits(const Table&, const std::vector<Particle>&);
+
+  /// Keeps a reference to the table, which must live as long.
+  LaneWorld(const Table& table, InstructionSet set, DecisionOptions options = {});
+  explicit LaneWorld(Table&&, InstructionSet, DecisionOptions = {}) = delete;
+  ~LaneWorld();
+
+  void limit_hits(std::uint64_t hits);
+  /// Follows all trajectories that `next` gives (until it returns false) to their end or until `t_end`; `ended`
+  /// receives each, in no particular order. `interrupted`, if set, is asked now and then; true
+  /// returns early, and those under way are forgotten.
+  void run_until(double t_end, const std::function<bool(LaneStart&)>& next, const std::function<void(const LaneEnd&)>& ended,
+                 const std::function<bool()>& interrupted = {});
+
+  DecisionCounts decisions() const;
+  /// Hits in lanes, hits and ends left to the scalar engine, and lanes that stood idle, in lane steps.
+  struct Effort {
+    std::uint64_t hits = 0, scalar = 0, idle = 0;
+  };
+  const Effort& effort() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace carom

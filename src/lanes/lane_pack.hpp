@@ -1,0 +1,45 @@
+// The trajectories under way, one array a quantity, indexed by lane; and the kernel that flies each of them
+// to its next hit.
+#pragma once
+
+#include "lanes/lane_table.hpp"
+
+namespace carom::lanes {
+
+/// What a lane waits for.
+enum class Call : unsigned char {
+  none,
+  undecided,  ///< a decision that the scalar engine must take; nothing has changed
+  over,       ///< the next hit comes after the end of the run; nothing has changed
+  escaped,    ///< `met` holds hole and time; nothing has changed
+  unbounded,  ///< no wall follows; nothing has changed
+  capped      ///< its last hit is made
+};
+
+struct LanePack {
+  static constexpr int lanes = 64;
+
+  alignas(64) double x[lanes] = {};
+  double y[lanes] = {}, vx[lanes] = {}, vy[lanes] = {};
+  double high[lanes] = {}, low[lanes] = {};  ///< time
+  double piece[lanes] = {};                  ///< that it stands on; -1: none
+  double hits[lanes] = {};
+  // Constants of its particle.
+  double speed[lanes] = {}, square_speed[lanes] = {}, energy_weight[lanes] = {};
+  double active[lanes] = {};                 ///< 1, or 0 for a lane without a trajectory
+
+  double end = 0.0;    ///< of the run
+  double limit = 0.0;  ///< of hits
+
+  int calls = 0;
+  int lane[lanes] = {};     ///< of each call
+  Call call[lanes] = {};
+  struct Met {
+    double piece = 0.0, high = 0.0, low = 0.0;
+  } met[lanes] = {};        ///< of each call `escaped`
+};
+
+/// Flies every active lane to its next hit and reflects it there, or leaves a call.
+using Advance = void (*)(const LaneTable&, LanePack&);
+
+}  // namespace carom::lanes

@@ -1,0 +1,37 @@
+// A table as lanes read it: plain numbers, one array a quantity, indexed by piece.
+//
+// A piece is a wall, or a part of one between the ends of its holes, so that the signs that name the wall
+// of a hit also name the hole. Nothing here has a function: the kernels of every instruction set include it.
+#pragma once
+
+namespace carom::lanes {
+
+struct LaneTable {
+  static constexpr int most = 64;  ///< pieces
+  static constexpr int fewest = 16;  ///< numbers that may be read of each array
+
+  int pieces = 0;
+  int loops = 0;
+  int first[most] = {}, count[most] = {};  ///< loops of pieces; a closed curve is a loop of one
+  bool convex = false;    ///< one loop, bent outwards or straight everywhere, and nothing in it
+  bool segments = false;  ///< has such pieces
+  bool circles = false;
+  bool closed_circles = false;
+  bool open = false;      ///< beyond all walls lies the open plane
+  bool divided = false;   ///< some wall is of several pieces
+  bool bent[most] = {};   ///< a circle or an arc of it
+  bool closed[most] = {};
+
+  // Start of each piece.
+  double joint_x[most] = {}, joint_y[most] = {};
+  // Of a segment: a point of it, and its unit tangent. Of a circle: centre, 0.75 / r^2, r^2.
+  double point_x[most] = {}, point_y[most] = {}, first_number[most] = {}, second_number[most] = {};
+  double orientation[most] = {};  ///< circle: +1 domain inside, -1 outside; segment: 0
+  double off_power[most] = {};    ///< circle: PreparedCurve::off_power; segment: 1
+  double wall[most] = {};
+  double hole[most] = {};         ///< -1: a wall
+
+  double size = 0.0;  ///< the length by which every margin is measured (lane_table.cpp)
+};
+
+}  // namespace carom::lanes

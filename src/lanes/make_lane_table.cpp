@@ -1,0 +1,118 @@
+#include "lanes/make_lane_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace carom::lanes {
+
+using geometry::CurveKind;
+using geometry::PreparedCurve;
+using geometry::Vector;
+
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The parts of a wall between the ends of its holes.
+struct Part {
+  double from;
+  int hole;
+};
+std::vector<Part> parts_of(const Table& table, int wall) {
+  const Wall& w = table.walls[at(wall)];
+  std::vector<Part> parts;
+  double from = 0.0;
+  for (const int h : w.holes) {
+    const Hole& hole = table.holes[at(h)];
+    if (hole.from > from) parts.push_back({from, -1});
+    parts.push_back({hole.from, h});
+    from = hole.to;
+  }
+  if (from < geometry::end_parameter(w.curve)) parts.push_back({from, -1});
+  return parts;
+}
+
+void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part, bool whole) {
+  const int i = t.pieces++;
+  const Vector joint = part.from == 0.0 ? w.from : w.point(part.from);
+  t.joint_x[i] = joint.x;
+  t.joint_y[i] = joint.y;
+  t.wall[i] = wall;
+  t.hole[i] = part.hole;
+  t.bent[i] = w.kind == CurveKind::circle;
+  t.closed[i] = w.closed && whole;
+  const Vector point = t.bent[i] ? w.centre : w.from;
+  t.point_x[i] = point.x;
+  t.point_y[i] = point.y;
+  t.first_number[i] = t.bent[i] ? w.weight : w.tangent.x;
+  t.second_number[i] = t.bent[i] ? w.r2 : w.tangent.y;
+  t.orientation[i] = t.bent[i] ? w.orientation : 0.0;
+  t.off_power[i] = t.bent[i] ? w.off_power : 1.0;
+  (t.bent[i] ? t.circles : t.segments) = true;
+  t.closed_circles |= w.closed;
+  // Beyond every length that occurs, and 2^48 times every error of a point.
+  t.size = std::max({t.size, 4.0 * w.extent, 0x1p48 * w.point_error, 0x1p48 * w.centre_error});
+  if (t.bent[i])
+    t.size = std::max(t.size, 4.0 * (std::sqrt(w.r2) + std::fabs(w.centre.x) + std::fabs(w.centre.y)));
+}
+
+/// One loop of walls that turns to the left everywhere, and nothing in it: as HitFinder::find_enclosure.
+bool is_convex(const HitFinder& finder) {
+  const Table& table = finder.table();
+  const int n = static_cast<int>(table.walls.size());
+  if (table.crossing || table.lattice) return false;
+  for (int i = 0; i < n; ++i) {
+    const PreparedCurve& w = finder.curve(i);
+    if (w.kind != CurveKind::segment && !(w.orientation > 0)) return false;
+    if (n == 1) return true;
+    if (w.closed || table.walls[at(i)].next != (i + 1) % n) return false;
+    if (finder.exact().corner(i, (i + 1) % n).turn < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool fits(const Table& table) {
+  std::size_t pieces = 0;
+  for (std::size_t i = 0; i < table.walls.size(); ++i) {
+    const geometry::Curve& c = table.walls[i].curve;
+    if (std::holds_alternative<geometry::Ellipse>(c) || std::holds_alternative<geometry::EllipticArc>(c)) return false;
+    pieces += parts_of(table, static_cast<int>(i)).size();
+  }
+  return pieces > 0 && pieces <= LaneTable::most && !table.lattice && !table.crossing;
+}
+
+LaneTable make_lane_table(const HitFinder& finder) {
+  const Table& table = finder.table();
+  LaneTable t;
+  std::vector<bool> done(table.walls.size(), false);
+  for (std::size_t start = 0; start < table.walls.size(); ++start) {
+    if (done[start]) continue;
+    const int loop = t.loops++;
+    t.first[loop] = t.pieces;
+    for (int wall = static_cast<int>(start); !done[at(wall)]; wall = table.walls[at(wall)].next) {
+      done[at(wall)] = true;
+      const std::vector<Part> parts = parts_of(table, wall);
+      t.divided |= parts.size() > 1 || parts[0].hole >= 0;
+      for (const Part& part : parts) add_piece(t, finder.curve(wall), wall, part, parts.size() == 1);
+    }
+    t.count[loop] = t.pieces - t.first[loop];
+  }
+  for (int i = 0; i < t.pieces; ++i) t.divided |= t.wall[i] != i;
+  t.convex = is_convex(finder);
+  t.open = table.extent == Extent::open_plane;
+  return t;
+}
+
+int piece_at(const Table& table, const LaneTable& t, int wall, double u) {
+  const std::vector<Part> parts = parts_of(table, wall);
+  int part = 0;
+  while (at(part) + 1 < parts.size() && u >= parts[at(part) + 1].from) ++part;
+  for (int i = 0; i < t.pieces; ++i)
+    if (t.wall[i] == wall) return i + part;
+  return -1;
+}
+
+}  // namespace carom::lanes

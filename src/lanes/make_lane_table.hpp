@@ -1,0 +1,18 @@
+// Makes a table ready for lanes.
+#pragma once
+
+#include <vector>
+
+#include "carom/table/table.hpp"
+#include "events/next_hit.hpp"
+#include "lanes/lane_table.hpp"
+
+namespace carom::lanes {
+
+/// Can the pieces of this table be held by a LaneTable?
+bool fits(const Table&);
+LaneTable make_lane_table(const HitFinder& finder);
+/// The piece on which the point u of a wall lies.
+int piece_at(const Table&, const LaneTable&, int wall, double u);
+
+}  // namespace carom::lanes

@@ -1,0 +1,155 @@
+// Straight flights in lanes: which piece comes first, by signs with margins, and the hit there. Included
+// by kernel.hpp inside the namespace of its instruction set.
+//
+// Every number that shows in an orbit comes from the operations of the scalar engine in their order; only
+// the choice of the piece is made otherwise, and a choice is either certain or left to that engine.
+// docs/developer/lanes.md derives the margins.
+
+/// The piece met first, or undecided.
+struct Choice {
+  Real piece;
+  Mask decided;
+};
+
+struct View {
+  const LaneTable& table;
+  Vector origin, velocity;
+  Real start_piece, start_wall, speed, square_speed;
+};
+
+/// A convex loop alone: between a joint on the right and the next one on the left, or, with all joints on one
+/// side, through the arc that the particle stands on.
+INLINE Choice exit_of_loop(const View& f) {
+  const LaneTable& t = f.table;
+  if (t.pieces == 1) return {Real(0.0), Mask(true)};
+  Real piece(-1.0);
+  const auto side_of = [&](int i) {
+    return cross(f.velocity, Vector{Real(t.joint_x[i]), Real(t.joint_y[i])} - f.origin);
+  };
+  const Real first = side_of(0);
+  Real least = abs(first);
+  Mask before = first < 0.0;
+  for (int i = 1; i < t.pieces; ++i) {
+    const Real side = side_of(i);
+    least = min(least, abs(side));
+    const Mask right = side < 0.0;
+    where(before && !right, piece) = Real(i - 1.0);
+    before = right;
+  }
+  where(before && !(first < 0.0), piece) = Real(t.pieces - 1.0);
+  Mask decided = least > (sign_margin * t.size) * f.speed;
+  const Mask none = piece < 0.0;
+  if (any_of(none)) {
+    where(none, piece) = f.start_piece;
+    decided = decided && (!none || (piece >= 0.0 && look_up<Reach::all>(t.orientation, max(piece, Real(0.0)), t.pieces) != 0.0));
+  }
+  return {piece, decided};
+}
+
+/// Any table: the earliest of all exits, compared as fractions.
+class Earliest {
+ public:
+  explicit Earliest(const View& f)
+      : decided_(true),
+        piece_(-1.0),
+        time_(1.0),
+        unit_(0.0),
+        sides_((sign_margin * f.table.size) * f.speed),
+        squares_((sign_margin * f.table.size) * f.table.size),
+        roots_(sides_ * f.table.size * f.speed),
+        times_((order_margin * f.table.size) * f.table.size * f.table.size * f.speed) {}
+
+  /// `time`/`unit`, of the sizes size^2 and size * speed.
+  INLINE void add(int piece, const Mask& leaves, const Real& time, const Real& unit) {
+    // The first one meets 1/0: never later.
+    const Real gap = time * unit_ - time_ * unit;
+    const Mask better = leaves && gap < 0.0;
+    decided_ = decided_ && (!leaves || abs(gap) > times_ || piece_ < 0.0);
+    where(better, time_) = time;
+    where(better, unit_) = unit;
+    where(better, piece_) = Real(static_cast<double>(piece));
+  }
+  INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
+  INLINE Choice choice() const { return {piece_, decided_}; }  // below 0: none
+  const Real& sides() const { return sides_; }
+  const Real& squares() const { return squares_; }
+  const Real& roots() const { return roots_; }
+
+ private:
+  Mask decided_;
+  Real piece_, time_, unit_;
+  Real sides_, squares_, roots_, times_;  // margins
+};
+
+struct Joint {
+  Vector from;  ///< seen from the particle
+  Real side;
+};
+
+INLINE void add_circle(Earliest& best, const View& f, int i, const Joint* a, const Joint* b) {
+  const LaneTable& t = f.table;
+  const Vector e = f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])};
+  const Real p = dot(e, e) - t.second_number[i], q = dot(e, f.velocity);
+  const Real discriminant = q * q - p * f.square_speed;
+  const Mask stands = f.start_wall == Real(t.wall[i]);
+  Mask leaves(true);
+  if (a) {
+    const Mask right_a = a->side < 0.0, right_b = b->side < 0.0;
+    const Mask once = right_a && !right_b, same = right_a == right_b;
+    const Real foot = f.square_speed * cross(a->from, b->from) + q * (b->side - a->side);
+    const Mask twice = same && !stands && t.orientation[i] * foot < 0.0;
+    best.doubt(same && !stands && abs(foot) <= best.roots() && discriminant > -best.roots());
+    leaves = once || twice || (same && f.start_piece == Real(static_cast<double>(i)));
+  }
+  if (t.orientation[i] < 0.0) {
+    leaves = leaves && !stands && discriminant > -best.roots() && q < best.sides() && p > -best.squares();
+    const Mask certain = discriminant > best.roots() && q < -best.sides() && p > best.squares();
+    best.doubt(leaves && !certain);
+    best.add(i, leaves && certain, p, sqrt(max(discriminant, Real(0.0))) - q);
+  } else {
+    const Mask missed = a ? (!stands && discriminant < -best.roots()) : Mask(false);
+    const Mask behind = q > best.sides() && p > best.squares();
+    leaves = leaves && !missed && (stands || !behind);
+    const Mask certain = stands || (discriminant > best.roots() && (q < -best.sides() || p < -best.squares()));
+    best.doubt(leaves && !certain);
+    Real root = sqrt(max(discriminant, Real(0.0)));
+    where(stands, root) = abs(q);
+    const Real n = abs(q) + root;
+    const Mask away = q >= 0.0 && !stands;
+    const Real scale = t.size / f.speed;
+    best.add(i, leaves && certain, choose(away, -p, scale * n), choose(away, n, scale * f.square_speed));
+  }
+}
+
+INLINE Choice first_of_all(const View& f) {
+  const LaneTable& t = f.table;
+  Earliest best(f);
+  for (int loop = 0; loop < t.loops; ++loop) {
+    const int first = t.first[loop], last = first + t.count[loop] - 1;
+    if (t.closed[first]) {
+      add_circle(best, f, first, nullptr, nullptr);
+      continue;
+    }
+    const auto joint = [&](int i) {
+      const Vector d = Vector{Real(t.joint_x[i]), Real(t.joint_y[i])} - f.origin;
+      const Real side = cross(f.velocity, d);
+      best.doubt(abs(side) <= best.sides());
+      return Joint{d, side};
+    };
+    const Joint start = joint(first);
+    Joint a = start;
+    for (int i = first; i <= last; ++i) {
+      const Joint b = i == last ? start : joint(i + 1);
+      if (t.bent[i]) {
+        add_circle(best, f, i, &a, &b);
+      } else {
+        const Mask crosses = a.side < 0.0 && b.side > 0.0;
+        const Real time = cross(a.from, b.from);
+        best.doubt(crosses && abs(time) <= best.squares());
+        best.add(i, crosses && time > 0.0, time, b.side - a.side);
+      }
+      a = b;
+    }
+  }
+  return best.choice();
+}

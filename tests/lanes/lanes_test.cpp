@@ -1,0 +1,221 @@
+// Lanes against the scalar engine: every orbit, bit for bit, on every instruction set of this machine.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "carom/geometry/curve.hpp"
+#include "carom/lanes/lane_world.hpp"
+#include "random_tables.hpp"
+
+namespace carom {
+namespace {
+
+using tests::Dice;
+using tests::Shape;
+
+struct Case {
+  std::vector<LaneStart> starts;
+  double t_end = std::numeric_limits<double>::max();
+  std::uint64_t limit = 300;
+};
+
+/// A start on a wall, or in the domain.
+LaneStart random_start(const Table& table, const World& world, Dice& dice, double size, double speed) {
+  LaneStart start;
+  start.particle.speed = speed;
+  State& s = start.state;
+  if (dice.whole(0, 3) == 0) {
+    do {
+      s.position = {dice.between(-1.5, 1.5) * size, dice.between(-1.5, 1.5) * size};
+    } while (!world.contains(s.position));
+    s.velocity = speed * dice.direction();
+  } else {
+    s.wall = dice.whole(0, static_cast<int>(table.walls.size()) - 1);
+    const geometry::Curve& curve = table.walls[static_cast<std::size_t>(s.wall)].curve;
+    s.u = geometry::end_parameter(curve) * dice.between(0.001, 0.999);
+    s.position = geometry::point_at(curve, s.u);
+    do {
+      s.velocity = speed * dice.direction();
+    } while (dot(s.velocity, geometry::normal_at(curve, s.u)) < 1e-3 * speed);
+  }
+  // The energy shell is the particle's own.
+  const double square = dot(s.velocity, s.velocity);
+  start.particle.speed = std::sqrt(square);
+  return start;
+}
+
+std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+class LastEnd : public Observer {
+ public:
+  void end(const EndEvent& event) override { time = event.time; }
+  Time time;
+};
+
+LaneEnd by_world(World& world, const LaneStart& start, const Case& all) {
+  LastEnd last;
+  world.clear();
+  world.limit_hits(all.limit);
+  world.add(start.particle, start.state, start.hits);
+  world.run_until(all.t_end, last);
+  return {start.tag, world.fate(0), world.finished(0) ? last.time : world.state(0).time, world.state(0),
+          world.hole(0), world.hits(0), world.last_wall(0), {}};
+}
+
+void expect_same(const LaneEnd& a, const LaneEnd& b) {
+  EXPECT_EQ(a.fate, b.fate) << name_of(a.fate) << " " << name_of(b.fate);
+  EXPECT_EQ(a.hits, b.hits);
+  EXPECT_EQ(a.hole, b.hole);
+  EXPECT_EQ(a.last_wall, b.last_wall);
+  EXPECT_EQ(bits(a.time.high), bits(b.time.high));
+  EXPECT_EQ(bits(a.time.low), bits(b.time.low));
+  EXPECT_EQ(a.state.wall, b.state.wall);
+  EXPECT_EQ(bits(a.state.u), bits(b.state.u));
+  EXPECT_EQ(bits(a.state.position.x), bits(b.state.position.x));
+  EXPECT_EQ(bits(a.state.position.y), bits(b.state.position.y));
+  EXPECT_EQ(bits(a.state.velocity.x), bits(b.state.velocity.x));
+  EXPECT_EQ(bits(a.state.velocity.y), bits(b.state.velocity.y));
+}
+
+struct Totals {
+  std::uint64_t hits = 0, scalar = 0;
+  std::map<Fate, int> fates;
+};
+
+void compare(const Table& table, Case& all, Totals& totals, const char* what) {
+  World world(table);
+  for (std::size_t i = 0; i < all.starts.size(); ++i) all.starts[i].tag = i;
+  std::vector<LaneEnd> expected;
+  for (const LaneStart& start : all.starts) expected.push_back(by_world(world, start, all));
+  for (const InstructionSet set : available_instruction_sets()) {
+    LaneWorld lanes(table, set);
+    lanes.limit_hits(all.limit);
+    std::size_t next = 0, ended = 0;
+    lanes.run_until(
+        all.t_end,
+        [&](LaneStart& start) {
+          if (next == all.starts.size()) return false;
+          start = all.starts[next++];
+          return true;
+        },
+        [&](const LaneEnd& end) {
+          ++ended;
+          ++totals.fates[end.fate];
+          SCOPED_TRACE(std::string(what) + " " + name_of(set) + " start " + std::to_string(end.tag));
+          if (!testing::Test::HasFailure()) expect_same(end, expected[end.tag]);
+        });
+    EXPECT_EQ(ended, all.starts.size()) << what;
+    totals.hits += lanes.effort().hits;
+    totals.scalar += lanes.effort().scalar;
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+/// Holes on some walls, some from or to a joint.
+void add_holes(Table& table, Dice& dice) {
+  for (std::size_t i = 0; i < table.walls.size(); ++i) {
+    double from = 0.0;
+    const double end = geometry::end_parameter(table.walls[i].curve);
+    for (int n = dice.whole(-2, 2); n > 0; --n) {
+      Hole hole;
+      hole.name = "hole";
+      hole.wall = static_cast<int>(i);
+      hole.from = dice.whole(0, 3) == 0 ? from : from + (end - from) * dice.between(0.05, 0.5);
+      hole.to = dice.whole(0, 3) == 0 ? end : hole.from + (end - hole.from) * dice.between(0.02, 0.2);
+      table.walls[i].holes.push_back(static_cast<int>(table.holes.size()));
+      table.holes.push_back(hole);
+      from = hole.to;
+      if (!(from < end)) break;
+    }
+  }
+}
+
+class Lanes : public testing::TestWithParam<Shape> {};
+
+TEST_P(Lanes, FlyTheOrbitsOfTheWorld) {
+  Dice dice(17 + static_cast<std::uint64_t>(GetParam()));
+  Totals totals;
+  for (long k = 0; k < tests::cases(40, 4000) && !HasFailure(); ++k) {
+    const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6);
+    Table table = tests::random_table(GetParam(), size, {}, dice);
+    const bool holes = dice.coin();
+    if (holes) add_holes(table, dice);
+    const World world(table);
+    Case all;
+    all.limit = static_cast<std::uint64_t>(dice.whole(1, 300));
+    const double speed = dice.coin() ? 1.0 : dice.spread(1e-3, 1e3);
+    if (dice.coin()) all.t_end = dice.spread(1.0, 1000.0) * size / speed;
+    for (int i = 0; i < 150; ++i) all.starts.push_back(random_start(table, world, dice, size, speed));
+    ASSERT_TRUE(LaneWorld::suits(table, {all.starts[0].particle}));
+    compare(table, all, totals, std::to_string(k).c_str());
+  }
+  EXPECT_GT(totals.fates[Fate::capped], 100);
+  EXPECT_GT(totals.fates[Fate::survived], 100);
+  EXPECT_GT(totals.fates[Fate::escaped], 100);
+  EXPECT_EQ(totals.fates[Fate::lost], 0);
+  // Lanes do the work: but for rare doubts.
+  EXPECT_LT(static_cast<double>(totals.scalar), 0.01 * static_cast<double>(totals.hits));
+  RecordProperty("hits", std::to_string(totals.hits));
+  RecordProperty("scalar", std::to_string(totals.scalar));
+}
+
+std::string name_of_shape(const testing::TestParamInfo<Shape>& tested) {
+  constexpr const char* names[] = {"polygon", "arcs", "stadium", "mushroom", "discs", "annulus"};
+  return names[static_cast<int>(tested.param)];
+}
+INSTANTIATE_TEST_SUITE_P(Shapes, Lanes,
+                         testing::Values(Shape::polygon, Shape::arcs, Shape::stadium, Shape::mushroom, Shape::discs,
+                                         Shape::annulus),
+                         name_of_shape);
+
+TEST(LaneRuns, LeaveTheOpenPlane) {
+  Dice dice(5);
+  const Table table = tests::discs({{-1.3, 0}, {1.3, 0}, {0, 2.2}});
+  const World world(table);
+  Case all;
+  for (int i = 0; i < 2000; ++i) all.starts.push_back(random_start(table, world, dice, 3.0, 1.0));
+  Totals totals;
+  compare(table, all, totals, "three discs");
+  EXPECT_GT(totals.fates[Fate::unbounded], 1000);
+  EXPECT_LT(totals.scalar, 100u);
+}
+
+TEST(LaneRuns, GoOnFromWhereTheyWereStopped) {
+  Dice dice(6);
+  const Table table = tests::stadium();
+  const World world(table);
+  LaneWorld lanes(table, widest_instruction_set());
+  Case all;
+  all.limit = 50;
+  std::vector<LaneStart> starts;
+  for (int i = 0; i < 100; ++i) starts.push_back(random_start(table, world, dice, 1.0, 1.0));
+  all.starts = starts;
+  World by_steps(table);
+  for (std::uint64_t limit = 10; limit <= 50; limit += 10) {
+    std::vector<LaneStart> next;
+    std::size_t given = 0;
+    lanes.limit_hits(limit);
+    lanes.run_until(
+        1e300,
+        [&](LaneStart& s) {
+          if (given == starts.size()) return false;
+          s = starts[given];
+          s.tag = given++;
+          return true;
+        },
+        [&](const LaneEnd& e) { starts[e.tag].state = e.state, starts[e.tag].hits = e.hits; });
+  }
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const LaneEnd whole = by_world(by_steps, all.starts[i], all);
+    EXPECT_EQ(bits(whole.state.position.x), bits(starts[i].state.position.x));
+    EXPECT_EQ(bits(whole.state.velocity.y), bits(starts[i].state.velocity.y));
+    EXPECT_EQ(starts[i].hits, 50u);
+  }
+}
+
+}  // namespace
+}  // namespace carom
