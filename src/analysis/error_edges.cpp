@@ -40,21 +40,34 @@ bool ErrorEdges::begin(const Particle& particle, const State& start, const Devia
   return true;
 }
 
-bool ErrorEdges::same_arrival(const Particle& particle, const State& start, const Deviation& d,
-                              const Arrival& arrival, double farthest) {
+bool ErrorEdges::land(const Particle& particle, const State& start, const Deviation& d, double latest,
+                      HitFinder::Landing& landing) {
   Flight flight;
   if (!begin(particle, start, d, flight)) return false;
   Ahead ahead;
-  for (finder_.next(flight, ahead, counts_); ahead.kind == Ahead::Kind::edge;
+  // In a corridor of a lattice it might fly for ever.
+  for (finder_.next(flight, ahead, counts_); ahead.kind == Ahead::Kind::edge && ahead.duration <= latest;
        finder_.next(flight, ahead, counts_))
     finder_.cross(flight, ahead);
-  if (ahead.kind != Ahead::Kind::wall) return false;
-  HitFinder::Landing landing;
+  if (ahead.kind != Ahead::Kind::wall || !(ahead.duration <= latest)) return false;
   finder_.land(flight, ahead, landing, counts_);
+  return true;
+}
+
+bool ErrorEdges::same_arrival(const Particle& particle, const State& start, const Deviation& d,
+                              const Arrival& arrival, double farthest, double latest) {
+  HitFinder::Landing landing;
+  if (!land(particle, start, d, latest, landing)) return false;
   const geometry::Cell cell{start.cell.first + landing.cell.first, start.cell.second + landing.cell.second};
   const Vector away = landing.at.point - arrival.position;
   return landing.wall == arrival.wall && cell == arrival.cell && landing.hole < 0 &&
          dot(away, away) <= farthest * farthest;
+}
+
+bool ErrorEdges::same_hole(const Particle& particle, const State& start, const Deviation& d, int hole,
+                           double latest) {
+  HitFinder::Landing landing;
+  return land(particle, start, d, latest, landing) && landing.hole == hole;
 }
 
 }  // namespace carom

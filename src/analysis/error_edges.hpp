@@ -22,11 +22,16 @@ class ErrorEdges {
   };
 
   /// Does the orbit that deviates by d from `start` arrive at the same copy of the same wall, not farther
-  /// than `farthest` from there, and beside its holes?
-  bool same_arrival(const Particle&, const State& start, const Deviation& d, const Arrival&, double farthest);
+  /// than `farthest` from there, beside its holes, and after at most `latest`?
+  bool same_arrival(const Particle&, const State& start, const Deviation& d, const Arrival&, double farthest,
+                    double latest);
+  /// Does it leave through that hole?
+  bool same_hole(const Particle&, const State& start, const Deviation& d, int hole, double latest);
 
  private:
   bool begin(const Particle&, const State& start, const Deviation& d, Flight& flight);
+  bool land(const Particle&, const State& start, const Deviation& d, double latest,
+            HitFinder::Landing& landing);
 
   const Table& table_;
   HitFinder finder_;

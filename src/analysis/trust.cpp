@@ -99,10 +99,24 @@ class TrustRecorder::Implementation {
     return 2.0 * u * (1.0 + extent * std::fabs(curvature) + std::fabs(turn));
   }
 
-  ErrorSpread flown(const Track& track, const FlightTangent& flight, double duration) const {
-    ErrorSpread p = carried(flight, track.trust.spread);
-    add_noise(p, position_noise(track.particle.speed * duration), 0.0);
+  ErrorSpread flown(const ErrorSpread& before, const FlightTangent& flight, double way) const {
+    ErrorSpread p = carried(flight, before);
+    add_noise(p, position_noise(way), 0.0);
     return p;
+  }
+  /// The likeliest deviation at the start of a flight that is on the edge of the beam at its end: the
+  /// deviation across the flight there decides where and whether a wall is met.
+  Deviation edge_of(const Track& track, const FlightTangent& flight) const {
+    const Vector v = track.state.velocity;
+    const Vector arriving = flight.c * v + flight.s * right(v);
+    const Deviation across = flight.before({left(arriving), {}});
+    const Deviation worst = product(track.trust.spread, across);
+    const double square = dot(across, worst);
+    return square > 0.0 ? (deviations / std::sqrt(square)) * worst : Deviation();
+  }
+  /// Who arrives later than this arrives elsewhere.
+  double latest(const Particle& particle, double duration) const {
+    return duration + 3.0 * tolerance * size / particle.speed;
   }
   bool hit(Track& track, const HitEvent& event);
 
@@ -123,17 +137,14 @@ bool TrustRecorder::Implementation::hit(Track& track, const HitEvent& event) {
   const double curvature = geometry::curvature_at(frame, event.u);
   const FlightTangent flight = flight_tangent(particle.omega, event.flight_time);
 
-  // The deviation across the flight on arrival decides where and whether the wall is met.
-  const ErrorSpread& old = track.trust.spread;
-  const Deviation across = flight.before({(1.0 / particle.speed) * left(event.before), {}});
-  const Deviation worst = product(old, across);
-  const double scale = deviations / std::sqrt(dot(across, worst));
   const ErrorEdges::Arrival arrival{event.wall, event.cell, event.position};
+  const Deviation edge = edge_of(track, flight);
   for (const double sign : {1.0, -1.0})
-    if (!edges.same_arrival(particle, track.state, (sign * scale) * worst, arrival, tolerance * size))
+    if (!edges.same_arrival(particle, track.state, sign * edge, arrival, tolerance * size,
+                            latest(particle, event.flight_time)))
       return false;
 
-  ErrorSpread p = flown(track, flight, event.flight_time);
+  ErrorSpread p = flown(track.trust.spread, flight, particle.speed * event.flight_time);
   p = carried(reflection_tangent(normal, curvature, event.before, particle.omega), p);
   add_noise(p, 0.0, particle.speed * angle_noise(curvature, particle.omega * event.flight_time));
   const AtWall at = at_wall(normal, event.after, particle.omega);
@@ -183,6 +194,18 @@ void TrustRecorder::hit(const HitEvent& event) {
   track.state.time = event.time;
 }
 
+void TrustRecorder::end(const EndEvent& event) {
+  Implementation& a = *implementation_;
+  Implementation::Track& track = a.tracks[static_cast<std::size_t>(event.particle)];
+  if (!track.trust.open || event.fate != Fate::escaped) return;
+  const FlightTangent flight = flight_tangent(track.particle.omega, event.time - track.state.time);
+  const Deviation edge = a.edge_of(track, flight);
+  for (const double sign : {1.0, -1.0})
+    track.trust.open =
+        track.trust.open && a.edges.same_hole(track.particle, track.state, sign * edge, event.hole,
+                                              a.latest(track.particle, event.time - track.state.time));
+}
+
 const Trust& TrustRecorder::trust(int particle) const {
   return implementation_->tracks[static_cast<std::size_t>(particle)].trust;
 }
@@ -190,17 +213,17 @@ const HitError& TrustRecorder::last_error(int particle) const {
   return implementation_->tracks[static_cast<std::size_t>(particle)].error;
 }
 
-Trust TrustRecorder::trust_at(int particle, Time end) const {
+Trust TrustRecorder::at_end(const Particle& particle, const State& state, const Trust& before,
+                            Time end) const {
   const Implementation& a = *implementation_;
-  const Implementation::Track& track = a.tracks[static_cast<std::size_t>(particle)];
-  Trust trust = track.trust;
-  const double duration = end - track.state.time;
+  Trust trust = before;
+  const double duration = end - state.time;
   if (!trust.open || !(duration > 0.0)) return trust;
-  const ErrorSpread p = a.flown(track, flight_tangent(track.particle.omega, duration), duration);
+  const ErrorSpread p =
+      a.flown(trust.spread, flight_tangent(particle.omega, duration), particle.speed * duration);
   const double position = std::sqrt(p[0].position.x + p[1].position.y);
   const double velocity = std::sqrt(p[2].velocity.x + p[3].velocity.y);
-  if (deviations * position <= a.tolerance * a.size &&
-      deviations * velocity <= a.tolerance * track.particle.speed)
+  if (deviations * position <= a.tolerance * a.size && deviations * velocity <= a.tolerance * particle.speed)
     trust.time = end;
   return trust;
 }

@@ -53,10 +53,11 @@ class TrustRecorder : public Observer {
   /// when an earlier part of the run ended there.
   void follow(const Particle&, const State&, std::uint64_t hits, const Trust* before = nullptr);
   void hit(const HitEvent&) override;
+  void end(const EndEvent&) override;
   const Trust& trust(int particle) const;
   const HitError& last_error(int particle) const;
-  /// The same at the end of a run, a free flight after the last event.
-  Trust trust_at(int particle, Time end) const;
+  /// What is known at the end of a run, a free flight after the state of the last event.
+  Trust at_end(const Particle&, const State&, const Trust&, Time end) const;
 
  private:
   class Implementation;
