@@ -162,19 +162,20 @@ INLINE void advance_straight(const LaneTable& t, LanePack& pack, int lane) {
   decided = decided && (escaped || over || inward);
 
   const Mask applies = active && decided && !over && !escaped;
-  const Real hits = load(pack.hits + lane) + 1.0;
+  const Real hits0 = load(pack.hits + lane), hits = hits0 + 1.0;
   const Mask capped = hits >= pack.limit;
-  const auto store = [&](double* to, const Mask& where_to, const Real& from) {
-    where(where_to, from).copy_to(to + lane, simd::element_aligned);
+  // A whole store: one through a mask takes 30 ns without AVX.
+  const auto store = [&](double* to, const Real& before, const Real& now) {
+    choose(applies, now, before).copy_to(to + lane, simd::element_aligned);
   };
-  store(pack.x, applies, place.x);
-  store(pack.y, applies, place.y);
-  store(pack.vx, applies, after.x);
-  store(pack.vy, applies, after.y);
-  store(pack.high, applies, high);
-  store(pack.low, applies, low);
-  store(pack.piece, applies, piece);
-  store(pack.hits, applies, hits);
+  store(pack.x, f.origin.x, place.x);
+  store(pack.y, f.origin.y, place.y);
+  store(pack.vx, v.x, after.x);
+  store(pack.vy, v.y, after.y);
+  store(pack.high, high0, high);
+  store(pack.low, low0, low);
+  store(pack.piece, f.start_piece, piece);
+  store(pack.hits, hits0, hits);
 
   const Mask calls = active && (!decided || over || escaped || capped);
   if (any_of(calls)) [[unlikely]] {
