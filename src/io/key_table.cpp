@@ -72,7 +72,7 @@ const std::vector<KeyDescription>& key_table() {
       {"particles", "", "charge", "number or list", "1", "charge, of either sign or 0"},
 
       {"initial", "", "kind", "string", "\"uniform\"",
-       "uniform, boundary, hole, point, birkhoff, rectangle, line or list"},
+       "uniform, boundary, hole, point, birkhoff, rectangle, line, list or file"},
       {"initial", "boundary|birkhoff", "wall", "string", "",
        "the wall to start from; boundary without it: all walls"},
       {"initial", "boundary|hole", "hole", "string", "", "the hole to start from, into the table"},
@@ -89,6 +89,8 @@ const std::vector<KeyDescription>& key_table() {
       {"initial", "line", "to", "point", "", "its other end"},
       {"initial", "list", "starts", "list of lists", "",
        "one [x, y, vx, vy] a trajectory; the velocity gives the direction only"},
+      {"initial", "file", "path", "string", "",
+       "a text file with x y vx vy in each line, relative to the system file: a list kept elsewhere"},
       {"initial.grid", "", "from", "number", "", "first value of a grid {from, to, count}"},
       {"initial.grid", "", "to", "number", "", "its last value"},
       {"initial.grid", "", "count", "whole number", "", "number of values, at least 2"},

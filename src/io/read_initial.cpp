@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "io/read.hpp"
+#include "io/starts_file.hpp"
 #include "table/direction.hpp"
 
 namespace carom::io {
@@ -158,12 +159,14 @@ void read_rectangle(Section& section, InitialCondition& initial) {
 InitialCondition read_initial(Value& root, const Table& table, const std::vector<Particle>& particles) {
   Value& value = *root.find("initial");
   const Value* written = value.find("kind");
-  if (written != nullptr && (written->text == "file" || written->text == "sobol")) {
-    throw InputError(written->place, "the kind '" + written->text + "' is not in this version",
-                     "uniform, boundary, hole, point, birkhoff, rectangle, line or list");
+  if (written != nullptr && written->text == "sobol") {
+    throw InputError(written->place, "the kind 'sobol' is not in this version",
+                     "uniform, boundary, hole, point, birkhoff, rectangle, line, list or file");
   }
+  take_starts_from_file(value);
   std::vector<std::string> names;
   for (const auto& [name, kind] : kinds()) names.push_back(name);
+  names.push_back("file");
   const std::string name = read_kind(value, "initial", "kind", names);
   Section section(value, "initial", name);
   section.check_keys();

@@ -116,7 +116,7 @@ TEST(BadInput, StartsMustBePossible) {
   expect_in_square(
       {{"[initial]\nkind = \"sobol\"\n",
         "line 6, column 8: initial.kind: the kind 'sobol' is not in this version"},
-       {"[initial]\nkind = \"file\"\npath = \"x\"\n", "not in this version"},
+       {"[initial]\nkind = \"file\"\npath = \"x\"\n", "'x' cannot be read: No such file"},
        {"[initial]\nkind = \"hole\"\nhole = \"door\"\n",
         "initial.hole: unknown hole 'door' (expected a table with [[table.hole]])"},
        {"[[table.hole]]\nwall=\"top\"\ncenter=0.5\nwidth=0.1\nname=\"door\"\n[initial]\nkind = "

@@ -1,0 +1,12 @@
+// [initial] kind = "file": starts kept in a text file.
+#pragma once
+
+#include "io/value.hpp"
+
+namespace carom::io {
+
+/// Turns kind = "file" into the list of the starts that the file holds, so that what is resolved can be run
+/// again without it. Anything else is left alone.
+void take_starts_from_file(Value& initial);
+
+}  // namespace carom::io

@@ -1,0 +1,63 @@
+// [initial] kind = "file".
+#include <filesystem>
+#include <fstream>
+
+#include "system_text.hpp"
+
+namespace carom::tests {
+namespace {
+
+class StartsFile : public testing::Test {
+ protected:
+  StartsFile() { std::filesystem::create_directory(folder_); }
+  ~StartsFile() override { std::filesystem::remove_all(folder_); }
+
+  LoadedSystem read_with(const std::string& starts) const {
+    std::ofstream(folder_ / "starts.txt") << starts;
+    return read_system(square("[initial]\nkind = \"file\"\npath = \"starts.txt\"\n"), (folder_ / "a.toml").string());
+  }
+  std::string fault_of(const std::string& starts) const {
+    try {
+      read_with(starts);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no fault";
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() /
+      ("carom-starts-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+TEST_F(StartsFile, IsTheListItHolds) {
+  const LoadedSystem loaded = read_with("# x y vx vy\n0.25 0.5 1 0\n\n1/3, sqrt(2)/4, 0, -1  # exact\r\n");
+  const InitialCondition& initial = loaded.system.initial;
+  ASSERT_EQ(initial.kind, InitialCondition::Kind::list);
+  ASSERT_EQ(initial.positions.size(), 2u);
+  EXPECT_EQ(initial.positions[0], (geometry::Vector{0.25, 0.5}));
+  EXPECT_EQ(initial.positions[1].x, 1.0 / 3.0);
+  EXPECT_EQ(initial.positions[1].y, 0x1.6a09e667f3bcdp-2);
+  EXPECT_EQ(initial.velocities[1], (geometry::Vector{0, -1}));
+}
+
+TEST_F(StartsFile, ResolvedSystemsHoldTheStarts) {
+  const LoadedSystem loaded = read_with("0.25 1/3 1 0\n");
+  std::filesystem::remove(folder_ / "starts.txt");
+  const LoadedSystem again = read_system(loaded.resolved_toml, "again.toml");
+  EXPECT_EQ(again.resolved_toml, loaded.resolved_toml);
+  EXPECT_EQ(again.system.initial.positions, loaded.system.initial.positions);
+}
+
+TEST_F(StartsFile, FaultsNameTheLine) {
+  const std::pair<const char*, const char*> faults[] = {
+      {"0.5 0.5 1 0\n0.5 0.5 1\n", "starts.txt, line 2, column 1: a start has four numbers, but the line has 3"},
+      {"0.5 0.5 1 zero\n", "starts.txt, line 1, column 11"},
+      {"0.5 0.5 0 0\n", "the velocity is zero"},
+      {"# nothing\n", "the file holds no start"},
+  };
+  for (const auto& [starts, message] : faults) EXPECT_HAS(fault_of(starts), message);
+}
+
+}  // namespace
+}  // namespace carom::tests
