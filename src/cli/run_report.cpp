@@ -38,8 +38,20 @@ void add_end(Json& json, const System& system, const ParticleEnd& particle) {
   json.set("vy", particle.vy);
   json.set("cell", Json::array().push(particle.cell.first).push(particle.cell.second));
   json.set("energy_error", particle.energy_error);
+  const Trust& trust = particle.trust;
+  json.set("trusted_collisions", trust.known ? Json(trust.hits) : Json());
+  json.set("trusted_time", trust.known ? Json(trust.time.value()) : Json());
   const int hole = particle.progress.hole;
   if (hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(hole)].name);
+}
+
+std::string trust_text(const ParticleEnd& particle) {
+  const Trust& trust = particle.trust;
+  if (!trust.known) return "not estimated where motion is integrated or discs meet";
+  if (trust.open && trust.time == particle.progress.end)
+    return fmt::format("to the end: errors below {} of the table's size", TrustRecorder::usual_tolerance);
+  return fmt::format("{} collisions, until t = {:.6g}; then errors exceed {} of the table's size or change a wall",
+                     grouped(trust.hits), trust.time.value(), TrustRecorder::usual_tolerance);
 }
 
 std::string end_text(const System& system, const ParticleEnd& particle, bool interrupted) {
@@ -56,6 +68,7 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
     text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
   text += fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g}\n", particle.vx, particle.vy,
                       particle.energy_error);
+  text += fmt::format("  trusted       {}\n", trust_text(particle));
   return text;
 }
 

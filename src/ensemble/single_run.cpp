@@ -26,6 +26,7 @@ class Renumbering : public Observer {
         contacts_(entries_.size()) {}
 
   void hit(const HitEvent& event) override {
+    if (trust_ != nullptr) trust_->hit(event);
     HitEvent copy = event;
     copy.particle = number(event.particle);
     observer_.hit(copy);
@@ -45,17 +46,20 @@ class Renumbering : public Observer {
   }
   void sampled(Time time) override { observer_.sampled(time); }
   void end(const EndEvent& event) override {
+    if (trust_ != nullptr) trust_->end(event);
     EndEvent copy = event;
     copy.particle = number(event.particle);
     ends_[static_cast<std::size_t>(copy.particle)] = copy;
     observer_.end(copy);
   }
   const std::optional<EndEvent>& end_of(std::size_t particle) const { return ends_[particle]; }
+  void estimate(TrustRecorder* trust) { trust_ = trust; }
   std::uint64_t contacts_of(std::size_t particle) const { return contacts_[particle]; }
 
  private:
   int number(int particle) const { return numbers_[static_cast<std::size_t>(particle)]; }
   Observer& observer_;
+  TrustRecorder* trust_ = nullptr;  ///< by the numbers of the world
   const std::vector<int>& numbers_;
   std::vector<Time> entries_;  ///< when each particle entered
   std::vector<std::optional<EndEvent>> ends_;
@@ -105,6 +109,11 @@ State moved_on(const Particle& particle, const ParticleProgress& progress) {
 
 }  // namespace
 
+bool estimates_trust(const System& system) {
+  return !system.dynamics.everywhere && !system.of_discs() &&
+         (!system.dynamics.forces || system.dynamics.forces->empty());
+}
+
 SingleRunResult run_single(const System& system, Observer& observer, const SingleRunOptions& options) {
   const Stopwatch watch;
   World world(*system.table, system.dynamics, options.decisions);
@@ -138,6 +147,17 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   }
 
   Renumbering passed_on(observer, numbers, std::move(entries));
+  std::optional<TrustRecorder> trust;
+  if (estimates_trust(system)) {
+    trust.emplace(*system.table, options.tolerance);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const int body = static_cast<int>(i);
+      const Trust& before = progress[static_cast<std::size_t>(numbers[i])].trust;
+      trust->follow(world.particle(body), world.state(body), world.hits(body),
+                    options.resume.empty() ? nullptr : &before);
+    }
+    passed_on.estimate(&*trust);
+  }
   SingleRunResult result;
   // Energy is shared by particles that interact, by forces or by contacts.
   const ForceField* field = system.dynamics.forces.get();
@@ -170,6 +190,7 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     now.contacts += passed_on.contacts_of(p);
     if (world.last_wall(body) >= 0) now.last_wall = world.last_wall(body);
     now.hole = world.hole(body);
+    if (trust) now.trust = trust->trust(body);
     const std::optional<EndEvent>& end = passed_on.end_of(p);
     now.fate = end ? end->fate : Fate::survived;
     const bool until_stop = now.fate == Fate::survived || now.fate == Fate::pinned;
@@ -192,6 +213,10 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   for (std::size_t p = 0; p < count; ++p) {
     const double error = forces ? energy_error : speed_error(all[p], last[p]);
     result.particles.push_back(as_seen(system, progress[p], last[p], error));
+    ParticleEnd& end = result.particles.back();
+    if (!trust) end.progress.trust.open = false;  // an earlier part of the run may have flown
+    end.trust = trust ? trust->at_end(all[p], progress[p].state, progress[p].trust, progress[p].end)
+                      : end.progress.trust;
     result.collisions += progress[p].hits;
     result.contacts += progress[p].contacts;
   }

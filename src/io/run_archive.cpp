@@ -8,6 +8,7 @@
 #include "carom/geometry/curve_frame.hpp"
 #include "io/archive_file.hpp"
 #include "io/columns.hpp"
+#include "io/trust_columns.hpp"
 #include "io/contact_columns.hpp"
 
 namespace carom {
@@ -194,7 +195,10 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     const Handle group = file.group("energy", "Sums over the particles at each sample's time");
     for (const auto& [name, description] : energy_fields) energies.add<double>(group.get(), name, description);
   }
-  create_state(loaded.system.particles.size() + injected_count(loaded.system, trajectory));
+  const std::size_t particles = loaded.system.particles.size() + injected_count(loaded.system, trajectory);
+  create_state(particles);
+  if (estimates_trust(loaded.system))
+    create_trust(file.group("trust", "How far each particle can be trusted").get(), particles, file.name());
 }
 
 void RunArchive::Implementation::create_state(std::size_t particles) {
@@ -333,6 +337,8 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   a.contacts.close();
   a.energies.close();
   a.write_state(result.particles);
+  if (result.particles.front().trust.known)
+    write_trust(a.file.open_group("trust").get(), result.particles, a.file.name());
   a.file.add_decisions(result.decisions);
   a.file.set_status(status, !result.interrupted);
   a.file.keep_as(a.target);
@@ -386,6 +392,8 @@ StoredRun read_run(const std::string& name) {
     p.fate = static_cast<Fate>(fate.at(i));
     run.particles.push_back(p);
   }
+  if (H5Lexists(file.get(), "trust", H5P_DEFAULT) > 0)
+    read_trust(Handle(H5Gopen2(file.get(), "trust", H5P_DEFAULT), H5Gclose).get(), run.particles, name);
   return run;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/analysis/trust.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/decisions.hpp"
@@ -23,11 +24,13 @@ struct ParticleProgress {
   std::int32_t hole = -1;
   Fate fate = Fate::survived;
   Time end;  ///< the clock: t_max, or when the trajectory ended
+  Trust trust;
 };
 
 /// A particle at the end of a run, as people want to see it.
 struct ParticleEnd {
   ParticleProgress progress;
+  Trust trust;  ///< at the end: up to which collision and time
   double t = 0, x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped
   geometry::Cell cell;
   /// Relative. Free particles: each against its own speed; with forces: of all together since the start.
@@ -41,6 +44,7 @@ struct SingleRunOptions {
   std::vector<ParticleProgress> resume;  ///< empty: start afresh
   std::function<bool()> interrupted;     ///< asked between events
   std::uint64_t trajectory = 0;          ///< index: which start is drawn
+  double tolerance = TrustRecorder::usual_tolerance;  ///< of errors, relative to the table's size
 };
 
 /// How one trajectory ended.
@@ -56,6 +60,9 @@ struct SingleRunResult {
 
 /// A t_max that means: until the cap on hits, however long it takes.
 inline constexpr double no_last_time = 1e300;
+
+/// Are rounding errors estimated (analysis/trust.hpp)? Where motion is integrated or discs meet they are not.
+bool estimates_trust(const System&);
 
 /// Follows the particles until t_max or their cap on hits. Samples every System::run.sample.
 SingleRunResult run_single(const System&, Observer&, const SingleRunOptions& = {});
