@@ -23,7 +23,8 @@ TEST(Trust, WarnsOfTheOrbitThatDoublePrecisionGetsWrong) {
 
 TEST(Trust, IsNullWhereMotionIsIntegrated) {
   const Shell shell;
-  for (const char* run : {"henon-heiles --t-max 1", "stadium --t-max 1 --engine steps"}) {
+  for (const char* run :
+       {"henon-heiles --t-max 1", "stadium --t-max 1 --engine steps --set integrator.step=0.01"}) {
     const Outcome json = shell(std::string("$carom run --json ") + run);
     EXPECT_EQ(json.status, 0) << json.err;
     EXPECT_EQ(json_value(json.out, "trusted_collisions"), "null");
