@@ -9,5 +9,8 @@ find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_library(GMP_LIBRARY gmp REQUIRED)
 find_library(GMPXX_LIBRARY gmpxx REQUIRED)
 find_library(MPFR_LIBRARY mpfr REQUIRED)
+find_path(ARB_INCLUDE_DIR arb.h REQUIRED)  # Debian 12 ships Arb beside FLINT 2
+find_library(ARB_LIBRARY NAMES flint-arb arb REQUIRED)
+find_library(FLINT_LIBRARY flint REQUIRED)
 find_library(SLEEF_LIBRARY sleef REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

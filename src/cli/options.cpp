@@ -129,7 +129,8 @@ void define(CLI::App& app, Options& o) {
       .text("-o,--output", o.output, "FILE.h5",
             "Write an archive: every hit, and samples if run.sample is set")
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
-      .text("--precision", o.precision, "NAME", "double")
+      .text("--precision", o.precision, "NAME", "double, or certified: every digit guaranteed")
+      .text("--digits", o.digits, "D", "Guaranteed decimals of a certified run (default 20)")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
   Command(app, o, "diffusion", "Mean square displacement and diffusion coefficient of an ensemble",
           "Examples:\n"

@@ -16,7 +16,7 @@ struct Options {
   std::string window;  ///< of carom diffusion
   std::string on, direction, points, orbits;  ///< of carom section
   std::string output, threads, trajectory, resume, scale;
-  std::string engine = "auto", isa = "auto", precision = "double";
+  std::string engine = "auto", isa = "auto", precision = "double", digits;
   SystemOverrides overrides;
 };
 

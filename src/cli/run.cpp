@@ -10,6 +10,7 @@
 #include "carom/ensemble/single_run.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/run_in_balls.hpp"
 #include "cli/run_report.hpp"
 #include "io/progress.hpp"
 
@@ -44,6 +45,8 @@ class Counting : public Observer {
   Observer* next_;
 };
 
+}  // namespace
+
 // A run that is asked for a number of collisions has no last time, unless that is asked for too.
 SystemOverrides run_overrides(const Options& options) {
   SystemOverrides overrides = options.overrides;
@@ -51,6 +54,8 @@ SystemOverrides run_overrides(const Options& options) {
     overrides.t_max = fmt::format("{}", no_last_time);
   return overrides;
 }
+
+namespace {
 
 void refuse_going_back(const System& system, const StoredRun& stored) {
   const bool more_hits = system.run.collisions == 0;
@@ -68,6 +73,7 @@ void refuse_going_back(const System& system, const StoredRun& stored) {
 }  // namespace
 
 int run(const Options& options) {
+  if (options.precision != "double" || !options.digits.empty()) return run_in_balls(options);
   check_engine(options);
   threads_of(options);  // one trajectory takes one thread; a wrong number is an error all the same
   SingleRunOptions how;

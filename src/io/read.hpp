@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/certify/exact_system.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/forces/force_spec.hpp"
 #include "carom/table/table_spec.hpp"
@@ -31,6 +32,9 @@ ForceSpec read_forces(Value& root, std::size_t particles);
 IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Particle>& particles, bool walls);
 /// [section]; the names of walls are those of the table.
 SectionPlan read_section(Value& root, const Table& table);
+
+/// Speed, field and start of the first particle, as they were written; after the other sections.
+ExactSystem read_exact(Value& root);
 
 /// `count` values from `first` to `last`, both exact, evenly spaced or with even ratios. The bits
 /// are the same everywhere.

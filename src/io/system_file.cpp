@@ -89,7 +89,8 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   System& system = loaded.system;
   system.name = file;
   system.title = io::as_text(*root.find("title"));
-  auto table = std::make_shared<Table>(build_table(io::read_table(root)));
+  auto spec = std::make_shared<const TableSpec>(io::read_table(root));
+  auto table = std::make_shared<Table>(build_table(*spec));
   system.particles = io::read_particles(root);
   system.dynamics.forces =
       ForceField::build(io::read_forces(root, system.particles.size()), system.particles, table->lattice);
@@ -105,6 +106,10 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   if (!radii.empty()) refuse_injections(system, "a system of hard discs");
   system.section = io::read_section(root, *table);
   system.table = std::move(table);
+  loaded.exact = io::read_exact(root);
+  loaded.exact.spec = std::move(spec);
+  loaded.exact.table = system.table;
+  loaded.t_max = io::as_number(*root.find("run")->find("t_max"));
   loaded.resolved_toml = io::print_document(root);
   return loaded;
 }

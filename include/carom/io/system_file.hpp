@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "carom/certify/exact_system.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/io/system_overrides.hpp"
 
@@ -33,6 +34,10 @@ const std::vector<BuiltinSystem>& builtin_systems();
 struct LoadedSystem {
   System system;
   std::string resolved_toml;
+  /// The same with the numbers as they were written, of the first particle. Its start is that of [initial] if
+  /// that is a point.
+  ExactSystem exact;
+  ExactNumber t_max;
 };
 
 /// `name`: a file if it has a '/' or ends in ".toml", else a built-in name. Throws InputError.

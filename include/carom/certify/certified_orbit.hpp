@@ -1,0 +1,118 @@
+// Orbits with guaranteed digits: every number is enclosed by ball arithmetic, and the precision is chosen
+// by the program (docs/physics/certified-orbits.md).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "carom/certify/exact_system.hpp"
+#include "carom/geometry/lattice.hpp"
+
+namespace carom {
+
+/// A number together with what its error cannot exceed.
+class CertifiedNumber {
+ public:
+  struct Enclosure;  ///< a ball of any precision
+  CertifiedNumber() = default;
+  explicit CertifiedNumber(std::shared_ptr<const Enclosure> value) : value_(std::move(value)) {}
+
+  /// With `digits` decimals, the last one rounded.
+  std::string text(int digits) const;
+  /// The double nearest to the middle of the enclosure.
+  double to_double() const;
+  /// log2 of the enclosure's radius.
+  double log2_error() const;
+  const Enclosure& enclosure() const { return *value_; }
+
+ private:
+  std::shared_ptr<const Enclosure> value_;
+};
+
+/// A state with guaranteed digits. The position is in the plane, unwrapped.
+struct CertifiedState {
+  CertifiedNumber t, x, y, vx, vy;
+};
+
+/// A reflection: the state after it.
+struct CertifiedHit : CertifiedState {
+  std::uint64_t number = 0;  ///< counted from 1
+  int wall = -1;
+  geometry::Cell cell;       ///< of the wall's copy
+};
+
+/// How a certified orbit ended.
+enum class CertifiedFate : unsigned char { completed, escaped, unbounded, singular, undecided };
+const char* name_of(CertifiedFate);
+
+struct CertifiedEnd : CertifiedState {
+  CertifiedFate fate = CertifiedFate::completed;
+  std::uint64_t collisions = 0;
+  int wall = -1;             ///< of the last hit
+  geometry::Cell cell;       ///< of the last hit
+  int hole = -1;
+  std::string reason;        ///< of singular and undecided ones
+};
+
+/// What an orbit is asked for.
+struct CertifiedTask {
+  std::uint64_t collisions = 0;      ///< 0: no cap
+  std::optional<ExactNumber> t_max;  ///< last time
+  int digits = 20;                   ///< absolute error below 10^-digits in t, x, y, vx, vy
+  long most_bits = 4'000'000;        ///< the precision beyond which an orbit is given up
+};
+
+/// What it took.
+struct CertifiedEffort {
+  long bits = 0;             ///< precision of the last attempt
+  int attempts = 0;
+  double tangent_bits = 0;   ///< log2 of how much the tangent map stretched: bits that the orbit lost
+};
+
+/// A sequence of certified hits. Whenever the precision does not suffice, the orbit is run again from
+/// its exact start with more bits; hits that were given out stay true.
+class CertifiedOrbit {
+ public:
+  /// Throws InputError for what has no certified form.
+  CertifiedOrbit(const ExactSystem&, const CertifiedTask&);
+  ~CertifiedOrbit();
+  CertifiedOrbit(CertifiedOrbit&&) noexcept;
+
+  /// The next hit, or nothing when the orbit has ended.
+  std::optional<CertifiedHit> next();
+  /// Runs to the end.
+  const CertifiedEnd& finish();
+  const CertifiedEnd& end_state() const;  ///< once next() has returned nothing
+  const CertifiedEffort& effort() const;
+
+  class iterator {
+   public:
+    explicit iterator(CertifiedOrbit* orbit) : orbit_(orbit) { ++*this; }
+    const CertifiedHit& operator*() const { return *hit_; }
+    const CertifiedHit* operator->() const { return &*hit_; }
+    iterator& operator++() {
+      hit_ = orbit_->next();
+      return *this;
+    }
+    friend bool operator==(const iterator& i, std::nullptr_t) { return !i.hit_; }
+
+   private:
+    CertifiedOrbit* orbit_;
+    std::optional<CertifiedHit> hit_;
+  };
+  iterator begin() { return iterator(this); }
+  std::nullptr_t end() const { return nullptr; }
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// The first `collisions` hits from `start`, each with `digits` guaranteed decimals:
+///   for (const CertifiedHit& hit : certified_orbit(table, start, 1000, 20)) …
+CertifiedOrbit certified_orbit(const TableSpec& table, const ExactStart& start, std::uint64_t collisions,
+                               int digits);
+
+}  // namespace carom

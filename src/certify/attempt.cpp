@@ -1,0 +1,278 @@
+#include "certify/attempt.hpp"
+
+#include <algorithm>
+
+#include "carom/base/error.hpp"
+#include "certify/exact_value.hpp"
+
+namespace carom::certify {
+namespace {
+
+constexpr double guard_bits = 40.0;  ///< what rounding may stay below the error that is there
+
+Interval point(const Ball& x) { return interval_of(x.midpoint()); }
+VectorOf<Interval> point(const BallVector& v) { return {point(v.x), point(v.y)}; }
+geometry::Vector near(const BallVector& v) { return {v.x.to_double(), v.y.to_double()}; }
+BallVector middle(const BallVector& v) { return {v.x.midpoint(), v.y.midpoint()}; }
+Bound radius(const BallVector& v) { return v.x.radius() + v.y.radius(); }
+
+/// A power of two of at least half that size.
+double power_near(double size) { return std::exp2(std::floor(std::log2(size))); }
+
+}  // namespace
+
+Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, long bits)
+    : system_(system), task_(task), first_bits_(bits), bits_(bits), table_bits_(bits) {
+  const Precision precision(bits);
+  BallTable table = ball_table(*system.spec);
+  where_ = whereabouts_of(table);
+  double size = where_.stretch;
+  for (const Whereabouts::Disc& disc : where_.discs) size = std::max(size, disc.radius);
+  unit_ = size > 0.0 ? power_near(size) : 1.0;
+  scene_.walls = std::move(table.walls);
+  scene_.lattice = std::move(table.lattice);
+  const Ball written_speed = value_of(system.speed);
+  scene_.motion.speed2 = square(written_speed);
+  scene_.motion.inverse_speed2 = Ball(1) / scene_.motion.speed2;
+  speed_ = written_speed.to_double() * 1.000001;
+  time_unit_ = unit_ / speed_;
+  if (task.t_max) t_max_ = value_of(*task.t_max);
+  set_interval_table();
+  place_start(system);
+}
+
+void Attempt::place_start(const ExactSystem& system) {
+  const ExactStart& start = system.start;
+  now_.state.position = {value_of(start.position.x), value_of(start.position.y)};
+  BallVector direction{value_of(start.direction.x), value_of(start.direction.y)};
+  if (start.angle) {
+    const CosSin d = direction_of(*start.angle);
+    direction = {d.cos, d.sin};
+  }
+  const Ball length2 = dot(direction, direction), speed2 = scene_.motion.speed2;
+  // A direction of the right length already stays exact.
+  const bool exact = (length2 - speed2).contains(Ball(0)) && sign(length2 - speed2) == Sign::zero;
+  const Ball scale = exact ? Ball(1) : sqrt(speed2 / length2);
+  now_.state.velocity = {scale * direction.x, scale * direction.y};
+  now_.standing = start.wall;
+  if (now_.standing >= 0) {
+    const WallOf<Ball>& w = scene_.walls[static_cast<std::size_t>(now_.standing)];
+    const double quarter = w.form == Form::segment ? 0.0 : std::floor(start.u);
+    const Ball u(start.u - quarter);
+    if (w.form == Form::segment) {
+      now_.state.position = w.from + u * w.chord;
+    } else {
+      BallVector a = w.from - w.centre, b = left(a);
+      if (w.form == Form::ellipse) {
+        // The quarter turn of the frame in which the ellipse is a circle.
+        const Ball determinant = cross(w.along, w.across);
+        const Ball x = dot(a, w.along), y = dot(a, w.across);
+        b = {(-(y * w.across.y) - x * w.along.y) / determinant, (y * w.across.x + x * w.along.x) / determinant};
+      }
+      if (w.turn < 0) b = -b;
+      for (double q = 0.0; q < quarter; ++q) {
+        const BallVector before = a;
+        a = b;
+        b = -before;
+      }
+      const Ball one(1), weight = one + square(u);
+      const Ball X = (one - square(u)) / weight, Y = (u + u) / weight;
+      now_.state.position = w.centre + (X * a + Y * b);
+    }
+  }
+  const Bound of_position = radius(now_.state.position) * Bound(1.0 / unit_ * 1.000001);
+  const Bound of_velocity = radius(now_.state.velocity) * Bound(1.0 / speed_ * 1.00001);
+  now_.errors.round(of_position + of_velocity, Bound());
+  now_.state.position = middle(now_.state.position);
+  now_.state.velocity = middle(now_.state.velocity);
+  now_.frame = {{Interval(1.0), Interval(0.0)}, point(now_.state.velocity), unit_};
+}
+
+void Attempt::set_interval_table() {
+  fast_ = converted<Interval>(scene_, [](const Ball& x) { return interval_of(x); });
+}
+
+// Bits far below the error that is already there are of no use.
+void Attempt::trim_precision() {
+  const Bound error = now_.errors.of_position() + now_.errors.of_velocity() + now_.errors.of_time();
+  const double size = std::max({1.0, std::fabs(now_.state.position.x.to_double()) / unit_,
+                                std::fabs(now_.state.position.y.to_double()) / unit_,
+                                std::fabs(now_.state.time.to_double()) / time_unit_});
+  const double wanted = -error.log2() + guard_bits + std::log2(size);
+  bits_ = std::min(first_bits_, static_cast<long>(std::clamp(wanted, 64.0, 1e15)));
+  if (bits_ + 32 < table_bits_ - table_bits_ / 16) {
+    const Precision precision(bits_ + 32);
+    scene_ = converted<Ball>(scene_, [](const Ball& x) { return x.rounded(); });
+    table_bits_ = bits_ + 32;
+  }
+}
+
+Choice Attempt::choose() const {
+  const Bound dP = position_error(), dv = velocity_error();
+  const geometry::Vector P0 = near(now_.state.position), v0 = near(now_.state.velocity);
+  const VectorOf<Interval> P{interval_of(now_.state.position.x, dP), interval_of(now_.state.position.y, dP)};
+  const VectorOf<Interval> v{interval_of(now_.state.velocity.x, dv), interval_of(now_.state.velocity.y, dv)};
+  const Choice fast = fast_.next(where_, P, v, now_.standing, P0, v0);
+  if (fast.answer != Choice::undecided) return fast;
+  const Precision precision(bits_);
+  const BallVector position{now_.state.position.x.widened(dP), now_.state.position.y.widened(dP)};
+  const BallVector velocity{now_.state.velocity.x.widened(dv), now_.state.velocity.y.widened(dv)};
+  return scene_.next(where_, position, velocity, now_.standing, P0, v0);
+}
+
+// Flies to the wall; the state stands on it afterwards.
+void Attempt::move_to(const Copy& copy) {
+  const auto index = static_cast<std::size_t>(copy.wall);
+  const bool same = copy.wall == now_.standing && copy.cell == geometry::Cell{};
+  const Bound per_unit(1.000001 / unit_), per_speed(1.00001 / speed_), per_time(1.000001 / time_unit_);
+  if (!(copy.cell == geometry::Cell{})) {
+    const BallVector seen = now_.state.position - scene_.translation(copy.cell);
+    now_.errors.round(radius(seen) * per_unit, Bound());
+    now_.state.position = middle(seen);
+    now_.cell = {now_.cell.first + copy.cell.first, now_.cell.second + copy.cell.second};
+  }
+  LandingOf<Ball> landing =
+      fly<Ball, Ball>(scene_.walls[index], now_.state.position, now_.state.velocity, scene_.motion, same);
+  // The tangent map over all states that the true one may be.
+  const Bound dP = position_error(), dv = velocity_error();
+  const VectorOf<Interval> P{interval_of(now_.state.position.x, dP), interval_of(now_.state.position.y, dP)};
+  const VectorOf<Interval> v{interval_of(now_.state.velocity.x, dv), interval_of(now_.state.velocity.y, dv)};
+  const Bound settled = settle(landing, scene_, scene_.walls[index], same, unit_);
+  const BallVector position = middle(landing.position), velocity = middle(landing.velocity);
+  const FrameOf<Interval> after{tangent_of(fast_.walls[index], point(position)), point(velocity), unit_};
+  TangentMap<Interval> map = tangent_map(fast_.walls[index], P, v, fast_.motion, same, now_.frame, after);
+  for (Interval& t : map.times) t = t / Interval(time_unit_);
+  now_.errors.move(map.rows, map.times);
+  const Ball time = now_.state.time + landing.time;
+  const Bound rounding = settled + radius(landing.position) * per_unit + radius(landing.velocity) * per_speed;
+  now_.errors.round(rounding, time.radius() * per_time);
+  now_.state = {position, velocity, time.midpoint()};
+  now_.frame = after;
+  // After settling the state has its speed to first order; a turn by b takes b^2/2 of the component along
+  // the midpoint's velocity.
+  const Bound turned = now_.errors.size(turning);
+  now_.errors.constrain(speed, rounding + turned * turned);
+  const WallOf<Ball>& wall = scene_.walls[index];
+  if (same && wall.form == Form::circle) {
+    // Likewise it is on the circle: who is a along its tangent is at most a^2/r off it (for a < r/2).
+    const double radius_below = std::sqrt(wall.radius2.to_double()) * 0.999999 / unit_;
+    const Bound moved = now_.errors.size(along);
+    if (moved.to_double() < 0.5 * radius_below)
+      now_.errors.constrain(off, rounding + moved * moved * Bound(1.0 / radius_below));
+  }
+  now_.wall = now_.standing = copy.wall;
+}
+
+// The true state lies on the wall and has the true speed: the computed one is put back there to first
+// order in what it has left them by, and what is changed counts as rounding. Without this the errors off
+// the wall and of the speed would feed each other, for their motion is unstable.
+Bound Attempt::settle(LandingOf<Ball>& landing, const SceneOf<Ball>& scene, const WallOf<Ball>& w, bool same,
+                      double unit) {
+  BallVector& v = landing.velocity;
+  const Ball slow = (scene.motion.speed2 - (square(v.x) + square(v.y))) * scene.motion.inverse_speed2;
+  const Ball half(0.5);
+  const Ball stretch = half * slow.midpoint();
+  v = {v.x + stretch * v.x, v.y + stretch * v.y};
+  Bound changed;
+  arb_get_mag(changed.raw(), slow.raw());
+  if (!same || w.form != Form::circle) return changed;
+  BallVector& P = landing.position;
+  const BallVector e = P - w.centre;
+  const Ball low = (w.radius2 - (square(e.x) + square(e.y))) * w.double_inverse;
+  const Ball lift = half * half * low.midpoint();  // (r^2 - e^2)/(2 r^2)
+  P = {P.x + lift * e.x, P.y + lift * e.y};
+  Bound lifted;
+  arb_get_mag(lifted.raw(), low.raw());
+  return changed + lifted * Bound(std::sqrt(w.radius2.to_double()) * 1.000001 / unit);
+}
+
+double Attempt::needed_bits() const {
+  const double tolerance = -static_cast<double>(task_.digits) * 3.3219280948873626 - 2.0;
+  const double error = std::max({position_error().log2(), velocity_error().log2(), time_error().log2()});
+  return error - tolerance;
+}
+
+std::string Attempt::name(const Copy& copy) const {
+  if (copy.wall < 0) return "nothing";
+  std::string text = "'" + system_.table->walls[static_cast<std::size_t>(copy.wall)].name + "'";
+  if (scene_.lattice)
+    text += " of cell " + std::to_string(now_.cell.first + copy.cell.first) + ", " +
+            std::to_string(now_.cell.second + copy.cell.second);
+  return text;
+}
+
+Outcome Attempt::step() {
+  trim_precision();
+  const Precision precision(bits_);
+  const Choice choice = choose();
+  switch (choice.answer) {
+    case Choice::undecided:
+      return {Outcome::undecided, needed_bits(),
+              choice.second.wall < 0 ? "whether the flight meets " + name(choice.first)
+                                     : "which comes first, " + name(choice.first) + " or " + name(choice.second)};
+    case Choice::too_far:
+      return {Outcome::too_far, 0.0, ""};
+    case Choice::nothing:
+      return {Outcome::unbounded, 0.0, ""};
+    case Choice::wall:
+      break;
+  }
+  if (!t_max_) {
+    move_to(choice.first);
+    return landed();
+  }
+  const Now before = now_;
+  move_to(choice.first);
+  const Sign late = sign(now_.state.time.widened(time_error()) - *t_max_);
+  if (late == Sign::undecided)
+    return {Outcome::undecided, needed_bits(), "whether " + name({now_.wall, {}}) + " is met before the last time"};
+  if (late != Sign::positive) return landed();
+  now_ = before;
+  return stop_at_last_time();
+}
+
+Outcome Attempt::landed() {
+  ++now_.hits;
+  const double needed = needed_bits();
+  if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, ""};
+  return {Outcome::hit, 0.0, ""};
+}
+
+Outcome Attempt::stop_at_last_time() {
+  BallState s = enclosed();
+  const Ball rest = *t_max_ - s.time;
+  s.position = s.position + rest * s.velocity;
+  s.time = *t_max_;
+  const double tolerance = -static_cast<double>(task_.digits) * 3.3219280948873626 - 2.0;
+  const double error = std::max(radius(s.position).log2(), radius(s.velocity).log2());
+  if (!(error <= tolerance)) return {Outcome::inaccurate, error - tolerance, ""};
+  stopped_ = std::move(s);
+  return {Outcome::stopped, 0.0, ""};
+}
+
+BallState Attempt::enclosed() const {
+  if (stopped_) return *stopped_;
+  const Precision precision(bits_);
+  const Bound dP = position_error(), dv = velocity_error();
+  BallState r;
+  r.position = {now_.state.position.x.widened(dP), now_.state.position.y.widened(dP)};
+  if (scene_.lattice) r.position = r.position + scene_.translation(now_.cell);
+  r.velocity = {now_.state.velocity.x.widened(dv), now_.state.velocity.y.widened(dv)};
+  r.time = now_.state.time.widened(time_error());
+  return r;
+}
+
+double Attempt::lost_bits() const {
+  const Bound error = now_.errors.of_position() + now_.errors.of_velocity() + now_.errors.of_time();
+  return std::max(0.0, error.log2() + static_cast<double>(first_bits_));
+}
+
+Forecast Attempt::look_ahead() const {
+  const auto number = [](const Ball& x) { return x.to_double(); };
+  const SceneOf<double> scene = converted<double>(scene_, number);
+  const std::uint64_t most = task_.collisions > 0 ? task_.collisions : 100'000;
+  return forecast(scene, where_, near(now_.state.position), near(now_.state.velocity), now_.standing, most,
+                  t_max_ ? t_max_->to_double() : HUGE_VAL, unit_);
+}
+
+}  // namespace carom::certify

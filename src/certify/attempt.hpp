@@ -1,0 +1,92 @@
+// One run of an orbit from its exact start at a given precision.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "carom/certify/certified_orbit.hpp"
+#include "certify/pilot.hpp"
+#include "certify/tangent.hpp"
+
+namespace carom::certify {
+
+/// A state in balls that contain the true one.
+struct BallState {
+  BallVector position, velocity;
+  Ball time;
+};
+
+/// What a step of an attempt came to.
+struct Outcome {
+  enum Kind : unsigned char {
+    hit,
+    stopped,     ///< t_max comes before the next hit
+    escaped,
+    unbounded,   ///< no wall follows
+    too_far,     ///< no wall within the longest flight that is followed
+    undecided,   ///< more bits are needed to tell `reason`
+    inaccurate,  ///< `missing_bits` more are needed
+  } kind = hit;
+  double missing_bits = 0.0;
+  std::string reason;
+};
+
+class Attempt {
+ public:
+  Attempt(const ExactSystem&, const CertifiedTask&, long bits);
+
+  Outcome step();
+
+  /// The state after the last event (or at t_max), unwrapped, in balls.
+  BallState enclosed() const;
+  int wall() const { return now_.wall; }
+  int hole() const { return hole_; }
+  const geometry::Cell& cell() const { return now_.cell; }
+  std::uint64_t hits() const { return now_.hits; }
+  /// log2 of the largest error over the first rounding: how much was lost.
+  double lost_bits() const;
+
+  /// How many bits the orbit will lose, by a look ahead.
+  Forecast look_ahead() const;
+
+ private:
+  void place_start(const ExactSystem&);
+  void set_interval_table();
+  void trim_precision();
+  Choice choose() const;
+  void move_to(const Copy&);
+  static Bound settle(LandingOf<Ball>&, const SceneOf<Ball>&, const WallOf<Ball>&, bool same, double unit);
+  Outcome landed();
+  Outcome stop_at_last_time();
+  double needed_bits() const;
+  Bound position_error() const { return Bound(unit_) * now_.errors.of_position(); }
+  Bound velocity_error() const { return Bound(speed_) * now_.errors.of_velocity(); }
+  Bound time_error() const { return Bound(time_unit_) * now_.errors.of_time(); }
+  std::string name(const Copy&) const;
+
+  const ExactSystem& system_;
+  const CertifiedTask& task_;
+  long first_bits_, bits_, table_bits_;
+  double unit_ = 1.0, speed_ = 1.0, time_unit_ = 1.0;  ///< at least the size of each
+  SceneOf<Ball> scene_;
+  SceneOf<Interval> fast_;
+  Whereabouts where_;
+  std::optional<Ball> t_max_;
+
+  /// All that the future depends on.
+  struct Now {
+    BallState state;  ///< midpoints
+    ErrorSet errors;
+    FrameOf<Interval> frame;
+    int wall = -1;     ///< of the last hit
+    int standing = -1; ///< the wall it lies on: also that of the start
+    geometry::Cell cell;
+    std::uint64_t hits = 0;
+  };
+  Now now_;
+  int hole_ = -1;
+  std::optional<BallState> stopped_;  ///< the state at t_max
+};
+
+}  // namespace carom::certify

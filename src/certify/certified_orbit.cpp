@@ -1,0 +1,205 @@
+#include "carom/certify/certified_orbit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "carom/base/error.hpp"
+#include "certify/attempt.hpp"
+#include "certify/enclosure_of.hpp"
+#include "certify/exact_value.hpp"
+
+namespace carom {
+
+struct CertifiedNumber::Enclosure {
+  certify::Ball ball;
+};
+
+namespace certify {
+
+const Ball& ball_of(const CertifiedNumber& number) { return number.enclosure().ball; }
+
+}  // namespace certify
+
+std::string CertifiedNumber::text(int digits) const { return value_->ball.decimals(digits); }
+double CertifiedNumber::to_double() const { return value_->ball.to_double(); }
+double CertifiedNumber::log2_error() const { return value_->ball.radius().log2(); }
+
+const char* name_of(CertifiedFate fate) {
+  switch (fate) {
+    case CertifiedFate::completed:
+      return "completed";
+    case CertifiedFate::escaped:
+      return "escaped";
+    case CertifiedFate::unbounded:
+      return "unbounded";
+    case CertifiedFate::singular:
+      return "singular";
+    case CertifiedFate::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+namespace {
+
+using certify::Ball;
+using certify::BallState;
+using certify::Outcome;
+
+CertifiedNumber number(Ball ball) {
+  return CertifiedNumber(std::make_shared<const CertifiedNumber::Enclosure>(CertifiedNumber::Enclosure{std::move(ball)}));
+}
+
+void fill(CertifiedState& state, const BallState& s) {
+  state.t = number(s.time);
+  state.x = number(s.position.x);
+  state.y = number(s.position.y);
+  state.vx = number(s.velocity.x);
+  state.vy = number(s.velocity.y);
+}
+
+}  // namespace
+
+class CertifiedOrbit::Implementation {
+ public:
+  Implementation(const ExactSystem& system, const CertifiedTask& task) : system_(system), task_(task) {
+    if (task.collisions == 0 && !task.t_max)
+      throw InputError(Place{}, "a certified orbit without an end", "a number of collisions or a last time");
+    if (!system.spec->holes.empty())
+      throw InputError(system.spec->holes.front().place, "holes have no certified form in this version",
+                       "a closed table (--set table.hole=[]), or --precision double");
+    if (certify::sign(certify::value_of(system.omega)) != Sign::zero)
+      throw InputError(system.omega.place(), "the magnetic field has no certified form in this version",
+                       "B = 0, or --precision double");
+    // A first attempt of few bits sees the table and the start, and looks ahead.
+    const certify::Attempt scout(system_, task_, 128);
+    forecast_ = scout.look_ahead();
+    const double wanted = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast_.hits);
+    if (forecast_.hits > 0) rate_ = forecast_.bits / static_cast<double>(forecast_.hits);
+    const double lost = forecast_.bits + rate_ * (wanted - static_cast<double>(forecast_.hits));
+    restart(static_cast<long>(lost * 1.01 + static_cast<double>(task_.digits) * 3.33 + 24.0 + std::log2(wanted + 1.0)));
+  }
+
+  std::optional<CertifiedHit> next() {
+    if (done_) return std::nullopt;
+    for (;;) {
+      if (task_.collisions > 0 && attempt_->hits() >= task_.collisions) {
+        finish_with(CertifiedFate::completed, "");
+        return std::nullopt;
+      }
+      const Outcome outcome = attempt_->step();
+      switch (outcome.kind) {
+        case Outcome::hit: {
+          if (attempt_->hits() <= given_) break;  // given out by an earlier attempt
+          given_ = attempt_->hits();
+          undecided_ = 0;
+          CertifiedHit hit;
+          fill(hit, attempt_->enclosed());
+          hit.number = given_;
+          hit.wall = attempt_->wall();
+          hit.cell = attempt_->cell();
+          return hit;
+        }
+        case Outcome::inaccurate:
+          restart(effort_.bits + still_needed(outcome) + 8);
+          if (done_) return std::nullopt;
+          break;
+        case Outcome::undecided:
+          restart(effort_.bits + std::max(still_needed(outcome), 0L) + (32L << std::min(undecided_++, 40)),
+                  outcome.reason);
+          if (done_) return std::nullopt;
+          break;
+        case Outcome::stopped:
+          finish_with(CertifiedFate::completed, "");
+          return std::nullopt;
+        case Outcome::escaped:
+          finish_with(CertifiedFate::escaped, "");
+          return std::nullopt;
+        case Outcome::unbounded:
+          finish_with(CertifiedFate::unbounded, "");
+          return std::nullopt;
+        case Outcome::too_far:
+          finish_with(CertifiedFate::undecided, "no wall within 10^5 lattice vectors");
+          return std::nullopt;
+      }
+    }
+  }
+
+  const CertifiedEnd& end() const { return end_; }
+  const CertifiedEffort& effort() const { return effort_; }
+
+ private:
+  // What this attempt lacks now, and what the rest of the orbit will lose.
+  long still_needed(const Outcome& outcome) const {
+    const auto wanted = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast_.hits);
+    const double rest = std::max(0.0, wanted - static_cast<double>(attempt_->hits()));
+    const double lacks = std::isfinite(outcome.missing_bits) ? outcome.missing_bits : 64.0;
+    const auto flown = static_cast<double>(attempt_->hits());
+    const double rate = flown > 100.0 ? attempt_->lost_bits() / flown : rate_;
+    return static_cast<long>(lacks + rest * rate * 1.01);
+  }
+
+  void restart(long bits, const std::string& reason = {}) {
+    if (bits > task_.most_bits) {
+      finish_with(CertifiedFate::undecided,
+                  (reason.empty() ? std::string("the digits asked for need ") + std::to_string(bits) + " bits"
+                                  : reason + " is not decided by " + std::to_string(effort_.bits) + " bits"));
+      return;
+    }
+    effort_.bits = bits;
+    ++effort_.attempts;
+    attempt_.emplace(system_, task_, bits);
+  }
+
+  void finish_with(CertifiedFate fate, std::string reason) {
+    done_ = true;
+    end_.fate = fate;
+    end_.reason = std::move(reason);
+    if (!attempt_) return;
+    end_.collisions = attempt_->hits();
+    end_.wall = attempt_->wall();
+    end_.hole = attempt_->hole();
+    end_.cell = attempt_->cell();
+    fill(end_, attempt_->enclosed());
+    effort_.tangent_bits = attempt_->lost_bits();
+  }
+
+  const ExactSystem system_;
+  const CertifiedTask task_;
+  certify::Forecast forecast_;
+  double rate_ = 2.0;  ///< bits lost by a hit
+  std::optional<certify::Attempt> attempt_;
+  std::uint64_t given_ = 0;
+  int undecided_ = 0;
+  bool done_ = false;
+  CertifiedEnd end_;
+  CertifiedEffort effort_;
+};
+
+CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task)
+    : implementation_(std::make_unique<Implementation>(system, task)) {}
+CertifiedOrbit::~CertifiedOrbit() = default;
+CertifiedOrbit::CertifiedOrbit(CertifiedOrbit&&) noexcept = default;
+std::optional<CertifiedHit> CertifiedOrbit::next() { return implementation_->next(); }
+const CertifiedEnd& CertifiedOrbit::finish() {
+  while (next()) {
+  }
+  return end_state();
+}
+const CertifiedEnd& CertifiedOrbit::end_state() const { return implementation_->end(); }
+const CertifiedEffort& CertifiedOrbit::effort() const { return implementation_->effort(); }
+
+CertifiedOrbit certified_orbit(const TableSpec& spec, const ExactStart& start, std::uint64_t collisions,
+                               int digits) {
+  ExactSystem system;
+  system.spec = std::make_shared<const TableSpec>(spec);
+  system.table = std::make_shared<const Table>(build_table(spec));
+  system.start = start;
+  CertifiedTask task;
+  task.collisions = collisions;
+  task.digits = digits;
+  return {system, task};
+}
+
+}  // namespace carom

@@ -1,0 +1,11 @@
+// The ball behind a certified number.
+#pragma once
+
+#include "carom/certify/certified_orbit.hpp"
+#include "certify/ball.hpp"
+
+namespace carom::certify {
+
+const Ball& ball_of(const CertifiedNumber&);
+
+}  // namespace carom::certify

@@ -1,0 +1,19 @@
+// Numbers as they were written, at any precision.
+#pragma once
+
+#include "carom/base/exact_number.hpp"
+#include "certify/ball.hpp"
+
+namespace carom::certify {
+
+/// A ball around what the number means, to the present precision.
+Ball value_of(const ExactNumber&);
+
+struct CosSin {
+  Ball cos, sin;
+};
+/// Of an angle in radians plus `part` of `whole` turns; rational parts of a turn are taken as such, so
+/// that quarters come out exact.
+CosSin direction_of(const ExactNumber& angle, long part = 0, long whole = 1);
+
+}  // namespace carom::certify

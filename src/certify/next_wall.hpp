@@ -1,0 +1,155 @@
+// Which wall does a straight flight meet first? By signs in any arithmetic; what cannot be told is said.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "certify/flight.hpp"
+
+namespace carom::certify {
+
+enum class Verdict : unsigned char { no, yes, undecided };
+
+/// A wall that the flight may meet, and when.
+template <class N>
+struct Meeting {
+  Verdict verdict = Verdict::no;
+  N time{};
+};
+
+template <class N>
+Meeting<N> meets_segment(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v) {
+  // The flight leaves through a wall that runs from its right to its left. A zero is a plus, for both
+  // walls of a joint.
+  const Sign start = sign(cross(v, w.from - P));
+  if (start == Sign::positive || start == Sign::zero) return {};
+  const Sign end = sign(cross(v, w.to - P));
+  if (end == Sign::negative) return {};
+  const N height = dot(P - w.from, w.normal);
+  const Sign inside = sign(height);
+  if (inside == Sign::negative || inside == Sign::zero) return {};
+  const bool certain = start != Sign::undecided && end != Sign::undecided && inside != Sign::undecided;
+  return {certain ? Verdict::yes : Verdict::undecided, -(height / dot(v, w.normal))};
+}
+
+/// Does the crossing X of a circle or ellipse lie on the arc? It does on one side of the chord.
+template <class N>
+Verdict on_arc(const WallOf<N>& w, const VectorOf<N>& X) {
+  if (w.closed) return Verdict::yes;
+  const VectorOf<N> e = X - w.from;
+  const Sign side = sign(cross(w.chord, e));
+  if (side == Sign::undecided) return Verdict::undecided;
+  if (side == Sign::zero)  // a joint: it belongs to the wall that begins there
+    return sign(e.x) == Sign::zero && sign(e.y) == Sign::zero ? Verdict::yes : Verdict::no;
+  return (side == Sign::negative) == (w.turn > 0) ? Verdict::yes : Verdict::no;
+}
+
+template <class N>
+Meeting<N> meets_conic(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                       const MotionOf<N>& motion, bool standing) {
+  using std::sqrt;
+  const bool obstacle = w.turn < 0;
+  const VectorOf<N> d = P - w.centre;
+  const bool ellipse = w.form == Form::ellipse;
+  const VectorOf<N> e = ellipse ? VectorOf<N>{dot(d, w.along), dot(d, w.across)} : d;
+  const VectorOf<N> u = ellipse ? VectorOf<N>{dot(v, w.along), dot(v, w.across)} : v;
+  const N a = ellipse ? square(u.x) + square(u.y) : motion.speed2;
+  const N b = dot(e, u);
+  Verdict verdict = Verdict::yes;
+  const auto require = [&verdict](Sign s) {  // positive, or there is no hit
+    if (s == Sign::undecided) {
+      if (verdict == Verdict::yes) verdict = Verdict::undecided;
+    } else if (s != Sign::positive) {
+      verdict = Verdict::no;
+    }
+  };
+  N time{};
+  if (standing) {
+    if (obstacle) return {};  // it moves away
+    require(sign(-b));
+    if (verdict == Verdict::no) return {};
+    time = -(b + b) / a;
+  } else {
+    if (obstacle) {
+      require(sign(-b));
+      if (verdict == Verdict::no) return {};
+    }
+    const N c = (square(e.x) + square(e.y)) - (ellipse ? N(1) : w.radius2);
+    const N discriminant = square(b) - a * c;
+    require(sign(discriminant));  // a tangent flight does not hit
+    if (verdict == Verdict::no) return {};
+    const N root = sqrt(discriminant);
+    time = (obstacle ? -root - b : root - b) / a;
+    require(sign(time));
+    if (verdict == Verdict::no) return {};
+  }
+  const Verdict piece = on_arc(w, VectorOf<N>{P.x + time * v.x, P.y + time * v.y});
+  if (piece == Verdict::no) return {};
+  return {piece == Verdict::undecided ? piece : verdict, time};
+}
+
+template <class N>
+Meeting<N> meets(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
+                 bool standing) {
+  if (w.form != Form::segment) return meets_conic(w, P, v, motion, standing);
+  return standing ? Meeting<N>{} : meets_segment(w, P, v);
+}
+
+/// The first of several meetings, or the two that cannot be told apart.
+template <class N, class Key>
+class First {
+ public:
+  void offer(const Meeting<N>& m, const Key& key) {
+    if (m.verdict == Verdict::no) return;
+    if (m.verdict == Verdict::yes && (!found_ || sign(m.time - best_.time) == Sign::negative)) {
+      if (found_) keep(best_, best_key_);
+      found_ = true;
+      best_ = m;
+      best_key_ = key;
+    } else {
+      keep(m, key);
+    }
+  }
+  bool found() const { return found_; }
+  /// Is this one among those that are kept?
+  bool knows(const Key& key) const {
+    if (found_ && best_key_ == key) return true;
+    for (int i = 0; i < others_; ++i)
+      if (other_keys_[i] == key) return true;
+    return false;
+  }
+  const Key& key() const { return best_key_; }
+  const N& time() const { return best_.time; }
+  /// One that may come before the first, or null.
+  const Key* rival() const {
+    for (int i = 0; i < others_; ++i)
+      if (!found_ || sign(others_at_[i].time - best_.time) != Sign::positive) return &other_keys_[i];
+    return nullptr;
+  }
+
+ private:
+  void keep(const Meeting<N>& m, const Key& key) {
+    if (found_ && sign(m.time - best_.time) == Sign::positive) return;
+    if (others_ == most) {  // forget those that come later
+      int kept = 0;
+      for (int i = 0; i < others_; ++i) {
+        if (found_ && sign(others_at_[i].time - best_.time) == Sign::positive) continue;
+        others_at_[kept] = others_at_[i];
+        other_keys_[kept++] = other_keys_[i];
+      }
+      others_ = std::min(kept, most - 1);  // one of them is enough to say that nothing is decided
+    }
+    others_at_[others_] = m;
+    other_keys_[others_++] = key;
+  }
+
+  static constexpr int most = 16;
+  bool found_ = false;
+  Meeting<N> best_;
+  Key best_key_{};
+  int others_ = 0;
+  Meeting<N> others_at_[most];
+  Key other_keys_[most];
+};
+
+}  // namespace carom::certify

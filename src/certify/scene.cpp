@@ -1,0 +1,36 @@
+#include "certify/scene.hpp"
+
+#include "certify/interval.hpp"
+
+namespace carom::certify {
+
+Whereabouts whereabouts_of(const BallTable& table) {
+  Whereabouts r;
+  const auto vector = [](const BallVector& v) { return geometry::Vector{v.x.to_double(), v.y.to_double()}; };
+  for (const WallOf<Ball>& w : table.walls) {
+    Whereabouts::Disc disc;
+    if (w.form == Form::segment) {
+      const geometry::Vector from = vector(w.from), to = vector(w.to), d = to - from;
+      disc = {0.5 * from + 0.5 * to, 0.5 * std::sqrt(dot(d, d))};
+    } else if (w.form == Form::circle) {
+      disc = {vector(w.centre), std::sqrt(w.radius2.to_double())};
+    } else {
+      // Rows of the map to the unit circle are axes over their squares.
+      const geometry::Vector p = vector(w.along), q = vector(w.across);
+      disc = {vector(w.centre), 1.0 / std::sqrt(std::min(dot(p, p), dot(q, q)))};
+    }
+    disc.radius *= 1.000001;
+    r.discs.push_back(disc);
+  }
+  if (table.lattice) {
+    r.first = vector(table.lattice->first);
+    r.second = vector(table.lattice->second);
+    const double area = cross(r.first, r.second);
+    r.to_first = {r.second.y / area, -r.second.x / area};
+    r.to_second = {-r.first.y / area, r.first.x / area};
+    r.stretch = std::sqrt(std::min(dot(r.first, r.first), dot(r.second, r.second)));
+  }
+  return r;
+}
+
+}  // namespace carom::certify

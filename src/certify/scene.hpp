@@ -1,0 +1,142 @@
+// All walls in one arithmetic, and which of them a flight meets first.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "carom/geometry/lattice.hpp"
+#include "certify/ball_table.hpp"
+#include "certify/next_wall.hpp"
+
+namespace carom::certify {
+
+/// A wall of the cell that is displaced by lattice vectors.
+struct Copy {
+  int wall = -1;
+  geometry::Cell cell;
+  friend bool operator==(const Copy&, const Copy&) = default;
+};
+
+/// What comes next.
+struct Choice {
+  enum Answer : unsigned char {
+    wall,       ///< `first`
+    nothing,    ///< no wall follows, ever
+    undecided,  ///< `first` and `second` could not be told apart, or whether `first` is met
+    too_far     ///< no wall within the longest flight that is followed
+  } answer = nothing;
+  Copy first, second;
+};
+
+/// Where walls are, roughly: a disc around each, in doubles and a little too large.
+struct Whereabouts {
+  struct Disc {
+    geometry::Vector centre;
+    double radius = 0.0;
+  };
+  std::vector<Disc> discs;
+  geometry::Vector first, second;        ///< lattice vectors
+  geometry::Vector to_first, to_second;  ///< coordinates of a point by them
+  double stretch = 0.0;                  ///< length of pieces in which flights are followed on a lattice
+};
+Whereabouts whereabouts_of(const BallTable&);
+
+/// Calls try_copy(copy) for every copy of a wall that comes near the k-th piece of a flight.
+template <class Try>
+void near_piece(const Whereabouts& w, geometry::Vector from, geometry::Vector direction, double k, Try try_copy) {
+  const double middle = (k + 0.5) * w.stretch;
+  const geometry::Vector q{from.x + middle * direction.x, from.y + middle * direction.y};
+  for (std::size_t i = 0; i < w.discs.size(); ++i) {
+    const geometry::Vector d = q - w.discs[i].centre;
+    // Rounding is far below a millionth of the cell for the 10^5 pieces that are followed.
+    const double reach = 0.501 * w.stretch + w.discs[i].radius;
+    const double c = dot(w.to_first, d), s = dot(w.to_second, d);
+    const double c_reach = reach * std::sqrt(dot(w.to_first, w.to_first)) + 1e-6;
+    const double s_reach = reach * std::sqrt(dot(w.to_second, w.to_second)) + 1e-6;
+    for (double m = std::ceil(c - c_reach); m <= c + c_reach; ++m) {
+      for (double n = std::ceil(s - s_reach); n <= s + s_reach; ++n) {
+        const geometry::Vector there = d - m * w.first - n * w.second;
+        if (dot(there, there) > reach * reach * 1.0001) continue;
+        try_copy(Copy{static_cast<int>(i), {static_cast<std::int64_t>(m), static_cast<std::int64_t>(n)}});
+      }
+    }
+  }
+}
+
+template <class N>
+class SceneOf {
+ public:
+  static constexpr double most_pieces = 1e5;
+
+  std::vector<WallOf<N>> walls;
+  std::optional<LatticeOf<N>> lattice;
+  MotionOf<N> motion;
+
+  VectorOf<N> translation(const geometry::Cell& c) const {
+    const N first(static_cast<double>(c.first)), second(static_cast<double>(c.second));
+    return {first * lattice->first.x + second * lattice->second.x,
+            first * lattice->first.y + second * lattice->second.y};
+  }
+
+  /// The first wall ahead of P, which lies on the wall `standing` of cell 0 (-1: on none). `P0` and `v0`:
+  /// the same in doubles, nearly.
+  Choice next(const Whereabouts& where, const VectorOf<N>& P, const VectorOf<N>& v, int standing,
+              geometry::Vector P0, geometry::Vector v0) const {
+    First<N, Copy> first;
+    if (!lattice) {
+      for (std::size_t i = 0; i < walls.size(); ++i) {
+        const int wall = static_cast<int>(i);
+        first.offer(meets(walls[i], P, v, motion, wall == standing), {wall, {}});
+      }
+      return answer(first);
+    }
+    if (walls.empty()) return {};
+    const double speed = std::sqrt(dot(v0, v0));
+    const geometry::Vector direction = (1.0 / speed) * v0;
+    for (double k = 0.0; k < most_pieces; ++k) {
+      near_piece(where, P0, direction, k, [&](const Copy& copy) {
+        if (first.knows(copy)) return;
+        const bool here = copy.cell == geometry::Cell{};
+        const VectorOf<N> seen = here ? P : P - translation(copy.cell);
+        first.offer(meets(walls[static_cast<std::size_t>(copy.wall)], seen, v, motion,
+                          here && copy.wall == standing),
+                    copy);
+      });
+      // Everything up to the end of this piece has been looked at.
+      const double end = (k + 0.999) * where.stretch / speed;
+      if (first.found() && sign(first.time() - N(end)) == Sign::negative) return answer(first);
+    }
+    Choice none;
+    none.answer = Choice::too_far;
+    return none;
+  }
+
+ private:
+  static Choice answer(const First<N, Copy>& first) {
+    Choice choice;
+    const Copy* rival = first.rival();
+    if (first.found()) choice.first = first.key();
+    if (rival != nullptr) {
+      choice.answer = Choice::undecided;
+      (first.found() ? choice.second : choice.first) = *rival;
+    } else if (first.found()) {
+      choice.answer = Choice::wall;
+    }
+    return choice;
+  }
+};
+
+/// The same scene in another arithmetic.
+template <class To, class From, class Convert>
+SceneOf<To> converted(const SceneOf<From>& scene, const Convert& convert) {
+  SceneOf<To> r;
+  for (const WallOf<From>& w : scene.walls) r.walls.push_back(converted<To>(w, convert));
+  if (scene.lattice) {
+    const auto vector = [&](const VectorOf<From>& v) { return VectorOf<To>{convert(v.x), convert(v.y)}; };
+    r.lattice = LatticeOf<To>{vector(scene.lattice->first), vector(scene.lattice->second)};
+  }
+  r.motion = {convert(scene.motion.speed2), convert(scene.motion.inverse_speed2)};
+  return r;
+}
+
+}  // namespace carom::certify

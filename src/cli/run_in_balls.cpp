@@ -1,0 +1,129 @@
+// carom run --precision certified: every digit that is printed is guaranteed.
+#include "cli/run_in_balls.hpp"
+
+#include <fmt/format.h>
+
+#include "carom/base/error.hpp"
+#include "carom/certify/certified_orbit.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "carom/ensemble/stopwatch.hpp"
+#include "carom/events/world.hpp"
+#include "cli/common.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+Place place_of(const char* option) { return {"command line", 0, 0, option}; }
+
+[[noreturn]] void refuse(const char* what, const char* expected) {
+  throw InputError(place_of("--precision"), std::string(what) + " no certified form", expected);
+}
+
+CertifiedTask task_of(const Options& options, const LoadedSystem& loaded) {
+  CertifiedTask task;
+  task.collisions = loaded.system.run.collisions;
+  if (loaded.system.run.t_max < no_last_time) task.t_max = loaded.t_max;
+  if (!options.digits.empty()) {
+    const std::uint64_t digits = whole_number(options.digits, "--digits", 1);
+    if (digits > 1'000'000)
+      throw InputError(place_of("--digits"), fmt::format("{} digits are more than memory is planned for", digits),
+                       "at most 1000000");
+    task.digits = static_cast<int>(digits);
+  }
+  if (options.precision != "certified" && options.precision != "double")
+    throw InputError(place_of("--precision"), "'" + options.precision + "' is not in this version",
+                     "double or certified");
+  return task;
+}
+
+void check_form(const System& system) {
+  if (system.dynamics.forces && !system.dynamics.forces->empty())
+    refuse("[[potential]] and [interaction] have", "a system without forces, or --precision double");
+  if (system.of_discs()) refuse("hard discs have", "point particles, or --precision double");
+  if (system.particles.size() > 1) refuse("several particles have", "particles.count = 1, or --precision double");
+  if (!system.injections.empty()) refuse("[[injection]] has", "a system without it, or --precision double");
+}
+
+// A start that was drawn is its doubles, taken exactly.
+void draw_start(const Options& options, LoadedSystem& loaded) {
+  const System& system = loaded.system;
+  check_start(system);
+  if (system.initial.kind == InitialCondition::Kind::point) return;
+  const std::uint64_t trajectory =
+      options.trajectory.empty() ? 0 : whole_number(options.trajectory, "--trajectory", 0);
+  const World world(*system.table);
+  const State state = draw_initial_state(system, world, trajectory, 0);
+  ExactStart& start = loaded.exact.start;
+  start = {};
+  start.position = {state.position.x, state.position.y};
+  start.direction = {state.velocity.x, state.velocity.y};
+  start.wall = state.wall;
+  start.u = state.u;
+}
+
+std::string wall_of(const System& system, int wall) {
+  return wall < 0 ? std::string() : system.table->walls[static_cast<std::size_t>(wall)].name;
+}
+
+Json end_json(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
+              const CertifiedEffort& effort, double seconds, double cpu_seconds) {
+  Json json = Json::object();
+  add_common_keys(json, system, 1, seconds, cpu_seconds);
+  json.set("status", name_of(end.fate));
+  json.set("collisions", end.collisions);
+  const std::string wall = wall_of(system, end.wall);
+  json.set("wall", wall.empty() ? Json() : Json(wall));
+  json.set("t", end.t.text(task.digits)).set("x", end.x.text(task.digits)).set("y", end.y.text(task.digits));
+  json.set("vx", end.vx.text(task.digits)).set("vy", end.vy.text(task.digits));
+  json.set("cell", Json::array().push(end.cell.first).push(end.cell.second));
+  if (end.hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(end.hole)].name);
+  if (!end.reason.empty()) json.set("reason", end.reason);
+  json.set("digits", task.digits).set("bits", effort.bits).set("attempts", effort.attempts);
+  json.set("lost_bits", effort.tangent_bits);
+  return json;
+}
+
+std::string end_text(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
+                     const CertifiedEffort& effort, double seconds) {
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text += fmt::format("  status        {}", name_of(end.fate));
+  if (end.hole >= 0)
+    text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
+  if (!end.reason.empty()) text += ": " + end.reason;
+  text += fmt::format("\n  collisions    {}", grouped(end.collisions));
+  const std::string wall = wall_of(system, end.wall);
+  if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
+  const int d = task.digits;
+  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t.text(d), end.x.text(d), end.y.text(d));
+  if (system.table->lattice) text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
+  text += fmt::format("\n  velocity      {}, {}\n", end.vx.text(d), end.vy.text(d));
+  text += fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n", d, effort.bits,
+                      static_cast<long>(effort.tangent_bits), effort.attempts, effort.attempts == 1 ? "" : "s");
+  return text + fmt::format("  computed in   {:.3g} s\n", seconds);
+}
+
+}  // namespace
+
+int run_in_balls(const Options& options) {
+  if (!options.output.empty() || !options.resume.empty())
+    throw InputError(place_of(options.output.empty() ? "--resume" : "-o"),
+                     "archives hold runs in double precision only", "no archive, or --precision double");
+  if (options.precision == "double")
+    throw InputError(place_of("--digits"), "digits of a run in double precision are not guaranteed",
+                     "--precision certified beside --digits");
+  LoadedSystem loaded = load_system(options.system, run_overrides(options));
+  check_form(loaded.system);
+  const CertifiedTask task = task_of(options, loaded);
+  draw_start(options, loaded);
+  const Stopwatch watch;
+  CertifiedOrbit orbit(loaded.exact, task);
+  const CertifiedEnd& end = orbit.finish();
+  const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
+  print(options.json ? end_json(loaded.system, end, task, orbit.effort(), seconds, cpu_seconds).text() + "\n"
+                     : end_text(loaded.system, end, task, orbit.effort(), seconds));
+  return done;
+}
+
+}  // namespace carom::cli
