@@ -61,10 +61,21 @@ void check_engine(const Options& options) {
   if (options.engine != "auto" && options.engine != "events" && options.engine != "steps")
     refuse("--engine", options.engine, "is not an engine", "auto, events or steps",
            nearest_name(options.engine, {"auto", "events", "steps"}));
-  if (options.isa != "auto" && options.isa != "baseline")
-    refuse("--isa", options.isa, "is not an instruction set of this version", "auto or baseline");
+  if (options.isa != "auto") {
+    std::vector<std::string> here{"auto"};
+    for (const InstructionSet set : available_instruction_sets()) here.emplace_back(name_of(set));
+    if (std::find(here.begin(), here.end(), options.isa) == here.end())
+      refuse("--isa", options.isa, "is not an instruction set of this machine",
+             fmt::format("{}", fmt::join(here, ", ")).c_str(), nearest_name(options.isa, here));
+  }
   if (options.precision != "double")
     refuse("--precision", options.precision, "is not in this version", "double");
+}
+
+InstructionSet instruction_set_of(const Options& options) {
+  for (const InstructionSet set : available_instruction_sets())
+    if (options.isa == name_of(set)) return set;
+  return widest_instruction_set();
 }
 
 void choose_engine(const std::string& engine, System& system) {
@@ -95,13 +106,14 @@ Provenance provenance_of(const Options& options, const System& system, int threa
   return {options.line, engine_of(system), "baseline", threads};
 }
 
-void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds) {
+void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds,
+                     const char* isa) {
   json.set("version", version);
   json.set("system", system.name);
   json.set("seed", system.run.seed);
   json.set("threads", threads);
   json.set("engine", engine_of(system));
-  json.set("isa", "baseline");
+  json.set("isa", isa);
   json.set("seconds", seconds);
   json.set("cpu_seconds", cpu_seconds);
 }

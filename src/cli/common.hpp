@@ -8,6 +8,7 @@
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/io/archive.hpp"
+#include "carom/lanes/instruction_set.hpp"
 #include "cli/options.hpp"
 #include "io/json.hpp"
 
@@ -19,6 +20,8 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
 int threads_of(const Options&);
 /// Throws InputError for engines, instruction sets and precisions this version does not have.
 void check_engine(const Options&);
+/// What --isa asks for: the widest of this machine, or the one named.
+InstructionSet instruction_set_of(const Options&);
 /// Sets what --engine asks for: "auto", "events" (refused where forces act) or "steps".
 void choose_engine(const std::string& engine, System&);
 /// What moves the particles: "events" (exact flights), "steps" (integration) or "auto" (both).
@@ -26,7 +29,8 @@ std::string engine_of(const System&);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.
-void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds);
+void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds,
+                     const char* isa = "baseline");
 /// {filter, exact, share}: how many decisions each stage took, and the share that left the filter.
 Json decisions_json(const DecisionCounts&);
 /// "decisions beyond double precision: 0.0001 %".

@@ -31,6 +31,7 @@ int escape(const Options& options) {
       how.records = [&](const std::vector<TrajectoryRecord>& records) { archive->append(records); };
   }
   how.interrupted = &catch_interrupts();
+  how.lanes = instruction_set_of(options);
 
   EscapeResult result;
   {

@@ -70,7 +70,8 @@ Json escape_json(const System& system, const EscapeResult& result, const std::st
                  const std::string& output) {
   const SurvivalCounts& counts = result.counts;
   Json json = Json::object();
-  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
+                  result.lanes ? name_of(*result.lanes) : "baseline");
   json.set("status", status);
   json.set("trajectories", counts.trajectories);
   json.set("escaped", counts.escaped);

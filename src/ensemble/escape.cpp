@@ -9,35 +9,19 @@
 #include <utility>
 
 #include "block_order.hpp"
-#include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/world.hpp"
+#include "ensemble/escape_tally.hpp"
+#include "ensemble/lane_runner.hpp"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t most_reports = 5;
-
-// What a block, a thread and the whole ensemble are: sums of their parts in any order.
-struct Tally {
-  SurvivalCounts counts;
-  std::uint64_t digest = 0;
-  std::vector<std::pair<std::uint64_t, std::string>> reports;  // lowest indices, sorted
-
-  explicit Tally(const System& system) : counts(system.run.times, system.table->holes.size()) {}
-
-  void merge(const Tally& other) {
-    counts.merge(other.counts);
-    digest += other.digest;
-    reports.insert(reports.end(), other.reports.begin(), other.reports.end());
-    std::sort(reports.begin(), reports.end());
-    if (reports.size() > most_reports) reports.resize(most_reports);
-  }
-};
+using Tally = EscapeTally;
 
 // The ends of one trajectory's particles, and how often they touched.
 class Ends : public Observer {
@@ -79,12 +63,9 @@ class Runner {
     tally.counts.contacts += ends_.contacts;
     for (int particle = 0; particle < count; ++particle) {
       const std::uint64_t index = particle_index(system_, trajectory, static_cast<std::uint64_t>(particle));
-      const TrajectoryRecord end = end_of(particle);
-      tally.counts.add(end.fate, end.time, end.hits, end.hole);
-      tally.digest += trajectory_hash(index, static_cast<std::uint64_t>(end.fate), end.time, end.hits,
-                                      world_.last_wall(particle));
-      if (end.fate == Fate::lost && tally.reports.size() < most_reports)
-        tally.reports.emplace_back(index, world_.report(particle));
+      TrajectoryRecord end = end_of(particle);
+      end.index = index;
+      tally.add(end, world_.last_wall(particle), world_.report(particle));
       if (!records) continue;
       TrajectoryRecord& record = (*records)[first_record + static_cast<std::size_t>(particle)];
       record.index = index;
@@ -142,6 +123,7 @@ class Ensemble {
     block_ = std::max<std::uint64_t>(1, std::min(options.block, share));
     blocks_ = (system.run.trajectories + block_ - 1) / block_;
     threads_ = static_cast<int>(std::max<std::uint64_t>(1, std::min(threads, blocks_)));
+    if (options.lanes && LaneRunner::suits(system)) lanes_ = options.lanes;
   }
 
   EscapeResult run() {
@@ -156,6 +138,7 @@ class Ensemble {
     result.cpu_seconds = watch.cpu_seconds();
     result.threads = threads_;
     result.complete = finished_blocks_ == blocks_;
+    result.lanes = lanes_;
     result.decisions = decisions_;
     result.digest = total_.digest;
     result.counts = std::move(total_.counts);
@@ -172,6 +155,11 @@ class Ensemble {
   // One thread's share. No exception may leave it: it runs inside an OpenMP region.
   void work(BlockOrder& order) noexcept {
     try {
+      if (lanes_) {
+        work_in_lanes(order);
+        if (stopped()) order.close();
+        return;
+      }
       Runner runner(system_, sampler_, injector_, options_.decisions);
       Tally mine(system_);
       std::uint64_t blocks = 0;
@@ -196,6 +184,42 @@ class Ensemble {
       failed_ = true;
     }
     if (stopped()) order.close();
+  }
+
+  // Without records the lanes go from block to block without a pause; with them, one block after the other.
+  void work_in_lanes(BlockOrder& order) {
+    LaneRunner runner(system_, sampler_, *lanes_, options_.decisions);
+    Tally mine(system_);
+    const bool records = static_cast<bool>(options_.records);
+    std::uint64_t block = 0, blocks = 0;
+    bool pause = false, more = true;
+    const auto next = [&](LaneRunner::Block& b) {
+      if (pause || stopped()) return false;
+      block = next_block_.fetch_add(1);
+      more = block < blocks_;
+      if (!more) return false;
+      if (records) order.await_turn(block);
+      b = {block * block_, std::min(system_.run.trajectories, (block + 1) * block_)};
+      pause = records;
+      return true;
+    };
+    const auto done = [&](LaneRunner::Done&& ready) {
+      if (records) order.deliver(block, std::move(ready.records));
+      mine.merge(ready.tally);
+      ++blocks;
+    };
+    const auto ended = [&](std::uint64_t hits) {
+      if (options_.progress) report_progress(hits);
+    };
+    while (more && !stopped()) {
+      pause = false;
+      runner.run(next, done, records, ended, [this] { return stopped(); });
+      if (!records) break;
+    }
+    const std::lock_guard lock(mutex_);
+    total_.merge(mine);
+    decisions_ += runner.decisions();
+    finished_blocks_ += blocks;
   }
 
   bool run_block(std::uint64_t block, Runner& runner, Tally& tally, std::vector<TrajectoryRecord>* records) {
@@ -228,6 +252,7 @@ class Ensemble {
   Tally total_;
   DecisionCounts decisions_;
   std::uint64_t finished_blocks_ = 0;
+  std::optional<InstructionSet> lanes_;
   std::exception_ptr error_;
 };
 

@@ -1,4 +1,4 @@
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/instruction_set.hpp"
 
 namespace carom {
 

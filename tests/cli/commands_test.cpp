@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"$carom escape magnetic-square --times 2,1", 1, "--times"},
         Bad{"$carom escape magnetic-square --engine steps", 1, "needs the length of a step"},
         Bad{"$carom escape magnetic-square --engine event", 1, "did you mean 'events'"},
-        Bad{"$carom escape magnetic-square --isa avx512", 1, "--isa"},
+        Bad{"$carom escape magnetic-square --isa avx1024", 1, "--isa"},
         Bad{"$carom escape magnetic-square --set table.widht=2", 1, "did you mean 'width'"},
         Bad{"$carom escape magnetic-square --set table.width", 2, "path.to.key=value"},
         Bad{"$carom escape magnetic-squar", 1, "did you mean 'magnetic-square'"},

@@ -4,12 +4,14 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "carom/analysis/survival.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
+#include "carom/lanes/instruction_set.hpp"
 
 namespace carom {
 
@@ -29,6 +31,8 @@ struct EscapeOptions {
   int threads = 0;             ///< 0: as many as OpenMP gives
   std::uint64_t block = 1024;  ///< trajectories a block; the result does not depend on it
   DecisionOptions decisions;
+  /// Instruction set of the lanes that fly systems of independent free particles; empty: one by one.
+  std::optional<InstructionSet> lanes = widest_instruction_set();
   const std::atomic<bool>* interrupted = nullptr;  ///< asked between blocks and during long ones
   /// Called now and then from one thread at a time with the trajectories done so far.
   std::function<void(std::uint64_t done, std::uint64_t hits)> progress;
@@ -44,6 +48,7 @@ struct EscapeResult {
   bool complete = true;  ///< false when interrupted: whole blocks only
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;
+  std::optional<InstructionSet> lanes;  ///< that flew it; empty: the scalar engine did
   std::vector<std::string> reports;  ///< first few states that were lost
 };
 

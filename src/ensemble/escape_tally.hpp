@@ -1,0 +1,39 @@
+// What a block, a thread and a whole escape ensemble are: sums of their parts in any order.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carom/base/digest.hpp"
+#include "carom/ensemble/escape.hpp"
+
+namespace carom {
+
+struct EscapeTally {
+  static constexpr std::size_t most_reports = 5;
+
+  SurvivalCounts counts;
+  std::uint64_t digest = 0;
+  std::vector<std::pair<std::uint64_t, std::string>> reports;  // lowest indices, sorted
+
+  explicit EscapeTally(const System& system) : counts(system.run.times, system.table->holes.size()) {}
+
+  /// The end of one particle; record.time is t_max for survivors.
+  void add(const TrajectoryRecord& end, int last_wall, const std::string& report) {
+    counts.add(end.fate, end.time, end.hits, end.hole);
+    digest += trajectory_hash(end.index, static_cast<std::uint64_t>(end.fate), end.time, end.hits, last_wall);
+    if (end.fate == Fate::lost && reports.size() < most_reports) reports.emplace_back(end.index, report);
+  }
+  void merge(const EscapeTally& other) {
+    counts.merge(other.counts);
+    digest += other.digest;
+    reports.insert(reports.end(), other.reports.begin(), other.reports.end());
+    std::sort(reports.begin(), reports.end());
+    if (reports.size() > most_reports) reports.resize(most_reports);
+  }
+};
+
+}  // namespace carom
