@@ -1,0 +1,102 @@
+// Rare events by population splitting: survival far beyond what independent trajectories reach.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/system.hpp"
+#include "carom/events/decisions.hpp"
+
+namespace carom {
+
+/// A population flies from level to level. At each level those that are left are copied until the population
+/// is as large as before, and share its weight. The first copy of a survivor goes on as it is. Every other
+/// one goes back by a few hits, is kicked there (its arc length by up to delta times the length of its wall,
+/// its v_parallel / v by up to delta), and takes its new way if that reaches the level, too
+/// (docs/physics/rare-events.md). Free particles only.
+struct SplittingPlan {
+  enum class Level {
+    time,  ///< the first hit after the time
+    hits   ///< hit n + 1: what reaches it was not gone within n hits
+  } by = Level::time;
+  std::vector<double> levels;        ///< increasing; whole numbers for hits
+  std::uint64_t population = 20000;  ///< trajectories of each population
+  std::uint64_t repetitions = 16;    ///< independent populations for each size of the kick; at least 2
+  double kick = 0.002;               ///< the largest delta; half and a quarter of it are taken, too
+  std::uint64_t lookback = 2;        ///< hits by which a copy goes back; at most most_lookback
+  static constexpr std::uint64_t most_lookback = 8;
+};
+
+/// How to run, without influence on the result.
+struct SplittingOptions {
+  int threads = 0;  ///< 0: as many as OpenMP gives
+  DecisionOptions decisions;
+  const std::atomic<bool>* interrupted = nullptr;
+  /// Called after each population from one thread at a time.
+  std::function<void(std::uint64_t done, std::uint64_t all, std::uint64_t hits)> progress;
+};
+
+inline constexpr std::size_t kick_sizes = 3;  ///< delta, delta / 2, delta / 4
+
+/// What one population gives, at each reported time or number of hits.
+struct PopulationRun {
+  bool done = false;
+  std::vector<double> survival;        ///< share not gone by then
+  std::vector<double> gone;            ///< share gone since the report before; by time only
+  std::vector<std::uint64_t> reached;  ///< walkers that reached each level
+  double singular = 0.0;               ///< share that ended without a continuation; taken out of the others
+  std::uint64_t collisions = 0, lost = 0, digest = 0;
+  std::uint64_t tried = 0,
+                parted = 0;  ///< copies that were kicked, and those whose new way reached the level
+};
+
+struct SplittingResult {
+  SplittingPlan plan;
+  std::vector<double> at;                                   ///< report times, or the levels in hits
+  std::array<std::vector<PopulationRun>, kick_sizes> runs;  ///< those that were finished, by repetition
+  DecisionCounts decisions;
+  bool complete = true;  ///< false when interrupted: whole populations only
+  double seconds = 0, cpu_seconds = 0;
+  int threads = 1;
+  std::uint64_t collisions = 0, lost = 0;
+  std::uint64_t digest = 0;
+  std::vector<std::string> reports;  ///< first few states that were lost
+};
+
+/// Throws InputError where the plan or the system does not allow it.
+SplittingResult run_splitting(const System&, const SplittingPlan&, const SplittingOptions& = {});
+
+/// A mean over repetitions with its standard error.
+struct Mean {
+  double value = 0.0, error = 0.0;
+};
+/// A quantity at each kick and its limit for vanishing kicks: the least-squares line in delta^2.
+struct Extrapolated {
+  std::array<Mean, kick_sizes> at_kick;
+  Mean limit;                ///< error: statistical, from the repetitions
+  double extrapolation = 0;  ///< |limit - value at the smallest kick|: what the limit rests on
+  /// Half the width of the 95 % band: statistics and extrapolation.
+  double band() const;
+};
+struct SplitPoint {
+  double at = 0.0;
+  Extrapolated p;
+  /// Independent trajectories that would give the same statistical error.
+  double equivalent = 0.0;
+};
+struct SplitRate {
+  double t = 0.0, from = 0.0, to = 0.0;
+  Extrapolated value;
+};
+/// Survival at each report.
+std::vector<SplitPoint> survival(const SplittingResult&);
+/// Escapes per unit time between report times; none by hits.
+std::vector<SplitRate> escape_rate(const SplittingResult&);
+/// -ln(P(last) / P(first)) / (last - first) over the reports first <= at <= last: the rate of decay.
+Extrapolated decay_rate(const SplittingResult&, std::size_t first, std::size_t last);
+
+}  // namespace carom

@@ -1,0 +1,244 @@
+#include "population.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "carom/base/digest.hpp"
+#include "carom/base/random.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+constexpr std::size_t most_reports = 5;
+
+// Streams of random numbers: one a walker and stage; the comb takes the last one.
+constexpr std::uint64_t comb_stream = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t stages_of_population = std::uint64_t{1} << 24;
+
+}  // namespace
+
+void Population::Memory::keep(const State& state, std::uint64_t hits) {
+  ring[next] = {state, hits};
+  next = (next + 1) % ring.size();
+  size = std::min(size + 1, ring.size());
+}
+
+void Population::Memory::forget(std::size_t newest) {
+  newest = std::min(newest, size);
+  next = (next + ring.size() - newest) % ring.size();
+  size -= newest;
+}
+
+const Population::Moment& Population::Memory::ago(std::size_t back) const {
+  return ring[(next + ring.size() - 1 - std::min(back, size - 1)) % ring.size()];
+}
+
+// Remembers the hits of the one particle, and when it ended.
+class Population::Recorder : public Observer {
+ public:
+  Recorder(Memory& memory, std::uint64_t hits) : memory_(memory), hits_(hits) {}
+  void hit(const HitEvent& event) override {
+    State state;
+    state.wall = event.wall;
+    state.u = event.u;
+    state.position = event.position;
+    state.velocity = event.after;
+    state.cell = event.cell;
+    state.time = event.time;
+    hits_ += static_cast<std::uint64_t>(event.reflections);
+    memory_.keep(state, hits_);
+  }
+  void end(const EndEvent& event) override { time = event.time; }
+  Time time;
+
+ private:
+  Memory& memory_;
+  std::uint64_t hits_;
+};
+
+Population::Population(const System& system, const Sampler& sampler, const Kick& kick,
+                       const SplittingPlan& plan, const std::vector<double>& reports,
+                       DecisionOptions decisions)
+    : system_(system),
+      sampler_(sampler),
+      kick_(kick),
+      plan_(plan),
+      reports_(reports),
+      world_(*system.table, decisions) {}
+
+/// Follows one walker through a stage.
+Population::Way Population::fly(Walker& walker, const Stage& stage, const std::function<bool()>& stopped) {
+  const Particle& particle = system_.particles.front();
+  Recorder end(walker.memory, walker.hits);
+  const bool by_time = plan_.by == SplittingPlan::Level::time;
+  const auto hits_wanted = by_time ? no_limit : static_cast<std::uint64_t>(stage.level) + 1;
+  // A corner may have counted several hits, a long flight have passed several times.
+  if (walker.hits >= hits_wanted || (by_time && !stage.last && walker.state.time > Time(stage.level)))
+    return Way::reached;
+  world_.limit_hits(hits_wanted);
+  world_.clear();
+  const int it = world_.add(particle, walker.state, walker.hits);
+  world_.run_until(by_time ? stage.level : no_end, end, stopped);
+  if (by_time && !stage.last && !world_.finished(it)) {
+    world_.limit_hits(world_.hits(it) + 1);
+    world_.run_until(no_end, end, stopped);
+  }
+  walker.state = world_.state(it);
+  walker.hits = world_.hits(it);
+  if (!world_.finished(it)) return Way::reached;
+  switch (world_.fate(it)) {
+    case Fate::capped:
+      return Way::reached;
+    case Fate::survived:
+    case Fate::pinned:
+      return Way::for_ever;
+    case Fate::escaped:
+    case Fate::unbounded:
+      walker.state.time = end.time;
+      return Way::gone;
+    case Fate::singular:
+    case Fate::lost:
+      return Way::ended;
+  }
+  return Way::ended;
+}
+
+/// Parts a copy from its like: a step of a Metropolis walk among the states some hits ago that reach the
+/// level. A kick keeps the invariant measure, so every new way that reaches the level is taken, and no other.
+void Population::part(Walker& walker, const Stage& stage, double delta, RandomStream& random,
+                      const std::function<bool()>& stopped, PopulationRun& result) {
+  if (walker.memory.size == 0) return;
+  const double speed = system_.particles.front().speed;
+  Walker other = walker;
+  const Moment& before = walker.memory.ago(plan_.lookback);
+  other.memory.forget(plan_.lookback + 1);
+  other.state = kick_(before.state, speed, delta, random);
+  other.hits = before.hits;
+  other.memory.keep(other.state, other.hits);
+  const Way way = fly(other, stage, stopped);
+  result.collisions += other.hits - before.hits;
+  ++result.tried;
+  if (way != Way::reached) return;
+  ++result.parted;
+  walker = other;
+}
+
+/// Fills the population again: as many copies of each survivor as its weight asks for, by a comb with one
+/// random offset, so that the mean number of copies is exact. All copies have the same weight.
+void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double delta,
+                                const std::function<bool()>& stopped, PopulationRun& result) {
+  walkers_.clear();
+  double all = 0.0;
+  for (const Walker& survivor : survivors_) all += survivor.weight;
+  if (survivors_.empty()) return;
+  const double weight = all / static_cast<double>(plan_.population);
+  const double offset = RandomStream(system_.run.seed, Purpose::splitting, stream, comb_stream).uniform();
+  double passed = 0.0;
+  for (std::size_t i = 0; i < survivors_.size(); ++i) {
+    passed += survivors_[i].weight;
+    // Rounding must not change the size of the population.
+    const double teeth =
+        i + 1 == survivors_.size() ? static_cast<double>(plan_.population) : passed / weight - offset;
+    for (int copy = 0; static_cast<double>(walkers_.size()) < teeth && walkers_.size() < plan_.population;
+         ++copy) {
+      Walker walker = survivors_[i];
+      walker.weight = weight;
+      if (copy > 0) {
+        RandomStream random(system_.run.seed, Purpose::splitting, stream, walkers_.size());
+        part(walker, stage, delta, random, stopped, result);
+      }
+      walkers_.push_back(walker);
+    }
+  }
+}
+
+/// Reports from < t <= to: what has gone later is known by now, and so is what is still there.
+void Population::report_times(double from, double to, double still_there, PopulationRun& result) const {
+  double later = still_there + gone_by_.back();
+  for (std::size_t i = reports_.size(); i-- > 0;) {
+    if (reports_[i] <= from) break;
+    if (reports_[i] <= to) result.survival[i] = later;
+    later += gone_by_[i];
+  }
+}
+
+PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
+                              const std::function<bool()>& stopped, std::vector<std::string>& reports) {
+  const double delta = std::ldexp(plan_.kick, -static_cast<int>(kick_number));
+  const std::uint64_t number = repetition * kick_sizes + kick_number;
+  const bool by_time = plan_.by == SplittingPlan::Level::time;
+  const std::size_t stages = plan_.levels.size() + (by_time ? 1 : 0);
+  PopulationRun result;
+  result.survival.assign(reports_.size(), 0.0);
+  gone_by_.assign(reports_.size() + 1, 0.0);
+
+  walkers_.clear();
+  world_.clear();
+  for (std::uint64_t i = 0; i < plan_.population; ++i) {
+    Walker walker;
+    walker.state = sampler_.draw(world_, repetition * plan_.population + i, 0);
+    walker.weight = 1.0 / static_cast<double>(plan_.population);
+    if (walker.state.wall >= 0) walker.memory.keep(walker.state, 0);
+    walkers_.push_back(walker);
+  }
+  double for_ever = 0.0, before = -1.0;
+  for (std::size_t k = 0; k < stages; ++k) {
+    const bool last = by_time && k == plan_.levels.size();
+    const Stage stage{last ? reports_.back() : plan_.levels[k], last};
+    const std::uint64_t stream = number * stages_of_population + k;
+    survivors_.clear();
+    double reached = 0.0;
+    for (std::size_t i = 0; i < walkers_.size(); ++i) {
+      Walker& walker = walkers_[i];
+      const std::uint64_t hits = walker.hits;
+      const Way way = fly(walker, stage, stopped);
+      if (stopped()) return {};
+      result.collisions += walker.hits - hits;
+      const double time = walker.state.time.value();
+      result.digest += trajectory_hash(mix(stream) + i, static_cast<std::uint64_t>(way), time, walker.hits,
+                                       walker.state.wall);
+      switch (way) {
+        case Way::reached:
+          reached += walker.weight;
+          survivors_.push_back(walker);
+          break;
+        case Way::for_ever:
+          for_ever += walker.weight;
+          break;
+        case Way::gone:
+          if (by_time)
+            gone_by_[static_cast<std::size_t>(std::lower_bound(reports_.begin(), reports_.end(), time) -
+                                              reports_.begin())] += walker.weight;
+          break;
+        case Way::ended:
+          result.singular += walker.weight;
+          if (world_.fate(0) != Fate::lost) break;
+          ++result.lost;
+          if (reports.size() < most_reports) reports.push_back(world_.report(0));
+          break;
+      }
+    }
+    result.reached.push_back(survivors_.size());
+    if (by_time)
+      report_times(before, stage.level, reached + for_ever, result);
+    else
+      result.survival[k] = reached + for_ever;
+    before = stage.level;
+    if (k + 1 < stages) copy_survivors(stage, stream, delta, stopped, result);
+  }
+  const double followed = 1.0 - result.singular;
+  for (double& p : result.survival) p /= followed;
+  if (by_time) {
+    result.gone.assign(gone_by_.begin(), gone_by_.end() - 1);
+    for (double& p : result.gone) p /= followed;
+  }
+  result.done = true;
+  return result;
+}
+
+}  // namespace carom

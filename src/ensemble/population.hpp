@@ -1,0 +1,75 @@
+// One population of a splitting run.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/splitting.hpp"
+#include "carom/events/world.hpp"
+#include "kick.hpp"
+
+namespace carom {
+
+/// Runs populations in one thread. A population is a function of (seed, repetition, number of the kick)
+/// alone.
+class Population {
+ public:
+  Population(const System&, const Sampler&, const Kick&, const SplittingPlan&,
+             const std::vector<double>& reports, DecisionOptions);
+
+  /// `kick_number` 0, 1, 2: delta, delta / 2, delta / 4. Not `done` if it was stopped on the way.
+  PopulationRun run(std::uint64_t repetition, std::size_t kick_number, const std::function<bool()>& stopped,
+                    std::vector<std::string>& reports);
+  const DecisionCounts& decisions() const { return world_.decisions(); }
+
+ private:
+  struct Moment {
+    State state;
+    std::uint64_t hits = 0;
+  };
+  /// The last hits of a trajectory.
+  struct Memory {
+    std::array<Moment, SplittingPlan::most_lookback + 1> ring;
+    std::size_t size = 0, next = 0;
+    void keep(const State&, std::uint64_t hits);
+    void forget(std::size_t newest);
+    /// The moment `back` hits ago (0: the last one), or the oldest there is. Not of an empty memory.
+    const Moment& ago(std::size_t back) const;
+  };
+  /// A trajectory that is followed, with its share of the whole.
+  struct Walker {
+    State state;
+    std::uint64_t hits = 0;
+    double weight = 0.0;
+    Memory memory;
+  };
+  class Recorder;
+  /// Where a stage of a population ends.
+  struct Stage {
+    double level = 0.0;
+    bool last = false;  ///< ends at the last report time, wherever the walker is
+  };
+  enum class Way { reached, gone, for_ever, ended };
+
+  Way fly(Walker&, const Stage&, const std::function<bool()>& stopped);
+  void copy_survivors(const Stage&, std::uint64_t stream, double delta, const std::function<bool()>& stopped,
+                      PopulationRun&);
+  void part(Walker&, const Stage&, double delta, RandomStream&, const std::function<bool()>& stopped,
+            PopulationRun&);
+  void report_times(double from, double to, double still_there, PopulationRun&) const;
+
+  const System& system_;
+  const Sampler& sampler_;
+  const Kick& kick_;
+  const SplittingPlan& plan_;
+  const std::vector<double>& reports_;
+  World world_;
+  std::vector<Walker> walkers_, survivors_;
+  std::vector<double> gone_by_;  // weight gone between reports; the last entry after all
+};
+
+}  // namespace carom

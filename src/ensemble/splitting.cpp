@@ -1,0 +1,139 @@
+#include "carom/ensemble/splitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/stopwatch.hpp"
+#include "parallel_blocks.hpp"
+#include "population.hpp"
+
+namespace carom {
+
+namespace {
+
+void check(const System& system, const SplittingPlan& plan) {
+  const auto refuse = [](const char* key, const char* problem, const char* expected) {
+    throw InputError(Place{{}, 0, 0, key}, problem, expected);
+  };
+  refuse_injections(system, "splitting");
+  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
+  if (forces || system.dynamics.everywhere || system.particles.size() != 1 || system.of_discs())
+    refuse("splitting", "splitting follows one free particle",
+           "a system without forces, of one particle, flown by events");
+  if (system.run.collisions > 0)
+    refuse("run.collisions", "splitting knows no cap on hits",
+           "levels in hits: hits:0,1,2 or hits:lin:0:50:51");
+  const std::vector<double>& levels = plan.levels;
+  if (levels.empty()) refuse("splitting", "there are no levels", "at least one");
+  const bool by_time = plan.by == SplittingPlan::Level::time;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (!(levels[i] >= 0.0 && levels[i] < 0x1p53) || (i > 0 && !(levels[i] > levels[i - 1])))
+      refuse("splitting", "the levels do not increase", "levels from 0 on, in increasing order");
+    if (!by_time && levels[i] != std::floor(levels[i]))
+      refuse("splitting", "a number of hits is not whole", "whole numbers of hits");
+  }
+  if (by_time && (system.run.times.empty() || !(levels.back() < system.run.times.back())))
+    refuse("splitting", "the last level is not below the last report time",
+           "levels below --t-max and --times");
+  if (plan.population < 2 || plan.population > 1'000'000'000)
+    refuse("population", "the population is too small or too large", "2 to 1e9");
+  if (plan.repetitions < 2 || plan.repetitions > 1'000'000)
+    refuse("repetitions", "the number of repetitions is too small or too large", "2 to 1e6");
+  if (plan.lookback > SplittingPlan::most_lookback)
+    refuse("lookback", "too many hits to look back", "at most 8");
+  if (!(plan.kick > 0.0 && plan.kick <= 0.5))
+    refuse("kick", "the kick is not possible", "above 0, at most 0.5");
+}
+
+// What the threads of one run share.
+struct Shared {
+  std::mutex mutex;
+  DecisionCounts decisions;
+  std::vector<std::string> reports;
+  std::uint64_t done = 0, hits = 0;
+};
+
+// One thread's populations.
+class Worker {
+ public:
+  Worker(Population population, const SplittingOptions& options, SplittingResult& result, Shared& shared)
+      : population_(std::move(population)), options_(options), result_(result), shared_(shared) {}
+
+  bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+    for (std::uint64_t i = first; i < end; ++i) {
+      // Every kick of a repetition starts from the same states, so neighbours in order share the work fairly.
+      PopulationRun one = population_.run(i / kick_sizes, i % kick_sizes, stopped, reports_);
+      if (!one.done) return false;
+      const std::lock_guard lock(shared_.mutex);
+      ++shared_.done;
+      shared_.hits += one.collisions;
+      result_.runs[i % kick_sizes][i / kick_sizes] = std::move(one);
+      if (options_.progress)
+        options_.progress(shared_.done, result_.plan.repetitions * kick_sizes, shared_.hits);
+    }
+    return true;
+  }
+
+  void finish() {
+    shared_.decisions += population_.decisions();
+    shared_.reports.insert(shared_.reports.end(), reports_.begin(), reports_.end());
+  }
+
+ private:
+  Population population_;
+  const SplittingOptions& options_;
+  SplittingResult& result_;
+  Shared& shared_;
+  std::vector<std::string> reports_;
+};
+
+}  // namespace
+
+SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
+                              const SplittingOptions& options) {
+  check(system, plan);
+  check_start(system);
+  SplittingResult result;
+  result.plan = plan;
+  result.at = plan.by == SplittingPlan::Level::time ? system.run.times : plan.levels;
+  for (auto& runs : result.runs) runs.resize(plan.repetitions);
+  const Sampler sampler(system);
+  const Kick kick(*system.table);
+  const Stopwatch watch;
+  // One population is one block: it needs no other, and its bits know no thread.
+  const BlockPlan blocks(plan.repetitions * kick_sizes, options.threads, 1);
+  Shared shared;
+  result.complete = run_blocks(
+      blocks, options.interrupted,
+      [&] {
+        return Worker(Population(system, sampler, kick, plan, result.at, options.decisions), options, result,
+                      shared);
+      },
+      [](Worker& worker) { worker.finish(); });
+  result.threads = blocks.threads;
+  result.decisions = shared.decisions;
+  std::sort(shared.reports.begin(), shared.reports.end());
+  if (shared.reports.size() > 5) shared.reports.resize(5);
+  result.reports = std::move(shared.reports);
+  // An interrupted run keeps the repetitions that were finished at every kick.
+  for (std::size_t r = plan.repetitions; r-- > 0;) {
+    if (std::all_of(result.runs.begin(), result.runs.end(), [&](const auto& runs) { return runs[r].done; }))
+      continue;
+    for (auto& runs : result.runs) runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(r));
+  }
+  for (const auto& runs : result.runs) {
+    for (const PopulationRun& run : runs) {
+      result.collisions += run.collisions;
+      result.lost += run.lost;
+      result.digest += run.digest;
+    }
+  }
+  result.seconds = watch.seconds();
+  result.cpu_seconds = watch.cpu_seconds();
+  return result;
+}
+
+}  // namespace carom

@@ -1,0 +1,106 @@
+// What independent populations say together.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "carom/base/elementary.hpp"
+#include "carom/ensemble/splitting.hpp"
+
+namespace carom {
+
+namespace {
+
+// Intercept of the least-squares line in delta^2 through the values at delta, delta / 2, delta / 4.
+constexpr std::array<double, kick_sizes> intercept{-1.0 / 6.0, 1.0 / 2.0, 2.0 / 3.0};
+
+constexpr double quantile = 1.959963984540054;
+
+Mean mean_of(const std::vector<double>& values) {
+  const double n = static_cast<double>(values.size());
+  if (values.size() < 2) return {values.empty() ? std::nan("") : values.front(), std::nan("")};
+  double sum = 0.0, squares = 0.0;
+  for (const double value : values) sum += value;
+  const double mean = sum / n;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / (n * (n - 1.0)))};
+}
+
+// `of(kick, r)`: the quantity in repetition r.
+Extrapolated extrapolated(const SplittingResult& result,
+                          const std::function<double(std::size_t, std::size_t)>& of) {
+  Extrapolated out;
+  std::size_t common = result.runs[0].size();
+  for (std::size_t k = 0; k < kick_sizes; ++k) {
+    std::vector<double> values;
+    for (std::size_t r = 0; r < result.runs[k].size(); ++r) values.push_back(of(k, r));
+    out.at_kick[k] = mean_of(values);
+    common = std::min(common, result.runs[k].size());
+  }
+  // The populations of one repetition start from the same states: their line is drawn before the mean.
+  std::vector<double> limits;
+  for (std::size_t r = 0; r < common; ++r) {
+    double limit = 0.0;
+    for (std::size_t k = 0; k < kick_sizes; ++k) limit += intercept[k] * of(k, r);
+    limits.push_back(limit);
+  }
+  out.limit = mean_of(limits);
+  out.extrapolation = std::fabs(out.limit.value - out.at_kick.back().value);
+  return out;
+}
+
+}  // namespace
+
+double Extrapolated::band() const { return quantile * limit.error + extrapolation; }
+
+std::vector<SplitPoint> survival(const SplittingResult& result) {
+  std::vector<SplitPoint> points;
+  for (std::size_t i = 0; i < result.at.size(); ++i) {
+    SplitPoint point;
+    point.at = result.at[i];
+    point.p =
+        extrapolated(result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
+    const Mean& p = point.p.limit;
+    point.equivalent = p.error > 0.0 ? p.value * (1.0 - p.value) / (p.error * p.error) : 0.0;
+    points.push_back(point);
+  }
+  return points;
+}
+
+std::vector<SplitRate> escape_rate(const SplittingResult& result) {
+  std::vector<SplitRate> points;
+  if (result.plan.by != SplittingPlan::Level::time) return points;
+  double from = 0.0;
+  for (std::size_t i = 0; i < result.at.size(); ++i) {
+    const double to = result.at[i];
+    if (to > from) {
+      SplitRate point;
+      point.from = from;
+      point.to = to;
+      point.t = from > 0.0 ? std::sqrt(from) * std::sqrt(to) : to / 2;
+      point.value = extrapolated(
+          result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].gone[i] / (to - from); });
+      points.push_back(point);
+    }
+    from = to;
+  }
+  return points;
+}
+
+Extrapolated decay_rate(const SplittingResult& result, std::size_t first, std::size_t last) {
+  // Logarithms of means, and to first order the part of each repetition in them: a mean of logarithms would
+  // be off by the variance of a population.
+  const auto at = [&](std::size_t i) {
+    return extrapolated(result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
+  };
+  const Extrapolated a = at(first), b = at(last);
+  const double width = result.at[last] - result.at[first];
+  Extrapolated out = extrapolated(result, [&](std::size_t k, std::size_t r) {
+    const PopulationRun& run = result.runs[k][r];
+    const double mean_a = a.at_kick[k].value, mean_b = b.at_kick[k].value;
+    return (elementary::log(mean_a / mean_b) + run.survival[first] / mean_a - run.survival[last] / mean_b) / width;
+  });
+  return out;
+}
+
+}  // namespace carom

@@ -1,0 +1,237 @@
+#include "carom/ensemble/splitting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "carom/base/error.hpp"
+#include "carom/base/random.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/world.hpp"
+#include "ensemble/kick.hpp"
+#include "systems.hpp"
+
+namespace carom {
+namespace {
+
+System three_disc() { return load_system("three-disc", {}).system; }
+
+System square(const std::string& times) {
+  SystemOverrides changes;
+  changes.times = times;
+  return load_system("magnetic-square", changes).system;
+}
+
+SplittingPlan by_hits(int levels, std::uint64_t population, std::uint64_t repetitions) {
+  SplittingPlan plan;
+  plan.by = SplittingPlan::Level::hits;
+  for (int n = 0; n < levels; ++n) plan.levels.push_back(n);
+  plan.population = population;
+  plan.repetitions = repetitions;
+  return plan;
+}
+
+SplittingPlan by_time(std::vector<double> levels, std::uint64_t population, std::uint64_t repetitions) {
+  SplittingPlan plan;
+  plan.levels = std::move(levels);
+  plan.population = population;
+  plan.repetitions = repetitions;
+  return plan;
+}
+
+// The part of a difference that chance and the kicks do not explain, in standard errors of both.
+double deviation(const Extrapolated& split, double value, double error) {
+  const double difference = std::fabs(split.limit.value - value);
+  return difference / std::hypot(split.limit.error, error);
+}
+
+TEST(Splitting, DoesNotDependOnThreads) {
+  const System square_system = square("lin:2:40:20");
+  const System discs = three_disc();
+  for (const bool hits : {false, true}) {
+    const System& system = hits ? discs : square_system;
+    const SplittingPlan plan = hits ? by_hits(6, 200, 3) : by_time({5, 10, 20}, 200, 3);
+    SplittingOptions options;
+    options.threads = 1;
+    const SplittingResult one = run_splitting(system, plan, options);
+    EXPECT_TRUE(one.complete);
+    EXPECT_EQ(one.lost, 0u);
+    EXPECT_GT(one.collisions, 1000u);
+    for (const int threads : {2, 3, 8}) {
+      options.threads = threads;
+      options.decisions.filter_inflation = threads == 3 ? 0x1p20 : 1.0;
+      const SplittingResult many = run_splitting(system, plan, options);
+      EXPECT_EQ(many.digest, one.digest);
+      for (std::size_t k = 0; k < kick_sizes; ++k) {
+        for (std::size_t r = 0; r < 3; ++r) {
+          EXPECT_EQ(many.runs[k][r].survival, one.runs[k][r].survival);
+          EXPECT_EQ(many.runs[k][r].gone, one.runs[k][r].gone);
+        }
+      }
+    }
+    SplittingPlan other = plan;
+    other.kick = 0.01;
+    EXPECT_NE(run_splitting(system, other, options).digest, one.digest);
+  }
+}
+
+// To one part in a thousand of what started.
+TEST(Splitting, ThreeDiscAgreesWithIndependentTrajectories) {
+  System system = three_disc();
+  const auto split = survival(run_splitting(system, by_hits(6, 8000, 20)));
+  system.run.trajectories = 2'000'000;
+  const EscapeResult brute = run_escape(system);
+  for (const SurvivalHitsPoint& point : survival_by_hits(brute.counts)) {
+    if (point.n == 0 || point.n > 3) continue;
+    const SplitPoint& there = split[point.n];
+    EXPECT_EQ(there.at, static_cast<double>(point.n));
+    EXPECT_LT(deviation(there.p, point.p, (point.high - point.low) / 4), 4.0) << point.n;
+    EXPECT_LT(there.p.limit.error, 0.05 * point.p);
+    std::printf("n %llu: %.4e +- %.1e (extrapolation %.1e), independent %.4e\n",
+                static_cast<unsigned long long>(point.n), there.p.limit.value, there.p.limit.error,
+                there.p.extrapolation, point.p);
+  }
+}
+
+// Gaspard & Rice 1989; the digits are those of cycle expansions.
+TEST(Splitting, ThreeDiscSurvivalPerBounce) {
+  const SplittingResult result = run_splitting(three_disc(), by_hits(31, 4000, 16));
+  const auto points = survival(result);
+  EXPECT_LT(points.back().p.limit.value, 1e-20);
+  const Extrapolated decay = decay_rate(result, 6, 30);
+  const double exact = -std::log(0.183029795396354243674);
+  EXPECT_LT(std::fabs(decay.limit.value - exact), 4 * decay.limit.error);
+  EXPECT_LT(decay.limit.error, 0.005);
+  std::printf("survival per bounce %.6f +- %.6f, extrapolation %.6f\n", std::exp(-decay.limit.value),
+              std::exp(-decay.limit.value) * decay.limit.error,
+              std::exp(-decay.limit.value) * decay.extrapolation);
+}
+
+TEST(Splitting, MagneticSquareAgreesWithIndependentTrajectories) {
+  System system = square("5,10,15,20,30,40,60,80,120");
+  const SplittingResult result = run_splitting(system, by_time({5, 10, 20, 40}, 2000, 16));
+  system.run.trajectories = 200'000;
+  const EscapeResult brute = run_escape(system);
+  const auto rates = escape_rate(brute.counts);
+  const auto split = escape_rate(result);
+  ASSERT_EQ(rates.size(), split.size());
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    EXPECT_EQ(split[i].from, rates[i].from);
+    EXPECT_EQ(split[i].to, rates[i].to);
+    EXPECT_LT(deviation(split[i].value, rates[i].value, (rates[i].high - rates[i].low) / 4), 4.0) << i;
+    std::printf("t %6.2f: %.3e +- %.1e (extrapolation %.1e), independent %.3e\n", rates[i].t,
+                split[i].value.limit.value, split[i].value.limit.error, split[i].value.extrapolation,
+                rates[i].value);
+  }
+  const auto shares = survival(brute.counts);
+  const auto points = survival(result);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    EXPECT_LT(deviation(points[i].p, shares[i].p, (shares[i].high - shares[i].low) / 4), 4.0) << i;
+}
+
+// Before the first level nothing is copied: these are the first trajectories of the ensemble.
+TEST(Splitting, FirstStageIsTheEnsemble) {
+  System system = square("lin:1:10:10");
+  const SplittingResult result = run_splitting(system, by_time({9.5}, 500, 2));
+  system.run.trajectories = 500;
+  const auto points = survival(run_escape(system).counts);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    EXPECT_NEAR(result.runs[0][0].survival[i], points[i].p, 1e-12);
+}
+
+TEST(Splitting, ClosedTablesKeepEverything) {
+  const System system =
+      make_system("[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[run]\nt_max = 20\n");
+  const SplittingResult result = run_splitting(system, by_time({5, 10}, 100, 2));
+  for (const SplitPoint& point : survival(result)) EXPECT_NEAR(point.p.limit.value, 1.0, 1e-12);
+}
+
+// Pinned orbits are never copied and never lost.
+TEST(Splitting, PinnedOrbitsKeepTheirShare) {
+  const System system = make_system(
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[[table.hole]]\nwall = \"bottom\"\ncenter = "
+      "0.5\n"
+      "width = 0.3\n[field]\nlarmor_radius = 0.1\n[run]\nt_max = 200\n");
+  const SplittingResult result = run_splitting(system, by_time({10, 20, 50}, 2000, 4));
+  const Mean last = survival(result).back().p.at_kick[0];
+  EXPECT_NEAR(last.value, 0.64, 5 * std::sqrt(0.64 * 0.36 / 8000));
+}
+
+TEST(Splitting, RefusesWhatItCannotDo) {
+  const System system = three_disc();
+  EXPECT_THROW(run_splitting(system, by_hits(0, 100, 2)), InputError);
+  EXPECT_THROW(run_splitting(system, by_hits(3, 100, 1)), InputError);
+  EXPECT_THROW(run_splitting(system, by_hits(3, 1, 2)), InputError);
+  EXPECT_THROW(run_splitting(system, by_time({5, 4}, 100, 2)), InputError);
+  EXPECT_THROW(run_splitting(system, by_time({5, 1e4}, 100, 2)), InputError);
+  SplittingPlan plan = by_hits(3, 100, 2);
+  plan.levels[1] = 0.5;
+  EXPECT_THROW(run_splitting(system, plan), InputError);
+  plan = by_hits(3, 100, 2);
+  plan.kick = 0.0;
+  EXPECT_THROW(run_splitting(system, plan), InputError);
+  EXPECT_THROW(run_splitting(load_system("henon-heiles", {}).system, by_hits(3, 100, 2)), InputError);
+}
+
+TEST(Splitting, CanBeInterrupted) {
+  std::atomic<bool> stop{false};
+  SplittingOptions options;
+  options.threads = 1;
+  options.interrupted = &stop;
+  options.progress = [&](std::uint64_t done, std::uint64_t, std::uint64_t) { stop = done == 7; };
+  const SplittingResult result = run_splitting(three_disc(), by_hits(3, 100, 100), options);
+  EXPECT_FALSE(result.complete);
+  for (const auto& runs : result.runs) EXPECT_EQ(runs.size(), 2u);
+}
+
+// The invariant measure stays: kicked cosine-law states are cosine-law states, off the hole, near
+// where they were.
+TEST(Kick, KeepsTheInvariantMeasure) {
+  for (const char* shape :
+       {"shape = \"rectangle\"\nwidth = 1\nheight = 1\n", "shape = \"circle\"\nradius = 1\n"}) {
+    const std::string wall = std::string(shape).find("circle") != std::string::npos ? "circle" : "bottom";
+    const System system =
+        make_system("[table]\n" + std::string(shape) + "[[table.hole]]\nwall = \"" + wall +
+                    "\"\ncenter = 0.5\nwidth = 0.2\n[initial]\nkind = \"boundary\"\nwall = \"" + wall +
+                    "\"\n[particles]\nspeed = 3\n");
+    const Table& table = *system.table;
+    const geometry::CurveFrame frame = geometry::frame_of(table.walls[0].curve);
+    const double length = geometry::length(frame);
+    const Sampler sampler(system);
+    const World world(table);
+    const Kick kick(table);
+    constexpr int parts = 10, states = 40000;
+    std::vector<double> by_s(parts), by_v(parts), old_s(parts), old_v(parts);
+    for (std::uint64_t i = 0; i < states; ++i) {
+      const State state = sampler.draw(world, i, 0);
+      bool in_hole = false;
+      for (const Hole& hole : table.holes)
+        in_hole = in_hole || (hole.wall == state.wall && hole.from <= state.u && state.u < hole.to);
+      if (in_hole) continue;
+      RandomStream random(1, Purpose::splitting, i);
+      const State kicked = kick(state, 3.0, 0.3, random);
+      for (const Hole& hole : table.holes) EXPECT_FALSE(hole.from <= kicked.u && kicked.u < hole.to);
+      const auto count = [&](const State& at, std::vector<double>& s, std::vector<double>& v) {
+        const double along = geometry::arc_length_at(frame, at.u) / length;
+        const double sine = dot(at.velocity, right(geometry::normal_at(frame, at.u))) / 3.0;
+        EXPECT_NEAR(dot(at.velocity, at.velocity), 9.0, 1e-14);
+        ++s[static_cast<std::size_t>(std::min(along, 0.999999) * parts)];
+        ++v[static_cast<std::size_t>(std::min((1 + sine) / 2, 0.999999) * parts)];
+        return std::pair(along, sine);
+      };
+      const auto before = count(state, old_s, old_v), after = count(kicked, by_s, by_v);
+      EXPECT_LE(std::fabs(after.first - before.first), 0.3 + 1e-12);
+      EXPECT_LE(std::fabs(after.second - before.second), 0.3 + 1e-12);
+      EXPECT_NE(after, before);
+    }
+    for (std::size_t i = 0; i < parts; ++i) {
+      EXPECT_NEAR(by_s[i], old_s[i], 5 * std::sqrt(2 * old_s[i]) + 1) << shape << i;
+      EXPECT_NEAR(by_v[i], old_v[i], 5 * std::sqrt(2 * old_v[i]) + 1) << shape << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom
