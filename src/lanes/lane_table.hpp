@@ -30,6 +30,7 @@ struct LaneTable {
   double off_power[most] = {};    ///< circle: PreparedCurve::off_power; segment: 1
   double wall[most] = {};
   double hole[most] = {};         ///< -1: a wall
+  double from[most] = {};         ///< parameter of the wall where it begins
 
   double size = 0.0;  ///< the length by which every margin is measured (lane_table.cpp)
 };

@@ -125,7 +125,7 @@ class LaneWorld::Implementation {
     pack.vy[lane] = s.velocity.y;
     pack.high[lane] = s.time.high;
     pack.low[lane] = s.time.low;
-    pack.piece[lane] = s.wall < 0 ? -1.0 : lanes::piece_at(table, pieces, s.wall, s.u);
+    pack.piece[lane] = s.wall < 0 ? -1.0 : lanes::piece_at(pieces, s.wall, s.u);
     pack.hits[lane] = static_cast<double>(mine.start.hits);
     pack.speed[lane] = mine.start.particle.speed;
     pack.square_speed[lane] = square;

@@ -39,6 +39,7 @@ void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part,
   t.joint_x[i] = joint.x;
   t.joint_y[i] = joint.y;
   t.wall[i] = wall;
+  t.from[i] = part.from;
   t.hole[i] = part.hole;
   t.bent[i] = w.kind == CurveKind::circle;
   t.closed[i] = w.closed && whole;
@@ -106,13 +107,11 @@ LaneTable make_lane_table(const HitFinder& finder) {
   return t;
 }
 
-int piece_at(const Table& table, const LaneTable& t, int wall, double u) {
-  const std::vector<Part> parts = parts_of(table, wall);
-  int part = 0;
-  while (at(part) + 1 < parts.size() && u >= parts[at(part) + 1].from) ++part;
+int piece_at(const LaneTable& t, int wall, double u) {
+  int found = -1;
   for (int i = 0; i < t.pieces; ++i)
-    if (t.wall[i] == wall) return i + part;
-  return -1;
+    if (static_cast<int>(t.wall[i]) == wall && t.from[i] <= u) found = i;
+  return found;
 }
 
 }  // namespace carom::lanes

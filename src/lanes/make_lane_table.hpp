@@ -13,6 +13,6 @@ namespace carom::lanes {
 bool fits(const Table&);
 LaneTable make_lane_table(const HitFinder& finder);
 /// The piece on which the point u of a wall lies.
-int piece_at(const Table&, const LaneTable&, int wall, double u);
+int piece_at(const LaneTable&, int wall, double u);
 
 }  // namespace carom::lanes
