@@ -9,6 +9,7 @@ int systems(const Options&);
 int table(const Options&);
 int run(const Options&);
 int escape(const Options&);
+int splitting(const Options&);
 int diffusion(const Options&);
 int section(const Options&);
 int validate(const Options&);

@@ -16,6 +16,7 @@
 namespace carom::cli {
 
 int escape(const Options& options) {
+  if (!options.splitting.empty()) return splitting(options);
   check_engine(options);
   EscapeOptions how;
   how.threads = threads_of(options);

@@ -116,7 +116,12 @@ void define(CLI::App& app, Options& o) {
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .flag("--per-trajectory", o.per_trajectory,
-            "Store start, fate, hole, time and hits of each trajectory in the archive");
+            "Store start, fate, hole, time and hits of each trajectory in the archive")
+      .text("--splitting", o.splitting, "LEVELS", "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")
+      .text("--population", o.population, "N", "With --splitting: trajectories of a population (default 20000)")
+      .text("--repetitions", o.repetitions, "N", "With --splitting: populations for each kick (default 16)")
+      .text("--kick", o.kick, "DELTA", "With --splitting: the largest kick (default 0.002)")
+      .text("--lookback", o.lookback, "N", "With --splitting: hits that a copy goes back (default 2)");
   Command(app, o, "run", "One trajectory, followed closely",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"

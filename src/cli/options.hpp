@@ -15,6 +15,7 @@ struct Options {
   bool json = false, force = false, quiet = false, per_trajectory = false, soak = false;
   std::string window;  ///< of carom diffusion
   std::string on, direction, points, orbits;  ///< of carom section
+  std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
   std::string output, threads, trajectory, resume, scale;
   std::string engine = "auto", isa = "auto", precision = "double", digits;
   SystemOverrides overrides;
