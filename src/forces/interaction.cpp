@@ -1,8 +1,10 @@
 // Interactions of pairs.
 #include <cmath>
+#include <optional>
 
 #include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
+#include "forces/coulomb_pairs.hpp"
 #include "forces/nearest_copy.hpp"
 #include "forces/potential.hpp"
 
@@ -12,6 +14,9 @@ using geometry::Vector;
 using Kind = InteractionSpec::Kind;
 
 namespace {
+
+/// Particles from which on eight partners at a time pay.
+constexpr std::size_t worth_lanes = 16;
 
 double whole_power(double x, int n) {
   double result = 1.0;
@@ -24,8 +29,8 @@ double whole_power(double x, int n) {
 template <class Law>
 class Central final : public Interaction {
  public:
-  Central(Law law, bool charged, double reach, double tail)
-      : law_(std::move(law)), charged_(charged), reach_(reach), tail_(tail) {}
+  Central(Law law, bool charged, double reach, double tail, std::optional<double> coulomb_strength)
+      : law_(std::move(law)), charged_(charged), reach_(reach), tail_(tail), coulomb_strength_(coulomb_strength) {}
   double add_force(const Particle& a, const Particle& b, Vector separation, Vector& force) const override {
     const auto [w, over_r] = law_(dot(separation, separation));
     const double charges = charged_ ? a.charge * b.charge : 1.0;
@@ -34,6 +39,8 @@ class Central final : public Interaction {
   }
   void add_forces(std::span<const Particle> particles, std::span<const Vector> x, const geometry::Lattice* lattice,
                   std::span<Vector> force) const override {
+    if (!lattice && coulomb_strength_ && x.size() >= worth_lanes)
+      return add_coulomb_pairs(*coulomb_strength_, particles, x, force);
     for (std::size_t i = 0; i < x.size(); ++i) {
       Vector sum{};
       for (std::size_t j = i + 1; j < x.size(); ++j) {
@@ -53,11 +60,13 @@ class Central final : public Interaction {
   Law law_;
   bool charged_;
   double reach_, tail_;
+  std::optional<double> coulomb_strength_;  ///< of a Coulomb law, whose sums have a loop of their own
 };
 
 template <class Law>
-std::unique_ptr<const Interaction> central(Law law, bool charged, double reach, double tail) {
-  return std::make_unique<Central<Law>>(std::move(law), charged, reach, tail);
+std::unique_ptr<const Interaction> central(Law law, bool charged, double reach, double tail,
+                                           std::optional<double> coulomb_strength = {}) {
+  return std::make_unique<Central<Law>>(std::move(law), charged, reach, tail, coulomb_strength);
 }
 
 constexpr double everywhere = std::numeric_limits<double>::infinity();
@@ -76,7 +85,7 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
             const double inverse = 1.0 / std::sqrt(r2), w = k * inverse;
             return Pair{w, w * (inverse * inverse)};
           },
-          true, everywhere, 0.0);
+          true, everywhere, 0.0, s.strength);
     case Kind::yukawa:
       // Beyond r the potential is below its value at the range times exp(-(r/range - 1)).
       return central(

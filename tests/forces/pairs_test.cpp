@@ -63,6 +63,38 @@ TEST(Ring, CoulombEnergy) {
   }
 }
 
+// Eight partners at a time or one after the other: the same forces to rounding, whatever is left over.
+TEST(CoulombPairs, AllAtOnceAreTheirSum) {
+  for (const std::size_t count : {2u, 15u, 16u, 17u, 23u, 24u, 25u, 64u, 101u}) {
+    ForceSpec spec;
+    spec.interaction.emplace();
+    spec.interaction->strength = 1.5;
+    std::vector<Particle> particles(count);
+    std::vector<Vector> x, all(count), one_by_one(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      particles[i].charge = 1.0 + 0.25 * static_cast<double>(i % 3);
+      const double angle = 2.4 * static_cast<double>(i), r = std::sqrt(static_cast<double>(i + 1));
+      x.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+    const auto forces = ForceField::build(spec, particles, std::nullopt);
+    forces->add_pairs(particles, x, nullptr, all);
+    Vector total{};
+    for (std::size_t i = 0; i < count; ++i) {
+      double size = 0.0;
+      for (std::size_t j = 0; j < count; ++j) {
+        if (i == j) continue;
+        Vector force{};
+        forces->add_pair(particles[i], particles[j], x[i] - x[j], force);
+        one_by_one[i] = one_by_one[i] + force;
+        size += length(force);
+      }
+      EXPECT_LT(length(all[i] - one_by_one[i]), 1e-15 * size) << count << " " << i;
+      total = total + all[i];
+    }
+    EXPECT_LT(length(total), 1e-14 * static_cast<double>(count)) << count;
+  }
+}
+
 // What is kept on a hyperbola about a centre that repels, V = k/r, in complex numbers: the direction from
 // which a particle comes and that to which it goes, at infinity, from any of its states.
 struct Hyperbola {

@@ -1,0 +1,17 @@
+// The forces of all Coulomb pairs at once.
+#pragma once
+
+#include <span>
+
+#include "carom/geometry/vector.hpp"
+#include "carom/motion/state.hpp"
+
+namespace carom {
+
+/// Adds strength q_i q_j d / |d|^3, d = x_i - x_j, of every pair to `force`; the other feels the opposite,
+/// exactly. The sums are taken in an order that depends on the number of particles alone, so the bits are
+/// the same on every instruction set.
+void add_coulomb_pairs(double strength, std::span<const Particle> particles, std::span<const geometry::Vector> x,
+                       std::span<geometry::Vector> force);
+
+}  // namespace carom
