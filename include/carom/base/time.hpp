@@ -28,9 +28,9 @@ struct Time {
     const double sum = t.high + duration;
     const double part = sum - t.high;
     const double error = (t.high - (sum - part)) + (duration - part);
-    const double low = t.low + error;
-    const double high = sum + low;
-    return {high, low - (high - sum)};
+    const double rest = t.low + error;
+    const double later = sum + rest;
+    return {later, rest - (later - sum)};
   }
   /// Duration from b to a, rounded to one double.
   friend constexpr double operator-(const Time& a, const Time& b) {
