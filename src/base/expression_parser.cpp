@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "expression.hpp"
+#include "shown_character.hpp"
 
 namespace carom::expression {
 namespace {
@@ -55,21 +56,15 @@ class Parser {
     return true;
   }
 
-  // The character at `at` as a message shows it, a whole code point of UTF-8.
   std::string shown(std::size_t at) const {
-    if (at >= text_.size()) return "end";
-    const auto byte = static_cast<unsigned char>(text_[at]);
-    if (byte < 0x20 || byte == 0x7f) return "control character";
-    std::size_t end = at + 1;
-    while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xc0) == 0x80) ++end;
-    return std::string("'").append(text_.substr(at, end - at)).append("'");
+    return at < text_.size() ? shown_character(text_, at) : "end";
   }
 
   // Characters are code points, counted from 1.
   std::size_t character(std::size_t at) const {
     std::size_t count = 1;
     for (std::size_t i = 0; i < at; ++i) {
-      if ((static_cast<unsigned char>(text_[i]) & 0xc0) != 0x80) ++count;
+      if (!continues_character(text_[i])) ++count;
     }
     return count;
   }

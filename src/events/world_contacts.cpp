@@ -59,6 +59,20 @@ void World::Implementation::add_contacts() {
   contacts = std::make_unique<Contacts>(table.lattice ? &*table.lattice : nullptr);
 }
 
+namespace {
+
+/// The course of a disc from its body's state on.
+void set_course(Contacts::Disc& disc, const Body& b) {
+  disc.position = b.state.position;
+  disc.velocity = b.state.velocity;
+  disc.time = b.state.time;
+  disc.omega = b.particle.omega;
+  disc.radius = b.particle.radius;
+  disc.speed = b.particle.speed;
+}
+
+}  // namespace
+
 /// A disc that is to be added: its speed is that of its start, and no other is where it is.
 void World::Implementation::check_disc(Body& b) const {
   const std::vector<double>& radii = dynamics.forces->disc_radii();
@@ -68,12 +82,7 @@ void World::Implementation::check_disc(Body& b) const {
     throw std::invalid_argument("the disc overlaps its own copies on the lattice");
   b.particle.speed = std::sqrt(dot(b.state.velocity, b.state.velocity));
   Contacts::Disc disc;
-  disc.position = b.state.position;
-  disc.velocity = b.state.velocity;
-  disc.time = b.state.time;
-  disc.omega = b.particle.omega;
-  disc.radius = b.particle.radius;
-  disc.speed = b.particle.speed;
+  set_course(disc, b);
   const int other = contacts->overlapped(disc);
   if (other >= 0)
     throw std::invalid_argument("disc " + std::to_string(bodies.size()) + " overlaps disc " + std::to_string(other));
@@ -88,13 +97,7 @@ void World::Implementation::add_disc(int index) {
 /// The course of a disc from its state on, and what of its own comes next.
 void World::Implementation::enter_disc(int index, const Time& now) {
   const Body& b = bodies[at(index)];
-  Contacts::Disc& disc = contacts->disc(index);
-  disc.position = b.state.position;
-  disc.velocity = b.state.velocity;
-  disc.time = b.state.time;
-  disc.omega = b.particle.omega;
-  disc.radius = b.particle.radius;
-  disc.speed = b.particle.speed;
+  set_course(contacts->disc(index), b);
   if (b.particle.speed > 0.0)
     fly(index);
   else

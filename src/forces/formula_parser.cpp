@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/shown_character.hpp"
 #include "carom/base/exact_number.hpp"
 #include "forces/formula.hpp"
 
@@ -40,7 +41,6 @@ constexpr const char* operators = "an operator (+ - * / ^)";
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }  // of UTF-8
 
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
@@ -118,14 +118,7 @@ class Parser {
     return true;
   }
 
-  // The character at `at` as a message shows it, a whole code point.
-  std::string shown(std::size_t at) const {
-    const auto byte = static_cast<unsigned char>(text_[at]);
-    if (byte < 0x20 || byte == 0x7f) return "control character";
-    std::size_t end = at + 1;
-    while (end < text_.size() && continues_character(text_[end])) ++end;
-    return std::string("'").append(text_.substr(at, end - at)).append("'");
-  }
+  std::string shown(std::size_t at) const { return shown_character(text_, at); }
   std::string found() const { return at_end() ? "the formula ends too early" : "unexpected " + shown(at_); }
 
   // Characters are counted from 1. Bytes serve: the first that is not ASCII is itself to blame.

@@ -3,6 +3,7 @@
 
 #include "io/read.hpp"
 #include "io/starts_file.hpp"
+#include "io/table_names.hpp"
 #include "table/direction.hpp"
 
 namespace carom::io {
@@ -18,27 +19,6 @@ const std::vector<std::pair<std::string, Kind>>& kinds() {
       {"point", Kind::point},     {"birkhoff", Kind::birkhoff}, {"rectangle", Kind::rectangle},
       {"line", Kind::line},       {"list", Kind::list}};
   return list;
-}
-
-int wall_of(const Value& value, const Table& table) {
-  const int wall = table.wall_index(as_text(value));
-  if (wall >= 0) return wall;
-  std::vector<std::string> names;
-  for (const Wall& w : table.walls) names.push_back(w.name);
-  throw InputError(value.place, "unknown wall '" + value.text + "'", "one of " + listed(names),
-                   nearest_name(value.text, names));
-}
-
-int hole_of(const Value& value, const Table& table) {
-  const int hole = table.hole_index(as_text(value));
-  if (hole >= 0) return hole;
-  std::vector<std::string> names;
-  for (const Hole& h : table.holes) {
-    if (std::find(names.begin(), names.end(), h.name) == names.end()) names.push_back(h.name);
-  }
-  throw InputError(value.place, "unknown hole '" + value.text + "'",
-                   names.empty() ? "a table with [[table.hole]]" : "one of " + listed(names),
-                   nearest_name(value.text, names));
 }
 
 /// One coordinate of a Birkhoff start: a number, a list, or a grid.
@@ -90,7 +70,8 @@ void combine(const Axis& s, const Axis& v, const Place& place, InitialCondition&
 
 void read_birkhoff(Section& section, const Table& table, const std::vector<Particle>& particles,
                    InitialCondition& initial) {
-  initial.wall = wall_of(section.get("wall"), table);
+  const Value& wall = section.get("wall");
+  initial.wall = wall_named(table, as_text(wall), wall.place);
   Value& s = section.get("s");
   const Axis s_axis = read_axis(s);
   Value& v = section.get("v_parallel");
@@ -184,12 +165,14 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
       break;
     case Kind::boundary:
       section.exclude("wall", "hole");
-      if (const Value* wall = section.find("wall")) initial.wall = wall_of(*wall, table);
-      if (const Value* hole = section.find("hole")) initial.hole = hole_of(*hole, table);
+      if (const Value* wall = section.find("wall")) initial.wall = wall_named(table, as_text(*wall), wall->place);
+      if (const Value* hole = section.find("hole")) initial.hole = hole_named(table, as_text(*hole), hole->place);
       break;
-    case Kind::hole:
-      initial.hole = hole_of(section.get("hole"), table);
+    case Kind::hole: {
+      const Value& hole = section.get("hole");
+      initial.hole = hole_named(table, as_text(hole), hole.place);
       break;
+    }
     case Kind::point:
       read_point(section, initial);
       break;

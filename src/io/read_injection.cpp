@@ -1,24 +1,11 @@
 // [[injection]].
-#include <algorithm>
-
 #include "io/read.hpp"
+#include "io/table_names.hpp"
 
 namespace carom::io {
 namespace {
 
 constexpr double most_particles = 1e6;
-
-int hole_of(const Value& value, const Table& table) {
-  const int hole = table.hole_index(as_text(value));
-  if (hole >= 0) return hole;
-  std::vector<std::string> names;
-  for (const Hole& h : table.holes) {
-    if (std::find(names.begin(), names.end(), h.name) == names.end()) names.push_back(h.name);
-  }
-  throw InputError(value.place, "unknown hole '" + value.text + "'",
-                   names.empty() ? "a table with [[table.hole]]" : "one of " + listed(names),
-                   nearest_name(value.text, names));
-}
 
 std::vector<double> read_times(const Value& list, double t_max) {
   std::vector<double> times;
@@ -42,7 +29,8 @@ Injection read_injection(Value& value, const Table& table, const Particle& first
   section.exclude("times", "rate");
   Injection injection;
   injection.place = value.place;
-  injection.hole = hole_of(section.get("hole"), table);
+  const Value& hole = section.get("hole");
+  injection.hole = hole_named(table, as_text(hole), hole.place);
   if (const Value* rate = section.find("rate")) {
     injection.rate = as_positive(*rate);
   } else if (const Value* times = section.find("times")) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "io/read.hpp"
+#include "io/table_names.hpp"
 
 namespace carom::io {
 namespace {
@@ -44,12 +45,8 @@ void read_on(const Value& value, const Table& table, SectionPlan& plan) {
   using Kind = Surface::Kind;
   if (text == "boundary") return;
   if (text.starts_with("wall:")) {
-    const std::string name = text.substr(5);
-    plan.wall = table.wall_index(name);
-    if (plan.wall >= 0) return;
-    std::vector<std::string> names;
-    for (const Wall& w : table.walls) names.push_back(w.name);
-    throw InputError(place, "unknown wall '" + name + "'", "one of " + listed(names), nearest_name(name, names));
+    plan.wall = wall_named(table, text.substr(5), place);
+    return;
   }
   plan.boundary = false;
   if (text.starts_with("line:")) {
