@@ -37,6 +37,7 @@ Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, long bits
   speed_ = written_speed.to_double() * 1.000001;
   time_unit_ = unit_ / speed_;
   if (task.t_max) t_max_ = value_of(*task.t_max);
+  scene_.holes = ball_holes(system, scene_.walls);
   set_interval_table();
   place_start(system);
 }
@@ -217,25 +218,55 @@ Outcome Attempt::step() {
     case Choice::wall:
       break;
   }
-  if (!t_max_) {
-    move_to(choice.first);
-    return landed();
-  }
-  const Now before = now_;
+  std::optional<Now> before;
+  if (t_max_ || !scene_.holes.empty()) before = now_;
   move_to(choice.first);
+  if (!t_max_) return landed(before);
   const Sign late = sign(now_.state.time.widened(time_error()) - *t_max_);
   if (late == Sign::undecided)
     return {Outcome::undecided, needed_bits(), "whether " + name({now_.wall, {}}) + " is met before the last time"};
-  if (late != Sign::positive) return landed();
-  now_ = before;
+  if (late != Sign::positive) return landed(before);
+  now_ = *before;
   return stop_at_last_time();
 }
 
-Outcome Attempt::landed() {
+Outcome Attempt::landed(const std::optional<Now>& before) {
+  if (!scene_.holes.empty()) {
+    const Passage passage = pass();
+    if (passage.verdict == Verdict::undecided)
+      return {Outcome::undecided, needed_bits(),
+              "on which side of an end of '" + system_.table->holes[static_cast<std::size_t>(passage.hole)].name + "' " +
+                  name({now_.wall, {}}) + " is met"};
+    if (passage.verdict == Verdict::yes) {
+      hole_ = passage.hole;
+      return leave(*before);
+    }
+  }
   ++now_.hits;
   const double needed = needed_bits();
   if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, ""};
   return {Outcome::hit, 0.0, ""};
+}
+
+Passage Attempt::pass() const {
+  const Bound error = position_error();
+  const BallVector& P = now_.state.position;
+  const Passage fast = fast_.hole_at(now_.wall, {interval_of(P.x, error), interval_of(P.y, error)});
+  if (fast.verdict != Verdict::undecided) return fast;
+  const Precision precision(bits_);
+  return scene_.hole_at(now_.wall, {P.x.widened(error), P.y.widened(error)});
+}
+
+// Through a hole with the velocity that it came with; the last reflection was the one before.
+Outcome Attempt::leave(const Now& before) {
+  const double needed = needed_bits();
+  if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, ""};
+  BallState s = enclosed();
+  const Bound error = Bound(speed_) * before.errors.of_velocity();
+  s.velocity = {before.state.velocity.x.widened(error), before.state.velocity.y.widened(error)};
+  now_.wall = before.wall;
+  stopped_ = std::move(s);
+  return {Outcome::escaped, 0.0, ""};
 }
 
 Outcome Attempt::stop_at_last_time() {
@@ -270,9 +301,9 @@ double Attempt::lost_bits() const {
 Forecast Attempt::look_ahead() const {
   const auto number = [](const Ball& x) { return x.to_double(); };
   const SceneOf<double> scene = converted<double>(scene_, number);
-  const std::uint64_t most = task_.collisions > 0 ? task_.collisions : 100'000;
-  return forecast(scene, where_, near(now_.state.position), near(now_.state.velocity), now_.standing, most,
-                  t_max_ ? t_max_->to_double() : HUGE_VAL, unit_);
+  const std::uint64_t most = task_.collisions > 0 ? task_.collisions - now_.hits : 100'000;
+  const double rest = t_max_ ? t_max_->to_double() - now_.state.time.to_double() : HUGE_VAL;
+  return forecast(scene, where_, near(now_.state.position), near(now_.state.velocity), now_.standing, most, rest, unit_);
 }
 
 }  // namespace carom::certify

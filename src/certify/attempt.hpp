@@ -47,17 +47,30 @@ class Attempt {
   /// log2 of the largest error over the first rounding: how much was lost.
   double lost_bits() const;
 
-  /// How many bits the orbit will lose, by a look ahead.
+  /// How many bits the orbit will lose from here on, by a look ahead.
   Forecast look_ahead() const;
 
  private:
+  /// All that the future depends on.
+  struct Now {
+    BallState state;  ///< midpoints
+    ErrorSet errors;
+    FrameOf<Interval> frame;
+    int wall = -1;     ///< of the last hit
+    int standing = -1; ///< the wall it lies on: also that of the start
+    geometry::Cell cell;
+    std::uint64_t hits = 0;
+  };
+
   void place_start(const ExactSystem&);
   void set_interval_table();
   void trim_precision();
   Choice choose() const;
   void move_to(const Copy&);
   static Bound settle(LandingOf<Ball>&, const SceneOf<Ball>&, const WallOf<Ball>&, bool same, double unit);
-  Outcome landed();
+  Outcome landed(const std::optional<Now>& before);
+  Passage pass() const;
+  Outcome leave(const Now& before);
   Outcome stop_at_last_time();
   double needed_bits() const;
   Bound position_error() const { return Bound(unit_) * now_.errors.of_position(); }
@@ -74,19 +87,9 @@ class Attempt {
   Whereabouts where_;
   std::optional<Ball> t_max_;
 
-  /// All that the future depends on.
-  struct Now {
-    BallState state;  ///< midpoints
-    ErrorSet errors;
-    FrameOf<Interval> frame;
-    int wall = -1;     ///< of the last hit
-    int standing = -1; ///< the wall it lies on: also that of the start
-    geometry::Cell cell;
-    std::uint64_t hits = 0;
-  };
   Now now_;
   int hole_ = -1;
-  std::optional<BallState> stopped_;  ///< the state at t_max
+  std::optional<BallState> stopped_;  ///< the state at t_max or in a hole
 };
 
 }  // namespace carom::certify

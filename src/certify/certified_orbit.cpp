@@ -66,9 +66,6 @@ class CertifiedOrbit::Implementation {
   Implementation(const ExactSystem& system, const CertifiedTask& task) : system_(system), task_(task) {
     if (task.collisions == 0 && !task.t_max)
       throw InputError(Place{}, "a certified orbit without an end", "a number of collisions or a last time");
-    if (!system.spec->holes.empty())
-      throw InputError(system.spec->holes.front().place, "holes have no certified form in this version",
-                       "a closed table (--set table.hole=[]), or --precision double");
     if (certify::sign(certify::value_of(system.omega)) != Sign::zero)
       throw InputError(system.omega.place(), "the magnetic field has no certified form in this version",
                        "B = 0, or --precision double");
@@ -102,7 +99,7 @@ class CertifiedOrbit::Implementation {
           return hit;
         }
         case Outcome::inaccurate:
-          restart(effort_.bits + still_needed(outcome) + 8);
+          restart(effort_.bits + std::max(still_needed(outcome), 0L) + 8);
           if (done_) return std::nullopt;
           break;
         case Outcome::undecided:
@@ -130,14 +127,18 @@ class CertifiedOrbit::Implementation {
   const CertifiedEffort& effort() const { return effort_; }
 
  private:
-  // What this attempt lacks now, and what the rest of the orbit will lose.
+  // What this attempt lacks now, and what the rest of the orbit will lose: seen from here, for the first
+  // look ahead may have left through a hole that the orbit misses.
   long still_needed(const Outcome& outcome) const {
-    const auto wanted = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast_.hits);
-    const double rest = std::max(0.0, wanted - static_cast<double>(attempt_->hits()));
     const double lacks = std::isfinite(outcome.missing_bits) ? outcome.missing_bits : 64.0;
+    const certify::Forecast forecast = attempt_->look_ahead();
+    double rest = forecast.bits;
     const auto flown = static_cast<double>(attempt_->hits());
-    const double rate = flown > 100.0 ? attempt_->lost_bits() / flown : rate_;
-    return static_cast<long>(lacks + rest * rate * 1.01);
+    if (task_.collisions > 0 && flown > 100.0) {
+      const auto unseen = static_cast<double>(task_.collisions - forecast.hits) - flown;
+      rest += std::max(0.0, unseen) * attempt_->lost_bits() / flown;
+    }
+    return static_cast<long>(lacks + rest * 1.01);
   }
 
   void restart(long bits, const std::string& reason = {}) {

@@ -31,6 +31,7 @@ Forecast forecast(const SceneOf<double>& scene, const Whereabouts& where, geomet
       landing.position = wall.centre + (1.0 + (wall.radius2 - dot(e, e)) / (2.0 * wall.radius2)) * e;
     }
     if (!(t <= t_max) || !std::isfinite(landing.position.x)) break;
+    if (scene.hole_at(choice.first.wall, landing.position).verdict == Verdict::yes) break;
     const FrameOf<double> after{tangent_of(wall, landing.position), landing.velocity, unit};
     const auto map = tangent_map(wall, position, velocity, scene.motion, same, frame, after);
     const auto apply = [&map](double (&x)[2]) {

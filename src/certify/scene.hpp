@@ -6,7 +6,7 @@
 
 #include "carom/geometry/lattice.hpp"
 #include "certify/ball_table.hpp"
-#include "certify/next_wall.hpp"
+#include "certify/hole.hpp"
 
 namespace carom::certify {
 
@@ -70,7 +70,13 @@ class SceneOf {
 
   std::vector<WallOf<N>> walls;
   std::optional<LatticeOf<N>> lattice;
+  std::vector<HoleOf<N>> holes;
   MotionOf<N> motion;
+
+  /// Does a point of the wall lie in a hole?
+  Passage hole_at(int wall, const VectorOf<N>& P) const {
+    return passage(holes, wall, walls[static_cast<std::size_t>(wall)], P);
+  }
 
   VectorOf<N> translation(const geometry::Cell& c) const {
     const N first(static_cast<double>(c.first)), second(static_cast<double>(c.second));
@@ -135,6 +141,7 @@ SceneOf<To> converted(const SceneOf<From>& scene, const Convert& convert) {
     const auto vector = [&](const VectorOf<From>& v) { return VectorOf<To>{convert(v.x), convert(v.y)}; };
     r.lattice = LatticeOf<To>{vector(scene.lattice->first), vector(scene.lattice->second)};
   }
+  for (const HoleOf<From>& h : scene.holes) r.holes.push_back(converted<To>(h, convert));
   r.motion = {convert(scene.motion.speed2), convert(scene.motion.inverse_speed2)};
   return r;
 }

@@ -1,0 +1,135 @@
+#include "certify/hole.hpp"
+
+#include <acb_elliptic.h>
+
+#include "carom/base/error.hpp"
+#include "carom/table/table.hpp"
+#include "certify/exact_value.hpp"
+
+namespace carom::certify {
+namespace {
+
+BallVector turned(const BallVector& v, const Ball& angle) {
+  Ball s, c;
+  arb_sin_cos(s.raw(), c.raw(), angle.raw(), Precision::bits());
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+// The arc length of an ellipse as a function of the angle in the frame where it is a circle:
+// b E(angle | 1 - a^2/b^2), for the element is b sqrt(1 - (1 - a^2/b^2) sin^2).
+class EllipseLength {
+ public:
+  explicit EllipseLength(const WallOf<Ball>& w)
+      : a_(Ball(1) / sqrt(dot(w.along, w.along))),
+        b_(Ball(1) / sqrt(dot(w.across, w.across))),
+        m_(Ball(1) - square(a_ / b_)) {}
+
+  Ball to(const Ball& angle) const {
+    acb_t result, phi, m;
+    acb_init(result);
+    acb_init(phi);
+    acb_init(m);
+    acb_set_arb(phi, angle.raw());
+    acb_set_arb(m, m_.raw());
+    acb_elliptic_e_inc(result, phi, m, 0, Precision::bits());
+    Ball length;
+    arb_set(length.raw(), acb_realref(result));
+    acb_clear(m);
+    acb_clear(phi);
+    acb_clear(result);
+    return b_ * length;
+  }
+  Ball element(const Ball& angle) const {
+    Ball s;
+    arb_sin(s.raw(), angle.raw(), Precision::bits());
+    return b_ * sqrt(Ball(1) - m_ * square(s));
+  }
+
+  /// Encloses the angle up to which the length is `length`: Newton's steps find it nearly; how far off it is
+  /// follows from what is missing of the length and the least element.
+  Ball angle_at(const Ball& length, Ball guess) const {
+    const slong bits = Precision::bits();
+    for (slong now = std::min<slong>(bits, 64);; now = std::min(bits, 2 * now)) {
+      const Precision few(now + 16);
+      for (int step = 0; step < (now <= 64 ? 40 : 2); ++step) {
+        const Ball better = (guess - (to(guess) - length) / element(guess)).midpoint();
+        const bool settled = sign((better - guess).midpoint()) == Sign::zero;
+        guess = better;
+        if (settled) break;
+      }
+      if (now == bits) break;
+    }
+    const Ball missing = (to(guess) - length) / (sign(a_ - b_) == Sign::positive ? b_ : a_);
+    Bound error;
+    arb_get_mag(error.raw(), missing.raw());
+    return guess.widened(error);
+  }
+
+ private:
+  Ball a_, b_, m_;
+};
+
+class Cutter {
+ public:
+  Cutter(const WallOf<Ball>& wall, const Ball& from, const Ball& to) : w_(wall), from_(from), to_(to) {}
+
+  void cut(HoleOf<Ball>& hole) const {
+    if (w_.form == Form::segment) {
+      const Ball length = sqrt(dot(w_.chord, w_.chord));
+      hole.low = from_ * length;
+      hole.high = to_ * length;
+      return;
+    }
+    const Ball way(w_.turn);
+    const BallVector d = w_.from - w_.centre;
+    Ball turn;
+    if (w_.form == Form::circle) {
+      const Ball radius = sqrt(w_.radius2);
+      hole.first = turned(d, way * from_ / radius);
+      hole.last = turned(d, way * to_ / radius);
+      turn = (to_ - from_) / radius;
+    } else {
+      const EllipseLength length(w_);
+      const BallVector e{dot(d, w_.along), dot(d, w_.across)};
+      Ball start;
+      arb_atan2(start.raw(), e.y.raw(), e.x.raw(), Precision::bits());
+      const auto angle_at = [&](const Ball& s) {
+        return length.angle_at(length.to(start) + way * s, (start + way * s / length.element(Ball(0.8))).midpoint());
+      };
+      const Ball first = angle_at(from_), last = angle_at(to_);
+      hole.first = turned({1, 0}, first);
+      hole.last = turned({1, 0}, last);
+      turn = way * (last - first);
+    }
+    Ball pi;
+    arb_const_pi(pi.raw(), Precision::bits());
+    hole.wide = sign(turn - pi) == Sign::positive;
+  }
+
+ private:
+  const WallOf<Ball>& w_;
+  const Ball &from_, &to_;
+};
+
+}  // namespace
+
+std::vector<HoleOf<Ball>> ball_holes(const ExactSystem& system, const std::vector<WallOf<Ball>>& walls) {
+  std::vector<HoleOf<Ball>> holes;
+  for (std::size_t k = 0; k < system.spec->holes.size(); ++k) {
+    const HoleSpec& spec = system.spec->holes[k];
+    HoleOf<Ball> hole;
+    hole.wall = system.table->wall_index(spec.wall);
+    hole.hole = system.table->hole_index(spec.name.empty() ? "hole_" + std::to_string(k + 1) : spec.name);
+    const WallOf<Ball>& w = walls[static_cast<std::size_t>(hole.wall)];
+    const Ball centre = value_of(spec.center), half = value_of(spec.width) / 2;
+    // Ends that agree with the wall's to rounding mean the wall's, as in the table of doubles.
+    const Hole& rounded = system.table->holes[static_cast<std::size_t>(hole.hole)];
+    const geometry::Curve& curve = system.table->walls[static_cast<std::size_t>(hole.wall)].curve;
+    hole.whole = rounded.from == 0.0 && rounded.to == geometry::end_parameter(curve);
+    if (!hole.whole) Cutter(w, centre - half, centre + half).cut(hole);
+    holes.push_back(std::move(hole));
+  }
+  return holes;
+}
+
+}  // namespace carom::certify
