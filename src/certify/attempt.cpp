@@ -4,6 +4,7 @@
 
 #include "carom/base/error.hpp"
 #include "certify/exact_value.hpp"
+#include "certify/start.hpp"
 
 namespace carom::certify {
 namespace {
@@ -56,31 +57,8 @@ void Attempt::place_start(const ExactSystem& system) {
   const Ball scale = exact ? Ball(1) : sqrt(speed2 / length2);
   now_.state.velocity = {scale * direction.x, scale * direction.y};
   now_.standing = start.wall;
-  if (now_.standing >= 0) {
-    const WallOf<Ball>& w = scene_.walls[static_cast<std::size_t>(now_.standing)];
-    const double quarter = w.form == Form::segment ? 0.0 : std::floor(start.u);
-    const Ball u(start.u - quarter);
-    if (w.form == Form::segment) {
-      now_.state.position = w.from + u * w.chord;
-    } else {
-      BallVector a = w.from - w.centre, b = left(a);
-      if (w.form == Form::ellipse) {
-        // The quarter turn of the frame in which the ellipse is a circle.
-        const Ball determinant = cross(w.along, w.across);
-        const Ball x = dot(a, w.along), y = dot(a, w.across);
-        b = {(-(y * w.across.y) - x * w.along.y) / determinant, (y * w.across.x + x * w.along.x) / determinant};
-      }
-      if (w.turn < 0) b = -b;
-      for (double q = 0.0; q < quarter; ++q) {
-        const BallVector before = a;
-        a = b;
-        b = -before;
-      }
-      const Ball one(1), weight = one + square(u);
-      const Ball X = (one - square(u)) / weight, Y = (u + u) / weight;
-      now_.state.position = w.centre + (X * a + Y * b);
-    }
-  }
+  if (now_.standing >= 0)
+    now_.state.position = point_with_parameter(scene_.walls[static_cast<std::size_t>(now_.standing)], start.u);
   const Bound of_position = radius(now_.state.position) * Bound(1.0 / unit_ * 1.000001);
   const Bound of_velocity = radius(now_.state.velocity) * Bound(1.0 / speed_ * 1.00001);
   now_.errors.round(of_position + of_velocity, Bound());

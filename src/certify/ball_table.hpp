@@ -16,20 +16,14 @@ struct LatticeOf {
   VectorOf<Number> first, second;
 };
 
-struct BallTable {
-  std::vector<WallOf<Ball>> walls;
-  std::optional<LatticeOf<Ball>> lattice;
+template <class Number>
+struct TableOf {
+  std::vector<WallOf<Number>> walls;
+  std::optional<LatticeOf<Number>> lattice;
 };
+using BallTable = TableOf<Ball>;
 
 /// To the present precision. Throws InputError where a shape has no certified form.
 BallTable ball_table(const TableSpec&);
-
-WallOf<Ball> segment_wall(const BallVector& from, const BallVector& to);
-/// About a given centre; counter-clockwise where the domain is inside.
-WallOf<Ball> arc_wall(const BallVector& from, const BallVector& to, const BallVector& centre,
-                      const Ball& radius2, bool counterclockwise);
-WallOf<Ball> circle_wall(const BallVector& centre, const Ball& radius, bool counterclockwise);
-WallOf<Ball> ellipse_wall(const BallVector& centre, const BallVector& axis, const Ball& ratio,
-                          bool counterclockwise);
 
 }  // namespace carom::certify

@@ -66,6 +66,19 @@ inline std::vector<Shaped> all_shapes() {
   loop.pieces = {line, arc, dent};
   path.spec.loops = {loop};
   all.push_back(path);
+  Shaped elliptic = path;
+  PieceSpec bulge;
+  bulge.kind = PieceSpec::Kind::ellipse;
+  bulge.via = {exactly("1.2"), exactly("0.7")};
+  bulge.to = {exactly("0"), exactly("1")};
+  bulge.ratio = exactly("2/3");
+  bulge.angle = exactly("pi/5");
+  PieceSpec hollow = bulge;
+  hollow.via = {exactly("0.1"), exactly("0.4")};
+  hollow.to = {exactly("0"), exactly("0")};
+  hollow.angle = exactly("0.4");
+  elliptic.spec.loops[0].pieces = {line, bulge, hollow};
+  all.push_back(elliptic);
   return all;
 }
 

@@ -36,7 +36,7 @@ UMBRELLA = "include/carom/carom.hpp"
 PACKAGES = {
     r"CGAL/": r"geometry/src/cgal/",
     r"boost/": r"geometry/src/|src/base/",
-    r"gmp|mpfr": r"geometry/src/|src/base/|src/table/",
+    r"gmp|mpfr": r"geometry/src/|src/base/|src/table/|src/certify/",
     r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
     r"sleef": r"src/base/elementary.*\.cpp",
     r"Random123/": r"src/base/random\.cpp",
