@@ -49,7 +49,7 @@ int escape(const Options& options) {
   const std::string status = result.complete ? "completed" : "interrupted";
   if (archive) archive->finish(result, status);
 
-  for (const std::string& report : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
+  for (const auto& [index, report] : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
   print(options.json ? escape_json(system, result, status, options.output).text() + "\n"
                      : escape_text(system, result, options.output));
   if (result.counts.lost > 0) return lost;

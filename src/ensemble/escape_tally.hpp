@@ -1,7 +1,6 @@
-// What a block, a thread and a whole escape ensemble are: sums of their parts in any order.
+// What a block of an escape ensemble adds up.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -17,7 +16,7 @@ struct EscapeTally {
 
   SurvivalCounts counts;
   std::uint64_t digest = 0;
-  std::vector<std::pair<std::uint64_t, std::string>> reports;  // lowest indices, sorted
+  std::vector<std::pair<std::uint64_t, std::string>> reports;  // of the first
 
   explicit EscapeTally(const System& system) : counts(system.run.times, system.table->holes.size()) {}
 
@@ -26,13 +25,6 @@ struct EscapeTally {
     counts.add(end.fate, end.time, end.hits, end.hole);
     digest += trajectory_hash(end.index, static_cast<std::uint64_t>(end.fate), end.time, end.hits, last_wall);
     if (end.fate == Fate::lost && reports.size() < most_reports) reports.emplace_back(end.index, report);
-  }
-  void merge(const EscapeTally& other) {
-    counts.merge(other.counts);
-    digest += other.digest;
-    reports.insert(reports.end(), other.reports.begin(), other.reports.end());
-    std::sort(reports.begin(), reports.end());
-    if (reports.size() > most_reports) reports.resize(most_reports);
   }
 };
 

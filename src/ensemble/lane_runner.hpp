@@ -26,6 +26,7 @@ class LaneRunner {
     std::uint64_t first = 0, end = 0;  ///< trajectories
   };
   struct Done {
+    Block block;
     EscapeTally tally;
     std::vector<TrajectoryRecord> records;  ///< by index, if asked for
   };
@@ -80,7 +81,7 @@ class LaneRunner {
 
   void open(const Block& block) {
     const std::uint64_t each = system_.particles.size();
-    Open b{block.first * each, (block.end - block.first) * each, {EscapeTally(system_), {}}};
+    Open b{block.first * each, (block.end - block.first) * each, {block, EscapeTally(system_), {}}};
     if (records_) b.done.records.resize(b.left);
     open_.emplace(b.first, std::move(b));
   }

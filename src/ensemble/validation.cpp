@@ -52,7 +52,7 @@ EscapeResult run(const System& system, const ValidationOptions& options, Validat
   c.threads = result.threads;
   const double filter = static_cast<double>(result.decisions.filter);
   c.filter_share = filter / (filter + static_cast<double>(result.decisions.exact));
-  if (!result.reports.empty()) c.report = result.reports.front();
+  if (!result.reports.empty()) c.report = result.reports.front().second;
   return result;
 }
 

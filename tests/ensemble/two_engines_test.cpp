@@ -15,7 +15,7 @@ SurvivalCounts survivors(System system, bool steps, std::uint64_t trajectories, 
   system.run.trajectories = trajectories;
   system.run.seed = seed;
   const EscapeResult result = run_escape(system);
-  EXPECT_EQ(result.counts.lost, 0u) << (result.reports.empty() ? "" : result.reports.front());
+  EXPECT_EQ(result.counts.lost, 0u) << (result.reports.empty() ? "" : result.reports.front().second);
   EXPECT_EQ(result.counts.trajectories, trajectories);
   return result.counts;
 }

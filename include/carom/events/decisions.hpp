@@ -19,6 +19,9 @@ struct DecisionCounts {
     exact += o.exact;
     return *this;
   }
+  friend DecisionCounts operator-(const DecisionCounts& a, const DecisionCounts& b) {
+    return {a.filter - b.filter, a.exact - b.exact};
+  }
 };
 
 }  // namespace carom

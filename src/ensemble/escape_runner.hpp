@@ -1,0 +1,103 @@
+// Trajectories of an escape ensemble one by one, by the scalar engine.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/world.hpp"
+#include "ensemble/escape_tally.hpp"
+
+namespace carom {
+
+/// The ends of one trajectory's particles, and how often they touched.
+class EscapeEnds : public Observer {
+ public:
+  void clear(int particles) {
+    ends_.assign(static_cast<std::size_t>(particles), std::nullopt);
+    contacts = 0;
+  }
+  void contact(const ContactEvent&) override { ++contacts; }
+  void end(const EndEvent& event) override { ends_[static_cast<std::size_t>(event.particle)] = event; }
+  const std::optional<EndEvent>& of(int particle) const { return ends_[static_cast<std::size_t>(particle)]; }
+  std::uint64_t contacts = 0;
+
+ private:
+  std::vector<std::optional<EndEvent>> ends_;
+};
+
+/// Runs trajectories in one thread; the prepared table is kept from one to the next.
+class EscapeRunner {
+ public:
+  EscapeRunner(const System& system, const Sampler& sampler, const Injector& injector, DecisionOptions decisions)
+      : system_(system), sampler_(sampler), injector_(injector), world_(*system.table, system.dynamics, decisions) {
+    if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
+  }
+
+  /// Adds the trajectory to the tally; false when interrupted in the middle of it.
+  bool run(std::uint64_t trajectory, EscapeTally& tally, std::vector<TrajectoryRecord>* records,
+           const std::function<bool()>& interrupted) {
+    world_.clear();
+    add_starts(world_, sampler_, trajectory);
+    if (!system_.injections.empty()) injector_.add(world_, trajectory);
+    const int count = world_.size();
+    ends_.clear(count);
+    const std::size_t first_record = records ? records->size() : 0;
+    for (int particle = 0; records && particle < count; ++particle)
+      records->push_back(start_of(world_.state(particle)));
+    world_.run_until(system_.run.t_max, ends_, interrupted);
+    if (interrupted && interrupted()) return false;
+    tally.counts.contacts += ends_.contacts;
+    for (int particle = 0; particle < count; ++particle) {
+      const std::uint64_t index = particle_index(system_, trajectory, static_cast<std::uint64_t>(particle));
+      TrajectoryRecord end = end_of(particle);
+      end.index = index;
+      tally.add(end, world_.last_wall(particle), world_.report(particle));
+      if (!records) continue;
+      TrajectoryRecord& record = (*records)[first_record + static_cast<std::size_t>(particle)];
+      record.index = index;
+      record.fate = end.fate;
+      record.hole = end.hole;
+      record.time = end.time;
+      record.hits = end.hits;
+    }
+    return true;
+  }
+
+  const DecisionCounts& decisions() const { return world_.decisions(); }
+
+ private:
+  TrajectoryRecord start_of(const State& state) const {
+    TrajectoryRecord record;
+    geometry::Vector position = state.position;
+    if (system_.table->lattice) position = position + system_.table->lattice->translation(state.cell);
+    record.x = position.x;
+    record.y = position.y;
+    record.vx = state.velocity.x;
+    record.vy = state.velocity.y;
+    return record;
+  }
+
+  // A particle that has not ended, or never can, survives until t_max.
+  TrajectoryRecord end_of(int particle) const {
+    TrajectoryRecord record;
+    record.hits = world_.hits(particle);
+    record.time = system_.run.t_max;
+    const std::optional<EndEvent>& end = ends_.of(particle);
+    if (!end) return record;
+    record.fate = end->fate;
+    record.hole = end->hole;
+    if (end->fate != Fate::survived && end->fate != Fate::pinned) record.time = end->time.value();
+    return record;
+  }
+
+  const System& system_;
+  const Sampler& sampler_;
+  const Injector& injector_;
+  World world_;
+  EscapeEnds ends_;
+};
+
+}  // namespace carom
