@@ -32,7 +32,7 @@ class LaneRunner {
   };
 
   LaneRunner(const System& system, const Sampler& sampler, InstructionSet set, DecisionOptions decisions)
-      : system_(system), sampler_(sampler), world_(*system.table, decisions), lanes_(*system.table, set, decisions) {
+      : system_(system), sampler_(sampler), world_(*system.table, decisions), lanes_(*system.table, system.particles, set, decisions) {
     if (system.run.collisions > 0) lanes_.limit_hits(system.run.collisions);
   }
 

@@ -2,7 +2,6 @@
 
 namespace carom::lanes {
 
-Advance avx2_kernel(const LaneTable& table) { return kernel_of(table); }
-int avx2_width() { return width; }
+Kernels avx2_kernels(const LaneTable& table, Turn turn) { return kernels_of(table, turn); }
 
 }  // namespace carom::lanes

@@ -2,7 +2,6 @@
 
 namespace carom::lanes {
 
-Advance baseline_kernel(const LaneTable& table) { return kernel_of(table); }
-int baseline_width() { return width; }
+Kernels baseline_kernels(const LaneTable& table, Turn turn) { return kernels_of(table, turn); }
 
 }  // namespace carom::lanes

@@ -5,11 +5,15 @@
 
 namespace carom::lanes {
 
-Advance baseline_kernel(const LaneTable&);
-Advance avx2_kernel(const LaneTable&);
-Advance avx512_kernel(const LaneTable&);
-int baseline_width();
-int avx2_width();
-int avx512_width();
+/// How flights bend: all particles the same way.
+enum class Turn : signed char { counter_clockwise = -1, straight = 0, clockwise = 1 };  // the sign of omega
+
+struct Kernels {
+  Advance on_walls;   ///< for particles that stand on a wall; in straight flights also for others
+  Advance anywhere;
+};
+Kernels baseline_kernels(const LaneTable&, Turn);
+Kernels avx2_kernels(const LaneTable&, Turn);
+Kernels avx512_kernels(const LaneTable&, Turn);
 
 }  // namespace carom::lanes

@@ -26,6 +26,10 @@ struct LanePack {
   double hits[lanes] = {};
   // Constants of its particle.
   double speed[lanes] = {}, square_speed[lanes] = {}, energy_weight[lanes] = {};
+  double omega[lanes] = {};
+  double inverse_half[lanes] = {};           ///< 1/|omega/2|
+  double pace[lanes] = {};                   ///< power of two beyond speed + |omega| size
+  double joint_margin[lanes] = {};           ///< of |c|^2 - v^2 (larmor.hpp)
   double active[lanes] = {};                 ///< 1, or 0 for a lane without a trajectory
 
   double end = 0.0;    ///< of the run

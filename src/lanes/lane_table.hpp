@@ -28,11 +28,14 @@ struct LaneTable {
   double point_x[most] = {}, point_y[most] = {}, first_number[most] = {}, second_number[most] = {};
   double orientation[most] = {};  ///< circle: +1 domain inside, -1 outside; segment: 0
   double off_power[most] = {};    ///< circle: PreparedCurve::off_power; segment: 1
+  // For Larmor circles, of a piece with joints: the unit vector from the one to the other, their distance. Of a circle:
+  // its radius, and the distance of the chord from the centre in radii, positive if the centre lies on its left.
+  double chord_x[most] = {}, chord_y[most] = {}, length[most] = {}, radius[most] = {}, chord_offset[most] = {};
   double wall[most] = {};
   double hole[most] = {};         ///< -1: a wall
   double from[most] = {};         ///< parameter of the wall where it begins
 
-  double size = 0.0;  ///< the length by which every margin is measured (lane_table.cpp)
+  double size = 0.0;  ///< the length by which every margin is measured: a power of two (make_lane_table.cpp)
 };
 
 }  // namespace carom::lanes

@@ -15,6 +15,7 @@ using geometry::Vector;
 using lanes::Call;
 using lanes::LanePack;
 using lanes::LaneTable;
+using lanes::Turn;
 
 namespace {
 
@@ -22,14 +23,20 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Hits are counted in doubles.
 constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
 
-lanes::Advance kernel_for(InstructionSet set, const LaneTable& table) {
+lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn) {
 #if defined(CAROM_WIDE_LANES)
-  if (set == InstructionSet::avx512) return lanes::avx512_kernel(table);
-  if (set == InstructionSet::avx2) return lanes::avx2_kernel(table);
+  if (set == InstructionSet::avx512) return lanes::avx512_kernels(table, turn);
+  if (set == InstructionSet::avx2) return lanes::avx2_kernels(table, turn);
 #endif
   (void)set;
-  return lanes::baseline_kernel(table);
+  return lanes::baseline_kernels(table, turn);
 }
+
+Turn turn_of(double omega) {
+  return omega > 0.0 ? Turn::clockwise : omega < 0.0 ? Turn::counter_clockwise : Turn::straight;
+}
+/// Squares and products of four such numbers are far from the ends of the doubles' range.
+bool moderate(double x) { return x > 1e-30 && x < 1e30; }
 
 class LastEnd : public Observer {
  public:
@@ -41,12 +48,13 @@ class LastEnd : public Observer {
 
 class LaneWorld::Implementation {
  public:
-  Implementation(const Table& the_table, InstructionSet set, DecisionOptions options)
+  Implementation(const Table& the_table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)
       : table(the_table),
         scalar(the_table, options),
         finder(the_table, options),
         pieces(lanes::make_lane_table(finder)),
-        advance(kernel_for(set, pieces)) {
+        turn(turn_of(particles.at(0).omega)),
+        kernels(kernels_for(set, pieces, turn)) {
     if (!available(set)) throw std::invalid_argument("this machine does not have the instruction set");
   }
 
@@ -54,17 +62,20 @@ class LaneWorld::Implementation {
                  const std::function<bool()>& interrupted) {
     source = &next;
     sink = &ended;
-    pack.end = t_end;
-    pack.limit = static_cast<double>(std::min(limit, most_hits));
+    for (Lanes* l : {&main, &entrance}) {
+      l->pack.end = t_end;
+      l->pack.limit = static_cast<double>(std::min(limit, most_hits));
+      l->clear();
+    }
     exhausted = false;
-    busy = 0;
-    for (int lane = 0; lane < LanePack::lanes; ++lane) pack.active[lane] = 0.0;
+    waiting = 0;
     for (int lane = 0; lane < LanePack::lanes; ++lane) fill(lane);
-    for (std::uint64_t sweep = 1; busy > 0; ++sweep) {
+    for (std::uint64_t sweep = 1; main.busy > 0; ++sweep) {
       if (interrupted && sweep % 64 == 0 && interrupted()) return;
-      advance(pieces, pack);
-      effort.idle += static_cast<std::uint64_t>(LanePack::lanes - busy);
-      for (int i = 0; i < pack.calls; ++i) answer(pack.lane[i], pack.call[i], pack.met[i]);
+      kernels.on_walls(pieces, main.pack);
+      effort.idle += static_cast<std::uint64_t>(LanePack::lanes - main.busy);
+      for (int i = 0; i < main.pack.calls; ++i)
+        if (!answer(main, i)) fill(main.pack.lane[i]);
     }
   }
 
@@ -78,8 +89,8 @@ class LaneWorld::Implementation {
   World scalar;
   HitFinder finder;
   LaneTable pieces;
-  lanes::Advance advance;
-  LanePack pack;
+  Turn turn;
+  lanes::Kernels kernels;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t filter = 0;
   Effort effort;
@@ -90,35 +101,85 @@ class LaneWorld::Implementation {
     LaneStart start;              ///< or where the scalar engine left it
     std::uint64_t first_hits = 0; ///< when it began
   };
+  struct Lanes {
+    LanePack pack;
+    Trajectory trajectories[LanePack::lanes];
+    int busy = 0;
+
+    void clear() {
+      busy = 0;
+      for (double& active : pack.active) active = 0.0;
+    }
+    void leave(int lane) {
+      if (pack.active[lane] != 0.0) --busy;
+      pack.active[lane] = 0.0;
+    }
+  };
 
   /// Puts the next trajectory into a lane.
   void fill(int lane) {
+    if (kernels.on_walls == kernels.anywhere) {
+      begin(main, lane);
+      return;
+    }
+    while (waiting < LanePack::lanes || !exhausted) {
+      if (waiting == LanePack::lanes || entrance.busy == 0) enter_several();
+      for (; waiting < LanePack::lanes; ++waiting) {
+        if (entrance.pack.active[waiting] == 0.0) continue;
+        main.trajectories[lane] = entrance.trajectories[waiting];
+        entrance.leave(waiting++);
+        return resume(main, lane);
+      }
+    }
+  }
+
+  /// First flights, which may start anywhere; who has made them waits for a lane.
+  void enter_several() {
+    entrance.clear();
+    for (int lane = 0; lane < LanePack::lanes && begin(entrance, lane);) ++lane;
+    waiting = 0;
+    if (entrance.busy == 0) return;
+    kernels.anywhere(pieces, entrance.pack);
+    const int calls = entrance.pack.calls;
+    for (int i = 0; i < calls; ++i) answer(entrance, i);
+    for (int lane = 0; lane < LanePack::lanes; ++lane)
+      if (entrance.pack.active[lane] != 0.0) take_out(entrance, lane);
+  }
+
+  /// Begins the next trajectory that lasts; false if there is none.
+  bool begin(Lanes& lanes, int lane) {
     for (;;) {
-      Trajectory& mine = trajectories[lane];
+      Trajectory& mine = lanes.trajectories[lane];
       if (exhausted || !(*source)(mine.start)) {
         exhausted = true;
-        return;
+        return false;
       }
+      if (turn_of(mine.start.particle.omega) != turn) throw std::invalid_argument("a particle that turns another way");
       mine.first_hits = mine.start.hits;
-      if (can_start(mine.start.state)) return enter(lane);
-      if (go_on(lane)) return;
+      if (can_start(mine.start.state, mine.start.particle)) {
+        resume(lanes, lane);
+        return true;
+      }
+      if (go_on(lanes, lane)) return true;
     }
   }
 
   /// Is the state one that lanes may start from? Not at a joint, nor along a wall.
-  bool can_start(State& s) const {
+  bool can_start(State& s, const Particle& p) const {
     if (s.wall < 0) return true;
     const geometry::PreparedCurve& w = finder.curve(s.wall);
     if (!(s.u > geometry::first_parameter && s.u < w.last())) return false;
     const auto frame = w.frame(s.u);
     if (w.parameter(s.position) != s.u) s.position = frame.point;  // as World::add
-    return dot(frame.normal, s.velocity) > 0x1p-36 * pieces.size * std::fabs(s.velocity.x + s.velocity.y);
+    return dot(frame.normal, s.velocity) > 0x1p-36 * pieces.size * p.speed;
   }
 
-  void enter(int lane) {
-    const Trajectory& mine = trajectories[lane];
+  /// The numbers of a lane's trajectory.
+  void resume(Lanes& lanes, int lane) {
+    LanePack& pack = lanes.pack;
+    const Trajectory& mine = lanes.trajectories[lane];
     const State& s = mine.start.state;
-    const double square = mine.start.particle.speed * mine.start.particle.speed;
+    const Particle& p = mine.start.particle;
     pack.x[lane] = s.position.x;
     pack.y[lane] = s.position.y;
     pack.vx[lane] = s.velocity.x;
@@ -127,21 +188,24 @@ class LaneWorld::Implementation {
     pack.low[lane] = s.time.low;
     pack.piece[lane] = s.wall < 0 ? -1.0 : lanes::piece_at(pieces, s.wall, s.u);
     pack.hits[lane] = static_cast<double>(mine.start.hits);
-    pack.speed[lane] = mine.start.particle.speed;
-    pack.square_speed[lane] = square;
-    pack.energy_weight[lane] = 0.75 / square;
-    if (pack.active[lane] == 0.0) ++busy;
+    pack.speed[lane] = p.speed;
+    pack.square_speed[lane] = p.speed * p.speed;
+    pack.energy_weight[lane] = 0.75 / (p.speed * p.speed);
+    if (turn != Turn::straight) {
+      const double turned = std::fabs(p.omega) * pieces.size, pace = p.speed + turned;
+      pack.omega[lane] = p.omega;
+      pack.inverse_half[lane] = 1.0 / (0.5 * std::fabs(p.omega));
+      pack.pace[lane] = std::ldexp(1.0, std::ilogb(pace) + 1);
+      pack.joint_margin[lane] = std::max(0x1p-35 * turned, 0x1p-40 * pace) * pace;
+    }
+    if (pack.active[lane] == 0.0) ++lanes.busy;
     pack.active[lane] = 1.0;
   }
 
-  void leave(int lane) {
-    if (pack.active[lane] != 0.0) --busy;
-    pack.active[lane] = 0.0;
-  }
-
   /// The lane's numbers as a state.
-  void take_out(int lane) {
-    Trajectory& mine = trajectories[lane];
+  void take_out(Lanes& lanes, int lane) {
+    const LanePack& pack = lanes.pack;
+    Trajectory& mine = lanes.trajectories[lane];
     const auto hits = static_cast<std::uint64_t>(pack.hits[lane]);
     effort.hits += hits - mine.start.hits;
     filter += 2 * (hits - mine.start.hits);  // which wall, and which way the velocity points
@@ -155,70 +219,74 @@ class LaneWorld::Implementation {
     s.u = finder.curve(s.wall).parameter(s.position);
   }
 
-  void answer(int lane, Call call, const LanePack::Met& met) {
-    take_out(lane);
-    const Trajectory& mine = trajectories[lane];
+  /// Does the trajectory go on?
+  bool answer(Lanes& lanes, int number) {
+    const int lane = lanes.pack.lane[number];
+    const Call call = lanes.pack.call[number];
+    const LanePack::Met met = lanes.pack.met[number];
+    take_out(lanes, lane);
+    if (call == Call::undecided) return go_on(lanes, lane);
+    const Trajectory& mine = lanes.trajectories[lane];
     const State& s = mine.start.state;
-    if (call == Call::undecided) {
-      if (go_on(lane)) return;
-    } else {
-      ++filter;
-      LaneEnd end{mine.start.tag, Fate::survived, s.time, s, -1, mine.start.hits, last_wall(mine), {}};
-      if (call == Call::escaped) {
-        end.fate = Fate::escaped;
-        end.time = {met.high, met.low};
-        end.hole = static_cast<int>(pieces.hole[static_cast<int>(met.piece)]);
-      } else if (call != Call::over) {
-        end.fate = call == Call::capped ? Fate::capped : Fate::unbounded;
-      }
-      leave(lane);
-      (*sink)(end);
+    ++filter;
+    LaneEnd end{mine.start.tag, Fate::survived, s.time, s, -1, mine.start.hits, last_wall(mine), {}};
+    if (call == Call::escaped) {
+      end.fate = Fate::escaped;
+      end.time = {met.high, met.low};
+      end.hole = static_cast<int>(pieces.hole[static_cast<int>(met.piece)]);
+    } else if (call != Call::over) {
+      end.fate = call == Call::capped ? Fate::capped : Fate::unbounded;
     }
-    fill(lane);
+    lanes.leave(lane);
+    (*sink)(end);
+    return false;
   }
 
   static int last_wall(const Trajectory& t) { return t.start.hits > t.first_hits ? t.start.state.wall : -1; }
 
   /// One event by the scalar engine; false if it ends the trajectory.
-  bool go_on(int lane) {
-    Trajectory& mine = trajectories[lane];
+  bool go_on(Lanes& lanes, int lane) {
+    Trajectory& mine = lanes.trajectories[lane];
     ++effort.scalar;
     LastEnd last;
     last.time = mine.start.state.time;
     scalar.clear();
     scalar.limit_hits(std::min(limit, mine.start.hits + 1));
     scalar.add(mine.start.particle, mine.start.state, mine.start.hits);
-    scalar.run_until(pack.end, last);
+    scalar.run_until(lanes.pack.end, last);
     mine.start.hits = scalar.hits(0);
     mine.start.state = scalar.state(0);
     if (scalar.fate(0) == Fate::capped && mine.start.hits < limit) {
       if (mine.start.state.u > geometry::first_parameter) {
-        enter(lane);
+        resume(lanes, lane);
         return true;
       }
-      return go_on(lane);  // from a joint
+      return go_on(lanes, lane);  // from a joint
     }
-    leave(lane);
-    (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? last.time : scalar.state(0).time, mine.start.state, scalar.hole(0), mine.start.hits,
-             last_wall(mine), scalar.report(0)});
+    lanes.leave(lane);
+    (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? last.time : scalar.state(0).time, mine.start.state,
+             scalar.hole(0), mine.start.hits, last_wall(mine), scalar.report(0)});
     return false;
   }
 
   const std::function<bool(LaneStart&)>* source = nullptr;
   const std::function<void(const LaneEnd&)>* sink = nullptr;
-  Trajectory trajectories[LanePack::lanes];
+  Lanes main;
+  Lanes entrance;   ///< used where particles are not born on walls and `on_walls` cannot fly them
+  int waiting = 0;  ///< the next lane of the entrance that may wait
   bool exhausted = false;
-  int busy = 0;
 };
 
 bool LaneWorld::suits(const Table& table, const std::vector<Particle>& particles) {
   for (const Particle& p : particles)
-    if (p.omega != 0.0 || p.radius != 0.0 || !(p.speed > 0.0)) return false;
-  return lanes::fits(table);
+    if (turn_of(p.omega) != turn_of(particles[0].omega) || p.radius != 0.0 || !moderate(p.speed) ||
+        (p.omega != 0.0 && !moderate(std::fabs(p.omega))))
+      return false;
+  return !particles.empty() && lanes::fits(table);
 }
 
-LaneWorld::LaneWorld(const Table& table, InstructionSet set, DecisionOptions options)
-    : implementation_(std::make_unique<Implementation>(table, set, options)) {}
+LaneWorld::LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)
+    : implementation_(std::make_unique<Implementation>(table, particles, set, options)) {}
 LaneWorld::~LaneWorld() = default;
 
 void LaneWorld::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }

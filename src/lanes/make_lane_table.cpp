@@ -54,8 +54,20 @@ void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part,
   t.closed_circles |= w.closed;
   // Beyond every length that occurs, and 2^48 times every error of a point.
   t.size = std::max({t.size, 4.0 * w.extent, 0x1p48 * w.point_error, 0x1p48 * w.centre_error});
-  if (t.bent[i])
-    t.size = std::max(t.size, 4.0 * (std::sqrt(w.r2) + std::fabs(w.centre.x) + std::fabs(w.centre.y)));
+  if (!t.bent[i]) return;
+  t.radius[i] = std::sqrt(w.r2);
+  t.size = std::max(t.size, 4.0 * (t.radius[i] + std::fabs(w.centre.x) + std::fabs(w.centre.y)));
+}
+
+/// From the joint where a piece begins to the one where it ends.
+void add_chord(LaneTable& t, int i, int next) {
+  const Vector joint{t.joint_x[i], t.joint_y[i]};
+  const Vector d = Vector{t.joint_x[next], t.joint_y[next]} - joint;
+  t.length[i] = std::sqrt(dot(d, d));
+  const Vector chord{d.x / t.length[i], d.y / t.length[i]};
+  t.chord_x[i] = chord.x;
+  t.chord_y[i] = chord.y;
+  if (t.bent[i]) t.chord_offset[i] = geometry::cross(chord, Vector{t.point_x[i], t.point_y[i]} - joint) / t.radius[i];
 }
 
 /// One loop of walls that turns to the left everywhere, and nothing in it: as HitFinder::find_enclosure.
@@ -100,7 +112,11 @@ LaneTable make_lane_table(const HitFinder& finder) {
       for (const Part& part : parts) add_piece(t, finder.curve(wall), wall, part, parts.size() == 1);
     }
     t.count[loop] = t.pieces - t.first[loop];
+    const int first = t.first[loop];
+    for (int i = first; i < t.pieces && !t.closed[first]; ++i) add_chord(t, i, i + 1 < t.pieces ? i + 1 : first);
   }
+  // A power of two. Lanes decide nothing where products of sizes might leave the range of doubles.
+  t.size = t.size > 1e-30 && t.size < 1e30 ? std::ldexp(1.0, std::ilogb(t.size) + 1) : HUGE_VAL;
   for (int i = 0; i < t.pieces; ++i) t.divided |= t.wall[i] != i;
   t.convex = is_convex(finder);
   t.open = table.extent == Extent::open_plane;

@@ -5,23 +5,11 @@
 // the choice of the piece is made otherwise, and a choice is either certain or left to that engine.
 // docs/developer/lanes.md derives the margins.
 
-/// The piece met first, or undecided.
-struct Choice {
-  Real piece;
-  Mask decided;
-};
-
-struct View {
-  const LaneTable& table;
-  Vector origin, velocity;
-  Real start_piece, start_wall, speed, square_speed;
-};
-
 /// A convex loop alone: between a joint on the right and the next one on the left, or, with all joints on one
 /// side, through the arc that the particle stands on.
 INLINE Choice exit_of_loop(const View& f) {
   const LaneTable& t = f.table;
-  if (t.pieces == 1) return {Real(0.0), Mask(true)};
+  if (t.pieces == 1) return {Real(0.0), Mask(true), Real(0.0)};
   Real piece(-1.0);
   const auto side_of = [&](int i) {
     return cross(f.velocity, Vector{Real(t.joint_x[i]), Real(t.joint_y[i])} - f.origin);
@@ -41,9 +29,9 @@ INLINE Choice exit_of_loop(const View& f) {
   const Mask none = piece < 0.0;
   if (any_of(none)) {
     where(none, piece) = f.start_piece;
-    decided = decided && (!none || (piece >= 0.0 && look_up<Reach::all>(t.orientation, max(piece, Real(0.0)), t.pieces) != 0.0));
+    decided = decided && (!none || (piece >= 0.0 && look_up<Reach::all>(t.orientation, max(piece, Real(0.0))) != 0.0));
   }
-  return {piece, decided};
+  return {piece, decided, Real(0.0)};
 }
 
 /// Any table: the earliest of all exits, compared as fractions.
@@ -70,7 +58,7 @@ class Earliest {
     where(better, piece_) = Real(static_cast<double>(piece));
   }
   INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
-  INLINE Choice choice() const { return {piece_, decided_}; }  // below 0: none
+  INLINE Choice choice() const { return {piece_, decided_, Real(0.0)}; }  // below 0: none
   const Real& sides() const { return sides_; }
   const Real& squares() const { return squares_; }
   const Real& roots() const { return roots_; }
@@ -81,12 +69,12 @@ class Earliest {
   Real sides_, squares_, roots_, times_;  // margins
 };
 
-struct Joint {
+struct JointOfLine {
   Vector from;  ///< seen from the particle
   Real side;
 };
 
-INLINE void add_circle(Earliest& best, const View& f, int i, const Joint* a, const Joint* b) {
+INLINE void add_circle(Earliest& best, const View& f, int i, const JointOfLine* a, const JointOfLine* b) {
   const LaneTable& t = f.table;
   const Vector e = f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])};
   const Real p = dot(e, e) - t.second_number[i], q = dot(e, f.velocity);
@@ -134,12 +122,12 @@ INLINE Choice first_of_all(const View& f) {
       const Vector d = Vector{Real(t.joint_x[i]), Real(t.joint_y[i])} - f.origin;
       const Real side = cross(f.velocity, d);
       best.doubt(abs(side) <= best.sides());
-      return Joint{d, side};
+      return JointOfLine{d, side};
     };
-    const Joint start = joint(first);
-    Joint a = start;
+    const JointOfLine start = joint(first);
+    JointOfLine a = start;
     for (int i = first; i <= last; ++i) {
-      const Joint b = i == last ? start : joint(i + 1);
+      const JointOfLine b = i == last ? start : joint(i + 1);
       if (t.bent[i]) {
         add_circle(best, f, i, &a, &b);
       } else {
@@ -152,4 +140,36 @@ INLINE Choice first_of_all(const View& f) {
     }
   }
   return best.choice();
+}
+
+/// The flight to the piece that was chosen: a fraction for either kind of wall.
+template <class Kind>
+INLINE Meeting meet_by_line(const View& f, const Met& met) {
+  const LaneTable& t = f.table;
+  const Vector e = f.origin - met.point, v = f.velocity;
+  Real time, unit;
+  Mask decided(true);
+  if constexpr (Kind::circles) {
+    Real a = dot(e, e) - met.second;
+    const Real b = dot(e, v);
+    const Real discriminant = b * b - a * f.square_speed;
+    Real root = sqrt(max(discriminant, Real(0.0)));
+    where(met.stands, a) = Real(0.0);
+    where(met.stands, root) = abs(b);
+    const Real n = abs(b) + root;
+    const Mask away = -met.orientation * b <= 0.0;
+    time = choose(away, -met.orientation * a, n);
+    unit = choose(away, n, met.orientation * f.square_speed);
+    decided = met.stands || discriminant > (sign_margin * t.size * t.size) * f.square_speed;
+    if constexpr (Kind::segments) decided = decided || !met.bent;
+  }
+  if constexpr (Kind::segments) {
+    const Vector tangent{met.first, met.second};
+    const Real across = cross(tangent, e), along = -cross(tangent, v);
+    time = Kind::circles ? choose(met.bent, time, across) : across;
+    unit = Kind::circles ? choose(met.bent, unit, along) : along;
+  }
+  const Real duration = time / unit;
+  decided = decided && duration > 0.0 && duration < __builtin_huge_val();
+  return {f.origin + duration * v, v, duration, decided};
 }

@@ -3,6 +3,21 @@
 
 namespace carom {
 
+/// The instant high + low a duration later: one, or that of many trajectories.
+template <class Number>
+struct TwoNumbers {
+  Number high, low;
+};
+template <class Number>
+constexpr TwoNumbers<Number> later(const Number& high, const Number& low, const Number& duration) {
+  const Number sum = high + duration;
+  const Number part = sum - high;
+  const Number error = (high - (sum - part)) + (duration - part);
+  const Number rest = low + error;
+  const Number end = sum + rest;
+  return {end, rest - (end - sum)};
+}
+
 /// An instant as the unevaluated sum high + low with |low| at most half an ulp of high, so that
 /// 10^10 flights can be added without loss (Dekker 1971; Knuth's two-sum). Comparisons use both.
 struct Time {
@@ -25,12 +40,8 @@ struct Time {
 
   /// The instant a duration later.
   friend constexpr Time operator+(const Time& t, double duration) {
-    const double sum = t.high + duration;
-    const double part = sum - t.high;
-    const double error = (t.high - (sum - part)) + (duration - part);
-    const double rest = t.low + error;
-    const double later = sum + rest;
-    return {later, rest - (later - sum)};
+    const TwoNumbers<double> s = later(t.high, t.low, duration);
+    return {s.high, s.low};
   }
   /// Duration from b to a, rounded to one double.
   friend constexpr double operator-(const Time& a, const Time& b) {

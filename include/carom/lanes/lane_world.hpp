@@ -36,12 +36,13 @@ struct LaneEnd {
 /// only what is certain in double precision; everything else is decided by a World.
 class LaneWorld {
  public:
-  /// Can lanes fly such particles on that table? Straight flights between segments and circles.
+  /// Can lanes fly such particles on that table? Straight flights, or Larmor circles that all turn the same way,
+  /// between segments and circles.
   static bool suits(const Table&, const std::vector<Particle>&);
 
-  /// Keeps a reference to the table, which must live as long.
-  LaneWorld(const Table& table, InstructionSet set, DecisionOptions options = {});
-  explicit LaneWorld(Table&&, InstructionSet, DecisionOptions = {}) = delete;
+  /// `particles` suit, and every start is one of them. Keeps a reference to the table, which must live as long.
+  LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options = {});
+  LaneWorld(Table&&, const std::vector<Particle>&, InstructionSet, DecisionOptions = {}) = delete;
   ~LaneWorld();
 
   void limit_hits(std::uint64_t hits);

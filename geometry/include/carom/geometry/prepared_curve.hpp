@@ -108,24 +108,17 @@ struct PreparedCurve {
     a.k = f.k;
   }
   [[gnu::always_inline]] Frame settle_on_segment(Vector x) const {
-    const double s = dot(x - from, tangent);
-    return {from + s * tangent, left(tangent), 1.0, 1.0};
+    return {back_to_line(x, from, tangent), left(tangent), 1.0, 1.0};
   }
   [[gnu::always_inline]] Frame settle_on_circle(Vector x) const {
     const Vector e = x - centre;
-    return {centre + back_to(dot(weight * e, e), e), -orientation * e, dot(off_power * e, e), off_power};
+    return {centre + back_to_circle(e, weight), -orientation * e, dot(off_power * e, e), off_power};
   }
   [[gnu::always_inline]] Frame settle_on_ellipse(Vector x) const {
     const Vector e = x - centre;
     const double p = dot(first_axis, e), q = dot(second_axis, e);
     const Vector g{p * first_axis.x + q * second_axis.x, p * first_axis.y + q * second_axis.y};
-    return {centre + back_to(0.75 * p * p + 0.75 * q * q, e), -orientation * g, dot(g, g), 1.0};
-  }
-  /// One Newton step of e towards the curve, given 0.75 |e|^2/r^2: in the middle of a binade doubles are
-  /// evenly spaced, so the step has no bias (about 1 they are not, and angular momentum would drift).
-  static Vector back_to(double measure, Vector e) {
-    const double step = (0.75 - measure) * (2.0 / 3.0);
-    return {e.x + step * e.x, e.y + step * e.y};
+    return {centre + lengthened(e, step_of_length(0.75 * p * p + 0.75 * q * q)), -orientation * g, dot(g, g), 1.0};
   }
 };
 

@@ -1,0 +1,119 @@
+// One hit of every lane: chosen, met, put back on its wall, reflected and stored; or a call. Included by kernel.hpp
+// inside the namespace of its instruction set.
+
+template <class Kind>
+INLINE void advance(const LaneTable& t, LanePack& pack, int lane) {
+  constexpr bool larmor = Kind::turn != 0;
+  const auto of = [&](const double* numbers, const Real& piece) { return look_up<Kind::reach>(numbers, piece); };
+  View f{t, {load(pack.x + lane), load(pack.y + lane)}, {load(pack.vx + lane), load(pack.vy + lane)},
+         load(pack.piece + lane), Real(0.0), load(pack.speed + lane), load(pack.square_speed + lane),
+         Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
+  if constexpr (larmor) {
+    f.omega = load(pack.omega + lane);
+    f.inverse_half = load(pack.inverse_half + lane);
+    f.pace = load(pack.pace + lane);
+    f.joint_margin = load(pack.joint_margin + lane);
+  }
+  const Mask active = load(pack.active + lane) > 0.0;
+  f.start_wall = f.start_piece;
+  if (t.divided) where(f.start_piece >= 0.0, f.start_wall) = of(t.wall, max(f.start_piece, Real(0.0)));
+
+  Choice choice;
+  if constexpr (larmor)
+    choice = Kind::convex ? exit_of_loop_by_circle<Kind::turn, Kind>(f) : first_of_all_by_circle<Kind::turn, Kind>(f);
+  else
+    choice = Kind::convex ? exit_of_loop(f) : first_of_all(f);
+  const Real piece = max(choice.piece, Real(0.0));
+  Mask decided = choice.decided;
+  Mask gone(false);
+  if constexpr (!Kind::convex && !larmor) {
+    const Mask none = choice.piece < 0.0;
+    if (t.open) gone = decided && none;
+    decided = decided && !none;
+  }
+
+  Met met{{of(t.point_x, piece), of(t.point_y, piece)}, of(t.first_number, piece), of(t.second_number, piece),
+          Real(0.0), Real(1.0), Mask(Kind::circles), Mask(false)};
+  if constexpr (Kind::circles) {
+    met.orientation = of(t.orientation, piece);
+    met.off_power = of(t.off_power, piece);
+    if constexpr (Kind::segments) met.bent = met.orientation != 0.0;
+  }
+  if constexpr (Kind::circles || larmor) met.stands = (t.divided ? of(t.wall, piece) : piece) == f.start_wall;
+  Meeting at;
+  if constexpr (larmor)
+    at = meet_by_circle<Kind>(f, met, choice);
+  else
+    at = meet_by_line<Kind>(f, met);
+  decided = decided && at.decided;
+  const Vector v = at.velocity;
+
+  const Real high0 = load(pack.high + lane), low0 = load(pack.low + lane);
+  const auto [high, low] = later(high0, low0, at.duration);
+  const Mask over = high > pack.end || (high == pack.end && low > 0.0);
+
+  // As PreparedCurve::arrive. The flight of a Larmor circle must be seen to end on the wall.
+  Vector place, normal;
+  Real square(1.0), off(0.0);
+  if constexpr (Kind::circles) {
+    const Vector d = at.point - met.point;
+    place = met.point + geometry::back_to_circle(d, met.first);
+    normal = -met.orientation * d;
+    square = dot(met.off_power * d, d);
+    if constexpr (larmor) off = (0.75 - dot(met.first * d, d)) * (0.25 * t.size);
+    if (t.closed_circles) decided = decided && (!met.bent || abs(d.y) > sign_margin * t.size);
+  }
+  if constexpr (Kind::segments) {
+    const Vector tangent{met.first, met.second};
+    const Vector on = geometry::back_to_line(at.point, met.point, tangent), across = geometry::left(tangent);
+    if constexpr (larmor) off = choose(met.bent, off, cross(tangent, at.point - met.point));
+    if constexpr (Kind::circles) {
+      place = {choose(met.bent, place.x, on.x), choose(met.bent, place.y, on.y)};
+      normal = {choose(met.bent, normal.x, across.x), choose(met.bent, normal.y, across.y)};
+      where(!met.bent, square) = Real(1.0);
+    } else {
+      place = on;
+      normal = across;
+    }
+  }
+  if constexpr (larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
+
+  const Real factor =
+      Kind::circles ? geometry::reflection_factor(v, normal, square, met.off_power) : 2.0 * dot(v, normal);
+  const Vector after = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, load(pack.energy_weight + lane)));
+  Mask escaped(false);
+  if (t.divided) escaped = of(t.hole, piece) >= 0.0;
+  const Mask inward = dot(normal, after) > (sign_margin * t.size) * f.speed;
+  decided = decided && (escaped || over || inward);
+
+  const Mask applies = active && decided && !over && !escaped;
+  const Real hits0 = load(pack.hits + lane), hits = hits0 + 1.0;
+  const Mask capped = hits >= pack.limit;
+  // A whole store: one through a mask takes 30 ns without AVX.
+  const auto store = [&](double* to, const Real& before, const Real& now) {
+    choose(applies, now, before).copy_to(to + lane, simd::element_aligned);
+  };
+  store(pack.x, f.origin.x, place.x);
+  store(pack.y, f.origin.y, place.y);
+  store(pack.vx, f.velocity.x, after.x);
+  store(pack.vy, f.velocity.y, after.y);
+  store(pack.high, high0, high);
+  store(pack.low, low0, low);
+  store(pack.piece, f.start_piece, piece);
+  store(pack.hits, hits0, hits);
+
+  const Mask calls = active && (!decided || over || escaped || capped);
+  if (any_of(calls)) [[unlikely]] {
+    for (int k = 0; k < width; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (!calls[i]) continue;
+      pack.met[pack.calls] = {piece[i], high[i], low[i]};
+      pack.lane[pack.calls] = lane + k;
+      pack.call[pack.calls++] = gone[i]       ? Call::unbounded
+                                : !decided[i] ? Call::undecided
+                                : over[i]     ? Call::over
+                                : escaped[i]  ? Call::escaped
+                                              : Call::capped;
+    }
+  }
+}

@@ -1,0 +1,240 @@
+// Larmor flights in lanes: which piece comes first, by signs with margins, and the hit there. Included by
+// kernel.hpp inside the namespace of its instruction set. docs/developer/lanes.md derives the margins.
+//
+// Signs are taken from the centre Z of the Larmor circle, seen from a joint or from the centre of an arc and times
+// |omega|: c = |omega| (Z - J), which is |omega| (P - J) + Jv for a clockwise flight. J lies inside the circle if
+// |c| is below the speed.
+
+struct CircleView {
+  Vector centre;  ///< |omega| Z
+  Real rate;      ///< |omega|
+  Real lengths;   ///< margin of all lengths times |omega|
+  Real joints;    ///< of |c|^2 - v^2
+};
+template <int turn>
+INLINE CircleView circle_of(const View& f) {
+  const Real rate = Real(static_cast<double>(turn)) * f.omega;
+  const Vector v = turn > 0 ? f.velocity : -f.velocity;
+  return {{rate * f.origin.x + v.y, rate * f.origin.y - v.x}, rate, 0x1p-40 * f.pace, f.joint_margin};
+}
+
+struct JointOfCircle {
+  Vector centre;
+  Mask inside;
+};
+INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Mask& decided) {
+  const LaneTable& t = f.table;
+  const Vector c{z.centre.x - z.rate * t.joint_x[i], z.centre.y - z.rate * t.joint_y[i]};
+  const Real side = dot(c, c) - f.square_speed;
+  decided = decided && abs(side) > z.joints;
+  return {c, side < 0.0};
+}
+
+/// Positive if a segment whose ends lie outside the circle is cut twice: if the foot of the centre lies
+/// between them, nearer than the radius. `c` is seen from its first end.
+INLINE Real cut_of_segment(const View& f, const CircleView& z, int i, const Vector& c) {
+  const LaneTable& t = f.table;
+  const Vector chord{Real(t.chord_x[i]), Real(t.chord_y[i])};
+  const Real foot = dot(chord, c);
+  return min(min(foot, z.rate * t.length[i] - foot), f.speed - abs(cross(chord, c)));
+}
+
+/// Positive if the whole circle of an arc is cut.
+INLINE Real cut_of_circle(const View& f, const CircleView& z, int i, const Real& distance) {
+  const Real radius = z.rate * f.table.radius[i];
+  return min(f.speed + radius - distance, distance - abs(radius - f.speed));
+}
+/// Positive if an arc whose joints lie on one side of the Larmor circle is cut twice: if its circle is, and the
+/// middle of the part on the other side lies on the arc's side of its chord.
+INLINE Real cut_of_arc(const View& f, const CircleView& z, int i, const Mask& inside) {
+  const LaneTable& t = f.table;
+  const Vector c{z.centre.x - z.rate * t.point_x[i], z.centre.y - z.rate * t.point_y[i]};
+  const Real distance = sqrt(dot(c, c));
+  const Real towards = cross(Vector{Real(t.chord_x[i]), Real(t.chord_y[i])}, c);
+  const Real middle = t.chord_offset[i] * distance + choose(inside, -towards, towards);
+  return min(cut_of_circle(f, z, i, distance), -t.orientation[i] * middle);
+}
+
+/// A convex loop alone, from one of its walls: the first wall, backwards for a clockwise flight, whose joint
+/// there lies inside the circle or that is cut twice; or the start.
+template <int turn, class Kind>
+INLINE Choice exit_of_loop_by_circle(const View& f) {
+  const LaneTable& t = f.table;
+  if (t.pieces == 1) return {Real(0.0), Mask(true), Real(0.0)};
+  const CircleView z = circle_of<turn>(f);
+  Mask decided = f.start_piece >= 0.0;
+  Real behind(-1.0), any(-1.0);  // of the walls from the start on in the flight's order; of all
+  JointOfCircle before = joint_at(f, z, 0, decided);
+  const JointOfCircle first = before;
+  for (int k = 0; k < t.pieces; ++k) {
+    const int i = turn > 0 ? k : t.pieces - 1 - k;
+    const int joint = turn > 0 ? i + 1 : i;
+    const JointOfCircle after = k + 1 == t.pieces ? first : joint_at(f, z, joint, decided);
+    const JointOfCircle& begin = turn > 0 ? before : after;
+    const Real cut =
+        Kind::circles && t.bent[i] ? cut_of_arc(f, z, i, Mask(false)) : cut_of_segment(f, z, i, begin.centre);
+    const Real piece(static_cast<double>(i));
+    const Mask outside = !before.inside && !after.inside && f.start_piece != piece;
+    decided = decided && !(outside && abs(cut) <= z.lengths);
+    const Mask leaves = before.inside || (outside && cut > 0.0);
+    where(leaves, any) = piece;
+    where(leaves && (turn > 0 ? f.start_piece >= piece : f.start_piece <= piece), behind) = piece;
+    before = after;
+  }
+  return {choose(behind >= 0.0, behind, choose(any >= 0.0, any, f.start_piece)), decided, Real(0.0)};
+}
+
+/// Where a flight leaves through a piece: kappa = p / q.
+struct Fraction {
+  Real p, q;
+  Mask decided;
+};
+/// The rising root of the quadratic of a segment or circle, whose sizes are powers of two.
+INLINE Fraction rising_root(const View& f, const geometry::Quadratic<Real>& quadratic, const Mask& stands, const Real& length) {
+  const auto& [a, b, c] = quadratic;
+  const Real discriminant = b * b - a * c;
+  const Real n = abs(b) + sqrt(max(discriminant, Real(0.0)));
+  const Mask falls = b <= 0.0;
+  const Real size = length * f.pace;
+  const Mask decided = (stands && b > sign_margin * size) || (!stands && discriminant > (sign_margin * size) * size &&
+                                                               (!falls || abs(a) > (sign_margin * f.table.size) * length));
+  return {choose(falls, n, -c), choose(falls, a, n), decided};
+}
+
+/// Any table: the earliest of all exits.
+class EarliestOnCircle {
+ public:
+  explicit EarliestOnCircle(const View& f) : f_(f), decided_(true), piece_(-1.0), p_(-1.0), q_(0.0) {}
+
+  INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
+  Mask& decided() { return decided_; }
+  /// `length`: the size of the quadratic's leading coefficient in sizes.
+  INLINE void add(int i, const Mask& leaves, const geometry::Quadratic<Real>& quadratic, const Mask& stands, double length) {
+    const Fraction r = rising_root(f_, quadratic, stands, Real(length));
+    doubt(leaves && !r.decided);
+    // Both brought to the sizes pace and size by powers of two, the divisor positive.
+    const Real falling = Real(1.0 / length), rising = f_.table.size / (length * f_.pace);
+    Real scale = choose(quadratic.b <= 0.0, falling, rising);
+    where(r.q < 0.0, scale) = -scale;
+    const Real p = r.p * scale, q = r.q * scale;
+    const Real gap = p * q_ - p_ * q;
+    doubt(leaves && piece_ >= 0.0 && abs(gap) <= (0x1p-20 * f_.table.size) * f_.pace);
+    const Mask better = leaves && gap > 0.0;
+    where(better, p_) = p;
+    where(better, q_) = q;
+    where(better, piece_) = Real(static_cast<double>(i));
+  }
+  INLINE Choice choice() const { return {piece_, decided_ && piece_ >= 0.0, p_ / q_}; }
+
+ private:
+  const View& f_;
+  Mask decided_;
+  Real piece_, p_, q_;
+};
+
+/// The quadratic of a piece for flights from this start.
+INLINE geometry::Quadratic<Real> quadratic_of_segment(const View& f, const Vector& point, const Vector& tangent, const Mask& stands) {
+  Vector e = f.origin - point;
+  where(stands, e.x) = Real(0.0);
+  where(stands, e.y) = Real(0.0);
+  return geometry::line_quadratic(e, tangent, f.velocity, f.omega, Real(0.5));
+}
+INLINE geometry::Quadratic<Real> quadratic_of_circle(const View& f, const Vector& point, const Real& square, const Real& orientation,
+                                                     const Mask& stands) {
+  const Vector e = f.origin - point;
+  const auto q = geometry::circle_quadratic(e, choose(stands, dot(e, e), square), f.velocity, f.square_speed, f.omega, Real(0.5));
+  return {-orientation * q.a, -orientation * q.b, -orientation * q.c};
+}
+
+template <int turn, class Kind>
+INLINE Choice first_of_all_by_circle(const View& f) {
+  const LaneTable& t = f.table;
+  const CircleView z = circle_of<turn>(f);
+  EarliestOnCircle best(f);
+  for (int loop = 0; loop < t.loops; ++loop) {
+    const int first = t.first[loop], last = first + t.count[loop] - 1;
+    const bool closed = t.closed[first];
+    JointOfCircle start{}, a{};
+    if (!closed) a = start = joint_at(f, z, first, best.decided());
+    for (int i = first; i <= last; ++i) {
+      const Real piece(static_cast<double>(i));
+      const Mask stands = f.start_wall == Real(t.wall[i]), own = f.start_piece == piece;
+      const bool bent = Kind::circles && t.bent[i];
+      JointOfCircle b{};
+      Mask leaves;
+      if (closed) {
+        const Vector c{z.centre.x - z.rate * t.point_x[i], z.centre.y - z.rate * t.point_y[i]};
+        const Real cut = cut_of_circle(f, z, i, sqrt(dot(c, c)));
+        best.doubt(!stands && abs(cut) <= z.lengths);
+        leaves = stands || cut > 0.0;
+      } else {
+        b = i == last ? start : joint_at(f, z, i + 1, best.decided());
+        const Mask from = turn > 0 ? a.inside : !a.inside, to = turn > 0 ? b.inside : !b.inside;  // on the right?
+        const Mask same = from == to, open = bent ? same && !stands : same && !stands && !a.inside;
+        const Real cut = bent ? cut_of_arc(f, z, i, a.inside) : cut_of_segment(f, z, i, a.centre);
+        best.doubt(open && abs(cut) <= z.lengths);
+        leaves = (from && !to) || (same && own) || (open && cut > 0.0);
+        a = b;
+      }
+      if (!any_of(leaves)) continue;
+      const Vector point{Real(t.point_x[i]), Real(t.point_y[i])};
+      if (bent) {
+        best.add(i, leaves, quadratic_of_circle(f, point, Real(t.second_number[i]), Real(t.orientation[i]), stands), stands, t.size);
+      } else {
+        best.add(i, leaves, quadratic_of_segment(f, point, {Real(t.first_number[i]), Real(t.second_number[i])}, stands), stands, 1.0);
+      }
+    }
+  }
+  return best.choice();
+}
+
+/// elementary::angle: the same operations in the same order.
+INLINE Real angle(const Real& x, const Real& y) {
+  using namespace elementary::detail;
+  const Real far = abs(x);
+  const Mask half = far * angle_steps[0] < y, one = far * angle_steps[1] < y, two = far * angle_steps[2] < y,
+             right = far * angle_steps[3] < y, back = x < 0.0;
+  // Numerator and denominator after each of the turns.
+  const Real p = choose(one, choose(two, choose(right, -far, y - (far + far)), y - far),
+                        choose(half, (y + y) - far, y));
+  const Real q0 = choose(one, choose(two, choose(right, y, far + (y + y)), far + y), choose(half, (far + far) + y, far));
+  const Real quotient = p / q0, q = choose(back, -quotient, quotient);
+  Real centre = choose(back, Real(1.0 * angle_from_pi), Real(0.0));
+  where(half, centre) = centre + 1.0;
+  where(one, centre) = centre + 1.0;
+  where(two, centre) = centre + 1.0;
+  where(right, centre) = centre + 1.0;
+  const Real z = q * q, square = z * z, fourth = square * square;
+  return angle_beyond(look_up<Reach::few>(angle_high, centre), look_up<Reach::few>(angle_low, centre), q, z,
+                      powers(angle_even, square, fourth), powers(angle_odd, square, fourth));
+}
+
+/// The flight to the piece that was chosen.
+template <class Kind>
+INLINE Meeting meet_by_circle(const View& f, const Met& met, const Choice& choice) {
+  Real kappa = choice.kappa;
+  Mask decided(true);
+  if constexpr (Kind::convex) {
+    geometry::Quadratic<Real> quadratic;
+    Real length(1.0);
+    if constexpr (Kind::segments) quadratic = quadratic_of_segment(f, met.point, {met.first, met.second}, met.stands);
+    if constexpr (Kind::circles) {
+      const auto other = quadratic_of_circle(f, met.point, met.second, met.orientation, met.stands);
+      if constexpr (Kind::segments) {
+        quadratic = {choose(met.bent, other.a, quadratic.a), choose(met.bent, other.b, quadratic.b),
+                     choose(met.bent, other.c, quadratic.c)};
+        where(met.bent, length) = Real(f.table.size);
+      } else {
+        quadratic = other;
+        length = Real(f.table.size);
+      }
+    }
+    const Fraction r = rising_root(f, quadratic, met.stands, length);
+    kappa = r.p / r.q;
+    decided = r.decided;
+  }
+  const Real half(0.5);
+  const Real duration = angle(kappa, half * abs(f.omega)) * f.inverse_half;
+  const Vector x = f.origin + geometry::displacement(kappa, f.velocity, f.omega, half);
+  return {x, geometry::turned(kappa, f.velocity, f.omega, half), duration, decided};
+}
