@@ -22,8 +22,8 @@ double power_near(double size) { return std::exp2(std::floor(std::log2(size))); 
 
 }  // namespace
 
-Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, long bits)
-    : system_(system), task_(task), first_bits_(bits), bits_(bits), table_bits_(bits) {
+Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const KnownTies& ties, long bits)
+    : system_(system), task_(task), ties_(ties), first_bits_(bits), bits_(bits), table_bits_(bits) {
   const Precision precision(bits);
   BallTable table = ball_table(*system.spec);
   where_ = whereabouts_of(table);
@@ -171,50 +171,42 @@ double Attempt::needed_bits() const {
   return error - tolerance;
 }
 
-std::string Attempt::name(const Copy& copy) const {
-  if (copy.wall < 0) return "nothing";
-  std::string text = "'" + system_.table->walls[static_cast<std::size_t>(copy.wall)].name + "'";
-  if (scene_.lattice)
-    text += " of cell " + std::to_string(now_.cell.first + copy.cell.first) + ", " +
-            std::to_string(now_.cell.second + copy.cell.second);
-  return text;
-}
-
 Outcome Attempt::step() {
   trim_precision();
   const Precision precision(bits_);
   const Choice choice = choose();
   switch (choice.answer) {
     case Choice::undecided:
-      return {Outcome::undecided, needed_bits(),
-              choice.second.wall < 0 ? "whether the flight meets " + name(choice.first)
-                                     : "which comes first, " + name(choice.first) + " or " + name(choice.second)};
+      return {Outcome::undecided, needed_bits(), {Doubt::choice, choice.first, choice.second, -1}};
     case Choice::too_far:
-      return {Outcome::too_far, 0.0, ""};
+      return {Outcome::too_far, 0.0, {Doubt::choice, choice.first, {}, -1}};
     case Choice::nothing:
-      return {Outcome::unbounded, 0.0, ""};
+      return {Outcome::unbounded, 0.0, {}};
     case Choice::wall:
       break;
   }
   std::optional<Now> before;
   if (t_max_ || !scene_.holes.empty()) before = now_;
   move_to(choice.first);
-  if (!t_max_) return landed(before);
-  const Sign late = sign(now_.state.time.widened(time_error()) - *t_max_);
-  if (late == Sign::undecided)
-    return {Outcome::undecided, needed_bits(), "whether " + name({now_.wall, {}}) + " is met before the last time"};
-  if (late != Sign::positive) return landed(before);
+  if (path_.size() < longest_path) path_.push_back(choice.first);
+  if (!t_max_) return landed(choice.first, before);
+  Sign late = sign(now_.state.time.widened(time_error()) - *t_max_);
+  if (late == Sign::undecided && ties_.at_last_time == now_.hits + 1) late = Sign::zero;
+  if (late == Sign::undecided) return {Outcome::undecided, needed_bits(), {Doubt::last_time, choice.first, {}, -1}};
+  if (late != Sign::positive) return landed(choice.first, before);
   now_ = *before;
   return stop_at_last_time();
 }
 
-Outcome Attempt::landed(const std::optional<Now>& before) {
+Outcome Attempt::landed(const Copy& copy, const std::optional<Now>& before) {
   if (!scene_.holes.empty()) {
-    const Passage passage = pass();
-    if (passage.verdict == Verdict::undecided)
-      return {Outcome::undecided, needed_bits(),
-              "on which side of an end of '" + system_.table->holes[static_cast<std::size_t>(passage.hole)].name + "' " +
-                  name({now_.wall, {}}) + " is met"};
+    Passage passage = pass();
+    if (passage.verdict == Verdict::undecided) {
+      const auto known = ties_.holes.find(now_.hits + 1);
+      if (known == ties_.holes.end())
+        return {Outcome::undecided, needed_bits(), {Doubt::hole, copy, {}, passage.hole}};
+      passage = {known->second >= 0 ? Verdict::yes : Verdict::no, known->second};
+    }
     if (passage.verdict == Verdict::yes) {
       hole_ = passage.hole;
       return leave(*before);
@@ -222,8 +214,8 @@ Outcome Attempt::landed(const std::optional<Now>& before) {
   }
   ++now_.hits;
   const double needed = needed_bits();
-  if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, ""};
-  return {Outcome::hit, 0.0, ""};
+  if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, {}};
+  return {Outcome::hit, 0.0, {}};
 }
 
 Passage Attempt::pass() const {
@@ -238,13 +230,13 @@ Passage Attempt::pass() const {
 // Through a hole with the velocity that it came with; the last reflection was the one before.
 Outcome Attempt::leave(const Now& before) {
   const double needed = needed_bits();
-  if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, ""};
+  if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, {}};
   BallState s = enclosed();
   const Bound error = Bound(speed_) * before.errors.of_velocity();
   s.velocity = {before.state.velocity.x.widened(error), before.state.velocity.y.widened(error)};
   now_.wall = before.wall;
   stopped_ = std::move(s);
-  return {Outcome::escaped, 0.0, ""};
+  return {Outcome::escaped, 0.0, {}};
 }
 
 Outcome Attempt::stop_at_last_time() {
@@ -254,9 +246,9 @@ Outcome Attempt::stop_at_last_time() {
   s.time = *t_max_;
   const double tolerance = -static_cast<double>(task_.digits) * 3.3219280948873626 - 2.0;
   const double error = std::max(radius(s.position).log2(), radius(s.velocity).log2());
-  if (!(error <= tolerance)) return {Outcome::inaccurate, error - tolerance, ""};
+  if (!(error <= tolerance)) return {Outcome::inaccurate, error - tolerance, {}};
   stopped_ = std::move(s);
-  return {Outcome::stopped, 0.0, ""};
+  return {Outcome::stopped, 0.0, {}};
 }
 
 BallState Attempt::enclosed() const {

@@ -8,6 +8,7 @@
 #include "carom/certify/certified_orbit.hpp"
 #include "certify/pilot.hpp"
 #include "certify/tangent.hpp"
+#include "certify/tie.hpp"
 
 namespace carom::certify {
 
@@ -25,16 +26,18 @@ struct Outcome {
     escaped,
     unbounded,   ///< no wall follows
     too_far,     ///< no wall within the longest flight that is followed
-    undecided,   ///< more bits are needed to tell `reason`
+    undecided,   ///< more bits are needed to end `doubt`
     inaccurate,  ///< `missing_bits` more are needed
   } kind = hit;
   double missing_bits = 0.0;
-  std::string reason;
+  Doubt doubt;  ///< of undecided ones
 };
 
 class Attempt {
  public:
-  Attempt(const ExactSystem&, const CertifiedTask&, long bits);
+  static constexpr std::size_t longest_path = 20'000;
+
+  Attempt(const ExactSystem&, const CertifiedTask&, const KnownTies&, long bits);
 
   Outcome step();
 
@@ -46,6 +49,11 @@ class Attempt {
   std::uint64_t hits() const { return now_.hits; }
   /// log2 of the largest error over the first rounding: how much was lost.
   double lost_bits() const;
+
+  /// The walls met so far, each copy seen from the last one; of long orbits only the beginning is kept.
+  const std::vector<Copy>& path() const { return path_; }
+  /// What cannot be told, with the enclosures that overlap.
+  std::string description(const Doubt&) const;
 
   /// How many bits the orbit will lose from here on, by a look ahead.
   Forecast look_ahead() const;
@@ -68,7 +76,7 @@ class Attempt {
   Choice choose() const;
   void move_to(const Copy&);
   static Bound settle(LandingOf<Ball>&, const SceneOf<Ball>&, const WallOf<Ball>&, bool same, double unit);
-  Outcome landed(const std::optional<Now>& before);
+  Outcome landed(const Copy&, const std::optional<Now>& before);
   Passage pass() const;
   Outcome leave(const Now& before);
   Outcome stop_at_last_time();
@@ -80,6 +88,7 @@ class Attempt {
 
   const ExactSystem& system_;
   const CertifiedTask& task_;
+  const KnownTies& ties_;
   long first_bits_, bits_, table_bits_;
   double unit_ = 1.0, speed_ = 1.0, time_unit_ = 1.0;  ///< at least the size of each
   SceneOf<Ball> scene_;
@@ -88,6 +97,7 @@ class Attempt {
   std::optional<Ball> t_max_;
 
   Now now_;
+  std::vector<Copy> path_;
   int hole_ = -1;
   std::optional<BallState> stopped_;  ///< the state at t_max or in a hole
 };

@@ -70,7 +70,7 @@ class CertifiedOrbit::Implementation {
       throw InputError(system.omega.place(), "the magnetic field has no certified form in this version",
                        "B = 0, or --precision double");
     // A first attempt of few bits sees the table and the start, and looks ahead.
-    const certify::Attempt scout(system_, task_, 128);
+    const certify::Attempt scout(system_, task_, ties_, 128);
     forecast_ = scout.look_ahead();
     const double wanted = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast_.hits);
     if (forecast_.hits > 0) rate_ = forecast_.bits / static_cast<double>(forecast_.hits);
@@ -103,9 +103,7 @@ class CertifiedOrbit::Implementation {
           if (done_) return std::nullopt;
           break;
         case Outcome::undecided:
-          restart(effort_.bits + std::max(still_needed(outcome), 0L) + (32L << std::min(undecided_++, 40)),
-                  outcome.reason);
-          if (done_) return std::nullopt;
+          if (!decide(outcome)) return std::nullopt;
           break;
         case Outcome::stopped:
           finish_with(CertifiedFate::completed, "");
@@ -116,9 +114,14 @@ class CertifiedOrbit::Implementation {
         case Outcome::unbounded:
           finish_with(CertifiedFate::unbounded, "");
           return std::nullopt;
-        case Outcome::too_far:
-          finish_with(CertifiedFate::undecided, "no wall within 10^5 lattice vectors");
+        case Outcome::too_far: {
+          const auto tie = outcome.doubt.first.wall < 0 ? std::nullopt : tie_at(outcome);
+          if (tie)
+            finish_with(CertifiedFate::singular, tie->text);
+          else
+            finish_with(CertifiedFate::undecided, "no wall within 10^5 lattice vectors");
           return std::nullopt;
+        }
       }
     }
   }
@@ -141,16 +144,49 @@ class CertifiedOrbit::Implementation {
     return static_cast<long>(lacks + rest * 1.01);
   }
 
-  void restart(long bits, const std::string& reason = {}) {
+  // First more bits, then algebra, then many more bits. False: the orbit has ended.
+  bool decide(const Outcome& outcome) {
+    if (undecided_ == 1) {
+      if (const auto tie = tie_at(outcome)) {
+        if (!tie->goes_on()) {
+          finish_with(CertifiedFate::singular, tie->text);
+          return false;
+        }
+        end_.ties.push_back(tie->text);
+        const std::uint64_t event = attempt_->hits() + 1;
+        if (tie->kind == certify::Tie::last_time) ties_.at_last_time = event;
+        if (tie->kind == certify::Tie::hole_start) ties_.holes[event] = outcome.doubt.hole_index;
+        if (tie->kind == certify::Tie::hole_end) ties_.holes[event] = -1;
+        undecided_ = 0;
+        restart(effort_.bits);
+        return !done_;
+      }
+    }
+    const long more = 32L << undecided_++;
+    if (more > task_.most_bits_a_doubt) {
+      finish_with(CertifiedFate::undecided, attempt_->description(outcome.doubt) + "; not decided by " +
+                                                std::to_string(effort_.bits) + " bits");
+      return false;
+    }
+    restart(effort_.bits + std::max(still_needed(outcome), 0L) + more);
+    return !done_;
+  }
+
+  std::optional<certify::Tie> tie_at(const Outcome& outcome) const {
+    std::vector<certify::Copy> walls = attempt_->path();
+    if (walls.size() < attempt_->hits()) return std::nullopt;
+    walls.resize(attempt_->hits());  // those before the event in doubt
+    return find_tie(system_, task_, walls, outcome.doubt);
+  }
+
+  void restart(long bits) {
     if (bits > task_.most_bits) {
-      finish_with(CertifiedFate::undecided,
-                  (reason.empty() ? std::string("the digits asked for need ") + std::to_string(bits) + " bits"
-                                  : reason + " is not decided by " + std::to_string(effort_.bits) + " bits"));
+      finish_with(CertifiedFate::undecided, "the digits asked for need " + std::to_string(bits) + " bits");
       return;
     }
     effort_.bits = bits;
     ++effort_.attempts;
-    attempt_.emplace(system_, task_, bits);
+    attempt_.emplace(system_, task_, ties_, bits);
   }
 
   void finish_with(CertifiedFate fate, std::string reason) {
@@ -168,6 +204,7 @@ class CertifiedOrbit::Implementation {
 
   const ExactSystem system_;
   const CertifiedTask task_;
+  certify::KnownTies ties_;
   certify::Forecast forecast_;
   double rate_ = 2.0;  ///< bits lost by a hit
   std::optional<certify::Attempt> attempt_;

@@ -23,7 +23,7 @@ struct Choice {
     wall,       ///< `first`
     nothing,    ///< no wall follows, ever
     undecided,  ///< `first` and `second` could not be told apart, or whether `first` is met
-    too_far     ///< no wall within the longest flight that is followed
+    too_far     ///< no wall within the longest flight that is followed; `first` may have been met
   } answer = nothing;
   Copy first, second;
 };
@@ -114,6 +114,7 @@ class SceneOf {
     }
     Choice none;
     none.answer = Choice::too_far;
+    if (const Copy* rival = first.rival()) none.first = *rival;
     return none;
   }
 

@@ -80,6 +80,11 @@ Json end_json(const System& system, const CertifiedEnd& end, const CertifiedTask
   json.set("cell", Json::array().push(end.cell.first).push(end.cell.second));
   if (end.hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(end.hole)].name);
   if (!end.reason.empty()) json.set("reason", end.reason);
+  if (!end.ties.empty()) {
+    Json ties = Json::array();
+    for (const std::string& tie : end.ties) ties.push(tie);
+    json.set("ties", std::move(ties));
+  }
   json.set("digits", task.digits).set("bits", effort.bits).set("attempts", effort.attempts);
   json.set("lost_bits", effort.tangent_bits);
   return json;
@@ -92,6 +97,7 @@ std::string end_text(const System& system, const CertifiedEnd& end, const Certif
   if (end.hole >= 0)
     text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
   if (!end.reason.empty()) text += ": " + end.reason;
+  for (const std::string& tie : end.ties) text += "\n  exact tie     " + tie;
   text += fmt::format("\n  collisions    {}", grouped(end.collisions));
   const std::string wall = wall_of(system, end.wall);
   if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);

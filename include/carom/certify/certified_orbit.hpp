@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "carom/certify/exact_system.hpp"
 #include "carom/geometry/lattice.hpp"
@@ -54,6 +55,7 @@ struct CertifiedEnd : CertifiedState {
   geometry::Cell cell;       ///< of the last hit
   int hole = -1;
   std::string reason;        ///< of singular and undecided ones
+  std::vector<std::string> ties;  ///< exact coincidences that the orbit went through, decided by algebra
 };
 
 /// What an orbit is asked for.
@@ -62,6 +64,7 @@ struct CertifiedTask {
   std::optional<ExactNumber> t_max;  ///< last time
   int digits = 20;                   ///< absolute error below 10^-digits in t, x, y, vx, vy
   long most_bits = 4'000'000;        ///< the precision beyond which an orbit is given up
+  long most_bits_a_doubt = 1 << 14;  ///< beyond what the orbit loses, spent on telling one event
 };
 
 /// What it took.

@@ -1,0 +1,50 @@
+// Exact ties: an orbit that runs exactly into a corner, touches a disc, meets the end of a hole. No precision
+// tells them; where the numbers are rational, or of one square root, algebra does.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carom/certify/certified_orbit.hpp"
+#include "certify/scene.hpp"
+
+namespace carom::certify {
+
+/// What balls could not tell at an event.
+struct Doubt {
+  enum Kind : unsigned char {
+    choice,    ///< which of `first` and `second` is met first; without a second, whether `first` is met
+    hole,      ///< on which side of an end of `hole` the wall `first` is met
+    last_time  ///< whether `first` is met before the last time
+  } kind = choice;
+  Copy first, second;
+  int hole_index = -1;
+};
+
+struct Tie {
+  enum Kind : unsigned char {
+    corner,       ///< into a joint whose walls have different tangents
+    smooth_joint,
+    tangency,     ///< also motion along a wall
+    hole_start,   ///< belongs to the hole
+    hole_end,     ///< does not
+    last_time     ///< a hit at the last time counts
+  } kind = corner;
+  std::string text;
+  bool goes_on() const { return kind == hole_start || kind == hole_end || kind == last_time; }
+};
+
+/// The tie at the event after the walls `path` were met, or nothing where algebra finds none: because there is
+/// none, or numbers are not of the form or grow beyond `most_bits`.
+std::optional<Tie> find_tie(const ExactSystem&, const CertifiedTask&, const std::vector<Copy>& path, const Doubt&);
+
+/// Ties that an orbit has gone through, by the number of the event.
+struct KnownTies {
+  std::map<std::uint64_t, int> holes;  ///< the hole that is left through, or -1
+  std::uint64_t at_last_time = 0;
+};
+
+}  // namespace carom::certify

@@ -1,0 +1,137 @@
+// Exact coincidences have a name, in bounded time.
+#include <gtest/gtest.h>
+
+#include "certify/quadratic.hpp"
+#include "certify/systems.hpp"
+
+namespace carom {
+namespace {
+
+using certify::Quadratic;
+using certify::QuadraticField;
+using tests::exactly;
+using tests::Shaped;
+
+CertifiedEnd end_of(const Shaped& s, const ExactPoint& direction, std::uint64_t collisions, const char* t = nullptr) {
+  CertifiedTask task;
+  task.collisions = collisions;
+  if (t != nullptr) task.t_max = exactly(t);
+  CertifiedOrbit orbit(tests::system_of(s, direction), task);
+  return orbit.finish();
+}
+
+Shaped square(const char* x, const char* y) {
+  return tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, x, y);
+}
+
+TEST(Quadratic, IsAField) {
+  const QuadraticField field;
+  const Quadratic x(exactly("1+sqrt(2)")), y(exactly("sqrt(8)-2/3"));
+  EXPECT_EQ(x * y / y, x);
+  EXPECT_EQ(x + y - y, x);
+  EXPECT_EQ(sqrt(x * x), x);
+  EXPECT_EQ(sign(Quadratic(exactly("7/5-sqrt(2)"))), Sign::negative);
+  EXPECT_EQ(sign(Quadratic(exactly("sqrt(2)-141421356237/100000000000"))), Sign::positive);
+  EXPECT_EQ(sign(Quadratic(exactly("sqrt(18)")) - Quadratic(exactly("3*sqrt(2)"))), Sign::zero);
+  EXPECT_THROW(sqrt(Quadratic(3)), certify::NotQuadratic);
+  EXPECT_THROW(Quadratic(exactly("pi")), certify::NotQuadratic);
+}
+
+// Unfolded, (1/2, 1/4) + k (odd 1, …): the line meets a lattice point, and no hit before it does.
+TEST(CertifiedTies, CornersOfTheSquare) {
+  const CertifiedEnd near = end_of(square("1/2", "1/4"), {exactly("2"), exactly("3")}, 100);
+  EXPECT_EQ(near.fate, CertifiedFate::singular);
+  EXPECT_EQ(near.reason, "event 1: exactly into the corner between 'right' and 'top'");
+  // (1/10, 1/10) along (29, 9): x = 3, y = 1 after a tenth of the way, by the sides 1 and 2.
+  const CertifiedEnd far = end_of(square("1/10", "1/10"), {exactly("29"), exactly("9")}, 100);
+  EXPECT_EQ(far.fate, CertifiedFate::singular);
+  EXPECT_EQ(far.reason, "event 3: exactly into the corner between 'right' and 'top'");
+  EXPECT_EQ(far.collisions, 2u);
+}
+
+TEST(CertifiedTies, CornerAfterManyHits) {
+  // From (1/10, 1/10) to the lattice point (301, 200).
+  const CertifiedEnd end = end_of(square("1/10", "1/10"), {exactly("3009"), exactly("1999")}, 100000);
+  EXPECT_EQ(end.fate, CertifiedFate::singular);
+  EXPECT_EQ(end.reason, "event 500: exactly into the corner between 'bottom' and 'right'");
+  EXPECT_EQ(end.collisions, 300u + 199u);
+}
+
+TEST(CertifiedTies, CornersWithRootsAndInOtherShapes) {
+  const Shaped tall = tests::shaped("rectangle", {{"width", "1"}, {"height", "sqrt(2)"}}, "1/2", "sqrt(2)/2");
+  EXPECT_EQ(end_of(tall, {exactly("1"), exactly("sqrt(2)")}, 10).reason,
+            "event 1: exactly into the corner between 'right' and 'top'");
+  const Shaped hexagon = tests::shaped("regular", {{"sides", "6"}, {"radius", "1"}}, "0", "0");
+  EXPECT_EQ(end_of(hexagon, {exactly("1"), exactly("sqrt(3)")}, 10).reason,
+            "event 1: exactly into the corner between 'side_1' and 'side_2'");
+  const Shaped stadium = tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0");
+  EXPECT_EQ(end_of(stadium, {exactly("1"), exactly("1")}, 10).reason,
+            "event 1: exactly into the joint between 'right' and 'top'");
+}
+
+TEST(CertifiedTies, TangentToADisc) {
+  Shaped sinai = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "1/10", "3/10");
+  sinai.spec.torus = false;
+  const CertifiedEnd end = end_of(sinai, {exactly("1"), exactly("0")}, 10);
+  EXPECT_EQ(end.fate, CertifiedFate::singular);
+  EXPECT_EQ(end.reason, "event 1: exactly tangent to 'disc'");
+  // On the torus along the edge of a corridor: no other disc will follow.
+  sinai.spec.torus = true;
+  EXPECT_EQ(end_of(sinai, {exactly("1"), exactly("0")}, 10).reason, "event 1: exactly tangent to 'disc'");
+  // 3-4-5: from a reflection on the bottom at (1/10, 0) towards (4, 3); the disc of radius 1/5 beside the line.
+  Shaped beside = tests::shaped("sinai", {{"side", "1"}, {"radius", "9/50"}}, "1/20", "3/80");
+  beside.spec.torus = false;
+  const CertifiedEnd bounced = end_of(beside, {exactly("4"), exactly("-3")}, 10);
+  // The line through (1/10, 0) along (4, 3) passes (1/2, 1/2) at |4/2 - 3 (2/5)|/5 = 4/25; not tangent to 9/50.
+  EXPECT_NE(bounced.fate, CertifiedFate::singular);
+  Shaped touching = tests::shaped("sinai", {{"side", "1"}, {"radius", "4/25"}}, "1/20", "3/80");
+  touching.spec.torus = false;
+  EXPECT_EQ(end_of(touching, {exactly("4"), exactly("-3")}, 10).reason, "event 2: exactly tangent to 'disc'");
+}
+
+HoleSpec door(const char* center, const char* width) {
+  HoleSpec hole;
+  hole.wall = "right";
+  hole.center = exactly(center);
+  hole.width = exactly(width);
+  hole.name = "door";
+  return hole;
+}
+
+// The orbit along (2, 1) is periodic and meets the right side at heights 1/2 and … exactly.
+TEST(CertifiedTies, EndsOfAHole) {
+  Shaped s = square("0.1", "0.3");
+  // Straight across: (1, 3/10) again and again.
+  s.spec.holes = {door("4/10", "2/10")};
+  const CertifiedEnd start = end_of(s, {exactly("1"), exactly("0")}, 10);
+  EXPECT_EQ(start.fate, CertifiedFate::escaped);
+  ASSERT_EQ(start.ties.size(), 1u);
+  EXPECT_EQ(start.ties[0], "event 1: exactly at the start of hole 'door' in 'right', which belongs to it");
+  s.spec.holes = {door("2/10", "2/10")};
+  const CertifiedEnd end = end_of(s, {exactly("1"), exactly("0")}, 10);
+  EXPECT_EQ(end.fate, CertifiedFate::completed);
+  EXPECT_EQ(end.collisions, 10u);
+  ASSERT_EQ(end.ties.size(), 5u);
+  EXPECT_EQ(end.ties[4], "event 9: exactly at the end of hole 'door' in 'right', which does not belong to it");
+}
+
+TEST(CertifiedTies, HitsAtTheLastTime) {
+  const CertifiedEnd end = end_of(square("1/2", "1/4"), {exactly("3/5"), exactly("4/5")}, 0, "5/6");
+  EXPECT_EQ(end.fate, CertifiedFate::completed);
+  EXPECT_EQ(end.collisions, 1u);
+  EXPECT_EQ(end.t.text(10), "0.8333333333");
+  ASSERT_EQ(end.ties.size(), 1u);
+  EXPECT_EQ(end.ties[0], "event 1: 'right' is met exactly at the last time: the hit counts");
+}
+
+// A tie in a form that algebra does not know ends at a stated precision, with what was not told.
+TEST(CertifiedTies, WithoutAlgebra) {
+  const Shaped s = tests::shaped("rectangle", {{"width", "pi"}, {"height", "pi"}}, "pi/2", "pi/2");
+  const CertifiedEnd end = end_of(s, {exactly("1"), exactly("1")}, 10);
+  EXPECT_EQ(end.fate, CertifiedFate::undecided);
+  EXPECT_NE(end.reason.find("event 1: "), std::string::npos) << end.reason;
+  EXPECT_NE(end.reason.find("+/-"), std::string::npos) << end.reason;
+}
+
+}  // namespace
+}  // namespace carom
