@@ -3,13 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "carom/base/error.hpp"
 #include "carom/certify/certified_orbit.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/world.hpp"
+#include "carom/io/certified_archive.hpp"
 #include "cli/common.hpp"
+#include "io/progress.hpp"
 
 namespace carom::cli {
 
@@ -28,7 +33,7 @@ CertifiedTask task_of(const Options& options, const LoadedSystem& loaded) {
   if (!options.digits.empty()) {
     const std::uint64_t digits = whole_number(options.digits, "--digits", 1);
     if (digits > 1'000'000)
-      throw InputError(place_of("--digits"), fmt::format("{} digits are more than memory is planned for", digits),
+      throw InputError(place_of("--digits"), fmt::format("some hundred numbers of {} digits may not fit into memory", digits),
                        "at most 1000000");
     task.digits = static_cast<int>(digits);
   }
@@ -67,11 +72,11 @@ std::string wall_of(const System& system, int wall) {
   return wall < 0 ? std::string() : system.table->walls[static_cast<std::size_t>(wall)].name;
 }
 
-Json end_json(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
-              const CertifiedEffort& effort, double seconds, double cpu_seconds) {
+Json end_json(const System& system, const CertifiedEnd& end, const std::string& status, const CertifiedTask& task,
+              const CertifiedEffort& effort, const std::string& output, double seconds, double cpu_seconds) {
   Json json = Json::object();
   add_common_keys(json, system, 1, seconds, cpu_seconds);
-  json.set("status", name_of(end.fate));
+  json.set("status", status);
   json.set("collisions", end.collisions);
   const std::string wall = wall_of(system, end.wall);
   json.set("wall", wall.empty() ? Json() : Json(wall));
@@ -87,13 +92,14 @@ Json end_json(const System& system, const CertifiedEnd& end, const CertifiedTask
   }
   json.set("digits", task.digits).set("bits", effort.bits).set("attempts", effort.attempts);
   json.set("lost_bits", effort.tangent_bits);
+  if (!output.empty()) json.set("archive", output);
   return json;
 }
 
-std::string end_text(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
-                     const CertifiedEffort& effort, double seconds) {
+std::string end_text(const System& system, const CertifiedEnd& end, const std::string& status,
+                     const CertifiedTask& task, const CertifiedEffort& effort, const std::string& output, double seconds) {
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("  status        {}", name_of(end.fate));
+  text += fmt::format("  status        {}", status);
   if (end.hole >= 0)
     text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
   if (!end.reason.empty()) text += ": " + end.reason;
@@ -107,15 +113,43 @@ std::string end_text(const System& system, const CertifiedEnd& end, const Certif
   text += fmt::format("\n  velocity      {}, {}\n", end.vx.text(d), end.vy.text(d));
   text += fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n", d, effort.bits,
                       static_cast<long>(effort.tangent_bits), effort.attempts, effort.attempts == 1 ? "" : "s");
-  return text + fmt::format("  computed in   {:.3g} s\n", seconds);
+  text += fmt::format("  computed in   {:.3g} s\n", seconds);
+  return output.empty() ? text : text + fmt::format("  archive       {}\n", output);
+}
+
+}  // namespace
+
+namespace {
+
+// Follows the orbit hit by hit; true: interrupted, and the end is the last hit.
+bool follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& task, CertifiedArchive* archive,
+            CertifiedEnd& end) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  Progress progress(!options.quiet);
+  while (const auto hit = orbit.next()) {
+    if (archive) archive->hit(*hit);
+    if (progress.due()) {
+      const double by_hits =
+          task.collisions == 0 ? 0.0 : static_cast<double>(hit->number) / static_cast<double>(task.collisions);
+      const double by_time = task.t_max ? hit->t.to_double() / task.t_max->to_double() : 0.0;
+      progress.show(std::max(by_hits, by_time), with_prefix(static_cast<double>(hit->number) / progress.seconds()) + "hits/s");
+    }
+    if (!interrupted.load(std::memory_order_relaxed)) continue;
+    static_cast<CertifiedState&>(end) = *hit;
+    end.collisions = hit->number;
+    end.wall = hit->wall;
+    end.cell = hit->cell;
+    return true;
+  }
+  end = orbit.end_state();
+  return false;
 }
 
 }  // namespace
 
 int run_in_balls(const Options& options) {
-  if (!options.output.empty() || !options.resume.empty())
-    throw InputError(place_of(options.output.empty() ? "--resume" : "-o"),
-                     "archives hold runs in double precision only", "no archive, or --precision double");
+  if (!options.resume.empty())
+    throw InputError(place_of("--resume"), "certified runs start at the beginning", "-o FILE.h5, or --precision double");
   if (options.precision == "double")
     throw InputError(place_of("--digits"), "digits of a run in double precision are not guaranteed",
                      "--precision certified beside --digits");
@@ -125,11 +159,19 @@ int run_in_balls(const Options& options) {
   draw_start(options, loaded);
   const Stopwatch watch;
   CertifiedOrbit orbit(loaded.exact, task);
-  const CertifiedEnd& end = orbit.finish();
+  std::unique_ptr<CertifiedArchive> archive;
+  if (!options.output.empty())
+    archive = std::make_unique<CertifiedArchive>(options.output, loaded, provenance_of(options, loaded.system, 1),
+                                                 task, options.force);
+  CertifiedEnd end;
+  const bool interrupted = follow(orbit, options, task, archive.get(), end);
   const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
-  print(options.json ? end_json(loaded.system, end, task, orbit.effort(), seconds, cpu_seconds).text() + "\n"
-                     : end_text(loaded.system, end, task, orbit.effort(), seconds));
-  return done;
+  const std::string status = interrupted ? "interrupted" : name_of(end.fate);
+  if (archive) archive->finish(end, orbit.effort(), status, !interrupted);
+  print(options.json
+            ? end_json(loaded.system, end, status, task, orbit.effort(), options.output, seconds, cpu_seconds).text() + "\n"
+            : end_text(loaded.system, end, status, task, orbit.effort(), options.output, seconds));
+  return interrupted ? stopped : done;
 }
 
 }  // namespace carom::cli

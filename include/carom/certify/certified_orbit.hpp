@@ -27,6 +27,7 @@ class CertifiedNumber {
   /// log2 of the enclosure's radius.
   double log2_error() const;
   const Enclosure& enclosure() const { return *value_; }
+  bool has_value() const { return value_ != nullptr; }
 
  private:
   std::shared_ptr<const Enclosure> value_;

@@ -1,0 +1,155 @@
+#include "carom/io/certified_archive.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "carom/base/error.hpp"
+#include "io/archive_file.hpp"
+#include "io/columns.hpp"
+
+namespace carom {
+
+using hdf5::Description;
+using hdf5::Handle;
+
+namespace {
+
+struct Coordinate {
+  const char *name, *decimals;
+  CertifiedNumber CertifiedState::*value;
+  Description description;
+};
+const std::array<Coordinate, 5> coordinates{{
+    {"t", "t_decimals", &CertifiedState::t, {"time", "Time"}},
+    {"x", "x_decimals", &CertifiedState::x, {"length", "Position, unwrapped"}},
+    {"y", "y_decimals", &CertifiedState::y, {"length", "Position, unwrapped"}},
+    {"vx", "vx_decimals", &CertifiedState::vx, {"length/time", "Velocity after the event"}},
+    {"vy", "vy_decimals", &CertifiedState::vy, {"length/time", "Velocity after the event"}},
+}};
+
+// Texts of one length, padded with zeros, row by row in batches of about a megabyte.
+class TextColumn {
+ public:
+  TextColumn(hid_t group, const char* name, std::size_t length, Description description, const std::string& file)
+      : file_(file), length_(length), batch_(std::clamp<std::size_t>((1u << 20) / length, 1, 1024)) {
+    type_ = hdf5::checked(H5Tcopy(H5T_C_S1), H5Tclose, file_);
+    hdf5::check(H5Tset_size(type_.get(), length_) >= 0, file_);
+    dataset_ = hdf5::create_growing(group, name, type_.get(), batch_, description, file_);
+  }
+
+  void push(const std::string& text) {
+    if (text.size() > length_)
+      throw InputError(Place{file_, 0, 0, ""}, "a number has more digits before the point than the archive has room for");
+    const std::size_t size = pending_.size();
+    pending_ += text;
+    pending_.resize(size + length_, '\0');
+    if (pending_.size() >= batch_ * length_) flush();
+  }
+  void close() {
+    flush();
+    hdf5::check(dataset_.close(), file_);
+  }
+
+ private:
+  void flush() {
+    const std::size_t count = pending_.size() / length_;
+    if (count == 0) return;
+    hdf5::append_rows(dataset_.get(), type_.get(), rows_, count, pending_.data(), file_);
+    rows_ += count;
+    pending_.clear();
+  }
+
+  std::string file_;
+  std::size_t length_, batch_;
+  Handle type_, dataset_;
+  std::string pending_;
+  std::size_t rows_ = 0;
+};
+
+}  // namespace
+
+class CertifiedArchive::Implementation {
+ public:
+  Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
+                 const CertifiedTask& task)
+      : target(path), digits(task.digits), file(ArchiveFile::create(path + ".part", path)), rows(path) {
+    file.write_head("certified", loaded, origin);
+    for (const Wall& w : loaded.system.table->walls) walls.push_back(w.name);
+    for (const Hole& h : loaded.system.table->holes) holes.push_back(h.name);
+    const Handle group = file.group("collisions", "Reflections in order of time: the states after them");
+    const hid_t to = group.get();
+    rows.add<std::uint64_t>(to, "number", {"1", "Number of the collision, from 1"});
+    const hid_t wall = rows.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
+    if (!walls.empty()) hdf5::write_attribute(wall, "names", walls, target);
+    rows.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
+    rows.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
+    for (const Coordinate& c : coordinates) rows.add<double>(to, c.name, c.description);
+    // Up to 10^20 before the point, a sign and the point.
+    const std::size_t length = static_cast<std::size_t>(digits) + 22;
+    for (const Coordinate& c : coordinates) texts.emplace_back(to, c.decimals, length, c.description, target);
+  }
+
+  void write_end(const CertifiedEnd& end) {
+    const Handle group = file.group("state", "Where the orbit ended: after the last event, at the last time or in a hole");
+    const hid_t to = group.get();
+    const auto integer = [&](const char* name, std::int64_t value, const char* text) {
+      hdf5::write_column(to, name, std::span<const std::int64_t>(&value, 1), {"1", text}, target);
+    };
+    integer("hits", static_cast<std::int64_t>(end.collisions), "Reflections");
+    integer("last_wall", end.wall, "Wall of the last reflection, -1: none");
+    integer("hole", end.hole, "Hole it escaped through, -1: none");
+    integer("cell_first", end.cell.first, "Cell of the lattice");
+    integer("cell_second", end.cell.second, "Cell of the lattice");
+    if (!end.t.has_value()) return;
+    for (const Coordinate& c : coordinates) {
+      const double value = (end.*c.value).to_double();
+      hdf5::write_column(to, c.name, std::span<const double>(&value, 1), c.description, target);
+      hdf5::write_text(to, c.decimals, (end.*c.value).text(digits), c.description, target);
+    }
+  }
+
+  std::string target;
+  int digits;
+  ArchiveFile file;
+  hdf5::Columns rows;
+  std::vector<TextColumn> texts;
+  std::vector<std::string> walls, holes;
+};
+
+CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
+                                   const CertifiedTask& task, bool force) {
+  refuse_existing(file, force);
+  implementation_ = std::make_unique<Implementation>(file, loaded, origin, task);
+}
+CertifiedArchive::~CertifiedArchive() = default;
+
+void CertifiedArchive::hit(const CertifiedHit& hit) {
+  Implementation& a = *implementation_;
+  a.rows.row(hit.number, std::int32_t{hit.wall}, hit.cell.first, hit.cell.second, hit.t.to_double(), hit.x.to_double(),
+             hit.y.to_double(), hit.vx.to_double(), hit.vy.to_double());
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    a.texts[i].push((hit.*coordinates[i].value).text(a.digits));
+}
+
+void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& effort, const std::string& status,
+                              bool complete) {
+  Implementation& a = *implementation_;
+  a.rows.close();
+  for (TextColumn& column : a.texts) column.close();
+  a.write_end(end);
+  {
+    const Handle group = a.file.group("guarantee", "Every decimal is right: errors are below 10^-digits");
+    const hid_t to = group.get();
+    hdf5::write_attribute(to, "digits", std::int64_t{a.digits}, a.target);
+    hdf5::write_attribute(to, "bits", std::int64_t{effort.bits}, a.target);
+    hdf5::write_attribute(to, "attempts", std::int64_t{effort.attempts}, a.target);
+    hdf5::write_attribute(to, "lost_bits", static_cast<std::int64_t>(effort.tangent_bits), a.target);
+    hdf5::write_attribute(to, "reason", std::string_view(end.reason), a.target);
+    if (!end.ties.empty()) hdf5::write_attribute(to, "ties", end.ties, a.target);
+    if (!a.holes.empty()) hdf5::write_attribute(to, "holes", a.holes, a.target);
+  }
+  a.file.set_status(status, complete);
+  a.file.keep_as(a.target);
+}
+
+}  // namespace carom

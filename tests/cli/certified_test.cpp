@@ -1,0 +1,73 @@
+// carom run --precision certified as a user sees it.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cstdlib>
+
+#include "cli/program.hpp"
+
+namespace carom {
+namespace {
+
+std::string text_of(hid_t file, const char* name) {
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(dataset);
+  std::string text(H5Tget_size(type), '\0');
+  H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
+  H5Tclose(type);
+  H5Dclose(dataset);
+  return text.c_str();
+}
+
+TEST(Certified, EscapesThroughAHole) {
+  const Shell shell;
+  const Outcome json = shell("$carom run circle --precision certified --digits 40 --json");
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(json_value(json.out, "status"), "\"escaped\"");
+  EXPECT_EQ(json_value(json.out, "hole"), "\"hole_1\"");
+  // The first 15 digits of the escape in doubles.
+  const std::string t = json_value(json.out, "t"), doubles = json_value(shell("$carom run circle --json").out, "t");
+  EXPECT_NEAR(std::strtod(t.c_str() + 1, nullptr), std::strtod(doubles.c_str(), nullptr), 1e-12);
+  EXPECT_EQ(t.size() - t.find('.') - 2, 40u);
+}
+
+TEST(Certified, LeavesAnArchive) {
+  const Shell shell;
+  const std::string run = "$carom run stadium --set table.hole=[] --collisions 300 --t-max 1e6 --precision certified "
+                          "--digits 30 --json -o orbit.h5";
+  const Outcome json = shell(run);
+  ASSERT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(shell(run).status, 1);  // it exists
+  EXPECT_EQ(shell(run + " --force").status, 0);
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"orbit.h5"});
+  const hid_t file = H5Fopen((shell.folder() + "/orbit.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  for (const char* key : {"t", "x", "y", "vx", "vy"})
+    EXPECT_EQ("\"" + text_of(file, (std::string("state/") + key + "_decimals").c_str()) + "\"", json_value(json.out, key));
+  // The last row of the hits is the end, in both forms.
+  const hid_t decimals = H5Dopen2(file, "collisions/y_decimals", H5P_DEFAULT), type = H5Dget_type(decimals);
+  const std::size_t length = H5Tget_size(type);
+  std::string rows(300 * length, '\0');
+  ASSERT_GE(H5Dread(decimals, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), 0);
+  const hid_t numbers = H5Dopen2(file, "collisions/y", H5P_DEFAULT);
+  std::vector<double> y(300);
+  ASSERT_GE(H5Dread(numbers, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, y.data()), 0);
+  for (std::size_t i = 0; i < y.size(); ++i)
+    ASSERT_EQ(std::strtod(rows.substr(i * length, length).c_str(), nullptr), y[i]) << i;
+  EXPECT_EQ("\"" + std::string(rows.substr(299 * length, length).c_str()) + "\"", json_value(json.out, "y"));
+  H5Dclose(numbers);
+  H5Tclose(type);
+  H5Dclose(decimals);
+  H5Fclose(file);
+}
+
+TEST(Certified, NamesExactCorners) {
+  const Shell shell;
+  const Outcome text = shell(
+      "$carom run magnetic-square --set field.B=0 --set table.hole=[] --position 1/2,1/4 --velocity 2,3 --precision certified");
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find("singular: event 1: exactly into the corner between 'right' and 'top'"), std::string::npos)
+      << text.out;
+}
+
+}  // namespace
+}  // namespace carom
