@@ -1,6 +1,7 @@
 // Sums over many equal bumps: Fermi discs and Gaussians at given centres, or on a lattice.
 #pragma once
 
+#include "forces/lattice_sum.hpp"
 #include "forces/potential.hpp"
 
 /// Compiled for several widths of vectors, of which the machine chooses one. All give the same bits: no
@@ -10,7 +11,6 @@
 #else
 #define CAROM_VECTORISED
 #endif
-#define CAROM_INLINE [[gnu::always_inline]] inline
 
 namespace carom {
 

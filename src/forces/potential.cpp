@@ -6,6 +6,7 @@
 #include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
 #include "forces/bumps.hpp"
+#include "forces/lattice_bumps.hpp"
 
 namespace carom {
 
@@ -48,12 +49,14 @@ std::unique_ptr<const Potential> at_centers(Formula formula, const PotentialSpec
 /// More bumps than that overlap in a point only where the potential is flat.
 constexpr double most_copies = 1e5;
 
-std::vector<Vector> summed_centers(const PotentialSpec& s, const geometry::Lattice& lattice, double reach) {
+/// The bumps of a lattice, all copies nearer than `reach`.
+std::unique_ptr<const Potential> on_lattice(const PotentialSpec& s, const BumpShape& shape,
+                                            const geometry::Lattice& lattice, double reach) {
   const double each = 4.0 * reach * reach / lattice.cell_area();
   if (!(each * static_cast<double>(s.centers.size()) < most_copies))
     throw InputError(s.place, "more than 100000 bumps overlap: the potential is as good as flat",
                      "a softness or width of a few cells at most");
-  return copies_that_reach(s.centers, lattice, reach);
+  return make_lattice_bumps(shape, s.height, s.centers, lattice, reach);
 }
 
 /// V = h/(1 + e), e = exp((radius - r)/softness): its force points inwards along `out` = grad r.
@@ -73,13 +76,13 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
   switch (s.kind) {
     case Kind::fermi: {
       if (!s.lattice) return make_fermi_bumps(s.height, s.radius, s.softness, s.centers);
-      const double reach = fermi_sum_reach(s.radius, s.softness, *lattice);
-      return make_fermi_bumps(s.height, s.radius, s.softness, summed_centers(s, *lattice, reach));
+      return on_lattice(s, {BumpShape::Kind::fermi, s.radius, s.softness, 1.0}, *lattice,
+                        fermi_sum_reach(s.radius, s.softness, *lattice));
     }
     case Kind::gaussian: {
       if (!s.lattice) return make_gaussian_bumps(s.height, s.width, s.centers);
-      const double reach = gaussian_sum_reach(s.width, *lattice);
-      return make_gaussian_bumps(s.height, s.width, summed_centers(s, *lattice, reach));
+      return on_lattice(s, {BumpShape::Kind::gaussian, 0.0, 1.0, s.width}, *lattice,
+                        gaussian_sum_reach(s.width, *lattice));
     }
     case Kind::harmonic:
       return at_centers(

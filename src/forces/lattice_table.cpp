@@ -1,0 +1,195 @@
+// Which grid, how many near copies and what degree a table has; and its numbers.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "forces/lattice_bumps.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+
+namespace {
+
+constexpr std::size_t most_numbers = std::size_t{1} << 16;  // half a megabyte: what a core keeps near
+constexpr int most_near_beside_a_polynomial = 8;
+constexpr std::size_t orders = LatticeSum::most_degree + 1;
+
+struct Basis {
+  Vector first, second;
+};
+
+/// The two shortest vectors that span the lattice: over edges of its cell.
+Basis shortest(const geometry::Lattice& lattice) {
+  std::vector<Vector> over;
+  for (const geometry::CellEdge& e : lattice.edges) over.push_back(lattice.translation(e.beyond));
+  std::stable_sort(over.begin(), over.end(), [](Vector a, Vector b) { return dot(a, a) < dot(b, b); });
+  const Vector first = over.front();
+  const auto other = std::find_if(over.begin(), over.end(), [&](Vector v) {
+    const double area = cross(first, v);
+    return area * area > 0.25 * dot(first, first) * dot(v, v);
+  });
+  return {first, *other};
+}
+
+struct Copy {
+  double square;
+  Vector d;  ///< of a node from it
+};
+
+/// The copies about a point that are nearer than `reach`; the nearest `sorted` of them first.
+std::vector<Copy> copies_about(Vector node, const std::vector<Vector>& centers, const Basis& basis, double reach,
+                               std::size_t sorted) {
+  const double area = cross(basis.first, basis.second);
+  // |m a + n b| >= |m| area/|b| and |n| area/|a|
+  const double high_m = reach * std::sqrt(dot(basis.second, basis.second)) / std::fabs(area);
+  const double high_n = reach * std::sqrt(dot(basis.first, basis.first)) / std::fabs(area);
+  std::vector<Copy> found;
+  for (const Vector& center : centers) {
+    const Vector d = node - center;
+    const double m0 = cross(d, basis.second) / area, n0 = cross(basis.first, d) / area;
+    for (double m = std::ceil(m0 - high_m - 1e-9); m <= m0 + high_m + 1e-9; m += 1.0)
+      for (double n = std::ceil(n0 - high_n - 1e-9); n <= n0 + high_n + 1e-9; n += 1.0) {
+        const Vector from{d.x - (m * basis.first.x + n * basis.second.x),
+                          d.y - (m * basis.first.y + n * basis.second.y)};
+        const double square = dot(from, from);
+        if (square <= reach * reach) found.push_back({square, from});
+      }
+  }
+  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(std::min(sorted, found.size()));
+  std::partial_sort(found.begin(), middle, found.end(), [](const Copy& a, const Copy& b) {
+    if (a.square != b.square) return a.square < b.square;
+    return a.d.x != b.d.x ? a.d.x < b.d.x : a.d.y < b.d.y;
+  });
+  return found;
+}
+
+Vector node_at(const Basis& basis, int grid, int i, int j) {
+  // As the lowest bits of whole numbers count: the upper half of the indices is below zero.
+  const double p = static_cast<double>(2 * i < grid ? i : i - grid) / grid;
+  const double q = static_cast<double>(2 * j < grid ? j : j - grid) / grid;
+  return {p * basis.first.x + q * basis.second.x, p * basis.first.y + q * basis.second.y};
+}
+
+/// Half the longer diagonal of a grid's mesh, a little enlarged for the rounding of X and Y.
+double way_in_mesh(const Basis& basis, int grid) {
+  const Vector sum = basis.first + basis.second, difference = basis.first - basis.second;
+  return (0.5 + 0x1p-40) * std::sqrt(std::max(dot(sum, sum), dot(difference, difference))) / grid;
+}
+
+constexpr int padded(int near) { return (near + 7) / 8 * 8; }
+constexpr int numbers_of_polynomial(int degree) {
+  return degree < 0 ? 0 : 8 * (degree + 1) + (degree >= 8 ? 8 * (degree - 7) : 0);
+}
+
+struct Choice {
+  int grid = 0, near = 0, degree = -1;
+  double cost = std::numeric_limits<double>::infinity(), error = 0.0;
+};
+
+/// About what a point costs, in units of a near copy.
+double cost_of(int near, int degree) { return near + (degree < 0 ? 0.0 : 3.0 + numbers_of_polynomial(degree) / 16.0); }
+
+/// The cheapest table on that grid whose error is below the bound.
+Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& centers, const Basis& basis,
+               double reach) {
+  const double way = way_in_mesh(basis, grid), bin = shape.length() / 8.0;
+  std::vector<SeriesErrors> errors;  // by distance, from the lower end of each bin
+  for (double r = 0.0; r <= reach + way; r += bin) errors.push_back(series_errors(shape, r, way));
+  std::array<std::array<double, orders>, most_near_beside_a_polynomial + 1> largest{};
+  std::size_t most_copies = 0;
+  for (int i = 0; i < grid; ++i)
+    for (int j = 0; j < grid; ++j) {
+      const auto copies =
+          copies_about(node_at(basis, grid, i, j), centers, basis, reach + way, most_near_beside_a_polynomial);
+      most_copies = std::max(most_copies, copies.size());
+      SeriesErrors sum{};
+      for (std::size_t k = copies.size();; --k) {
+        if (k <= most_near_beside_a_polynomial)
+          for (std::size_t n = 0; n < orders; ++n) largest[k][n] = std::max(largest[k][n], sum[n]);
+        if (k == 0) break;
+        const auto at = std::min(static_cast<std::size_t>(std::sqrt(copies[k - 1].square) / bin), errors.size() - 1);
+        for (std::size_t n = 0; n < orders; ++n) sum[n] += errors[at][n];
+      }
+    }
+  Choice best{grid, static_cast<int>(most_copies), -1, cost_of(static_cast<int>(most_copies), -1), 0.0};
+  const auto nodes = static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid);
+  if (nodes * 2 * static_cast<std::size_t>(padded(best.near)) > most_numbers) best.cost *= 1.5;
+  for (int near = 0; near <= std::min(most_near_beside_a_polynomial, best.near); ++near)
+    for (int degree = 1; degree <= LatticeSum::most_degree; ++degree) {
+      const double error = largest[static_cast<std::size_t>(near)][static_cast<std::size_t>(degree)];
+      if (!(error <= tail_share)) continue;
+      const Choice choice{grid, near, degree, cost_of(near, degree), error};
+      const auto each = static_cast<std::size_t>(2 * padded(near) + numbers_of_polynomial(degree));
+      if (choice.cost < best.cost && nodes * each <= most_numbers) best = choice;
+      break;
+    }
+  return best;
+}
+
+}  // namespace
+
+LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& centers,
+                           const geometry::Lattice& lattice, double reach) {
+  const Basis basis = shortest(lattice);
+  Choice choice;
+  for (const int grid : {4, 8, 16, 32}) {
+    const Choice c = best_on(grid, shape, centers, basis, reach);
+    if (c.cost < choice.cost) choice = c;
+    if (choice.degree < 0 && choice.near <= 4) break;  // finer ones gain nothing
+  }
+  error_ = choice.error;
+  const double grid = choice.grid, area = cross(basis.first, basis.second);
+  LatticeSum& t = sum_;
+  t.to_first_x = grid * basis.second.y / area;
+  t.to_first_y = -grid * basis.second.x / area;
+  t.to_second_x = -grid * basis.first.y / area;
+  t.to_second_y = grid * basis.first.x / area;
+  t.first_x = basis.first.x / grid;
+  t.first_y = basis.first.y / grid;
+  t.second_x = basis.second.x / grid;
+  t.second_y = basis.second.y / grid;
+  t.mask = choice.grid - 1;
+  while ((1 << t.shift) < choice.grid) ++t.shift;
+  t.near = choice.near;
+  t.padded_near = padded(choice.near);
+  t.degree = choice.degree;
+  t.stride = static_cast<std::size_t>(2 * t.padded_near + numbers_of_polynomial(t.degree));
+  t.fermi = shape.kind == BumpShape::Kind::fermi;
+  t.radius = shape.radius;
+  t.inverse_softness = 1.0 / shape.softness;
+  t.inverse_square_width = 1.0 / (shape.width * shape.width);
+
+  const double way = way_in_mesh(basis, choice.grid);
+  const auto near = static_cast<std::size_t>(t.near), columns = static_cast<std::size_t>(t.padded_near);
+  const auto width = static_cast<std::size_t>(t.degree + 1);
+  const auto count = static_cast<std::size_t>(choice.grid) * static_cast<std::size_t>(choice.grid);
+  lines_.resize(count * t.stride / 8);
+  t.nodes = lines_.empty() ? nullptr : lines_.front().numbers;
+  const Vector a{t.first_x, t.first_y}, b{t.second_x, t.second_y};
+  std::size_t node = 0;
+  for (int i = 0; i < choice.grid; ++i)
+    for (int j = 0; j < choice.grid; ++j, ++node) {
+      const auto copies = copies_about(node_at(basis, choice.grid, i, j), centers, basis, reach + way, near);
+      copies_ = std::max(copies_, copies.size());
+      const auto number = [&](std::size_t k) -> double& {
+        const std::size_t all = node * t.stride + k;
+        return lines_[all / 8].numbers[all % 8];
+      };
+      // Where a list is shorter it ends with copies that are out of reach.
+      for (std::size_t k = 0; k < near; ++k) {
+        number(k) = k < copies.size() ? copies[k].d.x : 2.0 * reach;
+        number(columns + k) = k < copies.size() ? copies[k].d.y : 2.0 * reach;
+      }
+      if (t.degree < 0) continue;
+      std::vector<double> sum(width * width, 0.0);
+      for (std::size_t k = near; k < copies.size(); ++k) add_series(shape, copies[k].d, a, b, t.degree, sum);
+      for (std::size_t row = 0; row < width; ++row)
+        for (std::size_t power = 0; power + row < width; ++power) {
+          const std::size_t at = power < 8 ? 8 * row + power : 8 * width + 8 * row + (power - 8);
+          number(2 * columns + at) = sum[power + width * row];
+        }
+    }
+}
+
+}  // namespace carom
