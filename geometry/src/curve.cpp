@@ -52,6 +52,7 @@ void widen(double& low, double& high, double origin, double start, double a, dou
     const double c = n == 0.0 ? x : n == 1.0 ? y : n == 2.0 ? -x : -y;
     const double s = n == 0.0 ? y : n == 1.0 ? -x : n == 2.0 ? -y : x;
     const double u = n + s / (1.0 + c);
+    // extent carries 3 U, x and y 4 U, s/(1 + c) so at most 10 U and u 14 U: 32 are taken.
     constexpr double slack = 0x1p-48;
     if (u > end + slack && u < 4.0 - slack) continue;
     // From the start, where extent - |a| = b^2/(extent + |a|).
