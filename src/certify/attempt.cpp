@@ -54,6 +54,7 @@ void Attempt::place_start(const ExactSystem& system) {
   const Ball length2 = dot(direction, direction), speed2 = scene_.motion.speed2;
   // A direction of the right length already stays exact.
   const bool exact = (length2 - speed2).contains(Ball(0)) && sign(length2 - speed2) == Sign::zero;
+  rescaled_ = !(length2 - speed2).contains(Ball(0));
   const Ball scale = exact ? Ball(1) : sqrt(speed2 / length2);
   now_.state.velocity = {scale * direction.x, scale * direction.y};
   now_.standing = start.wall;

@@ -50,10 +50,18 @@ class Attempt {
   /// log2 of the largest error over the first rounding: how much was lost.
   double lost_bits() const;
 
+  /// The direction of the start was longer or shorter than the speed.
+  bool rescaled() const { return rescaled_; }
   /// The walls met so far, each copy seen from the last one; of long orbits only the beginning is kept.
   const std::vector<Copy>& path() const { return path_; }
   /// What cannot be told, with the enclosures that overlap.
   std::string description(const Doubt&) const;
+
+  const SceneOf<Ball>& scene() const { return scene_; }
+  const Whereabouts& whereabouts() const { return where_; }
+  /// Midpoints, in the cell of the last hit.
+  const BallState& state() const { return now_.state; }
+  int standing() const { return now_.standing; }
 
   /// How many bits the orbit will lose from here on, by a look ahead.
   Forecast look_ahead() const;
@@ -99,6 +107,7 @@ class Attempt {
   Now now_;
   std::vector<Copy> path_;
   int hole_ = -1;
+  bool rescaled_ = false;
   std::optional<BallState> stopped_;  ///< the state at t_max or in a hole
 };
 

@@ -71,6 +71,7 @@ class CertifiedOrbit::Implementation {
                        "B = 0, or --precision double");
     // A first attempt of few bits sees the table and the start, and looks ahead.
     const certify::Attempt scout(system_, task_, ties_, 128);
+    effort_.rescaled = scout.rescaled();
     forecast_ = scout.look_ahead();
     const double wanted = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast_.hits);
     if (forecast_.hits > 0) rate_ = forecast_.bits / static_cast<double>(forecast_.hits);

@@ -8,12 +8,10 @@
 
 #include "carom/base/error.hpp"
 #include "carom/certify/certified_orbit.hpp"
-#include "carom/ensemble/sampler.hpp"
-#include "carom/ensemble/single_run.hpp"
 #include "carom/ensemble/stopwatch.hpp"
-#include "carom/events/world.hpp"
 #include "carom/io/certified_archive.hpp"
 #include "cli/common.hpp"
+#include "cli/exact_run.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -21,10 +19,6 @@ namespace carom::cli {
 namespace {
 
 Place place_of(const char* option) { return {"command line", 0, 0, option}; }
-
-[[noreturn]] void refuse(const char* what, const char* expected) {
-  throw InputError(place_of("--precision"), std::string(what) + " no certified form", expected);
-}
 
 CertifiedTask task_of(const Options& options, const LoadedSystem& loaded) {
   CertifiedTask task;
@@ -37,39 +31,7 @@ CertifiedTask task_of(const Options& options, const LoadedSystem& loaded) {
                        "at most 1000000");
     task.digits = static_cast<int>(digits);
   }
-  if (options.precision != "certified" && options.precision != "double")
-    throw InputError(place_of("--precision"), "'" + options.precision + "' is not in this version",
-                     "double or certified");
   return task;
-}
-
-void check_form(const System& system) {
-  if (system.dynamics.forces && !system.dynamics.forces->empty())
-    refuse("[[potential]] and [interaction] have", "a system without forces, or --precision double");
-  if (system.of_discs()) refuse("hard discs have", "point particles, or --precision double");
-  if (system.particles.size() > 1) refuse("several particles have", "particles.count = 1, or --precision double");
-  if (!system.injections.empty()) refuse("[[injection]] has", "a system without it, or --precision double");
-}
-
-// A start that was drawn is its doubles, taken exactly.
-void draw_start(const Options& options, LoadedSystem& loaded) {
-  const System& system = loaded.system;
-  check_start(system);
-  if (system.initial.kind == InitialCondition::Kind::point) return;
-  const std::uint64_t trajectory =
-      options.trajectory.empty() ? 0 : whole_number(options.trajectory, "--trajectory", 0);
-  const World world(*system.table);
-  const State state = draw_initial_state(system, world, trajectory, 0);
-  ExactStart& start = loaded.exact.start;
-  start = {};
-  start.position = {state.position.x, state.position.y};
-  start.direction = {state.velocity.x, state.velocity.y};
-  start.wall = state.wall;
-  start.u = state.u;
-}
-
-std::string wall_of(const System& system, int wall) {
-  return wall < 0 ? std::string() : system.table->walls[static_cast<std::size_t>(wall)].name;
 }
 
 Json end_json(const System& system, const CertifiedEnd& end, const std::string& status, const CertifiedTask& task,
@@ -90,6 +52,7 @@ Json end_json(const System& system, const CertifiedEnd& end, const std::string& 
     for (const std::string& tie : end.ties) ties.push(tie);
     json.set("ties", std::move(ties));
   }
+  json.set("rescaled", says_rescaled(system, effort.rescaled));
   json.set("digits", task.digits).set("bits", effort.bits).set("attempts", effort.attempts);
   json.set("lost_bits", effort.tangent_bits);
   if (!output.empty()) json.set("archive", output);
@@ -103,6 +66,7 @@ std::string end_text(const System& system, const CertifiedEnd& end, const std::s
   if (end.hole >= 0)
     text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
   if (!end.reason.empty()) text += ": " + end.reason;
+  if (says_rescaled(system, effort.rescaled)) text += "\n  velocity      gave the direction; its length was made the speed, exactly";
   for (const std::string& tie : end.ties) text += "\n  exact tie     " + tie;
   text += fmt::format("\n  collisions    {}", grouped(end.collisions));
   const std::string wall = wall_of(system, end.wall);
@@ -150,13 +114,12 @@ bool follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& 
 int run_in_balls(const Options& options) {
   if (!options.resume.empty())
     throw InputError(place_of("--resume"), "certified runs start at the beginning", "-o FILE.h5, or --precision double");
+  if (options.precision != "certified" && options.precision != "double") return run_in_plain_numbers(options);
   if (options.precision == "double")
     throw InputError(place_of("--digits"), "digits of a run in double precision are not guaranteed",
                      "--precision certified beside --digits");
-  LoadedSystem loaded = load_system(options.system, run_overrides(options));
-  check_form(loaded.system);
+  const LoadedSystem loaded = load_exact_run(options);
   const CertifiedTask task = task_of(options, loaded);
-  draw_start(options, loaded);
   const Stopwatch watch;
   CertifiedOrbit orbit(loaded.exact, task);
   std::unique_ptr<CertifiedArchive> archive;

@@ -60,6 +60,40 @@ TEST(Certified, LeavesAnArchive) {
   H5Fclose(file);
 }
 
+TEST(Certified, PlainNumbersOfManyBitsComeWithoutAGuarantee) {
+  const Shell shell;
+  const std::string run = "$carom run siam-photon --json --precision ";
+  const Outcome enough = shell(run + "256"), certified = shell(run + "certified --digits 40");
+  EXPECT_EQ(enough.status, 0) << enough.err;
+  EXPECT_EQ(json_value(enough.out, "guarantee"), "false");
+  EXPECT_EQ(json_value(enough.out, "bits"), "256");
+  for (const char* key : {"x", "y", "vx", "vy"}) {
+    const std::string digits = json_value(certified.out, key).substr(0, 40);
+    EXPECT_EQ(json_value(enough.out, key).substr(0, 40), digits) << key;
+  }
+  // 53 bits lose most of them, whatever they print.
+  EXPECT_NE(json_value(shell(run + "53").out, "x").substr(0, 12), json_value(certified.out, "x").substr(0, 12));
+  EXPECT_NE(shell("$carom run siam-photon --precision 100").out.find("guarantee     none"), std::string::npos);
+  for (const char* bad : {"52", "-100", "many", "1e9", "53.5", "100 --digits 20", "100 -o x.h5"}) {
+    const Outcome refused = shell(run + bad);
+    EXPECT_EQ(refused.status, 1) << bad;
+    EXPECT_EQ(refused.out, "");
+  }
+}
+
+TEST(Certified, SaysThatAVelocityWasADirection) {
+  const Shell shell;
+  const std::string run = "$carom run stadium --set table.hole=[] --set particles.speed=1 --position 0.1,0.2 --collisions 5 --json "
+                          "--precision certified --velocity ";
+  EXPECT_EQ(json_value(shell(run + "3,4").out, "rescaled"), "true");
+  EXPECT_EQ(json_value(shell(run + "0.6,0.8").out, "rescaled"), "false");
+  EXPECT_EQ(json_value(shell(run + "1/3,'sqrt(8)/3'").out, "rescaled"), "false");
+  EXPECT_EQ(json_value(shell(run + "3,4").out, "x"), json_value(shell(run + "0.6,0.8").out, "x"));
+  for (const char* digits : {"0", "-1", "1e9", "many"})
+    EXPECT_EQ(shell(run + "3,4 --digits " + digits).status, 1) << digits;
+  EXPECT_EQ(shell(run + "'sqrt(-1)',4").status, 1);
+}
+
 TEST(Certified, NamesExactCorners) {
   const Shell shell;
   const Outcome text = shell(

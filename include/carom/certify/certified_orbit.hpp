@@ -72,6 +72,7 @@ struct CertifiedTask {
 struct CertifiedEffort {
   long bits = 0;             ///< precision of the last attempt
   int attempts = 0;
+  bool rescaled = false;     ///< the start's velocity had not the speed: it was taken as a direction
   double tangent_bits = 0;   ///< log2 of how much the tangent map stretched: bits that the orbit lost
 };
 

@@ -1,0 +1,121 @@
+#include "carom/certify/plain_orbit.hpp"
+
+#include "carom/base/error.hpp"
+#include "certify/attempt.hpp"
+#include "certify/exact_value.hpp"
+#include "certify/plain.hpp"
+#include "certify/pseudo_orbit.hpp"
+
+namespace carom {
+
+const char* name_of(PlainEnd::Fate fate) {
+  switch (fate) {
+    case PlainEnd::completed:
+      return "completed";
+    case PlainEnd::escaped:
+      return "escaped";
+    case PlainEnd::unbounded:
+      return "unbounded";
+    case PlainEnd::lost:
+      break;
+  }
+  return "lost";
+}
+
+namespace {
+
+using namespace certify;
+
+Plain rounded(const Ball& x) {
+  Plain r;
+  arf_get_mpfr(r.raw(), arb_midref(x.raw()), MPFR_RNDN);
+  return r;
+}
+VectorOf<Plain> rounded(const BallVector& v) { return {rounded(v.x), rounded(v.y)}; }
+geometry::Vector near(const VectorOf<Plain>& v) { return {v.x.to_double(), v.y.to_double()}; }
+
+class Runner {
+ public:
+  Runner(const ExactSystem& system, const PlainTask& task) : system_(system), task_(task), precision_(task.bits) {
+    // The numbers as written, enclosed by more bits than are kept.
+    const Precision more(task.bits + 64);
+    CertifiedTask enclosed;
+    enclosed.collisions = 1;
+    const KnownTies none;
+    const Attempt start(system, enclosed, none, task.bits + 64);
+    scene_ = converted<Plain>(start.scene(), [](const Ball& x) { return rounded(x); });
+    where_ = start.whereabouts();
+    state_.position = rounded(start.state().position);
+    state_.velocity = rounded(start.state().velocity);
+    state_.standing = start.standing();
+    if (task.t_max) t_max_ = rounded(value_of(*task.t_max));
+  }
+
+  PlainEnd run(const std::function<bool()>& interrupted) {
+    while (task_.collisions == 0 || end_.collisions < task_.collisions) {
+      if (interrupted && interrupted()) break;
+      const Choice choice = scene_.next(where_, state_.position, state_.velocity, state_.standing,
+                                        near(state_.position), near(state_.velocity));
+      if (choice.answer != Choice::wall) return ended(nothing_follows());
+      PseudoState<Plain> next = state_;
+      fly_to(scene_, choice.first, next);
+      if (!next.position.x.is_number() || !next.position.y.is_number()) return ended(PlainEnd::lost);
+      if (t_max_ && sign(next.time - *t_max_) == Sign::positive) {
+        const Plain rest = *t_max_ - state_.time;
+        state_.position = state_.position + rest * state_.velocity;
+        state_.time = *t_max_;
+        break;
+      }
+      const Passage passage = scene_.hole_at(choice.first.wall, next.position);
+      if (passage.verdict == Verdict::yes) {
+        next.velocity = state_.velocity;
+        state_ = std::move(next);
+        end_.hole = passage.hole;
+        return ended(PlainEnd::escaped);
+      }
+      state_ = std::move(next);
+      end_.wall = choice.first.wall;
+      ++end_.collisions;
+    }
+    return ended(PlainEnd::completed);
+  }
+
+ private:
+  PlainEnd::Fate nothing_follows() const {
+    return system_.table->extent == Extent::bounded ? PlainEnd::lost : PlainEnd::unbounded;
+  }
+  PlainEnd ended(PlainEnd::Fate fate) {
+    end_.fate = fate;
+    end_.cell = state_.cell;
+    if (scene_.lattice) state_.position = state_.position + scene_.translation(state_.cell);
+    end_.t = state_.time.text();
+    end_.x = state_.position.x.text();
+    end_.y = state_.position.y.text();
+    end_.vx = state_.velocity.x.text();
+    end_.vy = state_.velocity.y.text();
+    return end_;
+  }
+
+  const ExactSystem& system_;
+  const PlainTask& task_;
+  const Plain::Precision precision_;
+  SceneOf<Plain> scene_;
+  Whereabouts where_;
+  PseudoState<Plain> state_;
+  std::optional<Plain> t_max_;
+  PlainEnd end_;
+};
+
+}  // namespace
+
+PlainEnd plain_orbit(const ExactSystem& system, const PlainTask& task, const std::function<bool()>& interrupted) {
+  if (task.collisions == 0 && !task.t_max)
+    throw InputError(Place{}, "an orbit without an end", "a number of collisions or a last time");
+  const Precision precision(1024);
+  if (sign(value_of(system.omega)) != Sign::zero)
+    throw InputError(system.omega.place(), "the magnetic field has no form in plain arithmetic of many bits",
+                     "B = 0, --precision certified or --precision double");
+  return Runner(system, task).run(interrupted);
+}
+
+}  // namespace carom

@@ -1,0 +1,81 @@
+// carom run --precision BITS: many digits, none of them guaranteed.
+#include <fmt/format.h>
+
+#include "carom/base/error.hpp"
+#include "carom/certify/plain_orbit.hpp"
+#include "carom/ensemble/stopwatch.hpp"
+#include "cli/exact_run.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+constexpr const char* warning = "none: plain arithmetic does not know how much it has lost";
+
+long bits_of(const Options& options) {
+  const Place place{"command line", 0, 0, "--precision"};
+  const char* expected = "double, certified, or a number of bits from 53 to 10000000";
+  if (options.precision.empty() || options.precision.find_first_not_of("0123456789.e+") != std::string::npos)
+    throw InputError(place, "'" + options.precision + "' is no precision", expected);
+  const std::uint64_t bits = whole_number(options.precision, "--precision", 1);
+  if (bits < 53 || bits > 10'000'000) throw InputError(place, fmt::format("{} bits are too few or too many", bits), expected);
+  return static_cast<long>(bits);
+}
+
+Json end_json(const System& system, const PlainEnd& end, const std::string& status, long bits, double seconds,
+              double cpu_seconds) {
+  Json json = Json::object();
+  add_common_keys(json, system, 1, seconds, cpu_seconds);
+  json.set("status", status);
+  json.set("collisions", end.collisions);
+  const std::string wall = wall_of(system, end.wall);
+  json.set("wall", wall.empty() ? Json() : Json(wall));
+  json.set("t", end.t).set("x", end.x).set("y", end.y).set("vx", end.vx).set("vy", end.vy);
+  json.set("cell", Json::array().push(end.cell.first).push(end.cell.second));
+  if (end.hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(end.hole)].name);
+  json.set("guarantee", false);
+  return json.set("bits", bits);
+}
+
+std::string end_text(const System& system, const PlainEnd& end, const std::string& status, long bits, double seconds) {
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text += fmt::format("  status        {}", status);
+  if (end.hole >= 0)
+    text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
+  text += fmt::format("\n  collisions    {}", grouped(end.collisions));
+  const std::string wall = wall_of(system, end.wall);
+  if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
+  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t, end.x, end.y);
+  if (system.table->lattice) text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
+  text += fmt::format("\n  velocity      {}, {}\n", end.vx, end.vy);
+  text += fmt::format("  guarantee     {}\n", warning);
+  return text + fmt::format("  computed in   {:.3g} s, by {} bits\n", seconds, bits);
+}
+
+}  // namespace
+
+int run_in_plain_numbers(const Options& options) {
+  PlainTask task;
+  task.bits = bits_of(options);
+  if (!options.digits.empty())
+    throw InputError(Place{"command line", 0, 0, "--digits"}, "digits in plain arithmetic are not guaranteed",
+                     "--precision certified beside --digits");
+  if (!options.output.empty())
+    throw InputError(Place{"command line", 0, 0, "-o"}, "archives hold runs in double precision and certified ones only",
+                     "no archive, or --precision certified");
+  const LoadedSystem loaded = load_exact_run(options);
+  task.collisions = loaded.system.run.collisions;
+  if (loaded.system.run.t_max < no_last_time) task.t_max = loaded.t_max;
+  const std::atomic<bool>& interrupts = catch_interrupts();
+  bool interrupted = false;
+  const Stopwatch watch;
+  const PlainEnd end = plain_orbit(loaded.exact, task, [&] { return interrupted = interrupts.load(std::memory_order_relaxed); });
+  const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
+  const std::string status = interrupted ? "interrupted" : name_of(end.fate);
+  print(options.json ? end_json(loaded.system, end, status, task.bits, seconds, cpu_seconds).text() + "\n"
+                     : end_text(loaded.system, end, status, task.bits, seconds));
+  if (end.fate == PlainEnd::lost) return lost;
+  return interrupted ? stopped : done;
+}
+
+}  // namespace carom::cli
