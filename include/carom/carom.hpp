@@ -3,6 +3,8 @@
 #pragma once
 
 #include "carom/analysis/survival.hpp"
+#include "carom/certify/certified_orbit.hpp"
+#include "carom/certify/plain_orbit.hpp"
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/sampler.hpp"
@@ -10,5 +12,6 @@
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
 #include "carom/io/archive.hpp"
+#include "carom/io/certified_archive.hpp"
 #include "carom/io/system_file.hpp"
 #include "carom/table/table.hpp"

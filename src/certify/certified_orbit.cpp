@@ -229,16 +229,20 @@ const CertifiedEnd& CertifiedOrbit::finish() {
 const CertifiedEnd& CertifiedOrbit::end_state() const { return implementation_->end(); }
 const CertifiedEffort& CertifiedOrbit::effort() const { return implementation_->effort(); }
 
+CertifiedOrbit certified_orbit(const ExactSystem& system, std::uint64_t collisions, int digits) {
+  CertifiedTask task;
+  task.collisions = collisions;
+  task.digits = digits;
+  return {system, task};
+}
+
 CertifiedOrbit certified_orbit(const TableSpec& spec, const ExactStart& start, std::uint64_t collisions,
                                int digits) {
   ExactSystem system;
   system.spec = std::make_shared<const TableSpec>(spec);
   system.table = std::make_shared<const Table>(build_table(spec));
   system.start = start;
-  CertifiedTask task;
-  task.collisions = collisions;
-  task.digits = digits;
-  return {system, task};
+  return certified_orbit(system, collisions, digits);
 }
 
 }  // namespace carom

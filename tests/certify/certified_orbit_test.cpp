@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
+#include <ranges>
 
 #include "carom/events/world.hpp"
 #include "certify/ball_table.hpp"
@@ -161,6 +162,22 @@ struct Walls : Observer {
   }
   std::vector<int> walls;
 };
+
+// Views take hits one by one, and may stop before the orbit does.
+TEST(CertifiedOrbit, IsARange) {
+  const Shaped stadium = tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "1/10", "1/5");
+  ExactStart start;
+  start.position = stadium.inside;
+  start.direction = {exactly("3"), exactly("1")};
+  CertifiedOrbit orbit = certified_orbit(stadium.spec, start, 1000, 10);
+  std::uint64_t arcs = 0;
+  for (const CertifiedHit& hit : orbit | std::views::take(20) |
+                                     std::views::filter([](const CertifiedHit& h) { return h.wall % 2 == 1; })) {
+    EXPECT_NEAR(std::hypot(std::fabs(hit.x.to_double()) - 1.0, hit.y.to_double()), 1.0, 1e-9);
+    ++arcs;
+  }
+  EXPECT_GT(arcs, 2u);
+}
 
 // Doubles follow for some ten hits.
 TEST(CertifiedOrbit, MeetsTheWallsOfTheEngine) {

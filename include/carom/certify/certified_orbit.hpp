@@ -2,7 +2,9 @@
 // by the program (docs/physics/certified-orbits.md).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,8 +94,13 @@ class CertifiedOrbit {
   const CertifiedEnd& end_state() const;  ///< once next() has returned nothing
   const CertifiedEffort& effort() const;
 
+  /// An input iterator: `for (const CertifiedHit& hit : orbit)`; std::ranges views take it too.
   class iterator {
    public:
+    using value_type = CertifiedHit;
+    using difference_type = std::ptrdiff_t;
+    using iterator_concept = std::input_iterator_tag;
+    iterator() = default;
     explicit iterator(CertifiedOrbit* orbit) : orbit_(orbit) { ++*this; }
     const CertifiedHit& operator*() const { return *hit_; }
     const CertifiedHit* operator->() const { return &*hit_; }
@@ -101,22 +108,26 @@ class CertifiedOrbit {
       hit_ = orbit_->next();
       return *this;
     }
-    friend bool operator==(const iterator& i, std::nullptr_t) { return !i.hit_; }
+    void operator++(int) { ++*this; }
+    friend bool operator==(const iterator& i, std::default_sentinel_t) { return !i.hit_; }
 
    private:
-    CertifiedOrbit* orbit_;
+    CertifiedOrbit* orbit_ = nullptr;
     std::optional<CertifiedHit> hit_;
   };
   iterator begin() { return iterator(this); }
-  std::nullptr_t end() const { return nullptr; }
+  std::default_sentinel_t end() const { return {}; }
 
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The first `collisions` hits from `start`, each with `digits` guaranteed decimals:
-///   for (const CertifiedHit& hit : certified_orbit(table, start, 1000, 20)) …
+/// The first `collisions` hits of a system as its file gives it (LoadedSystem::exact), each with `digits`
+/// guaranteed decimals; fewer where the orbit ends before:
+///   for (const CertifiedHit& hit : certified_orbit(load_system("stadium").exact, 1000, 20)) …
+CertifiedOrbit certified_orbit(const ExactSystem&, std::uint64_t collisions, int digits);
+/// The same on a table, with speed 1 and without field.
 CertifiedOrbit certified_orbit(const TableSpec& table, const ExactStart& start, std::uint64_t collisions,
                                int digits);
 
