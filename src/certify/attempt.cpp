@@ -17,6 +17,14 @@ geometry::Vector near(const BallVector& v) { return {v.x.to_double(), v.y.to_dou
 BallVector middle(const BallVector& v) { return {v.x.midpoint(), v.y.midpoint()}; }
 Bound radius(const BallVector& v) { return v.x.radius() + v.y.radius(); }
 
+/// The least radius of curvature, nearly.
+double least_radius(const WallOf<Ball>& w) {
+  if (w.form == Form::circle) return std::sqrt(w.radius2.to_double());
+  const geometry::Vector p = near(w.along), q = near(w.across);  // of lengths 1/a and 1/b
+  const double u = dot(p, p), v = dot(q, q);
+  return std::sqrt(std::min(u, v)) / std::max(u, v);
+}
+
 /// A power of two of at least half that size.
 double power_near(double size) { return std::exp2(std::floor(std::log2(size))); }
 
@@ -133,9 +141,10 @@ void Attempt::move_to(const Copy& copy) {
   const Bound turned = now_.errors.size(turning);
   now_.errors.constrain(speed, rounding + turned * turned);
   const WallOf<Ball>& wall = scene_.walls[index];
-  if (same && wall.form == Form::circle) {
-    // Likewise it is on the circle: who is a along its tangent is at most a^2/r off it (for a < r/2).
-    const double radius_below = std::sqrt(wall.radius2.to_double()) * 0.999999 / unit_;
+  if (same && wall.form != Form::segment) {
+    // Likewise it is on the curve: who is a along its tangent is at most a^2/r off it (for a < r/2), where r is
+    // the least radius of curvature.
+    const double radius_below = least_radius(wall) * 0.999999 / unit_;
     const Bound moved = now_.errors.size(along);
     if (moved.to_double() < 0.5 * radius_below)
       now_.errors.constrain(off, rounding + moved * moved * Bound(1.0 / radius_below));
@@ -155,8 +164,21 @@ Bound Attempt::settle(LandingOf<Ball>& landing, const SceneOf<Ball>& scene, cons
   v = {v.x + stretch * v.x, v.y + stretch * v.y};
   Bound changed;
   arb_get_mag(changed.raw(), slow.raw());
-  if (!same || w.form != Form::circle) return changed;
+  if (!same || w.form == Form::segment) return changed;
   BallVector& P = landing.position;
+  if (w.form == Form::ellipse) {
+    // Down the gradient of X^2 + Y^2 - 1, which is twice the normal.
+    const BallVector e = P - w.centre;
+    const Ball X = dot(e, w.along), Y = dot(e, w.across);
+    const BallVector normal = X * w.along + Y * w.across;
+    const Ball low = (Ball(1) - (square(X) + square(Y))) / (square(normal.x) + square(normal.y));
+    const Ball lift = half * low.midpoint();
+    P = {P.x + lift * normal.x, P.y + lift * normal.y};
+    Bound lifted, length;
+    arb_get_mag(lifted.raw(), low.raw());
+    arb_get_mag(length.raw(), (sqrt(square(normal.x) + square(normal.y))).raw());
+    return changed + lifted * length * Bound(1.000001 / unit);
+  }
   const BallVector e = P - w.centre;
   const Ball low = (w.radius2 - (square(e.x) + square(e.y))) * w.double_inverse;
   const Ball lift = half * half * low.midpoint();  // (r^2 - e^2)/(2 r^2)

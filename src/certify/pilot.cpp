@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "certify/pseudo_orbit.hpp"
 #include "certify/tangent.hpp"
 
 namespace carom::certify {
@@ -22,14 +23,11 @@ Forecast forecast(const SceneOf<double>& scene, const Whereabouts& where, geomet
     if (scene.lattice) position = position - scene.translation(choice.first.cell);
     LandingOf<double> landing = fly<double, double>(wall, position, velocity, scene.motion, same);
     t += landing.time;
-    // Speed and distance from the centre are put right, as in Attempt::settle.
+    // Speed and place on the curve are put right, as in Attempt::settle.
     const double speed2 = scene.motion.speed2;
     const double stretch = 1.0 + (speed2 - dot(landing.velocity, landing.velocity)) / (2.0 * speed2);
     landing.velocity = stretch * landing.velocity;
-    if (same && wall.form == Form::circle) {
-      const geometry::Vector e = landing.position - wall.centre;
-      landing.position = wall.centre + (1.0 + (wall.radius2 - dot(e, e)) / (2.0 * wall.radius2)) * e;
-    }
+    if (same && wall.form != Form::segment) landing.position = put_back(wall, landing.position);
     if (!(t <= t_max) || !std::isfinite(landing.position.x)) break;
     if (scene.hole_at(choice.first.wall, landing.position).verdict == Verdict::yes) break;
     const FrameOf<double> after{tangent_of(wall, landing.position), landing.velocity, unit};

@@ -13,6 +13,17 @@ struct PseudoState {
   geometry::Cell cell;
 };
 
+/// A point near a circle or ellipse, moved onto it by one Newton step.
+template <class N>
+VectorOf<N> put_back(const WallOf<N>& w, const VectorOf<N>& P) {
+  const N half(0.5);
+  const VectorOf<N> e = P - w.centre;
+  if (w.form == Form::circle) return P + (half * (w.radius2 - dot(e, e)) / w.radius2) * e;
+  const N X = dot(e, w.along), Y = dot(e, w.across);
+  const VectorOf<N> normal = X * w.along + Y * w.across;
+  return P + (half * (N(1) - (X * X + Y * Y)) / dot(normal, normal)) * normal;
+}
+
 /// Flies to the wall. The landing is put back to its speed, and on the circle that it stayed on, by one Newton
 /// step each: otherwise the errors of both feed each other.
 template <class N>
@@ -29,10 +40,7 @@ void fly_to(const SceneOf<N>& scene, const Copy& copy, PseudoState<N>& s) {
       half * (scene.motion.speed2 - dot(landing.velocity, landing.velocity)) * scene.motion.inverse_speed2;
   s.velocity = landing.velocity + stretch * landing.velocity;
   s.position = landing.position;
-  if (same && wall.form == Form::circle) {
-    const VectorOf<N> e = s.position - wall.centre;
-    s.position = s.position + (half * (wall.radius2 - dot(e, e)) / wall.radius2) * e;
-  }
+  if (same && wall.form != Form::segment) s.position = put_back(wall, s.position);
   s.time = s.time + landing.time;
   s.standing = copy.wall;
 }
