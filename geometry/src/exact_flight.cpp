@@ -6,52 +6,9 @@
 #include "algebraic_root.hpp"
 #include "carom/base/error.hpp"
 #include "carom/geometry/formulas.hpp"
-#include "exact_curve.hpp"
+#include "exact_boundary.hpp"
 
 namespace carom::geometry {
-
-struct ExactBoundary::Data {
-  std::vector<ExactCurve> curves;
-  std::vector<Piece> pieces;
-  DyadicVector first, second;
-
-  DyadicVector translation(Cell c) const {
-    const Dyadic m(static_cast<double>(c.first)), n(static_cast<double>(c.second));
-    return {m * first.x + n * second.x, m * first.y + n * second.y};
-  }
-};
-
-ExactBoundary::ExactBoundary(const std::vector<Piece>& pieces, Vector first, Vector second)
-    : data_(std::make_unique<Data>()) {
-  data_->pieces = pieces;
-  data_->first = exact(first);
-  data_->second = exact(second);
-  for (const Piece& p : pieces) data_->curves.emplace_back(p.curve);
-}
-ExactBoundary::~ExactBoundary() = default;
-ExactBoundary::ExactBoundary(ExactBoundary&&) noexcept = default;
-
-Sign ExactBoundary::inward(int piece, double u, Vector v) const {
-  const ExactCurve& c = data_->curves[static_cast<std::size_t>(piece)];
-  return sign_of(cross(c.tangent(c.point(u)), exact(v)));
-}
-
-Sign ExactBoundary::inward_at_end(int piece, Vector v) const {
-  const ExactCurve& c = data_->curves[static_cast<std::size_t>(piece)];
-  return sign_of(cross(c.tangent(c.end_point()), exact(v)));
-}
-
-ExactBoundary::Corner ExactBoundary::corner(int previous, int next) const {
-  const ExactCurve& before = data_->curves[static_cast<std::size_t>(previous)];
-  const ExactCurve& after = data_->curves[static_cast<std::size_t>(next)];
-  const DyadicVector in = before.tangent(before.end_point());
-  const DyadicVector out = after.tangent(after.point(0.0));
-  const Dyadic turn = cross(in, out), along = dot(in, out);
-  if (turn.sign() == 0) return {0, along.sign() > 0 ? 1 : 0};
-  if (turn.sign() > 0 && along.sign() == 0) return {1, 2};
-  if (turn.sign() > 0 && (turn + along).sign() == 0) return {1, 4};  // turn by 3 pi/4
-  return {turn.sign(), 0};
-}
 
 namespace {
 
@@ -146,7 +103,7 @@ struct ExactFlight::Data {
     const DyadicVector t = boundary.translation(c);
     return {start.x - start.w * t.x, start.y - start.w * t.y, start.w};
   }
-  const ExactCurve& curve(int piece) const { return boundary.curves[static_cast<std::size_t>(piece)]; }
+  const ExactCurve& curve(int piece) const { return boundary.curve(piece); }
 
   /// Point minus start, times the positive factor start.w point.w, and that factor.
   static std::pair<DyadicVector, Dyadic> offset(const View& s, const ExactPoint& at) {
@@ -358,9 +315,7 @@ ExactFlight::Data::Around ExactFlight::Data::around(int piece, Cell cell, const 
 }
 
 bool ExactFlight::Data::hits_joint(int piece, Cell cell, const Crossing& k) const {
-  int previous = -1;
-  for (std::size_t i = 0; i < boundary.pieces.size(); ++i)
-    if (boundary.pieces[i].next == piece && static_cast<int>(i) != piece) previous = static_cast<int>(i);
+  const int previous = boundary.previous[static_cast<std::size_t>(piece)];
   if (previous < 0) return true;
   const ExactCurve& before = curve(previous);
   const ExactCurve& after = curve(piece);

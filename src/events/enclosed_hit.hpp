@@ -121,6 +121,8 @@ inline constexpr double least_square = 0x1p-900;
       ++counts.filter;
       return;
     }
+  } else if (grid_) {
+    return next_in_grid(flight, ahead, counts);
   } else if (flight.omega == 0.0 && enclosure_size_ > 0) {
     if (cells_) look_from(flight);
     if (filtered_enclosed(flight, ahead)) {

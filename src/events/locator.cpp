@@ -4,8 +4,23 @@ namespace carom {
 
 using namespace geometry;
 
-Locator::Locator(const Table& table)
-    : domain_(table, {}, false, false), complement_(table, {}, false, true), cell_(table), touch_(table) {}
+namespace {
+
+Table without_walls(const Table& table) {
+  Table bare;
+  bare.extent = table.extent;
+  bare.lattice = table.lattice;
+  return bare;
+}
+
+}  // namespace
+
+Locator::Locator(const Table& table, const DecisionOptions& options)
+    : domain_(table, options, false, false),
+      complement_(table, options, false, true),
+      bare_(without_walls(table)),
+      cell_(bare_, options),
+      touch_(table, options.grid_from) {}
 
 bool Locator::contains(Vector point) const {
   if (touch_.on_wall(point)) return false;

@@ -12,11 +12,13 @@ namespace carom {
 /// is replaced by another.
 class Locator {
  public:
-  explicit Locator(const Table& table);
+  explicit Locator(const Table& table, const DecisionOptions& options = {});
   bool contains(geometry::Vector point) const;
 
  private:
-  HitFinder domain_, complement_, cell_;
+  HitFinder domain_, complement_;
+  Table bare_;  // the lattice alone
+  HitFinder cell_;
   WallTouch touch_;
 };
 

@@ -156,8 +156,8 @@ double HitFinder::kappa_error_of(const Flight& f, int piece) const {
   return kappa_error(c.quadratic, c.error, c.root);
 }
 
-template <bool larmor, bool cells>
-bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
+template <bool larmor, bool cells, bool listed>
+bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> list, double& found_error) const {
   if (f.start_previous >= 0) return false;  // from a joint: by algebra
   const Vector v = f.velocity;
   const double omega = larmor ? f.omega : 0.0;
@@ -166,22 +166,26 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
   const Origin single{f.start, {f.start_error, norm_1(v), std::fabs(omega), options_.filter_inflation}};
   const auto origin_of = [&](const PieceData& p) -> const Origin& { return cells ? origins_[at(p.offset)] : single; };
 
-  const double farthest = cells ? 0.0 : side_error(single.scale, reach_ + norm_1(single.point));
-  bool decided = true;
-  for (const int piece : open_) {
-    const Origin& origin = origin_of(data_[at(piece)]);
-    const Vector d = joints_[at(piece)] - origin.point;
-    const double side = larmor ? side_of_flight(v, d, omega) : 2.0 * geometry::cross(v, d);
-    const double bound = cells ? side_error(origin.scale, norm_1(d)) : farthest;
-    left_[at(piece)] = side > 0.0;
-    decided &= std::fabs(side) > bound;
-  }
-  if (!decided && cells) return false;
-  if (!decided) {  // once more with a bound for each joint
+  if constexpr (listed) {
+    if (!see_joints<larmor, cells>(f, list)) return false;
+  } else {
+    const double farthest = cells ? 0.0 : side_error(single.scale, reach_ + norm_1(single.point));
+    bool decided = true;
     for (const int piece : open_) {
-      const Vector d = joints_[at(piece)] - single.point;
+      const Origin& origin = origin_of(data_[at(piece)]);
+      const Vector d = joints_[at(piece)] - origin.point;
       const double side = larmor ? side_of_flight(v, d, omega) : 2.0 * geometry::cross(v, d);
-      if (!(std::fabs(side) > side_error(single.scale, norm_1(d)))) return false;
+      const double bound = cells ? side_error(origin.scale, norm_1(d)) : farthest;
+      left_[at(piece)] = side > 0.0;
+      decided &= std::fabs(side) > bound;
+    }
+    if (!decided && cells) return false;
+    if (!decided) {  // once more with a bound for each joint
+      for (const int piece : open_) {
+        const Vector d = joints_[at(piece)] - single.point;
+        const double side = larmor ? side_of_flight(v, d, omega) : 2.0 * geometry::cross(v, d);
+        if (!(std::fabs(side) > side_error(single.scale, norm_1(d)))) return false;
+      }
     }
   }
 
@@ -205,8 +209,9 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
     entered = root.kappa;
     entered_error = kappa_error(-entry.quadratic, entry.error, root);
   }
-  const int pieces = static_cast<int>(data_.size());
-  for (int piece = 0; piece < pieces; ++piece) {
+  const int pieces = static_cast<int>(listed ? list.size() : data_.size());
+  for (int k = 0; k < pieces; ++k) {
+    const int piece = listed ? list[at(k)] : k;
     const PieceData& p = data_[at(piece)];
     const bool stands = piece == start;
     bool twice = false;
@@ -316,13 +321,21 @@ bool HitFinder::filtered(const Flight& f, Ahead& ahead) const {
   ahead.kappa = larmor ? best_kappa : best_unit / best_time;
   ahead.duration = larmor ? duration_at(best_kappa, f.omega) : best_time / best_unit;
   ahead.kind = best < 0 ? Ahead::Kind::none : data_[at(best)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
+  if constexpr (listed) {
+    if (best >= 0 && best_error < 0) best_error = error_of(best, best_q, best_root, ahead.kappa, best_time);
+    found_error = best_error;
+  }
   return true;
 }
+template bool HitFinder::filtered_of<false, false, true>(const Flight&, Ahead&, std::span<const int>, double&) const;
+template bool HitFinder::filtered_of<false, true, true>(const Flight&, Ahead&, std::span<const int>, double&) const;
+template bool HitFinder::filtered_of<true, false, true>(const Flight&, Ahead&, std::span<const int>, double&) const;
+template bool HitFinder::filtered_of<true, true, true>(const Flight&, Ahead&, std::span<const int>, double&) const;
 
-Ahead HitFinder::exact_next(const Flight& f) const {
+Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) const {
   look_from(f);
   const ExactFlight::First first =
-      exact_flight(f).first(all_, f.cell, f.entry, f.start_piece, f.start_previous);
+      exact_flight(f).first(pieces, f.cell, f.entry, f.start_piece, f.start_previous);
   Ahead ahead;
   ahead.piece = first.piece;
   ahead.root = first.root;
@@ -367,7 +380,7 @@ void HitFinder::next_of_all(const Flight& f, Ahead& ahead, DecisionCounts& count
     ++counts.filter;
   } else {
     ++counts.exact;
-    ahead = exact_next(f);
+    ahead = exact_next(f, all_);
   }
   if (ahead.kind == Ahead::Kind::none) ahead.duration = 0.0;
 }

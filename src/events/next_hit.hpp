@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "carom/events/decisions.hpp"
@@ -17,6 +19,7 @@
 #include "carom/table/table.hpp"
 #include "base/angle.hpp"
 #include "events/enclosure.hpp"
+#include "events/wall_grid.hpp"
 
 namespace carom {
 
@@ -118,7 +121,7 @@ class HitFinder {
     int curve = 0;       ///< index into curves_
     int wall = -1;       ///< -1: edge of the cell
     int offset = 0;      ///< index into offsets_
-    int next = 0;
+    int next = 0, previous = 0;
     bool edge = false;
     bool closed = false;
     geometry::CurveKind kind = geometry::CurveKind::segment;
@@ -137,8 +140,13 @@ class HitFinder {
   };
 
   void add_piece(const geometry::Curve& curve, int curve_index, int wall, geometry::Cell offset, bool edge);
-  void add_walls(geometry::Cell offset, bool complement);
-  std::vector<geometry::Cell> image_offsets() const;
+  /// Loops of walls, each named by one of its walls, that reach into the cell displaced by `offset`.
+  struct Images {
+    geometry::Cell offset;
+    std::vector<int> loops;
+  };
+  void add_walls(geometry::Cell offset, bool complement, const std::vector<int>& loops);
+  std::vector<Images> images() const;
   int edge_crossed_at_start(const Flight& flight) const;
   /// Sees the walls from the flight's start, in its cell. Number by number: a 16-byte copy of two numbers
   /// that were just stored one by one would wait for them.
@@ -167,7 +175,15 @@ class HitFinder {
     return piece == flight.start_piece || piece == flight.start_previous;
   }
   template <bool larmor, bool cells>
-  bool filtered(const Flight& flight, Ahead& ahead) const;
+  bool filtered(const Flight& flight, Ahead& ahead) const {
+    double unused = 0.0;
+    return filtered_of<larmor, cells, false>(flight, ahead, {}, unused);
+  }
+  /// The same among some pieces (`listed`), with the error of kappa.
+  template <bool larmor, bool cells, bool listed>
+  bool filtered_of(const Flight& flight, Ahead& ahead, std::span<const int> list, double& error) const;
+  template <bool larmor, bool cells>
+  bool see_joints(const Flight& flight, std::span<const int> list) const;
   Sign crossed_twice(const Flight& flight, int piece) const;
   double kappa_error_of(const Flight& flight, int piece) const;
   void next_of_all(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
@@ -176,7 +192,15 @@ class HitFinder {
   bool line_in_enclosure(const Flight& flight, Ahead& ahead) const;
   bool circle_in_enclosure(const Flight& flight, Ahead& ahead) const;
   int exit_of_enclosure(const Flight& flight, geometry::Vector origin, const geometry::FlightScale& scale) const;
-  Ahead exact_next(const Flight& flight) const;
+  Ahead exact_next(const Flight& flight, const std::vector<int>& pieces) const;
+  // Tables of many walls (grid_hit.cpp).
+  void make_grid(bool edges);
+  void next_in_grid(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
+  template <bool larmor, bool cells>
+  bool filtered_in_grid(const Flight& flight, Ahead& ahead) const;
+  const std::vector<int>& pieces_on_way(const Flight& flight) const;
+  template <class Visit, class Passed>
+  void follow(const Flight& flight, const Visit& visit, const Passed& passed) const;
   void find_start(Flight& flight) const;
   geometry::ExactFlight exact_flight(const Flight& flight) const;
   Sign exactly_inward(int wall, double u, geometry::Vector v, DecisionCounts& counts) const;
@@ -205,9 +229,14 @@ class HitFinder {
   bool discs_within_ = false;                    // they touch no edge: who leaves one is in its cell
   std::vector<int> opposite_;                    // edge through which one comes in who leaves by this one
   std::unique_ptr<geometry::ExactBoundary> exact_;
+  std::unique_ptr<const WallGrid> grid_;         // of tables with many walls, else null
+  std::unordered_multimap<int, int> images_;     // by wall: its pieces in other cells
   // Scratch of one flight; a finder belongs to one thread.
   mutable std::vector<Origin> origins_;
   mutable std::vector<unsigned char> left_;  // is the joint on the left of the flight?
+  mutable std::vector<std::uint32_t> seen_;  // a piece: the last flight that came near it
+  mutable std::uint32_t flights_ = 0;
+  mutable std::vector<int> list_;            // pieces on the way of a flight
 };
 
 [[gnu::always_inline]] inline void HitFinder::begin_on_wall(Flight& f, int wall, const geometry::PreparedCurve& w,

@@ -22,11 +22,11 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
   for (const Wall& wall : table.walls) holed_.push_back(wall.holes.empty() ? 0 : 1);
   cells_ = table.lattice.has_value();
   offsets_.push_back({});
-  add_walls({}, complement);
+  add_walls({}, complement, {});
   if (table.lattice) {
-    for (const Cell& offset : image_offsets()) {
-      offsets_.push_back(offset);
-      add_walls(offset, complement);
+    for (const Images& one : images()) {
+      offsets_.push_back(one.offset);
+      add_walls(one.offset, complement, one.loops);
     }
   }
   displaced_ = offsets_.size() > 1;
@@ -37,7 +37,8 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
       const int curve = static_cast<int>(curves_.size());
       curves_.emplace_back(cell[i].segment);
       const int next = first_edge_ + static_cast<int>((i + 1) % cell.size());
-      data_.push_back({nullptr, curve, -1, 0, next, true, false, CurveKind::segment});
+      const int previous = first_edge_ + static_cast<int>((i + cell.size() - 1) % cell.size());
+      data_.push_back({nullptr, curve, -1, 0, next, previous, true, false, CurveKind::segment});
       joints_.push_back(cell[i].segment.from);
       open_.push_back(static_cast<int>(data_.size()) - 1);
       pieces_.push_back({cell[i].segment, {}, next, true});
@@ -56,28 +57,55 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
   origins_.resize(offsets_.size());
   left_.resize(data_.size());
   if (edges) find_enclosure(complement);
+  if (static_cast<int>(data_.size()) >= options_.grid_from) make_grid(edges);
 }
 
 HitFinder::~HitFinder() = default;
 
-void HitFinder::add_walls(Cell offset, bool complement) {
-  const int base = static_cast<int>(data_.size());
+/// Pieces of the walls displaced by an offset; all of them in their own cell, where piece and wall have one
+/// number, else the loops that `loops` names.
+void HitFinder::add_walls(Cell offset, bool complement, const std::vector<int>& loops) {
   const int index = static_cast<int>(offsets_.size()) - 1;
-  for (std::size_t i = 0; i < table_.walls.size(); ++i) {
-    const Wall& wall = table_.walls[i];
-    const Curve curve = complement ? reversed(wall.curve) : wall.curve;
-    const int next = base + (complement ? wall.previous : wall.next);
-    data_.push_back({nullptr, static_cast<int>(i), static_cast<int>(i), index, next, false, curves_[i].closed, curves_[i].kind});
-    joints_.push_back(curves_[i].from);
-    if (!curves_[i].closed) open_.push_back(static_cast<int>(data_.size()) - 1);
-    pieces_.push_back({curve, offset, next, false});
+  const auto add = [&](int i, int piece_of_next, int piece_of_previous) {
+    const Wall& wall = table_.walls[at(i)];
+    const PreparedCurve& c = curves_[at(i)];
+    const int next = complement ? piece_of_previous : piece_of_next;
+    const int previous = complement ? piece_of_next : piece_of_previous;
+    if (index > 0) images_.emplace(i, static_cast<int>(data_.size()));
+    data_.push_back({nullptr, i, i, index, next, previous, false, c.closed, c.kind});
+    joints_.push_back(c.from);
+    if (!c.closed) open_.push_back(static_cast<int>(data_.size()) - 1);
+    pieces_.push_back({complement ? reversed(wall.curve) : wall.curve, offset, next, false});
+  };
+  if (index == 0) {
+    for (int i = 0; i < static_cast<int>(table_.walls.size()); ++i)
+      add(i, table_.walls[at(i)].next, table_.walls[at(i)].previous);
+    return;
+  }
+  for (const int first : loops) {
+    // The walls of a loop, one after the other.
+    const int base = static_cast<int>(data_.size());
+    int count = 0;
+    for (int i = first; count == 0 || i != first; i = table_.walls[at(i)].next) ++count;
+    int k = 0;
+    for (int i = first; k < count; i = table_.walls[at(i)].next, ++k)
+      add(i, base + (k + 1) % count, base + (k + count - 1) % count);
   }
 }
 
-/// Lattice vectors by which the walls, displaced, may reach into the cell. A vector too many costs time,
-/// one too few would lose walls: so boxes are compared, and circles by their distance from the edges,
-/// with the rounding of this comparison on the safe side.
-std::vector<Cell> HitFinder::image_offsets() const {
+namespace {
+
+Box hull(const Box& a, const Box& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+}  // namespace
+
+/// The loops of walls that, displaced by a lattice vector, may reach into the cell, by that vector. A loop too
+/// many costs time, one too few would lose walls: so boxes are compared, and circles by their distance from the
+/// edges, with the rounding of this comparison on the safe side.
+std::vector<HitFinder::Images> HitFinder::images() const {
   const Lattice& lattice = *table_.lattice;
   double cell_size = 0.0, wall_size = 0.0;
   for (const CellEdge& e : lattice.edges)
@@ -87,34 +115,62 @@ std::vector<Cell> HitFinder::image_offsets() const {
   const double longest = std::sqrt(std::max(dot(lattice.first, lattice.first), dot(lattice.second, lattice.second)));
   // |m a + n b| >= max(|m|, |n|) area / longest: beyond this no wall reaches the cell.
   const int range = static_cast<int>(std::ceil((cell_size + wall_size) * longest / area)) + 1;
-  std::vector<Cell> found;
+
+  struct Edge {
+    Vector from, direction;
+    double length;
+  };
+  std::vector<Edge> edges;
+  for (const CellEdge& e : lattice.edges) {
+    const Vector d = e.segment.to - e.segment.from;
+    edges.push_back({e.segment.from, d, std::sqrt(dot(d, d))});
+  }
+  /// Largest signed distance of a box, displaced, from an edge's line, inside positive.
+  const auto reach_of = [](const Box& box, Vector t, const Edge& e) {
+    double reach = -HUGE_VAL;
+    for (const Vector& corner : {box.low, box.high, Vector{box.low.x, box.high.y}, Vector{box.high.x, box.low.y}})
+      reach = std::max(reach, geometry::cross(e.direction, corner + t - e.from) / e.length);
+    return reach;
+  };
+  const auto outside = [&](const Box& box, double extent, Vector t) {
+    const double size = std::fabs(t.x) + std::fabs(t.y) + 2.0 * extent + 2.0 * cell_size;
+    for (const Edge& e : edges)
+      if (reach_of(box, t, e) < -32.0 * unit_roundoff * size) return true;
+    return false;
+  };
+  const auto circle_outside = [&](const PreparedCurve& c, Vector t) {
+    const double size = std::fabs(t.x) + std::fabs(t.y) + 2.0 * c.extent + 2.0 * cell_size;
+    for (const Edge& e : edges)
+      if (geometry::cross(e.direction, c.centre + t - e.from) / e.length + std::sqrt(c.r2) <
+          -32.0 * unit_roundoff * size)
+        return true;
+    return false;
+  };
+
+  std::vector<Box> boxes;
+  for (const Wall& wall : table_.walls) boxes.push_back(bounding_box(wall.curve));
+  Box whole = boxes.empty() ? Box{} : boxes.front();
+  for (const Box& box : boxes) whole = hull(whole, box);
+  std::vector<Images> found;
   for (int m = -range; m <= range; ++m)
     for (int n = -range; n <= range; ++n) {
       if (m == 0 && n == 0) continue;
       const Vector t = lattice.translation({m, n});
-      bool reaches = false;
-      for (std::size_t i = 0; i < table_.walls.size() && !reaches; ++i) {
-        const PreparedCurve& c = curves_[i];
-        const Box box = bounding_box(table_.walls[i].curve);
-        bool outside = false;
-        for (const CellEdge& e : lattice.edges) {
-          const Vector d = e.segment.to - e.segment.from;
-          const double length = std::sqrt(dot(d, d));
-          // Largest signed distance of the wall from the edge's line, inside positive.
-          double reach = 0.0;
-          if (c.kind == CurveKind::circle) {
-            reach = geometry::cross(d, c.centre + t - e.segment.from) / length + std::sqrt(c.r2);
-          } else {
-            reach = -HUGE_VAL;
-            for (const Vector& corner : {box.low, box.high, Vector{box.low.x, box.high.y}, Vector{box.high.x, box.low.y}})
-              reach = std::max(reach, geometry::cross(d, corner + t - e.segment.from) / length);
-          }
-          const double size = std::fabs(t.x) + std::fabs(t.y) + 2.0 * c.extent + 2.0 * cell_size;
-          if (reach < -32.0 * unit_roundoff * size) outside = true;
+      if (outside(whole, 0.5 * wall_size, t)) continue;
+      Images images{{m, n}, {}};
+      std::vector<bool> done(table_.walls.size(), false);
+      for (std::size_t first = 0; first < table_.walls.size(); ++first) {
+        if (done[first]) continue;
+        bool reaches = false;
+        for (std::size_t i = first; !done[i]; i = at(table_.walls[i].next)) {
+          done[i] = true;
+          const PreparedCurve& c = curves_[i];
+          if (reaches) continue;
+          reaches = c.kind == CurveKind::circle ? !circle_outside(c, t) : !outside(boxes[i], c.extent, t);
         }
-        reaches = !outside;
+        if (reaches) images.loops.push_back(static_cast<int>(first));
       }
-      if (reaches) found.push_back({m, n});
+      if (!images.loops.empty()) found.push_back(std::move(images));
     }
   return found;
 }
@@ -148,16 +204,14 @@ void HitFinder::find_start(Flight& f) const {
   if (f.wall < 0) return;
   if (!(f.cell == Cell{})) {
     f.start_piece = -1;
-    for (std::size_t i = 0; i < data_.size(); ++i) {
-      const Cell o = offsets_[at(data_[i].offset)];
-      if (data_[i].wall == f.wall && o.first == -f.cell.first && o.second == -f.cell.second)
-        f.start_piece = static_cast<int>(i);
+    const auto [first, end] = images_.equal_range(f.wall);
+    for (auto image = first; image != end; ++image) {
+      const Cell o = offsets_[at(data_[at(image->second)].offset)];
+      if (o.first == -f.cell.first && o.second == -f.cell.second) f.start_piece = image->second;
     }
   }
   if (f.u != 0.0 || f.start_piece < 0 || curves_[at(f.wall)].closed) return;
-  for (std::size_t i = 0; i < data_.size(); ++i)
-    if (data_[i].next == f.start_piece && static_cast<int>(i) != f.start_piece)
-      f.start_previous = static_cast<int>(i);
+  f.start_previous = data_[at(f.start_piece)].previous;
 }
 
 void HitFinder::begin(Flight& f) const {

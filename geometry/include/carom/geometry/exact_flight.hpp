@@ -28,7 +28,8 @@ struct Piece {
   bool edge = false;  ///< edge of the lattice cell: it leads on instead of reflecting
 };
 
-/// The pieces of a table in integers, made once, for decisions that are always right.
+/// The pieces of a table in integers, for decisions that are always right. Each piece is made when it is first
+/// asked about: a boundary belongs to one thread.
 class ExactBoundary {
  public:
   ExactBoundary(const std::vector<Piece>& pieces, Vector first, Vector second);

@@ -1,0 +1,41 @@
+#include "exact_boundary.hpp"
+
+namespace carom::geometry {
+
+ExactBoundary::ExactBoundary(const std::vector<Piece>& pieces, Vector first, Vector second)
+    : data_(std::make_unique<Data>()) {
+  data_->pieces = pieces;
+  data_->first = exact(first);
+  data_->second = exact(second);
+  data_->curves.resize(pieces.size());
+  data_->previous.assign(pieces.size(), -1);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (const int next = pieces[i].next; next >= 0 && next != static_cast<int>(i))
+      data_->previous[static_cast<std::size_t>(next)] = static_cast<int>(i);
+}
+ExactBoundary::~ExactBoundary() = default;
+ExactBoundary::ExactBoundary(ExactBoundary&&) noexcept = default;
+
+Sign ExactBoundary::inward(int piece, double u, Vector v) const {
+  const ExactCurve& c = data_->curve(piece);
+  return sign_of(cross(c.tangent(c.point(u)), exact(v)));
+}
+
+Sign ExactBoundary::inward_at_end(int piece, Vector v) const {
+  const ExactCurve& c = data_->curve(piece);
+  return sign_of(cross(c.tangent(c.end_point()), exact(v)));
+}
+
+ExactBoundary::Corner ExactBoundary::corner(int previous, int next) const {
+  const ExactCurve& before = data_->curve(previous);
+  const ExactCurve& after = data_->curve(next);
+  const DyadicVector in = before.tangent(before.end_point());
+  const DyadicVector out = after.tangent(after.point(0.0));
+  const Dyadic turn = cross(in, out), along = dot(in, out);
+  if (turn.sign() == 0) return {0, along.sign() > 0 ? 1 : 0};
+  if (turn.sign() > 0 && along.sign() == 0) return {1, 2};
+  if (turn.sign() > 0 && (turn + along).sign() == 0) return {1, 4};  // turn by 3 pi/4
+  return {turn.sign(), 0};
+}
+
+}  // namespace carom::geometry

@@ -1,0 +1,238 @@
+// Many walls: with and without the grid every flight ends alike, to the last bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "carom/events/world.hpp"
+#include "events/locator.hpp"
+#include "events/next_hit.hpp"
+#include "random_tables.hpp"
+#include "events/recorder.hpp"
+
+namespace carom::tests {
+namespace {
+
+constexpr DecisionOptions always{1.0, 0}, never_a_grid{1.0, std::numeric_limits<int>::max()};
+
+/// Discs of different sizes at random places of a cell about (0.5, 0.5), apart from each other and from their copies.
+std::vector<Curve> random_discs(int count, double radius, Vector first, Vector second, bool periodic, Dice& dice) {
+  std::vector<Circle> placed;
+  while (static_cast<int>(placed.size()) < count) {
+    const double a = dice.unit() - 0.5, b = dice.unit() - 0.5, r = radius * dice.between(0.3, 1.0);
+    const Vector c{0.5 + a * first.x + b * second.x, 0.5 + a * first.y + b * second.y};
+    bool apart = true;
+    for (const Circle& other : placed)
+      for (int m = periodic ? -1 : 0; m <= (periodic ? 1 : 0); ++m)
+        for (int n = periodic ? -1 : 0; n <= (periodic ? 1 : 0); ++n) {
+          const double x = c.x - other.centre.x + m * first.x + n * second.x;
+          const double y = c.y - other.centre.y + m * first.y + n * second.y;
+          apart = apart && std::sqrt(x * x + y * y) > r + other.radius + 1e-9;
+        }
+    if (apart) placed.push_back({c, r, false});
+  }
+  return {placed.begin(), placed.end()};
+}
+
+Table obstacles(const std::vector<Curve>& discs) {
+  Table table;
+  for (const Curve& disc : discs) add_loop(table, {disc});
+  table.extent = Extent::open_plane;
+  return table;
+}
+
+Table on_lattice(Table table, Vector first, Vector second) {
+  table.extent = Extent::lattice;
+  table.lattice = geometry::make_lattice(first, second, {0.5, 0.5});
+  return table;
+}
+
+Table random_lorentz(Vector first, Vector second, int count, double radius) {
+  Dice dice(7);
+  return on_lattice(obstacles(random_discs(count, radius, first, second, true, dice)), first, second);
+}
+
+/// A star with long thin rays.
+Table star(int sides, double least) {
+  Dice dice(11);
+  std::vector<Vector> corners;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 6.283185307179586 / sides * (i + dice.between(-0.3, 0.3));
+    const double r = dice.between(least, 1.0);
+    corners.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  return polygon(corners);
+}
+
+/// One obstacle of each kind after the other on a square array, clockwise.
+Table many_kinds(int n, bool box) {
+  Table table = box ? rectangle(n, n) : Table();
+  const double s = 0.25;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      const double x = i + 0.5, y = k + 0.5;
+      switch ((i + 2 * k) % 5) {
+        case 0: add_loop(table, {Circle{{x, y}, s, false}}); break;
+        case 1:
+          add_loop(table, {Segment{{x - s, y - s}, {x - s, y + s}}, Segment{{x - s, y + s}, {x + s, y + s}},
+                           Segment{{x + s, y + s}, {x + s, y - s}}, Segment{{x + s, y - s}, {x - s, y - s}}});
+          break;
+        case 2:
+          add_loop(table, {Segment{{x + s, y}, {x - s, y}}, CircularArc{{x - s, y}, {x + s, y}, 0.0, false}});
+          break;
+        case 3: add_loop(table, {Ellipse{{x, y}, {s, 0.125}, 0.5, false}}); break;
+        default:
+          add_loop(table, {CircularArc{{x - s, y}, {x + s, y}, -0.5, false},
+                           EllipticArc{{x + s, y}, {x - s, y}, {1.0, 0.0}, 0.5, 0.0, false}});
+      }
+    }
+  if (!box) table.extent = Extent::open_plane;
+  return table;
+}
+
+struct Flown {
+  long flights = 0, hits = 0, crossings = 0, exact = 0;
+};
+
+class TwoFinders {
+ public:
+  explicit TwoFinders(const Table& table) : table_(table), grid_(table, always), loop_(table, never_a_grid) {}
+
+  /// From a wall or a point, through as many cells as it passes.
+  void fly(Flight flight) {
+    Flight other = flight;
+    grid_.begin(flight);
+    loop_.begin(other);
+    ++flown.flights;
+    for (int cells = 0; cells < 100; ++cells) {
+      DecisionCounts counts, unused;
+      const Ahead a = grid_.next(flight, counts), b = loop_.next(other, unused);
+      flown.exact += static_cast<long>(counts.exact);
+      ASSERT_EQ(a.kind, b.kind) << describe(flight);
+      if (a.kind == Ahead::Kind::none) return;
+      ASSERT_EQ(a.piece, b.piece) << describe(flight);
+      ASSERT_EQ(a.root, b.root) << describe(flight);
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(a.kappa), std::bit_cast<std::uint64_t>(b.kappa)) << describe(flight);
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(a.duration), std::bit_cast<std::uint64_t>(b.duration)) << describe(flight);
+      if (a.kind != Ahead::Kind::edge) {
+        ++flown.hits;
+        return;
+      }
+      ++flown.crossings;
+      grid_.cross(flight, a);
+      loop_.cross(other, b);
+    }
+  }
+
+  Flight from_point(Vector point, Vector velocity, double omega) const {
+    Flight flight;
+    flight.start = point;
+    flight.velocity = velocity;
+    flight.omega = omega;
+    flight.square_speed = dot(velocity, velocity);
+    return flight;
+  }
+  /// From a random point of a random wall, or joint; false: the direction leads into the wall.
+  bool from_wall(Dice& dice, double omega, Flight& flight) const {
+    const int wall = dice.whole(0, static_cast<int>(table_.walls.size()) - 1);
+    const geometry::PreparedCurve& curve = grid_.curve(wall);
+    const double u = dice.whole(0, 15) == 0 ? 0.0 : dice.between(0.0, curve.last());
+    const auto frame = curve.frame(u);
+    flight = from_point(frame.point, dice.direction(), omega);
+    flight.square_speed = 1.0;
+    flight.wall = wall;
+    flight.u = u;
+    flight.start_error = curve.point_error;
+    DecisionCounts counts;
+    return grid_.inward(wall, u, flight.velocity, frame.normal, counts) == Sign::positive;
+  }
+
+  Flown flown;
+
+ private:
+  static std::string describe(const Flight& f) {
+    char text[300];
+    std::snprintf(text, sizeof text, "wall %d u %a x %a y %a vx %a vy %a omega %a cell %ld %ld", f.wall, f.u, f.start.x,
+                  f.start.y, f.velocity.x, f.velocity.y, f.omega, static_cast<long>(f.cell.first),
+                  static_cast<long>(f.cell.second));
+    return text;
+  }
+  const Table& table_;
+  HitFinder grid_, loop_;
+};
+
+/// Flights without field and of all Larmor radii, from walls and from within.
+void fly_everywhere(const Table& table, Vector low, Vector high, long count) {
+  TwoFinders finders(table);
+  Locator locator(table);
+  Dice dice(3);
+  for (long i = 0; i < count; ++i) {
+    const double size = high.x - low.x;
+    const double omega = dice.whole(0, 2) == 0 ? 0.0 : dice.sign() / (size * dice.spread(1e-3, 1e3));
+    Flight flight;
+    if (dice.coin()) {
+      if (!finders.from_wall(dice, omega, flight)) continue;
+    } else {
+      const Vector point{dice.between(low.x, high.x), dice.between(low.y, high.y)};
+      if (!locator.contains(point)) continue;
+      flight = finders.from_point(point, dice.direction(), omega);
+      flight.square_speed = 1.0;
+    }
+    finders.fly(flight);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+  EXPECT_GT(finders.flown.hits, count / 20);
+  EXPECT_LT(finders.flown.exact, finders.flown.flights / 5);
+}
+
+TEST(Grid, TellsOfDiscsOnASquareLatticeWhatTheLoopTells) {
+  fly_everywhere(random_lorentz({1, 0}, {0, 1}, 150, 0.05), {0, 0}, {1, 1}, cases(8000, 400000));
+}
+TEST(Grid, TellsOfDiscsOnAnObliqueLatticeWhatTheLoopTells) {
+  fly_everywhere(random_lorentz({1, 0}, {0.5, 0.8660254037844386}, 60, 0.05), {0, 0}, {1, 1}, cases(6000, 400000));
+}
+TEST(Grid, TellsOfAThinGasWhatTheLoopTells) {
+  fly_everywhere(random_lorentz({1, 0}, {0.25, 1}, 40, 0.004), {0, 0}, {1, 1}, cases(3000, 100000));
+}
+TEST(Grid, TellsOfDiscsInThePlaneWhatTheLoopTells) {
+  Dice dice(5);
+  fly_everywhere(obstacles(random_discs(150, 0.05, {1, 0}, {0, 1}, false, dice)), {-0.2, -0.2}, {1.2, 1.2},
+                 cases(6000, 400000));
+}
+TEST(Grid, TellsOfPolygonsWhatTheLoopTells) {
+  fly_everywhere(star(300, 0.95), {-1, -1}, {1, 1}, cases(6000, 400000));
+  fly_everywhere(star(200, 0.05), {-1, -1}, {1, 1}, cases(6000, 400000));
+}
+TEST(Grid, TellsOfEveryKindOfWallWhatTheLoopTells) {
+  fly_everywhere(many_kinds(7, true), {0, 0}, {7, 7}, cases(4000, 200000));
+  fly_everywhere(many_kinds(6, false), {0, 0}, {6, 6}, cases(4000, 200000));
+  const Table cell = on_lattice(many_kinds(5, false), {5.25, 0}, {1.5, 5.25});
+  fly_everywhere(cell, {-1, -1}, {6, 6}, cases(4000, 200000));
+}
+
+// Along the rows and columns of an array whose pitch is a power of two, through corners and tangent to discs:
+// the exact stage has the same pieces to choose from.
+TEST(Grid, TellsAlongItsLinesWhatTheLoopTells) {
+  for (const bool box : {true, false}) {
+    const Table table = many_kinds(4, box);
+    TwoFinders finders(table);
+    for (int i = 1; i < 32; ++i)
+      for (const int k : {4, 8, 16, 31})
+        for (const Vector& v : {Vector{1, 0}, Vector{0, 1}, Vector{-1, 0}, Vector{0, -1}, Vector{0.6, 0.8}})
+          for (const bool turned : {false, true}) {
+            const Vector point{(turned ? k : i) * 0.125, (turned ? i : k) * 0.125};
+            // Only from points that no obstacle comes near.
+            const double x = std::fabs(point.x - std::floor(point.x) - 0.5);
+            const double y = std::fabs(point.y - std::floor(point.y) - 0.5);
+            if (std::max(x, y) < 0.375) continue;
+            finders.fly(finders.from_point(point, v, i % 8 == 3 ? 0.5 : 0.0));
+            if (HasFatalFailure()) return;
+          }
+    EXPECT_GT(finders.flown.exact, 100);
+  }
+}
+
+}  // namespace
+}  // namespace carom::tests
