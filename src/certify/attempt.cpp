@@ -25,6 +25,12 @@ double least_radius(const WallOf<Ball>& w) {
   return std::sqrt(std::min(u, v)) / std::max(u, v);
 }
 
+/// Of a correction only these count; short factors make products cheap.
+Ball first_bits(const Ball& x) {
+  const Precision few(64);
+  return x.rounded().midpoint();
+}
+
 /// A power of two of at least half that size.
 double power_near(double size) { return std::exp2(std::floor(std::log2(size))); }
 
@@ -125,7 +131,8 @@ void Attempt::move_to(const Copy& copy) {
   const Bound dP = position_error(), dv = velocity_error();
   const VectorOf<Interval> P{interval_of(now_.state.position.x, dP), interval_of(now_.state.position.y, dP)};
   const VectorOf<Interval> v{interval_of(now_.state.velocity.x, dv), interval_of(now_.state.velocity.y, dv)};
-  const Bound settled = settle(landing, scene_, scene_.walls[index], same, unit_);
+  const bool settles = settles_now();
+  const Bound settled = settles ? settle(landing, scene_, scene_.walls[index], same, unit_) : Bound();
   const BallVector position = middle(landing.position), velocity = middle(landing.velocity);
   const FrameOf<Interval> after{tangent_of(fast_.walls[index], point(position)), point(velocity), unit_};
   TangentMap<Interval> map = tangent_map(fast_.walls[index], P, v, fast_.motion, same, now_.frame, after);
@@ -139,9 +146,9 @@ void Attempt::move_to(const Copy& copy) {
   // After settling the state has its speed to first order; a turn by b takes b^2/2 of the component along
   // the midpoint's velocity.
   const Bound turned = now_.errors.size(turning);
-  now_.errors.constrain(speed, rounding + turned * turned);
+  if (settles) now_.errors.constrain(speed, rounding + turned * turned);
   const WallOf<Ball>& wall = scene_.walls[index];
-  if (same && wall.form != Form::segment) {
+  if (settles && same && wall.form != Form::segment) {
     // Likewise it is on the curve: who is a along its tangent is at most a^2/r off it (for a < r/2), where r is
     // the least radius of curvature.
     const double radius_below = least_radius(wall) * 0.999999 / unit_;
@@ -152,6 +159,9 @@ void Attempt::move_to(const Copy& copy) {
   now_.wall = now_.standing = copy.wall;
 }
 
+// With many bits a few of them are cheaper than the squares: then every fourth hit suffices.
+bool Attempt::settles_now() const { return bits_ < 2000 || now_.hits % 4 == 3; }
+
 // The true state lies on the wall and has the true speed: the computed one is put back there to first
 // order in what it has left them by, and what is changed counts as rounding. Without this the errors off
 // the wall and of the speed would feed each other, for their motion is unstable.
@@ -160,7 +170,7 @@ Bound Attempt::settle(LandingOf<Ball>& landing, const SceneOf<Ball>& scene, cons
   BallVector& v = landing.velocity;
   const Ball slow = (scene.motion.speed2 - (square(v.x) + square(v.y))) * scene.motion.inverse_speed2;
   const Ball half(0.5);
-  const Ball stretch = half * slow.midpoint();
+  const Ball stretch = half * first_bits(slow);
   v = {v.x + stretch * v.x, v.y + stretch * v.y};
   Bound changed;
   arb_get_mag(changed.raw(), slow.raw());
@@ -172,7 +182,7 @@ Bound Attempt::settle(LandingOf<Ball>& landing, const SceneOf<Ball>& scene, cons
     const Ball X = dot(e, w.along), Y = dot(e, w.across);
     const BallVector normal = X * w.along + Y * w.across;
     const Ball low = (Ball(1) - (square(X) + square(Y))) / (square(normal.x) + square(normal.y));
-    const Ball lift = half * low.midpoint();
+    const Ball lift = half * first_bits(low);
     P = {P.x + lift * normal.x, P.y + lift * normal.y};
     Bound lifted, length;
     arb_get_mag(lifted.raw(), low.raw());
@@ -181,7 +191,7 @@ Bound Attempt::settle(LandingOf<Ball>& landing, const SceneOf<Ball>& scene, cons
   }
   const BallVector e = P - w.centre;
   const Ball low = (w.radius2 - (square(e.x) + square(e.y))) * w.double_inverse;
-  const Ball lift = half * half * low.midpoint();  // (r^2 - e^2)/(2 r^2)
+  const Ball lift = half * half * first_bits(low);  // (r^2 - e^2)/(2 r^2)
   P = {P.x + lift * e.x, P.y + lift * e.y};
   Bound lifted;
   arb_get_mag(lifted.raw(), low.raw());

@@ -83,6 +83,7 @@ class Attempt {
   void trim_precision();
   Choice choose() const;
   void move_to(const Copy&);
+  bool settles_now() const;
   static Bound settle(LandingOf<Ball>&, const SceneOf<Ball>&, const WallOf<Ball>&, bool same, double unit);
   Outcome landed(const Copy&, const std::optional<Now>& before);
   Passage pass() const;
