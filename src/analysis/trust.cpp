@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/error_edges.hpp"
+#include "analysis/exact_hit.hpp"
 #include "carom/geometry/curve_frame.hpp"
 
 namespace carom {
@@ -12,39 +13,6 @@ namespace carom {
 using geometry::Vector;
 
 namespace {
-
-constexpr double u = geometry::unit_roundoff;
-
-double component(const Deviation& d, std::size_t i) {
-  return i < 2 ? (i == 0 ? d.position.x : d.position.y) : i == 2 ? d.velocity.x : d.velocity.y;
-}
-ErrorSpread transposed(const ErrorSpread& m) {
-  ErrorSpread t;
-  for (std::size_t i = 0; i < 4; ++i)
-    t[i] = {{component(m[0], i), component(m[1], i)}, {component(m[2], i), component(m[3], i)}};
-  return t;
-}
-/// M P M^T.
-template <class Map>
-ErrorSpread carried(const Map& map, ErrorSpread p) {
-  for (Deviation& column : p) column = map(column);
-  p = transposed(p);
-  for (Deviation& column : p) column = map(column);
-  return p;
-}
-void add_noise(ErrorSpread& p, double position, double velocity) {
-  p[0].position.x += position * position;
-  p[1].position.y += position * position;
-  p[2].velocity.x += velocity * velocity;
-  p[3].velocity.y += velocity * velocity;
-}
-Deviation product(const ErrorSpread& p, const Deviation& g) {
-  return (g.position.x * p[0] + g.position.y * p[1]) + (g.velocity.x * p[2] + g.velocity.y * p[3]);
-}
-double deviation_of(const ErrorSpread& p, const Deviation& g) {
-  const double square = dot(g, product(p, g));
-  return square > 0.0 ? std::sqrt(square) : 0.0;
-}
 
 struct Box {
   double left = 0, right = 0, bottom = 0, top = 0;
@@ -79,10 +47,9 @@ double size_of(const Table& table) {
 
 class TrustRecorder::Implementation {
  public:
-  Implementation(const Table& the_table, double the_tolerance)
-      : table(the_table), tolerance(the_tolerance), size(size_of(the_table)), edges(the_table) {
-    const Box b = box_of(table);
-    extent = std::max({std::fabs(b.left), std::fabs(b.right), std::fabs(b.bottom), std::fabs(b.top)});
+  Implementation(const Table& the_table, double the_tolerance, std::shared_ptr<const WrittenSystem> written)
+      : table(the_table), tolerance(the_tolerance), size(size_of(the_table)), as_written(std::move(written)),
+        edges(the_table) {
     for (const Wall& wall : table.walls) frames.push_back(geometry::frame_of(wall.curve));
   }
 
@@ -91,28 +58,17 @@ class TrustRecorder::Implementation {
     State state;  ///< after the last event
     Trust trust;
     HitError error;
+    std::shared_ptr<const WrittenSystem> system;
   };
 
-  // Bounds of what one flight and one hit add (docs/physics/tangent-map.md).
-  double position_noise(double way) const { return 2.0 * u * (extent + way); }
-  double angle_noise(double curvature, double turn) const {
-    return 2.0 * u * (1.0 + extent * std::fabs(curvature) + std::fabs(turn));
-  }
-
-  ErrorSpread flown(const ErrorSpread& before, const FlightTangent& flight, double way) const {
-    ErrorSpread p = carried(flight, before);
-    add_noise(p, position_noise(way), 0.0);
-    return p;
-  }
-  /// The likeliest deviation at the start of a flight that is on the edge of the beam at its end: the
-  /// deviation across the flight there decides where and whether a wall is met.
-  Deviation edge_of(const Track& track, const FlightTangent& flight) const {
-    const Vector v = track.state.velocity;
-    const Vector arriving = flight.c * v + flight.s * right(v);
-    const Deviation across = flight.before({left(arriving), {}});
-    const Deviation worst = product(track.trust.spread, across);
-    const double square = dot(across, worst);
-    return square > 0.0 ? (deviations / std::sqrt(square)) * worst : Deviation();
+  /// Beyond the true orbit: a neighbour as far as the margin says, and a few roundings more across the flight.
+  Deviation edge_of(const Track& track) const {
+    const Vector v = track.state.velocity, side = left(v);
+    const Deviation& e = track.trust.error;
+    const double sign = dot(side, e.position) < 0.0 ? -1.0 : 1.0;
+    Deviation edge = margin * e;
+    edge.position = edge.position + (sign * 4.0 * geometry::unit_roundoff * size / length_of(v)) * side;
+    return edge;
   }
   /// Who arrives later than this arrives elsewhere.
   double latest(const Particle& particle, double duration) const {
@@ -121,7 +77,8 @@ class TrustRecorder::Implementation {
   bool hit(Track& track, const HitEvent& event);
 
   const Table& table;
-  double tolerance, size, extent = 0.0;
+  double tolerance, size;
+  std::shared_ptr<const WrittenSystem> as_written;
   std::vector<geometry::CurveFrame> frames;
   ErrorEdges edges;
   std::vector<Track> tracks;
@@ -135,47 +92,57 @@ bool TrustRecorder::Implementation::hit(Track& track, const HitEvent& event) {
   const geometry::CurveFrame& frame = frames[static_cast<std::size_t>(event.wall)];
   const Vector normal = geometry::normal_at(frame, event.u);
   const double curvature = geometry::curvature_at(frame, event.u);
-  const FlightTangent flight = flight_tangent(particle.omega, event.flight_time);
 
   const ErrorEdges::Arrival arrival{event.wall, event.cell, event.position};
-  const Deviation edge = edge_of(track, flight);
-  for (const double sign : {1.0, -1.0})
-    if (!edges.same_arrival(particle, track.state, sign * edge, arrival, tolerance * size,
-                            latest(particle, event.flight_time)))
-      return false;
-
-  ErrorSpread p = flown(track.trust.spread, flight, particle.speed * event.flight_time);
-  p = carried(reflection_tangent(normal, curvature, event.before, particle.omega), p);
-  add_noise(p, 0.0, particle.speed * angle_noise(curvature, particle.omega * event.flight_time));
-  const AtWall at = at_wall(normal, event.after, particle.omega);
-  track.error = {deviations * deviation_of(p, at.arc), deviations * deviation_of(p, at.delay),
-                 deviations * deviation_of(p, at.angle)};
-  if (!(track.error.arc <= tolerance * size && track.error.delay * particle.speed <= tolerance * size &&
-        track.error.angle <= tolerance))
+  // A tolerance may be finer than the roundings by which edges are displaced.
+  const double farthest = (tolerance + 16.0 * geometry::unit_roundoff) * size;
+  if (!edges.same_arrival(particle, track.state, edge_of(track), arrival, farthest,
+                          latest(particle, event.flight_time)))
     return false;
-  track.trust.spread = p;
+
+  const Deviation at_arrival = flight_tangent(particle.omega, event.flight_time)(track.trust.error);
+  const Deviation e = reflection_tangent(normal, curvature, event.before, particle.omega)(at_arrival) +
+                      error_of_hit(*track.system, track.state, event);
+  const AtWall at = at_wall(normal, event.after, particle.omega);
+  track.error = {dot(at.arc, e), dot(at.delay, e), dot(at.angle, e)};
+  const auto within = [](double error, double bound) { return margin * std::fabs(error) <= bound; };
+  if (!(within(track.error.arc, tolerance * size) && within(track.error.delay * particle.speed, tolerance * size) &&
+        within(track.error.angle, tolerance)))
+    return false;
+  track.trust.error = e;
   return true;
 }
 
-TrustRecorder::TrustRecorder(const Table& table, double tolerance)
-    : implementation_(std::make_unique<Implementation>(table, tolerance)) {}
+TrustRecorder::TrustRecorder(const Table& table, double tolerance, std::shared_ptr<const WrittenSystem> written)
+    : implementation_(std::make_unique<Implementation>(table, tolerance, std::move(written))) {}
 TrustRecorder::~TrustRecorder() = default;
 
 void TrustRecorder::follow(const Particle& particle, const State& state, std::uint64_t hits,
                            const Trust* before) {
   Implementation& a = *implementation_;
-  Implementation::Track track{particle, state, {}, {}};
+  Implementation::Track track{particle, state, {}, {}, a.as_written};
+  const bool first = a.tracks.empty();
+  // The numbers that were written are the first particle's.
+  if (!track.system || !first) {
+    const WrittenSystem stored = as_stored(a.table, particle);
+    if (track.system) {
+      WrittenSystem own = *track.system;
+      own.omega = stored.omega;
+      own.speed = stored.speed;
+      track.system = std::make_shared<const WrittenSystem>(std::move(own));
+    } else {
+      track.system = std::make_shared<const WrittenSystem>(stored);
+    }
+  }
   if (before != nullptr) {
     track.trust = *before;
   } else {
     track.trust.known = track.trust.open = true;
     track.trust.hits = hits;
     track.trust.time = state.time;
-    // The engine puts the speed back to its value at every hit; the start may have missed it.
-    const double missed = std::fabs(length_of(state.velocity) - particle.speed);
-    add_noise(track.trust.spread, a.position_noise(0.0), missed + 2.0 * u * particle.speed);
+    track.trust.error = error_of_start(*track.system, state, first);
   }
-  a.tracks.push_back(track);
+  a.tracks.push_back(std::move(track));
 }
 
 void TrustRecorder::hit(const HitEvent& event) {
@@ -198,12 +165,8 @@ void TrustRecorder::end(const EndEvent& event) {
   Implementation& a = *implementation_;
   Implementation::Track& track = a.tracks[static_cast<std::size_t>(event.particle)];
   if (!track.trust.open || event.fate != Fate::escaped) return;
-  const FlightTangent flight = flight_tangent(track.particle.omega, event.time - track.state.time);
-  const Deviation edge = a.edge_of(track, flight);
-  for (const double sign : {1.0, -1.0})
-    track.trust.open =
-        track.trust.open && a.edges.same_hole(track.particle, track.state, sign * edge, event.hole,
-                                              a.latest(track.particle, event.time - track.state.time));
+  track.trust.open = a.edges.same_hole(track.particle, track.state, a.edge_of(track), event.hole,
+                                       a.latest(track.particle, event.time - track.state.time));
 }
 
 const Trust& TrustRecorder::trust(int particle) const {
@@ -219,11 +182,9 @@ Trust TrustRecorder::at_end(const Particle& particle, const State& state, const 
   Trust trust = before;
   const double duration = end - state.time;
   if (!trust.open || !(duration > 0.0)) return trust;
-  const ErrorSpread p =
-      a.flown(trust.spread, flight_tangent(particle.omega, duration), particle.speed * duration);
-  const double position = std::sqrt(p[0].position.x + p[1].position.y);
-  const double velocity = std::sqrt(p[2].velocity.x + p[3].velocity.y);
-  if (deviations * position <= a.tolerance * a.size && deviations * velocity <= a.tolerance * particle.speed)
+  const Deviation e = flight_tangent(particle.omega, duration)(trust.error);
+  if (margin * length_of(e.position) <= a.tolerance * a.size &&
+      margin * length_of(e.velocity) <= a.tolerance * particle.speed)
     trust.time = end;
   return trust;
 }

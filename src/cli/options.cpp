@@ -134,6 +134,8 @@ void define(CLI::App& app, Options& o) {
       .text("-o,--output", o.output, "FILE.h5",
             "Write an archive: every hit, and samples if run.sample is set")
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
+      .text("--trust-tolerance", o.overrides.trust_tolerance, "X",
+            "Largest error of a trusted collision, by the table's size (default 1e-3)")
       .text("--precision", o.precision, "NAME", "double; certified: every digit guaranteed; or a number of bits: MPFR without guarantee")
       .text("--digits", o.digits, "D", "Guaranteed decimals of a certified run (default 20)")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");

@@ -94,6 +94,9 @@ int run(const Options& options) {
     loaded.system.name = stored.system_name;
     choose_engine(options.engine == "auto" && stored.engine == "steps" ? "steps" : options.engine, loaded.system);
     refuse_injections(loaded.system, "a run that is continued");
+    if (!options.overrides.trust_tolerance.empty())
+      throw InputError(Place{"command line", 0, 0, "--trust-tolerance"}, "the stored run has its own tolerance",
+                       "a new run");
     how.resume = stored.particles;
     refuse_going_back(loaded.system, stored);
     if (output.empty()) output = options.resume;
@@ -101,6 +104,7 @@ int run(const Options& options) {
                                  options.force);
   }
   const System& system = loaded.system;
+  if (estimates_trust(system)) how.written = written_system(loaded);
   const std::atomic<bool>& interrupted = catch_interrupts();
 
   Counting counting(archive.get());

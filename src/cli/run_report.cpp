@@ -41,17 +41,18 @@ void add_end(Json& json, const System& system, const ParticleEnd& particle) {
   const Trust& trust = particle.trust;
   json.set("trusted_collisions", trust.known ? Json(trust.hits) : Json());
   json.set("trusted_time", trust.known ? Json(trust.time.value()) : Json());
+  json.set("trust_tolerance", system.run.trust_tolerance);
   const int hole = particle.progress.hole;
   if (hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(hole)].name);
 }
 
-std::string trust_text(const ParticleEnd& particle) {
+std::string trust_text(const System& system, const ParticleEnd& particle) {
   const Trust& trust = particle.trust;
   if (!trust.known) return "not estimated where motion is integrated or discs meet";
   if (trust.open && trust.time == particle.progress.end)
-    return fmt::format("to the end: errors below {} of the table's size", TrustRecorder::usual_tolerance);
+    return fmt::format("to the end: errors below {} of the table's size", system.run.trust_tolerance);
   return fmt::format("{} collisions, until t = {:.6g}; then errors exceed {} of the table's size or change a wall",
-                     grouped(trust.hits), trust.time.value(), TrustRecorder::usual_tolerance);
+                     grouped(trust.hits), trust.time.value(), system.run.trust_tolerance);
 }
 
 std::string end_text(const System& system, const ParticleEnd& particle, bool interrupted) {
@@ -68,7 +69,7 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
     text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
   text += fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g}\n", particle.vx, particle.vy,
                       particle.energy_error);
-  text += fmt::format("  trusted       {}\n", trust_text(particle));
+  text += fmt::format("  trusted       {}\n", trust_text(system, particle));
   return text;
 }
 

@@ -149,7 +149,9 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   Renumbering passed_on(observer, numbers, std::move(entries));
   std::optional<TrustRecorder> trust;
   if (estimates_trust(system)) {
-    trust.emplace(*system.table, options.tolerance);
+    // What is written is the first particle's.
+    const bool first = !numbers.empty() && numbers.front() == 0;
+    trust.emplace(*system.table, system.run.trust_tolerance, first ? options.written : nullptr);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const int body = static_cast<int>(i);
       const Trust& before = progress[static_cast<std::size_t>(numbers[i])].trust;

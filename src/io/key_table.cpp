@@ -146,6 +146,8 @@ const std::vector<KeyDescription>& key_table() {
       {"run", "", "collisions", "whole number", "", "most hits a trajectory may make; no limit if not given"},
       {"run", "", "trajectories", "whole number", "100000", "size of an ensemble"},
       {"run", "", "seed", "whole number", "1", "of the random numbers"},
+      {"run", "", "trust_tolerance", "number", "1e-3",
+       "largest error of a trusted collision of `carom run`, relative to the table's size"},
       {"run", "", "sample", "number", "", "time between samples; none if not given"},
       {"run", "", "times", "list or table", "",
        "when survival is reported; {from = t_max/1000, to = t_max, count = 31, spacing = \"log\"} if not "

@@ -1,5 +1,6 @@
 #include "io/overrides.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -133,10 +134,12 @@ void apply(const SystemOverrides& overrides, Value& root) {
                                                                 {"trajectories", &overrides.trajectories},
                                                                 {"t_max", &overrides.t_max},
                                                                 {"collisions", &overrides.collisions},
-                                                                {"times", &overrides.times}};
+                                                                {"times", &overrides.times},
+                                                                {"trust_tolerance", &overrides.trust_tolerance}};
   for (const auto& [key, text] : options) {
     if (text->empty()) continue;
-    const std::string option = std::string(key) == "t_max" ? "--t-max" : std::string("--") + key;
+    std::string option = std::string("--") + key;
+    std::replace(option.begin(), option.end(), '_', '-');
     const Place place = command_line(option);
     // Times have a notation of their own, which read_run takes apart.
     const Value value = std::string(key) == "times" ? text_value(*text, place) : parse_value(*text, place);

@@ -140,6 +140,10 @@ RunPlan read_run(Value& root) {
   plan.seed = as_count(section.get("seed"), 0);
   if (const Value* collisions = section.find("collisions")) plan.collisions = as_count(*collisions, 1);
   if (const Value* sample = section.find("sample")) plan.sample = as_positive(*sample);
+  const Value& tolerance = section.get("trust_tolerance");
+  plan.trust_tolerance = as_positive(tolerance);
+  if (!(plan.trust_tolerance < 1.0))
+    throw InputError(tolerance.place, "errors as large as the table are no tolerance", "a number below 1");
   plan.times = read_times(section, plan.t_max);
   if (const Value* window = section.find("window")) {
     if (window->kind != Value::Kind::list || window->items.size() != 2)

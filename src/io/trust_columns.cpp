@@ -8,7 +8,7 @@ using hdf5::Handle;
 
 namespace {
 
-constexpr std::size_t entries = 16;  // of a spread
+constexpr std::size_t entries = 4;  // of an error
 
 Deviation deviation(const double* d) { return {{d[0], d[1]}, {d[2], d[3]}}; }
 
@@ -31,34 +31,33 @@ void create_trust(hid_t group, std::size_t particles, const std::string& file) {
          {"1", "Reflections before the first whose estimated error is too large"});
   create("time", H5T_NATIVE_DOUBLE, particles, {"time", "Until when the particle can be trusted"});
   create("open", H5T_NATIVE_INT32, particles, {"1", "1: up to the last event"});
-  create("spread", H5T_NATIVE_DOUBLE, entries * particles,
-         {"mixed", "Mean products of the errors of x, y, vx, vy after the last event, row 16 i + 4 j + k"});
+  create("error", H5T_NATIVE_DOUBLE, entries * particles,
+         {"mixed", "While open: estimated errors of x, y, vx, vy after the last event, rows 4 i to 4 i + 3"});
 }
 
 void write_trust(hid_t group, const std::vector<ParticleEnd>& particles, const std::string& file) {
   std::vector<std::int64_t> collisions;
-  std::vector<double> time, spread;
+  std::vector<double> time, error;
   std::vector<std::int32_t> open;
   for (const ParticleEnd& p : particles) {
     collisions.push_back(static_cast<std::int64_t>(p.trust.hits));
     time.push_back(p.trust.time.value());
     open.push_back(p.trust.open ? 1 : 0);
-    for (const Deviation& d : p.progress.trust.spread)
-      for (const double entry : {d.position.x, d.position.y, d.velocity.x, d.velocity.y})
-        spread.push_back(entry);
+    const Deviation& d = p.progress.trust.error;
+    for (const double entry : {d.position.x, d.position.y, d.velocity.x, d.velocity.y}) error.push_back(entry);
   }
   write(group, "collisions", collisions, file);
   write(group, "time", time, file);
   write(group, "open", open, file);
-  write(group, "spread", spread, file);
+  write(group, "error", error, file);
 }
 
 void read_trust(hid_t group, std::vector<ParticleProgress>& particles, const std::string& file) {
   const auto collisions = hdf5::read_column<std::int64_t>(group, "collisions", file);
   const auto time = hdf5::read_column<double>(group, "time", file);
   const auto open = hdf5::read_column<std::int32_t>(group, "open", file);
-  const auto spread = hdf5::read_column<double>(group, "spread", file);
-  if (spread.size() != entries * particles.size())
+  const auto error = hdf5::read_column<double>(group, "error", file);
+  if (error.size() != entries * particles.size())
     throw InputError(Place{file, 0, 0, "/trust"}, "the datasets differ in length");
   for (std::size_t i = 0; i < particles.size(); ++i) {
     Trust& trust = particles[i].trust;
@@ -66,8 +65,7 @@ void read_trust(hid_t group, std::vector<ParticleProgress>& particles, const std
     trust.open = open.at(i) != 0;
     trust.hits = static_cast<std::uint64_t>(collisions.at(i));
     trust.time = trust.open ? particles[i].state.time : Time(time.at(i));
-    for (std::size_t k = 0; k < trust.spread.size(); ++k)
-      trust.spread[k] = deviation(&spread[entries * i + 4 * k]);
+    trust.error = deviation(&error[entries * i]);
   }
 }
 

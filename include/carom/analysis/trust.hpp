@@ -1,11 +1,12 @@
-// How far an orbit in double precision can be trusted: rounding errors and those of the start, carried along
-// the orbit by its tangent map. docs/physics/tangent-map.md has the estimate and what it is worth.
+// How far an orbit in double precision can be trusted: what each hit and the numbers of the system lost in
+// rounding, computed in twice the digits and carried along the orbit by its tangent map.
+// docs/physics/tangent-map.md has the estimate and what it is worth.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 
+#include "carom/analysis/written_system.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/events/observer.hpp"
 #include "carom/motion/tangent.hpp"
@@ -13,19 +14,16 @@
 
 namespace carom {
 
-/// Mean products of the errors of a state: the columns of a symmetric matrix, in the order x, y, vx, vy.
-using ErrorSpread = std::array<Deviation, 4>;
-
 /// What is known of one particle's errors; a run goes on from it.
 struct Trust {
   bool known = false;      ///< false: nothing is estimated (forces, hard discs)
   bool open = false;       ///< no error has become too large yet
   std::uint64_t hits = 0;  ///< reflections before the first whose error is too large
   Time time;               ///< of the last of these; while open: of the last event
-  ErrorSpread spread{};    ///< of the state after the last event, while open
+  Deviation error;         ///< while open: of the state after the last event, the true one less the computed
 };
 
-/// Estimated errors of a hit, as many standard deviations as TrustRecorder::deviations says.
+/// Estimated errors of a hit, with their signs.
 struct HitError {
   double arc = 0.0;    ///< along the wall
   double delay = 0.0;  ///< of its time
@@ -38,15 +36,17 @@ double size_of(const Table&);
 
 /// Watches free particles. An orbit is trusted up to a hit if the errors of its point and of its time
 /// times the speed stay below the tolerance times the table's size, that of its direction below the
-/// tolerance, and every orbit within these errors has met the same walls.
+/// tolerance, all with a margin, and the engine finds the same walls beyond the error.
 class TrustRecorder : public Observer {
  public:
   static constexpr double usual_tolerance = 1e-3;
-  /// Errors are taken this many times as large as their standard deviation.
-  static constexpr double deviations = 6.0;
+  /// Errors are taken this many times as large: the tangent map is their first order.
+  static constexpr double margin = 1.25;
 
-  /// Keeps a reference to the table, which must live as long.
-  explicit TrustRecorder(const Table&, double tolerance = usual_tolerance);
+  /// Keeps a reference to the table, which must live as long. `written`: what the table's doubles were rounded
+  /// from, and the first particle's start; nothing: they are what is meant.
+  explicit TrustRecorder(const Table&, double tolerance = usual_tolerance,
+                         std::shared_ptr<const WrittenSystem> written = nullptr);
   ~TrustRecorder() override;
 
   /// Follows the world's next particle from its state, which has made `hits` hits; `before`: what was known

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,8 @@ struct SingleRunOptions {
   std::vector<ParticleProgress> resume;  ///< empty: start afresh
   std::function<bool()> interrupted;     ///< asked between events
   std::uint64_t trajectory = 0;          ///< index: which start is drawn
-  double tolerance = TrustRecorder::usual_tolerance;  ///< of errors, relative to the table's size
+  /// What the system's doubles were rounded from; null: they are what is meant.
+  std::shared_ptr<const WrittenSystem> written;
 };
 
 /// How one trajectory ended.

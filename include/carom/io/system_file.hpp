@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "carom/analysis/written_system.hpp"
 #include "carom/certify/exact_system.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/io/system_overrides.hpp"
@@ -44,5 +45,7 @@ struct LoadedSystem {
 LoadedSystem load_system(const std::string& name, const SystemOverrides& = {});
 /// The same from text; `file` is used in messages.
 LoadedSystem read_system(std::string_view toml, const std::string& file, const SystemOverrides& = {});
+/// What the doubles of a system were rounded from (SingleRunOptions::written); null where that is not known.
+std::shared_ptr<const WrittenSystem> written_system(const LoadedSystem&);
 
 }  // namespace carom

@@ -1,0 +1,72 @@
+// The numbers of a system as they were written, in twice the digits of a double.
+#include "carom/base/error.hpp"
+#include "carom/io/system_file.hpp"
+#include "certify/ball_table.hpp"
+#include "certify/exact_value.hpp"
+
+namespace carom {
+
+namespace {
+
+using certify::Ball;
+using certify::BallVector;
+
+Twofold twofold(const Ball& x) {
+  const double high = x.to_double();
+  return {high, (x - Ball(high)).to_double()};
+}
+TwofoldVector twofold(const BallVector& v) { return {twofold(v.x), twofold(v.y)}; }
+
+WrittenWall written_wall(const certify::WallOf<Ball>& w) {
+  WrittenWall r;
+  r.straight = w.form == certify::Form::segment;
+  r.circular = w.form == certify::Form::circle;
+  r.turn = w.turn;
+  r.from = twofold(w.from);
+  r.chord = twofold(w.chord);
+  r.centre = twofold(w.centre);
+  if (r.circular) r.square = twofold(w.radius2);
+  if (w.form != certify::Form::ellipse) return r;
+  r.along = twofold(w.along);
+  r.across = twofold(w.across);
+  r.square = 1.0;
+  return r;
+}
+
+void write_start(const ExactSystem& exact, const System& system, WrittenSystem& written) {
+  if (system.initial.kind != InitialCondition::Kind::point) return;
+  const ExactStart& start = exact.start;
+  written.position = twofold(BallVector{certify::value_of(start.position.x), certify::value_of(start.position.y)});
+  BallVector direction{certify::value_of(start.direction.x), certify::value_of(start.direction.y)};
+  if (start.angle) {
+    const certify::CosSin d = certify::direction_of(*start.angle);
+    direction = {d.cos, d.sin};
+  }
+  const Ball scale = certify::value_of(exact.speed) / sqrt(dot(direction, direction));
+  written.velocity = twofold(BallVector{scale * direction.x, scale * direction.y});
+}
+
+}  // namespace
+
+std::shared_ptr<const WrittenSystem> written_system(const LoadedSystem& loaded) {
+  const certify::Precision precision(160);
+  const ExactSystem& exact = loaded.exact;
+  WrittenSystem written;
+  try {
+    const certify::BallTable table = certify::ball_table(*exact.spec);
+    for (const certify::WallOf<Ball>& wall : table.walls) written.walls.push_back(written_wall(wall));
+    if (table.lattice) {
+      written.first = twofold(table.lattice->first);
+      written.second = twofold(table.lattice->second);
+    }
+  } catch (const InputError&) {
+    return nullptr;  // a shape without certified form: its doubles are meant
+  }
+  if (loaded.system.of_discs() || exact.speed.to_double() == 0.0) return nullptr;
+  written.omega = twofold(certify::value_of(exact.omega));
+  written.speed = twofold(certify::value_of(exact.speed));
+  write_start(exact, loaded.system, written);
+  return std::make_shared<const WrittenSystem>(std::move(written));
+}
+
+}  // namespace carom

@@ -1,0 +1,136 @@
+// What double runs say of themselves, against certified orbits of the same starts.
+#include "carom/analysis/trust.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "carom/certify/certified_orbit.hpp"
+#include "carom/events/world.hpp"
+#include "carom/io/system_file.hpp"
+#include "certify/systems.hpp"
+#include "random_tables.hpp"
+
+namespace carom {
+namespace {
+
+using tests::Shaped;
+
+struct Hits : Observer {
+  explicit Hits(TrustRecorder& recorder) : trust(recorder) {}
+  void hit(const HitEvent& event) override {
+    trust.hit(event);
+    events.push_back(event);
+  }
+  void end(const EndEvent& event) override { trust.end(event); }
+  TrustRecorder& trust;
+  std::vector<HitEvent> events;
+};
+
+struct Sample {
+  long starts = 0, wrong = 0;
+  std::vector<double> ratios;  ///< of orbits that part from the truth
+};
+
+class AgainstCertified {
+ public:
+  explicit AgainstCertified(const Shaped& s, const ExactNumber& omega) {
+    system_ = tests::system_of(s, {1.0, 0.0});
+    system_.omega = omega;
+    loaded_.exact = system_;
+    loaded_.system.table = system_.table;
+    written_ = written_system(loaded_);
+    particle_.omega = omega.to_double();
+    world_ = std::make_unique<World>(*system_.table);
+    world_->limit_hits(most);
+    for (const Wall& wall : system_.table->walls) {
+      const geometry::Box b = geometry::bounding_box(wall.curve);
+      box_.low = {std::min(box_.low.x, b.low.x), std::min(box_.low.y, b.low.y)};
+      box_.high = {std::max(box_.high.x, b.high.x), std::max(box_.high.y, b.high.y)};
+    }
+  }
+
+  void run(tests::Dice& dice, Sample& sample) {
+    State start;
+    do start.position = {dice.between(box_.low.x, box_.high.x), dice.between(box_.low.y, box_.high.y)};
+    while (!world_->contains(start.position));
+    start.velocity = dice.direction();
+    world_->clear();
+    world_->add(particle_, start);
+    TrustRecorder recorder(*system_.table, TrustRecorder::usual_tolerance, written_);
+    recorder.follow(particle_, start, 0);
+    Hits doubles(recorder);
+    world_->run_until(1e300, doubles);
+    const std::uint64_t trusted = recorder.trust(0).hits;
+    ++sample.starts;
+
+    system_.start.position = {start.position.x, start.position.y};
+    system_.start.direction = {start.velocity.x, start.velocity.y};
+    CertifiedTask task;
+    task.collisions = std::min<std::uint64_t>(doubles.events.size(), trusted + 30);
+    task.digits = 6;
+    task.most_bits = 100'000;
+    CertifiedOrbit truth(system_, task);
+    std::uint64_t together = 0;
+    bool parted = false;
+    for (const CertifiedHit& hit : truth) {
+      parted = !same(hit, doubles.events[static_cast<std::size_t>(together)]);
+      if (parted) break;
+      ++together;
+    }
+    if (together < trusted && ++sample.wrong)
+      ADD_FAILURE() << system_.spec->shape << ", omega " << system_.omega.to_double() << ": trusted " << trusted << ", together "
+                    << together << ", " << name_of(truth.end_state().fate) << "; start " << std::hexfloat
+                    << start.position.x << ", " << start.position.y << "; " << start.velocity.x << ", "
+                    << start.velocity.y;
+    if (parted) sample.ratios.push_back(static_cast<double>(trusted) / static_cast<double>(together));
+  }
+
+ private:
+  bool same(const CertifiedHit& truth, const HitEvent& event) const {
+    if (truth.wall != event.wall || !(truth.cell == event.cell)) return false;
+    geometry::Vector position = event.position;
+    const Table& table = *system_.table;
+    if (table.lattice) position = position + table.lattice->translation(event.cell);
+    const double size = size_of(table);
+    const double away = std::max(std::fabs(truth.x.to_double() - position.x), std::fabs(truth.y.to_double() - position.y));
+    const double turn =
+        std::max(std::fabs(truth.vx.to_double() - event.after.x), std::fabs(truth.vy.to_double() - event.after.y));
+    const double late = std::fabs(truth.t.to_double() - event.time.value());
+    return std::max({away / size, late / size, turn}) <= 1e-3;
+  }
+
+  static constexpr std::uint64_t most = 300;
+  ExactSystem system_;
+  LoadedSystem loaded_;
+  std::shared_ptr<const WrittenSystem> written_;
+  Particle particle_;
+  std::unique_ptr<World> world_;
+  geometry::Box box_{{1e9, 1e9}, {-1e9, -1e9}};
+};
+
+// Up to the last trusted collision the walls are those of the certified orbit, and the numbers within the tolerance; and
+// the count is not much smaller than it could be.
+TEST(TrustAgainstCertified, TheWallsAreTrue) {
+  tests::Dice dice(21);
+  std::vector<AgainstCertified> systems;
+  for (const Shaped& s : tests::all_shapes()) systems.emplace_back(s, ExactNumber());
+  Sample sample;
+  const long starts = tests::cases(300, 10000);
+  for (long k = 0; k < starts; ++k) systems[static_cast<std::size_t>(k) % systems.size()].run(dice, sample);
+  EXPECT_LE(static_cast<double>(sample.wrong), 1e-3 * static_cast<double>(sample.starts));
+  ASSERT_GT(sample.ratios.size(), static_cast<std::size_t>(starts / 3));
+  std::sort(sample.ratios.begin(), sample.ratios.end());
+  const double median = sample.ratios[sample.ratios.size() / 2];
+  EXPECT_GE(median, 0.7);
+  RecordProperty("wrong", static_cast<int>(sample.wrong));
+  RecordProperty("parted", static_cast<int>(sample.ratios.size()));
+  RecordProperty("least", std::to_string(sample.ratios.front()));
+  RecordProperty("median", std::to_string(median));
+  RecordProperty("largest", std::to_string(sample.ratios.back()));
+}
+
+}  // namespace
+}  // namespace carom
