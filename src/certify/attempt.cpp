@@ -96,7 +96,7 @@ void Attempt::trim_precision() {
   bits_ = std::min(first_bits_, static_cast<long>(std::clamp(wanted, 64.0, 1e15)));
   if (bits_ + 32 < table_bits_ - table_bits_ / 16) {
     const Precision precision(bits_ + 32);
-    scene_ = converted<Ball>(scene_, [](const Ball& x) { return x.rounded(); });
+    scene_ = converted<Ball>(scene_, [](const Ball& x) { return x.rounded(); });  // nothing is passed by
     table_bits_ = bits_ + 32;
   }
 }
@@ -207,6 +207,10 @@ double Attempt::needed_bits() const {
 Outcome Attempt::step() {
   trim_precision();
   const Precision precision(bits_);
+  if (!ties_.passed_by.empty()) {
+    const auto touched = ties_.passed_by.find(now_.hits + 1);
+    fast_.passed_by = scene_.passed_by = touched == ties_.passed_by.end() ? std::vector<Copy>() : touched->second;
+  }
   const Choice choice = choose();
   switch (choice.answer) {
     case Choice::undecided:

@@ -149,12 +149,14 @@ class CertifiedOrbit::Implementation {
   bool decide(const Outcome& outcome) {
     if (undecided_ == 1) {
       if (const auto tie = tie_at(outcome)) {
-        if (!tie->goes_on()) {
+        // Along the edge of a corridor discs are touched without end.
+        if (!tie->goes_on() || end_.ties.size() >= 1000) {
           finish_with(CertifiedFate::singular, tie->text);
           return false;
         }
         end_.ties.push_back(tie->text);
         const std::uint64_t event = attempt_->hits() + 1;
+        if (tie->kind == certify::Tie::tangency) ties_.passed_by[event].push_back(tie->wall);
         if (tie->kind == certify::Tie::last_time) ties_.at_last_time = event;
         if (tie->kind == certify::Tie::hole_start) ties_.holes[event] = outcome.doubt.hole_index;
         if (tie->kind == certify::Tie::hole_end) ties_.holes[event] = -1;

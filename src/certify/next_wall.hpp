@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "certify/flight.hpp"
 
@@ -99,8 +100,11 @@ Meeting<N> meets(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
 template <class N, class Key>
 class First {
  public:
+  /// `passed_by`: keys that are touched and not hit.
+  explicit First(const std::vector<Key>& passed_by) : passed_by_(passed_by) {}
   void offer(const Meeting<N>& m, const Key& key) {
     if (m.verdict == Verdict::no) return;
+    if (!passed_by_.empty() && std::find(passed_by_.begin(), passed_by_.end(), key) != passed_by_.end()) return;
     if (m.verdict == Verdict::yes && (!found_ || sign(m.time - best_.time) == Sign::negative)) {
       if (found_) keep(best_, best_key_);
       found_ = true;
@@ -144,6 +148,7 @@ class First {
   }
 
   static constexpr int most = 16;
+  const std::vector<Key>& passed_by_;
   bool found_ = false;
   Meeting<N> best_;
   Key best_key_{};

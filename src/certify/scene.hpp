@@ -71,6 +71,7 @@ class SceneOf {
   std::vector<WallOf<N>> walls;
   std::optional<LatticeOf<N>> lattice;
   std::vector<HoleOf<N>> holes;
+  std::vector<Copy> passed_by;  ///< touched by the present flight, which is no hit
   MotionOf<N> motion;
 
   /// Does a point of the wall lie in a hole?
@@ -88,7 +89,7 @@ class SceneOf {
   /// the same in doubles, nearly.
   Choice next(const Whereabouts& where, const VectorOf<N>& P, const VectorOf<N>& v, int standing,
               geometry::Vector P0, geometry::Vector v0) const {
-    First<N, Copy> first;
+    First<N, Copy> first(passed_by);
     if (!lattice) {
       for (std::size_t i = 0; i < walls.size(); ++i) {
         const int wall = static_cast<int>(i);

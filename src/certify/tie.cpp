@@ -104,7 +104,7 @@ class Follower {
     const Quadratic way2 = square(time_) * scene_.motion.speed2;
     const Quadratic last = Quadratic(system_.speed) * Quadratic(*task_.t_max);
     if (!is_zero(way2 - square(last))) return std::nullopt;
-    return Tie{Tie::last_time, name(standing_) + " is met exactly at the last time: the hit counts"};
+    return Tie{Tie::last_time, name(standing_) + " is met exactly at the last time: the hit counts", {}};
   }
 
  private:
@@ -126,7 +126,7 @@ class Follower {
         if (is_zero(cross(v_, d)) && sign(dot(v_, d)) == Sign::positive) return at_joint(*J, copy.wall);
       }
       if (is_zero(cross(v_, w.chord)) && is_zero(dot(P - w.from, w.normal)))
-        return Tie{Tie::tangency, "exactly along " + name(copy.wall)};
+        return Tie{Tie::along_wall, "exactly along " + name(copy.wall), {}};
       return std::nullopt;
     }
     const Vector d = P - w.centre;
@@ -134,10 +134,14 @@ class Follower {
     const Vector e = ellipse ? Vector{dot(d, w.along), dot(d, w.across)} : d;
     const Vector u = ellipse ? Vector{dot(v_, w.along), dot(v_, w.across)} : v_;
     const Quadratic a = dot(u, u), b = dot(e, u);
-    if (standing && is_zero(b)) return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall) + ", on which it stands"};
+    if (standing && is_zero(b)) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall) + ", on which it lies", {}};
     const Quadratic c = standing ? Quadratic(0) : dot(e, e) - (ellipse ? Quadratic(1) : w.radius2);
     const Quadratic discriminant = square(b) - a * c;
-    if (!standing && is_zero(discriminant)) return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall)};
+    if (!standing && is_zero(discriminant)) {
+      // From inside a curve it is touched at the point where one stands.
+      if (w.turn > 0) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall), {}};
+      return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall) + ", which is no hit", copy};
+    }
     if (sign(discriminant) == Sign::negative || w.closed) return std::nullopt;
     for (const Vector* J : {&w.from, &w.to}) {  // on the line of flight, and ahead
       const Vector to = *J - P;
@@ -153,12 +157,12 @@ class Follower {
       if (is_zero(scene_.walls[k].to - J)) ends = static_cast<int>(k);
       if (is_zero(scene_.walls[k].from - J)) begins = static_cast<int>(k);
     }
-    if (ends < 0 || begins < 0) return Tie{Tie::corner, "exactly into an end of " + name(met)};
+    if (ends < 0 || begins < 0) return Tie{Tie::corner, "exactly into an end of " + name(met), {}};
     const Vector before = tangent_at(wall(ends), J), after = tangent_at(wall(begins), J);
     const bool smooth = is_zero(cross(before, after)) && sign(dot(before, after)) == Sign::positive;
     const std::string walls = name(ends) + " and " + name(begins);
-    return smooth ? Tie{Tie::smooth_joint, "exactly into the joint between " + walls}
-                  : Tie{Tie::corner, "exactly into the corner between " + walls};
+    return smooth ? Tie{Tie::smooth_joint, "exactly into the joint between " + walls, {}}
+                  : Tie{Tie::corner, "exactly into the corner between " + walls, {}};
   }
 
   // The arc length squared against that of the ends: so it costs no root.
@@ -173,9 +177,9 @@ class Follower {
       const Quadratic half = Quadratic(spec.width) / Quadratic(2), centre(spec.center);
       const Quadratic s2 = square(dot(P_ - w.from, w.chord)), length2 = dot(w.chord, w.chord);
       if (is_zero(s2 - square(centre - half) * length2))
-        return Tie{Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it"};
+        return Tie{Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it", {}};
       if (is_zero(s2 - square(centre + half) * length2))
-        return Tie{Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it"};
+        return Tie{Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it", {}};
     }
     return std::nullopt;
   }

@@ -28,13 +28,15 @@ struct Tie {
   enum Kind : unsigned char {
     corner,       ///< into a joint whose walls have different tangents
     smooth_joint,
-    tangency,     ///< also motion along a wall
+    tangency,     ///< touches from the domain: no hit
+    along_wall,   ///< moves along a wall, or starts tangent to the one it lies on
     hole_start,   ///< belongs to the hole
     hole_end,     ///< does not
     last_time     ///< a hit at the last time counts
   } kind = corner;
   std::string text;
-  bool goes_on() const { return kind == hole_start || kind == hole_end || kind == last_time; }
+  Copy wall;  ///< of a tangency
+  bool goes_on() const { return kind == tangency || kind == hole_start || kind == hole_end || kind == last_time; }
 };
 
 /// The tie at the event after the walls `path` were met, or nothing where algebra finds none: because there is
@@ -43,7 +45,8 @@ std::optional<Tie> find_tie(const ExactSystem&, const CertifiedTask&, const std:
 
 /// Ties that an orbit has gone through, by the number of the event.
 struct KnownTies {
-  std::map<std::uint64_t, int> holes;  ///< the hole that is left through, or -1
+  std::map<std::uint64_t, int> holes;                     ///< the hole that is left through, or -1
+  std::map<std::uint64_t, std::vector<Copy>> passed_by;  ///< walls that are touched and not hit
   std::uint64_t at_last_time = 0;
 };
 

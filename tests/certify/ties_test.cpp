@@ -69,24 +69,36 @@ TEST(CertifiedTies, CornersWithRootsAndInOtherShapes) {
             "event 1: exactly into the joint between 'right' and 'top'");
 }
 
-TEST(CertifiedTies, TangentToADisc) {
+TEST(CertifiedTies, TouchesADisc) {
   Shaped sinai = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "1/10", "3/10");
   sinai.spec.torus = false;
+  // To and fro along a line that touches the disc: no hit, each time.
   const CertifiedEnd end = end_of(sinai, {exactly("1"), exactly("0")}, 10);
-  EXPECT_EQ(end.fate, CertifiedFate::singular);
-  EXPECT_EQ(end.reason, "event 1: exactly tangent to 'disc'");
+  EXPECT_EQ(end.fate, CertifiedFate::completed);
+  EXPECT_EQ(end.collisions, 10u);
+  ASSERT_EQ(end.ties.size(), 10u);
+  EXPECT_EQ(end.ties[3], "event 4: exactly tangent to 'disc', which is no hit");
+  EXPECT_EQ(end.x.text(10), "0.0000000000");
+  EXPECT_EQ(end.y.text(10), "0.3000000000");
   // On the torus along the edge of a corridor: no other disc will follow.
   sinai.spec.torus = true;
-  EXPECT_EQ(end_of(sinai, {exactly("1"), exactly("0")}, 10).reason, "event 1: exactly tangent to 'disc'");
-  // 3-4-5: from a reflection on the bottom at (1/10, 0) towards (4, 3); the disc of radius 1/5 beside the line.
-  Shaped beside = tests::shaped("sinai", {{"side", "1"}, {"radius", "9/50"}}, "1/20", "3/80");
+  const CertifiedEnd corridor = end_of(sinai, {exactly("1"), exactly("0")}, 10);
+  EXPECT_EQ(corridor.fate, CertifiedFate::singular);
+  EXPECT_EQ(corridor.reason, "event 1: exactly tangent to 'disc', which is no hit");
+  // 3-4-5: after the bottom at (1/10, 0) the line along (4, 3) passes (1/2, 1/2) at |4/2 - 3 (2/5)|/5 = 4/25.
+  Shaped beside = tests::shaped("sinai", {{"side", "1"}, {"radius", "4/25"}}, "1/20", "3/80");
   beside.spec.torus = false;
-  const CertifiedEnd bounced = end_of(beside, {exactly("4"), exactly("-3")}, 10);
-  // The line through (1/10, 0) along (4, 3) passes (1/2, 1/2) at |4/2 - 3 (2/5)|/5 = 4/25; not tangent to 9/50.
-  EXPECT_NE(bounced.fate, CertifiedFate::singular);
-  Shaped touching = tests::shaped("sinai", {{"side", "1"}, {"radius", "4/25"}}, "1/20", "3/80");
-  touching.spec.torus = false;
-  EXPECT_EQ(end_of(touching, {exactly("4"), exactly("-3")}, 10).reason, "event 2: exactly tangent to 'disc'");
+  const CertifiedEnd touched = end_of(beside, {exactly("4"), exactly("-3")}, 2);
+  EXPECT_EQ(touched.wall, 2);  // the right side, after the bottom
+  ASSERT_EQ(touched.ties.size(), 1u);
+  EXPECT_EQ(touched.ties[0], "event 2: exactly tangent to 'disc', which is no hit");
+  // A disc larger by 1/10^40 is hit, one smaller is not touched.
+  for (const auto& [radius, wall] : {std::pair{"4/25+1/10^40", 0}, {"4/25-1/10^40", 2}}) {
+    beside.spec.numbers["radius"] = exactly(radius);
+    const CertifiedEnd missed = end_of(beside, {exactly("4"), exactly("-3")}, 2);
+    EXPECT_EQ(missed.wall, wall);
+    EXPECT_TRUE(missed.ties.empty());
+  }
 }
 
 HoleSpec door(const char* center, const char* width) {
