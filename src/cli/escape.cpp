@@ -9,6 +9,7 @@
 
 #include "carom/base/error.hpp"
 #include "cli/commands.hpp"
+#include "cli/certified_sample.hpp"
 #include "cli/common.hpp"
 #include "cli/escape_report.hpp"
 #include "io/progress.hpp"
@@ -17,6 +18,7 @@ namespace carom::cli {
 
 int escape(const Options& options) {
   if (!options.splitting.empty()) return splitting(options);
+  if (!options.certify_sample.empty()) return certified_sample(options);
   check_engine(options);
   EscapeOptions how;
   how.threads = threads_of(options);

@@ -9,6 +9,10 @@ namespace carom::cli {
 
 /// The system of a run that starts from exact numbers. Throws InputError for what only doubles follow.
 LoadedSystem load_exact_run(const Options&);
+/// Throws InputError for a system whose motion only doubles follow.
+void check_form(const System&, const char* option);
+/// A start that was drawn: its doubles, taken exactly.
+ExactStart exact_start(const State&);
 
 /// "" before the first hit.
 std::string wall_of(const System&, int wall);

@@ -119,6 +119,9 @@ void define(CLI::App& app, Options& o) {
             "Store start, fate, hole, time and hits of each trajectory in the archive")
       .text("--splitting", o.splitting, "LEVELS", "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")
       .text("--population", o.population, "N", "With --splitting: trajectories of a population (default 20000)")
+      .text("--certify-sample", o.certify_sample, "M",
+            "Compare the survival of the first M trajectories in doubles and certified")
+      .text("--digits", o.digits, "D", "With --certify-sample: guaranteed decimals (default 10)")
       .text("--repetitions", o.repetitions, "N", "With --splitting: populations for each kick (default 16)")
       .text("--kick", o.kick, "DELTA", "With --splitting: the largest kick (default 0.002)")
       .text("--lookback", o.lookback, "N", "With --splitting: hits that a copy goes back (default 2)");

@@ -18,6 +18,7 @@ struct Options {
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
   std::string output, threads, trajectory, resume, scale;
   std::string engine = "auto", isa = "auto", precision = "double", digits;
+  std::string certify_sample;  ///< of carom escape
   SystemOverrides overrides;
 };
 

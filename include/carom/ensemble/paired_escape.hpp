@@ -1,0 +1,42 @@
+// The first trajectories of an ensemble, flown a second time in another way from the same starts.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "carom/analysis/paired_survival.hpp"
+#include "carom/ensemble/system.hpp"
+#include "carom/motion/state.hpp"
+
+namespace carom {
+
+/// How a trajectory ends that starts there; nothing if that is not known.
+using OtherFlight = std::function<std::optional<PairedEnd>(const State& start)>;
+
+struct PairedEscapeOptions {
+  std::uint64_t sample = 10000;  ///< trajectories 0 … sample - 1
+  /// Ends that differ by no more are the same, in times the size of the table over the speed.
+  double tolerance = 1e-3;
+  int threads = 0;               ///< 0: as many as OpenMP gives
+  std::uint64_t swaps = 10000;
+  std::function<void(std::uint64_t done)> progress;  ///< called by one thread at a time
+  const std::atomic<bool>* interrupted = nullptr;
+};
+
+struct PairedEscapeResult {
+  PairedResult pairs;
+  /// Pairs that are not compared: the engine's orbit ended as singular (or lost: an internal error), the other's end is not known.
+  std::uint64_t singular = 0, lost = 0, unknown = 0;
+  bool complete = true;
+  int threads = 1;
+  double seconds = 0.0, cpu_seconds = 0.0;
+};
+
+/// Flies them with the engine, which gives the ensemble's own bits, and by what `make` makes for each thread. The
+/// system has one particle.
+PairedEscapeResult compare_escapes(const System&, const std::function<OtherFlight()>& make,
+                                   const PairedEscapeOptions&);
+
+}  // namespace carom

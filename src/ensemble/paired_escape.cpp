@@ -1,0 +1,127 @@
+#include "carom/ensemble/paired_escape.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "carom/analysis/trust.hpp"
+#include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/stopwatch.hpp"
+#include "carom/events/world.hpp"
+#include "ensemble/parallel_blocks.hpp"
+
+namespace carom {
+
+namespace {
+
+struct Pair {
+  PairedEnd first, second;
+  enum class State : unsigned char { open, known, singular, lost, unknown } state = State::open;
+};
+
+// A hole across the parameter 0 of a closed wall is stored as two of one name.
+int first_of_name(const Table& table, int hole) {
+  for (int i = 0; i < hole; ++i)
+    if (table.holes[static_cast<std::size_t>(i)].name == table.holes[static_cast<std::size_t>(hole)].name) return i;
+  return hole;
+}
+
+class LastEvent : public Observer {
+ public:
+  void end(const EndEvent& event) override { last = event; }
+  EndEvent last;
+};
+
+class Worker {
+ public:
+  Worker(const System& system, const Sampler& sampler, OtherFlight other, std::vector<Pair>& pairs)
+      : system_(system), sampler_(sampler), world_(*system.table, system.dynamics), other_(std::move(other)),
+        pairs_(pairs) {
+    if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
+  }
+
+  bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+    for (std::uint64_t trajectory = first; trajectory < end; ++trajectory) {
+      if (stopped()) return false;
+      fly(trajectory, pairs_[static_cast<std::size_t>(trajectory)]);
+    }
+    return true;
+  }
+
+ private:
+  void fly(std::uint64_t trajectory, Pair& pair) {
+    const State start = sampler_.draw(world_, trajectory, 0);
+    world_.clear();
+    world_.add(system_.particles.front(), start);
+    LastEvent seen;
+    world_.run_until(system_.run.t_max, seen);
+    const EndEvent& end = seen.last;
+    if (end.fate == Fate::singular || end.fate == Fate::lost) {
+      pair.state = end.fate == Fate::lost ? Pair::State::lost : Pair::State::singular;
+      return;
+    }
+    if (end.fate == Fate::escaped || end.fate == Fate::unbounded) pair.first.time = end.time.value();
+    pair.first.hole = first_of_name(*system_.table, end.hole);
+    pair.first.hits = end.hits;
+    const std::optional<PairedEnd> other = other_(start);
+    pair.state = other ? Pair::State::known : Pair::State::unknown;
+    if (!other) return;
+    pair.second = *other;
+    pair.second.hole = first_of_name(*system_.table, other->hole);
+  }
+
+  const System& system_;
+  const Sampler& sampler_;
+  World world_;
+  OtherFlight other_;
+  std::vector<Pair>& pairs_;
+};
+
+}  // namespace
+
+PairedEscapeResult compare_escapes(const System& system, const std::function<OtherFlight()>& make,
+                                   const PairedEscapeOptions& options) {
+  if (system.particles.size() != 1 || !system.injections.empty())
+    throw InputError("pairs are of single particles");
+  const Stopwatch watch;
+  const Sampler sampler(system);
+  std::vector<Pair> pairs(static_cast<std::size_t>(options.sample));
+  std::uint64_t done = 0;
+  // Small blocks: a long orbit takes many times as long as a short one.
+  const BlockPlan plan(options.sample, options.threads, 16);
+  std::mutex mutex;
+  struct Reporting {
+    Worker worker;
+    const std::function<void(std::uint64_t)>& progress;
+    std::uint64_t& done;
+    std::mutex& mutex;
+    bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+      if (!worker.run(block, first, end, stopped)) return false;
+      const std::lock_guard lock(mutex);
+      done += end - first;
+      if (progress) progress(done);
+      return true;
+    }
+  };
+  PairedEscapeResult result;
+  result.threads = plan.threads;
+  result.complete = run_blocks(
+      plan, options.interrupted,
+      [&] { return Reporting{Worker(system, sampler, make(), pairs), options.progress, done, mutex}; },
+      [](const Reporting&) {});
+
+  // In the order of trajectories, whoever flew them.
+  PairedSurvival survival(system.run.times, options.tolerance * size_of(*system.table) / system.particles.front().speed);
+  for (const Pair& pair : pairs) {
+    if (pair.state == Pair::State::known) survival.add(pair.first, pair.second);
+    if (pair.state == Pair::State::singular) ++result.singular;
+    if (pair.state == Pair::State::lost) ++result.lost;
+    if (pair.state == Pair::State::unknown) ++result.unknown;
+  }
+  result.pairs = survival.result(system.run.seed, options.swaps);
+  result.seconds = watch.seconds();
+  result.cpu_seconds = watch.cpu_seconds();
+  return result;
+}
+
+}  // namespace carom

@@ -1,0 +1,58 @@
+// carom escape --certify-sample.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "cli/program.hpp"
+
+namespace carom {
+namespace {
+
+double number(const std::string& text, const std::string& key) {
+  const std::string value = json_value(text, key);
+  return value.empty() ? -1.0 : std::strtod(value.c_str(), nullptr);
+}
+
+TEST(CertifiedSample, FindsOrbitsThatEscapeOtherwiseAndNoBias) {
+  const Shell shell;
+  const std::string run = "$carom escape stadium --trajectories 500 --certify-sample 400 --quiet ";
+  const Outcome json = shell(run + "--json --threads 2");
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_TRUE(is_json_object(json.out));
+  EXPECT_EQ(number(json.out, "pairs"), 400);
+  // Orbits of more than some 40 collisions escape after another number of them.
+  EXPECT_GT(number(json.out, "other_hits"), 80);
+  EXPECT_LT(number(json.out, "other_hits"), 240);
+  EXPECT_GT(number(json.out, "p_value"), 1e-3);
+  EXPECT_GT(number(json.out, "threshold"), number(json.out, "statistic") * 0.2);
+  // Threads do not show.
+  const std::string one = shell(run + "--json --threads 1").out;
+  EXPECT_EQ(json_value(one, "survival"), json_value(json.out, "survival"));
+  EXPECT_NE(json_value(one, "survival"), "");
+  const std::string text = shell(run).out;
+  EXPECT_NE(text.find("escape otherwise"), std::string::npos);
+  EXPECT_NE(text.find("swap test"), std::string::npos);
+}
+
+// Before rounding has grown both curves are one.
+TEST(CertifiedSample, ShortOrbitsAreTheSame) {
+  const Shell shell;
+  const Outcome json = shell("$carom escape stadium --trajectories 200 --certify-sample 200 --t-max 8 --quiet --json");
+  EXPECT_EQ(json.status, 0) << json.err;
+  for (const char* key : {"other_hole", "other_hits", "other_time", "statistic"}) EXPECT_EQ(number(json.out, key), 0) << key;
+}
+
+TEST(CertifiedSample, RefusesWhatItCannotCertify) {
+  const Shell shell;
+  for (const char* wrong : {"stadium --certify-sample 0", "stadium --certify-sample -5", "stadium --certify-sample x",
+                            "stadium --trajectories 10 --certify-sample 11", "coulomb-circle --certify-sample 10",
+                            "stadium --certify-sample 10 --digits 0", "stadium --certify-sample 10 -o x.h5"}) {
+    const Outcome refused = shell(std::string("$carom escape ") + wrong);
+    EXPECT_EQ(refused.status, 1) << wrong;
+    EXPECT_TRUE(refused.out.empty()) << wrong;
+    EXPECT_NE(refused.err.find("--"), std::string::npos) << refused.err;
+  }
+}
+
+}  // namespace
+}  // namespace carom
