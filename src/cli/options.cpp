@@ -123,7 +123,7 @@ void define(CLI::App& app, Options& o) {
             "Compare the survival of the first M trajectories in doubles and certified")
       .text("--digits", o.digits, "D", "With --certify-sample: guaranteed decimals (default 10)")
       .text("--repetitions", o.repetitions, "N", "With --splitting: populations for each kick (default 16)")
-      .text("--kick", o.kick, "DELTA", "With --splitting: the largest kick (default 0.002)")
+      .text("--kick", o.kick, "DELTA", "With --splitting: the largest kick (default: chosen by a first population)")
       .text("--lookback", o.lookback, "N", "With --splitting: hits that a copy goes back (default 2)");
   Command(app, o, "run", "One trajectory, followed closely",
           "Examples:\n"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
@@ -62,6 +63,19 @@ SplittingPlan plan_of(const Options& options) {
   if (!options.lookback.empty()) plan.lookback = whole_number(options.lookback, "--lookback", 0);
   if (!options.kick.empty()) plan.kick = ExactNumber(options.kick, place_of("--kick")).to_double();
   return plan;
+}
+
+// Half of the reports, to be free of the start: -ln(P(last)/P(first)) / (last - first).
+struct Decay {
+  double from = 0.0, to = 0.0;
+  Extrapolated rate;
+};
+std::optional<Decay> decay_of(const SplittingResult& result) {
+  const std::size_t first = result.at.size() / 2, last = result.at.size() - 1;
+  if (result.at.size() < 4 || result.runs.front().size() < 2) return {};
+  const Decay decay{result.at[first], result.at[last], decay_rate(result, first, last)};
+  if (!std::isfinite(decay.rate.limit.value)) return {};
+  return decay;
 }
 
 Json json_of(const Extrapolated& value, Json json) {
@@ -129,6 +143,8 @@ int splitting(const Options& options) {
           json_of(rate.value, Json::object().set("t", rate.t).set("from", rate.from).set("to", rate.to)));
     json.set(by_time ? "survival" : "survival_hits", std::move(points));
     if (by_time) json.set("rate", std::move(rates));
+    if (const auto decay = decay_of(result))
+      json.set("decay", json_of(decay->rate, Json::object().set("from", decay->from).set("to", decay->to)));
     print(json.text() + "\n");
   } else {
     std::string text = fmt::format(
@@ -144,6 +160,10 @@ int splitting(const Options& options) {
     for (const SplitRate& rate : escape_rate(result))
       text += fmt::format("{:>12.6g}  {:>9.3e}  {:>10.1e}  {:>13.1e}\n", rate.t, rate.value.limit.value,
                           rate.value.limit.error, rate.value.extrapolation);
+    if (const auto decay = decay_of(result))
+      text += fmt::format("\nFrom {0} = {1:.6g} to {2:.6g} p decays as exp(-{3:.6f} {0}), standard error {4:.1e}, extrapolation {5:.1e}\n",
+                          variable, decay->from, decay->to, decay->rate.limit.value, decay->rate.limit.error,
+                          decay->rate.extrapolation);
     text += fmt::format(
         "\n{} collisions in {:.3g} s on {} thread{}; {:.0f} % of the kicked copies kept their way\n",
         grouped(result.collisions), result.seconds, result.threads, result.threads == 1 ? "" : "s",

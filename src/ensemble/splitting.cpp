@@ -44,8 +44,8 @@ void check(const System& system, const SplittingPlan& plan) {
     refuse("repetitions", "the number of repetitions is too small or too large", "2 to 1e6");
   if (plan.lookback > SplittingPlan::most_lookback)
     refuse("lookback", "too many hits to look back", "at most 8");
-  if (!(plan.kick > 0.0 && plan.kick <= 0.5))
-    refuse("kick", "the kick is not possible", "above 0, at most 0.5");
+  if (!(plan.kick >= 0.0 && plan.kick <= 0.5))
+    refuse("kick", "the kick is not possible", "above 0, at most 0.5; or 0 to have it chosen");
 }
 
 // What the threads of one run share.
@@ -90,6 +90,24 @@ class Worker {
   std::vector<std::string> reports_;
 };
 
+/// The kick of a plan that leaves it open (docs/physics/rare-events.md). One of these populations costs
+/// little beside those that follow.
+double chosen_kick(const System& system, const Sampler& sampler, const Kick& kick, SplittingPlan plan,
+                   const std::vector<double>& at, const SplittingOptions& options) {
+  const std::uint64_t unused = plan.repetitions;  // its random numbers are no other's
+  plan.population = std::min<std::uint64_t>(plan.population, 1000);
+  const auto stopped = [&] { return options.interrupted && options.interrupted->load(); };
+  std::vector<std::string> reports;  // a lost state will be met again, and reported, by those that count
+  for (plan.kick = SplittingPlan::largest_choice; plan.kick > 0x1p-40 && !stopped(); plan.kick /= 2) {
+    const PopulationRun one =
+        Population(system, sampler, kick, plan, at, options.decisions).run(unused, 0, stopped, reports);
+    if (one.tried == 0) return SplittingPlan::largest_choice;  // nothing is copied, or nearly
+    const auto kept = static_cast<double>(one.tried - one.parted);
+    if (kept <= SplittingPlan::most_kept * static_cast<double>(one.tried)) break;
+  }
+  return plan.kick;
+}
+
 }  // namespace
 
 SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
@@ -103,13 +121,14 @@ SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
   const Sampler sampler(system);
   const Kick kick(*system.table);
   const Stopwatch watch;
+  if (plan.kick == 0.0) result.plan.kick = chosen_kick(system, sampler, kick, plan, result.at, options);
   // One population is one block: it needs no other, and its bits know no thread.
   const BlockPlan blocks(plan.repetitions * kick_sizes, options.threads, 1);
   Shared shared;
   result.complete = run_blocks(
       blocks, options.interrupted,
       [&] {
-        return Worker(Population(system, sampler, kick, plan, result.at, options.decisions), options, result,
+        return Worker(Population(system, sampler, kick, result.plan, result.at, options.decisions), options, result,
                       shared);
       },
       [](Worker& worker) { worker.finish(); });

@@ -170,7 +170,7 @@ TEST(Splitting, RefusesWhatItCannotDo) {
   plan.levels[1] = 0.5;
   EXPECT_THROW(run_splitting(system, plan), InputError);
   plan = by_hits(3, 100, 2);
-  plan.kick = 0.0;
+  plan.kick = -0.1;
   EXPECT_THROW(run_splitting(system, plan), InputError);
   EXPECT_THROW(run_splitting(load_system("henon-heiles", {}).system, by_hits(3, 100, 2)), InputError);
 }

@@ -26,7 +26,10 @@ struct SplittingPlan {
   std::vector<double> levels;        ///< increasing; whole numbers for hits
   std::uint64_t population = 20000;  ///< trajectories of each population
   std::uint64_t repetitions = 16;    ///< independent populations for each size of the kick; at least 2
-  double kick = 0.002;               ///< the largest delta; half and a quarter of it are taken, too
+  /// The largest delta; half and a quarter of it are taken, too. 0: the largest power of 1/2 up to
+  /// largest_choice at which at most most_kept of the kicked copies of a small population keep their way.
+  double kick = 0.0;
+  static constexpr double largest_choice = 0x1p-9, most_kept = 0.3;
   std::uint64_t lookback = 2;        ///< hits by which a copy goes back; at most most_lookback
   static constexpr std::uint64_t most_lookback = 8;
 };
