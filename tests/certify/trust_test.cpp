@@ -8,6 +8,8 @@
 #include <map>
 
 #include "carom/certify/certified_orbit.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
 #include "carom/io/system_file.hpp"
 #include "certify/systems.hpp"
@@ -130,6 +132,47 @@ TEST(TrustAgainstCertified, TheWallsAreTrue) {
   RecordProperty("least", std::to_string(sample.ratios.front()));
   RecordProperty("median", std::to_string(median));
   RecordProperty("largest", std::to_string(sample.ratios.back()));
+}
+
+// Who is trusted to have escaped has escaped: through that hole, after as many hits, then.
+TEST(TrustAgainstCertified, EscapesAreTrue) {
+  const LoadedSystem loaded = read_system(
+      "[table]\nshape = \"stadium\"\nhalf_length = \"2/3\"\nradius = 1.1\n"
+      "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.3\nwidth = 0.3\n"
+      "[[table.hole]]\nwall = \"right\"\ncenter = 0.9\nwidth = \"1/7\"\n[particles]\nspeed = \"sqrt(2)\"\n",
+      "test");
+  const auto written = written_system(loaded);
+  long trusted = 0, untrusted = 0;
+  const long starts = tests::cases(300, 10000);
+  for (long k = 0; k < starts; ++k) {
+    SingleRunOptions options;
+    options.trajectory = static_cast<std::uint64_t>(k);
+    options.written = written;
+    Observer nobody;
+    const ParticleEnd run = run_single(loaded.system, nobody, options).particles.front();
+    if (run.progress.fate != Fate::escaped || !run.trust.open || !(run.trust.time == run.progress.end)) {
+      ++untrusted;
+      continue;
+    }
+    ++trusted;
+    const World world(*loaded.system.table);
+    const State start = draw_initial_state(loaded.system, world, options.trajectory, 0);
+    ExactSystem exact = loaded.exact;
+    exact.start = {};
+    exact.start.position = {start.position.x, start.position.y};
+    exact.start.direction = {start.velocity.x, start.velocity.y};
+    CertifiedTask task;
+    task.digits = 6;
+    task.collisions = run.progress.hits + 1;
+    CertifiedOrbit truth(exact, task);
+    const CertifiedEnd& end = truth.finish();
+    ASSERT_EQ(end.fate, CertifiedFate::escaped) << k;
+    ASSERT_EQ(end.hole, run.progress.hole) << k;
+    ASSERT_EQ(end.collisions, run.progress.hits) << k;
+    ASSERT_NEAR(end.t.to_double(), run.t, 1e-3 * size_of(*loaded.system.table)) << k;
+  }
+  EXPECT_GT(trusted, starts / 3);
+  EXPECT_GT(untrusted, starts / 20);
 }
 
 }  // namespace
