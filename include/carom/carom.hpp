@@ -7,6 +7,7 @@
 #include "carom/certify/plain_orbit.hpp"
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/paired_escape.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"

@@ -9,7 +9,6 @@ namespace carom {
 
 namespace {
 
-constexpr Purpose swap_test{6};  // next to those of base/random.hpp
 constexpr double four_in_five = 0.8416212335729143;  // normal quantile
 
 // Differences of counts at each time, from the pairs' signs.
@@ -74,7 +73,7 @@ PairedResult PairedSurvival::result(std::uint64_t seed, std::uint64_t swaps) con
   std::vector<double> most;
   std::uint64_t as_large = 0;
   for (std::uint64_t s = 0; s < swaps; ++s) {
-    RandomStream random(seed, swap_test, s);
+    RandomStream random(seed, Purpose::swap_test, s);
     std::uint64_t bits = 0;
     int left = 0;
     const auto toss = [&](const Disagreement&) {

@@ -6,7 +6,13 @@
 namespace carom {
 
 /// What a stream of random numbers is used for; streams of different purposes are independent.
-enum class Purpose : std::uint64_t { initial_state = 1, injection = 2, splitting = 3, injection_time = 4 };
+enum class Purpose : std::uint64_t {
+  initial_state = 1,
+  injection = 2,
+  splitting = 3,
+  injection_time = 4,
+  swap_test = 6
+};
 
 /// Philox4x64-10 (Salmon et al. 2011) with key (seed, purpose) and counter
 /// (trajectory, draw / 4, particle or event, 0).
