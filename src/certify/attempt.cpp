@@ -49,6 +49,8 @@ Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const Kno
   const Ball written_speed = value_of(system.speed);
   scene_.motion.speed2 = square(written_speed);
   scene_.motion.inverse_speed2 = Ball(1) / scene_.motion.speed2;
+  scene_.motion.half_omega = value_of(system.omega) / 2;
+  scene_.motion.turns = sign(scene_.motion.half_omega) != Sign::zero;
   speed_ = written_speed.to_double() * 1.000001;
   time_unit_ = unit_ / speed_;
   if (task.t_max) t_max_ = value_of(*task.t_max);
@@ -88,12 +90,14 @@ void Attempt::set_interval_table() {
 
 // Bits far below the error that is already there are of no use.
 void Attempt::trim_precision() {
-  const Bound error = now_.errors.of_position() + now_.errors.of_velocity() + now_.errors.of_time();
+  const Bound error = error_of_state();
   const double size = std::max({1.0, std::fabs(now_.state.position.x.to_double()) / unit_,
                                 std::fabs(now_.state.position.y.to_double()) / unit_,
                                 std::fabs(now_.state.time.to_double()) / time_unit_});
   const double wanted = -error.log2() + guard_bits + std::log2(size);
   bits_ = std::min(first_bits_, static_cast<long>(std::clamp(wanted, 64.0, 1e15)));
+  // Only the digits asked for, and somewhat more in each attempt, should the last time be a close call.
+  scene_.motion.time_bits = static_cast<long>(3.33 * task_.digits + 64.0 + std::log2(size)) + first_bits_ / 16;
   if (bits_ + 32 < table_bits_ - table_bits_ / 16) {
     const Precision precision(bits_ + 32);
     scene_ = converted<Ball>(scene_, [](const Ball& x) { return x.rounded(); });  // nothing is passed by
@@ -126,7 +130,7 @@ void Attempt::move_to(const Copy& copy) {
     now_.cell = {now_.cell.first + copy.cell.first, now_.cell.second + copy.cell.second};
   }
   LandingOf<Ball> landing =
-      fly<Ball, Ball>(scene_.walls[index], now_.state.position, now_.state.velocity, scene_.motion, same);
+      flight_to<Ball, Ball>(scene_.walls[index], now_.state.position, now_.state.velocity, scene_.motion, same);
   // The tangent map over all states that the true one may be.
   const Bound dP = position_error(), dv = velocity_error();
   const VectorOf<Interval> P{interval_of(now_.state.position.x, dP), interval_of(now_.state.position.y, dP)};
@@ -148,6 +152,14 @@ void Attempt::move_to(const Copy& copy) {
   const Bound turned = now_.errors.size(turning);
   if (settles) now_.errors.constrain(speed, rounding + turned * turned);
   const WallOf<Ball>& wall = scene_.walls[index];
+  if (same && wall.form == Form::segment) {
+    // It is on the wall, so as far off as the midpoint is from the wall.
+    const Ball height = dot(position - wall.from, wall.normal);
+    Bound distance;
+    arb_get_mag(distance.raw(), height.raw());
+    const geometry::Vector normal = near(wall.normal);
+    now_.errors.constrain(off, distance * per_unit * Bound(1.000001 / std::sqrt(dot(normal, normal))));
+  }
   if (settles && same && wall.form != Form::segment) {
     // Likewise it is on the curve: who is a along its tangent is at most a^2/r off it (for a < r/2), where r is
     // the least radius of curvature.
@@ -160,7 +172,7 @@ void Attempt::move_to(const Copy& copy) {
 }
 
 // With many bits a few of them are cheaper than the squares: then every fourth hit suffices.
-bool Attempt::settles_now() const { return bits_ < 2000 || now_.hits % 4 == 3; }
+bool Attempt::settles_now() const { return scene_.motion.turns || bits_ < 2000 || now_.hits % 4 == 3; }
 
 // The true state lies on the wall and has the true speed: the computed one is put back there to first
 // order in what it has left them by, and what is changed counts as rounding. Without this the errors off
@@ -271,6 +283,15 @@ Outcome Attempt::leave(const Now& before) {
   BallState s = enclosed();
   const Bound error = Bound(speed_) * before.errors.of_velocity();
   s.velocity = {before.state.velocity.x.widened(error), before.state.velocity.y.widened(error)};
+  if (scene_.motion.turns) {  // that has turned since then: the reflection is undone instead
+    const Precision precision(bits_);
+    const Bound at = position_error(), after = velocity_error();
+    const BallVector P{now_.state.position.x.widened(at), now_.state.position.y.widened(at)};
+    const BallVector v{now_.state.velocity.x.widened(after), now_.state.velocity.y.widened(after)};
+    const BallVector t = tangent_of(scene_.walls[static_cast<std::size_t>(now_.wall)], P);
+    const Ball twice = Ball(2) * dot(v, t);
+    s.velocity = {twice * t.x - v.x, twice * t.y - v.y};
+  }
   now_.wall = before.wall;
   stopped_ = std::move(s);
   return {Outcome::escaped, 0.0, {}};
@@ -279,7 +300,13 @@ Outcome Attempt::leave(const Now& before) {
 Outcome Attempt::stop_at_last_time() {
   BallState s = enclosed();
   const Ball rest = *t_max_ - s.time;
-  s.position = s.position + rest * s.velocity;
+  if (scene_.motion.turns) {
+    const LandingOf<Ball> end = larmor_state_after(rest, s.position, s.velocity, scene_.motion.half_omega);
+    s.position = end.position;
+    s.velocity = end.velocity;
+  } else {
+    s.position = s.position + rest * s.velocity;
+  }
   s.time = *t_max_;
   const double tolerance = -static_cast<double>(task_.digits) * 3.3219280948873626 - 2.0;
   const double error = std::max(radius(s.position).log2(), radius(s.velocity).log2());
@@ -301,8 +328,13 @@ BallState Attempt::enclosed() const {
 }
 
 double Attempt::lost_bits() const {
-  const Bound error = now_.errors.of_position() + now_.errors.of_velocity() + now_.errors.of_time();
-  return std::max(0.0, error.log2() + static_cast<double>(first_bits_));
+  return std::max(0.0, error_of_state().log2() + static_cast<double>(first_bits_));
+}
+
+// In a field the time has a precision of its own.
+Bound Attempt::error_of_state() const {
+  const Bound error = now_.errors.of_position() + now_.errors.of_velocity();
+  return scene_.motion.turns ? error : error + now_.errors.of_time();
 }
 
 Forecast Attempt::look_ahead() const {

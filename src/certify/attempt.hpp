@@ -90,6 +90,7 @@ class Attempt {
   Outcome leave(const Now& before);
   Outcome stop_at_last_time();
   double needed_bits() const;
+  Bound error_of_state() const;
   Bound position_error() const { return Bound(unit_) * now_.errors.of_position(); }
   Bound velocity_error() const { return Bound(speed_) * now_.errors.of_velocity(); }
   Bound time_error() const { return Bound(time_unit_) * now_.errors.of_time(); }

@@ -51,12 +51,14 @@ std::string Attempt::description(const Doubt& doubt) const {
   };
   const auto time_to = [&](const Copy& copy) {
     const bool standing = copy.wall == now_.standing && copy.cell == geometry::Cell{};
-    return enclosure(meets(wall(copy), seen(copy), v, scene_.motion, standing).time);
+    if (!scene_.motion.turns) return enclosure(meets(wall(copy), seen(copy), v, scene_.motion, standing).time);
+    return enclosure(flight_to<Ball, Ball>(wall(copy), seen(copy), v, scene_.motion, standing).time);
   };
   if (doubt.second.wall >= 0)
     return event + "which comes first, " + name(doubt.first) + " or " + name(doubt.second) + ", after the times " +
            time_to(doubt.first) + " and " + time_to(doubt.second);
   std::string text = event + "whether the flight meets " + name(doubt.first);
+  if (scene_.motion.turns) return text;
   const WallOf<Ball>& w = wall(doubt.first);
   const BallVector at = seen(doubt.first);
   const Ball per_speed = Ball(1) / sqrt(scene_.motion.speed2);

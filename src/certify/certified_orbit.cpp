@@ -33,6 +33,8 @@ const char* name_of(CertifiedFate fate) {
       return "escaped";
     case CertifiedFate::unbounded:
       return "unbounded";
+    case CertifiedFate::pinned:
+      return "pinned";
     case CertifiedFate::singular:
       return "singular";
     case CertifiedFate::undecided:
@@ -66,9 +68,7 @@ class CertifiedOrbit::Implementation {
   Implementation(const ExactSystem& system, const CertifiedTask& task) : system_(system), task_(task) {
     if (task.collisions == 0 && !task.t_max)
       throw InputError(Place{}, "a certified orbit without an end", "a number of collisions or a last time");
-    if (certify::sign(certify::value_of(system.omega)) != Sign::zero)
-      throw InputError(system.omega.place(), "the magnetic field has no certified form in this version",
-                       "B = 0, or --precision double");
+    check_field();
     // A first attempt of few bits sees the table and the start, and looks ahead.
     const certify::Attempt scout(system_, task_, ties_, 128);
     effort_.rescaled = scout.rescaled();
@@ -113,7 +113,7 @@ class CertifiedOrbit::Implementation {
           finish_with(CertifiedFate::escaped, "");
           return std::nullopt;
         case Outcome::unbounded:
-          finish_with(CertifiedFate::unbounded, "");
+          finish_with(turns_ ? CertifiedFate::pinned : CertifiedFate::unbounded, "");
           return std::nullopt;
         case Outcome::too_far: {
           const auto tie = outcome.doubt.first.wall < 0 ? std::nullopt : tie_at(outcome);
@@ -131,6 +131,20 @@ class CertifiedOrbit::Implementation {
   const CertifiedEffort& effort() const { return effort_; }
 
  private:
+  void check_field() {
+    const certify::Precision precision(1024);
+    const Sign turns = certify::sign(certify::value_of(system_.omega));
+    turns_ = turns != Sign::zero;
+    if (!turns_) return;
+    if (turns == Sign::undecided)
+      throw InputError(system_.omega.place(), "the magnetic field cannot be told from zero", "0, or another number");
+    for (const Wall& wall : system_.table->walls)
+      if (std::holds_alternative<geometry::Ellipse>(wall.curve) ||
+          std::holds_alternative<geometry::EllipticArc>(wall.curve))
+        throw InputError(system_.omega.place(), "ellipses in a magnetic field have no certified form",
+                         "B = 0, another shape, or --precision double");
+  }
+
   // What this attempt lacks now, and what the rest of the orbit will lose: seen from here, for the first
   // look ahead may have left through a hole that the orbit misses.
   long still_needed(const Outcome& outcome) const {
@@ -213,6 +227,7 @@ class CertifiedOrbit::Implementation {
   std::optional<certify::Attempt> attempt_;
   std::uint64_t given_ = 0;
   int undecided_ = 0;
+  bool turns_ = false;  ///< in a magnetic field
   bool done_ = false;
   CertifiedEnd end_;
   CertifiedEffort effort_;

@@ -21,7 +21,7 @@ Forecast forecast(const SceneOf<double>& scene, const Whereabouts& where, geomet
     const auto& wall = scene.walls[static_cast<std::size_t>(choice.first.wall)];
     const bool same = choice.first.wall == standing && choice.first.cell == geometry::Cell{};
     if (scene.lattice) position = position - scene.translation(choice.first.cell);
-    LandingOf<double> landing = fly<double, double>(wall, position, velocity, scene.motion, same);
+    LandingOf<double> landing = flight_to<double, double>(wall, position, velocity, scene.motion, same);
     t += landing.time;
     // Speed and place on the curve are put right, as in Attempt::settle.
     const double speed2 = scene.motion.speed2;

@@ -7,6 +7,7 @@
 #include "carom/geometry/lattice.hpp"
 #include "certify/ball_table.hpp"
 #include "certify/hole.hpp"
+#include "certify/larmor_wall.hpp"
 
 namespace carom::certify {
 
@@ -41,11 +42,9 @@ struct Whereabouts {
 };
 Whereabouts whereabouts_of(const BallTable&);
 
-/// Calls try_copy(copy) for every copy of a wall that comes near the k-th piece of a flight.
+/// Calls try_copy(copy) for every copy of a wall that comes near a piece of a flight with that middle.
 template <class Try>
-void near_piece(const Whereabouts& w, geometry::Vector from, geometry::Vector direction, double k, Try try_copy) {
-  const double middle = (k + 0.5) * w.stretch;
-  const geometry::Vector q{from.x + middle * direction.x, from.y + middle * direction.y};
+void near_piece(const Whereabouts& w, geometry::Vector q, Try try_copy) {
   for (std::size_t i = 0; i < w.discs.size(); ++i) {
     const geometry::Vector d = q - w.discs[i].centre;
     // Rounding is far below a millionth of the cell for the 10^5 pieces that are followed.
@@ -93,25 +92,37 @@ class SceneOf {
     if (!lattice) {
       for (std::size_t i = 0; i < walls.size(); ++i) {
         const int wall = static_cast<int>(i);
-        first.offer(meets(walls[i], P, v, motion, wall == standing), {wall, {}});
+        first.offer(meeting_with(walls[i], P, v, motion, wall == standing), {wall, {}});
       }
       return answer(first);
     }
     if (walls.empty()) return {};
     const double speed = std::sqrt(dot(v0, v0));
-    const geometry::Vector direction = (1.0 / speed) * v0;
-    for (double k = 0.0; k < most_pieces; ++k) {
-      near_piece(where, P0, direction, k, [&](const Copy& copy) {
-        if (first.knows(copy)) return;
-        const bool here = copy.cell == geometry::Cell{};
-        const VectorOf<N> seen = here ? P : P - translation(copy.cell);
-        first.offer(meets(walls[static_cast<std::size_t>(copy.wall)], seen, v, motion,
-                          here && copy.wall == standing),
-                    copy);
-      });
-      // Everything up to the end of this piece has been looked at.
-      const double end = (k + 0.999) * where.stretch / speed;
-      if (first.found() && sign(first.time() - N(end)) == Sign::negative) return answer(first);
+    const auto try_copy = [&](const Copy& copy) {
+      if (first.knows(copy)) return;
+      const bool here = copy.cell == geometry::Cell{};
+      const VectorOf<N> seen = here ? P : P - translation(copy.cell);
+      first.offer(meeting_with(walls[static_cast<std::size_t>(copy.wall)], seen, v, motion,
+                               here && copy.wall == standing),
+                  copy);
+    };
+    // Everything up to the end of a piece has been looked at.
+    const auto seen_to = [&](double end) {
+      return first.found() && sign(first.time() - N(end)) == Sign::negative;
+    };
+    if (motion.turns) {
+      const LarmorPieces pieces(P0, v0, middle_of(motion.half_omega), where.stretch);
+      for (double k = 0.0; k < most_pieces; ++k) {
+        near_piece(where, pieces.middle(k), try_copy);
+        const std::optional<double> end = pieces.seen_to(k);
+        if (pieces.last(k) || (end && seen_to(*end))) return answer(first);
+      }
+    } else {
+      const geometry::Vector step = (where.stretch / speed) * v0;
+      for (double k = 0.0; k < most_pieces; ++k) {
+        near_piece(where, P0 + (k + 0.5) * step, try_copy);
+        if (seen_to((k + 0.999) * where.stretch / speed)) return answer(first);
+      }
     }
     Choice none;
     none.answer = Choice::too_far;
@@ -144,7 +155,8 @@ SceneOf<To> converted(const SceneOf<From>& scene, const Convert& convert) {
     r.lattice = LatticeOf<To>{vector(scene.lattice->first), vector(scene.lattice->second)};
   }
   for (const HoleOf<From>& h : scene.holes) r.holes.push_back(converted<To>(h, convert));
-  r.motion = {convert(scene.motion.speed2), convert(scene.motion.inverse_speed2)};
+  const MotionOf<From>& m = scene.motion;
+  r.motion = {convert(m.speed2), convert(m.inverse_speed2), m.turns, convert(m.half_omega), m.time_bits};
   return r;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "certify/error_set.hpp"
-#include "certify/flight.hpp"
+#include "certify/larmor_flight.hpp"
 
 namespace carom::certify {
 
@@ -48,7 +48,7 @@ TangentMap<N> tangent_map(const WallOf<N>& w, const VectorOf<N>& P, const Vector
   // In the order of Direction: along, turning, off, speed.
   const VectorOf<D> position{D{P.x, {t.x, zero, n.x, zero}}, D{P.y, {t.y, zero, n.y, zero}}};
   const VectorOf<D> velocity{D{v.x, {zero, across.x, zero, ahead.x}}, D{v.y, {zero, across.y, zero, ahead.y}}};
-  const LandingOf<D> landing = fly<D, N>(w, position, velocity, motion, standing);
+  const LandingOf<D> landing = flight_to<D, N>(w, position, velocity, motion, standing);
   const VectorOf<N> t2 = after.tangent, n2 = left(t2), across2 = left(after.velocity);
   const N unit2(after.unit), speed2 = square(after.velocity.x) + square(after.velocity.y);
   TangentMap<N> map;

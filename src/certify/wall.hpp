@@ -53,6 +53,9 @@ template <class Number>
 struct MotionOf {
   Number speed2{};         ///< |v|^2
   Number inverse_speed2{};
+  bool turns = false;      ///< in a magnetic field:
+  Number half_omega{};     ///< omega/2; the velocity turns clockwise by omega t
+  long time_bits = 64;     ///< precision of the time from the arctangent
 };
 
 /// Where a flight meets a wall, and the velocity after it.

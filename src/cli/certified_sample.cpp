@@ -37,6 +37,7 @@ OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
     result.hole = end.hole;
     switch (end.fate) {
       case CertifiedFate::completed:
+      case CertifiedFate::pinned:
         return result;
       case CertifiedFate::escaped:
       case CertifiedFate::unbounded:

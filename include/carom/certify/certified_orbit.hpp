@@ -48,7 +48,14 @@ struct CertifiedHit : CertifiedState {
 };
 
 /// How a certified orbit ended.
-enum class CertifiedFate : unsigned char { completed, escaped, unbounded, singular, undecided };
+enum class CertifiedFate : unsigned char {
+  completed,
+  escaped,
+  unbounded,  ///< no wall follows
+  pinned,     ///< a Larmor circle that meets no wall
+  singular,
+  undecided
+};
 const char* name_of(CertifiedFate);
 
 struct CertifiedEnd : CertifiedState {

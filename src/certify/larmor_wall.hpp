@@ -1,0 +1,93 @@
+// Which wall does a Larmor flight meet first? By signs in any arithmetic, as in next_wall.hpp; what is
+// compared instead of times is -kappa, which grows along the flight.
+#pragma once
+
+#include <optional>
+
+#include "carom/base/elementary.hpp"
+#include "certify/larmor_flight.hpp"
+#include "certify/next_wall.hpp"
+
+namespace carom::certify {
+
+/// Does the crossing X of a line lie on the segment? Its start belongs to it, its end does not.
+template <class N>
+Verdict on_segment(const WallOf<N>& w, const VectorOf<N>& X) {
+  const Sign after = sign(dot(X - w.from, w.chord));
+  if (after == Sign::negative) return Verdict::no;
+  const Sign before = sign(dot(w.to - X, w.chord));
+  if (before == Sign::negative || before == Sign::zero) return Verdict::no;
+  return after == Sign::undecided || before == Sign::undecided ? Verdict::undecided : Verdict::yes;
+}
+
+/// Where a flight that crosses the wall's line or circle at k meets the wall.
+template <class N>
+Meeting<N> meeting_at(Kappa<N> k, Verdict verdict, const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                      const MotionOf<N>& motion) {
+  if (!w.closed) {
+    const VectorOf<N> X = larmor_state<N, N>(k, P, v, motion.half_omega).position;
+    const Verdict piece = w.form == Form::segment ? on_segment(w, X) : on_arc(w, X);
+    if (piece == Verdict::no) return {};
+    if (piece == Verdict::undecided) verdict = piece;
+  }
+  const Sign side = sign(k.q);
+  if (side == Sign::negative) k = {-k.p, -k.q};
+  // Just after the start or just before the end of the turn: that is not known.
+  if (side == Sign::zero || side == Sign::undecided) verdict = Verdict::undecided;
+  return {verdict, -(k.p / k.q)};
+}
+
+/// A segment or circle; the place is unique, for a circle and a line or circle cross twice, and one of
+/// the two leads into the domain.
+template <class N>
+Meeting<N> meets_larmor(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
+                        bool standing) {
+  const LarmorQuadratic<N> f = larmor_quadratic<N, N>(w, P, v, motion, standing);
+  if (standing) {
+    const Sign inwards = sign(f.b);
+    if (inwards == Sign::negative || inwards == Sign::zero) return {};
+    const Verdict verdict = inwards == Sign::positive ? Verdict::yes : Verdict::undecided;
+    return meeting_at(second_root(f), verdict, w, P, v, motion);
+  }
+  const N discriminant = discriminant_of(f);
+  const Sign crosses = sign(discriminant);  // a tangent flight does not hit
+  if (crosses == Sign::negative || crosses == Sign::zero) return {};
+  const Verdict verdict = crosses == Sign::positive ? Verdict::yes : Verdict::undecided;
+  return meeting_at(rising_root(f, discriminant), verdict, w, P, v, motion);
+}
+
+/// Straight or on a Larmor circle, as the particle moves.
+template <class N>
+Meeting<N> meeting_with(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
+                        bool standing) {
+  return motion.turns ? meets_larmor(w, P, v, motion, standing) : meets(w, P, v, motion, standing);
+}
+
+/// A Larmor flight over a lattice in pieces of equal length, in doubles: where to look for walls.
+class LarmorPieces {
+ public:
+  LarmorPieces(geometry::Vector from, geometry::Vector velocity, double half_omega, double length)
+      : from_(from), velocity_(velocity), h_(half_omega), time_(length / std::sqrt(dot(velocity, velocity))) {}
+
+  geometry::Vector middle(double k) const {
+    const elementary::SinCos a = elementary::sincos(h_ * (k + 0.5) * time_);
+    const double ahead = a.sin * a.cos / h_, aside = a.sin * a.sin / h_;
+    return from_ + ahead * velocity_ + aside * right_of(velocity_);
+  }
+  /// All of the turn lies before the end of piece k.
+  bool last(double k) const { return angle_to(k) > 3.15; }
+  /// -kappa near the end of piece k, as far as walls have been looked for; nothing in the last piece.
+  std::optional<double> seen_to(double k) const {
+    const double angle = angle_to(k);
+    if (angle > 3.1) return std::nullopt;
+    const elementary::SinCos a = elementary::sincos(angle);
+    return -std::fabs(h_) * a.cos / a.sin;
+  }
+
+ private:
+  double angle_to(double k) const { return std::fabs(h_) * (k + 0.999) * time_; }
+  geometry::Vector from_, velocity_;
+  double h_, time_;
+};
+
+}  // namespace carom::certify
