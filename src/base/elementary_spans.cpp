@@ -34,8 +34,7 @@ void exp_by_two(double* x, std::size_t n) {
     _mm_storeu_pd(x + i, Sleef_cinz_expd2_u10sse2(_mm_loadu_pd(x + i)));
 }
 
-using Several = void (*)(double*, std::size_t);
-Several widest() {
+ExpOfMany widest() {
   if (__builtin_cpu_supports("avx512f")) return exp_by_eight;
   if (__builtin_cpu_supports("avx")) return exp_by_four;
   return exp_by_two;
@@ -44,16 +43,24 @@ Several widest() {
 }  // namespace
 
 void exp(std::span<double> x) {
-  static const Several several = widest();
+  static const ExpOfMany several = widest();
   const std::size_t whole = x.size() / 8 * 8;
   several(x.data(), whole);
   for (double& one : x.subspan(whole)) one = exp(one);
 }
 
+ExpOfMany exp_by(int width) { return width >= 8 ? exp_by_eight : width >= 4 ? exp_by_four : exp_by_two; }
+
 #else
 
 void exp(std::span<double> x) {
   for (double& one : x) one = exp(one);
+}
+
+ExpOfMany exp_by(int) {
+  return [](double* x, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) x[i] = exp(x[i]);
+  };
 }
 
 #endif

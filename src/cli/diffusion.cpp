@@ -15,6 +15,7 @@ int diffusion(const Options& options) {
   check_engine(options);
   DiffusionOptions how;
   how.threads = threads_of(options);
+  how.lanes = instruction_set_of(options);
   SystemOverrides overrides = options.overrides;
   if (!options.window.empty()) overrides.set.emplace_back("run.window", "[" + options.window + "]");
   LoadedSystem loaded = load_system(options.system, overrides);

@@ -120,7 +120,8 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
 Json diffusion_json(const System& system, const DiffusionResult& result, const DiffusionSummary& summary,
                     const std::string& status, const std::string& output) {
   Json json = Json::object();
-  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
+                  result.lanes ? carom::name_of(*result.lanes) : "baseline");
   json.set("status", status);
   json.set("trajectories", result.trajectories);
   json.set("survived", result.survived);

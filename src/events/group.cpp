@@ -21,6 +21,27 @@ Time next_multiple(const Time& now, double step) {
   return multiple(k);
 }
 
+Vector centre_of_cell(const geometry::Lattice& lattice) {
+  Vector sum{};
+  for (const geometry::CellEdge& e : lattice.edges) sum = sum + e.segment.from;
+  return (1.0 / static_cast<double>(lattice.edges.size())) * sum;
+}
+
+void fold_towards_centre(const geometry::Lattice& lattice, Vector centre, Vector& x, Cell& cell) {
+  const auto distance = [&](const Vector& a) { return dot(a - centre, a - centre); };
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const geometry::CellEdge& e : lattice.edges) {
+      const Vector nearer = x - lattice.translation(e.beyond);
+      if (!(distance(nearer) < distance(x))) continue;  // strictly nearer: no going to and fro
+      x = nearer;
+      cell.first += e.beyond.first;
+      cell.second += e.beyond.second;
+      moved = true;
+    }
+  }
+}
+
 void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   const auto alike = [](const Particle& a, const Particle& b) {
     return a.mass == b.mass && a.charge == b.charge && a.omega == b.omega;
@@ -143,20 +164,7 @@ void Group::remove(std::size_t member) {
 }
 
 void Group::fold(std::size_t member) {
-  if (!in_.lattice) return;
-  Vector& x = phase_.position[member];
-  const auto distance = [&](const Vector& a) { return dot(a - in_.centre, a - in_.centre); };
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (const geometry::CellEdge& e : in_.lattice->edges) {
-      const Vector nearer = x - in_.lattice->translation(e.beyond);
-      if (!(distance(nearer) < distance(x))) continue;  // strictly nearer: no going to and fro
-      x = nearer;
-      cells_[member].first += e.beyond.first;
-      cells_[member].second += e.beyond.second;
-      moved = true;
-    }
-  }
+  if (in_.lattice) fold_towards_centre(*in_.lattice, in_.centre, phase_.position[member], cells_[member]);
 }
 
 bool Group::supported(Vector x, const Barrier<double>* except) const {

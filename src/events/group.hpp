@@ -119,5 +119,9 @@ class Group final : public ForceLaw<double> {
 
 /// The multiple k * step of the step that comes next after `now`.
 Time next_multiple(const Time& now, double step);
+/// The middle of a lattice's cell.
+geometry::Vector centre_of_cell(const geometry::Lattice&);
+/// Puts a point back into the cell about that centre, and counts the cells it came through.
+void fold_towards_centre(const geometry::Lattice&, geometry::Vector centre, geometry::Vector& x, geometry::Cell&);
 
 }  // namespace carom

@@ -76,9 +76,7 @@ void World::Implementation::add_barriers() {
   surroundings.plan = dynamics.integrator;
   if (table.lattice) {
     surroundings.lattice = &*table.lattice;
-    for (const geometry::CellEdge& e : table.lattice->edges)
-      surroundings.centre = surroundings.centre + e.segment.from;
-    surroundings.centre = (1.0 / static_cast<double>(table.lattice->edges.size())) * surroundings.centre;
+    surroundings.centre = centre_of_cell(*table.lattice);
   }
   const std::int64_t range = table.lattice ? copies : 0;
   const std::vector<Wall>& walls = finder.table().walls;

@@ -30,7 +30,8 @@ double largest_fermi(const BumpShape& shape, double r, double rho) {
     if (!(reach > theta)) continue;
     const double beyond = z - std::sqrt(reach * reach - theta * theta);
     if (!(beyond > 0.0)) continue;
-    largest = std::min(largest, std::max(decay / elementary::sin(theta), 1.0 / (elementary::exp(beyond) - 1.0)));
+    largest =
+        std::min(largest, std::max(decay / elementary::sin(theta), 1.0 / (elementary::exp(beyond) - 1.0)));
   }
   return largest;
 }

@@ -19,8 +19,8 @@ struct BumpShape {
   double length() const { return kind == Kind::fermi ? softness : width; }
 };
 
-/// What Taylor's series of V about a point at the distance r from the centre leaves out beyond degrees 0, 1, ...,
-/// at points within `way` of it: upper bounds of the value's error and of length() times the gradient's,
+/// What Taylor's series of V about a point at the distance r from the centre leaves out beyond degrees 0, 1,
+/// ..., at points within `way` of it: upper bounds of the value's error and of length() times the gradient's,
 /// infinite where none is known. They decrease with r.
 using SeriesErrors = std::array<double, LatticeSum::most_degree + 1>;
 SeriesErrors series_errors(const BumpShape&, double r, double way);

@@ -1,7 +1,6 @@
 // Sums over many equal bumps: Fermi discs and Gaussians at given centres, or on a lattice.
 #pragma once
 
-#include "forces/lattice_sum.hpp"
 #include "forces/potential.hpp"
 
 /// Compiled for several widths of vectors, of which the machine chooses one. All give the same bits: no
@@ -10,6 +9,9 @@
 #define CAROM_VECTORISED [[gnu::target_clones("avx512f", "avx2", "default")]]
 #else
 #define CAROM_VECTORISED
+#endif
+#ifndef CAROM_INLINE
+#define CAROM_INLINE [[gnu::always_inline]] inline
 #endif
 
 namespace carom {

@@ -1,10 +1,11 @@
 #include "forces/lattice_bumps.hpp"
 
+#include <algorithm>
 #include <array>
-#include <span>
+#include <cmath>
+#include <cstdint>
 
 #include "carom/base/elementary.hpp"
-#include "forces/bumps.hpp"
 
 namespace carom {
 
@@ -12,90 +13,126 @@ using geometry::Vector;
 
 namespace {
 
+struct Sums {
+  double value = 0.0, x = 0.0, y = 0.0;
+};
+/// Eight near copies.
+struct Eight {
+  alignas(64) std::array<double, 8> dx, dy, r, e;
+};
+
+CAROM_INLINE void find_exponents(const LatticeSum& t, const GridPoint<double>& p, const double* x, Eight& n) {
+  const double* y = x + t.padded_near;
+  for (std::size_t k = 0; k < 8; ++k) {
+    n.dx[k] = p.dx + x[k];
+    n.dy[k] = p.dy + y[k];
+  }
+  if (t.fermi) {
+    for (std::size_t k = 0; k < 8; ++k) lattice_sum::fermi_exponent(t, n.dx[k], n.dy[k], n.r[k], n.e[k]);
+  } else {
+    for (std::size_t k = 0; k < 8; ++k) n.e[k] = lattice_sum::gaussian_exponent(t, n.dx[k], n.dy[k]);
+  }
+}
+
+/// Eight running sums, in registers of W numbers.
+template <int W>
+struct Running {
+  using Numbers = typename Register<W>::Type;
+  Numbers value[8 / W] = {}, x[8 / W] = {}, y[8 / W] = {};
+
+  /// Adds the first `count` copies.
+  CAROM_INLINE void add(const LatticeSum& t, const Eight& n, int count) {
+#pragma GCC unroll 4
+    for (int p = 0; p < 8 / W; ++p) {
+      Numbers dx, dy, r, e, v, f;
+      const auto at = static_cast<std::size_t>(W * p);
+      lattice_sum::load(dx, n.dx.data() + at);
+      lattice_sum::load(dy, n.dy.data() + at);
+      lattice_sum::load(e, n.e.data() + at);
+      v = f = e;
+      if (t.fermi) {
+        lattice_sum::load(r, n.r.data() + at);
+        lattice_sum::fermi_bump(r, e, v, f);
+      }
+      typename Register<W>::Masks real{};
+      for (int k = 0; k < W; ++k) real[k] = W * p + k < count ? -1 : 0;
+      const Numbers zero{};
+      value[p] += real ? v : zero;
+      x[p] += real ? f * dx : zero;
+      y[p] += real ? f * dy : zero;
+    }
+  }
+};
+
+template <int W>
+CAROM_INLINE Sums sums_at(const LatticeField& field, Vector x, elementary::ExpOfMany exponentials) {
+  const LatticeSum& t = field.sum;
+  const GridPoint<double> p = lattice_sum::locate(t, x.x, x.y);
+  const double* node = lattice_sum::node_at(t, p.i, p.j);
+  lattice_sum::Slopes slopes{};
+  if (t.degree >= 0) slopes = lattice_sum::polynomial<W>(node + 2 * t.padded_near, t.degree, p.X, p.Y);
+  Running<W> running;
+  Eight n;
+  for (int from = 0; from < t.near; from += 8) {
+    const int count = std::min(8, t.near - from);
+    find_exponents(t, p, node + from, n);
+    exponentials(n.e.data(), static_cast<std::size_t>((count + W - 1) / W * W));
+    running.add(t, n, count);
+  }
+  Sums sums{lattice_sum::total<W>(running.value), field.steepness * lattice_sum::total<W>(running.x),
+            field.steepness * lattice_sum::total<W>(running.y)};
+  if (t.degree >= 0) {
+    sums.value += slopes.value;
+    lattice_sum::add_slopes(t, slopes.X, slopes.Y, sums.x, sums.y);
+  }
+  return sums;
+}
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+[[gnu::target("avx512f,prefer-vector-width=512")]] Sums sums_by_eight(const LatticeField& field, Vector x) {
+  return sums_at<8>(field, x, elementary::exp_by(8));
+}
+[[gnu::target("avx2")]] Sums sums_by_four(const LatticeField& field, Vector x) {
+  return sums_at<4>(field, x, elementary::exp_by(4));
+}
+#endif
+Sums sums_by_two(const LatticeField& field, Vector x) { return sums_at<2>(field, x, elementary::exp_by(2)); }
+
+using SumsAt = Sums (*)(const LatticeField&, Vector);
+SumsAt widest() {
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  if (__builtin_cpu_supports("avx512f")) return sums_by_eight;
+  if (__builtin_cpu_supports("avx2")) return sums_by_four;
+#endif
+  return sums_by_two;
+}
+
 class LatticeBumps final : public Potential {
  public:
   LatticeBumps(const BumpShape& shape, double height, const std::vector<Vector>& centers,
                const geometry::Lattice& lattice, double reach)
-      : table_(shape, centers, lattice, reach), height_(height) {
+      : table_(shape, centers, lattice, reach), sums_at_(widest()) {
     const bool fermi = shape.kind == BumpShape::Kind::fermi;
-    reach_ = fermi ? shape.radius + tail_exponent * shape.softness : std::sqrt(2.0 * tail_exponent) * shape.width;
-    steepness_ = fermi ? 1.0 / shape.softness : 1.0 / (shape.width * shape.width);
+    reach_ =
+        fermi ? shape.radius + tail_exponent * shape.softness : std::sqrt(2.0 * tail_exponent) * shape.width;
+    field_ = {table_.sum(), height, fermi ? 1.0 / shape.softness : 1.0 / (shape.width * shape.width)};
   }
 
   double add_force(const Particle&, Vector x, Vector& force) const override {
-    Sums sums;
-    const LatticeSum& t = table_.sum();
-    const GridPoint p = lattice_sum::locate(t, x.x, x.y);
-    add_near(p, sums);
-    if (t.degree >= 0) add_polynomial(p, sums);
-    force.x += height_ * sums.x;
-    force.y += height_ * sums.y;
-    return height_ * sums.value;
+    const Sums sums = sums_at_(field_, x);
+    force.x += field_.height * sums.x;
+    force.y += field_.height * sums.y;
+    return field_.height * sums.value;
   }
   double reach() const override { return reach_; }
-  double tail() const override { return tail_share * std::fabs(height_); }
+  double tail() const override { return tail_share * std::fabs(field_.height); }
+  const LatticeField* lattice_field() const override { return &field_; }
 
  private:
-  struct Sums {
-    double value = 0.0, x = 0.0, y = 0.0;
-  };
-  struct Eights {
-    alignas(64) std::array<double, 8> dx, dy, r, e;
-  };
-
-  void add_near(const GridPoint& p, Sums& sums) const {
-    const LatticeSum& t = table_.sum();
-    Eight value{}, fx{}, fy{};
-    Eights n;
-    for (int from = 0; from < t.near; from += 8) {
-      exponents(p, from, n);
-      elementary::exp(std::span<double>(n.e));
-      add_eight(n, t.near - from, value, fx, fy);
-    }
-    sums.value = lattice_sum::total(value);
-    sums.x = steepness_ * lattice_sum::total(fx);
-    sums.y = steepness_ * lattice_sum::total(fy);
-  }
-  CAROM_VECTORISED void exponents(const GridPoint& p, int from, Eights& n) const {
-    const LatticeSum& t = table_.sum();
-    const double* x = t.nodes + p.node * t.stride + from;
-    const double* y = x + t.padded_near;
-    for (std::size_t k = 0; k < 8; ++k) {
-      n.dx[k] = p.dx + x[k];
-      n.dy[k] = p.dy + y[k];
-      if (t.fermi)
-        lattice_sum::fermi_exponent(t, n.dx[k], n.dy[k], n.r[k], n.e[k]);
-      else
-        n.e[k] = lattice_sum::gaussian_exponent(t, n.dx[k], n.dy[k]);
-    }
-  }
-  /// The first `count` of eight copies.
-  CAROM_VECTORISED void add_eight(const Eights& n, int count, Eight& value, Eight& fx, Eight& fy) const {
-    Eight dx, dy, r, e, v, f;
-    lattice_sum::load(dx, n.dx.data());
-    lattice_sum::load(dy, n.dy.data());
-    lattice_sum::load(e, n.e.data());
-    v = f = e;
-    if (table_.sum().fermi) {
-      lattice_sum::load(r, n.r.data());
-      lattice_sum::fermi_bump(r, e, v, f);
-    }
-    const Eight zero{};
-    const EightMasks index = {0, 1, 2, 3, 4, 5, 6, 7};
-    const EightMasks real = index < std::int64_t{count};
-    value += real ? v : zero;
-    fx += real ? f * dx : zero;
-    fy += real ? f * dy : zero;
-  }
-  CAROM_VECTORISED void add_polynomial(const GridPoint& p, Sums& sums) const {
-    const LatticeSum& t = table_.sum();
-    const lattice_sum::Slopes s = lattice_sum::polynomial(t.rows(p.node), t.degree, p.X, p.Y);
-    sums.value += s.value;
-    lattice_sum::add_slopes(t, s.X, s.Y, sums.x, sums.y);
-  }
-
   LatticeTable table_;
-  double height_, reach_ = 0.0, steepness_ = 0.0;
+  LatticeField field_;
+  double reach_ = 0.0;
+  SumsAt sums_at_;
 };
 
 }  // namespace

@@ -18,7 +18,8 @@ class LatticeTable {
   LatticeTable(const BumpShape&, const std::vector<geometry::Vector>& centers, const geometry::Lattice&,
                double reach);
   const LatticeSum& sum() const { return sum_; }
-  /// The bound of the polynomials' error, and the copies that polynomials and near lists sum at a node at most.
+  /// The bound of the polynomials' error, and the copies that polynomials and near lists sum at a node at
+  /// most.
   double error() const { return error_; }
   std::size_t copies() const { return copies_; }
 

@@ -1,5 +1,6 @@
-// The sum of a bump's copies on a lattice, as a table: near each node of a grid over the cell the nearest copies
-// are added one by one, and all others together are one polynomial (docs/physics/forces.md bounds its error).
+// The sum of a bump's copies on a lattice, as a table: near each node of a grid over the cell the nearest
+// copies are added one by one, and all others together are one polynomial (docs/physics/forces.md bounds its
+// error).
 //
 // One formula for one point and for many at once: each function maps columns of numbers, always with the same
 // operations in the same order, whatever the width of the machine's vectors.
@@ -9,14 +10,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
+#ifndef CAROM_INLINE
 #define CAROM_INLINE [[gnu::always_inline]] inline
+#endif
 
 namespace carom {
 
-/// Eight numbers, which the compiler maps to the registers there are.
-using Eight [[gnu::vector_size(64)]] = double;
-using EightMasks [[gnu::vector_size(64)]] = std::int64_t;
+/// Numbers in a register of the machine, W = 2, 4 or 8 of them.
+template <int W>
+struct Register {
+  using Type [[gnu::vector_size(W * sizeof(double))]] = double;
+  using Masks [[gnu::vector_size(W * sizeof(double))]] = std::int64_t;
+};
 
 /// Plain data, of the period 1/K in both lattice directions that the grid has: nodes at (i a + j b)/K.
 struct LatticeSum {
@@ -24,29 +31,32 @@ struct LatticeSum {
 
   double to_first_x = 0, to_first_y = 0, to_second_x = 0, to_second_y = 0;  ///< from x to grid units
   double first_x = 0, first_y = 0, second_x = 0, second_y = 0;              ///< a/K and b/K
-  std::int64_t mask = 0;       ///< K - 1; K is a power of two
-  int shift = 0;               ///< log2 K
-  int near = 0;                ///< copies added one by one at each node
-  int padded_near = 0;         ///< the same up to a multiple of eight
-  int degree = -1;             ///< of the polynomial; -1: there is none
-  std::size_t stride = 0;      ///< numbers of a node: see `nodes`
+  std::int64_t mask = 0;                                                    ///< K - 1; K is a power of two
+  int shift = 0;                                                            ///< log2 K
+  int near = 0;            ///< copies added one by one at each node
+  int padded_near = 0;     ///< the same up to a multiple of eight
+  int degree = -1;         ///< of the polynomial; -1: there is none
+  std::size_t stride = 0;  ///< numbers of a node: see `nodes`
   /// Of each node: x, then y, of the node seen from each near copy; then the polynomial's rows. Row j holds
   /// the coefficients of X^i Y^j, i = 0 ... 7; after all of these the rows with i = 8 ... 15.
   const double* nodes = nullptr;
   bool fermi = false;
   double radius = 0, inverse_softness = 0;  ///< fermi
   double inverse_square_width = 0;          ///< gaussian
-
-  const double* rows(std::size_t node) const {
-    return nodes + node * stride + 2 * static_cast<std::size_t>(padded_near);
-  }
 };
 
-/// Where points lie on the grid.
+/// A LatticeSum with its scale: a potential.
+struct LatticeField {
+  LatticeSum sum;
+  double height = 0, steepness = 0;  ///< steepness: what slopes of a bump are multiplied with
+};
+
+/// Where a point lies on the grid, or where many do.
+template <class Number>
 struct GridPoint {
-  std::size_t node;
-  double dx, dy;  ///< from the node, which may be a copy in another cell
-  double X, Y;    ///< the same in units of the grid, within about 1/2
+  Number i, j;    ///< of the node, in the lowest bits
+  Number dx, dy;  ///< from the node, which may be a copy in another cell
+  Number X, Y;    ///< the same in units of the grid, within about 1/2
 };
 
 namespace lattice_sum {
@@ -54,15 +64,12 @@ namespace lattice_sum {
 /// Adding it rounds a number to a whole one, which the lowest bits then are.
 inline constexpr double whole = 0x1.8p52;
 
-CAROM_INLINE GridPoint locate(const LatticeSum& t, double x, double y) {
-  const double first = t.to_first_x * x + t.to_first_y * y, second = t.to_second_x * x + t.to_second_y * y;
-  const double i = first + whole, j = second + whole;
-  const double m = i - whole, n = j - whole;
-  std::int64_t bits_i, bits_j;
-  std::memcpy(&bits_i, &i, sizeof i);
-  std::memcpy(&bits_j, &j, sizeof j);
-  GridPoint p;
-  p.node = static_cast<std::size_t>(((bits_i & t.mask) << t.shift) | (bits_j & t.mask));
+template <class Number>
+CAROM_INLINE GridPoint<Number> locate(const LatticeSum& t, const Number& x, const Number& y) {
+  GridPoint<Number> p;
+  p.i = (t.to_first_x * x + t.to_first_y * y) + whole;
+  p.j = (t.to_second_x * x + t.to_second_y * y) + whole;
+  const Number m = p.i - whole, n = p.j - whole;
   p.dx = x - (m * t.first_x + n * t.second_x);
   p.dy = y - (m * t.first_y + n * t.second_y);
   // From the node, so that their error is small against themselves.
@@ -71,23 +78,58 @@ CAROM_INLINE GridPoint locate(const LatticeSum& t, double x, double y) {
   return p;
 }
 
-/// Eight numbers to one: halves are added to halves.
-CAROM_INLINE double total(const Eight& s) {
-  return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+CAROM_INLINE const double* node_at(const LatticeSum& t, double i, double j) {
+  std::int64_t bits_i, bits_j;
+  std::memcpy(&bits_i, &i, sizeof i);
+  std::memcpy(&bits_j, &j, sizeof j);
+  return t.nodes + static_cast<std::size_t>(((bits_i & t.mask) << t.shift) | (bits_j & t.mask)) * t.stride;
 }
 
-CAROM_INLINE void load(Eight& to, const double* from) { std::memcpy(&to, from, sizeof to); }
+template <class Numbers>
+CAROM_INLINE void load(Numbers& to, const double* from) {
+  std::memcpy(&to, from, sizeof to);
+}
+
+/// Eight numbers in registers, added up: halves to halves, so that the width of registers does not matter.
+template <int W>
+CAROM_INLINE double total(const typename Register<W>::Type* s) {
+  typename Register<W>::Type sum;
+  if constexpr (W == 8) {
+    sum = s[0];
+    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+  } else if constexpr (W == 4) {
+    sum = s[0] + s[1];
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+  } else {
+    sum = (s[0] + s[2]) + (s[1] + s[3]);
+    return sum[0] + sum[1];
+  }
+}
+
+template <class Number>
+CAROM_INLINE Number at_most(const Number& x, double most) {
+  if constexpr (std::is_same_v<Number, double>) {
+    return x < most ? x : most;
+  } else {
+    Number result = x;
+    where(!(x < most), result) = most;
+    return result;
+  }
+}
 
 /// The exponent that exp is to be taken of, and the distance that it belongs to.
-CAROM_INLINE void fermi_exponent(const LatticeSum& t, double dx, double dy, double& r, double& e) {
+template <class Number>
+CAROM_INLINE void fermi_exponent(const LatticeSum& t, const Number& dx, const Number& dy, Number& r,
+                                 Number& e) {
+  using std::sqrt;
   // The smallest normal number keeps 1/r finite at a centre, where the force has no direction.
-  r = std::sqrt(dx * dx + dy * dy + 0x1p-1022);
+  r = sqrt(dx * dx + dy * dy + 0x1p-1022);
   // Where a bump is 1e-130 its exponential stays finite, lest 0 times infinity be no number.
-  const double exponent = (r - t.radius) * t.inverse_softness;
-  e = exponent < 300.0 ? exponent : 300.0;
+  e = at_most((r - t.radius) * t.inverse_softness, 300.0);
 }
 
-CAROM_INLINE double gaussian_exponent(const LatticeSum& t, double dx, double dy) {
+template <class Number>
+CAROM_INLINE Number gaussian_exponent(const LatticeSum& t, const Number& dx, const Number& dy) {
   return (-0.5 * t.inverse_square_width) * (dx * dx + dy * dy);
 }
 
@@ -105,39 +147,59 @@ struct Slopes {
 };
 
 /// Rows by Horner's rule in Y, for eight powers of X at a time; then the sums over these.
+template <int W>
 CAROM_INLINE Slopes polynomial(const double* rows, int degree, double X, double Y) {
-  Eight a, b{}, row;
-  load(a, rows + 8 * degree);
-  for (int j = degree - 1; j >= 0; --j) {
-    b = b * Y + a;
-    load(row, rows + 8 * j);
-    a = a * Y + row;
-  }
+  using Numbers = typename Register<W>::Type;
+  constexpr int pieces = 8 / W;
   const double x2 = X * X, x4 = x2 * x2, x3 = x2 * X, x5 = x4 * X, x6 = x4 * x2, x7 = x4 * x3;
-  const Eight powers = {1.0, X, x2, x3, x4, x5, x6, x7};
-  const Eight slopes = {0.0, 1.0, 2.0 * X, 3.0 * x2, 4.0 * x3, 5.0 * x4, 6.0 * x5, 7.0 * x6};
-  Eight by_x = slopes * a;
+  const double power[8] = {1.0, X, x2, x3, x4, x5, x6, x7};
+  const double slope[8] = {0.0, 1.0, 2.0 * X, 3.0 * x2, 4.0 * x3, 5.0 * x4, 6.0 * x5, 7.0 * x6};
+  Numbers a[pieces], b[pieces], row, powers, slopes, values[pieces], by_x[pieces], by_y[pieces];
+  // One register's numbers, from row `top` down to 0: their value, and its slope by Y.
+  const auto horner = [&](const double* from, int top, Numbers& value, Numbers& by) {
+    load(value, from + 8 * top);
+    by = Numbers{};
+    for (int j = top - 1; j >= 0; --j) {
+      by = by * Y + value;
+      load(row, from + 8 * j);
+      value = value * Y + row;
+    }
+  };
+#pragma GCC unroll 4
+  for (int p = 0; p < pieces; ++p) horner(rows + W * p, degree, a[p], b[p]);
   if (degree >= 8) {
     const double* high = rows + 8 * (degree + 1);
-    Eight c, d{};
-    load(c, high + 8 * (degree - 8));
-    for (int j = degree - 9; j >= 0; --j) {
-      d = d * Y + c;
-      load(row, high + 8 * j);
-      c = c * Y + row;
+    const double x8 = x4 * x4, factor = 8.0 * x7;
+#pragma GCC unroll 4
+    for (int p = 0; p < pieces; ++p) {
+      Numbers c, d;
+      horner(high + W * p, degree - 8, c, d);
+      load(powers, power + W * p);
+      load(slopes, slope + W * p);
+      a[p] = a[p] + x8 * c;
+      b[p] = b[p] + x8 * d;
+      by_x[p] = slopes * a[p] + powers * (factor * c);
     }
-    const double x8 = x4 * x4;
-    const Eight upper = x8 * c;
-    by_x = slopes * (a + upper) + powers * ((8.0 * x7) * c);
-    a = a + upper;
-    b = b + x8 * d;
+  } else {
+#pragma GCC unroll 4
+    for (int p = 0; p < pieces; ++p) {
+      load(slopes, slope + W * p);
+      by_x[p] = slopes * a[p];
+    }
   }
-  const Eight values = powers * a, by_y = powers * b;
-  return {total(values), total(by_x), total(by_y)};
+#pragma GCC unroll 4
+  for (int p = 0; p < pieces; ++p) {
+    load(powers, power + W * p);
+    values[p] = powers * a[p];
+    by_y[p] = powers * b[p];
+  }
+  return {total<W>(values), total<W>(by_x), total<W>(by_y)};
 }
 
 /// -gradient, from the slopes in units of the grid.
-CAROM_INLINE void add_slopes(const LatticeSum& t, double by_X, double by_Y, double& fx, double& fy) {
+template <class Number>
+CAROM_INLINE void add_slopes(const LatticeSum& t, const Number& by_X, const Number& by_Y, Number& fx,
+                             Number& fy) {
   fx = fx - (by_X * t.to_first_x + by_Y * t.to_second_x);
   fy = fy - (by_X * t.to_first_y + by_Y * t.to_second_y);
 }

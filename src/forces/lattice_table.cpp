@@ -38,8 +38,8 @@ struct Copy {
 };
 
 /// The copies about a point that are nearer than `reach`; the nearest `sorted` of them first.
-std::vector<Copy> copies_about(Vector node, const std::vector<Vector>& centers, const Basis& basis, double reach,
-                               std::size_t sorted) {
+std::vector<Copy> copies_about(Vector node, const std::vector<Vector>& centers, const Basis& basis,
+                               double reach, std::size_t sorted) {
   const double area = cross(basis.first, basis.second);
   // |m a + n b| >= |m| area/|b| and |n| area/|a|
   const double high_m = reach * std::sqrt(dot(basis.second, basis.second)) / std::fabs(area);
@@ -88,7 +88,9 @@ struct Choice {
 };
 
 /// About what a point costs, in units of a near copy.
-double cost_of(int near, int degree) { return near + (degree < 0 ? 0.0 : 3.0 + numbers_of_polynomial(degree) / 16.0); }
+double cost_of(int near, int degree) {
+  return near + (degree < 0 ? 0.0 : 3.0 + numbers_of_polynomial(degree) / 16.0);
+}
 
 /// The cheapest table on that grid whose error is below the bound.
 Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& centers, const Basis& basis,
@@ -100,15 +102,16 @@ Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& cent
   std::size_t most_copies = 0;
   for (int i = 0; i < grid; ++i)
     for (int j = 0; j < grid; ++j) {
-      const auto copies =
-          copies_about(node_at(basis, grid, i, j), centers, basis, reach + way, most_near_beside_a_polynomial);
+      const auto copies = copies_about(node_at(basis, grid, i, j), centers, basis, reach + way,
+                                       most_near_beside_a_polynomial);
       most_copies = std::max(most_copies, copies.size());
       SeriesErrors sum{};
       for (std::size_t k = copies.size();; --k) {
         if (k <= most_near_beside_a_polynomial)
           for (std::size_t n = 0; n < orders; ++n) largest[k][n] = std::max(largest[k][n], sum[n]);
         if (k == 0) break;
-        const auto at = std::min(static_cast<std::size_t>(std::sqrt(copies[k - 1].square) / bin), errors.size() - 1);
+        const auto at =
+            std::min(static_cast<std::size_t>(std::sqrt(copies[k - 1].square) / bin), errors.size() - 1);
         for (std::size_t n = 0; n < orders; ++n) sum[n] += errors[at][n];
       }
     }

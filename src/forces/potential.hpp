@@ -11,6 +11,8 @@
 
 namespace carom {
 
+struct LatticeField;
+
 /// The share of its height below which a potential is cut off.
 inline constexpr double tail_share = 1e-16;
 
@@ -22,6 +24,8 @@ class Potential {
   /// Distance from a centre beyond which |V| is below `tail`; infinity if there is none.
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
+  /// The table that add_force sums, for those who sum it for many points at once; null if there is none.
+  virtual const LatticeField* lattice_field() const { return nullptr; }
 };
 
 class Interaction {

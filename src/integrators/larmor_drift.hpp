@@ -19,8 +19,6 @@ namespace carom {
 template <class Real>
 class ShearTurn {
  public:
-  using Vector = geometry::BasicVector<Real>;
-
   ShearTurn() = default;
   explicit ShearTurn(SineCosine<Real> turn) : round_(turn.cosine < Real(0)) {
     if (round_) turn = {-turn.sine, -turn.cosine};
@@ -28,7 +26,9 @@ class ShearTurn {
     half_tangent_ = turn.sine / (Real(1) + turn.cosine);
   }
 
-  Vector operator()(Vector v) const {
+  /// Of one velocity, or of the velocities of many particles.
+  template <class Number>
+  [[gnu::always_inline]] geometry::BasicVector<Number> operator()(geometry::BasicVector<Number> v) const {
     if (round_) v = -v;
     v.x = v.x + half_tangent_ * v.y;
     v.y = v.y - sine_ * v.x;
@@ -44,8 +44,6 @@ class ShearTurn {
 template <class Real>
 class LarmorDrift {
  public:
-  using Vector = geometry::BasicVector<Real>;
-
   LarmorDrift() = default;
   LarmorDrift(const Real& omega, const Real& time) : chord_(time) {
     const Real half_angle = omega * time / Real(2);
@@ -56,17 +54,22 @@ class LarmorDrift {
     half_turn_ = ShearTurn<Real>(turn);
   }
 
-  void move(Vector& position, Vector& velocity) const {
+  /// One particle, or many.
+  template <class Number>
+  [[gnu::always_inline]] void move(geometry::BasicVector<Number>& position,
+                                   geometry::BasicVector<Number>& velocity) const {
+    const Number chord(chord_);
     if (straight_) {
-      position = position + chord_ * velocity;
+      position = position + chord * velocity;
       return;
     }
-    const Vector along = half_turn_(velocity);
-    position = position + chord_ * along;
+    const geometry::BasicVector<Number> along = half_turn_(velocity);
+    position = position + chord * along;
     velocity = half_turn_(along);
   }
   /// The turn alone.
-  void turn(Vector& velocity) const {
+  template <class Number>
+  [[gnu::always_inline]] void turn(geometry::BasicVector<Number>& velocity) const {
     if (!straight_) velocity = half_turn_(half_turn_(velocity));
   }
 

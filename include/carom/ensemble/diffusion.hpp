@@ -12,6 +12,7 @@
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/geometry/corridors.hpp"
+#include "carom/lanes/instruction_set.hpp"
 
 namespace carom {
 
@@ -37,6 +38,8 @@ struct DiffusionOptions {
   int threads = 0;             ///< 0: as many as OpenMP gives
   std::uint64_t block = 1024;  ///< trajectories a block; the result does not depend on it
   DecisionOptions decisions;
+  /// Instruction set of the lanes that independent particles under forces are stepped in; empty: one by one.
+  std::optional<InstructionSet> lanes = widest_instruction_set();
   const std::atomic<bool>* interrupted = nullptr;
   /// Called now and then from one thread at a time with the trajectories done so far.
   std::function<void(std::uint64_t done, std::uint64_t hits)> progress;
@@ -52,6 +55,7 @@ struct DiffusionResult {
   double energy_change = 0.0;  ///< with forces: the largest of a trajectory from its start to its end
   std::uint64_t digest = 0;
   DecisionCounts decisions;
+  std::optional<InstructionSet> lanes;  ///< that were used; empty: one by one
   bool complete = true;
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;

@@ -45,6 +45,7 @@ class ForceField {
   void add_pairs(std::span<const Particle> particles, std::span<const geometry::Vector> x,
                  const geometry::Lattice* lattice, std::span<geometry::Vector> force) const;
 
+  const std::vector<std::unique_ptr<const Potential>>& potentials() const { return potentials_; }
   /// Does some external potential reach everywhere?
   bool everywhere() const { return everywhere_; }
   /// Otherwise: discs, in the cell of a lattice, outside which each potential is below tail_bound().

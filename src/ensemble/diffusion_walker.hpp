@@ -1,0 +1,118 @@
+// Trajectories of a diffusion run, one after the other.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/energy.hpp"
+#include "carom/events/world.hpp"
+#include "ensemble/diffusion_tally.hpp"
+
+namespace carom {
+
+inline double square_of_displacement(const System& system, const State& start, const State& now) {
+  geometry::Vector displacement = now.position - start.position;
+  if (system.table->lattice)
+    displacement = displacement + system.table->lattice->translation({now.cell.first - start.cell.first,
+                                                                      now.cell.second - start.cell.second});
+  return dot(displacement, displacement);
+}
+
+/// Runs trajectories one by one in one thread and listens to their samples.
+class DiffusionWalker : public Observer {
+ public:
+  DiffusionWalker(const System& system, const Sampler& sampler, DecisionOptions decisions,
+                  std::function<void(std::uint64_t)> done)
+      : tally(system),
+        system_(system),
+        sampler_(sampler),
+        world_(*system.table, system.dynamics, decisions),
+        starts_(system.particles.size()),
+        squares_(system.particles.size()),
+        ends_(system.particles.size()),
+        done_(std::move(done)) {
+    if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
+    world_.sample_at(system.run.times);
+  }
+
+  bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+    for (std::uint64_t trajectory = first; trajectory < end; ++trajectory) {
+      if (stopped()) return false;
+      trajectory_ = trajectory;
+      const int particles = static_cast<int>(system_.particles.size());
+      world_.clear();
+      add_starts(world_, sampler_, trajectory);
+      for (int p = 0; p < particles; ++p) {
+        starts_[index(p)] = world_.state(p);
+        squares_[index(p)].clear();
+        ends_[index(p)] = {Fate::survived, system_.run.times.back()};
+      }
+      const bool forces = system_.dynamics.forces && !system_.dynamics.forces->empty();
+      const double energy = forces ? energy_now() : 0.0;
+      world_.run_until(system_.run.times.back(), *this, stopped);
+      if (stopped()) return false;
+      if (forces && everybody_is_left()) tally.change_of_energy(std::fabs(energy_now() - energy));
+      std::uint64_t hits = 0;
+      for (int p = 0; p < particles; ++p) hits += finish(p);
+      if (done_) done_(hits);
+    }
+    return true;
+  }
+
+  void sample(int particle, Time, const State& state) override {
+    squares_[index(particle)].push_back(square_of_displacement(system_, starts_[index(particle)], state));
+  }
+
+  void end(const EndEvent& event) override {
+    if (event.fate == Fate::survived || event.fate == Fate::pinned)
+      ends_[index(event.particle)].fate = event.fate;
+    else
+      ends_[index(event.particle)] = {event.fate, event.time.value()};
+  }
+
+  void close() { tally.result.decisions = world_.decisions(); }
+  const World& world() const { return world_; }
+
+  DiffusionTally tally;
+
+ private:
+  struct End {
+    Fate fate = Fate::survived;
+    double time = 0.0;
+  };
+  static std::size_t index(int particle) { return static_cast<std::size_t>(particle); }
+
+  double energy_now() const {
+    std::vector<State> states;
+    for (int p = 0; p < world_.size(); ++p) states.push_back(world_.state(p));
+    return energy_of(system_.particles, states, system_.dynamics, *system_.table).total();
+  }
+  bool everybody_is_left() const {
+    return std::all_of(ends_.begin(), ends_.end(), [](const End& e) { return e.fate == Fate::survived; });
+  }
+
+  std::uint64_t finish(int particle) {
+    const std::uint64_t number =
+        trajectory_ * system_.particles.size() + static_cast<std::uint64_t>(particle);
+    const End& end = ends_[index(particle)];
+    const std::uint64_t hits = world_.hits(particle);
+    tally.add({trajectory_, number, end.fate, end.time, hits, world_.last_wall(particle)},
+              squares_[index(particle)], world_.report(particle));
+    return hits;
+  }
+
+  const System& system_;
+  const Sampler& sampler_;
+  World world_;
+  std::vector<State> starts_;
+  std::vector<std::vector<double>> squares_;  // of the trajectory under way
+  std::vector<End> ends_;
+  std::uint64_t trajectory_ = 0;
+  std::function<void(std::uint64_t)> done_;
+};
+
+}  // namespace carom

@@ -1,0 +1,62 @@
+// Particles under forces, one a lane, one array a quantity; and the kernel that takes a step with all of
+// them.
+#pragma once
+
+#include <cstddef>
+
+#include "forces/lattice_sum.hpp"
+#include "integrators/larmor_drift.hpp"
+
+namespace carom::lanes {
+
+struct SoftPack {
+  static constexpr int lanes = 64;
+
+  alignas(64) double x[lanes] = {};
+  double y[lanes] = {}, vx[lanes] = {}, vy[lanes] = {};
+  double ax[lanes] = {}, ay[lanes] = {};  ///< accelerations at x, y, if `fresh`
+  bool fresh = false;
+  int count = 0;  ///< lanes in use, a multiple of eight
+  /// Lanes that the caller must look at after a step: outside the cell, or no number, or beyond all bounds.
+  int calls = 0;
+  int lane[lanes] = {};
+};
+
+/// A motion of a step: the numbers of integrators/stages.hpp for the step's length.
+struct SoftStage {
+  enum class Kind { drift, kick, straight, turn } kind = Kind::kick;
+  double duration = 0.0;
+  LarmorDrift<double> drift;
+};
+
+/// What acts on the particles, and where they are put back into the cell of a lattice.
+struct SoftForces {
+  static constexpr int most = 8, most_edges = 6;
+
+  int potentials = 0;
+  const LatticeField* lattice[most] = {};  ///< null: added by `other`
+  /// Adds the force of a potential to the pack's accelerations.
+  void (*other)(const SoftForces&, int potential, SoftPack&) = nullptr;
+  const void* context = nullptr;  ///< for `other`
+  double inverse_mass = 1.0;
+  bool unit_mass = true;
+  /// exp of numbers, which are a multiple of eight.
+  void (*exp)(double*, std::size_t) = nullptr;
+
+  int edges = 0;  ///< 0: there is no lattice
+  double across_x[most_edges] = {}, across_y[most_edges] = {}, centre_x = 0.0, centre_y = 0.0;
+};
+
+struct SoftKernel {
+  /// Accelerations at the positions.
+  void (*evaluate)(const SoftForces&, SoftPack&) = nullptr;
+  /// One step, by its stages.
+  void (*step)(const SoftForces&, const SoftStage*, int stages, SoftPack&) = nullptr;
+  int width = 0;
+};
+
+SoftKernel baseline_soft_kernel();
+SoftKernel avx2_soft_kernel();
+SoftKernel avx512_soft_kernel();
+
+}  // namespace carom::lanes

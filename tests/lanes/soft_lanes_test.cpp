@@ -1,0 +1,221 @@
+// Steps in lanes against World: the same bits for every particle, scheme and instruction set.
+#include "carom/lanes/soft_lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/world.hpp"
+#include "carom/integrators/scheme.hpp"
+#include "carom/io/system_file.hpp"
+
+namespace carom {
+namespace {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+System system_of(const std::string& name, const Settings& settings = {}) {
+  SystemOverrides overrides;
+  overrides.set = settings;
+  return load_system(name, overrides).system;
+}
+
+/// Above its saddles Hénon–Heiles lets some of the particles run away.
+System running_away() {
+  System system = system_of("henon-heiles",
+                            {{"particles.energy", "0.18"}, {"run.t_max", "40"}, {"run.trajectories", "40"}});
+  system.initial.kind = InitialCondition::Kind::rectangle;
+  system.initial.low = {-0.5, -0.5};
+  system.initial.high = {0.5, 0.5};
+  return system;
+}
+
+struct Sampled {
+  std::vector<State> samples;
+  State end;
+};
+
+class Listener : public Observer {
+ public:
+  void sample(int, Time, const State& state) override { states.push_back(state); }
+  std::vector<State> states;
+};
+
+Sampled by_world(const System& system, const Particle& particle, const State& start,
+                 const std::vector<double>& times) {
+  World world(*system.table, system.dynamics);
+  world.sample_at(times);
+  world.add(particle, start);
+  Listener listener;
+  world.run_until(times.back(), listener);
+  return {listener.states, world.state(0)};
+}
+
+void expect_same(const State& a, const State& b, const std::string& where) {
+  EXPECT_EQ(std::memcmp(&a.position, &b.position, sizeof a.position), 0) << where;
+  EXPECT_EQ(std::memcmp(&a.velocity, &b.velocity, sizeof a.velocity), 0) << where;
+  EXPECT_EQ(a.cell, b.cell) << where;
+  EXPECT_EQ(a.time.value(), b.time.value()) << where;
+}
+
+void compare(const System& system, std::size_t count, const std::string& name) {
+  const World world(*system.table, system.dynamics);
+  const Sampler sampler(system);
+  // At steps, between them, several within one, and at the start.
+  const double h = system.dynamics.integrator.step;
+  const std::vector<double> times{0.0, 0.3 * h, 0.7 * h, h, 4.0 * h, 11.5 * h, 60.0 * h, 61.25 * h};
+  std::vector<SoftLanes::Walk> starts;
+  std::vector<Sampled> expected;
+  for (std::size_t k = 0; k < count; ++k) {
+    starts.push_back({sampler.draw(world, k, 0)});
+    expected.push_back(by_world(system, system.particles[0], starts.back().state, times));
+  }
+  ASSERT_TRUE(SoftLanes::suits(*system.table, system.dynamics));
+  for (const InstructionSet set : available_instruction_sets()) {
+    SoftLanes lanes(*system.table, system.dynamics, set);
+    std::vector<SoftLanes::Walk> walks = starts;
+    std::size_t samples = 0;
+    const bool complete = lanes.run(system.particles[0], walks, times.back(), times,
+                                    [&](std::size_t walk, std::size_t time, const State& state) {
+                                      expect_same(state, expected[walk].samples.at(time),
+                                                  name + " sample " + std::to_string(time));
+                                      ++samples;
+                                    });
+    EXPECT_TRUE(complete);
+    EXPECT_EQ(samples, count * times.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      EXPECT_FALSE(walks[k].lost);
+      expect_same(walks[k].state, expected[k].end, name + " end " + name_of(set));
+    }
+  }
+}
+
+TEST(SoftLanes, AreTheWorldsBits) {
+  compare(system_of("soft-lorentz"), 150, "soft-lorentz");
+  compare(system_of("antidot-magnetic"), 70, "antidot-magnetic");
+  compare(system_of("soft-lorentz", {{"field.B", "-0.7"}, {"particles.mass", "2.5"}}), 20,
+          "heavy in a field");
+}
+
+TEST(SoftLanes, KnowEverySplittingScheme) {
+  for (const Scheme& scheme : schemes()) {
+    const System system =
+        system_of("antidot-magnetic", {{"integrator.scheme", "\"" + std::string(scheme.name) + "\""}});
+    if (scheme.form == Scheme::Form::spreiter_walter)
+      EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics));
+    else
+      compare(system, 9, std::string(scheme.name));
+  }
+}
+
+// Potentials without a formula for many particles, and several at once.
+TEST(SoftLanes, KnowEveryPotential) {
+  compare(system_of("henon-heiles"), 20, "henon-heiles");
+  System system = system_of("soft-lorentz");
+  PotentialSpec fermi, gaussian;
+  fermi.kind = PotentialSpec::Kind::fermi;
+  fermi.radius = 0.2;
+  fermi.softness = 0.02;
+  fermi.centers = {{0.1, 0.2}, {-0.3, 0.1}};
+  gaussian.kind = PotentialSpec::Kind::gaussian;
+  gaussian.width = 0.3;
+  gaussian.height = -0.4;
+  fermi.lattice = gaussian.lattice = true;
+  system.dynamics.forces =
+      ForceField::build({{fermi, gaussian}, {}}, system.particles, system.table->lattice);
+  system.dynamics.everywhere = true;
+  system.dynamics.integrator.step = 0.01;
+  compare(system, 30, "two lattices");
+}
+
+TEST(SoftLanes, RefuseWhatTheyCannotDo) {
+  for (const char* name : {"stadium", "coulomb-circle", "wigner"}) {
+    const System system = system_of(name);
+    EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics)) << name;
+  }
+  const System adaptive = system_of("soft-lorentz", {{"integrator.scheme", "\"arkode\""}});
+  EXPECT_FALSE(SoftLanes::suits(*adaptive.table, adaptive.dynamics));
+}
+
+// A particle that runs away to infinity is reported, and the others do not notice.
+TEST(SoftLanes, TellWhoIsLost) {
+  const System system = running_away();
+  const World world(*system.table, system.dynamics);
+  const Sampler sampler(system);
+  std::vector<SoftLanes::Walk> walks;
+  for (std::uint64_t k = 0; k < 30; ++k) walks.push_back({sampler.draw(world, k, 0)});
+  const std::vector<SoftLanes::Walk> starts = walks;
+  SoftLanes lanes(*system.table, system.dynamics, widest_instruction_set());
+  const std::vector<double> times{40.0};
+  ASSERT_TRUE(
+      lanes.run(system.particles[0], walks, 40.0, times, [](std::size_t, std::size_t, const State&) {}));
+  int lost = 0;
+  for (std::size_t k = 0; k < walks.size(); ++k) {
+    World alone(*system.table, system.dynamics);
+    alone.add(system.particles[0], starts[k].state);
+    Observer nobody;
+    alone.run_until(40.0, nobody);
+    EXPECT_EQ(walks[k].lost, alone.fate(0) == Fate::lost);
+    lost += walks[k].lost;
+    if (!walks[k].lost) expect_same(walks[k].state, alone.state(0), "survivor");
+  }
+  EXPECT_GT(lost, 0);
+  EXPECT_LT(lost, 30);
+}
+
+// Ensembles: one by one, in lanes of any kind, on any number of threads, in blocks of any size.
+TEST(SoftDiffusion, IsTheSameInEveryWay) {
+  for (const char* name : {"soft-lorentz", "antidot-magnetic"}) {
+    const System system = system_of(name, {{"run.t_max", "3"}, {"run.trajectories", "150"}});
+    DiffusionOptions options;
+    options.lanes.reset();
+    options.threads = 1;
+    const DiffusionResult expected = run_diffusion(system, options);
+    EXPECT_FALSE(expected.lanes);
+    const std::vector<MomentPoint> points = DisplacementMoments(expected.sums).points();
+    ASSERT_GT(points.back().square.value, 0.0);
+    for (const InstructionSet set : available_instruction_sets())
+      for (const int threads : {1, 2})
+        for (const std::uint64_t block : {7u, 1024u}) {
+          options.lanes = set;
+          options.threads = threads;
+          options.block = block;
+          const DiffusionResult result = run_diffusion(system, options);
+          EXPECT_EQ(result.lanes, set);
+          EXPECT_TRUE(result.complete);
+          EXPECT_EQ(result.digest, expected.digest);
+          EXPECT_EQ(result.survived, 150u);
+          EXPECT_EQ(result.energy_change, expected.energy_change);
+          const std::vector<MomentPoint> same = DisplacementMoments(result.sums).points();
+          ASSERT_EQ(same.size(), points.size());
+          for (std::size_t k = 0; k < points.size(); ++k) {
+            EXPECT_EQ(same[k].square.value, points[k].square.value);
+            EXPECT_EQ(same[k].square.error, points[k].square.error);
+            EXPECT_EQ(same[k].fourth.value, points[k].fourth.value);
+          }
+        }
+  }
+}
+
+// Those who are lost run one by one, and count as there.
+TEST(SoftDiffusion, CountsTheLost) {
+  const System system =
+      system_of("henon-heiles", {{"particles.energy", "3"}, {"run.t_max", "20"}, {"run.trajectories", "40"}});
+  DiffusionOptions options;
+  options.lanes.reset();
+  const DiffusionResult expected = run_diffusion(system, options);
+  options.lanes = widest_instruction_set();
+  const DiffusionResult result = run_diffusion(system, options);
+  EXPECT_GT(expected.lost, 0u);
+  EXPECT_EQ(result.lost, expected.lost);
+  EXPECT_EQ(result.survived, expected.survived);
+  EXPECT_EQ(result.digest, expected.digest);
+  EXPECT_EQ(result.reports, expected.reports);
+}
+
+}  // namespace
+}  // namespace carom
