@@ -223,7 +223,9 @@ Outcome Attempt::step() {
     const auto touched = ties_.passed_by.find(now_.hits + 1);
     fast_.passed_by = scene_.passed_by = touched == ties_.passed_by.end() ? std::vector<Copy>() : touched->second;
   }
-  const Choice choice = choose();
+  Choice choice = choose();
+  if (const auto joint = ties_.joints.find(now_.hits + 1); joint != ties_.joints.end())
+    choice = {Choice::wall, joint->second, {}};
   switch (choice.answer) {
     case Choice::undecided:
       return {Outcome::undecided, needed_bits(), {Doubt::choice, choice.first, choice.second, -1}};

@@ -104,7 +104,7 @@ class Follower {
     const Quadratic way2 = square(time_) * scene_.motion.speed2;
     const Quadratic last = Quadratic(system_.speed) * Quadratic(*task_.t_max);
     if (!is_zero(way2 - square(last))) return std::nullopt;
-    return Tie{Tie::last_time, name(standing_) + " is met exactly at the last time: the hit counts", {}};
+    return Tie{Tie::last_time, name(standing_) + " is met exactly at the last time: the hit counts", {}, {}};
   }
 
  private:
@@ -123,10 +123,10 @@ class Follower {
     if (w.form == Form::segment) {
       for (const Vector* J : {&w.from, &w.to}) {
         const Vector d = *J - P;
-        if (is_zero(cross(v_, d)) && sign(dot(v_, d)) == Sign::positive) return at_joint(*J, copy.wall);
+        if (is_zero(cross(v_, d)) && sign(dot(v_, d)) == Sign::positive) return at_joint(*J, copy);
       }
       if (is_zero(cross(v_, w.chord)) && is_zero(dot(P - w.from, w.normal)))
-        return Tie{Tie::along_wall, "exactly along " + name(copy.wall), {}};
+        return Tie{Tie::along_wall, "exactly along " + name(copy.wall), {}, {}};
       return std::nullopt;
     }
     const Vector d = P - w.centre;
@@ -134,35 +134,43 @@ class Follower {
     const Vector e = ellipse ? Vector{dot(d, w.along), dot(d, w.across)} : d;
     const Vector u = ellipse ? Vector{dot(v_, w.along), dot(v_, w.across)} : v_;
     const Quadratic a = dot(u, u), b = dot(e, u);
-    if (standing && is_zero(b)) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall) + ", on which it lies", {}};
+    if (standing && is_zero(b)) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall) + ", on which it lies", {}, {}};
     const Quadratic c = standing ? Quadratic(0) : dot(e, e) - (ellipse ? Quadratic(1) : w.radius2);
     const Quadratic discriminant = square(b) - a * c;
     if (!standing && is_zero(discriminant)) {
       // From inside a curve it is touched at the point where one stands.
-      if (w.turn > 0) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall), {}};
-      return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall) + ", which is no hit", copy};
+      if (w.turn > 0) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall), {}, {}};
+      return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall) + ", which is no hit", copy, {}};
     }
     if (sign(discriminant) == Sign::negative || w.closed) return std::nullopt;
     for (const Vector* J : {&w.from, &w.to}) {  // on the line of flight, and ahead
       const Vector to = *J - P;
-      if (is_zero(cross(v_, to)) && sign(dot(v_, to)) == Sign::positive) return at_joint(*J, copy.wall);
+      if (is_zero(cross(v_, to)) && sign(dot(v_, to)) == Sign::positive) return at_joint(*J, copy);
     }
     return std::nullopt;
   }
 
-  std::optional<Tie> at_joint(const Vector& J, int met) const {
+  std::optional<Tie> at_joint(const Vector& J, const Copy& met) const {
     int ends = -1, begins = -1;
     for (std::size_t k = 0; k < scene_.walls.size(); ++k) {
       if (scene_.walls[k].closed) continue;
       if (is_zero(scene_.walls[k].to - J)) ends = static_cast<int>(k);
       if (is_zero(scene_.walls[k].from - J)) begins = static_cast<int>(k);
     }
-    if (ends < 0 || begins < 0) return Tie{Tie::corner, "exactly into an end of " + name(met), {}};
+    if (ends < 0 || begins < 0) return Tie{Tie::corner, "exactly into an end of " + name(met.wall), {}, {}};
     const Vector before = tangent_at(wall(ends), J), after = tangent_at(wall(begins), J);
-    const bool smooth = is_zero(cross(before, after)) && sign(dot(before, after)) == Sign::positive;
     const std::string walls = name(ends) + " and " + name(begins);
-    return smooth ? Tie{Tie::smooth_joint, "exactly into the joint between " + walls, {}}
-                  : Tie{Tie::corner, "exactly into the corner between " + walls, {}};
+    const bool smooth = is_zero(cross(before, after)) && sign(dot(before, after)) == Sign::positive;
+    if (!smooth) return Tie{Tie::corner, "exactly into the corner between " + walls, {}, {}};
+    // It leaves the joint from a curve, where there is one: from there a segment beside it is not met.
+    const bool from_end = wall(begins).form == Form::segment && wall(ends).form != Form::segment;
+    const Copy hit{from_end ? ends : begins, met.cell};
+    Copy other{from_end ? begins : ends, {}};
+    if (wall(other.wall).form != Form::segment) other.wall = -1;  // a curve may be met elsewhere
+    for (const Hole& hole : system_.table->holes)
+      if (hole.wall == ends || hole.wall == begins)
+        return Tie{Tie::corner, "exactly into the joint between " + walls + ", of which one has a hole", {}, {}};
+    return Tie{Tie::smooth_joint, "exactly into the joint between " + walls + ", where they have one tangent", hit, other};
   }
 
   // The arc length squared against that of the ends: so it costs no root.
@@ -177,9 +185,9 @@ class Follower {
       const Quadratic half = Quadratic(spec.width) / Quadratic(2), centre(spec.center);
       const Quadratic s2 = square(dot(P_ - w.from, w.chord)), length2 = dot(w.chord, w.chord);
       if (is_zero(s2 - square(centre - half) * length2))
-        return Tie{Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it", {}};
+        return Tie{Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it", {}, {}};
       if (is_zero(s2 - square(centre + half) * length2))
-        return Tie{Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it", {}};
+        return Tie{Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it", {}, {}};
     }
     return std::nullopt;
   }

@@ -35,8 +35,9 @@ struct Tie {
     last_time     ///< a hit at the last time counts
   } kind = corner;
   std::string text;
-  Copy wall;  ///< of a tangency
-  bool goes_on() const { return kind == tangency || kind == hole_start || kind == hole_end || kind == last_time; }
+  Copy wall;   ///< touched; or at a smooth joint the one that is hit
+  Copy other;  ///< … and the segment beside it, which is not met from there
+  bool goes_on() const { return kind != corner && kind != along_wall; }
 };
 
 /// The tie at the event after the walls `path` were met, or nothing where algebra finds none: because there is
@@ -47,6 +48,7 @@ std::optional<Tie> find_tie(const ExactSystem&, const CertifiedTask&, const std:
 struct KnownTies {
   std::map<std::uint64_t, int> holes;                     ///< the hole that is left through, or -1
   std::map<std::uint64_t, std::vector<Copy>> passed_by;  ///< walls that are touched and not hit
+  std::map<std::uint64_t, Copy> joints;                   ///< the wall that is hit at a joint
   std::uint64_t at_last_time = 0;
 };
 

@@ -64,9 +64,25 @@ TEST(CertifiedTies, CornersWithRootsAndInOtherShapes) {
   const Shaped hexagon = tests::shaped("regular", {{"sides", "6"}, {"radius", "1"}}, "0", "0");
   EXPECT_EQ(end_of(hexagon, {exactly("1"), exactly("sqrt(3)")}, 10).reason,
             "event 1: exactly into the corner between 'side_1' and 'side_2'");
+}
+
+// As the double engine does: (1, 1), (2, 0), (1, -1), (-1, 1), (-2, 0), (-1, -1) and again.
+TEST(CertifiedTies, ReflectsAtSmoothJoints) {
   const Shaped stadium = tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0");
-  EXPECT_EQ(end_of(stadium, {exactly("1"), exactly("1")}, 10).reason,
-            "event 1: exactly into the joint between 'right' and 'top'");
+  const CertifiedEnd end = end_of(stadium, {exactly("1"), exactly("1")}, 12);
+  EXPECT_EQ(end.fate, CertifiedFate::completed);
+  EXPECT_EQ(end.collisions, 12u);
+  ASSERT_EQ(end.ties.size(), 8u);
+  EXPECT_EQ(end.ties[0], "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
+  EXPECT_EQ(end.ties[2], "event 4: exactly into the joint between 'top' and 'left', where they have one tangent");
+  EXPECT_EQ(end.x.text(20), "-1.00000000000000000000");
+  EXPECT_EQ(end.y.text(20), "-1.00000000000000000000");
+  CertifiedOrbit before(tests::system_of(stadium, {exactly("1"), exactly("1")}), [] {
+    CertifiedTask task;
+    task.collisions = 5;
+    return task;
+  }());
+  EXPECT_EQ(before.finish().x.text(20), "-2.00000000000000000000");
 }
 
 TEST(CertifiedTies, TouchesADisc) {
