@@ -76,6 +76,7 @@ class Plain {
     return result;
   }
   mpfr_ptr raw() { return x_; }
+  mpfr_srcptr raw() const { return x_; }
 
  private:
   template <class Operation>

@@ -8,6 +8,39 @@
 
 namespace carom {
 
+namespace certify {
+
+// Found by the flights of larmor_flight.hpp.
+static Plain time_at(const Kappa<Plain>& k, const MotionOf<Plain>& motion) {
+  const bool turned = sign(k.q) == Sign::negative;
+  Plain h, angle;
+  mpfr_abs(h.raw(), motion.half_omega.raw(), MPFR_RNDN);
+  const Plain p = turned ? -k.p : k.p, y = h * (turned ? -k.q : k.q);
+  mpfr_atan2(angle.raw(), y.raw(), p.raw(), MPFR_RNDN);
+  return angle / h;
+}
+
+namespace {
+
+// After a time, without a wall.
+void advance(const Plain& time, const MotionOf<Plain>& motion, PseudoState<Plain>& s) {
+  if (motion.turns) {
+    Kappa<Plain> k;  // kappa = h cos/sin (h t)
+    Plain cos;
+    const Plain angle = motion.half_omega * time;
+    mpfr_sin_cos(k.q.raw(), cos.raw(), angle.raw(), MPFR_RNDN);
+    k.p = motion.half_omega * cos;
+    const LandingOf<Plain> there = larmor_state<Plain, Plain>(k, s.position, s.velocity, motion.half_omega);
+    s.position = there.position;
+    s.velocity = there.velocity;
+  } else {
+    s.position = s.position + time * s.velocity;
+  }
+}
+
+}  // namespace
+}  // namespace certify
+
 const char* name_of(PlainEnd::Fate fate) {
   switch (fate) {
     case PlainEnd::completed:
@@ -61,14 +94,16 @@ class Runner {
       fly_to(scene_, choice.first, next);
       if (!next.position.x.is_number() || !next.position.y.is_number()) return ended(PlainEnd::lost);
       if (t_max_ && sign(next.time - *t_max_) == Sign::positive) {
-        const Plain rest = *t_max_ - state_.time;
-        state_.position = state_.position + rest * state_.velocity;
+        advance(*t_max_ - state_.time, scene_.motion, state_);
         state_.time = *t_max_;
         break;
       }
       const Passage passage = scene_.hole_at(choice.first.wall, next.position);
       if (passage.verdict == Verdict::yes) {
-        next.velocity = state_.velocity;
+        // With the velocity that it came with: the reflection is undone.
+        const VectorOf<Plain> t = tangent_of(scene_.walls[static_cast<std::size_t>(choice.first.wall)], next.position);
+        const Plain twice = Plain(2) * dot(next.velocity, t);
+        next.velocity = twice * t - next.velocity;
         state_ = std::move(next);
         end_.hole = passage.hole;
         return ended(PlainEnd::escaped);
@@ -111,10 +146,11 @@ class Runner {
 PlainEnd plain_orbit(const ExactSystem& system, const PlainTask& task, const std::function<bool()>& interrupted) {
   if (task.collisions == 0 && !task.t_max)
     throw InputError(Place{}, "an orbit without an end", "a number of collisions or a last time");
-  const Precision precision(1024);
-  if (sign(value_of(system.omega)) != Sign::zero)
-    throw InputError(system.omega.place(), "the magnetic field has no form in plain arithmetic of many bits",
-                     "B = 0, --precision certified or --precision double");
+  for (const Wall& wall : system.table->walls)
+    if (system.omega.to_double() != 0.0 && (std::holds_alternative<geometry::Ellipse>(wall.curve) ||
+                                            std::holds_alternative<geometry::EllipticArc>(wall.curve)))
+      throw InputError(system.omega.place(), "ellipses in a magnetic field have no form in plain arithmetic",
+                       "B = 0, another shape, or --precision double");
   return Runner(system, task).run(interrupted);
 }
 

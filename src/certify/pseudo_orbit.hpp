@@ -1,6 +1,7 @@
 // One hit after another in plain arithmetic, which is taken at its word: no errors are carried.
 #pragma once
 
+#include "certify/larmor_flight.hpp"
 #include "certify/scene.hpp"
 
 namespace carom::certify {
@@ -34,7 +35,7 @@ void fly_to(const SceneOf<N>& scene, const Copy& copy, PseudoState<N>& s) {
     s.position = s.position - scene.translation(copy.cell);
     s.cell = {s.cell.first + copy.cell.first, s.cell.second + copy.cell.second};
   }
-  const LandingOf<N> landing = fly<N, N>(wall, s.position, s.velocity, scene.motion, same);
+  const LandingOf<N> landing = flight_to<N, N>(wall, s.position, s.velocity, scene.motion, same);
   const N half(0.5);
   const N stretch =
       half * (scene.motion.speed2 - dot(landing.velocity, landing.velocity)) * scene.motion.inverse_speed2;

@@ -81,6 +81,22 @@ TEST(Certified, PlainNumbersOfManyBitsComeWithoutAGuarantee) {
   }
 }
 
+// Larmor flights too: to a last time, and out through a hole.
+TEST(Certified, PlainNumbersInAMagneticField) {
+  const Shell shell;
+  for (const char* how : {"--t-max 17.5", "--t-max 1000"}) {
+    const std::string run = std::string("$carom run magnetic-square --position 0.1,0.2 --velocity 0.6,0.8 --json ") + how + " --precision ";
+    const Outcome plain = shell(run + "256"), certified = shell(run + "certified --digits 30");
+    EXPECT_EQ(plain.status, 0) << plain.err;
+    EXPECT_EQ(json_value(plain.out, "status"), json_value(certified.out, "status"));
+    EXPECT_EQ(json_value(plain.out, "collisions"), json_value(certified.out, "collisions"));
+    for (const char* key : {"t", "x", "vx", "vy"})
+      EXPECT_EQ(json_value(plain.out, key).substr(0, 5), json_value(certified.out, key).substr(0, 5)) << how << key;
+    const auto digits = [&](const Outcome& o) { return json_value(o.out, "x").substr(0, 30); };
+    EXPECT_EQ(digits(plain), digits(certified)) << how;
+  }
+}
+
 TEST(Certified, SaysThatAVelocityWasADirection) {
   const Shell shell;
   const std::string run = "$carom run stadium --set table.hole=[] --set particles.speed=1 --position 0.1,0.2 --collisions 5 --json "
