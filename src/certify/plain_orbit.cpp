@@ -49,6 +49,8 @@ const char* name_of(PlainEnd::Fate fate) {
       return "escaped";
     case PlainEnd::unbounded:
       return "unbounded";
+    case PlainEnd::pinned:
+      return "pinned";
     case PlainEnd::lost:
       break;
   }
@@ -117,6 +119,7 @@ class Runner {
 
  private:
   PlainEnd::Fate nothing_follows() const {
+    if (scene_.motion.turns) return PlainEnd::pinned;
     return system_.table->extent == Extent::bounded ? PlainEnd::lost : PlainEnd::unbounded;
   }
   PlainEnd ended(PlainEnd::Fate fate) {

@@ -38,6 +38,15 @@ Shaped with_holes(Shaped s, tests::Dice& dice) {
   return s;
 }
 
+// Every other orbit flies in a field, of both signs; among ellipses none does.
+ExactNumber field_of(const Shaped& s, long k) {
+  bool elliptic = s.spec.shape == "ellipse";
+  for (const LoopSpec& loop : s.spec.loops)
+    for (const PieceSpec& piece : loop.pieces) elliptic = elliptic || piece.kind == PieceSpec::Kind::ellipse;
+  const char* const fields[] = {"0", "3/4", "0", "-sqrt(2)"};
+  return exactly(elliptic ? "0" : fields[k / 16 % 4]);
+}
+
 CertifiedTask until(const char* t, int digits) {
   CertifiedTask task;
   task.t_max = exactly(t);
@@ -121,17 +130,20 @@ TEST(CertifiedHoles, LeavesAsTheEngineDoes) {
   tests::Dice dice(12);
   const std::vector<Shaped> shapes = tests::all_shapes();
   const long orbits = tests::cases(600, 10000);
-  long escaped = 0;
+  long escaped = 0, in_fields = 0;
   for (long k = 0; k < orbits; ++k) {
     const Shaped s = with_holes(shapes[static_cast<std::size_t>(k) % shapes.size()], dice);
     SCOPED_TRACE(s.spec.shape + ", orbit " + std::to_string(k));
     const geometry::Vector d = dice.direction();
-    const ExactSystem system = tests::system_of(s, {d.x, d.y});
+    ExactSystem system = tests::system_of(s, {d.x, d.y});
+    system.omega = field_of(s, k);
+    Particle particle;
+    particle.omega = system.omega.to_double();
     World world(*system.table);
     State state;
     state.position = {s.inside.x.to_double(), s.inside.y.to_double()};
     state.velocity = (1.0 / std::sqrt(dot(d, d))) * d;
-    world.add(Particle{}, state);
+    world.add(particle, state);
     world.limit_hits(10);
     Ending ending;
     world.run_until(1e300, ending);
@@ -142,15 +154,18 @@ TEST(CertifiedHoles, LeavesAsTheEngineDoes) {
     ASSERT_EQ(end.collisions, world.hits(0));
     if (end.fate != CertifiedFate::escaped) continue;
     ++escaped;
+    in_fields += particle.omega != 0.0;
     ASSERT_EQ(system.table->holes[static_cast<std::size_t>(end.hole)].name,
               system.table->holes[static_cast<std::size_t>(world.hole(0))].name);
     ASSERT_EQ(end.wall, world.last_wall(0));
     ASSERT_NEAR(end.t.to_double(), ending.time, 1e-6);
+    if (particle.omega != 0.0) continue;
     const State there = world.state(0);  // after the last reflection: it flies straight
     ASSERT_NEAR(end.vx.to_double(), there.velocity.x, 1e-6);
     ASSERT_NEAR(end.vy.to_double(), there.velocity.y, 1e-6);
   }
   EXPECT_GT(escaped, orbits / 5);
+  EXPECT_GT(in_fields, orbits / 20);
 }
 
 // Long after doubles have lost the orbit: the same escape with many more digits, inside the same balls.
@@ -165,7 +180,8 @@ TEST(CertifiedHoles, TheSameEscapeAtMoreDigits) {
     const double length = geometry::length(wall.curve);
     s.spec.holes.push_back(hole_in(wall.name, 0.37 * length, 0.02 * length));
     const geometry::Vector d = dice.direction();
-    const ExactSystem system = tests::system_of(s, {d.x, d.y});
+    ExactSystem system = tests::system_of(s, {d.x, d.y});
+    system.omega = field_of(s, k);
     const CertifiedEnd few = end_of(system, until("100", 12)), many = end_of(system, until("100", 50));
     ASSERT_EQ(few.fate, many.fate);
     ASSERT_EQ(few.collisions, many.collisions);

@@ -19,7 +19,7 @@ struct PlainTask {
 };
 
 struct PlainEnd {
-  enum Fate : unsigned char { completed, escaped, unbounded, lost } fate = completed;
+  enum Fate : unsigned char { completed, escaped, unbounded, pinned, lost } fate = completed;
   std::uint64_t collisions = 0;
   int wall = -1;                     ///< of the last hit
   int hole = -1;
