@@ -107,6 +107,7 @@ TEST(Certified, SaysThatAVelocityWasADirection) {
   EXPECT_EQ(json_value(shell(run + "3,4").out, "x"), json_value(shell(run + "0.6,0.8").out, "x"));
   for (const char* digits : {"0", "-1", "1e9", "many"})
     EXPECT_EQ(shell(run + "3,4 --digits " + digits).status, 1) << digits;
+  EXPECT_NE(shell(run + "3,4 --digits 1e9").err.find("GB of memory (expected at most 1000000)"), std::string::npos);
   EXPECT_EQ(shell(run + "'sqrt(-1)',4").status, 1);
 }
 
