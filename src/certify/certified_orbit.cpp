@@ -170,10 +170,10 @@ class CertifiedOrbit::Implementation {
         }
         end_.ties.push_back(tie->text);
         const std::uint64_t event = attempt_->hits() + 1;
-        if (tie->kind == certify::Tie::tangency) ties_.passed_by[event].push_back(tie->wall);
-        if (tie->kind == certify::Tie::smooth_joint) {
-          ties_.joints[event] = tie->wall;
-          if (tie->other.wall >= 0) ties_.passed_by[event + 1].push_back(tie->other);
+        if (tie->kind == certify::Tie::tangency) ties_.passed_by[event].push_back(tie->walls.front());
+        if (tie->kind == certify::Tie::reflection) {
+          for (std::size_t i = 0; i < tie->walls.size(); ++i) ties_.joints[event + i] = tie->walls[i];
+          if (tie->beside >= 0) ties_.passed_by[event + tie->walls.size()].push_back({tie->beside, {}});
         }
         if (tie->kind == certify::Tie::last_time) ties_.at_last_time = event;
         if (tie->kind == certify::Tie::hole_start) ties_.holes[event] = outcome.doubt.hole_index;

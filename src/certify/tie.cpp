@@ -104,7 +104,7 @@ class Follower {
     const Quadratic way2 = square(time_) * scene_.motion.speed2;
     const Quadratic last = Quadratic(system_.speed) * Quadratic(*task_.t_max);
     if (!is_zero(way2 - square(last))) return std::nullopt;
-    return Tie{Tie::last_time, name(standing_) + " is met exactly at the last time: the hit counts", {}, {}};
+    return Tie{Tie::last_time, name(standing_) + " is met exactly at the last time: the hit counts"};
   }
 
  private:
@@ -126,7 +126,7 @@ class Follower {
         if (is_zero(cross(v_, d)) && sign(dot(v_, d)) == Sign::positive) return at_joint(*J, copy);
       }
       if (is_zero(cross(v_, w.chord)) && is_zero(dot(P - w.from, w.normal)))
-        return Tie{Tie::along_wall, "exactly along " + name(copy.wall), {}, {}};
+        return Tie{Tie::along_wall, "exactly along " + name(copy.wall)};
       return std::nullopt;
     }
     const Vector d = P - w.centre;
@@ -134,13 +134,13 @@ class Follower {
     const Vector e = ellipse ? Vector{dot(d, w.along), dot(d, w.across)} : d;
     const Vector u = ellipse ? Vector{dot(v_, w.along), dot(v_, w.across)} : v_;
     const Quadratic a = dot(u, u), b = dot(e, u);
-    if (standing && is_zero(b)) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall) + ", on which it lies", {}, {}};
+    if (standing && is_zero(b)) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall) + ", on which it lies"};
     const Quadratic c = standing ? Quadratic(0) : dot(e, e) - (ellipse ? Quadratic(1) : w.radius2);
     const Quadratic discriminant = square(b) - a * c;
     if (!standing && is_zero(discriminant)) {
       // From inside a curve it is touched at the point where one stands.
-      if (w.turn > 0) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall), {}, {}};
-      return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall) + ", which is no hit", copy, {}};
+      if (w.turn > 0) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall)};
+      return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall) + ", which is no hit", {copy}};
     }
     if (sign(discriminant) == Sign::negative || w.closed) return std::nullopt;
     for (const Vector* J : {&w.from, &w.to}) {  // on the line of flight, and ahead
@@ -157,20 +157,44 @@ class Follower {
       if (is_zero(scene_.walls[k].to - J)) ends = static_cast<int>(k);
       if (is_zero(scene_.walls[k].from - J)) begins = static_cast<int>(k);
     }
-    if (ends < 0 || begins < 0) return Tie{Tie::corner, "exactly into an end of " + name(met.wall), {}, {}};
+    if (ends < 0 || begins < 0) return Tie{Tie::corner, "exactly into an end of " + name(met.wall)};
     const Vector before = tangent_at(wall(ends), J), after = tangent_at(wall(begins), J);
     const std::string walls = name(ends) + " and " + name(begins);
+    const Form form_before = wall(ends).form, form_after = wall(begins).form;
     const bool smooth = is_zero(cross(before, after)) && sign(dot(before, after)) == Sign::positive;
-    if (!smooth) return Tie{Tie::corner, "exactly into the corner between " + walls, {}, {}};
-    // It leaves the joint from a curve, where there is one: from there a segment beside it is not met.
-    const bool from_end = wall(begins).form == Form::segment && wall(ends).form != Form::segment;
-    const Copy hit{from_end ? ends : begins, met.cell};
-    Copy other{from_end ? begins : ends, {}};
-    if (wall(other.wall).form != Form::segment) other.wall = -1;  // a curve may be met elsewhere
-    for (const Hole& hole : system_.table->holes)
-      if (hole.wall == ends || hole.wall == begins)
-        return Tie{Tie::corner, "exactly into the joint between " + walls + ", of which one has a hole", {}, {}};
-    return Tie{Tie::smooth_joint, "exactly into the joint between " + walls + ", where they have one tangent", hit, other};
+    if (smooth) {
+      for (const Hole& hole : system_.table->holes)
+        if (hole.wall == ends || hole.wall == begins)
+          return Tie{Tie::corner, "exactly into the joint between " + walls + ", of which one has a hole"};
+      // It leaves the joint from a curve, where there is one: from there a segment beside it is not met.
+      const bool from_end = form_after == Form::segment && form_before != Form::segment;
+      Tie tie{Tie::reflection, "exactly into the joint between " + walls + ", where they have one tangent"};
+      tie.walls = {{from_end ? ends : begins, met.cell}};
+      const int other = from_end ? begins : ends;
+      if (wall(other).form == Form::segment) tie.beside = other;  // a curve may be met elsewhere
+      return tie;
+    }
+    const std::string text = "exactly into the corner between " + walls;
+    const int n = form_before == Form::segment && form_after == Form::segment ? parts_of_half_turn(before, after) : 0;
+    if (n == 0) return Tie{Tie::corner, text};
+    // In either order n reflections come to the same.
+    Tie tie{Tie::reflection, text + ", whose angle is pi/" + std::to_string(n)};
+    for (int i = 0; i < n; ++i)
+      tie.walls.push_back({i % 2 == 0 ? ends : begins, i == 0 ? met.cell : geometry::Cell{}});
+    tie.beside = n % 2 == 0 ? ends : begins;
+    return tie;
+  }
+
+  // The n of an interior angle pi/n between two walls with these tangents; 0 where it is none of 2, 3, 4, 6.
+  static int parts_of_half_turn(const Vector& before, const Vector& after) {
+    if (sign(cross(before, after)) != Sign::positive) return 0;
+    const Quadratic cosine = -dot(before, after), squares = dot(before, before) * dot(after, after);
+    if (is_zero(cosine)) return 2;
+    if (sign(cosine) == Sign::negative) return 0;
+    const Quadratic four = Quadratic(4) * square(cosine);
+    if (is_zero(four - squares)) return 3;
+    if (is_zero(four - Quadratic(2) * squares)) return 4;
+    return is_zero(four - Quadratic(3) * squares) ? 6 : 0;
   }
 
   // The arc length squared against that of the ends: so it costs no root.
@@ -185,9 +209,9 @@ class Follower {
       const Quadratic half = Quadratic(spec.width) / Quadratic(2), centre(spec.center);
       const Quadratic s2 = square(dot(P_ - w.from, w.chord)), length2 = dot(w.chord, w.chord);
       if (is_zero(s2 - square(centre - half) * length2))
-        return Tie{Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it", {}, {}};
+        return Tie{Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it"};
       if (is_zero(s2 - square(centre + half) * length2))
-        return Tie{Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it", {}, {}};
+        return Tie{Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it"};
     }
     return std::nullopt;
   }

@@ -26,17 +26,17 @@ struct Doubt {
 
 struct Tie {
   enum Kind : unsigned char {
-    corner,       ///< into a joint whose walls have different tangents
-    smooth_joint,
-    tangency,     ///< touches from the domain: no hit
+    corner,       ///< into a joint at which reflection has no limit
+    reflection,   ///< into a joint at which it has: `walls` are hit one after the other
+    tangency,     ///< touches walls.front() from the domain: no hit
     along_wall,   ///< moves along a wall, or starts tangent to the one it lies on
     hole_start,   ///< belongs to the hole
     hole_end,     ///< does not
     last_time     ///< a hit at the last time counts
   } kind = corner;
   std::string text;
-  Copy wall;   ///< touched; or at a smooth joint the one that is hit
-  Copy other;  ///< … and the segment beside it, which is not met from there
+  std::vector<Copy> walls{};
+  int beside = -1;  ///< of a reflection: the segment that is not met when the flight leaves the joint
   bool goes_on() const { return kind != corner && kind != along_wall; }
 };
 

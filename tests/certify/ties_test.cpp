@@ -1,6 +1,8 @@
 // Exact coincidences have a name, in bounded time.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "certify/quadratic.hpp"
 #include "certify/systems.hpp"
 
@@ -37,33 +39,68 @@ TEST(Quadratic, IsAField) {
   EXPECT_THROW(Quadratic(exactly("pi")), certify::NotQuadratic);
 }
 
-// Unfolded, (1/2, 1/4) + k (odd 1, …): the line meets a lattice point, and no hit before it does.
+// It turns back, by two reflections.
 TEST(CertifiedTies, CornersOfTheSquare) {
-  const CertifiedEnd near = end_of(square("1/2", "1/4"), {exactly("2"), exactly("3")}, 100);
-  EXPECT_EQ(near.fate, CertifiedFate::singular);
-  EXPECT_EQ(near.reason, "event 1: exactly into the corner between 'right' and 'top'");
+  const CertifiedEnd back = end_of(square("1/2", "1/4"), {exactly("2"), exactly("3")}, 2);
+  EXPECT_EQ(back.fate, CertifiedFate::completed);
+  ASSERT_EQ(back.ties.size(), 1u);
+  EXPECT_EQ(back.ties[0], "event 1: exactly into the corner between 'right' and 'top', whose angle is pi/2");
+  EXPECT_EQ(back.x.text(20), "1.00000000000000000000");
+  EXPECT_EQ(back.y.text(20), "1.00000000000000000000");
+  EXPECT_EQ(back.vx.text(10), "-0.5547001962");
+  EXPECT_EQ(back.vy.text(10), "-0.8320502943");
   // (1/10, 1/10) along (29, 9): x = 3, y = 1 after a tenth of the way, by the sides 1 and 2.
   const CertifiedEnd far = end_of(square("1/10", "1/10"), {exactly("29"), exactly("9")}, 100);
-  EXPECT_EQ(far.fate, CertifiedFate::singular);
-  EXPECT_EQ(far.reason, "event 3: exactly into the corner between 'right' and 'top'");
-  EXPECT_EQ(far.collisions, 2u);
+  EXPECT_EQ(far.fate, CertifiedFate::completed);
+  ASSERT_GE(far.ties.size(), 1u);
+  EXPECT_EQ(far.ties[0], "event 3: exactly into the corner between 'right' and 'top', whose angle is pi/2");
 }
 
+// From (1/10, 1/10) to the lattice point (301, 200) and all the way back.
 TEST(CertifiedTies, CornerAfterManyHits) {
-  // From (1/10, 1/10) to the lattice point (301, 200).
-  const CertifiedEnd end = end_of(square("1/10", "1/10"), {exactly("3009"), exactly("1999")}, 100000);
-  EXPECT_EQ(end.fate, CertifiedFate::singular);
-  EXPECT_EQ(end.reason, "event 500: exactly into the corner between 'bottom' and 'right'");
-  EXPECT_EQ(end.collisions, 300u + 199u);
+  CertifiedTask task;
+  task.t_max = exactly("2*sqrt((301-1/10)^2+(200-1/10)^2)");
+  CertifiedOrbit orbit(tests::system_of(square("1/10", "1/10"), {exactly("3009"), exactly("1999")}), task);
+  const CertifiedEnd& end = orbit.finish();
+  EXPECT_EQ(end.fate, CertifiedFate::completed);
+  ASSERT_EQ(end.ties.size(), 1u);
+  EXPECT_EQ(end.ties[0], "event 500: exactly into the corner between 'bottom' and 'right', whose angle is pi/2");
+  EXPECT_EQ(end.collisions, 2u * (300 + 199) + 2);
+  EXPECT_EQ(end.x.text(20), "0.10000000000000000000");
+  EXPECT_EQ(end.y.text(20), "0.10000000000000000000");
 }
 
+// Of pi/2, pi/3, pi/4 and pi/6; other corners have no limit.
 TEST(CertifiedTies, CornersWithRootsAndInOtherShapes) {
   const Shaped tall = tests::shaped("rectangle", {{"width", "1"}, {"height", "sqrt(2)"}}, "1/2", "sqrt(2)/2");
-  EXPECT_EQ(end_of(tall, {exactly("1"), exactly("sqrt(2)")}, 10).reason,
-            "event 1: exactly into the corner between 'right' and 'top'");
+  const CertifiedEnd diagonal = end_of(tall, {exactly("1"), exactly("sqrt(2)")}, 8);
+  ASSERT_EQ(diagonal.ties.size(), 4u);  // to and fro between two corners
+  EXPECT_EQ(diagonal.ties[3], "event 7: exactly into the corner between 'left' and 'bottom', whose angle is pi/2");
   const Shaped hexagon = tests::shaped("regular", {{"sides", "6"}, {"radius", "1"}}, "0", "0");
-  EXPECT_EQ(end_of(hexagon, {exactly("1"), exactly("sqrt(3)")}, 10).reason,
-            "event 1: exactly into the corner between 'side_1' and 'side_2'");
+  const CertifiedEnd obtuse = end_of(hexagon, {exactly("1"), exactly("sqrt(3)")}, 10);
+  EXPECT_EQ(obtuse.fate, CertifiedFate::singular);
+  EXPECT_EQ(obtuse.reason, "event 1: exactly into the corner between 'side_1' and 'side_2'");
+  // Into the corner at the origin and back: an odd n returns the ray as if reflected by the bisector's normal.
+  struct Case {
+    const char *x, *y;
+    int n;
+  };
+  for (const Case& c : {Case{"1", "1", 4}, {"1", "sqrt(3)", 3}, {"3", "sqrt(3)", 6}}) {
+    Shaped wedge = tests::shaped("triangle", {}, "1/2", "1/10");
+    wedge.spec.points["points"] = {{exactly("0"), exactly("0")}, {exactly("1"), exactly("0")}, {exactly(c.x), exactly(c.y)}};
+    const auto n = static_cast<std::uint64_t>(c.n);
+    const CertifiedEnd end = end_of(wedge, {exactly("-5"), exactly("-1")}, n);
+    ASSERT_EQ(end.ties.size(), 1u) << c.n;
+    EXPECT_NE(end.ties[0].find("pi/" + std::to_string(c.n)), std::string::npos) << end.ties[0];
+    EXPECT_EQ(end.x.text(15), "0.000000000000000");
+    // n reflections turn v about the corner: v -> -v for even n, and its mirror image for odd n.
+    const double angle = std::atan2(exactly(c.y).to_double(), exactly(c.x).to_double());
+    const double before = std::atan2(-1.0, -5.0);
+    const double after = c.n % 2 == 0 ? before + std::acos(-1.0) : angle - (before + std::acos(-1.0)) ;
+    EXPECT_NEAR(end.vx.to_double(), std::cos(after), 1e-12) << c.n;
+    EXPECT_NEAR(end.vy.to_double(), std::sin(after), 1e-12) << c.n;
+    EXPECT_EQ(end_of(wedge, {exactly("-5"), exactly("-1")}, n + 20).fate, CertifiedFate::completed);
+  }
 }
 
 // As the double engine does: (1, 1), (2, 0), (1, -1), (-1, 1), (-2, 0), (-1, -1) and again.
