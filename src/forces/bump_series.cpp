@@ -95,7 +95,8 @@ SeriesErrors series_errors(const BumpShape& shape, double r, double way) {
   return least;
 }
 
-void add_series(const BumpShape& shape, Vector d, Vector a, Vector b, int degree, std::vector<double>& to) {
+void add_series(const BumpShape& shape, Vector d, Vector a, Vector b, int degree, std::size_t width,
+                std::vector<double>& to) {
   const double s0 = dot(d, d);
   const Series g = shape.kind == BumpShape::Kind::fermi ? fermi_series(shape, s0, degree)
                                                         : gaussian_series(shape, s0, degree);
@@ -120,9 +121,9 @@ void add_series(const BumpShape& shape, Vector d, Vector a, Vector b, int degree
     next[0][0] = g[static_cast<std::size_t>(k)];
     std::swap(now, next);
   }
-  const auto width = static_cast<std::size_t>(degree) + 1;
-  for (std::size_t j = 0; j < width; ++j)
-    for (std::size_t i = 0; i + j < width; ++i) to[i + width * j] += now[j][i];
+  const auto rows = static_cast<std::size_t>(degree) + 1;
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t i = 0; i + j < rows; ++i) to[i + width * j] += now[j][i];
 }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "carom/geometry/vector.hpp"
@@ -26,8 +27,8 @@ using SeriesErrors = std::array<double, LatticeSum::most_degree + 1>;
 SeriesErrors series_errors(const BumpShape&, double r, double way);
 
 /// The polynomial of a total degree in X and Y that Taylor's series of V at d + X a + Y b gives, added to
-/// `to`, where the coefficient of X^i Y^j is number i + (degree + 1) j.
+/// `to`, where the coefficient of X^i Y^j is number i + width j.
 void add_series(const BumpShape&, geometry::Vector d, geometry::Vector a, geometry::Vector b, int degree,
-                std::vector<double>& to);
+                std::size_t width, std::vector<double>& to);
 
 }  // namespace carom

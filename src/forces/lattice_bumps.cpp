@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "carom/base/elementary.hpp"
 
@@ -21,16 +22,19 @@ struct Eight {
   alignas(64) std::array<double, 8> dx, dy, r, e;
 };
 
-CAROM_INLINE void find_exponents(const LatticeSum& t, const GridPoint<double>& p, const double* x, Eight& n) {
+/// Of the first n, whose number the compiler must not know: it would unroll the loop and forget about
+/// vectors.
+CAROM_INLINE void find_exponents(const LatticeSum& t, const GridPoint<double>& p, const double* x,
+                                 std::size_t n, Eight& to) {
   const double* y = x + t.padded_near;
-  for (std::size_t k = 0; k < 8; ++k) {
-    n.dx[k] = p.dx + x[k];
-    n.dy[k] = p.dy + y[k];
+  for (std::size_t k = 0; k < n; ++k) {
+    to.dx[k] = p.dx + x[k];
+    to.dy[k] = p.dy + y[k];
   }
   if (t.fermi) {
-    for (std::size_t k = 0; k < 8; ++k) lattice_sum::fermi_exponent(t, n.dx[k], n.dy[k], n.r[k], n.e[k]);
+    for (std::size_t k = 0; k < n; ++k) lattice_sum::fermi_exponent(t, to.dx[k], to.dy[k], to.r[k], to.e[k]);
   } else {
-    for (std::size_t k = 0; k < 8; ++k) n.e[k] = lattice_sum::gaussian_exponent(t, n.dx[k], n.dy[k]);
+    for (std::size_t k = 0; k < n; ++k) to.e[k] = lattice_sum::gaussian_exponent(t, to.dx[k], to.dy[k]);
   }
 }
 
@@ -54,8 +58,8 @@ struct Running {
         lattice_sum::load(r, n.r.data() + at);
         lattice_sum::fermi_bump(r, e, v, f);
       }
-      typename Register<W>::Masks real{};
-      for (int k = 0; k < W; ++k) real[k] = W * p + k < count ? -1 : 0;
+      typename Register<W>::Masks real;
+      std::memcpy(&real, lattice_sum::first_masks + (8 - count) + W * p, sizeof real);
       const Numbers zero{};
       value[p] += real ? v : zero;
       x[p] += real ? f * dx : zero;
@@ -72,15 +76,20 @@ CAROM_INLINE Sums sums_at(const LatticeField& field, Vector x, elementary::ExpOf
   lattice_sum::Slopes slopes{};
   if (t.degree >= 0) slopes = lattice_sum::polynomial<W>(node + 2 * t.padded_near, t.degree, p.X, p.Y);
   Running<W> running;
-  Eight n;
+  Eight n{};
   for (int from = 0; from < t.near; from += 8) {
     const int count = std::min(8, t.near - from);
-    find_exponents(t, p, node + from, n);
-    exponentials(n.e.data(), static_cast<std::size_t>((count + W - 1) / W * W));
+    const auto whole = static_cast<std::size_t>((count + W - 1) / W * W);
+    find_exponents(t, p, node + from, whole, n);
+    exponentials(n.e.data(), whole);
     running.add(t, n, count);
   }
-  Sums sums{lattice_sum::total<W>(running.value), field.steepness * lattice_sum::total<W>(running.x),
-            field.steepness * lattice_sum::total<W>(running.y)};
+  Sums sums;
+  double unused;
+  lattice_sum::totals<W>(running.x, running.y, sums.x, sums.y);
+  lattice_sum::totals<W>(running.value, running.value, sums.value, unused);
+  sums.x *= field.steepness;
+  sums.y *= field.steepness;
   if (t.degree >= 0) {
     sums.value += slopes.value;
     lattice_sum::add_slopes(t, slopes.X, slopes.Y, sums.x, sums.y);

@@ -90,20 +90,50 @@ CAROM_INLINE void load(Numbers& to, const double* from) {
   std::memcpy(&to, from, sizeof to);
 }
 
-/// Eight numbers in registers, added up: halves to halves, so that the width of registers does not matter.
+/// Two times eight numbers in registers, each eight added up: halves to halves, so that the width of
+/// registers does not matter.
 template <int W>
-CAROM_INLINE double total(const typename Register<W>::Type* s) {
-  typename Register<W>::Type sum;
-  if constexpr (W == 8) {
-    sum = s[0];
-    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
-  } else if constexpr (W == 4) {
-    sum = s[0] + s[1];
-    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+CAROM_INLINE void totals(const typename Register<W>::Type* a, const typename Register<W>::Type* b,
+                         double& total_a, double& total_b) {
+  if constexpr (W == 2) {
+    const auto s = (a[0] + a[2]) + (a[1] + a[3]), t = (b[0] + b[2]) + (b[1] + b[3]);
+    total_a = s[0] + s[1];
+    total_b = t[0] + t[1];
   } else {
-    sum = (s[0] + s[2]) + (s[1] + s[3]);
-    return sum[0] + sum[1];
+    typename Register<4>::Type s, t;
+    if constexpr (W == 4) {
+      s = a[0] + a[1];
+      t = b[0] + b[1];
+    } else {
+      s = __builtin_shufflevector(a[0], a[0], 0, 1, 2, 3) + __builtin_shufflevector(a[0], a[0], 4, 5, 6, 7);
+      t = __builtin_shufflevector(b[0], b[0], 0, 1, 2, 3) + __builtin_shufflevector(b[0], b[0], 4, 5, 6, 7);
+    }
+    const auto sum = __builtin_shufflevector(s, t, 0, 1, 4, 5) + __builtin_shufflevector(s, t, 2, 3, 6, 7);
+    total_a = sum[0] + sum[1];
+    total_b = sum[2] + sum[3];
   }
+}
+
+/// Sixteen masks of which the first eight are set: eight from number 8 - n on choose the first n of eight.
+alignas(64) inline constexpr std::int64_t first_masks[16] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                             0,  0,  0,  0,  0,  0,  0,  0};
+/// Which factors X, X^2, X^4 the powers X^0 ... X^7 have, and the powers of their slopes.
+alignas(64) inline constexpr std::int64_t power_masks[3][8] = {
+    {0, -1, 0, -1, 0, -1, 0, -1}, {0, 0, -1, -1, 0, 0, -1, -1}, {0, 0, 0, 0, -1, -1, -1, -1}};
+alignas(64) inline constexpr std::int64_t slope_masks[3][8] = {
+    {0, 0, -1, 0, -1, 0, -1, 0}, {0, 0, 0, -1, -1, 0, 0, -1}, {0, 0, 0, 0, 0, -1, -1, -1}};
+alignas(64) inline constexpr double exponents[8] = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+
+/// The products of those factors.
+template <int W>
+CAROM_INLINE void products(const std::int64_t masks[3][8], int from, double x, double x2, double x4,
+                           typename Register<W>::Type& product) {
+  using Numbers = typename Register<W>::Type;
+  typename Register<W>::Masks with[3];
+  for (int k = 0; k < 3; ++k) std::memcpy(&with[k], masks[k] + from, sizeof with[k]);
+  const Numbers one = Numbers{} + 1.0;
+  product =
+      ((with[0] ? Numbers{} + x : one) * (with[1] ? Numbers{} + x2 : one)) * (with[2] ? Numbers{} + x4 : one);
 }
 
 template <class Number>
@@ -151,14 +181,13 @@ template <int W>
 CAROM_INLINE Slopes polynomial(const double* rows, int degree, double X, double Y) {
   using Numbers = typename Register<W>::Type;
   constexpr int pieces = 8 / W;
-  const double x2 = X * X, x4 = x2 * x2, x3 = x2 * X, x5 = x4 * X, x6 = x4 * x2, x7 = x4 * x3;
-  const double power[8] = {1.0, X, x2, x3, x4, x5, x6, x7};
-  const double slope[8] = {0.0, 1.0, 2.0 * X, 3.0 * x2, 4.0 * x3, 5.0 * x4, 6.0 * x5, 7.0 * x6};
-  Numbers a[pieces], b[pieces], row, powers, slopes, values[pieces], by_x[pieces], by_y[pieces];
+  const double x2 = X * X, x4 = x2 * x2, x8 = x4 * x4, factor = 8.0 * ((X * x2) * x4);
+  Numbers a[pieces], b[pieces], row, values[pieces], by_x[pieces], by_y[pieces];
   // One register's numbers, from row `top` down to 0: their value, and its slope by Y.
   const auto horner = [&](const double* from, int top, Numbers& value, Numbers& by) {
     load(value, from + 8 * top);
     by = Numbers{};
+#pragma GCC unroll 4
     for (int j = top - 1; j >= 0; --j) {
       by = by * Y + value;
       load(row, from + 8 * j);
@@ -167,33 +196,31 @@ CAROM_INLINE Slopes polynomial(const double* rows, int degree, double X, double 
   };
 #pragma GCC unroll 4
   for (int p = 0; p < pieces; ++p) horner(rows + W * p, degree, a[p], b[p]);
-  if (degree >= 8) {
-    const double* high = rows + 8 * (degree + 1);
-    const double x8 = x4 * x4, factor = 8.0 * x7;
+  const double* high = rows + 8 * (degree + 1);
 #pragma GCC unroll 4
-    for (int p = 0; p < pieces; ++p) {
+  for (int p = 0; p < pieces; ++p) {
+    Numbers powers, slopes, factors;
+    products<W>(power_masks, W * p, X, x2, x4, powers);
+    products<W>(slope_masks, W * p, X, x2, x4, slopes);
+    load(factors, exponents + W * p);
+    slopes = factors * slopes;
+    if (degree >= 8) {
       Numbers c, d;
       horner(high + W * p, degree - 8, c, d);
-      load(powers, power + W * p);
-      load(slopes, slope + W * p);
       a[p] = a[p] + x8 * c;
       b[p] = b[p] + x8 * d;
       by_x[p] = slopes * a[p] + powers * (factor * c);
-    }
-  } else {
-#pragma GCC unroll 4
-    for (int p = 0; p < pieces; ++p) {
-      load(slopes, slope + W * p);
+    } else {
       by_x[p] = slopes * a[p];
     }
-  }
-#pragma GCC unroll 4
-  for (int p = 0; p < pieces; ++p) {
-    load(powers, power + W * p);
     values[p] = powers * a[p];
     by_y[p] = powers * b[p];
   }
-  return {total<W>(values), total<W>(by_x), total<W>(by_y)};
+  Slopes result;
+  double unused;
+  totals<W>(by_x, by_y, result.X, result.Y);
+  totals<W>(values, values, result.value, unused);
+  return result;
 }
 
 /// -gradient, from the slopes in units of the grid.

@@ -87,17 +87,34 @@ struct Choice {
   double cost = std::numeric_limits<double>::infinity(), error = 0.0;
 };
 
-/// About what a point costs, in units of a near copy.
+/// About what a point costs, in units of a near copy: measured for one point and for many.
 double cost_of(int near, int degree) {
-  return near + (degree < 0 ? 0.0 : 3.0 + numbers_of_polynomial(degree) / 16.0);
+  return near + 2.5 * (padded(near) / 8) + (degree < 0 ? 0.0 : 1.5 + numbers_of_polynomial(degree) / 14.0);
 }
+
+/// Errors by distance: of the lower end of the bin that the distance is in.
+class ErrorsByDistance {
+ public:
+  ErrorsByDistance(const BumpShape& shape, double way, double reach) : bin_(shape.length() / 8.0) {
+    for (double r = 0.0; r <= reach + way; r += bin_) errors_.push_back(series_errors(shape, r, way));
+  }
+  const SeriesErrors& at(const Copy& copy) const {
+    return errors_[std::min(static_cast<std::size_t>(std::sqrt(copy.square) / bin_), errors_.size() - 1)];
+  }
+
+ private:
+  double bin_;
+  std::vector<SeriesErrors> errors_;
+};
+
+/// The share of tail_share that is kept for copies whose series ends before the polynomial's degree.
+constexpr double early_share = 1.0 / 16.0;
 
 /// The cheapest table on that grid whose error is below the bound.
 Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& centers, const Basis& basis,
                double reach) {
-  const double way = way_in_mesh(basis, grid), bin = shape.length() / 8.0;
-  std::vector<SeriesErrors> errors;  // by distance, from the lower end of each bin
-  for (double r = 0.0; r <= reach + way; r += bin) errors.push_back(series_errors(shape, r, way));
+  const double way = way_in_mesh(basis, grid);
+  const ErrorsByDistance errors(shape, way, reach);
   std::array<std::array<double, orders>, most_near_beside_a_polynomial + 1> largest{};
   std::size_t most_copies = 0;
   for (int i = 0; i < grid; ++i)
@@ -110,18 +127,16 @@ Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& cent
         if (k <= most_near_beside_a_polynomial)
           for (std::size_t n = 0; n < orders; ++n) largest[k][n] = std::max(largest[k][n], sum[n]);
         if (k == 0) break;
-        const auto at =
-            std::min(static_cast<std::size_t>(std::sqrt(copies[k - 1].square) / bin), errors.size() - 1);
-        for (std::size_t n = 0; n < orders; ++n) sum[n] += errors[at][n];
+        for (std::size_t n = 0; n < orders; ++n) sum[n] += errors.at(copies[k - 1])[n];
       }
     }
   Choice best{grid, static_cast<int>(most_copies), -1, cost_of(static_cast<int>(most_copies), -1), 0.0};
   const auto nodes = static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid);
   if (nodes * 2 * static_cast<std::size_t>(padded(best.near)) > most_numbers) best.cost *= 1.5;
-  for (int near = 0; near <= std::min(most_near_beside_a_polynomial, best.near); ++near)
+  for (int near = 0; near <= most_near_beside_a_polynomial && near < static_cast<int>(most_copies); ++near)
     for (int degree = 1; degree <= LatticeSum::most_degree; ++degree) {
       const double error = largest[static_cast<std::size_t>(near)][static_cast<std::size_t>(degree)];
-      if (!(error <= tail_share)) continue;
+      if (!(error <= (1.0 - early_share) * tail_share)) continue;
       const Choice choice{grid, near, degree, cost_of(near, degree), error};
       const auto each = static_cast<std::size_t>(2 * padded(near) + numbers_of_polynomial(degree));
       if (choice.cost < best.cost && nodes * each <= most_numbers) best = choice;
@@ -141,7 +156,7 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
     if (c.cost < choice.cost) choice = c;
     if (choice.degree < 0 && choice.near <= 4) break;  // finer ones gain nothing
   }
-  error_ = choice.error;
+  error_ = choice.degree < 0 ? 0.0 : choice.error + early_share * tail_share;
   const double grid = choice.grid, area = cross(basis.first, basis.second);
   LatticeSum& t = sum_;
   t.to_first_x = grid * basis.second.y / area;
@@ -169,6 +184,8 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
   const auto count = static_cast<std::size_t>(choice.grid) * static_cast<std::size_t>(choice.grid);
   lines_.resize(count * t.stride / 8);
   t.nodes = lines_.empty() ? nullptr : lines_.front().numbers;
+  const ErrorsByDistance errors(shape, way, t.degree < 0 ? 0.0 : reach);
+  constexpr double negligible = early_share * tail_share;
   const Vector a{t.first_x, t.first_y}, b{t.second_x, t.second_y};
   std::size_t node = 0;
   for (int i = 0; i < choice.grid; ++i)
@@ -186,7 +203,14 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
       }
       if (t.degree < 0) continue;
       std::vector<double> sum(width * width, 0.0);
-      for (std::size_t k = near; k < copies.size(); ++k) add_series(shape, copies[k].d, a, b, t.degree, sum);
+      for (std::size_t k = near; k < copies.size(); ++k) {
+        const SeriesErrors& left_out = errors.at(copies[k]);
+        int degree = 0;
+        while (degree < t.degree && !(left_out[static_cast<std::size_t>(degree)] <=
+                                      negligible / static_cast<double>(copies.size())))
+          ++degree;
+        add_series(shape, copies[k].d, a, b, degree, width, sum);
+      }
       for (std::size_t row = 0; row < width; ++row)
         for (std::size_t power = 0; power + row < width; ++power) {
           const std::size_t at = power < 8 ? 8 * row + power : 8 * width + 8 * row + (power - 8);

@@ -32,7 +32,7 @@ struct Together {
   const double* node[most_together];
 };
 
-/// lattice_sum::total.
+/// As lattice_sum::totals.
 CAROM_INLINE Real total(const double s[8][most_together], int lane) {
   return ((load(s[0] + lane) + load(s[4] + lane)) + (load(s[2] + lane) + load(s[6] + lane))) +
          ((load(s[1] + lane) + load(s[5] + lane)) + (load(s[3] + lane) + load(s[7] + lane)));

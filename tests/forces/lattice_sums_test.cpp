@@ -1,4 +1,5 @@
-// Tables of lattice sums: against the copies added one by one, and the bound of what their polynomials leave out.
+// Tables of lattice sums: against the copies added one by one, and the bound of what their polynomials leave
+// out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,9 +41,10 @@ std::vector<Case> random_cases(int n, unsigned seed) {
     c.shape.width = 2.0 * c.shape.softness;
     // Every other lattice is given by vectors that are not its shortest.
     const double skew = i % 2 == 0 ? 0.0 : 3.0;
-    c.lattice = geometry::make_lattice({size, 0.0}, {(uniform(generator) + skew) * size, (0.5 + uniform(generator)) * size},
-                                       {0.0, 0.0});
-    for (int k = 0; k <= i % 3; ++k) c.centers.push_back({size * uniform(generator), -size * uniform(generator)});
+    c.lattice = geometry::make_lattice(
+        {size, 0.0}, {(uniform(generator) + skew) * size, (0.5 + uniform(generator)) * size}, {0.0, 0.0});
+    for (int k = 0; k <= i % 3; ++k)
+      c.centers.push_back({size * uniform(generator), -size * uniform(generator)});
     cases.push_back(c);
   }
   return cases;
@@ -51,7 +53,8 @@ std::vector<Case> random_cases(int n, unsigned seed) {
 Vector in_cell(const geometry::Lattice& lattice, std::mt19937_64& generator) {
   std::uniform_real_distribution<double> uniform(-0.6, 0.6);
   const double m = uniform(generator), n = uniform(generator);
-  return nearest_copy({m * lattice.first.x + n * lattice.second.x, m * lattice.first.y + n * lattice.second.y}, lattice);
+  return nearest_copy(
+      {m * lattice.first.x + n * lattice.second.x, m * lattice.first.y + n * lattice.second.y}, lattice);
 }
 
 TEST(LatticeTables, AreTheSumsOfAllCopies) {
@@ -72,9 +75,10 @@ TEST(LatticeTables, AreTheSumsOfAllCopies) {
       Vector f{}, g{};
       const double v = potential->add_force({}, x, f), w = one_by_one->add_force({}, x, g);
       // Both round: by the sum's size, and where the point lies by that of the lattice.
-      const double size = std::sqrt(dot(c.lattice.first, c.lattice.first) + dot(c.lattice.second, c.lattice.second));
+      const double size =
+          std::sqrt(dot(c.lattice.first, c.lattice.first) + dot(c.lattice.second, c.lattice.second));
       const double tolerance = 1e-15 + 2e-15 * w + 3e-16 * size / c.shape.length();
-      EXPECT_NEAR(v, w, tolerance) ;
+      EXPECT_NEAR(v, w, tolerance);
       EXPECT_NEAR(f.x * c.shape.length(), g.x * c.shape.length(), tolerance);
       EXPECT_NEAR(f.y * c.shape.length(), g.y * c.shape.length(), tolerance);
     }
@@ -88,14 +92,15 @@ Real value40(const BumpShape& s, const Real& x, const Real& y) {
   return 1 / (1 + exp((sqrt(square) - s.radius) / s.softness));
 }
 
-// Taylor's polynomials of low degree, whose error is far above rounding, against 40 digits: it is below its bound,
-// and the bound is not wasteful.
+// Taylor's polynomials of low degree, whose error is far above rounding, against 40 digits: it is below its
+// bound, and the bound is not wasteful.
 TEST(LatticeTables, SeriesKeepTheirBounds) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   double largest = 0.0;
   for (int i = 0; i < 60; ++i) {
-    BumpShape s{i % 4 == 3 ? Kind::gaussian : Kind::fermi, 0.6 * uniform(generator), 0.03 + 0.3 * uniform(generator), 0.4};
+    BumpShape s{i % 4 == 3 ? Kind::gaussian : Kind::fermi, 0.6 * uniform(generator),
+                0.03 + 0.3 * uniform(generator), 0.4};
     const double angle = 7.0 * uniform(generator), r = 0.2 + 1.2 * uniform(generator);
     const double mesh = 0.15 * std::min(r, s.length());
     const Vector d{r * std::cos(angle), r * std::sin(angle)}, a{mesh, 0.1 * mesh}, b{-0.3 * mesh, 0.8 * mesh};
@@ -105,10 +110,11 @@ TEST(LatticeTables, SeriesKeepTheirBounds) {
     for (const int degree : {2, 4, 6}) {
       const auto width = static_cast<std::size_t>(degree + 1);
       std::vector<double> p(width * width, 0.0);
-      add_series(s, d, a, b, degree, p);
+      add_series(s, d, a, b, degree, width, p);
       double error = 0.0;
       for (int k = 0; k < 40; ++k) {
-        const double X = k < 4 ? (k & 1) - 0.5 : uniform(generator) - 0.5, Y = k < 4 ? (k / 2) - 0.5 : uniform(generator) - 0.5;
+        const double X = k < 4 ? (k & 1) - 0.5 : uniform(generator) - 0.5,
+                     Y = k < 4 ? (k / 2) - 0.5 : uniform(generator) - 0.5;
         Real value = 0, by_x = 0, by_y = 0;
         for (std::size_t j = width; j-- > 0;) {
           Real row = 0, slope = 0;
@@ -120,7 +126,8 @@ TEST(LatticeTables, SeriesKeepTheirBounds) {
           value = value * Y + row;
           by_x = by_x * Y + slope;
         }
-        const Real x = Real(d.x) + Real(X) * a.x + Real(Y) * b.x, y = Real(d.y) + Real(X) * a.y + Real(Y) * b.y;
+        const Real x = Real(d.x) + Real(X) * a.x + Real(Y) * b.x,
+                   y = Real(d.y) + Real(X) * a.y + Real(Y) * b.y;
         error = std::max(error, std::fabs(static_cast<double>(value - value40(s, x, y))));
         // Slopes along a and b, each at most the gradient times their length.
         const Real h("1e-12");
@@ -142,7 +149,8 @@ TEST(LatticeTables, SeriesKeepTheirBounds) {
 
 // A table is periodic for ever, as far as the point itself is exact.
 TEST(LatticeTables, ArePeriodic) {
-  const Case c{{Kind::fermi, 0.15, 0.1, 1.0}, {{0.0, 0.0}}, geometry::make_lattice({1, 0}, {0.25, 1}, {0, 0})};
+  const Case c{
+      {Kind::fermi, 0.15, 0.1, 1.0}, {{0.0, 0.0}}, geometry::make_lattice({1, 0}, {0.25, 1}, {0, 0})};
   const auto potential = make_lattice_bumps(c.shape, 1.0, c.centers, c.lattice, c.reach());
   for (const geometry::Cell cell : {geometry::Cell{1, 0}, {-3, 2}, {0, 40}, {1000, -999}}) {
     const Vector x{0.25, 0.375}, far = x + c.lattice.translation(cell);  // exact
