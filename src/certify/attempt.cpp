@@ -239,12 +239,20 @@ Outcome Attempt::step() {
   std::optional<Now> before;
   if (t_max_ || !scene_.holes.empty()) before = now_;
   move_to(choice.first);
-  if (path_.size() < longest_path) path_.push_back(choice.first);
-  if (!t_max_) return landed(choice.first, before);
+  const Outcome outcome = arrive(choice.first, before);
+  if (outcome.kind == Outcome::undecided)
+    now_ = std::move(*before);  // it may go on, should algebra tell
+  else if (path_.size() < longest_path)
+    path_.push_back(choice.first);
+  return outcome;
+}
+
+Outcome Attempt::arrive(const Copy& copy, const std::optional<Now>& before) {
+  if (!t_max_) return landed(copy, before);
   Sign late = sign(now_.state.time.widened(time_error()) - *t_max_);
   if (late == Sign::undecided && ties_.at_last_time == now_.hits + 1) late = Sign::zero;
-  if (late == Sign::undecided) return {Outcome::undecided, needed_bits(), {Doubt::last_time, choice.first, {}, -1}};
-  if (late != Sign::positive) return landed(choice.first, before);
+  if (late == Sign::undecided) return {Outcome::undecided, needed_bits(), {Doubt::last_time, copy, {}, -1}};
+  if (late != Sign::positive) return landed(copy, before);
   now_ = *before;
   return stop_at_last_time();
 }

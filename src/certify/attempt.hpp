@@ -55,7 +55,7 @@ class Attempt {
   /// The walls met so far, each copy seen from the last one; of long orbits only the beginning is kept.
   const std::vector<Copy>& path() const { return path_; }
   /// What cannot be told, with the enclosures that overlap.
-  std::string description(const Doubt&) const;
+  std::string description(const Doubt&);
 
   const SceneOf<Ball>& scene() const { return scene_; }
   const Whereabouts& whereabouts() const { return where_; }
@@ -85,6 +85,7 @@ class Attempt {
   void move_to(const Copy&);
   bool settles_now() const;
   static Bound settle(LandingOf<Ball>&, const SceneOf<Ball>&, const WallOf<Ball>&, bool same, double unit);
+  Outcome arrive(const Copy&, const std::optional<Now>& before);
   Outcome landed(const Copy&, const std::optional<Now>& before);
   Passage pass() const;
   Outcome leave(const Now& before);
@@ -95,6 +96,7 @@ class Attempt {
   Bound velocity_error() const { return Bound(speed_) * now_.errors.of_velocity(); }
   Bound time_error() const { return Bound(time_unit_) * now_.errors.of_time(); }
   std::string name(const Copy&) const;
+  std::string described(const Doubt&) const;
 
   const ExactSystem& system_;
   const CertifiedTask& task_;

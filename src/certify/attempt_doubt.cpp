@@ -1,14 +1,16 @@
 // What an attempt could not tell, in words and with its enclosures.
+#include <cmath>
+
 #include "certify/attempt.hpp"
 
 namespace carom::certify {
 namespace {
 
+// The middle to twenty decimals, and how far off the number may be.
 std::string enclosure(const Ball& x) {
-  char* text = arb_get_str(x.raw(), 20, 0);
-  std::string result(text);
-  flint_free(text);
-  return result;
+  const double error = x.radius().log2();
+  const std::string middle = x.midpoint().decimals(20);
+  return error < -1e17 ? middle : middle + " (error below 2^" + std::to_string(static_cast<long>(std::ceil(error))) + ")";
 }
 
 }  // namespace
@@ -22,7 +24,16 @@ std::string Attempt::name(const Copy& copy) const {
   return text;
 }
 
-std::string Attempt::description(const Doubt& doubt) const {
+std::string Attempt::description(const Doubt& doubt) {
+  if (doubt.kind == Doubt::choice) return described(doubt);
+  const Now before = now_;  // what is in doubt is seen at the wall
+  move_to(doubt.first);
+  std::string text = described(doubt);
+  now_ = before;
+  return text;
+}
+
+std::string Attempt::described(const Doubt& doubt) const {
   const Precision precision(bits_);
   const Bound dP = position_error(), dv = velocity_error();
   const BallVector P{now_.state.position.x.widened(dP), now_.state.position.y.widened(dP)};

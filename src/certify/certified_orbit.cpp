@@ -161,7 +161,7 @@ class CertifiedOrbit::Implementation {
 
   // First more bits, then algebra, then many more bits. False: the orbit has ended.
   bool decide(const Outcome& outcome) {
-    if (undecided_ == 1) {
+    if (undecided_ == 1 || !end_.ties.empty()) {  // one tie is seldom alone
       if (const auto tie = tie_at(outcome)) {
         // Along the edge of a corridor discs are touched without end.
         if (!tie->goes_on() || end_.ties.size() >= 1000) {
@@ -179,8 +179,7 @@ class CertifiedOrbit::Implementation {
         if (tie->kind == certify::Tie::hole_start) ties_.holes[event] = outcome.doubt.hole_index;
         if (tie->kind == certify::Tie::hole_end) ties_.holes[event] = -1;
         undecided_ = 0;
-        restart(effort_.bits);
-        return !done_;
+        return true;  // the attempt goes on from before the event
       }
     }
     const long more = 32L << undecided_++;

@@ -353,7 +353,7 @@ StoredRun read_run(const std::string& name) {
     throw InputError(place, "the file is not an archive, or its run was killed or is still going on",
                      "the archive of a finished or interrupted run");
   if (hdf5::read_string_attribute(file.get(), "kind", name) != kind)
-    throw InputError(place, "the archive holds an ensemble", "an archive written by carom run");
+    throw InputError(place, "the archive holds no run in double precision", "an archive written by carom run");
   if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
     throw InputError(place, "the archive has another schema", "one written by this version of carom");
   StoredRun run;

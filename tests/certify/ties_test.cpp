@@ -178,6 +178,11 @@ TEST(CertifiedTies, EndsOfAHole) {
   EXPECT_EQ(end.collisions, 10u);
   ASSERT_EQ(end.ties.size(), 5u);
   EXPECT_EQ(end.ties[4], "event 9: exactly at the end of hole 'door' in 'right', which does not belong to it");
+  // For ever: named, and ended after a thousand of them.
+  const CertifiedEnd forever = end_of(s, {exactly("1"), exactly("0")}, 100'000);
+  EXPECT_EQ(forever.fate, CertifiedFate::singular);
+  EXPECT_EQ(forever.ties.size(), 1000u);
+  EXPECT_EQ(forever.reason, "event 2001: exactly at the end of hole 'door' in 'right', which does not belong to it");
 }
 
 TEST(CertifiedTies, HitsAtTheLastTime) {
@@ -195,7 +200,14 @@ TEST(CertifiedTies, WithoutAlgebra) {
   const CertifiedEnd end = end_of(s, {exactly("1"), exactly("1")}, 10);
   EXPECT_EQ(end.fate, CertifiedFate::undecided);
   EXPECT_NE(end.reason.find("event 1: "), std::string::npos) << end.reason;
-  EXPECT_NE(end.reason.find("+/-"), std::string::npos) << end.reason;
+  EXPECT_NE(end.reason.find("error below 2^-3"), std::string::npos) << end.reason;
+  Shaped open = tests::shaped("rectangle", {{"width", "1"}, {"height", "pi"}}, "1/2", "pi/4");
+  open.spec.holes = {door("1", "2-pi/2")};
+  const CertifiedEnd beside = end_of(open, {exactly("1"), exactly("0")}, 10);
+  EXPECT_EQ(beside.fate, CertifiedFate::undecided);
+  EXPECT_EQ(beside.collisions, 0u);
+  EXPECT_NE(beside.reason.find("event 1: on which side of an end of 'door' 'right' is met, at x = 1.0000"), std::string::npos)
+      << beside.reason;
 }
 
 }  // namespace

@@ -111,6 +111,16 @@ TEST(Certified, SaysThatAVelocityWasADirection) {
   EXPECT_EQ(shell(run + "'sqrt(-1)',4").status, 1);
 }
 
+TEST(Certified, SaysWhereANumberIsNone) {
+  const Shell shell;
+  const Outcome refused = shell(
+      "printf '[table]\\nshape = \"circle\"\\nradius = \"sqr(2)\"\\n' > bad.toml; $carom run ./bad.toml --precision certified");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("bad.toml, line 3, column 10: table.radius: unknown word 'sqr'"), std::string::npos) << refused.err;
+  EXPECT_NE(shell("$carom run circle --position 0.1,0.x --velocity 1,0 --precision certified").err.find("--position"),
+            std::string::npos);
+}
+
 TEST(Certified, NamesExactCorners) {
   const Shell shell;
   const Outcome text = shell(
