@@ -9,7 +9,14 @@ namespace carom {
 
 namespace {
 
-constexpr double four_in_five = 0.8416212335729143;  // normal quantile
+constexpr double four_in_five = 0.8416212335729143, both_sides = 1.959963984540054;  // normal quantiles
+
+// The bias, in pairs, beside n pairs that disagree by chance: it lies `threshold` and some more of its own errors from
+// zero, and its pairs disagree too.
+double found_in_four_of_five(double n, double threshold) {
+  const double k = std::max(threshold, both_sides) + four_in_five;
+  return 0.5 * (k * k + std::sqrt(k * k * (k * k + 4.0 * n)));
+}
 
 // Differences of counts at each time, from the pairs' signs.
 template <class Sign, class Pairs>
@@ -106,7 +113,7 @@ PairedResult PairedSurvival::result(std::uint64_t seed, std::uint64_t swaps) con
     p.error = std::sqrt(n - d * d / all) / all;
     p.only_first = static_cast<std::uint64_t>((number[k] + difference[k]) / 2);
     p.only_second = static_cast<std::uint64_t>((number[k] - difference[k]) / 2);
-    p.detectable = (r.threshold + four_in_five) * std::sqrt(n) / all;
+    p.detectable = found_in_four_of_five(n, r.threshold) / all;
     r.points.push_back(p);
   }
   return r;

@@ -43,6 +43,8 @@ TEST(PairedSurvival, WithoutDifferencesNothingDiffers) {
   EXPECT_EQ(r.different(), 0u);
   EXPECT_EQ(r.statistic, 0.0);
   EXPECT_EQ(r.p_value, 1.0);
+  // A few pairs must disagree before anything can be found: (1.96 + 0.84)^2 of them.
+  EXPECT_NEAR(r.points[0].detectable, 7.85 / 100.0, 1e-4);
 }
 
 // All 2^n swaps of n pairs, one by one.
