@@ -192,11 +192,11 @@ class CertifiedOrbit::Implementation {
     return !done_;
   }
 
-  std::optional<certify::Tie> tie_at(const Outcome& outcome) const {
+  std::optional<certify::Tie> tie_at(const Outcome& outcome) {
     std::vector<certify::Copy> walls = attempt_->path();
     if (walls.size() < attempt_->hits()) return std::nullopt;
     walls.resize(attempt_->hits());  // those before the event in doubt
-    return find_tie(system_, task_, walls, outcome.doubt);
+    return tie_finder_.find(walls, outcome.doubt);
   }
 
   void restart(long bits) {
@@ -225,6 +225,7 @@ class CertifiedOrbit::Implementation {
   const ExactSystem system_;
   const CertifiedTask task_;
   certify::KnownTies ties_;
+  certify::TieFinder tie_finder_{system_, task_};
   certify::Forecast forecast_;
   double rate_ = 2.0;  ///< bits lost by a hit
   std::optional<certify::Attempt> attempt_;

@@ -226,19 +226,49 @@ class Follower {
 
 }  // namespace
 
-std::optional<Tie> find_tie(const ExactSystem& system, const CertifiedTask& task, const std::vector<Copy>& path,
-                            const Doubt& doubt) {
-  try {
+class TieFinder::Implementation {
+ public:
+  Implementation(const ExactSystem& system, const CertifiedTask& task) : system_(system), task_(task) {}
+
+  std::optional<Tie> find(const std::vector<Copy>& path, const Doubt& doubt) {
+    if (hopeless_) return std::nullopt;
     const QuadraticField field;
-    if (sign(Quadratic(system.omega)) != Sign::zero) return std::nullopt;
-    Follower follower(system, task);
-    for (const Copy& copy : path) follower.fly_to(copy);
-    std::optional<Tie> tie = follower.tie(doubt);
-    if (tie) tie->text = "event " + std::to_string(path.size() + 1) + ": " + tie->text;
-    return tie;
-  } catch (const NotQuadratic&) {
-    return std::nullopt;
+    QuadraticField::radicand() = radicand_;
+    try {
+      if (!follower_) {
+        if (sign(Quadratic(system_.omega)) != Sign::zero) throw NotQuadratic("a field");
+        follower_.emplace(system_, task_);
+      }
+      for (; followed_ < path.size(); ++followed_) follower_->fly_to(path[followed_]);
+    } catch (const NotQuadratic&) {
+      hopeless_ = true;
+      return std::nullopt;
+    }
+    radicand_ = QuadraticField::radicand();
+    try {
+      Follower there = *follower_;
+      std::optional<Tie> tie = there.tie(doubt);
+      if (tie) tie->text = "event " + std::to_string(path.size() + 1) + ": " + tie->text;
+      return tie;
+    } catch (const NotQuadratic&) {
+      return std::nullopt;
+    }
   }
+
+ private:
+  const ExactSystem& system_;
+  const CertifiedTask& task_;
+  std::optional<Follower> follower_;
+  std::size_t followed_ = 0;
+  mpz_class radicand_;
+  bool hopeless_ = false;
+};
+
+TieFinder::TieFinder(const ExactSystem& system, const CertifiedTask& task)
+    : implementation_(std::make_unique<Implementation>(system, task)) {}
+TieFinder::~TieFinder() = default;
+std::optional<Tie> TieFinder::find(const std::vector<Copy>& path, const Doubt& doubt) {
+  return implementation_->find(path, doubt);
 }
 
 }  // namespace carom::certify

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,9 +41,21 @@ struct Tie {
   bool goes_on() const { return kind != corner && kind != along_wall; }
 };
 
-/// The tie at the event after the walls `path` were met, or nothing where algebra finds none: because there is
-/// none, or numbers are not of the form or grow beyond `most_bits`.
-std::optional<Tie> find_tie(const ExactSystem&, const CertifiedTask&, const std::vector<Copy>& path, const Doubt&);
+/// Follows an orbit in exact numbers over the walls that balls have proven.
+class TieFinder {
+ public:
+  TieFinder(const ExactSystem&, const CertifiedTask&);
+  ~TieFinder();
+  TieFinder(const TieFinder&) = delete;
+  TieFinder& operator=(const TieFinder&) = delete;
+  /// The tie at the event after the walls `path` were met (each call with a longer path of the same orbit), or
+  /// nothing where algebra finds none: because there is none, or numbers are not of the form or too long.
+  std::optional<Tie> find(const std::vector<Copy>& path, const Doubt&);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
 
 /// Ties that an orbit has gone through, by the number of the event.
 struct KnownTies {
