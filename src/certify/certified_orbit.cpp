@@ -138,11 +138,6 @@ class CertifiedOrbit::Implementation {
     if (!turns_) return;
     if (turns == Sign::undecided)
       throw InputError(system_.omega.place(), "the magnetic field cannot be told from zero", "0, or another number");
-    for (const Wall& wall : system_.table->walls)
-      if (std::holds_alternative<geometry::Ellipse>(wall.curve) ||
-          std::holds_alternative<geometry::EllipticArc>(wall.curve))
-        throw InputError(system_.omega.place(), "ellipses in a magnetic field have no certified form",
-                         "B = 0, another shape, or --precision double");
   }
 
   // What this attempt lacks now, and what the rest of the orbit will lose: seen from here, for the first

@@ -56,11 +56,27 @@ Meeting<N> meets_larmor(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf
   return meeting_at(rising_root(f, discriminant), verdict, w, P, v, motion);
 }
 
+/// An ellipse or an arc of one.
+template <class N>
+Meeting<N> meets_ellipse(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
+                         bool standing) {
+  const EllipseFlight<N> flight(larmor_form<N, N>(w, P, v, motion, standing), kappa_scale(w, v, motion.half_omega));
+  for (const LarmorExit<N>& exit : LarmorExits<N>(flight.chords(), w.closed ? 1 : 5)) {
+    const Meeting<N> m =
+        meeting_at(flight.place(exit), exit.certain ? Verdict::yes : Verdict::undecided, w, P, v, motion);
+    if (m.verdict != Verdict::no) return m;
+    if (!exit.certain) return {Verdict::undecided, m.time};
+  }
+  return {};
+}
+
 /// Straight or on a Larmor circle, as the particle moves.
 template <class N>
 Meeting<N> meeting_with(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
                         bool standing) {
-  return motion.turns ? meets_larmor(w, P, v, motion, standing) : meets(w, P, v, motion, standing);
+  if (!motion.turns) return meets(w, P, v, motion, standing);
+  return w.form == Form::ellipse ? meets_ellipse(w, P, v, motion, standing)
+                                 : meets_larmor(w, P, v, motion, standing);
 }
 
 /// A Larmor flight over a lattice in pieces of equal length, in doubles: where to look for walls.

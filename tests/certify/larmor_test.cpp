@@ -48,17 +48,6 @@ ExactSystem in_field(const Shaped& s, const ExactPoint& direction, const ExactNu
   return system;
 }
 
-std::vector<Shaped> shapes_for_fields() {
-  std::vector<Shaped> shapes;
-  for (Shaped& s : tests::all_shapes()) {
-    bool elliptic = s.spec.shape == "ellipse";
-    for (const LoopSpec& loop : s.spec.loops)
-      for (const PieceSpec& piece : loop.pieces) elliptic = elliptic || piece.kind == PieceSpec::Kind::ellipse;
-    if (!elliptic) shapes.push_back(std::move(s));
-  }
-  return shapes;
-}
-
 // Larmor radii from a tenth of a table to a thousand times its size, of both signs.
 ExactNumber random_field(tests::Dice& dice) {
   const char* const sizes[] = {"10", "4", "sqrt(3)", "1", "1/1.7", "0.3", "0.001"};
@@ -69,7 +58,7 @@ ExactNumber random_field(tests::Dice& dice) {
 // Every enclosure is as small as was asked for and contains what a run at more than twice the digits finds.
 TEST(CertifiedLarmor, ContainsItselfAtMoreBits) {
   tests::Dice dice(11);
-  const std::vector<Shaped> shapes = shapes_for_fields();
+  const std::vector<Shaped> shapes = tests::all_shapes();
   const long orbits = tests::cases(600, 10000);
   long pinned = 0, hits = 0;
   for (long k = 0; k < orbits; ++k) {
@@ -117,7 +106,7 @@ struct Walls : Observer {
 // As far as an orbit of doubles is trusted it meets the walls of the true one.
 TEST(CertifiedLarmor, MeetsTheWallsOfTheEngine) {
   tests::Dice dice(12);
-  const std::vector<Shaped> shapes = shapes_for_fields();
+  const std::vector<Shaped> shapes = tests::all_shapes();
   const long orbits = tests::cases(300, 10000);
   std::uint64_t trusted = 0;
   for (long k = 0; k < orbits; ++k) {
@@ -152,7 +141,7 @@ TEST(CertifiedLarmor, MeetsTheWallsOfTheEngine) {
 TEST(CertifiedLarmor, RunsBack) {
   tests::Dice dice(13);
   for (int k = 0; k < 5; ++k) {
-    for (const Shaped& s : shapes_for_fields()) {
+    for (const Shaped& s : tests::all_shapes()) {
       const geometry::Vector d = dice.direction();
       const ExactSystem system = in_field(s, {d.x, d.y}, random_field(dice));
       SCOPED_TRACE(s.spec.shape + ", omega " + system.omega.text());

@@ -1,4 +1,4 @@
-#include "certify/larmor_flight.hpp"
+#include "certify/larmor_circle.hpp"
 
 #include <algorithm>
 #include <cmath>
