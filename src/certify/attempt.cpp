@@ -161,11 +161,11 @@ void Attempt::move_to(const Copy& copy) {
     now_.errors.constrain(off, distance * per_unit * Bound(1.000001 / std::sqrt(dot(normal, normal))));
   }
   if (settles && same && wall.form != Form::segment) {
-    // Likewise it is on the curve: who is a along its tangent is at most a^2/r off it (for a < r/2), where r is
+    // Likewise it is on the curve: who is a along its tangent and near it is at most a^2/r off it (for a < r/2), where r is
     // the least radius of curvature.
     const double radius_below = least_radius(wall) * 0.999999 / unit_;
     const Bound moved = now_.errors.size(along);
-    if (moved.to_double() < 0.5 * radius_below)
+    if (moved.to_double() < 0.5 * radius_below && now_.errors.size(off).to_double() < 0.5 * radius_below)
       now_.errors.constrain(off, rounding + moved * moved * Bound(1.0 / radius_below));
   }
   now_.wall = now_.standing = copy.wall;

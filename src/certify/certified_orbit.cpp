@@ -128,7 +128,10 @@ class CertifiedOrbit::Implementation {
   }
 
   const CertifiedEnd& end() const { return end_; }
-  const CertifiedEffort& effort() const { return effort_; }
+  const CertifiedEffort& effort() {
+    if (!done_ && attempt_) effort_.tangent_bits = attempt_->lost_bits();
+    return effort_;
+  }
 
  private:
   void check_field() {
