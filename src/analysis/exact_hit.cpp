@@ -9,6 +9,10 @@ using geometry::Vector;
 
 namespace {
 
+// Steps below this share of a flight err by their square, beyond what two doubles hold of the error.
+constexpr double small_step = 1e-11;
+constexpr int most_steps = 8;
+
 Vector rounded(const TwofoldVector& v) { return {v.x.value(), v.y.value()}; }
 TwofoldVector exactly(Vector v) { return {v.x, v.y}; }
 
@@ -57,37 +61,46 @@ SinCosTwofold sincos(const Twofold& x) {
   return {s, Twofold(1.0) - m};
 }
 
-Deviation error_of_hit(const WrittenSystem& system, const State& before, const HitEvent& hit) {
+std::optional<OrbitError> error_after(const WrittenSystem& system, const State& before, const OrbitError& error,
+                                      const HitEvent& hit) {
   const WrittenWall& wall = system.walls[static_cast<std::size_t>(hit.wall)];
-  TwofoldVector at = exactly(before.position), v = exactly(before.velocity);
-  if (!(before.cell == hit.cell)) at = at + translation(system, before.cell, hit.cell);
-  const Twofold duration =
-      Twofold(hit.time.high, hit.time.low) - Twofold(before.time.high, before.time.low);
+  TwofoldVector start = exactly(before.position) + exactly(error.position);
+  const TwofoldVector velocity = exactly(before.velocity) + exactly(error.velocity);
+  if (!(before.cell == hit.cell)) start = start + translation(system, before.cell, hit.cell);
   const double omega = system.omega.high;
-  if (omega == 0.0) {
-    at = at + duration * v;
-  } else {
-    const Twofold half(0.5 * omega, 0.5 * system.omega.low);
-    const auto [s, c] = sincos(half * duration);
-    const TwofoldVector chord = c * v + s * right(v);
-    at = at + (s / half) * chord;
-    v = v + (s + s) * (c * right(v) - s * v);
+  const Twofold half(0.5 * omega, 0.5 * system.omega.low);
+  const Twofold engine = Twofold(hit.time.high, hit.time.low) - Twofold(before.time.high, before.time.low);
+  Twofold duration = engine - Twofold(error.time);
+  // Newton's steps to the wall, each from the exact path; of the last one nothing is left beyond its square.
+  for (int step = 0; step < most_steps; ++step) {
+    TwofoldVector at = start, v = velocity;
+    if (omega == 0.0) {
+      at = at + duration * v;
+    } else {
+      const auto [s, c] = sincos(half * duration);
+      at = at + (s / half) * (c * v + s * right(v));
+      v = v + (s + s) * (c * right(v) - s * v);
+    }
+    const Foot near = foot_of(wall, at, v);
+    const double late = -near.gap / near.slope;
+    if (!(std::fabs(late) <= 0.5 * engine.high + std::fabs(error.time))) return std::nullopt;
+    if (std::fabs(late) > small_step * engine.high) {
+      duration = duration + Twofold(late);
+      continue;
+    }
+    const Vector there = rounded(v);
+    at = at + Twofold(late) * v;
+    v = v + exactly((omega * late) * right(there));
+    const TwofoldVector n = wall.straight ? near.normal : foot_of(wall, at, v).normal;
+    v = v - (Twofold(2.0) * dot(n, v) / dot(n, n)) * n;
+    return OrbitError{rounded(at - exactly(hit.position)), rounded(v - exactly(hit.after)),
+                      ((duration + Twofold(late)) + (Twofold(error.time) - engine)).value()};
   }
-  // From where the engine is at its time to the wall: one step of Newton leaves nothing that counts.
-  const Foot near = foot_of(wall, at, v);
-  const double late = -near.gap / near.slope;
-  const Vector there = rounded(v);
-  at = at + Twofold(late) * v;
-  v = v + exactly((omega * late) * right(there));
-  const TwofoldVector n = wall.straight ? near.normal : foot_of(wall, at, v).normal;
-  const Twofold take = Twofold(2.0) * dot(n, v) / dot(n, n);
-  v = v - take * n;
-  return {rounded(at - exactly(hit.position)) - late * hit.after,
-          rounded(v - exactly(hit.after)) - (omega * late) * right(hit.after)};
+  return std::nullopt;
 }
 
-Deviation error_of_start(const WrittenSystem& system, const State& start, bool first_particle) {
-  Deviation error;
+OrbitError error_of_start(const WrittenSystem& system, const State& start, bool first_particle) {
+  OrbitError error;
   if (first_particle && system.position)
     error.position = rounded(*system.position - exactly(start.position));
   else if (start.wall >= 0)

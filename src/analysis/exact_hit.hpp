@@ -1,10 +1,12 @@
-// What one hit of the engine errs: its flight and reflection again, in twice the digits.
+// The true orbit beside the computed one: flights and reflections in twice the digits.
 #pragma once
 
+#include <optional>
+
+#include "carom/analysis/trust.hpp"
 #include "carom/analysis/written_system.hpp"
 #include "carom/events/event.hpp"
 #include "carom/motion/state.hpp"
-#include "carom/motion/tangent.hpp"
 
 namespace carom {
 
@@ -14,11 +16,12 @@ struct SinCosTwofold {
 /// For |x| up to 4, to 2^-70.
 SinCosTwofold sincos(const Twofold& x);
 
-/// By how much the exact flight and reflection from the state `before` (its rounded position) differ from the
-/// state after the hit, at the same time.
-Deviation error_of_hit(const WrittenSystem&, const State& before, const HitEvent& hit);
+/// The error after a hit from the one before it: the true orbit flies to the same wall and is reflected there.
+/// Nothing if it does not meet that wall near the engine's hit.
+std::optional<OrbitError> error_after(const WrittenSystem&, const State& before, const OrbitError& error,
+                                      const HitEvent& hit);
 
 /// By how much a start as it was written differs from its state in doubles: on the speed, and on its wall.
-Deviation error_of_start(const WrittenSystem&, const State& start, bool first_particle);
+OrbitError error_of_start(const WrittenSystem&, const State& start, bool first_particle);
 
 }  // namespace carom

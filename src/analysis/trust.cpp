@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "analysis/error_edges.hpp"
 #include "analysis/exact_hit.hpp"
 #include "carom/geometry/curve_frame.hpp"
+#include "carom/motion/tangent.hpp"
 
 namespace carom {
 
@@ -50,21 +52,24 @@ class TrustRecorder::Implementation {
   Implementation(const Table& the_table, double the_tolerance, std::shared_ptr<const WrittenSystem> written)
       : table(the_table), tolerance(the_tolerance), size(size_of(the_table)), as_written(std::move(written)),
         edges(the_table) {
-    for (const Wall& wall : table.walls) frames.push_back(geometry::frame_of(wall.curve));
   }
 
   struct Track {
     Particle particle;
     State state;  ///< after the last event
     Trust trust;
-    HitError error;
     std::shared_ptr<const WrittenSystem> system;
   };
 
+  /// The error of the state at one time, to first order.
+  static Deviation at_one_time(const Particle& particle, const State& state, const OrbitError& e) {
+    const Vector v = state.velocity;
+    return {e.position - e.time * v, e.velocity - (particle.omega * e.time) * right(v)};
+  }
   /// Beyond the true orbit: a neighbour as far as the margin says, and a few roundings more across the flight.
   Deviation edge_of(const Track& track) const {
     const Vector v = track.state.velocity, side = left(v);
-    const Deviation& e = track.trust.error;
+    const Deviation e = at_one_time(track.particle, track.state, track.trust.error);
     const double sign = dot(side, e.position) < 0.0 ? -1.0 : 1.0;
     Deviation edge = margin * e;
     edge.position = edge.position + (sign * 4.0 * geometry::unit_roundoff * size / length_of(v)) * side;
@@ -75,11 +80,11 @@ class TrustRecorder::Implementation {
     return duration + 3.0 * tolerance * size / particle.speed;
   }
   bool hit(Track& track, const HitEvent& event);
+  bool left_in_time(const Track& track, const EndEvent& event) const;
 
   const Table& table;
   double tolerance, size;
   std::shared_ptr<const WrittenSystem> as_written;
-  std::vector<geometry::CurveFrame> frames;
   ErrorEdges edges;
   std::vector<Track> tracks;
 };
@@ -89,10 +94,6 @@ bool TrustRecorder::Implementation::hit(Track& track, const HitEvent& event) {
   // At a joint the least error decides which wall it is.
   if (event.u == 0.0 || event.reflections != 1) return false;
   const Particle& particle = track.particle;
-  const geometry::CurveFrame& frame = frames[static_cast<std::size_t>(event.wall)];
-  const Vector normal = geometry::normal_at(frame, event.u);
-  const double curvature = geometry::curvature_at(frame, event.u);
-
   const ErrorEdges::Arrival arrival{event.wall, event.cell, event.position};
   // A tolerance may be finer than the roundings by which edges are displaced.
   const double farthest = (tolerance + 16.0 * geometry::unit_roundoff) * size;
@@ -100,17 +101,31 @@ bool TrustRecorder::Implementation::hit(Track& track, const HitEvent& event) {
                           latest(particle, event.flight_time)))
     return false;
 
-  const Deviation at_arrival = flight_tangent(particle.omega, event.flight_time)(track.trust.error);
-  const Deviation e = reflection_tangent(normal, curvature, event.before, particle.omega)(at_arrival) +
-                      error_of_hit(*track.system, track.state, event);
-  const AtWall at = at_wall(normal, event.after, particle.omega);
-  track.error = {dot(at.arc, e), dot(at.delay, e), dot(at.angle, e)};
-  const auto within = [](double error, double bound) { return margin * std::fabs(error) <= bound; };
-  if (!(within(track.error.arc, tolerance * size) && within(track.error.delay * particle.speed, tolerance * size) &&
-        within(track.error.angle, tolerance)))
+  const std::optional<OrbitError> e = error_after(*track.system, track.state, track.trust.error, event);
+  if (!e) return false;
+  const auto within = [](double error, double bound) { return margin * error <= bound; };
+  if (!(within(length_of(e->position), tolerance * size) &&
+        within(std::fabs(e->time) * particle.speed, tolerance * size) &&
+        within(length_of(e->velocity), tolerance * particle.speed)))
     return false;
-  track.trust.error = e;
+  track.trust.error = *e;
   return true;
+}
+
+/// Are the point and the time of the escape right? (On a lattice the hole's copy is not known.)
+bool TrustRecorder::Implementation::left_in_time(const Track& track, const EndEvent& event) const {
+  if (table.lattice) return true;
+  const Particle& particle = track.particle;
+  const State& from = track.state;
+  const FlightTangent flight = flight_tangent(particle.omega, event.time - from.time);
+  const Deviation there = flight({from.position, from.velocity});  // the flight itself is as linear
+  const Wall& wall = table.walls[static_cast<std::size_t>(table.holes[static_cast<std::size_t>(event.hole)].wall)];
+  const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
+  const Vector normal = geometry::normal_at(frame, geometry::parameter_of(frame, there.position));
+  const AtWall at = at_wall(normal, there.velocity, particle.omega);
+  const Deviation e = flight(at_one_time(particle, from, track.trust.error));
+  const double farthest = std::max(std::fabs(dot(at.arc, e)), std::fabs(dot(at.delay, e)) * particle.speed);
+  return margin * farthest <= tolerance * size && margin * std::fabs(dot(at.angle, e)) <= tolerance;
 }
 
 TrustRecorder::TrustRecorder(const Table& table, double tolerance, std::shared_ptr<const WrittenSystem> written)
@@ -120,7 +135,7 @@ TrustRecorder::~TrustRecorder() = default;
 void TrustRecorder::follow(const Particle& particle, const State& state, std::uint64_t hits,
                            const Trust* before) {
   Implementation& a = *implementation_;
-  Implementation::Track track{particle, state, {}, {}, a.as_written};
+  Implementation::Track track{particle, state, {}, a.as_written};
   const bool first = a.tracks.empty();
   // The numbers that were written are the first particle's.
   if (!track.system || !first) {
@@ -165,15 +180,13 @@ void TrustRecorder::end(const EndEvent& event) {
   Implementation& a = *implementation_;
   Implementation::Track& track = a.tracks[static_cast<std::size_t>(event.particle)];
   if (!track.trust.open || event.fate != Fate::escaped) return;
-  track.trust.open = a.edges.same_hole(track.particle, track.state, a.edge_of(track), event.hole,
+  track.trust.open = a.left_in_time(track, event) &&
+                     a.edges.same_hole(track.particle, track.state, a.edge_of(track), event.hole,
                                        a.latest(track.particle, event.time - track.state.time));
 }
 
 const Trust& TrustRecorder::trust(int particle) const {
   return implementation_->tracks[static_cast<std::size_t>(particle)].trust;
-}
-const HitError& TrustRecorder::last_error(int particle) const {
-  return implementation_->tracks[static_cast<std::size_t>(particle)].error;
 }
 
 Trust TrustRecorder::at_end(const Particle& particle, const State& state, const Trust& before,
@@ -182,7 +195,8 @@ Trust TrustRecorder::at_end(const Particle& particle, const State& state, const 
   Trust trust = before;
   const double duration = end - state.time;
   if (!trust.open || !(duration > 0.0)) return trust;
-  const Deviation e = flight_tangent(particle.omega, duration)(trust.error);
+  const Deviation e =
+      flight_tangent(particle.omega, duration)(Implementation::at_one_time(particle, state, trust.error));
   if (margin * length_of(e.position) <= a.tolerance * a.size &&
       margin * length_of(e.velocity) <= a.tolerance * particle.speed)
     trust.time = end;

@@ -8,9 +8,9 @@ using hdf5::Handle;
 
 namespace {
 
-constexpr std::size_t entries = 4;  // of an error
+constexpr std::size_t entries = 5;  // of an error
 
-Deviation deviation(const double* d) { return {{d[0], d[1]}, {d[2], d[3]}}; }
+OrbitError orbit_error(const double* d) { return {{d[0], d[1]}, {d[2], d[3]}, d[4]}; }
 
 template <class T>
 void write(hid_t group, const char* name, const std::vector<T>& values, const std::string& file) {
@@ -32,7 +32,7 @@ void create_trust(hid_t group, std::size_t particles, const std::string& file) {
   create("time", H5T_NATIVE_DOUBLE, particles, {"time", "Until when the particle can be trusted"});
   create("open", H5T_NATIVE_INT32, particles, {"1", "1: up to the last event"});
   create("error", H5T_NATIVE_DOUBLE, entries * particles,
-         {"mixed", "While open: estimated errors of x, y, vx, vy after the last event, rows 4 i to 4 i + 3"});
+         {"mixed", "While open: errors of x, y, vx, vy and t after the last event, rows 5 i to 5 i + 4"});
 }
 
 void write_trust(hid_t group, const std::vector<ParticleEnd>& particles, const std::string& file) {
@@ -43,8 +43,8 @@ void write_trust(hid_t group, const std::vector<ParticleEnd>& particles, const s
     collisions.push_back(static_cast<std::int64_t>(p.trust.hits));
     time.push_back(p.trust.time.value());
     open.push_back(p.trust.open ? 1 : 0);
-    const Deviation& d = p.progress.trust.error;
-    for (const double entry : {d.position.x, d.position.y, d.velocity.x, d.velocity.y}) error.push_back(entry);
+    const OrbitError& d = p.progress.trust.error;
+    for (const double entry : {d.position.x, d.position.y, d.velocity.x, d.velocity.y, d.time}) error.push_back(entry);
   }
   write(group, "collisions", collisions, file);
   write(group, "time", time, file);
@@ -65,7 +65,7 @@ void read_trust(hid_t group, std::vector<ParticleProgress>& particles, const std
     trust.open = open.at(i) != 0;
     trust.hits = static_cast<std::uint64_t>(collisions.at(i));
     trust.time = trust.open ? particles[i].state.time : Time(time.at(i));
-    trust.error = deviation(&error[entries * i]);
+    trust.error = orbit_error(&error[entries * i]);
   }
 }
 

@@ -1,5 +1,4 @@
-// How far an orbit in double precision can be trusted: what each hit and the numbers of the system lost in
-// rounding, computed in twice the digits and carried along the orbit by its tangent map.
+// How far an orbit in double precision can be trusted: the true orbit is followed beside it in twice the digits.
 // docs/physics/tangent-map.md has the estimate and what it is worth.
 #pragma once
 
@@ -9,10 +8,15 @@
 #include "carom/analysis/written_system.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/events/observer.hpp"
-#include "carom/motion/tangent.hpp"
 #include "carom/table/table.hpp"
 
 namespace carom {
+
+/// The true state after an event less the computed one, each at its own hit.
+struct OrbitError {
+  geometry::Vector position, velocity;
+  double time = 0.0;
+};
 
 /// What is known of one particle's errors; a run goes on from it.
 struct Trust {
@@ -20,14 +24,7 @@ struct Trust {
   bool open = false;       ///< no error has become too large yet
   std::uint64_t hits = 0;  ///< reflections before the first whose error is too large
   Time time;               ///< of the last of these; while open: of the last event
-  Deviation error;         ///< while open: of the state after the last event, the true one less the computed
-};
-
-/// Estimated errors of a hit, with their signs.
-struct HitError {
-  double arc = 0.0;    ///< along the wall
-  double delay = 0.0;  ///< of its time
-  double angle = 0.0;  ///< of the velocity's direction
+  OrbitError error;        ///< while open: of the state after the last event
 };
 
 /// The length that tolerances are measured by: the longer side of the box around the walls, on a lattice the
@@ -40,8 +37,8 @@ double size_of(const Table&);
 class TrustRecorder : public Observer {
  public:
   static constexpr double usual_tolerance = 1e-3;
-  /// Errors are taken this many times as large: the tangent map is their first order.
-  static constexpr double margin = 1.25;
+  /// Errors are taken this many times as large.
+  static constexpr double margin = 1.05;
 
   /// Keeps a reference to the table, which must live as long. `written`: what the table's doubles were rounded
   /// from, and the first particle's start; nothing: they are what is meant.
@@ -55,7 +52,6 @@ class TrustRecorder : public Observer {
   void hit(const HitEvent&) override;
   void end(const EndEvent&) override;
   const Trust& trust(int particle) const;
-  const HitError& last_error(int particle) const;
   /// What is known at the end of a run, a free flight after the state of the last event.
   Trust at_end(const Particle&, const State&, const Trust&, Time end) const;
 
