@@ -10,7 +10,9 @@ namespace {
 std::string enclosure(const Ball& x) {
   const double error = x.radius().log2();
   const std::string middle = x.midpoint().decimals(20);
-  return error < -1e17 ? middle : middle + " (error below 2^" + std::to_string(static_cast<long>(std::ceil(error))) + ")";
+  return error < -1e17
+             ? middle
+             : middle + " (error below 2^" + std::to_string(static_cast<long>(std::ceil(error))) + ")";
 }
 
 }  // namespace
@@ -48,12 +50,14 @@ std::string Attempt::described(const Doubt& doubt) const {
   if (doubt.kind == Doubt::hole) {
     std::string text = event + "on which side of an end of '" +
                        system_.table->holes[static_cast<std::size_t>(doubt.hole_index)].name + "' " +
-                       name({doubt.first.wall, {}}) + " is met, at x = " + enclosure(P.x) + ", y = " + enclosure(P.y);
+                       name({doubt.first.wall, {}}) + " is met, at x = " + enclosure(P.x) +
+                       ", y = " + enclosure(P.y);
     for (const HoleOf<Ball>& hole : scene_.holes)
       if (hole.hole == doubt.hole_index && wall(doubt.first).form == Form::segment) {
         const Ball length = sqrt(dot(wall(doubt.first).chord, wall(doubt.first).chord));
-        text += ": arc length " + enclosure(dot(P - wall(doubt.first).from, wall(doubt.first).chord) / length) +
-                ", ends " + enclosure(hole.low / length) + " and " + enclosure(hole.high / length);
+        text += ": arc length " +
+                enclosure(dot(P - wall(doubt.first).from, wall(doubt.first).chord) / length) + ", ends " +
+                enclosure(hole.low / length) + " and " + enclosure(hole.high / length);
       }
     return text;
   }
@@ -62,12 +66,13 @@ std::string Attempt::described(const Doubt& doubt) const {
   };
   const auto time_to = [&](const Copy& copy) {
     const bool standing = copy.wall == now_.standing && copy.cell == geometry::Cell{};
-    if (!scene_.motion.turns) return enclosure(meets(wall(copy), seen(copy), v, scene_.motion, standing).time);
+    if (!scene_.motion.turns)
+      return enclosure(meets(wall(copy), seen(copy), v, scene_.motion, standing).time);
     return enclosure(flight_to<Ball, Ball>(wall(copy), seen(copy), v, scene_.motion, standing).time);
   };
   if (doubt.second.wall >= 0)
-    return event + "which comes first, " + name(doubt.first) + " or " + name(doubt.second) + ", after the times " +
-           time_to(doubt.first) + " and " + time_to(doubt.second);
+    return event + "which comes first, " + name(doubt.first) + " or " + name(doubt.second) +
+           ", after the times " + time_to(doubt.first) + " and " + time_to(doubt.second);
   std::string text = event + "whether the flight meets " + name(doubt.first);
   if (scene_.motion.turns) return text;
   const WallOf<Ball>& w = wall(doubt.first);
@@ -77,8 +82,8 @@ std::string Attempt::described(const Doubt& doubt) const {
     text += ", passing its ends at the distances " + enclosure(cross(v, w.from - at) * per_speed) + " and " +
             enclosure(cross(v, w.to - at) * per_speed);
   if (w.form == Form::circle)
-    text += ", its centre at the distance " + enclosure(cross(v, w.centre - at) * per_speed) + " with the radius " +
-            enclosure(sqrt(w.radius2));
+    text += ", its centre at the distance " + enclosure(cross(v, w.centre - at) * per_speed) +
+            " with the radius " + enclosure(sqrt(w.radius2));
   return text;
 }
 

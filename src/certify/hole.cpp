@@ -94,7 +94,8 @@ class Cutter {
       Ball start;
       arb_atan2(start.raw(), e.y.raw(), e.x.raw(), Precision::bits());
       const auto angle_at = [&](const Ball& s) {
-        return length.angle_at(length.to(start) + way * s, (start + way * s / length.element(Ball(0.8))).midpoint());
+        return length.angle_at(length.to(start) + way * s,
+                               (start + way * s / length.element(Ball(0.8))).midpoint());
       };
       const Ball first = angle_at(from_), last = angle_at(to_);
       hole.first = turned({1, 0}, first);

@@ -12,10 +12,10 @@ namespace carom::certify {
 /// on a circle or ellipse two directions from the centre, in the frame where an ellipse is a circle.
 template <class Number>
 struct HoleOf {
-  int hole = -1;             ///< in Table::holes
+  int hole = -1;  ///< in Table::holes
   int wall = -1;
-  bool whole = false;        ///< all of the wall
-  bool wide = false;         ///< more than half a turn
+  bool whole = false;  ///< all of the wall
+  bool wide = false;   ///< more than half a turn
   Number low{}, high{};
   VectorOf<Number> first, last;
 };
@@ -53,7 +53,8 @@ Verdict in_hole(const HoleOf<N>& hole, const WallOf<N>& w, const VectorOf<N>& P)
   // From `from` on and before `to`, which is less than half a turn later.
   const auto within = [&](const VectorOf<N>& from, const VectorOf<N>& to) {
     const N behind = cross(from, e), before = cross(e, to);
-    return both(at_least_zero(sign(w.turn > 0 ? behind : -behind)), above_zero(sign(w.turn > 0 ? before : -before)));
+    return both(at_least_zero(sign(w.turn > 0 ? behind : -behind)),
+                above_zero(sign(w.turn > 0 ? before : -before)));
   };
   return hole.wide ? opposite(within(hole.last, hole.first)) : within(hole.first, hole.last);
 }

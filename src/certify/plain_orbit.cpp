@@ -71,7 +71,8 @@ geometry::Vector near(const VectorOf<Plain>& v) { return {v.x.to_double(), v.y.t
 
 class Runner {
  public:
-  Runner(const ExactSystem& system, const PlainTask& task) : system_(system), task_(task), precision_(task.bits) {
+  Runner(const ExactSystem& system, const PlainTask& task)
+      : system_(system), task_(task), precision_(task.bits) {
     // The numbers as written, enclosed by more bits than are kept.
     const Precision more(task.bits + 64);
     CertifiedTask enclosed;
@@ -103,7 +104,8 @@ class Runner {
       const Passage passage = scene_.hole_at(choice.first.wall, next.position);
       if (passage.verdict == Verdict::yes) {
         // With the velocity that it came with: the reflection is undone.
-        const VectorOf<Plain> t = tangent_of(scene_.walls[static_cast<std::size_t>(choice.first.wall)], next.position);
+        const VectorOf<Plain> t =
+            tangent_of(scene_.walls[static_cast<std::size_t>(choice.first.wall)], next.position);
         const Plain twice = Plain(2) * dot(next.velocity, t);
         next.velocity = twice * t - next.velocity;
         state_ = std::move(next);
@@ -146,7 +148,8 @@ class Runner {
 
 }  // namespace
 
-PlainEnd plain_orbit(const ExactSystem& system, const PlainTask& task, const std::function<bool()>& interrupted) {
+PlainEnd plain_orbit(const ExactSystem& system, const PlainTask& task,
+                     const std::function<bool()>& interrupted) {
   if (task.collisions == 0 && !task.t_max)
     throw InputError(Place{}, "an orbit without an end", "a number of collisions or a last time");
   for (const Wall& wall : system.table->walls)

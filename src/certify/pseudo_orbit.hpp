@@ -25,8 +25,8 @@ VectorOf<N> put_back(const WallOf<N>& w, const VectorOf<N>& P) {
   return P + (half * (N(1) - (X * X + Y * Y)) / dot(normal, normal)) * normal;
 }
 
-/// Flies to the wall. The landing is put back to its speed, and on the circle that it stayed on, by one Newton
-/// step each: otherwise the errors of both feed each other.
+/// Flies to the wall. The landing is put back to its speed, and on the circle that it stayed on, by one
+/// Newton step each: otherwise the errors of both feed each other.
 template <class N>
 void fly_to(const SceneOf<N>& scene, const Copy& copy, PseudoState<N>& s) {
   const WallOf<N>& wall = scene.walls[static_cast<std::size_t>(copy.wall)];

@@ -16,7 +16,8 @@ class NotQuadratic : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The root of numbers in this thread, while a QuadraticField lives: none at first, then the first that is needed.
+/// The root of numbers in this thread, while a QuadraticField lives: none at first, then the first that is
+/// needed.
 class QuadraticField {
  public:
   QuadraticField() : before_(radicand()) { radicand() = 0; }

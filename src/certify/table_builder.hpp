@@ -151,7 +151,8 @@ class TableBuilder {
     const VectorOf<N> foot_left{-half, -height}, foot_right{half, -height};
     const VectorOf<N> neck_right{half, 0}, neck_left{-half, 0}, cap_right{cap, 0}, cap_left{-cap, 0};
     // As in the table: whether there is a brim is read off the doubles.
-    const bool brim = spec_.numbers.at("stem_width").to_double() / 2 < spec_.numbers.at("cap_radius").to_double();
+    const bool brim =
+        spec_.numbers.at("stem_width").to_double() / 2 < spec_.numbers.at("cap_radius").to_double();
     add(segment_wall(foot_left, foot_right));
     add(segment_wall(foot_right, neck_right));
     if (brim) add(segment_wall(neck_right, cap_right));
@@ -187,7 +188,9 @@ class TableBuilder {
     const auto list = spec_.lists.find("radii");
     const std::vector<VectorOf<N>> centers = points("centers");
     for (std::size_t k = 0; k < centers.size(); ++k)
-      add(circle_wall(centers[k], list == spec_.lists.end() ? number("radius") : Source<N>::value(list->second[k]), false));
+      add(circle_wall(centers[k],
+                      list == spec_.lists.end() ? number("radius") : Source<N>::value(list->second[k]),
+                      false));
   }
   void path(const LoopSpec& loop) {
     VectorOf<N> from = point(loop.start);

@@ -14,7 +14,8 @@ struct Source<Quadratic> {
   static Quadratic value(const ExactNumber& number) { return Quadratic(number); }
   // Twelfths of a turn have roots of 3 at most, eighths of 2.
   static VectorOf<Quadratic> direction(const ExactNumber& angle, long part = 0, long whole = 1) {
-    const std::string parts = "(" + angle.text() + ")/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole);
+    const std::string parts =
+        "(" + angle.text() + ")/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole);
     const auto turns = ExactNumber("(" + parts + ")*24", angle.place()).to_rational();
     if (!turns || turns->denominator != "1") throw NotQuadratic("an angle without a root");
     const mpz_class turned(turns->numerator);
@@ -28,12 +29,18 @@ struct Source<Quadratic> {
     if (k > 6) return -cosine(12 - k);
     const Quadratic half = Quadratic(1) / Quadratic(2);
     switch (k) {
-      case 0: return Quadratic(1);
-      case 2: return half * sqrt(Quadratic(3));
-      case 3: return half * sqrt(Quadratic(2));
-      case 4: return half;
-      case 6: return Quadratic(0);
-      default: throw NotQuadratic("a root of a root");
+      case 0:
+        return Quadratic(1);
+      case 2:
+        return half * sqrt(Quadratic(3));
+      case 3:
+        return half * sqrt(Quadratic(2));
+      case 4:
+        return half;
+      case 6:
+        return Quadratic(0);
+      default:
+        throw NotQuadratic("a root of a root");
     }
   }
 };
@@ -134,7 +141,8 @@ class Follower {
     const Vector e = ellipse ? Vector{dot(d, w.along), dot(d, w.across)} : d;
     const Vector u = ellipse ? Vector{dot(v_, w.along), dot(v_, w.across)} : v_;
     const Quadratic a = dot(u, u), b = dot(e, u);
-    if (standing && is_zero(b)) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall) + ", on which it lies"};
+    if (standing && is_zero(b))
+      return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall) + ", on which it lies"};
     const Quadratic c = standing ? Quadratic(0) : dot(e, e) - (ellipse ? Quadratic(1) : w.radius2);
     const Quadratic discriminant = square(b) - a * c;
     if (!standing && is_zero(discriminant)) {
@@ -175,7 +183,8 @@ class Follower {
       return tie;
     }
     const std::string text = "exactly into the corner between " + walls;
-    const int n = form_before == Form::segment && form_after == Form::segment ? parts_of_half_turn(before, after) : 0;
+    const int n =
+        form_before == Form::segment && form_after == Form::segment ? parts_of_half_turn(before, after) : 0;
     if (n == 0) return Tie{Tie::corner, text};
     // In either order n reflections come to the same.
     Tie tie{Tie::reflection, text + ", whose angle is pi/" + std::to_string(n)};

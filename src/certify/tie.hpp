@@ -27,13 +27,13 @@ struct Doubt {
 
 struct Tie {
   enum Kind : unsigned char {
-    corner,       ///< into a joint at which reflection has no limit
-    reflection,   ///< into a joint at which it has: `walls` are hit one after the other
-    tangency,     ///< touches walls.front() from the domain: no hit
-    along_wall,   ///< moves along a wall, or starts tangent to the one it lies on
-    hole_start,   ///< belongs to the hole
-    hole_end,     ///< does not
-    last_time     ///< a hit at the last time counts
+    corner,      ///< into a joint at which reflection has no limit
+    reflection,  ///< into a joint at which it has: `walls` are hit one after the other
+    tangency,    ///< touches walls.front() from the domain: no hit
+    along_wall,  ///< moves along a wall, or starts tangent to the one it lies on
+    hole_start,  ///< belongs to the hole
+    hole_end,    ///< does not
+    last_time    ///< a hit at the last time counts
   } kind = corner;
   std::string text;
   std::vector<Copy> walls{};
@@ -48,8 +48,8 @@ class TieFinder {
   ~TieFinder();
   TieFinder(const TieFinder&) = delete;
   TieFinder& operator=(const TieFinder&) = delete;
-  /// The tie at the event after the walls `path` were met (each call with a longer path of the same orbit), or
-  /// nothing where algebra finds none: because there is none, or numbers are not of the form or too long.
+  /// The tie at the event after the walls `path` were met (each call with a longer path of the same orbit),
+  /// or nothing where algebra finds none: because there is none, or numbers are not of the form or too long.
   std::optional<Tie> find(const std::vector<Copy>& path, const Doubt&);
 
  private:
@@ -59,9 +59,9 @@ class TieFinder {
 
 /// Ties that an orbit has gone through, by the number of the event.
 struct KnownTies {
-  std::map<std::uint64_t, int> holes;                     ///< the hole that is left through, or -1
+  std::map<std::uint64_t, int> holes;                    ///< the hole that is left through, or -1
   std::map<std::uint64_t, std::vector<Copy>> passed_by;  ///< walls that are touched and not hit
-  std::map<std::uint64_t, Copy> joints;                   ///< the wall that is hit at a joint
+  std::map<std::uint64_t, Copy> joints;                  ///< the wall that is hit at a joint
   std::uint64_t at_last_time = 0;
 };
 

@@ -30,7 +30,8 @@ void check_form(const System& system, const char* option) {
   if (system.dynamics.forces && !system.dynamics.forces->empty())
     refuse("[[potential]] and [interaction] have", "a system without forces, or double precision");
   if (system.of_discs()) refuse("hard discs have", "point particles, or double precision");
-  if (system.particles.size() > 1) refuse("several particles have", "particles.count = 1, or double precision");
+  if (system.particles.size() > 1)
+    refuse("several particles have", "particles.count = 1, or double precision");
   if (!system.injections.empty()) refuse("[[injection]] has", "a system without it, or double precision");
 }
 

@@ -31,16 +31,18 @@ CertifiedTask task_of(const Options& options, const LoadedSystem& loaded) {
     const double bytes = 0.416 * numbers * static_cast<double>(digits), most = 4e9;
     const auto at_most = static_cast<std::uint64_t>(std::min(1e6, most / (0.416 * numbers)));
     if (digits > at_most)
-      throw InputError(place_of("--digits"),
-                       fmt::format("{} digits of {} numbers take {:.2g} GB of memory", digits, numbers, bytes * 1e-9),
-                       fmt::format("at most {}", at_most));
+      throw InputError(
+          place_of("--digits"),
+          fmt::format("{} digits of {} numbers take {:.2g} GB of memory", digits, numbers, bytes * 1e-9),
+          fmt::format("at most {}", at_most));
     task.digits = static_cast<int>(digits);
   }
   return task;
 }
 
-Json end_json(const System& system, const CertifiedEnd& end, const std::string& status, const CertifiedTask& task,
-              const CertifiedEffort& effort, const std::string& output, double seconds, double cpu_seconds) {
+Json end_json(const System& system, const CertifiedEnd& end, const std::string& status,
+              const CertifiedTask& task, const CertifiedEffort& effort, const std::string& output,
+              double seconds, double cpu_seconds) {
   Json json = Json::object();
   add_common_keys(json, system, 1, seconds, cpu_seconds);
   json.set("status", status);
@@ -65,23 +67,27 @@ Json end_json(const System& system, const CertifiedEnd& end, const std::string& 
 }
 
 std::string end_text(const System& system, const CertifiedEnd& end, const std::string& status,
-                     const CertifiedTask& task, const CertifiedEffort& effort, const std::string& output, double seconds) {
+                     const CertifiedTask& task, const CertifiedEffort& effort, const std::string& output,
+                     double seconds) {
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("  status        {}", status);
   if (end.hole >= 0)
     text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
   if (!end.reason.empty()) text += ": " + end.reason;
-  if (says_rescaled(system, effort.rescaled)) text += "\n  velocity      gave the direction; its length was made the speed, exactly";
+  if (says_rescaled(system, effort.rescaled))
+    text += "\n  velocity      gave the direction; its length was made the speed, exactly";
   for (const std::string& tie : end.ties) text += "\n  exact tie     " + tie;
   text += fmt::format("\n  collisions    {}", grouped(end.collisions));
   const std::string wall = wall_of(system, end.wall);
   if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
   const int d = task.digits;
-  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t.text(d), end.x.text(d), end.y.text(d));
+  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t.text(d), end.x.text(d),
+                      end.y.text(d));
   if (system.table->lattice) text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
   text += fmt::format("\n  velocity      {}, {}\n", end.vx.text(d), end.vy.text(d));
-  text += fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n", d, effort.bits,
-                      static_cast<long>(effort.tangent_bits), effort.attempts, effort.attempts == 1 ? "" : "s");
+  text += fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n", d,
+                      effort.bits, static_cast<long>(effort.tangent_bits), effort.attempts,
+                      effort.attempts == 1 ? "" : "s");
   text += fmt::format("  computed in   {:.3g} s\n", seconds);
   return output.empty() ? text : text + fmt::format("  archive       {}\n", output);
 }
@@ -91,17 +97,19 @@ std::string end_text(const System& system, const CertifiedEnd& end, const std::s
 namespace {
 
 // Follows the orbit hit by hit; true: interrupted, and the end is the last hit.
-bool follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& task, CertifiedArchive* archive,
-            CertifiedEnd& end) {
+bool follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& task,
+            CertifiedArchive* archive, CertifiedEnd& end) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Progress progress(!options.quiet);
   while (const auto hit = orbit.next()) {
     if (archive) archive->hit(*hit);
     if (progress.due()) {
-      const double by_hits =
-          task.collisions == 0 ? 0.0 : static_cast<double>(hit->number) / static_cast<double>(task.collisions);
+      const double by_hits = task.collisions == 0
+                                 ? 0.0
+                                 : static_cast<double>(hit->number) / static_cast<double>(task.collisions);
       const double by_time = task.t_max ? hit->t.to_double() / task.t_max->to_double() : 0.0;
-      progress.show(std::max(by_hits, by_time), with_prefix(static_cast<double>(hit->number) / progress.seconds()) + "hits/s");
+      progress.show(std::max(by_hits, by_time),
+                    with_prefix(static_cast<double>(hit->number) / progress.seconds()) + "hits/s");
     }
     if (!interrupted.load(std::memory_order_relaxed)) continue;
     static_cast<CertifiedState&>(end) = *hit;
@@ -118,7 +126,8 @@ bool follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& 
 
 int run_in_balls(const Options& options) {
   if (!options.resume.empty())
-    throw InputError(place_of("--resume"), "certified runs start at the beginning", "-o FILE.h5, or --precision double");
+    throw InputError(place_of("--resume"), "certified runs start at the beginning",
+                     "-o FILE.h5, or --precision double");
   if (options.precision != "certified" && options.precision != "double") return run_in_plain_numbers(options);
   if (options.precision == "double")
     throw InputError(place_of("--digits"), "digits of a run in double precision are not guaranteed",
@@ -129,15 +138,17 @@ int run_in_balls(const Options& options) {
   CertifiedOrbit orbit(loaded.exact, task);
   std::unique_ptr<CertifiedArchive> archive;
   if (!options.output.empty())
-    archive = std::make_unique<CertifiedArchive>(options.output, loaded, provenance_of(options, loaded.system, 1),
-                                                 task, options.force);
+    archive = std::make_unique<CertifiedArchive>(
+        options.output, loaded, provenance_of(options, loaded.system, 1), task, options.force);
   CertifiedEnd end;
   const bool interrupted = follow(orbit, options, task, archive.get(), end);
   const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
   const std::string status = interrupted ? "interrupted" : name_of(end.fate);
   if (archive) archive->finish(end, orbit.effort(), status, !interrupted);
   print(options.json
-            ? end_json(loaded.system, end, status, task, orbit.effort(), options.output, seconds, cpu_seconds).text() + "\n"
+            ? end_json(loaded.system, end, status, task, orbit.effort(), options.output, seconds, cpu_seconds)
+                      .text() +
+                  "\n"
             : end_text(loaded.system, end, status, task, orbit.effort(), options.output, seconds));
   return interrupted ? stopped : done;
 }

@@ -18,7 +18,8 @@ long bits_of(const Options& options) {
   if (options.precision.empty() || options.precision.find_first_not_of("0123456789.e+") != std::string::npos)
     throw InputError(place, "'" + options.precision + "' is no precision", expected);
   const std::uint64_t bits = whole_number(options.precision, "--precision", 1);
-  if (bits < 53 || bits > 10'000'000) throw InputError(place, fmt::format("{} bits are too few or too many", bits), expected);
+  if (bits < 53 || bits > 10'000'000)
+    throw InputError(place, fmt::format("{} bits are too few or too many", bits), expected);
   return static_cast<long>(bits);
 }
 
@@ -37,7 +38,8 @@ Json end_json(const System& system, const PlainEnd& end, const std::string& stat
   return json.set("bits", bits);
 }
 
-std::string end_text(const System& system, const PlainEnd& end, const std::string& status, long bits, double seconds) {
+std::string end_text(const System& system, const PlainEnd& end, const std::string& status, long bits,
+                     double seconds) {
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("  status        {}", status);
   if (end.hole >= 0)
@@ -61,7 +63,8 @@ int run_in_plain_numbers(const Options& options) {
     throw InputError(Place{"command line", 0, 0, "--digits"}, "digits in plain arithmetic are not guaranteed",
                      "--precision certified beside --digits");
   if (!options.output.empty())
-    throw InputError(Place{"command line", 0, 0, "-o"}, "archives hold runs in double precision and certified ones only",
+    throw InputError(Place{"command line", 0, 0, "-o"},
+                     "archives hold runs in double precision and certified ones only",
                      "no archive, or --precision certified");
   const LoadedSystem loaded = load_exact_run(options);
   task.collisions = loaded.system.run.collisions;
@@ -69,7 +72,8 @@ int run_in_plain_numbers(const Options& options) {
   const std::atomic<bool>& interrupts = catch_interrupts();
   bool interrupted = false;
   const Stopwatch watch;
-  const PlainEnd end = plain_orbit(loaded.exact, task, [&] { return interrupted = interrupts.load(std::memory_order_relaxed); });
+  const PlainEnd end = plain_orbit(loaded.exact, task,
+                                   [&] { return interrupted = interrupts.load(std::memory_order_relaxed); });
   const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
   const std::string status = interrupted ? "interrupted" : name_of(end.fate);
   print(options.json ? end_json(loaded.system, end, status, task.bits, seconds, cpu_seconds).text() + "\n"

@@ -30,7 +30,8 @@ const std::array<Coordinate, 5> coordinates{{
 // Texts of one length, padded with zeros, row by row in batches of about a megabyte.
 class TextColumn {
  public:
-  TextColumn(hid_t group, const char* name, std::size_t length, Description description, const std::string& file)
+  TextColumn(hid_t group, const char* name, std::size_t length, Description description,
+             const std::string& file)
       : file_(file), length_(length), batch_(std::clamp<std::size_t>((1u << 20) / length, 1, 1024)) {
     type_ = hdf5::checked(H5Tcopy(H5T_C_S1), H5Tclose, file_);
     hdf5::check(H5Tset_size(type_.get(), length_) >= 0, file_);
@@ -39,7 +40,8 @@ class TextColumn {
 
   void push(const std::string& text) {
     if (text.size() > length_)
-      throw InputError(Place{file_, 0, 0, ""}, "a number has more digits before the point than the archive has room for");
+      throw InputError(Place{file_, 0, 0, ""},
+                       "a number has more digits before the point than the archive has room for");
     const std::size_t size = pending_.size();
     pending_ += text;
     pending_.resize(size + length_, '\0');
@@ -90,7 +92,8 @@ class CertifiedArchive::Implementation {
   }
 
   void write_end(const CertifiedEnd& end) {
-    const Handle group = file.group("state", "Where the orbit ended: after the last event, at the last time or in a hole");
+    const Handle group =
+        file.group("state", "Where the orbit ended: after the last event, at the last time or in a hole");
     const hid_t to = group.get();
     const auto integer = [&](const char* name, std::int64_t value, const char* text) {
       hdf5::write_column(to, name, std::span<const std::int64_t>(&value, 1), {"1", text}, target);
@@ -116,8 +119,8 @@ class CertifiedArchive::Implementation {
   std::vector<std::string> walls, holes;
 };
 
-CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
-                                   const CertifiedTask& task, bool force) {
+CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& loaded,
+                                   const Provenance& origin, const CertifiedTask& task, bool force) {
   refuse_existing(file, force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, task);
 }
@@ -125,14 +128,14 @@ CertifiedArchive::~CertifiedArchive() = default;
 
 void CertifiedArchive::hit(const CertifiedHit& hit) {
   Implementation& a = *implementation_;
-  a.rows.row(hit.number, std::int32_t{hit.wall}, hit.cell.first, hit.cell.second, hit.t.to_double(), hit.x.to_double(),
-             hit.y.to_double(), hit.vx.to_double(), hit.vy.to_double());
+  a.rows.row(hit.number, std::int32_t{hit.wall}, hit.cell.first, hit.cell.second, hit.t.to_double(),
+             hit.x.to_double(), hit.y.to_double(), hit.vx.to_double(), hit.vy.to_double());
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     a.texts[i].push((hit.*coordinates[i].value).text(a.digits));
 }
 
-void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& effort, const std::string& status,
-                              bool complete) {
+void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& effort,
+                              const std::string& status, bool complete) {
   Implementation& a = *implementation_;
   a.rows.close();
   for (TextColumn& column : a.texts) column.close();

@@ -31,7 +31,8 @@ struct Enclosed {
   double inside;
 };
 Enclosed some_interval(tests::Dice& dice) {
-  const double a = some_double(dice), width = dice.coin() ? 0.0 : std::fabs(a) * std::ldexp(1.0, -dice.whole(0, 60));
+  const double a = some_double(dice),
+               width = dice.coin() ? 0.0 : std::fabs(a) * std::ldexp(1.0, -dice.whole(0, 60));
   const Interval x{a, a + width};
   return {x, std::min(x.high, a + width * dice.unit())};
 }
@@ -127,7 +128,8 @@ TEST(Arithmetic, ErrorSetsHoldEveryImage) {
       for (std::size_t i = 0; i < 4; ++i) x[i] = image[i] + rounding * dice.between(-1, 1);
       time += rounding * dice.between(-1, 1);
       for (std::size_t i = 0; i < 4; ++i)
-        ASSERT_LE(std::fabs(x[i]), set.size(static_cast<certify::Direction>(i)).to_double() * (1 + 1e-12)) << k << " " << step;
+        ASSERT_LE(std::fabs(x[i]), set.size(static_cast<certify::Direction>(i)).to_double() * (1 + 1e-12))
+            << k << " " << step;
       ASSERT_LE(std::fabs(time), set.of_time().to_double() * (1 + 1e-12));
     }
   }
@@ -139,8 +141,12 @@ TEST(Arithmetic, DualsAreDerivatives) {
   using D = certify::Dual<double>;
   for (int k = 0; k < 1000; ++k) {
     const double x = dice.between(0.5, 2), y = dice.between(0.5, 2), h = 1e-6;
-    const auto formula = [](const auto& a, const auto& b) { return sqrt(a * a + b) / (a - b * 3.0 + 10.0) + (b - a) * a; };
-    const auto plain = [&](double a, double b) { return std::sqrt(a * a + b) / (a - b * 3.0 + 10.0) + (b - a) * a; };
+    const auto formula = [](const auto& a, const auto& b) {
+      return sqrt(a * a + b) / (a - b * 3.0 + 10.0) + (b - a) * a;
+    };
+    const auto plain = [&](double a, double b) {
+      return std::sqrt(a * a + b) / (a - b * 3.0 + 10.0) + (b - a) * a;
+    };
     const D f = formula(D{x, {1, 0, 0, 0}}, D{y, {0, 1, 0, 0}});
     EXPECT_NEAR(f.value, plain(x, y), 1e-14);
     EXPECT_NEAR(f.slope[0], (plain(x + h, y) - plain(x - h, y)) / (2 * h), 1e-7);

@@ -83,12 +83,14 @@ TEST(CertifiedHoles, EndsAsWritten) {
           if (other.name == first.name) last = other;
         for (const double share : {0.01, 0.5, 0.99}) {
           for (const Hole& part : {first, last}) {
-            const geometry::Vector p = geometry::point_at(wall.curve, part.from + share * (part.to - part.from));
+            const geometry::Vector p =
+                geometry::point_at(wall.curve, part.from + share * (part.to - part.from));
             EXPECT_EQ(certify::in_hole(hole, w, certify::BallVector{p.x, p.y}), certify::Verdict::yes);
           }
         }
         for (const double share : {0.01, 0.5, 0.99}) {
-          const double from = last.to < first.to ? last.to : first.to, to = last.to < first.to ? first.from : last.from;
+          const double from = last.to < first.to ? last.to : first.to,
+                       to = last.to < first.to ? first.from : last.from;
           const bool over_start = last.from != first.from;
           const double outside = over_start ? from + share * (to - from) : share * first.from;
           if (!over_start && first.from == 0.0) continue;
@@ -209,19 +211,23 @@ TEST(CertifiedHoles, UnfoldsToTheHole) {
   double way = 0.0;
   for (;; ++k) {
     way = 2.0 * static_cast<double>(k);
-    const Ball height = certify::value_of(exactly("1/5")) + slope * (certify::value_of(exactly("9/10")) + Ball(way));
+    const Ball height =
+        certify::value_of(exactly("1/5")) + slope * (certify::value_of(exactly("9/10")) + Ball(way));
     const double floor = std::floor(height.to_double());
     folded = height - Ball(floor);
     if (std::fmod(floor, 2.0) != 0.0) folded = Ball(1) - folded;
     if (folded.to_double() >= 0.7 && folded.to_double() < 0.701) break;
   }
   ASSERT_GT(k, 100);
-  const CertifiedEnd end = end_of(tests::system_of(square, {exactly("2"), exactly("sqrt(3)")}), until("1000000", 40));
+  const CertifiedEnd end =
+      end_of(tests::system_of(square, {exactly("2"), exactly("sqrt(3)")}), until("1000000", 40));
   EXPECT_EQ(end.fate, CertifiedFate::escaped);
   EXPECT_TRUE(ball_of(end.y).overlaps(folded));
   EXPECT_TRUE(ball_of(end.x).contains(Ball(1)));
   // It has met vertical walls 2k times, and a horizontal one for each whole height.
-  const double heights = std::floor((certify::value_of(exactly("1/5")) + slope * (certify::value_of(exactly("9/10")) + Ball(way))).to_double());
+  const double heights = std::floor(
+      (certify::value_of(exactly("1/5")) + slope * (certify::value_of(exactly("9/10")) + Ball(way)))
+          .to_double());
   EXPECT_EQ(static_cast<double>(end.collisions), way + heights);
   EXPECT_GT(sign(ball_of(end.vx)), Sign::zero);
 }

@@ -29,7 +29,8 @@ TEST(LongOrbits, AHundredThousandHitsInTheStadium) {
   getrusage(RUSAGE_SELF, &usage);
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 100'000u);
-  for (const CertifiedNumber* x : {&end.t, &end.x, &end.y, &end.vx, &end.vy}) EXPECT_LT(x->log2_error(), -66.4);
+  for (const CertifiedNumber* x : {&end.t, &end.x, &end.y, &end.vx, &end.vy})
+    EXPECT_LT(x->log2_error(), -66.4);
   // It lies on its wall and has its speed, in balls.
   const certify::Precision precision(200);
   const certify::Ball speed2 = square(ball_of(end.vx)) + square(ball_of(end.vy));

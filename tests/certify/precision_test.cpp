@@ -42,9 +42,11 @@ class Stretch {
     const auto& wall = scene_.walls[static_cast<std::size_t>(hit.wall)];
     const bool same = hit.wall == standing_ && hit.cell == cell_;
     const Vector corner = scene_.lattice ? scene_.translation(hit.cell) : Vector{};
-    const Vector there = Vector{hit.x.to_double(), hit.y.to_double()} - corner, v{hit.vx.to_double(), hit.vy.to_double()};
+    const Vector there = Vector{hit.x.to_double(), hit.y.to_double()} - corner,
+                 v{hit.vx.to_double(), hit.vy.to_double()};
     const certify::FrameOf<double> after{certify::tangent_of(wall, there), v, unit_};
-    const auto map = certify::tangent_map(wall, position_ - corner, velocity_, scene_.motion, same, frame_, after);
+    const auto map =
+        certify::tangent_map(wall, position_ - corner, velocity_, scene_.motion, same, frame_, after);
     for (auto& image : images_) {
       const double from_off = first_ ? map.rows[along][off] * image[2] : 0.0;
       const double turned_off = first_ ? map.rows[turning][off] * image[2] : 0.0;
@@ -99,7 +101,8 @@ TEST(CertifiedPrecision, LosesWhatTheTangentMapStretches) {
         const double allowed = 1.03 * stretch.log2() + 30.0 + std::log2(static_cast<double>(collisions));
         EXPECT_LE(effort.tangent_bits, allowed) << s.spec.shape << ", " << collisions << ", " << k;
         // It cannot lose less, either: a bit or two are the units of tangent vectors.
-        EXPECT_GE(effort.tangent_bits, stretch.log2() - 2.0) << s.spec.shape << ", " << collisions << ", " << k;
+        EXPECT_GE(effort.tangent_bits, stretch.log2() - 2.0)
+            << s.spec.shape << ", " << collisions << ", " << k;
         beyond.push_back(static_cast<double>(effort.bits) - task.digits * 3.3219 - allowed);
       }
     }

@@ -14,7 +14,8 @@ using certify::QuadraticField;
 using tests::exactly;
 using tests::Shaped;
 
-CertifiedEnd end_of(const Shaped& s, const ExactPoint& direction, std::uint64_t collisions, const char* t = nullptr) {
+CertifiedEnd end_of(const Shaped& s, const ExactPoint& direction, std::uint64_t collisions,
+                    const char* t = nullptr) {
   CertifiedTask task;
   task.collisions = collisions;
   if (t != nullptr) task.t_max = exactly(t);
@@ -64,7 +65,8 @@ TEST(CertifiedTies, CornerAfterManyHits) {
   const CertifiedEnd& end = orbit.finish();
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   ASSERT_EQ(end.ties.size(), 1u);
-  EXPECT_EQ(end.ties[0], "event 500: exactly into the corner between 'bottom' and 'right', whose angle is pi/2");
+  EXPECT_EQ(end.ties[0],
+            "event 500: exactly into the corner between 'bottom' and 'right', whose angle is pi/2");
   EXPECT_EQ(end.collisions, 2u * (300 + 199) + 2);
   EXPECT_EQ(end.x.text(20), "0.10000000000000000000");
   EXPECT_EQ(end.y.text(20), "0.10000000000000000000");
@@ -75,19 +77,22 @@ TEST(CertifiedTies, CornersWithRootsAndInOtherShapes) {
   const Shaped tall = tests::shaped("rectangle", {{"width", "1"}, {"height", "sqrt(2)"}}, "1/2", "sqrt(2)/2");
   const CertifiedEnd diagonal = end_of(tall, {exactly("1"), exactly("sqrt(2)")}, 8);
   ASSERT_EQ(diagonal.ties.size(), 4u);  // to and fro between two corners
-  EXPECT_EQ(diagonal.ties[3], "event 7: exactly into the corner between 'left' and 'bottom', whose angle is pi/2");
+  EXPECT_EQ(diagonal.ties[3],
+            "event 7: exactly into the corner between 'left' and 'bottom', whose angle is pi/2");
   const Shaped hexagon = tests::shaped("regular", {{"sides", "6"}, {"radius", "1"}}, "0", "0");
   const CertifiedEnd obtuse = end_of(hexagon, {exactly("1"), exactly("sqrt(3)")}, 10);
   EXPECT_EQ(obtuse.fate, CertifiedFate::singular);
   EXPECT_EQ(obtuse.reason, "event 1: exactly into the corner between 'side_1' and 'side_2'");
-  // Into the corner at the origin and back: an odd n returns the ray as if reflected by the bisector's normal.
+  // Into the corner at the origin and back: an odd n returns the ray as if reflected by the bisector's
+  // normal.
   struct Case {
     const char *x, *y;
     int n;
   };
   for (const Case& c : {Case{"1", "1", 4}, {"1", "sqrt(3)", 3}, {"3", "sqrt(3)", 6}}) {
     Shaped wedge = tests::shaped("triangle", {}, "1/2", "1/10");
-    wedge.spec.points["points"] = {{exactly("0"), exactly("0")}, {exactly("1"), exactly("0")}, {exactly(c.x), exactly(c.y)}};
+    wedge.spec.points["points"] = {
+        {exactly("0"), exactly("0")}, {exactly("1"), exactly("0")}, {exactly(c.x), exactly(c.y)}};
     const auto n = static_cast<std::uint64_t>(c.n);
     const CertifiedEnd end = end_of(wedge, {exactly("-5"), exactly("-1")}, n);
     ASSERT_EQ(end.ties.size(), 1u) << c.n;
@@ -96,7 +101,7 @@ TEST(CertifiedTies, CornersWithRootsAndInOtherShapes) {
     // n reflections turn v about the corner: v -> -v for even n, and its mirror image for odd n.
     const double angle = std::atan2(exactly(c.y).to_double(), exactly(c.x).to_double());
     const double before = std::atan2(-1.0, -5.0);
-    const double after = c.n % 2 == 0 ? before + std::acos(-1.0) : angle - (before + std::acos(-1.0)) ;
+    const double after = c.n % 2 == 0 ? before + std::acos(-1.0) : angle - (before + std::acos(-1.0));
     EXPECT_NEAR(end.vx.to_double(), std::cos(after), 1e-12) << c.n;
     EXPECT_NEAR(end.vy.to_double(), std::sin(after), 1e-12) << c.n;
     EXPECT_EQ(end_of(wedge, {exactly("-5"), exactly("-1")}, n + 20).fate, CertifiedFate::completed);
@@ -110,8 +115,10 @@ TEST(CertifiedTies, ReflectsAtSmoothJoints) {
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 12u);
   ASSERT_EQ(end.ties.size(), 8u);
-  EXPECT_EQ(end.ties[0], "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
-  EXPECT_EQ(end.ties[2], "event 4: exactly into the joint between 'top' and 'left', where they have one tangent");
+  EXPECT_EQ(end.ties[0],
+            "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
+  EXPECT_EQ(end.ties[2],
+            "event 4: exactly into the joint between 'top' and 'left', where they have one tangent");
   EXPECT_EQ(end.x.text(20), "-1.00000000000000000000");
   EXPECT_EQ(end.y.text(20), "-1.00000000000000000000");
   CertifiedOrbit before(tests::system_of(stadium, {exactly("1"), exactly("1")}), [] {
@@ -177,12 +184,14 @@ TEST(CertifiedTies, EndsOfAHole) {
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 10u);
   ASSERT_EQ(end.ties.size(), 5u);
-  EXPECT_EQ(end.ties[4], "event 9: exactly at the end of hole 'door' in 'right', which does not belong to it");
+  EXPECT_EQ(end.ties[4],
+            "event 9: exactly at the end of hole 'door' in 'right', which does not belong to it");
   // For ever: named, and ended after a thousand of them.
   const CertifiedEnd forever = end_of(s, {exactly("1"), exactly("0")}, 100'000);
   EXPECT_EQ(forever.fate, CertifiedFate::singular);
   EXPECT_EQ(forever.ties.size(), 1000u);
-  EXPECT_EQ(forever.reason, "event 2001: exactly at the end of hole 'door' in 'right', which does not belong to it");
+  EXPECT_EQ(forever.reason,
+            "event 2001: exactly at the end of hole 'door' in 'right', which does not belong to it");
 }
 
 TEST(CertifiedTies, HitsAtTheLastTime) {
@@ -206,7 +215,8 @@ TEST(CertifiedTies, WithoutAlgebra) {
   const CertifiedEnd beside = end_of(open, {exactly("1"), exactly("0")}, 10);
   EXPECT_EQ(beside.fate, CertifiedFate::undecided);
   EXPECT_EQ(beside.collisions, 0u);
-  EXPECT_NE(beside.reason.find("event 1: on which side of an end of 'door' 'right' is met, at x = 1.0000"), std::string::npos)
+  EXPECT_NE(beside.reason.find("event 1: on which side of an end of 'door' 'right' is met, at x = 1.0000"),
+            std::string::npos)
       << beside.reason;
 }
 

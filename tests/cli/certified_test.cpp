@@ -25,15 +25,17 @@ TEST(Certified, EscapesThroughAHole) {
   EXPECT_EQ(json_value(json.out, "status"), "\"escaped\"");
   EXPECT_EQ(json_value(json.out, "hole"), "\"hole_1\"");
   // The first 15 digits of the escape in doubles.
-  const std::string t = json_value(json.out, "t"), doubles = json_value(shell("$carom run circle --json").out, "t");
+  const std::string t = json_value(json.out, "t"),
+                    doubles = json_value(shell("$carom run circle --json").out, "t");
   EXPECT_NEAR(std::strtod(t.c_str() + 1, nullptr), std::strtod(doubles.c_str(), nullptr), 1e-12);
   EXPECT_EQ(t.size() - t.find('.') - 2, 40u);
 }
 
 TEST(Certified, LeavesAnArchive) {
   const Shell shell;
-  const std::string run = "$carom run stadium --set table.hole=[] --collisions 300 --t-max 1e6 --precision certified "
-                          "--digits 30 --json -o orbit.h5";
+  const std::string run =
+      "$carom run stadium --set table.hole=[] --collisions 300 --t-max 1e6 --precision certified "
+      "--digits 30 --json -o orbit.h5";
   const Outcome json = shell(run);
   ASSERT_EQ(json.status, 0) << json.err;
   EXPECT_EQ(shell(run).status, 1);  // it exists
@@ -42,7 +44,8 @@ TEST(Certified, LeavesAnArchive) {
   const hid_t file = H5Fopen((shell.folder() + "/orbit.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
   for (const char* key : {"t", "x", "y", "vx", "vy"})
-    EXPECT_EQ("\"" + text_of(file, (std::string("state/") + key + "_decimals").c_str()) + "\"", json_value(json.out, key));
+    EXPECT_EQ("\"" + text_of(file, (std::string("state/") + key + "_decimals").c_str()) + "\"",
+              json_value(json.out, key));
   // The last row of the hits is the end, in both forms.
   const hid_t decimals = H5Dopen2(file, "collisions/y_decimals", H5P_DEFAULT), type = H5Dget_type(decimals);
   const std::size_t length = H5Tget_size(type);
@@ -72,8 +75,10 @@ TEST(Certified, PlainNumbersOfManyBitsComeWithoutAGuarantee) {
     EXPECT_EQ(json_value(enough.out, key).substr(0, 40), digits) << key;
   }
   // 53 bits lose most of them, whatever they print.
-  EXPECT_NE(json_value(shell(run + "53").out, "x").substr(0, 12), json_value(certified.out, "x").substr(0, 12));
-  EXPECT_NE(shell("$carom run siam-photon --precision 100").out.find("guarantee     none"), std::string::npos);
+  EXPECT_NE(json_value(shell(run + "53").out, "x").substr(0, 12),
+            json_value(certified.out, "x").substr(0, 12));
+  EXPECT_NE(shell("$carom run siam-photon --precision 100").out.find("guarantee     none"),
+            std::string::npos);
   for (const char* bad : {"52", "-100", "many", "1e9", "53.5", "100 --digits 20", "100 -o x.h5"}) {
     const Outcome refused = shell(run + bad);
     EXPECT_EQ(refused.status, 1) << bad;
@@ -85,13 +90,16 @@ TEST(Certified, PlainNumbersOfManyBitsComeWithoutAGuarantee) {
 TEST(Certified, PlainNumbersInAMagneticField) {
   const Shell shell;
   for (const char* how : {"--t-max 17.5", "--t-max 1000"}) {
-    const std::string run = std::string("$carom run magnetic-square --position 0.1,0.2 --velocity 0.6,0.8 --json ") + how + " --precision ";
+    const std::string run =
+        std::string("$carom run magnetic-square --position 0.1,0.2 --velocity 0.6,0.8 --json ") + how +
+        " --precision ";
     const Outcome plain = shell(run + "256"), certified = shell(run + "certified --digits 30");
     EXPECT_EQ(plain.status, 0) << plain.err;
     EXPECT_EQ(json_value(plain.out, "status"), json_value(certified.out, "status"));
     EXPECT_EQ(json_value(plain.out, "collisions"), json_value(certified.out, "collisions"));
     for (const char* key : {"t", "x", "vx", "vy"})
-      EXPECT_EQ(json_value(plain.out, key).substr(0, 5), json_value(certified.out, key).substr(0, 5)) << how << key;
+      EXPECT_EQ(json_value(plain.out, key).substr(0, 5), json_value(certified.out, key).substr(0, 5))
+          << how << key;
     const auto digits = [&](const Outcome& o) { return json_value(o.out, "x").substr(0, 30); };
     EXPECT_EQ(digits(plain), digits(certified)) << how;
   }
@@ -99,34 +107,43 @@ TEST(Certified, PlainNumbersInAMagneticField) {
 
 TEST(Certified, SaysThatAVelocityWasADirection) {
   const Shell shell;
-  const std::string run = "$carom run stadium --set table.hole=[] --set particles.speed=1 --position 0.1,0.2 --collisions 5 --json "
-                          "--precision certified --velocity ";
+  const std::string run =
+      "$carom run stadium --set table.hole=[] --set particles.speed=1 --position 0.1,0.2 --collisions 5 "
+      "--json "
+      "--precision certified --velocity ";
   EXPECT_EQ(json_value(shell(run + "3,4").out, "rescaled"), "true");
   EXPECT_EQ(json_value(shell(run + "0.6,0.8").out, "rescaled"), "false");
   EXPECT_EQ(json_value(shell(run + "1/3,'sqrt(8)/3'").out, "rescaled"), "false");
   EXPECT_EQ(json_value(shell(run + "3,4").out, "x"), json_value(shell(run + "0.6,0.8").out, "x"));
   for (const char* digits : {"0", "-1", "1e9", "many"})
     EXPECT_EQ(shell(run + "3,4 --digits " + digits).status, 1) << digits;
-  EXPECT_NE(shell(run + "3,4 --digits 1e9").err.find("GB of memory (expected at most 1000000)"), std::string::npos);
+  EXPECT_NE(shell(run + "3,4 --digits 1e9").err.find("GB of memory (expected at most 1000000)"),
+            std::string::npos);
   EXPECT_EQ(shell(run + "'sqrt(-1)',4").status, 1);
 }
 
 TEST(Certified, SaysWhereANumberIsNone) {
   const Shell shell;
   const Outcome refused = shell(
-      "printf '[table]\\nshape = \"circle\"\\nradius = \"sqr(2)\"\\n' > bad.toml; $carom run ./bad.toml --precision certified");
+      "printf '[table]\\nshape = \"circle\"\\nradius = \"sqr(2)\"\\n' > bad.toml; $carom run ./bad.toml "
+      "--precision certified");
   EXPECT_EQ(refused.status, 1);
-  EXPECT_NE(refused.err.find("bad.toml, line 3, column 10: table.radius: unknown word 'sqr'"), std::string::npos) << refused.err;
-  EXPECT_NE(shell("$carom run circle --position 0.1,0.x --velocity 1,0 --precision certified").err.find("--position"),
+  EXPECT_NE(refused.err.find("bad.toml, line 3, column 10: table.radius: unknown word 'sqr'"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_NE(shell("$carom run circle --position 0.1,0.x --velocity 1,0 --precision certified")
+                .err.find("--position"),
             std::string::npos);
 }
 
 TEST(Certified, NamesExactCorners) {
   const Shell shell;
   const Outcome text = shell(
-      "$carom run magnetic-square --set field.B=0 --set table.hole=[] --position 1/2,1/4 --velocity 2,3 --collisions 10 --precision certified");
+      "$carom run magnetic-square --set field.B=0 --set table.hole=[] --position 1/2,1/4 --velocity 2,3 "
+      "--collisions 10 --precision certified");
   EXPECT_EQ(text.status, 0) << text.err;
-  EXPECT_NE(text.out.find("exact tie     event 1: exactly into the corner between 'right' and 'top'"), std::string::npos)
+  EXPECT_NE(text.out.find("exact tie     event 1: exactly into the corner between 'right' and 'top'"),
+            std::string::npos)
       << text.out;
 }
 
