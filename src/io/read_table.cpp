@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "io/points_file.hpp"
 #include "io/read.hpp"
 
 namespace carom::io {
@@ -9,7 +10,7 @@ namespace {
 const std::vector<std::string>& shapes() {
   static const std::vector<std::string> names{"rectangle", "polygon", "triangle", "regular",  "circle",
                                               "ellipse",   "annulus", "stadium",  "mushroom", "lemon",
-                                              "sinai",     "lorentz", "discs",    "path",     "plane"};
+                                              "sinai",     "lorentz", "discs",    "random-discs", "path",  "plane"};
   return names;
 }
 
@@ -112,6 +113,7 @@ TableSpec read_table(Value& root) {
   }
   TableSpec spec;
   spec.shape = read_kind(*table, "table", "shape", shapes());
+  take_points_from_file(*table);
   Section section(*table, "table", spec.shape);
   section.check_keys();
   spec.place = table->place;

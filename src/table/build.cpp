@@ -39,7 +39,8 @@ const std::pair<const char*, Builder> builders[] = {
     {"regular", shapes::regular},     {"circle", shapes::circle},   {"ellipse", shapes::ellipse},
     {"annulus", shapes::annulus},     {"stadium", shapes::stadium}, {"mushroom", shapes::mushroom},
     {"lemon", shapes::lemon},         {"sinai", shapes::sinai},     {"lorentz", shapes::lorentz},
-    {"discs", shapes::discs},         {"path", shapes::path},       {"plane", shapes::plane},
+    {"discs", shapes::discs},         {"random-discs", shapes::random_discs},
+    {"path", shapes::path},       {"plane", shapes::plane},
 };
 
 Builder builder_of(const TableSpec& spec) {

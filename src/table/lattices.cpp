@@ -50,8 +50,12 @@ void sinai(const TableSpec& spec, Table& table) {
   }
   const Vector middle{side / 2, side / 2};
   add_loop(table, {{"disc", Circle{middle, radius, false}}});
+  close_square(table, side, spec);
+}
+
+void close_square(Table& table, double side, const TableSpec& spec) {
   if (spec.torus) {
-    set_lattice(table, {side, 0}, {0, side}, middle, spec.place);
+    set_lattice(table, {side, 0}, {0, side}, {side / 2, side / 2}, spec.place);
   } else {
     add_polygon(table, {"bottom", "right", "top", "left"}, {{0, 0}, {side, 0}, {side, side}, {0, side}});
   }

@@ -40,6 +40,9 @@ void lemon(const TableSpec& spec, Table& table);
 void sinai(const TableSpec& spec, Table& table);
 void lorentz(const TableSpec& spec, Table& table);
 void discs(const TableSpec& spec, Table& table);
+void random_discs(const TableSpec& spec, Table& table);
+/// The square [0, side]^2 about discs: a torus, or with walls.
+void close_square(Table& table, double side, const TableSpec& spec);
 /// No walls: for particles that forces hold, or on a lattice.
 void plane(const TableSpec& spec, Table& table);
 /// [lattice]: repeats the obstacles of any open table.

@@ -80,7 +80,7 @@ void expect_round_trip(const LoadedSystem& loaded) {
 TEST(RoundTrip, BuiltInSystems) {
   const std::vector<std::string> contract{
       "magnetic-square", "mushroom",           "stadium",        "circle",     "ellipse-magnetic",
-      "sinai",           "lorentz-triangular", "lorentz-square", "three-disc", "siam-photon",
+      "sinai",           "lorentz-triangular", "lorentz-square", "lorentz-random", "three-disc", "siam-photon",
       "coulomb-circle",  "wigner",             "soft-lorentz",   "henon-heiles", "antidot-magnetic"};
   EXPECT_EQ(builtin_systems().size(), contract.size());
   for (const std::string& name : contract) {

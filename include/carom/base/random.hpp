@@ -11,7 +11,8 @@ enum class Purpose : std::uint64_t {
   injection = 2,
   splitting = 3,
   injection_time = 4,
-  swap_test = 6
+  swap_test = 6,
+  arrangement = 7
 };
 
 /// Philox4x64-10 (Salmon et al. 2011) with key (seed, purpose) and counter

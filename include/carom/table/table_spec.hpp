@@ -49,7 +49,7 @@ struct LatticeSpec {
 
 /// `numbers`, `points`, `lists` and `words` hold the keys of the shape by name (CONTRACT §1): width,
 /// height, radius, sides, angle, a, b, outer, inner, offset, half_length, cap_radius, stem_width,
-/// stem_height, separation, side, spacing; points, centers; radii; lattice.
+/// stem_height, separation, side, spacing, count, seed; points, centers; radii; lattice.
 struct TableSpec {
   std::string shape;
   Place place, shape_place;
@@ -57,7 +57,7 @@ struct TableSpec {
   std::map<std::string, std::vector<ExactPoint>> points;
   std::map<std::string, std::vector<ExactNumber>> lists;
   std::map<std::string, std::string> words;
-  bool torus = true;                   ///< sinai
+  bool torus = true;                   ///< sinai, random-discs
   std::vector<LoopSpec> loops;         ///< path
   std::vector<HoleSpec> holes;
   std::optional<LatticeSpec> lattice;

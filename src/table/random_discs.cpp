@@ -1,0 +1,122 @@
+// Discs at random places that do not overlap: the random Lorentz gas.
+#include <algorithm>
+#include <cmath>
+
+#include "carom/base/random.hpp"
+#include "carom/geometry/lattice.hpp"
+#include "table/numbers.hpp"
+#include "table/shapes.hpp"
+
+namespace carom::shapes {
+namespace {
+
+using geometry::Circle;
+using geometry::Vector;
+
+constexpr double most_discs = 10'000'000;
+constexpr int most_draws = 1'000'000;  // of one disc
+
+std::uint64_t whole_number(const ExactNumber& value, double least, double most) {
+  const auto whole = value.to_rational();
+  const double number = value.to_double();
+  if (!whole || whole->denominator != "1" || !(number >= least && number <= most)) {
+    throw InputError(value.place(), "must be a whole number from " + ExactNumber(least).text() + " to " +
+                                        ExactNumber(most).text() + ", not " + value.text(),
+                     "a whole number");
+  }
+  return static_cast<std::uint64_t>(number);
+}
+
+/// Places in a square [0, side]^2 one after the other, each drawn until it has room. Squares at least as wide as
+/// two radii hold the numbers of the discs whose centres are in them, so that neighbours alone are asked.
+class Arrangement {
+ public:
+  Arrangement(double side, double radius, std::size_t count, bool torus)
+      : side_(side),
+        torus_(torus),
+        // A difference of coordinates, and a side taken off it, are rounded: so discs are really apart.
+        reach_(2.0 * radius + 8.0 * 0x1p-53 * side) {
+    const double fitting = std::floor(0.999 * side / reach_), enough = std::ceil(std::sqrt(static_cast<double>(count)));
+    parts_ = static_cast<int>(std::fmax(1.0, std::fmin(fitting, enough)));
+    squares_.resize(static_cast<std::size_t>(parts_) * static_cast<std::size_t>(parts_));
+  }
+
+  bool fits(Vector x) const {
+    const int i = part(x.x), k = part(x.y);
+    // Fewer than four squares in a row: the same ones would be asked twice.
+    const int before = parts_ < 4 ? 0 : -1, after = parts_ < 4 ? parts_ - 1 : 1;
+    const int first = parts_ < 4 ? 0 : i, second = parts_ < 4 ? 0 : k;
+    for (int a = before; a <= after; ++a)
+      for (int b = before; b <= after; ++b)
+        for (const std::size_t other : squares_[index(first + a, second + b)])
+          if (near(x, placed_[other])) return false;
+    return true;
+  }
+  void place(Vector x) {
+    squares_[index(part(x.x), part(x.y))].push_back(placed_.size());
+    placed_.push_back(x);
+  }
+  const std::vector<Vector>& placed() const { return placed_; }
+
+ private:
+  int part(double x) const { return std::min(static_cast<int>(x / side_ * parts_), parts_ - 1); }
+  std::size_t index(int i, int k) const {
+    const auto around = [&](int n) { return static_cast<std::size_t>((n + parts_) % parts_); };
+    return around(i) + static_cast<std::size_t>(parts_) * around(k);
+  }
+  double shortest(double d) const {
+    d = std::fabs(d);
+    return torus_ ? std::fmin(d, side_ - d) : d;
+  }
+  bool near(Vector a, Vector b) const {
+    const double x = shortest(a.x - b.x), y = shortest(a.y - b.y);
+    return x * x + y * y <= reach_ * reach_ * (1.0 + 0x1p-48);
+  }
+
+  double side_;
+  bool torus_;
+  double reach_;
+  int parts_ = 1;
+  std::vector<std::vector<std::size_t>> squares_;
+  std::vector<Vector> placed_;
+};
+
+}  // namespace
+
+void random_discs(const TableSpec& spec, Table& table) {
+  const double side = size(spec, "side");
+  const ExactNumber& radius_number = number(spec, "radius");
+  const double radius = size_of(radius_number, "radius");
+  const ExactNumber& count_number = number(spec, "count");
+  const std::uint64_t count = whole_number(count_number, 1, most_discs);
+  const std::uint64_t seed = whole_number(number_or(spec, "seed", "1"), 0, 0x1p53);
+  if (!(4 * radius < side)) {
+    throw InputError(radius_number.place(), "the discs are too large for the square", "radius < side/4");
+  }
+  // Between walls a disc keeps off them by the margin that it keeps from others.
+  const double margin = spec.torus ? 0.0 : radius + 8.0 * 0x1p-53 * side;
+  Arrangement arrangement(side, radius, count, spec.torus);
+  for (std::uint64_t disc = 0; disc < count; ++disc) {
+    RandomStream random(seed, Purpose::arrangement, disc);
+    int draws = 0;
+    for (;;) {
+      const double x = margin + random.uniform() * (side - 2.0 * margin);
+      const double y = margin + random.uniform() * (side - 2.0 * margin);
+      if (arrangement.fits({x, y})) {
+        arrangement.place({x, y});
+        break;
+      }
+      if (++draws == most_draws) {
+        throw InputError(count_number.place(),
+                         "no room was found for disc " + std::to_string(disc + 1) + " of " + std::to_string(count),
+                         "fewer or smaller discs: placed one after the other they fill about half of the area");
+      }
+    }
+  }
+  const std::vector<std::string> names = numbered("disc", count);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    add_loop(table, {{names[k], Circle{arrangement.placed()[k], radius, false}}});
+  close_square(table, side, spec);
+}
+
+}  // namespace carom::shapes
