@@ -45,6 +45,40 @@ void HitFinder::make_grid(bool edges) {
   }
   grid_ = std::make_unique<const WallGrid>(pieces_, first, second, within);
   seen_.assign(data_.size(), 0);
+  near_.reserve(grid_->entries().size());
+  for (const int piece : grid_->entries()) {
+    const PieceData& p = data_[at(piece)];
+    const PreparedCurve& w = *p.shape;
+    const bool disc = p.closed && p.kind == CurveKind::circle;
+    near_.push_back({w.centre.x, w.centre.y, w.r2, w.centre_error, piece, p.offset, disc, disc && w.orientation < 0});
+  }
+}
+
+/// Does a line enter a disc from outside? Negative: it does not, or cannot leave the domain there. Positive:
+/// it does, and `first` has been compared with it. Undecided: this is for the filter to tell.
+template <bool cells>
+[[gnu::always_inline]] inline Sign HitFinder::meets_disc(const Flight& f, const Near& disc, FirstDisc& first) const {
+  const bool stands = disc.piece == f.start_piece;
+  if (stands) return disc.domain_outside ? Sign::negative : Sign::undecided;  // a line leaves a disc for good
+  const Origin& origin = origins_[cells ? at(disc.offset) : 0];
+  const Vector e = origin.point - Vector{disc.x, disc.y};
+  const Quadratic<double> q{dot(e, e) - disc.r2, dot(e, f.velocity), f.square_speed};
+  const QuadraticError error = circle_error(origin.scale, norm_1(e), disc.centre_error, disc.r2);
+  // Going away: the distance from the centre grows from here on, and a disc is not entered.
+  if (q.b > error.b && (disc.domain_outside || q.a > error.a)) return Sign::negative;
+  const double discriminant = q.b * q.b - q.a * q.c, margin = discriminant_error(q, error);
+  if (discriminant < -margin) return Sign::negative;
+  if (!(disc.domain_outside && q.b < -error.b && q.a > error.a && discriminant > margin)) return Sign::undecided;
+  if (disc.piece == first.piece) return Sign::positive;  // again, in another cell
+  const double root = std::sqrt(discriminant), unit = root - q.b, kappa = unit / q.a;
+  const double kappa_spread = kappa_error(q, error, {discriminant, root, kappa});
+  if (first.piece >= 0) {
+    const double gap = kappa - first.kappa;
+    if (!(std::fabs(gap) > kappa_spread + first.error)) return Sign::undecided;
+    if (gap < 0.0) return Sign::positive;
+  }
+  first = {disc.piece, q.a, unit, kappa, kappa_spread};
+  return Sign::positive;
 }
 
 /// On which side of the flight are the joints of some pieces?
@@ -103,32 +137,47 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) const {
   if (f.start_previous >= 0) return false;  // from a joint: by algebra
   ++flights_;
   list_.clear();
-  bool decided = true, fresh = false;
+  bool decided = true;
   double error = 0.0;
+  FirstDisc disc;
   ahead = Ahead();
-  follow(
-      f,
-      [&](int cell) {
-        for (const int piece : grid_->pieces(cell)) {
-          if (seen_[at(piece)] == flights_) continue;
-          seen_[at(piece)] = flights_;
-          list_.push_back(piece);
-          fresh = true;
-        }
-      },
-      [&](double kappa) {
-        if (fresh) {
-          // The first of those so far, against those that are new.
-          if (!filtered_of<larmor, cells, true>(f, ahead, list_, error)) {
-            decided = false;
-            return true;
-          }
-          list_.clear();
-          if (ahead.kind != Ahead::Kind::none) list_.push_back(ahead.piece);
-          fresh = false;
-        }
-        return ahead.kind != Ahead::Kind::none && ahead.kappa - error > kappa;
-      });
+  const auto visit = [&](int cell) {
+    const std::size_t end = grid_->first_entry(cell + 1);
+    for (std::size_t i = grid_->first_entry(cell); i < end; ++i) {
+      const Near& near = near_[i];
+      if (!larmor && near.disc && meets_disc<cells>(f, near, disc) != Sign::undecided) continue;
+      if (seen_[at(near.piece)] == flights_) continue;
+      seen_[at(near.piece)] = flights_;
+      list_.push_back(near.piece);
+    }
+  };
+  const auto passed = [&](double kappa) {
+    if (!list_.empty()) {
+      // The first of those so far, against those that are new.
+      if (disc.piece >= 0) list_.push_back(disc.piece);
+      if (ahead.piece >= 0 && ahead.piece != disc.piece) list_.push_back(ahead.piece);
+      decided = filtered_of<larmor, cells, true>(f, ahead, list_, error);
+      if (!decided) return true;
+      list_.clear();
+      if (ahead.piece != disc.piece) disc = FirstDisc();
+    } else if (disc.piece != ahead.piece && disc.piece >= 0) {
+      if (ahead.piece >= 0) {
+        const double gap = disc.kappa - ahead.kappa;
+        decided = std::fabs(gap) > disc.error + error;
+        if (!decided) return true;
+        if (gap < 0.0) disc = FirstDisc();
+      }
+      if (disc.piece >= 0) {
+        ahead.kind = Ahead::Kind::wall;
+        ahead.piece = disc.piece;
+        ahead.kappa = disc.unit / disc.time;
+        ahead.duration = disc.time / disc.unit;
+        error = disc.error;
+      }
+    }
+    return ahead.kind != Ahead::Kind::none && ahead.kappa - error > kappa;
+  };
+  follow(f, visit, passed);
   return decided;
 }
 

@@ -198,6 +198,19 @@ class HitFinder {
   void next_in_grid(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   template <bool larmor, bool cells>
   bool filtered_in_grid(const Flight& flight, Ahead& ahead) const;
+  /// An entry of a cell's list, with all that a line asks of a disc: one place in memory for what is seldom hit.
+  struct Near {
+    double x, y, r2, centre_error;
+    int piece, offset;
+    bool disc, domain_outside;
+  };
+  /// The first disc of those that a line is certain to enter from outside.
+  struct FirstDisc {
+    int piece = -1;
+    double time = 0.0, unit = 1.0, kappa = 0.0, error = 0.0;
+  };
+  template <bool cells>
+  Sign meets_disc(const Flight& flight, const Near& disc, FirstDisc& first) const;
   const std::vector<int>& pieces_on_way(const Flight& flight) const;
   template <class Visit, class Passed>
   void follow(const Flight& flight, const Visit& visit, const Passed& passed) const;
@@ -230,6 +243,7 @@ class HitFinder {
   std::vector<int> opposite_;                    // edge through which one comes in who leaves by this one
   std::unique_ptr<geometry::ExactBoundary> exact_;
   std::unique_ptr<const WallGrid> grid_;         // of tables with many walls, else null
+  std::vector<Near> near_;                       // its lists
   std::unordered_multimap<int, int> images_;     // by wall: its pieces in other cells
   // Scratch of one flight; a finder belongs to one thread.
   mutable std::vector<Origin> origins_;

@@ -81,8 +81,10 @@ class WallGrid {
     const auto first = starts_[static_cast<std::size_t>(cell)], end = starts_[static_cast<std::size_t>(cell) + 1];
     return {list_.data() + first, end - first};
   }
+  /// Where the list of a cell stands among those of all cells, one after the other.
+  std::size_t first_entry(int cell) const { return starts_[static_cast<std::size_t>(cell)]; }
   int cells() const { return static_cast<int>(starts_.size()) - 1; }
-  std::size_t entries() const { return list_.size(); }
+  const std::vector<int>& entries() const { return list_; }
   /// The cell of a point.
   int cell_at(geometry::Vector x) const { return columns_.part(x.x) + columns_.parts() * rows_.part(x.y); }
 

@@ -8,7 +8,7 @@ namespace carom {
 /// How decisions are taken. Results never depend on it, only the time they take.
 struct DecisionOptions {
   double filter_inflation = 1.0;  ///< factor on every bound of the filter (>= 1)
-  int grid_from = 32;             ///< pieces of walls from which on a grid tells which are near a flight
+  int grid_from = 16;             ///< pieces of walls from which on a grid tells which are near a flight
 };
 
 /// Where decisions were taken.
