@@ -42,6 +42,17 @@ TEST(CertifiedSample, ShortOrbitsAreTheSame) {
   for (const char* key : {"other_hole", "other_hits", "other_time", "statistic"}) EXPECT_EQ(number(json.out, key), 0) << key;
 }
 
+// Some cyclotron orbits meet no wall, and never leave in either way.
+TEST(CertifiedSample, PinnedOrbitsStay) {
+  const Shell shell;
+  const Outcome json = shell("$carom escape magnetic-square --set field.larmor_radius=0.2 --t-max 5 --quiet --json "
+                             "--trajectories 200 --certify-sample 200 --times 5");
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(number(json.out, "pairs"), 200);
+  for (const char* key : {"undecided", "singular", "other_hole", "other_hits", "other_time"})
+    EXPECT_EQ(number(json.out, key), 0) << key;
+}
+
 TEST(CertifiedSample, RefusesWhatItCannotCertify) {
   const Shell shell;
   for (const char* wrong : {"stadium --certify-sample 0", "stadium --certify-sample -5", "stadium --certify-sample x",
