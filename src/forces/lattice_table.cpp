@@ -178,7 +178,7 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
   t.inverse_softness = 1.0 / shape.softness;
   t.inverse_square_width = 1.0 / (shape.width * shape.width);
 
-  const double way = way_in_mesh(basis, choice.grid);
+  const double way = way_in_mesh(basis, choice.grid), far = 2.0 * (reach + way);
   const auto near = static_cast<std::size_t>(t.near), columns = static_cast<std::size_t>(t.padded_near);
   const auto width = static_cast<std::size_t>(t.degree + 1);
   const auto count = static_cast<std::size_t>(choice.grid) * static_cast<std::size_t>(choice.grid);
@@ -196,10 +196,10 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
         const std::size_t all = node * t.stride + k;
         return lines_[all / 8].numbers[all % 8];
       };
-      // Where a list is shorter it ends with copies that are out of reach.
+      // Where a list is shorter it ends with copies that are out of reach of the whole mesh.
       for (std::size_t k = 0; k < near; ++k) {
-        number(k) = k < copies.size() ? copies[k].d.x : 2.0 * reach;
-        number(columns + k) = k < copies.size() ? copies[k].d.y : 2.0 * reach;
+        number(k) = k < copies.size() ? copies[k].d.x : far;
+        number(columns + k) = k < copies.size() ? copies[k].d.y : far;
       }
       if (t.degree < 0) continue;
       std::vector<double> sum(width * width, 0.0);
