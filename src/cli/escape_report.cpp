@@ -85,6 +85,11 @@ Json escape_json(const System& system, const EscapeResult& result, const std::st
   if (system.of_discs()) json.set("contacts", counts.contacts);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
+  if (result.effort.steps > 0)
+    json.set("lanes", Json::object()
+                          .set("hits", result.effort.hits)
+                          .set("left", result.effort.scalar)
+                          .set("busy", result.effort.busy()));
   Json holes = Json::array();
   for (const HoleEscapes& hole : escapes_by_hole(system, counts))
     holes.push(Json::object().set("name", hole.name).set("escaped", hole.escaped));
@@ -125,6 +130,9 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
   if (counts.collisions > 0)
     text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
   text += fmt::format("\n{}   digest {:016x}\n", decisions_text(result.decisions), result.digest);
+  if (result.effort.steps > 0)
+    text += fmt::format("lanes: {:.1f} % busy, {:.2g} % of events left to the scalar engine\n", 100.0 * result.effort.busy(),
+                        100.0 * result.effort.left());
   if (!output.empty()) text += fmt::format("archive: {}\n", output);
   return text;
 }

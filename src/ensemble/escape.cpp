@@ -113,13 +113,14 @@ class Ensemble {
   }
 
   void deliver(TrajectoryRange block, EscapeTally&& tally, std::vector<TrajectoryRecord>&& records,
-               const DecisionCounts& decisions) {
+               const DecisionCounts& decisions, const LaneEffort& effort = {}) {
     const std::lock_guard lock(mutex_);
     EscapeResult part;
     part.counts = std::move(tally.counts);
     part.digest = tally.digest;
     part.reports = std::move(tally.reports);
     part.decisions = decisions;
+    part.effort = effort;
     part.done.add(block);
     total_.add(part);
     if (options_.journal) options_.journal->block(block, std::move(records));
@@ -146,6 +147,7 @@ class Ensemble {
   void work_in_lanes(BlockOrder& order) {
     LaneRunner runner(system_, sampler_, *lanes_, options_.decisions);
     DecisionCounts before;
+    LaneEffort effort_before;
     const bool in_order = static_cast<bool>(options_.records);
     std::uint64_t number = 0;
     bool pause = false, more = true;
@@ -162,8 +164,9 @@ class Ensemble {
     const auto done = [&](LaneRunner::Done&& ready) {
       if (in_order) order.deliver(number, ready.records);
       const DecisionCounts now = runner.decisions();
+      const LaneEffort effort = runner.effort();
       deliver({ready.block.first, ready.block.end}, std::move(ready.tally), std::move(ready.records),
-              now - std::exchange(before, now));
+              now - std::exchange(before, now), effort - std::exchange(effort_before, effort));
     };
     const auto ended = [&](std::uint64_t hits) {
       if (options_.progress) report_progress(hits);
@@ -216,6 +219,7 @@ bool EscapeResult::add(const EscapeResult& other) {
   counts.merge(other.counts);
   digest += other.digest;
   decisions += other.decisions;
+  effort += other.effort;
   seconds += other.seconds;
   cpu_seconds += other.cpu_seconds;
   if (other.reports.empty()) return true;

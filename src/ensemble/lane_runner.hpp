@@ -71,6 +71,7 @@ class LaneRunner {
   }
 
   DecisionCounts decisions() const { return lanes_.decisions(); }
+  const LaneEffort& effort() const { return lanes_.effort(); }
 
  private:
   struct Open {

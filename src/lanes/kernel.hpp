@@ -17,49 +17,21 @@
 #include "lanes/lane_pack.hpp"
 
 #define INLINE [[gnu::always_inline]] inline
+#if !defined(CAROM_LANE_REGISTERS)
+#define CAROM_LANE_REGISTERS 1
+#endif
 
 namespace carom::lanes {
 namespace {
 
 namespace simd = std::experimental;
-using Real = simd::native_simd<double>;
-using Mask = Real::mask_type;
+#include "lanes/wide.hpp"
 using Vector = geometry::BasicVector<Real>;
-using simd::all_of;
-using simd::any_of;
-using simd::where;
-constexpr int width = static_cast<int>(Real::size());
 
 // A sign is certain if the number is beyond this share of its largest size, an order of two times beyond
 // that of theirs: far more than what rounding does (docs/developer/lanes.md), yet met once in 10^6 hits.
 constexpr double sign_margin = 0x1p-36;
 constexpr double order_margin = 0x1p-22;
-
-INLINE Real choose(const Mask& condition, const Real& yes, const Real& no) {
-  Real result = no;
-  where(condition, result) = yes;
-  return result;
-}
-
-INLINE Real load(const double* from) { return Real(from, simd::element_aligned); }
-
-/// How many numbers a look-up may choose from.
-enum class Reach { few, all };
-
-/// table[index], lane by lane; index >= 0.
-template <Reach reach>
-INLINE Real look_up(const double* table, const Real& index) {
-#if defined(__AVX512F__)
-  const Real bits = index + 0x1p52;  // the lowest bits are the index
-  const __m512i i = _mm512_castpd_si512(static_cast<__m512d>(bits));
-  if constexpr (reach == Reach::few)
-    return Real(_mm512_permutex2var_pd(_mm512_loadu_pd(table), i, _mm512_loadu_pd(table + 8)));
-  else
-    return Real(_mm512_i64gather_pd(_mm512_and_si512(i, _mm512_set1_epi64(0xffff)), table, 8));
-#else
-  return Real([&](auto k) { return table[static_cast<int>(static_cast<double>(index[k]))]; });
-#endif
-}
 
 /// A pack's flights from their last hits.
 struct View {
@@ -93,37 +65,41 @@ struct Meeting {
 
 #include "lanes/larmor.hpp"
 #include "lanes/straight.hpp"
+#include "lanes/cells.hpp"
 #include "lanes/landing.hpp"
 
-template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far>
+template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far, bool has_cells = false>
 struct Kind {
   static constexpr int turn = which_turn;
-  static constexpr bool convex = is_convex, segments = has_segments, circles = has_circles;
+  static constexpr bool convex = is_convex, segments = has_segments, circles = has_circles, cells = has_cells;
   static constexpr Reach reach = how_far;
 };
 
 template <class Kind>
 void kernel(const LaneTable& table, LanePack& pack) {
   pack.calls = 0;
-  for (int lane = 0; lane < LanePack::lanes; lane += width) advance<Kind>(table, pack, lane);
+  for (int lane = 0; lane < pack.used; lane += width) advance<Kind>(table, pack, lane);
 }
 
-template <int turn, bool convex, Reach reach>
-Advance kernel_of(const LaneTable& t) {
-  if (!t.circles) return kernel<Kind<turn, convex, true, false, reach>>;
-  if (!t.segments) return kernel<Kind<turn, convex, false, true, reach>>;
-  return kernel<Kind<turn, convex, true, true, reach>>;
-}
 template <int turn, bool convex>
 Advance kernel_of(const LaneTable& t) {
-  return t.pieces <= LaneTable::fewest ? kernel_of<turn, convex, Reach::few>(t) : kernel_of<turn, convex, Reach::all>(t);
+  if (t.pieces > LaneTable::fewest) return kernel<Kind<turn, convex, true, true, Reach::all>>;
+  if (!t.circles) return kernel<Kind<turn, convex, true, false, Reach::few>>;
+  if constexpr (turn == 0) {
+    if (!t.segments) return kernel<Kind<turn, convex, false, true, Reach::few>>;
+  }
+  return kernel<Kind<turn, convex, true, true, Reach::few>>;
 }
 template <int turn>
 Kernels kernels_of(const LaneTable& t) {
-  const Advance anywhere = turn == 0 && t.convex ? nullptr : kernel_of<turn, false>(t);
-  if (!t.convex) return {anywhere, anywhere};
+  if (t.edges > 0) {
+    const Advance over_cells = kernel<Kind<0, false, false, true, Reach::all, true>>;
+    return {over_cells, over_cells, width};
+  }
+  const Advance anywhere = kernel_of<turn, false>(t);
+  if (!t.convex) return {anywhere, anywhere, width};
   const Advance on_walls = kernel_of<turn, true>(t);
-  return {on_walls, turn == 0 ? on_walls : anywhere};
+  return {on_walls, turn == 0 ? on_walls : anywhere, width};
 }
 
 /// The kernels of a table.

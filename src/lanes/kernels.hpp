@@ -11,6 +11,7 @@ enum class Turn : signed char { counter_clockwise = -1, straight = 0, clockwise 
 struct Kernels {
   Advance on_walls;   ///< for particles that stand on a wall; in straight flights also for others
   Advance anywhere;
+  int width;          ///< lanes that are flown together
 };
 Kernels baseline_kernels(const LaneTable&, Turn);
 Kernels avx2_kernels(const LaneTable&, Turn);

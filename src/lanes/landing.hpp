@@ -14,19 +14,30 @@ INLINE void advance(const LaneTable& t, LanePack& pack, int lane) {
     f.pace = load(pack.pace + lane);
     f.joint_margin = load(pack.joint_margin + lane);
   }
-  const Mask active = load(pack.active + lane) > 0.0;
   f.start_wall = f.start_piece;
   if (t.divided) where(f.start_piece >= 0.0, f.start_wall) = of(t.wall, max(f.start_piece, Real(0.0)));
 
+  const Vector start = f.origin;
+  const Real start_piece = f.start_piece;
+  CellOf cell{};
   Choice choice;
-  if constexpr (larmor)
+  if constexpr (Kind::cells) {
+    cell = {load(pack.cell_first + lane), load(pack.cell_second + lane)};
+    choice = first_in_cells(f, cell);
+  } else if constexpr (larmor)
     choice = Kind::convex ? exit_of_loop_by_circle<Kind::turn, Kind>(f) : first_of_all_by_circle<Kind::turn, Kind>(f);
   else
     choice = Kind::convex ? exit_of_loop(f) : first_of_all(f);
   const Real piece = max(choice.piece, Real(0.0));
   Mask decided = choice.decided;
   Mask gone(false);
-  if constexpr (!Kind::convex && !larmor) {
+  if constexpr (Kind::cells) {
+    // Those still on their way only change their cell.
+    gone = decided && choice.piece < 0.0;
+    decided = decided && !gone;
+    store(choose(gone, cell.first, Real(0.0)), pack.cell_first + lane);
+    store(choose(gone, cell.second, Real(0.0)), pack.cell_second + lane);
+  } else if constexpr (!Kind::convex && !larmor) {
     const Mask none = choice.piece < 0.0;
     if (t.open) gone = decided && none;
     decided = decided && !none;
@@ -39,7 +50,7 @@ INLINE void advance(const LaneTable& t, LanePack& pack, int lane) {
     met.off_power = of(t.off_power, piece);
     if constexpr (Kind::segments) met.bent = met.orientation != 0.0;
   }
-  if constexpr (Kind::circles || larmor) met.stands = (t.divided ? of(t.wall, piece) : piece) == f.start_wall;
+  if constexpr (Kind::circles || Kind::convex || larmor) met.stands = (t.divided ? of(t.wall, piece) : piece) == f.start_wall;
   Meeting at;
   if constexpr (larmor)
     at = meet_by_circle<Kind>(f, met, choice);
@@ -50,7 +61,7 @@ INLINE void advance(const LaneTable& t, LanePack& pack, int lane) {
 
   const Real high0 = load(pack.high + lane), low0 = load(pack.low + lane);
   const auto [high, low] = later(high0, low0, at.duration);
-  const Mask over = high > pack.end || (high == pack.end && low > 0.0);
+  const Mask over = high >= pack.end;  // or there to the last digit
 
   // As PreparedCurve::arrive. The flight of a Larmor circle must be seen to end on the wall.
   Vector place, normal;
@@ -86,33 +97,51 @@ INLINE void advance(const LaneTable& t, LanePack& pack, int lane) {
   const Mask inward = dot(normal, after) > (sign_margin * t.size) * f.speed;
   decided = decided && (escaped || over || inward);
 
-  const Mask applies = active && decided && !over && !escaped;
+  const Mask applies = decided && !over && !escaped;
   const Real hits0 = load(pack.hits + lane), hits = hits0 + 1.0;
-  const Mask capped = hits >= pack.limit;
-  // A whole store: one through a mask takes 30 ns without AVX.
-  const auto store = [&](double* to, const Real& before, const Real& now) {
-    choose(applies, now, before).copy_to(to + lane, simd::element_aligned);
-  };
-  store(pack.x, f.origin.x, place.x);
-  store(pack.y, f.origin.y, place.y);
-  store(pack.vx, f.velocity.x, after.x);
-  store(pack.vy, f.velocity.y, after.y);
-  store(pack.high, high0, high);
-  store(pack.low, low0, low);
-  store(pack.piece, f.start_piece, piece);
-  store(pack.hits, hits0, hits);
+  if (!any_of(!applies)) [[likely]] {
+    store(place.x, pack.x + lane);
+    store(place.y, pack.y + lane);
+    store(after.x, pack.vx + lane);
+    store(after.y, pack.vy + lane);
+    store(high, pack.high + lane);
+    store(low, pack.low + lane);
+    store(piece, pack.piece + lane);
+    store(hits, pack.hits + lane);
+  } else {
+    // A whole store: one through a mask takes 30 ns without AVX.
+    const auto keep = [&](double* to, const Real& before, const Real& now) { store(choose(applies, now, before), to + lane); };
+    keep(pack.x, start.x, place.x);
+    keep(pack.y, start.y, place.y);
+    keep(pack.vx, f.velocity.x, after.x);
+    keep(pack.vy, f.velocity.y, after.y);
+    keep(pack.high, high0, high);
+    keep(pack.low, low0, low);
+    keep(pack.piece, start_piece, piece);
+    keep(pack.hits, hits0, hits);
+  }
 
-  const Mask calls = active && (!decided || over || escaped || capped);
+  if constexpr (Kind::cells) {
+    const auto add = [&](double* to, const Real& more) {
+      const Real before = load(to + lane);
+      store(choose(applies, before + more, before), to + lane);
+    };
+    add(pack.home_first, cell.first);
+    add(pack.home_second, cell.second);
+  }
+
+  const Mask capped = hits >= pack.limit;
+  Mask calls = load(pack.active + lane) > 0.0 && (!applies || capped);
+  if constexpr (Kind::cells) calls = calls && !gone;
   if (any_of(calls)) [[unlikely]] {
-    for (int k = 0; k < width; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      if (!calls[i]) continue;
-      pack.met[pack.calls] = {piece[i], high[i], low[i]};
-      pack.lane[pack.calls] = lane + k;
-      pack.call[pack.calls++] = gone[i]       ? Call::unbounded
-                                : !decided[i] ? Call::undecided
-                                : over[i]     ? Call::over
-                                : escaped[i]  ? Call::escaped
+    for (int i = 0; i < width; ++i) {
+      if (!lane_of(calls, i)) continue;
+      pack.met[pack.calls] = {lane_of(piece, i), lane_of(high, i), lane_of(low, i)};
+      pack.lane[pack.calls] = lane + i;
+      pack.call[pack.calls++] = lane_of(gone, i)       ? Call::unbounded
+                                : !lane_of(decided, i) ? Call::undecided
+                                : lane_of(over, i)     ? Call::over
+                                : lane_of(escaped, i)  ? Call::escaped
                                               : Call::capped;
     }
   }

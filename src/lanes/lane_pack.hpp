@@ -24,6 +24,8 @@ struct LanePack {
   double high[lanes] = {}, low[lanes] = {};  ///< time
   double piece[lanes] = {};                  ///< that it stands on; -1: none
   double hits[lanes] = {};
+  // On a lattice: the cell of the last hit, and the cell of the flight, counted from there.
+  double home_first[lanes] = {}, home_second[lanes] = {}, cell_first[lanes] = {}, cell_second[lanes] = {};
   // Constants of its particle.
   double speed[lanes] = {}, square_speed[lanes] = {}, energy_weight[lanes] = {};
   double omega[lanes] = {};
@@ -34,6 +36,8 @@ struct LanePack {
 
   double end = 0.0;    ///< of the run
   double limit = 0.0;  ///< of hits
+
+  int used = lanes;  ///< lanes beyond are not looked at
 
   int calls = 0;
   int lane[lanes] = {};     ///< of each call

@@ -35,6 +35,13 @@ struct LaneTable {
   double hole[most] = {};         ///< -1: a wall
   double from[most] = {};         ///< parameter of the wall where it begins
 
+  // Of a lattice: the start of each edge of the cell and the cell beyond it; the two vectors.
+  static constexpr double farthest_cell = 64.0;  ///< of a flight
+  int edges = 0;
+  int steps = 3;                  ///< edges that are crossed at once
+  double edge_x[fewest] = {}, edge_y[fewest] = {}, beyond_first[fewest] = {}, beyond_second[fewest] = {};
+  double lattice_x[2] = {}, lattice_y[2] = {};
+
   double size = 0.0;  ///< the length by which every margin is measured: a power of two (make_lane_table.cpp)
 };
 

@@ -65,6 +65,7 @@ class LaneWorld::Implementation {
     for (Lanes* l : {&main, &entrance}) {
       l->pack.end = t_end;
       l->pack.limit = static_cast<double>(std::min(limit, most_hits));
+      l->pack.used = LanePack::lanes;
       l->clear();
     }
     exhausted = false;
@@ -73,9 +74,11 @@ class LaneWorld::Implementation {
     for (std::uint64_t sweep = 1; main.busy > 0; ++sweep) {
       if (interrupted && sweep % 64 == 0 && interrupted()) return;
       kernels.on_walls(pieces, main.pack);
-      effort.idle += static_cast<std::uint64_t>(LanePack::lanes - main.busy);
+      effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
+      effort.idle += static_cast<std::uint64_t>(rounded_up(main.pack.used) - main.busy);
       for (int i = 0; i < main.pack.calls; ++i)
         if (!answer(main, i)) fill(main.pack.lane[i]);
+      if (exhausted && main.busy < main.pack.used) close_ranks();
     }
   }
 
@@ -93,9 +96,12 @@ class LaneWorld::Implementation {
   lanes::Kernels kernels;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t filter = 0;
-  Effort effort;
+  LaneEffort effort;
 
  private:
+  /// Lanes that a sweep touches.
+  int rounded_up(int used) const { return (used + kernels.width - 1) / kernels.width * kernels.width; }
+
   /// What a lane's trajectory needs besides its numbers in the pack.
   struct Trajectory {
     LaneStart start;              ///< or where the scalar engine left it
@@ -133,6 +139,22 @@ class LaneWorld::Implementation {
     }
   }
 
+  /// The last trajectories side by side, so that packs without any need not be swept.
+  void close_ranks() {
+    LanePack& p = main.pack;
+    int& used = p.used;
+    for (int lane = 0; lane < used; ++lane) {
+      if (p.active[lane] != 0.0) continue;
+      while (used > lane && p.active[used - 1] == 0.0) --used;
+      if (used <= lane) return;
+      const int last = --used;
+      take_out(main, last);
+      main.trajectories[lane] = main.trajectories[last];
+      main.leave(last);
+      resume(main, lane);
+    }
+  }
+
   /// First flights, which may start anywhere; who has made them waits for a lane.
   void enter_several() {
     entrance.clear();
@@ -140,6 +162,8 @@ class LaneWorld::Implementation {
     waiting = 0;
     if (entrance.busy == 0) return;
     kernels.anywhere(pieces, entrance.pack);
+    effort.steps += LanePack::lanes;
+    effort.idle += static_cast<std::uint64_t>(LanePack::lanes - entrance.busy);
     const int calls = entrance.pack.calls;
     for (int i = 0; i < calls; ++i) answer(entrance, i);
     for (int lane = 0; lane < LanePack::lanes; ++lane)
@@ -166,12 +190,22 @@ class LaneWorld::Implementation {
 
   /// Is the state one that lanes may start from? Not at a joint, nor along a wall.
   bool can_start(State& s, const Particle& p) const {
-    if (s.wall < 0) return true;
+    if (s.wall < 0) return in_cell(s.position);
     const geometry::PreparedCurve& w = finder.curve(s.wall);
     if (!(s.u > geometry::first_parameter && s.u < w.last())) return false;
     const auto frame = w.frame(s.u);
     if (w.parameter(s.position) != s.u) s.position = frame.point;  // as World::add
     return dot(frame.normal, s.velocity) > 0x1p-36 * pieces.size * p.speed;
+  }
+
+  /// On a lattice flights start in the cell about the origin.
+  bool in_cell(Vector p) const {
+    for (int i = 0; i < pieces.edges; ++i) {
+      const int next = i + 1 == pieces.edges ? 0 : i + 1;
+      const Vector from{pieces.edge_x[i], pieces.edge_y[i]}, along = Vector{pieces.edge_x[next], pieces.edge_y[next]} - from;
+      if (!(cross(along, p - from) > 0x1p-36 * pieces.size * pieces.size)) return false;
+    }
+    return true;
   }
 
   /// The numbers of a lane's trajectory.
@@ -188,6 +222,9 @@ class LaneWorld::Implementation {
     pack.low[lane] = s.time.low;
     pack.piece[lane] = s.wall < 0 ? -1.0 : lanes::piece_at(pieces, s.wall, s.u);
     pack.hits[lane] = static_cast<double>(mine.start.hits);
+    pack.home_first[lane] = static_cast<double>(s.cell.first);
+    pack.home_second[lane] = static_cast<double>(s.cell.second);
+    pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
     pack.speed[lane] = p.speed;
     pack.square_speed[lane] = p.speed * p.speed;
     pack.energy_weight[lane] = 0.75 / (p.speed * p.speed);
@@ -216,6 +253,7 @@ class LaneWorld::Implementation {
     s.position = {pack.x[lane], pack.y[lane]};
     s.velocity = {pack.vx[lane], pack.vy[lane]};
     s.time = {pack.high[lane], pack.low[lane]};
+    s.cell = {static_cast<std::int64_t>(pack.home_first[lane]), static_cast<std::int64_t>(pack.home_second[lane])};
     s.u = finder.curve(s.wall).parameter(s.position);
   }
 
@@ -225,7 +263,9 @@ class LaneWorld::Implementation {
     const Call call = lanes.pack.call[number];
     const LanePack::Met met = lanes.pack.met[number];
     take_out(lanes, lane);
-    if (call == Call::undecided) return go_on(lanes, lane);
+    // A hit at the very end of the run: the scalar engine knows.
+    const bool at_the_end = call == Call::over && met.high == lanes.pack.end && !(met.low > 0.0);
+    if (call == Call::undecided || at_the_end) return go_on(lanes, lane);
     const Trajectory& mine = lanes.trajectories[lane];
     const State& s = mine.start.state;
     ++filter;
@@ -282,7 +322,7 @@ bool LaneWorld::suits(const Table& table, const std::vector<Particle>& particles
     if (turn_of(p.omega) != turn_of(particles[0].omega) || p.radius != 0.0 || !moderate(p.speed) ||
         (p.omega != 0.0 && !moderate(std::fabs(p.omega))))
       return false;
-  return !particles.empty() && lanes::fits(table);
+  return !particles.empty() && lanes::fits(table) && (!table.lattice || turn_of(particles[0].omega) == Turn::straight);
 }
 
 LaneWorld::LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)
@@ -295,6 +335,6 @@ void LaneWorld::run_until(double t_end, const std::function<bool(LaneStart&)>& n
   implementation_->run_until(t_end, next, ended, interrupted);
 }
 DecisionCounts LaneWorld::decisions() const { return implementation_->decisions(); }
-const LaneWorld::Effort& LaneWorld::effort() const { return implementation_->effort; }
+const LaneEffort& LaneWorld::effort() const { return implementation_->effort; }
 
 }  // namespace carom

@@ -8,35 +8,36 @@
 struct CircleView {
   Vector centre;  ///< |omega| Z
   Real rate;      ///< |omega|
-  Real lengths;   ///< margin of all lengths times |omega|
+  Real lengths;   ///< margin of all lengths times |omega| ...
+  Real squares;   ///< ... and of their squares
   Real joints;    ///< of |c|^2 - v^2
 };
 template <int turn>
 INLINE CircleView circle_of(const View& f) {
   const Real rate = Real(static_cast<double>(turn)) * f.omega;
   const Vector v = turn > 0 ? f.velocity : -f.velocity;
-  return {{rate * f.origin.x + v.y, rate * f.origin.y - v.x}, rate, 0x1p-40 * f.pace, f.joint_margin};
+  return {{rate * f.origin.x + v.y, rate * f.origin.y - v.x}, rate, 0x1p-40 * f.pace, (0x1p-40 * f.pace) * f.pace, f.joint_margin};
 }
 
 struct JointOfCircle {
   Vector centre;
+  Real side;  ///< |c|^2 - v^2: below zero inside
   Mask inside;
 };
-INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Mask& decided) {
+INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Real& least) {
   const LaneTable& t = f.table;
   const Vector c{z.centre.x - z.rate * t.joint_x[i], z.centre.y - z.rate * t.joint_y[i]};
   const Real side = dot(c, c) - f.square_speed;
-  decided = decided && abs(side) > z.joints;
-  return {c, side < 0.0};
+  least = min(least, abs(side));
+  return {c, side, side < 0.0};
 }
 
 /// Positive if a segment whose ends lie outside the circle is cut twice: if the foot of the centre lies
-/// between them, nearer than the radius. `c` is seen from its first end.
-INLINE Real cut_of_segment(const View& f, const CircleView& z, int i, const Vector& c) {
+/// between them, nearer than the radius. Of its first end: `c` seen from it, `side` = |c|^2 - v^2.
+INLINE Real cut_of_segment(const View& f, const CircleView& z, int i, const JointOfCircle& end) {
   const LaneTable& t = f.table;
-  const Vector chord{Real(t.chord_x[i]), Real(t.chord_y[i])};
-  const Real foot = dot(chord, c);
-  return min(min(foot, z.rate * t.length[i] - foot), f.speed - abs(cross(chord, c)));
+  const Real foot = t.chord_x[i] * end.centre.x + t.chord_y[i] * end.centre.y, square = foot * foot;
+  return min(foot * (z.rate * t.length[i]) - square, square - end.side);
 }
 
 /// Positive if the whole circle of an arc is cut.
@@ -62,26 +63,32 @@ INLINE Choice exit_of_loop_by_circle(const View& f) {
   const LaneTable& t = f.table;
   if (t.pieces == 1) return {Real(0.0), Mask(true), Real(0.0)};
   const CircleView z = circle_of<turn>(f);
-  Mask decided = f.start_piece >= 0.0;
-  Real behind(-1.0), any(-1.0);  // of the walls from the start on in the flight's order; of all
-  JointOfCircle before = joint_at(f, z, 0, decided);
+  // The start comes last in the flight's order; `behind`: of the walls from it on, `any`: of all.
+  Real behind(-1.0), any = f.start_piece;
+  Real least(__builtin_huge_val()), least_cut = least;
+  Mask certain(true);
+  JointOfCircle before = joint_at(f, z, 0, least);
   const JointOfCircle first = before;
   for (int k = 0; k < t.pieces; ++k) {
     const int i = turn > 0 ? k : t.pieces - 1 - k;
     const int joint = turn > 0 ? i + 1 : i;
-    const JointOfCircle after = k + 1 == t.pieces ? first : joint_at(f, z, joint, decided);
-    const JointOfCircle& begin = turn > 0 ? before : after;
-    const Real cut =
-        Kind::circles && t.bent[i] ? cut_of_arc(f, z, i, Mask(false)) : cut_of_segment(f, z, i, begin.centre);
+    const JointOfCircle after = k + 1 == t.pieces ? first : joint_at(f, z, joint, least);
+    Real cut;
+    if (Kind::circles && t.bent[i]) {
+      cut = cut_of_arc(f, z, i, Mask(false));
+      certain = certain && (before.inside || after.inside || abs(cut) > z.lengths);
+    } else {
+      cut = cut_of_segment(f, z, i, turn > 0 ? before : after);
+      least_cut = min(least_cut, abs(cut));
+    }
     const Real piece(static_cast<double>(i));
-    const Mask outside = !before.inside && !after.inside && f.start_piece != piece;
-    decided = decided && !(outside && abs(cut) <= z.lengths);
-    const Mask leaves = before.inside || (outside && cut > 0.0);
+    const Mask leaves = before.inside || (cut > 0.0 && !after.inside && f.start_piece != piece);
     where(leaves, any) = piece;
     where(leaves && (turn > 0 ? f.start_piece >= piece : f.start_piece <= piece), behind) = piece;
     before = after;
   }
-  return {choose(behind >= 0.0, behind, choose(any >= 0.0, any, f.start_piece)), decided, Real(0.0)};
+  certain = certain && least > z.joints && least_cut > z.squares && any >= 0.0;
+  return {choose(behind >= 0.0, behind, any), certain, Real(0.0)};
 }
 
 /// Where a flight leaves through a piece: kappa = p / q.
@@ -107,7 +114,6 @@ class EarliestOnCircle {
   explicit EarliestOnCircle(const View& f) : f_(f), decided_(true), piece_(-1.0), p_(-1.0), q_(0.0) {}
 
   INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
-  Mask& decided() { return decided_; }
   /// `length`: the size of the quadratic's leading coefficient in sizes.
   INLINE void add(int i, const Mask& leaves, const geometry::Quadratic<Real>& quadratic, const Mask& stands, double length) {
     const Fraction r = rising_root(f_, quadratic, stands, Real(length));
@@ -151,11 +157,12 @@ INLINE Choice first_of_all_by_circle(const View& f) {
   const LaneTable& t = f.table;
   const CircleView z = circle_of<turn>(f);
   EarliestOnCircle best(f);
+  Real least(__builtin_huge_val());
   for (int loop = 0; loop < t.loops; ++loop) {
     const int first = t.first[loop], last = first + t.count[loop] - 1;
     const bool closed = t.closed[first];
     JointOfCircle start{}, a{};
-    if (!closed) a = start = joint_at(f, z, first, best.decided());
+    if (!closed) a = start = joint_at(f, z, first, least);
     for (int i = first; i <= last; ++i) {
       const Real piece(static_cast<double>(i));
       const Mask stands = f.start_wall == Real(t.wall[i]), own = f.start_piece == piece;
@@ -168,11 +175,11 @@ INLINE Choice first_of_all_by_circle(const View& f) {
         best.doubt(!stands && abs(cut) <= z.lengths);
         leaves = stands || cut > 0.0;
       } else {
-        b = i == last ? start : joint_at(f, z, i + 1, best.decided());
+        b = i == last ? start : joint_at(f, z, i + 1, least);
         const Mask from = turn > 0 ? a.inside : !a.inside, to = turn > 0 ? b.inside : !b.inside;  // on the right?
         const Mask same = from == to, open = bent ? same && !stands : same && !stands && !a.inside;
-        const Real cut = bent ? cut_of_arc(f, z, i, a.inside) : cut_of_segment(f, z, i, a.centre);
-        best.doubt(open && abs(cut) <= z.lengths);
+        const Real cut = bent ? cut_of_arc(f, z, i, a.inside) : cut_of_segment(f, z, i, a);
+        best.doubt(open && abs(cut) <= (bent ? z.lengths : z.squares));
         leaves = (from && !to) || (same && own) || (open && cut > 0.0);
         a = b;
       }
@@ -185,27 +192,26 @@ INLINE Choice first_of_all_by_circle(const View& f) {
       }
     }
   }
+  best.doubt(least <= z.joints);
   return best.choice();
 }
 
-/// elementary::angle: the same operations in the same order.
+// Tangents of the angles by which a direction is turned back, as y/x.
+alignas(64) constexpr double back_x[16] = {1, 2, 1, 1, 0}, back_y[16] = {0, 1, 1, 2, 1};
+
+/// elementary::angle: the same operations in the same order, and products with 0, 1 and 2.
 INLINE Real angle(const Real& x, const Real& y) {
   using namespace elementary::detail;
   const Real far = abs(x);
-  const Mask half = far * angle_steps[0] < y, one = far * angle_steps[1] < y, two = far * angle_steps[2] < y,
-             right = far * angle_steps[3] < y, back = x < 0.0;
-  // Numerator and denominator after each of the turns.
-  const Real p = choose(one, choose(two, choose(right, -far, y - (far + far)), y - far),
-                        choose(half, (y + y) - far, y));
-  const Real q0 = choose(one, choose(two, choose(right, y, far + (y + y)), far + y), choose(half, (far + far) + y, far));
-  const Real quotient = p / q0, q = choose(back, -quotient, quotient);
-  Real centre = choose(back, Real(1.0 * angle_from_pi), Real(0.0));
-  where(half, centre) = centre + 1.0;
-  where(one, centre) = centre + 1.0;
-  where(two, centre) = centre + 1.0;
-  where(right, centre) = centre + 1.0;
+  const Mask back = x < 0.0;
+  const Real one(1.0);
+  Real steps(0.0);
+  for (const double step : angle_steps) where(far * step < y, steps) = steps + one;
+  const Real bx = look_up<Reach::few>(back_x, steps), by = look_up<Reach::few>(back_y, steps);
+  const Real quotient = (y * bx - far * by) / (far * bx + y * by), q = choose(back, -quotient, quotient);
+  where(back, steps) = steps + Real(1.0 * angle_from_pi);
   const Real z = q * q, square = z * z, fourth = square * square;
-  return angle_beyond(look_up<Reach::few>(angle_high, centre), look_up<Reach::few>(angle_low, centre), q, z,
+  return angle_beyond(look_up<Reach::few>(angle_high, steps), look_up<Reach::few>(angle_low, steps), q, z,
                       powers(angle_even, square, fourth), powers(angle_odd, square, fourth));
 }
 

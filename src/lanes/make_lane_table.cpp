@@ -70,6 +70,39 @@ void add_chord(LaneTable& t, int i, int next) {
   if (t.bent[i]) t.chord_offset[i] = geometry::cross(chord, Vector{t.point_x[i], t.point_y[i]} - joint) / t.radius[i];
 }
 
+/// Are all walls discs that do not reach an edge of the cell? As HitFinder::find_enclosure.
+bool discs_within_cell(const Table& table) {
+  if (table.lattice->edges.size() > LaneTable::fewest) return false;
+  for (const Wall& wall : table.walls) {
+    const PreparedCurve w(wall.curve);
+    if (!w.closed || w.kind != CurveKind::circle || w.orientation > 0) return false;
+    for (const geometry::CellEdge& edge : table.lattice->edges) {
+      const PreparedCurve e(edge.segment);
+      const double gap = geometry::cross(e.tangent, w.centre - e.from) - std::sqrt(w.r2);
+      const double size = w.extent + std::fabs(e.from.x) + std::fabs(e.from.y);
+      if (!(gap > 64.0 * geometry::unit_roundoff * size)) return false;
+    }
+  }
+  return true;
+}
+
+/// The cell of a lattice.
+void add_cell(LaneTable& t, const geometry::Lattice& lattice) {
+  for (const geometry::CellEdge& edge : lattice.edges) {
+    const Vector corner = edge.segment.from;
+    t.edge_x[t.edges] = corner.x;
+    t.edge_y[t.edges] = corner.y;
+    t.beyond_first[t.edges] = static_cast<double>(edge.beyond.first);
+    t.beyond_second[t.edges++] = static_cast<double>(edge.beyond.second);
+    t.size = std::max(t.size, 4.0 * (std::fabs(corner.x) + std::fabs(corner.y)));
+  }
+  for (const Vector& v : {lattice.first, lattice.second}) t.size = std::max(t.size, 4.0 * (std::fabs(v.x) + std::fabs(v.y)));
+  t.lattice_x[0] = lattice.first.x;
+  t.lattice_y[0] = lattice.first.y;
+  t.lattice_x[1] = lattice.second.x;
+  t.lattice_y[1] = lattice.second.y;
+}
+
 /// One loop of walls that turns to the left everywhere, and nothing in it: as HitFinder::find_enclosure.
 bool is_convex(const HitFinder& finder) {
   const Table& table = finder.table();
@@ -94,7 +127,7 @@ bool fits(const Table& table) {
     if (std::holds_alternative<geometry::Ellipse>(c) || std::holds_alternative<geometry::EllipticArc>(c)) return false;
     pieces += parts_of(table, static_cast<int>(i)).size();
   }
-  return pieces > 0 && pieces <= LaneTable::most && !table.lattice && !table.crossing;
+  return pieces > 0 && pieces <= LaneTable::most && !table.crossing && (!table.lattice || discs_within_cell(table));
 }
 
 LaneTable make_lane_table(const HitFinder& finder) {
@@ -115,6 +148,7 @@ LaneTable make_lane_table(const HitFinder& finder) {
     const int first = t.first[loop];
     for (int i = first; i < t.pieces && !t.closed[first]; ++i) add_chord(t, i, i + 1 < t.pieces ? i + 1 : first);
   }
+  if (table.lattice) add_cell(t, *table.lattice);
   // A power of two. Lanes decide nothing where products of sizes might leave the range of doubles.
   t.size = t.size > 1e-30 && t.size < 1e30 ? std::ldexp(1.0, std::ilogb(t.size) + 1) : HUGE_VAL;
   for (int i = 0; i < t.pieces; ++i) t.divided |= t.wall[i] != i;

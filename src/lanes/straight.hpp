@@ -6,32 +6,24 @@
 // docs/developer/lanes.md derives the margins.
 
 /// A convex loop alone: between a joint on the right and the next one on the left, or, with all joints on one
-/// side, through the arc that the particle stands on.
+/// side, through the arc that the particle stands on (meet_by_line sees that it is one).
 INLINE Choice exit_of_loop(const View& f) {
   const LaneTable& t = f.table;
   if (t.pieces == 1) return {Real(0.0), Mask(true), Real(0.0)};
-  Real piece(-1.0);
+  Real piece = f.start_piece;
   const auto side_of = [&](int i) {
-    return cross(f.velocity, Vector{Real(t.joint_x[i]), Real(t.joint_y[i])} - f.origin);
+    return cross(f.velocity, Vector{t.joint_x[i] - f.origin.x, t.joint_y[i] - f.origin.y});
   };
   const Real first = side_of(0);
-  Real least = abs(first);
-  Mask before = first < 0.0;
+  Real least = abs(first), before = first;
   for (int i = 1; i < t.pieces; ++i) {
     const Real side = side_of(i);
     least = min(least, abs(side));
-    const Mask right = side < 0.0;
-    where(before && !right, piece) = Real(i - 1.0);
-    before = right;
+    where(before < 0.0 && side >= 0.0, piece) = Real(i - 1.0);
+    before = side;
   }
-  where(before && !(first < 0.0), piece) = Real(t.pieces - 1.0);
-  Mask decided = least > (sign_margin * t.size) * f.speed;
-  const Mask none = piece < 0.0;
-  if (any_of(none)) {
-    where(none, piece) = f.start_piece;
-    decided = decided && (!none || (piece >= 0.0 && look_up<Reach::all>(t.orientation, max(piece, Real(0.0))) != 0.0));
-  }
-  return {piece, decided, Real(0.0)};
+  where(before < 0.0 && first >= 0.0, piece) = Real(t.pieces - 1.0);
+  return {piece, least > (sign_margin * t.size) * f.speed && piece >= 0.0, Real(0.0)};
 }
 
 /// Any table: the earliest of all exits, compared as fractions.
@@ -166,6 +158,7 @@ INLINE Meeting meet_by_line(const View& f, const Met& met) {
   if constexpr (Kind::segments) {
     const Vector tangent{met.first, met.second};
     const Real across = cross(tangent, e), along = -cross(tangent, v);
+    if constexpr (Kind::convex) decided = decided && !(met.stands && !met.bent);
     time = Kind::circles ? choose(met.bent, time, across) : across;
     unit = Kind::circles ? choose(met.bent, unit, along) : along;
   }

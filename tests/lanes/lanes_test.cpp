@@ -75,6 +75,7 @@ void expect_same(const LaneEnd& a, const LaneEnd& b) {
   EXPECT_EQ(bits(a.time.high), bits(b.time.high));
   EXPECT_EQ(bits(a.time.low), bits(b.time.low));
   EXPECT_EQ(a.state.wall, b.state.wall);
+  EXPECT_EQ(a.state.cell, b.state.cell);
   EXPECT_EQ(bits(a.state.u), bits(b.state.u));
   EXPECT_EQ(bits(a.state.position.x), bits(b.state.position.x));
   EXPECT_EQ(bits(a.state.position.y), bits(b.state.position.y));
@@ -200,6 +201,35 @@ TEST(LaneRuns, LeaveTheOpenPlane) {
   compare(table, all, totals, "three discs");
   EXPECT_GT(totals.fates[Fate::unbounded], 1000);
   EXPECT_LT(totals.scalar, 100u);
+}
+
+// Cells are crossed as the scalar engine crosses them; flights over very many cells are its own.
+TEST(LaneRuns, CrossTheCellsOfLattices) {
+  Dice dice(7);
+  Totals totals;
+  for (long k = 0; k < tests::cases(30, 3000) && !HasFailure(); ++k) {
+    const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), angle = dice.between(0.9, 2.2);
+    std::vector<tests::Vector> centres;
+    for (int i = dice.whole(1, 3); i > 0; --i)
+      centres.push_back({size * (0.22 * i - 0.44), size * dice.between(-0.1, 0.1)});
+    const double radius = dice.between(0.02, 0.1);
+    Table table;
+    for (const tests::Vector& c : centres) tests::add_loop(table, {geometry::Circle{c, radius * size, false}});
+    table.extent = Extent::lattice;
+    table.lattice = geometry::make_lattice({size, dice.coin() ? 0.0 : 0.1 * size}, {size * std::cos(angle), size * std::sin(angle)}, {0, 0});
+    add_holes(table, dice);
+    const World world(table);
+    Case all;
+    all.limit = static_cast<std::uint64_t>(dice.whole(1, 100));
+    if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size;
+    for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, 1.0));
+    if (!LaneWorld::suits(table, {all.starts[0].particle})) continue;
+    compare(table, all, totals, std::to_string(k).c_str());
+  }
+  EXPECT_GT(totals.hits, 100000u);
+  EXPECT_GT(totals.fates[Fate::escaped], 100);
+  EXPECT_GT(totals.fates[Fate::survived], 100);
+  EXPECT_LT(static_cast<double>(totals.scalar), 0.05 * static_cast<double>(totals.hits));
 }
 
 TEST(LaneRuns, GoOnFromWhereTheyWereStopped) {

@@ -15,6 +15,7 @@
 #include "carom/ensemble/trajectory_ranges.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/lanes/instruction_set.hpp"
+#include "carom/lanes/lane_effort.hpp"
 
 namespace carom {
 
@@ -35,6 +36,7 @@ struct EscapeResult {
   std::uint64_t digest = 0;
   TrajectoryRanges done;    ///< trajectories that are counted
   DecisionCounts decisions;
+  LaneEffort effort;        ///< of lanes, if any flew
   bool complete = true;     ///< false when interrupted: whole blocks only
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;

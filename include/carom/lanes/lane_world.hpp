@@ -9,6 +9,7 @@
 
 #include "carom/events/world.hpp"
 #include "carom/lanes/instruction_set.hpp"
+#include "carom/lanes/lane_effort.hpp"
 
 namespace carom {
 
@@ -53,11 +54,7 @@ class LaneWorld {
                  const std::function<bool()>& interrupted = {});
 
   DecisionCounts decisions() const;
-  /// Hits in lanes, hits and ends left to the scalar engine, and lanes that stood idle, in lane steps.
-  struct Effort {
-    std::uint64_t hits = 0, scalar = 0, idle = 0;
-  };
-  const Effort& effort() const;
+  const LaneEffort& effort() const;
 
  private:
   class Implementation;
