@@ -4,6 +4,7 @@
 
 #include <arb.h>
 
+#include <cmath>
 #include <string>
 
 #include "carom/base/sign.hpp"
@@ -44,7 +45,10 @@ class Bound {
   /// At least the bound; infinity beyond the range of doubles.
   double to_double() const { return mag_get_d(x_); }
   /// log2, to a few digits; hugely negative for zero.
-  double log2() const { return mag_is_zero(x_) != 0 ? -1e18 : mag_get_d_log2_approx(x_); }
+  double log2() const {
+    if (mag_is_inf(x_) != 0) return HUGE_VAL;
+    return mag_is_zero(x_) != 0 ? -1e18 : mag_get_d_log2_approx(x_);
+  }
   mag_srcptr raw() const { return x_; }
   mag_ptr raw() { return x_; }
 

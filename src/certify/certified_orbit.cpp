@@ -100,7 +100,13 @@ class CertifiedOrbit::Implementation {
           return hit;
         }
         case Outcome::inaccurate:
-          restart(effort_.bits + std::max(still_needed(outcome), 0L) + 8);
+          if (!std::isfinite(outcome.missing_bits) && (32L << undecided_) > task_.most_bits_a_doubt) {
+            finish_with(CertifiedFate::undecided, "event " + std::to_string(attempt_->hits()) + " is not enclosed by " +
+                                                      std::to_string(effort_.bits) + " bits");
+            return std::nullopt;
+          }
+          restart(effort_.bits + std::max(still_needed(outcome), 0L) +
+                  (std::isfinite(outcome.missing_bits) ? 8L : 32L << undecided_++));
           if (done_) return std::nullopt;
           break;
         case Outcome::undecided:

@@ -83,7 +83,7 @@ TEST(CertifiedLarmor, ContainsItselfAtMoreBits) {
       ASSERT_EQ(few.hits[i].wall, many.hits[i].wall);
       ASSERT_EQ(few.hits[i].cell, many.hits[i].cell);
       for (const auto number : state_numbers) {
-        ASSERT_TRUE(ball_of(few.hits[i].*number).contains(ball_of(many.hits[i].*number))) << "hit " << i;
+        ASSERT_TRUE(tests::holds(few.hits[i].*number, many.hits[i].*number)) << "hit " << i;
         ASSERT_LT((few.hits[i].*number).log2_error(), -3.3219 * digits);
       }
       ++hits;

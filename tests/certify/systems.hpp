@@ -7,10 +7,18 @@
 #include <vector>
 
 #include "carom/certify/certified_orbit.hpp"
+#include "certify/enclosure_of.hpp"
 
 namespace carom::tests {
 
 inline ExactNumber exactly(const std::string& text) { return {text, Place{}}; }
+
+/// Does the enclosure of a run of few digits contain that of many? Where the former took more attempts it may have
+/// turned out the smaller one: then the two must meet.
+inline bool holds(const CertifiedNumber& few, const CertifiedNumber& many) {
+  const certify::Ball &a = certify::ball_of(few), &b = certify::ball_of(many);
+  return few.log2_error() < many.log2_error() ? a.overlaps(b) : a.contains(b);
+}
 
 struct Shaped {
   TableSpec spec;
