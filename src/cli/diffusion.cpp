@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "carom/lanes/soft_lanes.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/diffusion_report.hpp"
@@ -23,9 +24,11 @@ int diffusion(const Options& options) {
   const System& system = loaded.system;
 
   std::unique_ptr<DiffusionArchive> archive;
-  if (!options.output.empty())
-    archive = std::make_unique<DiffusionArchive>(options.output, loaded, provenance_of(options, system, how.threads),
-                                                 options.force);
+  if (!options.output.empty()) {
+    Provenance origin = provenance_of(options, system, how.threads);
+    if (SoftLanes::suits(*system.table, system.dynamics)) origin.isa = name_of(*how.lanes);
+    archive = std::make_unique<DiffusionArchive>(options.output, loaded, origin, options.force);
+  }
   how.interrupted = &catch_interrupts();
 
   DiffusionResult result;
