@@ -11,6 +11,7 @@
 #include "exact_loop.hpp"
 #include "overlapping_boxes.hpp"
 #include "region_faults.hpp"
+#include "segments_apart.hpp"
 
 namespace carom::geometry {
 
@@ -127,7 +128,7 @@ class Check {
       if (std::tie(b.copy, b.loop, b.piece) < std::tie(a.copy, a.loop, a.piece)) std::swap(a, b);
       if (is_disc(a) && is_disc(b)) {
         discs(a, b);
-      } else {
+      } else if (b.copy != 0 || !segments_apart(loops_[a.loop][a.piece].curve, loops_[b.loop][b.piece].curve)) {
         pieces(a, b);
       }
       return !faults_.full();

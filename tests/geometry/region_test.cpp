@@ -326,6 +326,21 @@ TEST(Region, ManyWalls) {
   EXPECT_FALSE(bounded({polygon(corners), disc({0, 0}, 0.125)}).empty());
 }
 
+// Thin rays, whose boxes overlap far more often than they come near each other; one of them too long.
+TEST(Region, ManyRays) {
+  std::vector<Vector> corners;
+  const int n = 1500;
+  for (int i = 0; i < n; ++i) {
+    const double r = i % 2 == 0 ? 0.5 : 1.0, angle = 2.0 * pi * i / n;
+    corners.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  EXPECT_TRUE(check_region({polygon(corners)}, RegionKind::bounded).empty());
+  corners[100] = -1.75 * corners[100];
+  const Faults faults = check_region({polygon(corners)}, RegionKind::bounded);
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults.front().kind, Kind::crossing);
+}
+
 TEST(Region, ManyDiscs) {
   std::vector<Loop> loops{rectangle({-1, -1}, {316, 316})};
   for (int i = 0; i < 316; ++i)
