@@ -17,9 +17,6 @@
 #include "lanes/lane_pack.hpp"
 
 #define INLINE [[gnu::always_inline]] inline
-#if !defined(CAROM_LANE_REGISTERS)
-#define CAROM_LANE_REGISTERS 1
-#endif
 
 namespace carom::lanes {
 namespace {
