@@ -158,7 +158,8 @@ class CertifiedOrbit::Implementation {
     const auto flown = static_cast<double>(attempt_->hits());
     if (task_.collisions > 0 && flown > 100.0) {
       const auto unseen = static_cast<double>(task_.collisions - forecast.hits) - flown;
-      rest += std::max(0.0, unseen) * attempt_->lost_bits() / flown;
+      const double lost = std::min(attempt_->lost_bits(), static_cast<double>(effort_.bits));
+      rest += std::max(0.0, unseen) * lost / flown;
     }
     return static_cast<long>(lacks + rest * 1.01);
   }

@@ -26,7 +26,8 @@ double time_at(const Kappa<double>& k, const MotionOf<double>& motion) {
   return elementary::atan2(h * turned * k.q, turned * k.p) / h;
 }
 
-LandingOf<Ball> larmor_state_after(const Ball& time, const BallVector& P, const BallVector& v, const Ball& h) {
+LandingOf<Ball> larmor_state_after(const Ball& time, const BallVector& P, const BallVector& v,
+                                   const Ball& h) {
   // kappa = h cos/sin (h t): p = h cos, q = sin, p^2 + h^2 q^2 = h^2.
   Kappa<Ball> k;
   const Ball angle = h * time;

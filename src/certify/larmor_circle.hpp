@@ -1,9 +1,9 @@
 // Places on Larmor circles. One formula for balls, intervals, their tangent maps and plain doubles.
 //
 // A place on the circle is kappa = (omega/2) cot(omega t/2), which is 1/t without field and falls from
-// +infinity to -infinity in one turn. It is kept as a ratio p/q with q > 0: then places just after the start and just
-// before the end of a turn, where kappa is large and q small, need no division by q, and nothing cancels
-// for weak fields. docs/physics/exactness.md derives the polynomials.
+// +infinity to -infinity in one turn. It is kept as a ratio p/q with q > 0: then places just after the start
+// and just before the end of a turn, where kappa is large and q small, need no division by q, and nothing
+// cancels for weak fields. docs/physics/exactness.md derives the polynomials.
 #pragma once
 
 #include "certify/flight.hpp"
@@ -53,9 +53,8 @@ double time_at(const Kappa<double>&, const MotionOf<double>&);
 template <class N>
 Dual<N> time_at(const Kappa<Dual<N>>& k, const MotionOf<N>& motion) {
   const N size = square(k.p.value) + square(motion.half_omega * k.q.value);
-  return Dual<N>::each(N{}, [&](std::size_t i) {
-    return (k.p.value * k.q.slope[i] - k.p.slope[i] * k.q.value) / size;
-  });
+  return Dual<N>::each(
+      N{}, [&](std::size_t i) { return (k.p.value * k.q.slope[i] - k.p.slope[i] * k.q.value) / size; });
 }
 
 /// The state after a time, without a wall.

@@ -59,8 +59,8 @@ Kappa<N> second_root(const LarmorQuadratic<N>& f) {
 
 /// Where a flight in a field from P with velocity v meets the wall `w`.
 template <class N, class C>
-Kappa<N> larmor_place(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<C>& motion,
-                      bool standing) {
+Kappa<N> larmor_place(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                      const MotionOf<C>& motion, bool standing) {
   if (w.form == Form::ellipse) return ellipse_exit(w, P, v, motion, standing);
   const LarmorQuadratic<N> f = larmor_quadratic<N, C>(w, P, v, motion, standing);
   return standing ? second_root(f) : rising_root(f, discriminant_of(f));
@@ -68,8 +68,8 @@ Kappa<N> larmor_place(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N
 
 /// The flight in a field from P with velocity v to the wall `w` and the reflection there.
 template <class N, class C>
-LandingOf<N> fly_larmor(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<C>& motion,
-                        bool standing) {
+LandingOf<N> fly_larmor(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                        const MotionOf<C>& motion, bool standing) {
   const Kappa<N> k = larmor_place<N, C>(w, P, v, motion, standing);
   LandingOf<N> r = larmor_state<N, C>(k, P, v, motion.half_omega);
   r.time = time_at(k, motion);
@@ -92,8 +92,8 @@ LandingOf<N> fly_larmor(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf
 
 /// Straight or on a Larmor circle, as the particle moves.
 template <class N, class C>
-LandingOf<N> flight_to(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<C>& motion,
-                       bool standing) {
+LandingOf<N> flight_to(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                       const MotionOf<C>& motion, bool standing) {
   return motion.turns ? fly_larmor<N, C>(w, P, v, motion, standing) : fly<N, C>(w, P, v, motion, standing);
 }
 

@@ -18,8 +18,8 @@ struct LarmorForm {
 };
 
 template <class N, class C>
-LarmorForm<N> larmor_form(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<C>& motion,
-                          bool standing) {
+LarmorForm<N> larmor_form(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                          const MotionOf<C>& motion, bool standing) {
   const auto image = [&w](const VectorOf<N>& d) { return VectorOf<N>{dot2(d, w.along), dot2(d, w.across)}; };
   const VectorOf<N> e = image(minus(P, w.centre)), u = image(v), turned = image(right_of(v));
   const C& h = motion.half_omega;
@@ -189,7 +189,8 @@ class LarmorExits {
         most = std::max(most, size);
       }
       // Then the first of Newton's steps makes the bracket four times as narrow.
-      if (falls && (most < 1.5 * least || depth == deepest_)) return take({true, chord_, low, high, N(static_cast<double>(degree_)) * slope});
+      if (falls && (most < 1.5 * least || depth == deepest_))
+        return take({true, chord_, low, high, N(static_cast<double>(degree_)) * slope});
     }
     if (depth == deepest_) return take({false, chord_, low, high, {}});
     std::array<N, 5> left = b, right = b;
@@ -245,7 +246,8 @@ class EllipseFlight {
 
   Kappa<N> place(std::size_t chord, const N& s) const { return place_of<N>(chord, s, scale_); }
   Kappa<N> place(const LarmorExit<N>& exit) const {
-    return place(exit.chord, exit.certain ? narrowed(chords_[exit.chord], exit) : union_of(exit.low, exit.high));
+    return place(exit.chord,
+                 exit.certain ? narrowed(chords_[exit.chord], exit) : union_of(exit.low, exit.high));
   }
   template <class M>
   static Kappa<M> place_of(std::size_t chord, const M& s, double scale) {
@@ -267,7 +269,8 @@ double kappa_scale(const WallOf<C>& w, const VectorOf<C>& v, const C& h) {
 
 /// Does the place lie on the wall, by its middle?
 template <class N>
-bool nearly_on_arc(const WallOf<N>& w, const Kappa<N>& k, const VectorOf<N>& P, const VectorOf<N>& v, const N& h) {
+bool nearly_on_arc(const WallOf<N>& w, const Kappa<N>& k, const VectorOf<N>& P, const VectorOf<N>& v,
+                   const N& h) {
   if (w.closed) return true;
   const VectorOf<N> X = larmor_state<N, N>(k, P, v, h).position;
   return (middle_of(cross(w.chord, X - w.from)) < 0.0) == (w.turn > 0);
@@ -291,8 +294,8 @@ EllipsePlace<N> ellipse_place(const EllipseFlight<N>& flight, const WallOf<N>& w
 }
 
 template <class N>
-Kappa<N> ellipse_exit(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
-                      bool standing) {
+Kappa<N> ellipse_exit(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                      const MotionOf<N>& motion, bool standing) {
   const N& h = motion.half_omega;
   const EllipseFlight<N> flight(larmor_form<N, N>(w, P, v, motion, standing), kappa_scale(w, v, h));
   const EllipsePlace<N> found = ellipse_place(flight, w, P, v, h);

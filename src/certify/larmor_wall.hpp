@@ -22,8 +22,8 @@ Verdict on_segment(const WallOf<N>& w, const VectorOf<N>& X) {
 
 /// Where a flight that crosses the wall's line or circle at k meets the wall.
 template <class N>
-Meeting<N> meeting_at(Kappa<N> k, Verdict verdict, const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
-                      const MotionOf<N>& motion) {
+Meeting<N> meeting_at(Kappa<N> k, Verdict verdict, const WallOf<N>& w, const VectorOf<N>& P,
+                      const VectorOf<N>& v, const MotionOf<N>& motion) {
   if (!w.closed) {
     const VectorOf<N> X = larmor_state<N, N>(k, P, v, motion.half_omega).position;
     const Verdict piece = w.form == Form::segment ? on_segment(w, X) : on_arc(w, X);
@@ -40,8 +40,8 @@ Meeting<N> meeting_at(Kappa<N> k, Verdict verdict, const WallOf<N>& w, const Vec
 /// A segment or circle; the place is unique, for a circle and a line or circle cross twice, and one of
 /// the two leads into the domain.
 template <class N>
-Meeting<N> meets_larmor(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
-                        bool standing) {
+Meeting<N> meets_larmor(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                        const MotionOf<N>& motion, bool standing) {
   const LarmorQuadratic<N> f = larmor_quadratic<N, N>(w, P, v, motion, standing);
   if (standing) {
     const Sign inwards = sign(f.b);
@@ -58,9 +58,10 @@ Meeting<N> meets_larmor(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf
 
 /// An ellipse or an arc of one.
 template <class N>
-Meeting<N> meets_ellipse(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
-                         bool standing) {
-  const EllipseFlight<N> flight(larmor_form<N, N>(w, P, v, motion, standing), kappa_scale(w, v, motion.half_omega));
+Meeting<N> meets_ellipse(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                         const MotionOf<N>& motion, bool standing) {
+  const EllipseFlight<N> flight(larmor_form<N, N>(w, P, v, motion, standing),
+                                kappa_scale(w, v, motion.half_omega));
   for (const LarmorExit<N>& exit : LarmorExits<N>(flight.chords(), w.closed ? 1 : 5)) {
     const Meeting<N> m =
         meeting_at(flight.place(exit), exit.certain ? Verdict::yes : Verdict::undecided, w, P, v, motion);
@@ -72,8 +73,8 @@ Meeting<N> meets_ellipse(const WallOf<N>& w, const VectorOf<N>& P, const VectorO
 
 /// Straight or on a Larmor circle, as the particle moves.
 template <class N>
-Meeting<N> meeting_with(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
-                        bool standing) {
+Meeting<N> meeting_with(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                        const MotionOf<N>& motion, bool standing) {
   if (!motion.turns) return meets(w, P, v, motion, standing);
   return w.form == Form::ellipse ? meets_ellipse(w, P, v, motion, standing)
                                  : meets_larmor(w, P, v, motion, standing);
@@ -83,7 +84,10 @@ Meeting<N> meeting_with(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf
 class LarmorPieces {
  public:
   LarmorPieces(geometry::Vector from, geometry::Vector velocity, double half_omega, double length)
-      : from_(from), velocity_(velocity), h_(half_omega), time_(length / std::sqrt(dot(velocity, velocity))) {}
+      : from_(from),
+        velocity_(velocity),
+        h_(half_omega),
+        time_(length / std::sqrt(dot(velocity, velocity))) {}
 
   geometry::Vector middle(double k) const {
     const elementary::SinCos a = elementary::sincos(h_ * (k + 0.5) * time_);

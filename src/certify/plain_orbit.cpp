@@ -152,11 +152,6 @@ PlainEnd plain_orbit(const ExactSystem& system, const PlainTask& task,
                      const std::function<bool()>& interrupted) {
   if (task.collisions == 0 && !task.t_max)
     throw InputError(Place{}, "an orbit without an end", "a number of collisions or a last time");
-  for (const Wall& wall : system.table->walls)
-    if (system.omega.to_double() != 0.0 && (std::holds_alternative<geometry::Ellipse>(wall.curve) ||
-                                            std::holds_alternative<geometry::EllipticArc>(wall.curve)))
-      throw InputError(system.omega.place(), "ellipses in a magnetic field have no form in plain arithmetic",
-                       "B = 0, another shape, or --precision double");
   return Runner(system, task).run(interrupted);
 }
 

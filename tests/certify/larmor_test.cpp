@@ -2,7 +2,11 @@
 // their own way back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "carom/analysis/trust.hpp"
+#include "carom/certify/plain_orbit.hpp"
 #include "carom/events/world.hpp"
 #include "certify/ball.hpp"
 #include "certify/enclosure_of.hpp"
@@ -20,8 +24,8 @@ using certify::Precision;
 using tests::exactly;
 using tests::Shaped;
 
-constexpr auto state_numbers = {&CertifiedState::t, &CertifiedState::x, &CertifiedState::y, &CertifiedState::vx,
-                                &CertifiedState::vy};
+constexpr auto state_numbers = {&CertifiedState::t, &CertifiedState::x, &CertifiedState::y,
+                                &CertifiedState::vx, &CertifiedState::vy};
 
 CertifiedTask task_of(std::uint64_t collisions, int digits) {
   CertifiedTask task;
@@ -154,7 +158,8 @@ TEST(CertifiedLarmor, RunsBack) {
       ExactSystem reversed = system;
       reversed.omega = exactly("-(" + system.omega.text() + ")");
       reversed.start.position = {exactly(end.x.text(150)), exactly(end.y.text(150))};
-      reversed.start.direction = {exactly("-(" + end.vx.text(150) + ")"), exactly("-(" + end.vy.text(150) + ")")};
+      reversed.start.direction = {exactly("-(" + end.vx.text(150) + ")"),
+                                  exactly("-(" + end.vy.text(150) + ")")};
       task.digits = 60;
       CertifiedOrbit back(reversed, task);
       const CertifiedEnd start = back.finish();
@@ -176,7 +181,9 @@ TEST(CertifiedLarmor, TurnsEquallyInTheDisc) {
     if (std::string(omega) == "-1e6") system.start.position = {exactly("1-1e-7"), 0.0};
     const std::vector<CertifiedHit> hits = run_of(system, 200, 60).hits;
     ASSERT_EQ(hits.size(), 200u);
-    const auto at = [&](std::size_t i) { return certify::BallVector{ball_of(hits[i].x), ball_of(hits[i].y)}; };
+    const auto at = [&](std::size_t i) {
+      return certify::BallVector{ball_of(hits[i].x), ball_of(hits[i].y)};
+    };
     const Ball turn = dot(at(0), at(1)), time = ball_of(hits[1].t) - ball_of(hits[0].t);
     for (std::size_t i = 1; i < hits.size(); ++i) {
       ASSERT_TRUE(dot(at(i), at(i)).contains(Ball(1)));
@@ -220,6 +227,50 @@ TEST(CertifiedLarmor, EndsPinned) {
       if (free) {
         EXPECT_EQ(run.end.collisions, 0u);
       }
+    }
+  }
+}
+
+// The square loses about .46 bits a hit in its chaotic part, less near islands.
+TEST(CertifiedLarmor, LosesLittleInTheMagneticSquare) {
+  const Shaped square = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "0.3", "0.2");
+  tests::Dice dice(14);
+  std::vector<double> rates;
+  for (int k = 0; k < 15; ++k) {
+    const geometry::Vector d = dice.direction();
+    CertifiedOrbit orbit(in_field(square, {d.x, d.y}, exactly("1/0.5075")), task_of(500, 20));
+    if (orbit.finish().fate == CertifiedFate::completed) rates.push_back(orbit.effort().tangent_bits / 500.0);
+  }
+  ASSERT_GT(rates.size(), 10u);
+  std::sort(rates.begin(), rates.end());
+  EXPECT_GT(rates[rates.size() / 2], 0.2);
+  EXPECT_LT(rates[rates.size() / 2], 0.7);
+  EXPECT_LT(rates.back(), 1.0);
+}
+
+// The same formulas in plain numbers of many bits end where certified ones do.
+TEST(CertifiedLarmor, PlainNumbersOfManyBitsAgree) {
+  tests::Dice dice(15);
+  const Precision precision(600);
+  for (int k = 0; k < 3; ++k) {
+    for (const Shaped& s : tests::all_shapes()) {
+      const geometry::Vector d = dice.direction();
+      const ExactSystem system = in_field(s, {d.x, d.y}, random_field(dice));
+      SCOPED_TRACE(s.spec.shape + ", omega " + system.omega.text());
+      CertifiedTask task = task_of(0, 50);
+      PlainTask plain;
+      task.t_max = plain.t_max = exactly("11.3");
+      plain.bits = 500;
+      const CertifiedEnd end = CertifiedOrbit(system, task).finish();
+      const PlainEnd other = plain_orbit(system, plain);
+      ASSERT_STREQ(name_of(end.fate), name_of(other.fate));
+      EXPECT_EQ(end.collisions, other.collisions);
+      EXPECT_EQ(end.cell, other.cell);
+      if (end.fate == CertifiedFate::pinned) continue;
+      EXPECT_TRUE(ball_of(end.x).contains(certify::value_of(exactly(other.x))));
+      EXPECT_TRUE(ball_of(end.y).contains(certify::value_of(exactly(other.y))));
+      EXPECT_TRUE(ball_of(end.vx).contains(certify::value_of(exactly(other.vx))));
+      EXPECT_TRUE(ball_of(end.vy).contains(certify::value_of(exactly(other.vy))));
     }
   }
 }
