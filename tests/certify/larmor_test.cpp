@@ -8,6 +8,7 @@
 #include "carom/analysis/trust.hpp"
 #include "carom/certify/plain_orbit.hpp"
 #include "carom/events/world.hpp"
+#include "carom/io/system_file.hpp"
 #include "certify/ball.hpp"
 #include "certify/enclosure_of.hpp"
 #include "certify/exact_value.hpp"
@@ -102,7 +103,14 @@ struct Walls : Observer {
     for (int i = 0; i < event.reflections; ++i) walls.push_back(event.wall);
     trust.hit(event);
   }
-  explicit Walls(const Table& table) : trust(table) {}
+  /// Against the system as it is written: its numbers are not doubles.
+  explicit Walls(const ExactSystem& system) : trust(*system.table, TrustRecorder::usual_tolerance, written(system)) {}
+  static std::shared_ptr<const WrittenSystem> written(const ExactSystem& system) {
+    LoadedSystem loaded;
+    loaded.exact = system;
+    loaded.system.table = system.table;
+    return written_system(loaded);
+  }
   std::vector<int> walls;
   TrustRecorder trust;
 };
@@ -129,7 +137,7 @@ TEST(CertifiedLarmor, MeetsTheWallsOfTheEngine) {
     particle.omega = system.omega.to_double();
     world.add(particle, state);
     world.limit_hits(100);
-    Walls seen(*system.table);
+    Walls seen(system);
     seen.trust.follow(particle, state, 0);
     world.run_until(1e300, seen);
     const Flown run = run_of(system, 100, 5);
