@@ -15,6 +15,20 @@ INLINE Vector seen_from(const LaneTable& t, const Vector& start, const CellOf& c
           start.y - (cell.first * t.lattice_y[0] + cell.second * t.lattice_y[1])};
 }
 
+/// One disc alone, without holes: a line from outside meets it ahead exactly if it cuts it and comes nearer.
+INLINE Choice meets_disc(const View& f) {
+  const LaneTable& t = f.table;
+  const Vector e{f.origin.x - t.point_x[0], f.origin.y - t.point_y[0]};
+  const Real p = dot(e, e) - t.second_number[0], q = dot(e, f.velocity);
+  const Real discriminant = q * q - p * f.square_speed;
+  const Real sides = (sign_margin * t.size) * f.speed, roots = (sides * t.size) * f.speed;
+  const Mask stands = f.start_wall == Real(0.0);
+  const Mask leaves = !stands && q < -sides && discriminant > roots;
+  Real piece(-1.0);
+  where(leaves, piece) = Real(0.0);
+  return {piece, leaves || stands || q > sides || discriminant < -roots, Real(0.0)};
+}
+
 /// Follows the flights over a few edges: who meets a disc stays in its cell. The piece is -1 for those still on
 /// their way; `f` is left as seen from the cell.
 INLINE Choice first_in_cells(View& f, CellOf& cell) {
@@ -29,7 +43,7 @@ INLINE Choice first_in_cells(View& f, CellOf& cell) {
     const Mask home = cell.first == 0.0 && cell.second == 0.0;
     f.start_wall = choose(home, wall, none);
     f.start_piece = choose(home, piece, none);
-    const Choice disc = first_of_all(f);
+    const Choice disc = t.pieces == 1 ? meets_disc(f) : first_of_all(f);
     where(under_way, found.piece) = disc.piece;
     found.decided = found.decided && (!under_way || disc.decided);
     under_way = under_way && disc.decided && disc.piece < 0.0;

@@ -70,7 +70,8 @@ TEST_P(EscapeInLanes, HasTheDigestOfTheScalarEngine) {
       }
 }
 
-INSTANTIATE_TEST_SUITE_P(BuiltIn, EscapeInLanes, testing::Values("stadium", "mushroom", "circle", "three-disc"));
+INSTANTIATE_TEST_SUITE_P(BuiltIn, EscapeInLanes, testing::Values("stadium", "mushroom", "circle", "three-disc", "magnetic-square", "sinai",
+                                                               "lorentz-triangular"));
 
 }  // namespace
 }  // namespace carom
