@@ -10,6 +10,7 @@ int table(const Options&);
 int run(const Options&);
 int escape(const Options&);
 int splitting(const Options&);
+int merge(const Options&);
 int diffusion(const Options&);
 int section(const Options&);
 int validate(const Options&);

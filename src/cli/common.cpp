@@ -103,7 +103,7 @@ std::string engine_of(const System& system) {
 }
 
 Provenance provenance_of(const Options& options, const System& system, int threads) {
-  return {options.line, engine_of(system), "baseline", threads};
+  return {options.line, engine_of(system), "baseline", threads, {}};
 }
 
 void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds,

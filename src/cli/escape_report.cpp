@@ -66,13 +66,14 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
 
 }  // namespace
 
-Json escape_json(const System& system, const EscapeResult& result, const std::string& status,
-                 const std::string& output) {
+Json escape_json(const System& system, const EscapeResult& result, const EscapeContext& context) {
   const SurvivalCounts& counts = result.counts;
   Json json = Json::object();
   add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
                   result.lanes ? name_of(*result.lanes) : "baseline");
-  json.set("status", status);
+  json.set("ranks", result.ranks);
+  json.set("status", context.status);
+  if (context.shard.of > 1) json.set("shard", text_of(context.shard));
   json.set("trajectories", counts.trajectories);
   json.set("escaped", counts.escaped);
   json.set("survived", counts.survived);
@@ -110,22 +111,24 @@ Json escape_json(const System& system, const EscapeResult& result, const std::st
   json.set("survival", std::move(by_time));
   json.set("survival_hits", std::move(by_hits));
   json.set("rate", std::move(rates));
-  if (!output.empty()) json.set("archive", output);
+  if (!context.output.empty()) json.set("archive", context.output);
   return json;
 }
 
-std::string escape_text(const System& system, const EscapeResult& result, const std::string& output) {
+std::string escape_text(const System& system, const EscapeResult& result, const EscapeContext& context) {
   const SurvivalCounts& counts = result.counts;
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}\n", grouped(counts.trajectories),
+  text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(counts.trajectories),
                       system.run.t_max, system.run.seed,
-                      result.complete ? "" : "  (interrupted: those that were finished)");
+                      context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
+                      result.complete ? "" : "  (" + context.status + ": those that were finished)");
   text += survival_table(counts);
   text += fates(system, counts);
   const double hits = static_cast<double>(counts.collisions);
-  text += fmt::format("\n{} collisions{} in {:.3g} s on {} thread{}: {}hits/s", grouped(counts.collisions),
+  text += fmt::format("\n{} collisions{} in {:.3g} s on {}{} thread{}: {}hits/s", grouped(counts.collisions),
                       system.of_discs() ? fmt::format(" and {} contacts", grouped(counts.contacts)) : "",
-                      result.seconds, result.threads, result.threads == 1 ? "" : "s",
+                      result.seconds, result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
+                      result.threads, result.threads == 1 ? "" : "s",
                       with_prefix(hits / std::max(result.seconds, 1e-9)));
   if (counts.collisions > 0)
     text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
@@ -133,7 +136,7 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
   if (result.effort.steps > 0)
     text += fmt::format("lanes: {:.1f} % busy, {:.2g} % of events left to the scalar engine\n", 100.0 * result.effort.busy(),
                         100.0 * result.effort.left());
-  if (!output.empty()) text += fmt::format("archive: {}\n", output);
+  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }
 

@@ -6,15 +6,22 @@
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
 #include "cli/commands.hpp"
+#include "cli/escape_job.hpp"
+#include "cli/mpi_ranks.hpp"
 
 int main(int argc, char** argv) {
   using namespace carom::cli;
   try {
+    // Of processes that were started together, the first one speaks.
+    const bool silent = rank_by_environment() > 0;
+    if (silent && (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr))) return bad_input;
     carom::prepare_archives();
     const Parsed parsed = parse(argc, argv);
     if (parsed.exit) return *parsed.exit;
     const Options& options = parsed.options;
+    if (silent && !(options.command == "escape" && is_plain_ensemble(options))) return done;
     if (options.command == "escape") return escape(options);
+    if (options.command == "merge") return merge(options);
     if (options.command == "diffusion") return diffusion(options);
     if (options.command == "section") return section(options);
     if (options.command == "run") return run(options);

@@ -55,6 +55,10 @@ class Command {
     app_->add_option(name, options_.system, help);
     return *this;
   }
+  Command& files(const char* name, const char* help) {
+    app_->add_option(name, options_.files, help);
+    return *this;
+  }
   Command& settings() {
     SystemOverrides& o = options_.overrides;
     app_->add_option_function<std::vector<std::string>>(
@@ -110,6 +114,8 @@ void define(CLI::App& app, Options& o) {
           "  carom escape magnetic-square\n"
           "  carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
           "  carom escape stadium --trajectories 1e5 --per-trajectory -o basins.h5\n"
+          "  carom escape stadium --trajectories 1e10 -o long.h5\n"
+          "  carom escape --resume long.h5     goes on after Ctrl-C, a kill or a full disk: the same bits\n"
           "\n"
           "A closed table is legal: nothing escapes. Exit status 3 if a trajectory was lost.")
       .system("SYSTEM", "Built-in name or TOML file")
@@ -117,6 +123,10 @@ void define(CLI::App& app, Options& o) {
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .flag("--per-trajectory", o.per_trajectory,
             "Store start, fate, hole, time and hits of each trajectory in the archive")
+      .text("--resume", o.resume, "FILE.h5", "Go on with a stored ensemble; SYSTEM may be left out")
+      .text("--checkpoint", o.checkpoint, "SECONDS", "Time between checkpoints of an archive (default 10)")
+      .text("--shard", o.shard, "K/N", "Only part K (from 1) of N parts of the trajectories")
+      .text("--block", o.block, "N", "Trajectories a block (default 1024); the result does not depend on it")
       .text("--splitting", o.splitting, "LEVELS", "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")
       .text("--population", o.population, "N", "With --splitting: trajectories of a population (default 20000)")
       .text("--certify-sample", o.certify_sample, "M",
@@ -168,6 +178,16 @@ void define(CLI::App& app, Options& o) {
       .text("--direction", o.direction, "NAME", "Crossings that count: both, positive or negative")
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
       .text("--orbits", o.orbits, "N", "Number of orbits (default: the listed starts, else at most 50)");
+  Command(app, o, "merge", "Parts of an escape ensemble become one archive",
+          "Examples:\n"
+          "  carom escape stadium --shard 1/2 -o a.h5\n"
+          "  carom escape stadium --shard 2/2 -o b.h5\n"
+          "  carom merge all.h5 a.h5 b.h5     the archive that the whole ensemble would have written\n"
+          "\n"
+          "Parts that overlap or do not match are refused.")
+      .files("FILES", "The archive to be written (or -o FILE.h5), then the parts")
+      .text("-o,--output", o.output, "FILE.h5", "The archive to be written")
+      .flag("--force", o.force, "Replace an output file that exists");
   Command(app, o, "table", "Checks, measures and draws the table",
           "Examples:\n"
           "  carom table stadium\n"
@@ -198,7 +218,7 @@ void define(CLI::App& app, Options& o) {
 std::string unknown_word(const std::vector<std::string>& remaining) {
   for (const std::string& word : remaining) {
     if (word.empty() || word[0] == '-') continue;
-    const std::string near = nearest_name(word, {"escape", "run", "diffusion", "section", "table", "systems", "validate"});
+    const std::string near = nearest_name(word, {"escape", "run", "diffusion", "section", "merge", "table", "systems", "validate"});
     return "there is no command '" + word + "'" +
            (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   }
@@ -251,12 +271,12 @@ Parsed parse(int argc, char** argv) {
     return parsed;
   }
   options.command = app.get_subcommands().front()->get_name();
-  const bool resumes = options.command == "run" && !options.resume.empty();
-  if (options.command != "systems" && options.command != "validate" && options.system.empty() && !resumes)
+  const bool resumes = !options.resume.empty();
+  if (options.command != "systems" && options.command != "validate" && options.command != "merge" && options.system.empty() && !resumes)
     complain("SYSTEM is missing: a built-in name (carom systems) or a TOML file");
-  else if (resumes && !options.system.empty())
+  else if (options.command == "run" && resumes && !options.system.empty())
     complain("--resume takes the system from the archive: leave SYSTEM out");
-  else if (options.per_trajectory && options.output.empty())
+  else if (options.per_trajectory && options.output.empty() && !resumes)
     complain("--per-trajectory writes to an archive: add -o FILE.h5");
   return parsed;
 }

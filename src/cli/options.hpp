@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "carom/io/system_overrides.hpp"
 
@@ -16,6 +17,8 @@ struct Options {
   std::string window;  ///< of carom diffusion
   std::string on, direction, points, orbits;  ///< of carom section
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
+  std::vector<std::string> files;        ///< of carom merge
+  std::string shard, block, checkpoint;  ///< of carom escape
   std::string output, threads, trajectory, resume, scale;
   std::string engine = "auto", isa = "auto", precision = "double", digits;
   std::string certify_sample;  ///< of carom escape

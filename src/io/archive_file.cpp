@@ -43,6 +43,20 @@ Handle latest_format(const std::string& name) {
   return access;
 }
 
+// Of the second part on: command_2, command_3, …
+std::string numbered(const char* what, std::size_t part) {
+  return part == 1 ? what : fmt::format("{}_{}", what, part);
+}
+
+void write_origin(hid_t provenance, std::size_t part, const Origin& origin, const std::string& name) {
+  const auto write = [&](const char* what, const std::string& text) {
+    hdf5::write_attribute(provenance, numbered(what, part).c_str(), std::string_view(text), name);
+  };
+  write("command", origin.command);
+  write("version", origin.version);
+  write("date", origin.date);
+}
+
 }  // namespace
 
 void prepare_archives() { hdf5::prepare(); }
@@ -108,15 +122,15 @@ void ArchiveFile::write_head(const char* kind, const LoadedSystem& loaded, const
   const Handle provenance = group("provenance", "Where this result comes from");
   const hid_t to = provenance.get();
   hdf5::write_attribute(to, "system", std::string_view(loaded.system.name), name_);
-  hdf5::write_attribute(to, "version", std::string_view(version), name_);
   hdf5::write_attribute(to, "compiler", std::string_view(compiler), name_);
   hdf5::write_attribute(to, "seed", fmt::format("{}", loaded.system.run.seed), name_);
   hdf5::write_attribute(to, "engine", std::string_view(origin.engine), name_);
   hdf5::write_attribute(to, "isa", std::string_view(origin.isa), name_);
   hdf5::write_attribute(to, "threads", std::int64_t{origin.threads}, name_);
-  hdf5::write_attribute(to, "command", std::string_view(origin.command), name_);
-  hdf5::write_attribute(to, "date", utc_now(), name_);
-  hdf5::write_attribute(to, "continued", std::int64_t{0}, name_);
+  std::vector<Origin> parts = origin.before;
+  parts.push_back({origin.command, version, utc_now()});
+  for (std::size_t i = 0; i < parts.size(); ++i) write_origin(to, i + 1, parts[i], name_);
+  hdf5::write_attribute(to, "continued", static_cast<std::int64_t>(origin.before.size()), name_);
   // Beside the results: how a decision was taken changes none of them.
   hdf5::write_attribute(to, "decisions_filter", std::int64_t{0}, name_);
   hdf5::write_attribute(to, "decisions_exact", std::int64_t{0}, name_);
@@ -130,11 +144,19 @@ void ArchiveFile::extend_head(const LoadedSystem& loaded, const Provenance& orig
   const Handle provenance = open_group("provenance");
   const std::int64_t times = 1 + hdf5::read_integer_attribute(provenance.get(), "continued", name_);
   hdf5::change_attribute(provenance.get(), "continued", times, name_);
-  const auto numbered = [&](const char* what) { return fmt::format("{}_{}", what, times + 1); };
-  hdf5::write_attribute(provenance.get(), numbered("command").c_str(), std::string_view(origin.command),
-                        name_);
-  hdf5::write_attribute(provenance.get(), numbered("version").c_str(), std::string_view(version), name_);
-  hdf5::write_attribute(provenance.get(), numbered("date").c_str(), utc_now(), name_);
+  write_origin(provenance.get(), static_cast<std::size_t>(times) + 1, {origin.command, version, utc_now()}, name_);
+}
+
+std::vector<Origin> ArchiveFile::read_origins(hid_t provenance, const std::string& name) {
+  std::vector<Origin> parts;
+  const auto times = static_cast<std::size_t>(hdf5::read_integer_attribute(provenance, "continued", name));
+  for (std::size_t part = 1; part <= times + 1; ++part) {
+    const auto text = [&](const char* what) {
+      return hdf5::read_string_attribute(provenance, numbered(what, part).c_str(), name);
+    };
+    parts.push_back({text("command"), text("version"), text("date")});
+  }
+  return parts;
 }
 
 void ArchiveFile::start_swmr() const { hdf5::check(H5Fstart_swmr_write(id()) >= 0, name_); }

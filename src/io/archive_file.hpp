@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "carom/io/archive.hpp"
 #include "io/hdf5.hpp"
@@ -27,6 +28,8 @@ class ArchiveFile {
   void write_head(const char* kind, const LoadedSystem&, const Provenance&) const;
   /// A run that goes on: replaces /system, adds the new command to /provenance, complete = 0.
   void extend_head(const LoadedSystem&, const Provenance&) const;
+  /// What /provenance says of each part of a run.
+  static std::vector<Origin> read_origins(hid_t provenance, const std::string& name);
   void start_swmr() const;
   void set_status(const std::string& status, bool complete) const;
   /// Where decisions were taken: to what /provenance holds of earlier parts of the run.

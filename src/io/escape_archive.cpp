@@ -1,147 +1,152 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
 #include <optional>
 
 #include "carom/base/error.hpp"
 #include "io/archive_file.hpp"
-#include "io/columns.hpp"
+#include "io/escape_columns.hpp"
+#include "io/escape_files.hpp"
+#include "io/record_log.hpp"
 
 namespace carom {
 
-using hdf5::Description;
 using hdf5::Handle;
+
+namespace {
+
+// A full disk may get room again; after so many checkpoints in a row that failed the run ends.
+constexpr int most_failures = 6;
+
+}  // namespace
 
 class EscapeArchive::Implementation {
  public:
-  Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
-                 bool per_trajectory)
-      : target(path),
-        file(ArchiveFile::create(path + ".part", path)),
-        trajectories(path),
-        of_discs(loaded.system.of_discs()) {
+  Implementation(const std::string& path, const LoadedSystem& system, const Provenance& provenance, const Plan& the_plan)
+      : target(path), loaded(system), origin(provenance), plan(the_plan) {
     for (const Hole& hole : loaded.system.table->holes) holes.push_back(hole.name);
-    file.write_head("escape", loaded, origin);
-    if (per_trajectory) create_trajectories();
+  }
+  ~Implementation() {
+    if (finished || kept == 0) std::remove(checkpoint_of(target).c_str());
+    if (log) log->keep(!finished && kept > 0);
   }
 
-  void create_trajectories();
-  void write_counts(const EscapeResult& result);
-
-  template <class Points, class Get>
-  void column(const Handle& group, const char* name, const Points& points, Get get, Description description) {
-    std::vector<std::decay_t<decltype(get(points.front()))>> values;
-    for (const auto& point : points) values.push_back(get(point));
-    hdf5::write_column(group.get(), name, std::span(std::as_const(values)), description, target);
-  }
+  void write(const EscapeResult& result, const std::string& status, bool last);
 
   std::string target;
-  ArchiveFile file;
-  hdf5::Columns trajectories;
-  bool of_discs;
+  LoadedSystem loaded;
+  Provenance origin;
+  Plan plan;
   std::vector<std::string> holes;
+  std::optional<RecordLog> log;
+  std::uint64_t kept = 0;
+  bool saved = false, finished = false;
+  int failures = 0;
 };
 
-void EscapeArchive::Implementation::create_trajectories() {
-  const Handle group = file.group("trajectories", "Start and end of each trajectory, by index");
-  const hid_t to = group.get();
-  trajectories.add<std::uint64_t>(to, "index", {"1", "trajectory * particles + particle; with injections trajectory * 2^20 + particle"});
-  trajectories.add<double>(to, "x", {"length", "Start, unwrapped"});
-  trajectories.add<double>(to, "y", {"length", "Start, unwrapped"});
-  trajectories.add<double>(to, "vx", {"length/time", "Velocity at the start"});
-  trajectories.add<double>(to, "vy", {"length/time", "Velocity at the start"});
-  const hid_t fate = trajectories.add<std::int32_t>(to, "fate", {"1", "Index into the attribute `names`"});
-  std::vector<std::string> names;
-  for (int i = 0; i <= static_cast<int>(Fate::lost); ++i) names.push_back(name_of(static_cast<Fate>(i)));
-  hdf5::write_attribute(fate, "names", names, target);
-  const hid_t hole = trajectories.add<std::int32_t>(
-      to, "hole", {"1", "Index into the attribute `names`, -1: did not escape"});
-  if (!holes.empty()) hdf5::write_attribute(hole, "names", holes, target);
-  trajectories.add<double>(to, "t",
-                           {"time", "End: escape, last hit of an unbounded one, else the time reached"});
-  trajectories.add<std::uint64_t>(to, "hits", {"1", "Reflections"});
+void write_parts(const ArchiveFile& file, const EscapeResult& result, const Shard& shard, bool everywhere) {
+  const Handle provenance = file.open_group("provenance");
+  hdf5::write_attribute(provenance.get(), "shard", text_of(shard), file.name());
+  hdf5::write_attribute(provenance.get(), "everywhere", std::int64_t{everywhere}, file.name());
+  hdf5::write_attribute(provenance.get(), "seconds", result.seconds, file.name());
+  hdf5::write_attribute(provenance.get(), "cpu_seconds", result.cpu_seconds, file.name());
+  file.add_decisions(result.decisions);
 }
 
-void EscapeArchive::Implementation::write_counts(const EscapeResult& result) {
-  const SurvivalCounts& counts = result.counts;
-  {
-    const auto points = survival(counts);
-    const Handle group = file.group("survival", "Share of the non-singular trajectories still there");
-    column(group, "t", points, [](const auto& p) { return p.t; }, {"time", "Time"});
-    column(group, "p", points, [](const auto& p) { return p.p; }, {"1", "Share still there after t"});
-    column(group, "low", points, [](const auto& p) { return p.low; }, {"1", "Wilson 95 % interval, low end"});
-    column(group, "high", points, [](const auto& p) { return p.high; },
-           {"1", "Wilson 95 % interval, high end"});
-    column(group, "gone", counts.gone_in, [](std::uint64_t n) { return n; },
-           {"1", "Trajectories gone after the time before and by t"});
+// Aside, synced, renamed: under its name a file is whole or is not there.
+void EscapeArchive::Implementation::write(const EscapeResult& result, const std::string& status, bool last) {
+  ArchiveFile file = ArchiveFile::create(checkpoint_of(target) + ".new", target);
+  Provenance now = origin;
+  now.threads = result.threads;
+  if (result.lanes) now.isa = name_of(*result.lanes);
+  file.write_head("escape", loaded, now);
+  write_parts(file, result, plan.shard, loaded.system.dynamics.everywhere);
+  write_counts(file, result, holes, loaded.system.of_discs());
+  if (log && last) {
+    hdf5::Columns columns = create_records(file, holes);
+    log->read([&](const std::vector<TrajectoryRecord>& records) { append_records(columns, records); });
+    columns.close();
+  } else if (log) {
+    write_pieces(file, log->sync());
   }
-  {
-    const auto points = survival_by_hits(counts);
-    const Handle group =
-        file.group("survival_hits", "Share of the non-singular trajectories still there after n hits");
-    column(group, "n", points, [](const auto& p) { return p.n; }, {"1", "Reflections"});
-    column(group, "p", points, [](const auto& p) { return p.p; }, {"1", "Share still there after n hits"});
-    column(group, "low", points, [](const auto& p) { return p.low; }, {"1", "Wilson 95 % interval, low end"});
-    column(group, "high", points, [](const auto& p) { return p.high; },
-           {"1", "Wilson 95 % interval, high end"});
-  }
-  {
-    const auto points = escape_rate(counts);
-    const Handle group = file.group("rate", "Escape rate: -dP/dt averaged over (from, to]");
-    column(group, "t", points, [](const auto& p) { return p.t; }, {"time", "Middle of the interval"});
-    column(group, "from", points, [](const auto& p) { return p.from; }, {"time", "Start of the interval"});
-    column(group, "to", points, [](const auto& p) { return p.to; }, {"time", "End of the interval"});
-    column(group, "value", points, [](const auto& p) { return p.value; }, {"1/time", "Escape rate"});
-    column(group, "low", points, [](const auto& p) { return p.low; }, {"1/time", "95 % interval, low end"});
-    column(group, "high", points, [](const auto& p) { return p.high; },
-           {"1/time", "95 % interval, high end"});
-  }
-  const Handle group = file.group("fates", "Numbers of trajectories by fate");
-  const auto number = [&](const char* name, std::uint64_t value, const char* text) {
-    hdf5::write_column(group.get(), name, std::span<const std::uint64_t>(&value, 1), {"1", text}, target);
-  };
-  number("trajectories", counts.trajectories, "All trajectories");
-  number("escaped", counts.escaped, "Left through a hole");
-  number("survived", counts.survived, "Still there at the end");
-  number("pinned", counts.pinned, "Survivors on a cyclotron orbit that never hits");
-  number("capped", counts.capped, "Survivors ended by the cap on hits");
-  number("singular", counts.singular, "Ended where no continuation is defined");
-  number("unbounded", counts.unbounded, "No wall follows any more");
-  number("lost", counts.lost, "Internal errors: always 0");
-  number("collisions", counts.collisions, "Reflections of all trajectories");
-  if (of_discs) number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
-  number("digest", result.digest, "Sum of a hash of each trajectory: equal digests, equal bits");
-  if (!holes.empty()) {
-    const Handle dataset =
-        hdf5::create_fixed(group.get(), "holes", H5T_NATIVE_UINT64, holes.size(),
-                           {"1", "Escapes by hole; names in the attribute `names`"}, target);
-    hdf5::write_attribute(dataset.get(), "names", holes, target);
-    hdf5::check(H5Dwrite(dataset.get(), H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                         counts.hole_escapes.data()) >= 0,
-                target);
-  }
+  file.set_status(status, last && result.complete);
+  file.keep_as(last ? target : checkpoint_of(target));
 }
 
 EscapeArchive::EscapeArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
-                             bool force, bool per_trajectory) {
-  refuse_existing(file, force);
-  implementation_ = std::make_unique<Implementation>(file, loaded, origin, per_trajectory);
+                             const Plan& plan) {
+  refuse_existing(file, plan.force);
+  if (!plan.force && exists(checkpoint_of(file)))
+    throw InputError(Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
+                     fmt::format("--resume {} to go on with it, another name, or --force", file));
+  implementation_ = std::make_unique<Implementation>(file, loaded, origin, plan);
+  if (plan.per_trajectory) implementation_->log.emplace(records_of(file), file);
 }
+
+EscapeArchive::EscapeArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
+                             const StoredEscape& stored, const Plan& plan) {
+  implementation_ = std::make_unique<Implementation>(file, loaded, origin, plan);
+  Implementation& a = *implementation_;
+  a.origin.before = stored.origins;
+  a.plan.per_trajectory = stored.per_trajectory;
+  a.plan.shard = stored.shard;
+  const bool goes_on = stored.file == checkpoint_of(file);
+  if (goes_on) a.kept = stored.result.done.size();
+  if (!stored.per_trajectory) return;
+  if (goes_on) {
+    a.log.emplace(records_of(file), file, read_pieces(stored.file));
+  } else {
+    a.log.emplace(records_of(file), file);
+    copy_records(stored, loaded.system, *a.log);
+  }
+}
+
 EscapeArchive::~EscapeArchive() = default;
 
-void EscapeArchive::append(const std::vector<TrajectoryRecord>& records) {
+bool EscapeArchive::wants_records() const { return implementation_->plan.per_trajectory; }
+
+void EscapeArchive::block(TrajectoryRange range, std::vector<TrajectoryRecord>&& records) {
+  if (implementation_->log) implementation_->log->add(range, std::move(records));
+}
+
+void EscapeArchive::mark() {
+  if (implementation_->log) implementation_->log->mark();
+}
+
+void EscapeArchive::save(const EscapeResult& so_far) {
   hdf5::silence();
-  for (const TrajectoryRecord& r : records)
-    implementation_->trajectories.row(r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int32_t>(r.fate),
-                                      r.hole, r.time, r.hits);
+  Implementation& a = *implementation_;
+  try {
+    a.write(so_far, "running", false);
+    a.kept = so_far.done.size();
+    a.saved = true;
+    a.failures = 0;
+  } catch (const InputError& error) {
+    if (!a.saved || ++a.failures >= most_failures) throw;
+    if (a.plan.warn) a.plan.warn(fmt::format("no checkpoint: {}", error.what()));
+  }
 }
 
 void EscapeArchive::finish(const EscapeResult& result, const std::string& status) {
+  hdf5::silence();
   Implementation& a = *implementation_;
-  a.trajectories.close();
-  a.write_counts(result);
-  const Handle provenance = a.file.open_group("provenance");
-  hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
-  a.file.add_decisions(result.decisions);
-  a.file.set_status(status, result.complete);
-  a.file.keep_as(a.target);
+  try {
+    a.write(result, status, true);
+  } catch (const InputError&) {
+    // A checkpoint needs less room.
+    try {
+      a.write(result, "running", false);
+      a.kept = result.done.size();
+    } catch (const InputError&) {
+    }
+    throw;
+  }
+  a.finished = true;
 }
+
+std::uint64_t EscapeArchive::kept() const { return implementation_->kept; }
+
+std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.k, shard.of); }
 
 }  // namespace carom

@@ -92,6 +92,13 @@ void write_attribute(hid_t object, const char* name, std::int64_t value, const s
   check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
 }
 
+void write_attribute(hid_t object, const char* name, double value, const std::string& file) {
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
+  const Handle attribute =
+      checked(H5Acreate2(object, name, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, file);
+  check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0, file);
+}
+
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
                      const std::string& file) {
   std::size_t longest = 1;
@@ -132,6 +139,13 @@ std::int64_t read_integer_attribute(hid_t object, const char* name, const std::s
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
   std::int64_t value = 0;
   if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_INT64, &value) < 0) cannot_read(file, name);
+  return value;
+}
+
+double read_real_attribute(hid_t object, const char* name, const std::string& file) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  double value = 0.0;
+  if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) cannot_read(file, name);
   return value;
 }
 
@@ -199,10 +213,24 @@ void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, 
   check(H5Dwrite(dataset, type, memory.get(), all.get(), H5P_DEFAULT, values) >= 0, file);
 }
 
+Handle open_column(hid_t parent, const char* name, const std::string& file) {
+  Handle dataset(H5Dopen2(parent, name, H5P_DEFAULT), H5Dclose);
+  if (!dataset) cannot_read(file, name);
+  return dataset;
+}
+
+void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, void* values, const std::string& file) {
+  const hsize_t start = row, size = count;
+  const Handle all(H5Dget_space(dataset), H5Sclose);
+  const Handle memory(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  if (!all || !memory || H5Sselect_hyperslab(all.get(), H5S_SELECT_SET, &start, nullptr, &size, nullptr) < 0 ||
+      H5Dread(dataset, type, memory.get(), all.get(), H5P_DEFAULT, values) < 0)
+    cannot_read(file, "rows");
+}
+
 template <class T>
 std::vector<T> read_column(hid_t parent, const char* name, const std::string& file) {
-  const Handle dataset(H5Dopen2(parent, name, H5P_DEFAULT), H5Dclose);
-  if (!dataset) cannot_read(file, name);
+  const Handle dataset = open_column(parent, name, file);
   std::vector<T> values(rows_of(dataset.get(), file));
   if (!values.empty() &&
       H5Dread(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)

@@ -55,6 +55,7 @@ struct Description {
 
 void write_attribute(hid_t object, const char* name, std::string_view value, const std::string& file);
 void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
+void write_attribute(hid_t object, const char* name, double value, const std::string& file);
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
                      const std::string& file);
 /// Overwrites the value of an existing attribute; a string is cut or padded to its length.
@@ -62,6 +63,7 @@ void change_attribute(hid_t object, const char* name, std::string_view value, co
 void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
 std::string read_string_attribute(hid_t object, const char* name, const std::string& file);
 std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file);
+double read_real_attribute(hid_t object, const char* name, const std::string& file);
 
 template <class T>
 hid_t native_type();
@@ -107,5 +109,9 @@ void write_column(hid_t parent, const char* name, std::span<const T> values, Des
 }
 template <class T>
 std::vector<T> read_column(hid_t parent, const char* name, const std::string& file);
+/// Opens a dataset of an archive that is read.
+Handle open_column(hid_t parent, const char* name, const std::string& file);
+/// Reads rows row … row + count - 1.
+void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, void* values, const std::string& file);
 
 }  // namespace carom::hdf5

@@ -5,58 +5,11 @@
 #include <cstring>
 #include <map>
 
+#include "archive_contents.hpp"
 #include "program.hpp"
 
 namespace carom {
 namespace {
-
-// All datasets of a file as bytes, and what is missing of their descriptions.
-struct Contents {
-  std::map<std::string, std::string> datasets;
-  std::vector<std::string> undescribed;
-  std::string status;
-  int complete = -1;
-};
-
-std::string read_all(hid_t dataset) {
-  const hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
-  const auto rows = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
-  std::string bytes(rows * H5Tget_size(type), '\0');
-  if (rows > 0) H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
-  H5Sclose(space);
-  H5Tclose(type);
-  return bytes;
-}
-
-herr_t visit(hid_t file, const char* name, const H5O_info_t* info, void* data) {
-  if (info->type != H5O_TYPE_DATASET) return 0;
-  auto& contents = *static_cast<Contents*>(data);
-  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-  if (H5Aexists(dataset, "units") <= 0 || H5Aexists(dataset, "description") <= 0)
-    contents.undescribed.emplace_back(name);
-  contents.datasets[name] = read_all(dataset);
-  H5Dclose(dataset);
-  return 0;
-}
-
-Contents open_archive(const std::string& path) {
-  Contents contents;
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) return contents;
-  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, visit, &contents, H5O_INFO_BASIC);
-  const hid_t complete = H5Aopen(file, "complete", H5P_DEFAULT);
-  H5Aread(complete, H5T_NATIVE_INT, &contents.complete);
-  H5Aclose(complete);
-  const hid_t status = H5Aopen(file, "status", H5P_DEFAULT), type = H5Aget_type(status);
-  std::string text(H5Tget_size(type), '\0');
-  H5Aread(status, type, text.data());
-  contents.status = text.c_str();
-  H5Tclose(type);
-  H5Aclose(status);
-  H5Fclose(file);
-  return contents;
-}
 
 std::int64_t provenance_number(const std::string& path, const char* name) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);

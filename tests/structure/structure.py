@@ -43,6 +43,7 @@ PACKAGES = {
     r"toml\+\+/|hdf5": r"src/io/",
     r"CLI/": r"src/cli/options\.cpp",
     r"omp\.h": r"src/ensemble/",
+    r"mpi\.h": r"src/cli/mpi_ranks\.cpp",
     r"sundials|arkode/|cvode/|nvector/|sunlinsol/|sunnonlinsol/": r"src/integrators/",
 }
 # C++ rooms in which states, times and random numbers are made; base/elementary.cpp is the door.

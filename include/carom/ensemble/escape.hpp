@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "carom/analysis/survival.hpp"
+#include "carom/ensemble/ranks.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/ensemble/trajectory_ranges.hpp"
 #include "carom/events/decisions.hpp"
@@ -39,7 +40,8 @@ struct EscapeResult {
   LaneEffort effort;        ///< of lanes, if any flew
   bool complete = true;     ///< false when interrupted: whole blocks only
   double seconds = 0, cpu_seconds = 0;
-  int threads = 1;
+  int threads = 1;          ///< of each process
+  int ranks = 1;            ///< processes
   std::optional<InstructionSet> lanes;  ///< that flew it; empty: the scalar engine did
   std::vector<std::pair<std::uint64_t, std::string>> reports;  ///< first few lost ones: index and state
 
@@ -76,6 +78,9 @@ struct EscapeOptions {
   const EscapeResult* before = nullptr;
   EscapeJournal* journal = nullptr;  ///< is asked to save first of all, and then every so many seconds
   double save_every = 10;
+  /// Processes that share the ensemble: each calls run_escape. Rank 0 has the result; part, before, journal and
+  /// progress are its own. The others need the system, and their result is empty. Not with `records`.
+  Ranks* ranks = nullptr;
   const std::atomic<bool>* interrupted = nullptr;  ///< asked between blocks and during long ones
   /// Called now and then from one thread at a time with the trajectories done so far.
   std::function<void(std::uint64_t done, std::uint64_t hits)> progress;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
+#include "carom/ensemble/trajectory_ranges.hpp"
 #include "carom/io/system_file.hpp"
 
 namespace carom {
@@ -20,11 +22,17 @@ void prepare_archives();
 /// Throws InputError where `file` exists and `force` is not set.
 void refuse_existing(const std::string& file, bool force);
 
+/// What made a part of a result.
+struct Origin {
+  std::string command, version, date;
+};
+
 /// Where a result comes from. Everything else of /provenance is known to the archive.
 struct Provenance {
   std::string command;  ///< as typed
   std::string engine, isa;
   int threads = 1;
+  std::vector<Origin> before;  ///< of the parts that came before
 };
 
 /// A run while it happens: hits and samples go to the file in batches, which readers can follow
@@ -61,16 +69,63 @@ struct StoredRun {
 /// Throws InputError for anything but the archive of a finished or interrupted run.
 StoredRun read_run(const std::string& file);
 
-/// An ensemble's result: written to FILE.part, synced, renamed. Removed unless finished.
-class EscapeArchive {
- public:
-  EscapeArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force,
-                bool per_trajectory);
-  EscapeArchive(const EscapeArchive&) = delete;
-  ~EscapeArchive();
+/// Part `k` of `of`, from 1 on.
+struct Shard {
+  std::uint64_t k = 1, of = 1;
+  bool operator==(const Shard&) const = default;
+  TrajectoryRange range(std::uint64_t trajectories) const { return shard(k, of, trajectories); }
+};
+std::string text_of(const Shard&);  ///< "2/8"
 
-  void append(const std::vector<TrajectoryRecord>&);
+/// An escape ensemble as its archive holds it, or the checkpoint of one that has not ended.
+struct StoredEscape {
+  std::string file;  ///< that was read: FILE.h5 or FILE.h5.part
+  std::string version, system_name, system_toml, status;
+  std::string engine;       ///< "events", "steps" or "auto"
+  bool everywhere = false;  ///< --engine steps: integrates everything
+  std::vector<Origin> origins;
+  Shard shard;
+  bool per_trajectory = false;
+  EscapeResult result;
+};
+/// Of FILE.h5 and its checkpoint, what holds more of the same ensemble; the checkpoint of another one comes
+/// first. Throws InputError for anything else.
+StoredEscape read_escape(const std::string& file);
+/// Throws InputError where another version of the program wrote it.
+void refuse_other_version(const StoredEscape&);
+/// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none.
+std::string difference(const std::string& toml, const std::string& other_toml);
+
+/// The sum of parts of one ensemble, in any order the same: shard 1/1, complete where nothing is missing. Throws
+/// InputError where parts overlap or do not match, and says in what.
+StoredEscape sum_of(const std::vector<StoredEscape>& parts);
+/// Writes the sum of parts as their ensemble's archive.
+void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const StoredEscape& sum,
+               const std::vector<StoredEscape>& parts);
+
+/// An ensemble's result. While the ensemble runs, FILE.part is its checkpoint: an archive by itself, always
+/// whole, and FILE.records holds the records of trajectories. When finished, FILE replaces them.
+class EscapeArchive : public EscapeJournal {
+ public:
+  struct Plan {
+    bool force = false, per_trajectory = false;
+    Shard shard;
+    std::function<void(const std::string&)> warn;  ///< of a checkpoint that could not be written
+  };
+  EscapeArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Plan&);
+  /// Goes on with a stored ensemble; plan and earlier provenance are those of the store.
+  EscapeArchive(const std::string& file, const LoadedSystem&, const Provenance&, const StoredEscape&,
+                const Plan&);
+  EscapeArchive(const EscapeArchive&) = delete;
+  ~EscapeArchive() override;
+
+  bool wants_records() const override;
+  void block(TrajectoryRange, std::vector<TrajectoryRecord>&&) override;
+  void mark() override;
+  void save(const EscapeResult& so_far) override;
   void finish(const EscapeResult&, const std::string& status);
+  /// Trajectories of the checkpoint that is on the disk now.
+  std::uint64_t kept() const;
 
  private:
   class Implementation;

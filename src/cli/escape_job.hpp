@@ -1,0 +1,42 @@
+// Which ensemble `carom escape` is to run: a new one, a part of it, or one that goes on.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "carom/ensemble/ranks.hpp"
+#include "carom/io/archive.hpp"
+#include "carom/io/system_file.hpp"
+#include "cli/options.hpp"
+
+namespace carom::cli {
+
+struct EscapeJob {
+  LoadedSystem loaded;
+  std::string output;  ///< archive, or ""
+  Shard shard;
+  std::optional<StoredEscape> stored;  ///< what it goes on with
+};
+/// Throws InputError where what is stored is not what is asked for, and says what differs.
+EscapeJob job_of(const Options&);
+
+/// Tells the other ranks what to run: the job, or that there is none if it is given back before.
+class JobCall {
+ public:
+  explicit JobCall(Ranks* ranks) : ranks_(ranks) {}
+  JobCall(const JobCall&) = delete;
+  ~JobCall() { make(nullptr); }
+  void make(const EscapeJob* job);
+
+ private:
+  Ranks* ranks_;
+};
+/// What it told this rank; nothing: no job.
+std::optional<LoadedSystem> called_job(Ranks&);
+
+/// Counts trajectories and does nothing else: such ensembles can be parted, continued and shared.
+bool is_plain_ensemble(const Options&);
+void refuse_parts_of_others(const Options&);
+double seconds_between_checkpoints(const std::string& text);
+
+}  // namespace carom::cli

@@ -1,0 +1,54 @@
+// carom merge: parts of an escape ensemble become one archive.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "carom/base/error.hpp"
+#include "cli/commands.hpp"
+#include "cli/common.hpp"
+#include "cli/escape_report.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+// What a part lacks is lacking in the sum.
+void say_what_is_missing(const StoredEscape& sum, const System& system) {
+  const auto gaps = sum.result.done.missing_from({0, system.run.trajectories});
+  std::uint64_t missing = 0;
+  for (const TrajectoryRange& gap : gaps) missing += gap.last - gap.first;
+  if (missing > 0)
+    fmt::print(stderr, "carom: {} of {} trajectories are missing, the first of them {}\n", grouped(missing),
+               grouped(system.run.trajectories), gaps.front().first);
+}
+
+}  // namespace
+
+int merge(const Options& options) {
+  std::vector<std::string> files = options.files;
+  std::string output = options.output;
+  if (output.empty() && !files.empty()) {
+    output = files.front();
+    files.erase(files.begin());
+  }
+  if (files.empty())
+    throw InputError(Place{"command line", 0, 0, "merge"}, "there is nothing to merge", "OUT.h5 PART.h5 PART.h5 …");
+  refuse_existing(output, options.force);
+  std::vector<StoredEscape> parts;
+  for (const std::string& file : files) parts.push_back(read_escape(file));
+  const StoredEscape sum = sum_of(parts);
+  LoadedSystem loaded = read_system(sum.system_toml, parts.front().file + ": /system");
+  loaded.system.name = sum.system_name;
+  loaded.system.dynamics.everywhere = sum.everywhere;
+  Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
+  if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
+  write_sum(output, loaded, origin, sum, parts);
+  say_what_is_missing(sum, loaded.system);
+  for (const auto& [index, text] : sum.result.reports) fmt::print(stderr, "carom: {}\n", text);
+  const EscapeContext context{sum.status, output, sum.shard};
+  print(options.json ? escape_json(loaded.system, sum.result, context).text() + "\n"
+                     : escape_text(loaded.system, sum.result, context));
+  return sum.result.counts.lost > 0 ? lost : done;
+}
+
+}  // namespace carom::cli

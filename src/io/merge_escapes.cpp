@@ -1,0 +1,155 @@
+// Parts of one escape ensemble become one archive.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
+#include "io/escape_columns.hpp"
+#include "io/escape_files.hpp"
+
+namespace carom {
+
+namespace {
+
+// The first trajectories that both hold, if there are any.
+std::optional<TrajectoryRange> common(const TrajectoryRanges& a, const TrajectoryRanges& b) {
+  for (const TrajectoryRange& x : a.ranges())
+    for (const TrajectoryRange& y : b.ranges()) {
+      const TrajectoryRange both{std::max(x.first, y.first), std::min(x.last, y.last)};
+      if (both.first < both.last) return both;
+    }
+  return {};
+}
+
+void refuse_others(const StoredEscape& part, const StoredEscape& first) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(Place{part.file, 0, 0, ""}, fmt::format("it does not match '{}': {}", first.file, what),
+                     "parts of one ensemble");
+  };
+  if (part.version != first.version) refuse(fmt::format("its version is {}, not {}", part.version, first.version));
+  const std::string differs = difference(first.system_toml, part.system_toml);
+  if (!differs.empty()) refuse(differs);
+  if (part.engine != first.engine || part.everywhere != first.everywhere)
+    refuse(fmt::format("its engine is {}, not {}", part.engine, first.engine));
+  if (part.per_trajectory != first.per_trajectory)
+    refuse(part.per_trajectory ? "it alone has --per-trajectory" : "it has no --per-trajectory");
+  if (part.per_trajectory && part.status == "running")
+    throw InputError(Place{part.file, 0, 0, ""}, "it is the checkpoint of a run that has not ended",
+                     "an archive, which carom escape --resume makes of it");
+}
+
+// The records of one part, in order of index; its file is open only while they are read.
+class Source {
+ public:
+  Source(const StoredEscape& part, const System& system) : file_(part.file) {
+    if (part.result.done.size() > 0) head_ = particle_index(system, part.result.done.ranges().front().first, 0);
+  }
+  /// No record has a lower index; the largest number at the end.
+  std::uint64_t head() const { return head_; }
+  /// Moves all records with indices below `end` from the front to `records`.
+  void take(std::uint64_t end, std::vector<TrajectoryRecord>& records) {
+    if (!reader_) {
+      reader_ = std::make_unique<RecordReader>(file_);
+      load();
+    }
+    if (head_ >= end) return;
+    const auto stop = std::lower_bound(batch_.begin() + at_, batch_.end(), end,
+                                       [](const TrajectoryRecord& r, std::uint64_t index) { return r.index < index; });
+    records.insert(records.end(), batch_.begin() + at_, stop);
+    at_ = stop - batch_.begin();
+    if (stop == batch_.end())
+      load();
+    else
+      head_ = stop->index;
+  }
+
+ private:
+  void load() {
+    at_ = 0;
+    if (reader_->next(batch_)) {
+      head_ = batch_.front().index;
+      return;
+    }
+    head_ = std::numeric_limits<std::uint64_t>::max();
+    reader_.reset();
+    batch_ = {};
+  }
+  std::string file_;
+  std::uint64_t head_ = std::numeric_limits<std::uint64_t>::max();
+  std::unique_ptr<RecordReader> reader_;
+  std::vector<TrajectoryRecord> batch_;
+  std::ptrdiff_t at_ = 0;
+};
+
+void write_records(const ArchiveFile& file, const System& system, const std::vector<StoredEscape>& parts,
+                   const std::vector<std::string>& holes) {
+  hdf5::Columns columns = create_records(file, holes);
+  std::vector<Source> sources;
+  for (const StoredEscape& part : parts) sources.emplace_back(part, system);
+  constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+  for (;;) {
+    Source* lowest = nullptr;
+    std::uint64_t others = none;
+    for (Source& source : sources) {
+      if (!lowest || source.head() < lowest->head()) {
+        if (lowest) others = std::min(others, lowest->head());
+        lowest = &source;
+      } else {
+        others = std::min(others, source.head());
+      }
+    }
+    if (!lowest || lowest->head() == none) break;
+    std::vector<TrajectoryRecord> records;
+    lowest->take(others, records);
+    append_records(columns, records);
+  }
+  columns.close();
+}
+
+}  // namespace
+
+StoredEscape sum_of(const std::vector<StoredEscape>& parts) {
+  StoredEscape sum = parts.at(0);
+  refuse_other_version(sum);
+  refuse_others(sum, sum);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    refuse_others(parts[i], parts[0]);
+    for (std::size_t j = 0; j < i; ++j)
+      if (const auto both = common(parts[i].result.done, parts[j].result.done))
+        throw InputError(Place{parts[i].file, 0, 0, ""},
+                         fmt::format("trajectories {} to {} are in '{}', too", both->first, both->last - 1, parts[j].file),
+                         "parts that do not overlap");
+    if (!sum.result.add(parts[i].result)) throw InternalError("parts overlap");
+    sum.result.threads = std::max(sum.result.threads, parts[i].result.threads);
+    if (parts[i].result.lanes != sum.result.lanes) sum.result.lanes.reset();
+  }
+  sum.shard = {};
+  sum.file.clear();
+  const TrajectoryRange whole{0, read_system(sum.system_toml, "system").system.run.trajectories};
+  sum.result.complete = sum.result.done.missing_from(whole).empty();
+  sum.status = sum.result.complete ? "completed" : "incomplete";
+  return sum;
+}
+
+void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const StoredEscape& sum,
+               const std::vector<StoredEscape>& parts) {
+  hdf5::silence();
+  const System& system = loaded.system;
+  std::vector<std::string> holes, files;
+  for (const Hole& hole : system.table->holes) holes.push_back(hole.name);
+  for (const StoredEscape& part : parts) files.push_back(part.file);
+  ArchiveFile file = ArchiveFile::create(checkpoint_of(path) + ".new", path);
+  file.write_head("escape", loaded, origin);
+  write_parts(file, sum.result, sum.shard, sum.everywhere);
+  hdf5::write_attribute(file.open_group("provenance").get(), "merged", files, path);
+  write_counts(file, sum.result, holes, system.of_discs());
+  if (sum.per_trajectory) write_records(file, system, parts, holes);
+  file.set_status(sum.status, sum.result.complete);
+  file.keep_as(path);
+}
+
+}  // namespace carom

@@ -1,0 +1,60 @@
+// The records of trajectories beside a checkpoint: a file that only grows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/trajectory_ranges.hpp"
+
+namespace carom {
+
+/// Records as they lie in memory, in the order in which blocks came in. What a checkpoint names stays
+/// where it is; what was written after it is written again by the run that goes on.
+class RecordLog {
+ public:
+  /// Trajectories first … last - 1 are the records row … row + rows - 1.
+  struct Piece {
+    std::uint64_t first = 0, last = 0, row = 0, rows = 0;
+  };
+
+  /// `name` is that of the archive, for messages. An existing file is emptied, or opened and cut to the
+  /// records that `pieces` hold. It is removed in the end unless kept.
+  RecordLog(const std::string& path, const std::string& name);
+  RecordLog(const std::string& path, const std::string& name, std::vector<Piece> pieces);
+  RecordLog(const RecordLog&) = delete;
+  ~RecordLog();
+
+  /// From any thread, by turns.
+  void add(TrajectoryRange, std::vector<TrajectoryRecord>&&);
+  /// Remembers what has come until now.
+  void mark();
+  /// Sees to it that what was marked is on the disk. add() may go on.
+  std::vector<Piece> sync();
+  /// All that was marked, in order of index, in batches.
+  void read(const std::function<void(const std::vector<TrajectoryRecord>&)>& batch) const;
+
+  void keep(bool wanted) { kept_ = wanted; }
+
+ private:
+  struct Block {
+    TrajectoryRange range;
+    std::vector<TrajectoryRecord> records;
+  };
+  void write_out();  // with the mutex held
+  [[noreturn]] void fail(const char* what) const;
+
+  std::string path_, name_;
+  int descriptor_ = -1;
+  bool kept_ = false;
+  mutable std::mutex mutex_;
+  std::vector<Block> waiting_;
+  std::size_t waiting_records_ = 0;
+  std::vector<Piece> pieces_, marked_;
+  std::uint64_t rows_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,153 @@
+// Shards, ranks, threads, instruction sets, blocks, interruptions: one digest and equal datasets.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "archive_contents.hpp"
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+std::map<std::string, std::string> datasets(const Shell& shell, const std::string& file) {
+  return open_archive(shell.folder() + "/" + file).datasets;
+}
+
+const std::string ensemble = "$carom escape stadium --set run.trajectories=6000 --t-max 60 --quiet --json ";
+
+TEST(Merge, InAnyOrderIsTheWhole) {
+  for (const std::string records : {"", " --per-trajectory"}) {
+    const Shell shell;
+    const Outcome o = shell(ensemble + records + " -o whole.h5 && for k in 1 2 3; do " + ensemble + records +
+                            " --shard $k/3 -o $k.h5 || exit 9; done");
+    ASSERT_EQ(o.status, 0) << o.err;
+    const auto whole = datasets(shell, "whole.h5");
+    EXPECT_EQ(open_archive(shell.folder() + "/2.h5").complete, 1);
+    EXPECT_FALSE(datasets(shell, "2.h5") == whole);
+    for (const char* order : {"1.h5 2.h5 3.h5", "3.h5 1.h5 2.h5"}) {
+      const Outcome merged = shell("$carom merge all.h5 " + std::string(order) + " --json --force");
+      EXPECT_EQ(merged.status, 0) << merged.err;
+      EXPECT_EQ(merged.err, "");
+      EXPECT_EQ(json_value(merged.out, "status"), "\"completed\"");
+      expect_same_datasets(shell.folder() + "/all.h5", whole);
+      const Contents all = open_archive(shell.folder() + "/all.h5");
+      EXPECT_EQ(all.complete, 1);
+      EXPECT_TRUE(all.undescribed.empty());
+    }
+    // In two steps; and what is missing is filled in.
+    const Outcome two = shell("$carom merge -o two.h5 3.h5 1.h5 --json");
+    EXPECT_EQ(two.status, 0);
+    EXPECT_EQ(json_value(two.out, "status"), "\"incomplete\"");
+    EXPECT_NE(two.err.find("2 000 of 6 000 trajectories are missing, the first of them 2000"), std::string::npos) << two.err;
+    EXPECT_EQ(shell("$carom merge three.h5 two.h5 2.h5").status, 0);
+    expect_same_datasets(shell.folder() + "/three.h5", whole);
+    EXPECT_EQ(shell("$carom escape --resume two.h5").status, 0);
+    expect_same_datasets(shell.folder() + "/two.h5", whole);
+  }
+}
+
+TEST(Merge, RefusesWhatOverlapsOrDoesNotMatch) {
+  const Shell shell;
+  const Outcome o = shell(ensemble + "--shard 1/2 -o a.h5 && " + ensemble + "--shard 2/2 -o b.h5 && " + ensemble +
+                          "--shard 2/3 -o c.h5 && " + ensemble + "--shard 2/2 --seed 5 -o seed.h5 && " + ensemble +
+                          "--shard 2/2 --per-trajectory -o records.h5 && " + ensemble +
+                          "--shard 2/2 --collisions 59 -o cap.h5 && $carom run stadium --t-max 2 -o run.h5");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::pair<const char*, const char*> cases[] = {
+      {"a.h5 b.h5 a.h5", "a.h5: trajectories 0 to 2999 are in 'a.h5', too"},
+      {"a.h5 c.h5", "c.h5: trajectories 2000 to 2999 are in 'a.h5', too"},
+      {"a.h5 seed.h5", "seed.h5: it does not match 'a.h5': run.seed is 5, not 1"},
+      {"a.h5 cap.h5", "run.collisions is 59, not"},
+      {"a.h5 records.h5", "--per-trajectory"},
+      {"a.h5 none.h5", "none.h5: there is no such file"},
+      {"a.h5 run.h5", "run.h5: the archive does not hold an escape ensemble"},
+      {"", "nothing to merge"},
+  };
+  for (const auto& [files, message] : cases) {
+    const Outcome refused = shell("$carom merge all.h5 " + std::string(files));
+    EXPECT_EQ(refused.status, 1) << files;
+    EXPECT_EQ(refused.out, "");
+    EXPECT_NE(refused.err.find(message), std::string::npos) << files << "\n" << refused.err;
+    EXPECT_FALSE(shell.exists("all.h5"));
+  }
+  EXPECT_NE(shell("$carom merge a.h5 b.h5").err.find("--force"), std::string::npos);
+  for (const char* wrong : {"0/2", "3/2", "1", "1/0", "a/b", "-1/2", "1/2/3"})
+    EXPECT_EQ(shell(ensemble + "--shard " + wrong).status, 1) << wrong;
+}
+
+bool has_mpi() { return std::system("mpirun --version >/dev/null 2>&1") == 0; }
+std::string ranks(int n) {
+  return n == 0 ? "" : "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe --bind-to none -n " +
+                           std::to_string(n) + " ";
+}
+
+TEST(SameBits, OnAnyThreadsRanksLanesBlocksPartsAndAfterKills) {
+  const Shell shell;
+  ASSERT_EQ(shell(ensemble + "-o whole.h5 --per-trajectory").status, 0);
+  const auto whole = datasets(shell, "whole.h5");
+  std::string isas;
+  for (const char* isa : {"baseline", "avx2", "avx512"})
+    if (shell(ensemble + "--trajectories 1 --isa " + isa).status == 0) isas += std::string(" ") + isa;
+  // Every value of each, not every combination: that is what CAROM_SOAK asks for.
+  const bool all = std::getenv("CAROM_SOAK") != nullptr;
+  int number = 0;
+  for (const int processes : {0, 2, 4}) {
+    if (processes > 0 && !has_mpi()) continue;
+    for (const int threads : {1, 2})
+      for (const std::string block : {"7", "1024"})
+        for (const std::string isa : {"baseline", "avx2", "avx512"}) {
+          if (isas.find(isa) == std::string::npos) continue;
+          const int every = processes > 0 ? 12 : 3;
+          if (++number % every != 1 && !all) continue;
+          const std::string how = " --per-trajectory --threads " + std::to_string(threads) + " --block " + block + " --isa " + isa;
+          const std::string run = ranks(processes) + ensemble + how;
+          SCOPED_TRACE(run);
+          const Outcome one = shell("rm -f *.h5.* one.h5; " + run + " -o one.h5");
+          EXPECT_EQ(one.status, 0) << run << one.err;
+          expect_same_datasets(shell.folder() + "/one.h5", whole);
+          const Outcome parts = shell("rm -f ?.h5 all.h5; for k in 1 2 3; do " + run +
+                                      " --shard $k/3 -o $k.h5 || exit 9; done; $carom merge all.h5 3.h5 1.h5 2.h5");
+          EXPECT_EQ(parts.status, 0) << run << parts.err;
+          expect_same_datasets(shell.folder() + "/all.h5", whole);
+          const Outcome stopped = shell("rm -f r.h5*; " + run + " -o r.h5 --checkpoint 0.01 & pid=$!; sleep 0.1; "
+                                        "kill -INT $pid; wait $pid; if [ -e r.h5 ] || [ -e r.h5.part ]; then " +
+                                        ranks(processes) + "$carom escape --resume r.h5 --threads 2; else " + run + " -o r.h5; fi");
+          EXPECT_EQ(stopped.status, 0) << run << stopped.err;
+          expect_same_datasets(shell.folder() + "/r.h5", whole);
+        }
+  }
+}
+
+TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
+  if (!has_mpi()) GTEST_SKIP() << "no mpirun";
+  const Shell shell;
+  const std::string run = "$carom escape stadium --trajectories 3e6 --t-max 60 --quiet --json --threads 1";
+  ASSERT_EQ(shell(run + " -o whole.h5").status, 0);
+  const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint 0.05 & pid=$!; "
+                               "while ! [ -e a.h5.part ]; do sleep 0.02; done; sleep 0.15; "
+                               "kill -9 $(pgrep -P $pid | tail -1); wait $pid");
+  EXPECT_NE(killed.status, 0);
+  EXPECT_TRUE(shell.exists("a.h5.part"));
+  EXPECT_EQ(open_archive(shell.folder() + "/a.h5.part").complete, 0);
+  const Outcome end = shell(ranks(2) + "$carom escape --resume a.h5 --json");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(json_value(end.out, "ranks"), "2");
+  expect_same_datasets(shell.folder() + "/a.h5", datasets(shell, "whole.h5"));
+}
+
+TEST(Ranks, SpeakWithOneVoice) {
+  if (!has_mpi()) GTEST_SKIP() << "no mpirun";
+  const Shell shell;
+  const Outcome good = shell(ranks(3) + ensemble);
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_TRUE(is_json_object(good.out)) << good.out;
+  const Outcome bad = shell(ranks(3) + "$carom escape stadium --set table.radius=-1");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_EQ(bad.err.find("carom: "), bad.err.rfind("carom: ")) << bad.err;
+  const Outcome other = shell(ranks(2) + "$carom table stadium --json");
+  EXPECT_EQ(other.status, 0);
+  EXPECT_TRUE(is_json_object(other.out)) << other.out;
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,198 @@
+// Several processes, here threads, share an ensemble: the result of one.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/ranks.hpp"
+#include "ensemble/bytes.hpp"
+#include "systems.hpp"
+
+namespace carom {
+namespace {
+
+struct Office {
+  explicit Office(int size) : boxes(static_cast<std::size_t>(size)) {}
+  std::mutex mutex;
+  std::vector<std::deque<Ranks::Message>> boxes;
+};
+
+class ThreadRanks : public Ranks {
+ public:
+  ThreadRanks(Office& office, int rank) : office_(office), rank_(rank) {}
+  int rank() const override { return rank_; }
+  int size() const override { return static_cast<int>(office_.boxes.size()); }
+  void send(int to, const std::vector<std::byte>& bytes) override {
+    const std::lock_guard lock(office_.mutex);
+    office_.boxes[static_cast<std::size_t>(to)].push_back({rank_, bytes});
+  }
+  std::optional<Message> receive() override {
+    const std::lock_guard lock(office_.mutex);
+    auto& box = office_.boxes[static_cast<std::size_t>(rank_)];
+    if (box.empty()) return {};
+    Message first = std::move(box.front());
+    box.pop_front();
+    return first;
+  }
+
+ private:
+  Office& office_;
+  int rank_;
+};
+
+class Records : public EscapeJournal {
+ public:
+  bool wants_records() const override { return true; }
+  void block(TrajectoryRange, std::vector<TrajectoryRecord>&& records) override {
+    for (const TrajectoryRecord& r : records) EXPECT_TRUE(all.emplace(r.index, r).second);
+  }
+  void save(const EscapeResult&) override { ++saves; }
+  std::map<std::uint64_t, TrajectoryRecord> all;
+  int saves = 0;
+};
+
+struct Crew {
+  EscapeResult result;
+  std::size_t messages_left = 0;
+};
+/// Each rank has a system of its own, as processes have. `slow`: a rank that starts late.
+Crew run_crew(int size, EscapeOptions options, int slow = -1, const System& system = make_system(magnetic_square)) {
+  Crew crew;
+  Office office(size);
+  std::vector<std::thread> hands;
+  for (int rank = 1; rank < size; ++rank)
+    hands.emplace_back([&office, rank, slow, system, threads = options.threads] {
+      if (rank == slow) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      ThreadRanks ranks(office, rank);
+      EscapeOptions mine;
+      mine.threads = threads;
+      mine.ranks = &ranks;
+      EXPECT_EQ(run_escape(system, mine).counts.trajectories, 0u);
+    });
+  ThreadRanks first(office, 0);
+  options.ranks = &first;
+  std::exception_ptr error;
+  try {
+    crew.result = run_escape(system, options);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  for (std::thread& hand : hands) hand.join();
+  for (const auto& box : office.boxes) crew.messages_left += box.size();
+  EXPECT_EQ(crew.messages_left, 0u);
+  if (error) std::rethrow_exception(error);
+  return crew;
+}
+
+void expect_equal(const EscapeResult& a, const EscapeResult& b) {
+  EXPECT_TRUE(a.complete);
+  EXPECT_EQ(a.digest, b.digest);
+  EXPECT_EQ(a.done, b.done);
+  EXPECT_EQ(a.counts.gone_in, b.counts.gone_in);
+  EXPECT_EQ(a.counts.gone_in_hits, b.counts.gone_in_hits);
+  EXPECT_EQ(a.counts.collisions, b.counts.collisions);
+  EXPECT_EQ(a.counts.most_hits, b.counts.most_hits);
+}
+
+TEST(Crew, OfAnySizeHasTheSameResult) {
+  const EscapeResult alone = run_escape(make_system(magnetic_square));
+  for (const int size : {1, 2, 4})
+    for (const int threads : {1, 2})
+      for (const std::uint64_t block : {3u, 64u}) {
+        EscapeOptions options;
+        options.threads = threads;
+        options.block = block;
+        const EscapeResult result = run_crew(size, options).result;
+        expect_equal(result, alone);
+        EXPECT_EQ(result.ranks, size);
+      }
+}
+
+TEST(Crew, DoesNotWaitForASlowRank) {
+  EscapeOptions options;
+  options.threads = 1;
+  expect_equal(run_crew(3, options, 2).result, run_escape(make_system(magnetic_square)));
+}
+
+TEST(Crew, HandsOverEveryRecordAndSavesOnTheWay) {
+  Records alone, shared;
+  EscapeOptions options;
+  options.journal = &alone;
+  run_escape(make_system(magnetic_square), options);
+  options.journal = &shared;
+  options.save_every = 0.005;
+  options.threads = 1;
+  options.block = 5;
+  run_crew(3, options);
+  ASSERT_EQ(shared.all.size(), alone.all.size());
+  for (const auto& [index, r] : alone.all) {
+    const TrajectoryRecord& s = shared.all.at(index);
+    EXPECT_TRUE(s.x == r.x && s.vy == r.vy && s.time == r.time && s.hits == r.hits && s.fate == r.fate);
+  }
+  EXPECT_GT(shared.saves, 1);
+}
+
+TEST(Crew, GoesOnAfterAnInterruption) {
+  const EscapeResult alone = run_escape(make_system(magnetic_square));
+  std::atomic<bool> stop{false};
+  EscapeOptions options;
+  options.block = 2;
+  options.threads = 1;
+  options.interrupted = &stop;
+  options.progress = [&](std::uint64_t done, std::uint64_t) { stop = stop || done > 100; };
+  const EscapeResult part = run_crew(3, options).result;
+  EXPECT_FALSE(part.complete);
+  EscapeOptions rest;
+  rest.before = &part;
+  rest.threads = 1;
+  expect_equal(run_crew(2, rest).result, alone);
+}
+
+TEST(Crew, EndsWhenTheFirstRankFails) {
+  struct Full : EscapeJournal {
+    explicit Full(int good) : left(good) {}
+    void save(const EscapeResult&) override {
+      if (left-- == 0) throw InputError("the disk is full");
+    }
+    int left;
+  };
+  System system = make_system(magnetic_square);
+  system.run.trajectories = 1'000'000'000;
+  for (const int good : {0, 3}) {
+    Full full(good);
+    EscapeOptions options;
+    options.threads = 1;
+    options.journal = &full;
+    options.save_every = 0.01;
+    EXPECT_THROW(run_crew(3, options, -1, system), InputError);
+  }
+}
+
+TEST(Bytes, ComeBackAsTheyWere) {
+  BytesOut out;
+  const std::vector<std::uint64_t> numbers{1, 2, 3};
+  out << 1.5 << std::string("words") << numbers << std::string();
+  BytesIn in(out.bytes);
+  double x = 0;
+  std::string text, none = "x";
+  std::vector<std::uint64_t> back;
+  in >> x >> text >> back >> none;
+  EXPECT_EQ(x, 1.5);
+  EXPECT_EQ(text, "words");
+  EXPECT_EQ(back, numbers);
+  EXPECT_EQ(none, "");
+  EXPECT_THROW(in >> x, InternalError);
+}
+
+}  // namespace
+}  // namespace carom
