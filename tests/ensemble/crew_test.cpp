@@ -133,7 +133,7 @@ TEST(Crew, HandsOverEveryRecordAndSavesOnTheWay) {
   options.save_every = 0.005;
   options.threads = 1;
   options.block = 5;
-  run_crew(3, options);
+  run_crew(3, options, 2);
   ASSERT_EQ(shared.all.size(), alone.all.size());
   for (const auto& [index, r] : alone.all) {
     const TrajectoryRecord& s = shared.all.at(index);
