@@ -52,6 +52,13 @@ void write_parts(const ArchiveFile& file, const EscapeResult& result, const Shar
   hdf5::write_attribute(provenance.get(), "seconds", result.seconds, file.name());
   hdf5::write_attribute(provenance.get(), "cpu_seconds", result.cpu_seconds, file.name());
   file.add_decisions(result.decisions);
+  const auto write = [&](const char* name, std::uint64_t number) {
+    hdf5::write_attribute(provenance.get(), name, static_cast<std::int64_t>(number), file.name());
+  };
+  write("lanes_hits", result.effort.hits);
+  write("lanes_left", result.effort.scalar);
+  write("lanes_steps", result.effort.steps);
+  write("lanes_idle", result.effort.idle);
 }
 
 // Aside, synced, renamed: under its name a file is whole or is not there.

@@ -66,8 +66,11 @@ StoredEscape read_one(const std::string& name) {
   result.threads = static_cast<int>(hdf5::read_integer_attribute(from, "threads", name));
   result.seconds = hdf5::read_real_attribute(from, "seconds", name);
   result.cpu_seconds = hdf5::read_real_attribute(from, "cpu_seconds", name);
-  result.decisions.filter = static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, "decisions_filter", name));
-  result.decisions.exact = static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, "decisions_exact", name));
+  const auto count = [&](const char* what) {
+    return static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, what, name));
+  };
+  result.decisions = {count("decisions_filter"), count("decisions_exact")};
+  result.effort = {count("lanes_hits"), count("lanes_left"), count("lanes_steps"), count("lanes_idle")};
   const std::string isa = attribute("isa");
   for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512})
     if (isa == name_of(set)) result.lanes = set;
