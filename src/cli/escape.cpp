@@ -55,6 +55,19 @@ EscapeOptions how_to_run(const Options& options) {
   return how;
 }
 
+// Options that another one gives a meaning.
+void refuse_options_without_a_use(const Options& options) {
+  const auto refuse = [](const std::string& given, const char* option, const char* other) {
+    if (!given.empty()) throw InputError(Place{"command line", 0, 0, option}, fmt::format("it means nothing without {}", other), other);
+  };
+  if (options.certify_sample.empty()) refuse(options.digits, "--digits", "--certify-sample");
+  if (!options.splitting.empty()) return;
+  refuse(options.population, "--population", "--splitting");
+  refuse(options.repetitions, "--repetitions", "--splitting");
+  refuse(options.kick, "--kick", "--splitting");
+  refuse(options.lookback, "--lookback", "--splitting");
+}
+
 // Any rank but the first: what it does is reported there.
 int escape_as_hand(const Options& options, Ranks& ranks) {
   const std::optional<LoadedSystem> loaded = called_job(ranks);
@@ -69,6 +82,7 @@ int escape_as_hand(const Options& options, Ranks& ranks) {
 
 int escape(const Options& options) {
   refuse_parts_of_others(options);
+  refuse_options_without_a_use(options);
   if (!options.splitting.empty()) return splitting(options);
   if (!options.certify_sample.empty()) return certified_sample(options);
   const std::unique_ptr<Ranks> ranks = start_ranks();

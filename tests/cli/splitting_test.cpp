@@ -44,7 +44,10 @@ TEST(SplittingCommand, RefusesWhatItCannotDo) {
                                      {"--splitting 1,2 --repetitions 1", "--repetitions"},
                                      {"--splitting 1,2 --kick 2", "kick"},
                                      {"--splitting 1,2 --lookback 9", "lookback"},
-                                     {"--splitting 1,2 -o a.h5", "--output"}}) {
+                                     {"--splitting 1,2 -o a.h5", "--output"},
+                                     {"--kick 0.1", "--kick"},
+                                     {"--population 100", "--population"},
+                                     {"--digits 10", "--digits"}}) {
     const Outcome o = shell(std::string("$carom escape magnetic-square ") + options);
     EXPECT_EQ(o.status, 1) << options;
     EXPECT_EQ(o.out, "") << options;
