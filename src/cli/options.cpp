@@ -114,9 +114,9 @@ void define(CLI::App& app, Options& o) {
           "  carom escape magnetic-square\n"
           "  carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
           "  carom escape stadium --trajectories 1e5 --per-trajectory -o basins.h5\n"
-          "  carom escape stadium --trajectories 1e10 -o long.h5\n"
-          "  carom escape --resume long.h5     goes on after Ctrl-C, a kill or a full disk: the same bits\n"
           "\n"
+          "What -o writes is kept every ten seconds: carom escape --resume FILE.h5 goes on after Ctrl-C, a kill\n"
+          "or a full disk, and ends with the same bits.\n"
           "A closed table is legal: nothing escapes. Exit status 3 if a trajectory was lost.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
