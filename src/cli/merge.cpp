@@ -43,6 +43,7 @@ int merge(const Options& options) {
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
   write_sum(output, loaded, origin, sum, parts);
+  remove_checkpoint(output);  // there is one only if --force was given
   say_what_is_missing(sum, loaded.system);
   for (const auto& [index, text] : sum.result.reports) fmt::print(stderr, "carom: {}\n", text);
   const EscapeContext context{sum.status, output, sum.shard};

@@ -1,6 +1,10 @@
 #include "cli/mpi_ranks.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
+
+#include "carom/base/error.hpp"
 
 #ifdef CAROM_MPI
 #include <mpi.h>
@@ -23,6 +27,19 @@ const char* rank_in_environment() {
   return nullptr;
 }
 
+int number_in_environment() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+    if (const char* text = std::getenv(name)) return std::atoi(text);
+  return 1;
+}
+// Otherwise each process would run the whole by itself, into one file.
+void refuse_strangers(int known) {
+  if (number_in_environment() > known)
+    throw InputError(fmt::format("{} processes were started together, but this carom knows {} of them (expected the mpirun "
+                                 "that it was built with, or one process)",
+                                 number_in_environment(), known));
+}
+
 #ifdef CAROM_MPI
 
 class MpiRanks : public Ranks {
@@ -33,6 +50,7 @@ class MpiRanks : public Ranks {
     if (provided < MPI_THREAD_SERIALIZED) throw std::runtime_error("this MPI is not made for threads");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    refuse_strangers(size_);
   }
   ~MpiRanks() override { MPI_Finalize(); }
   int rank() const override { return rank_; }
@@ -84,6 +102,7 @@ std::unique_ptr<Ranks> start_ranks() {
   // Without this, a process that was started alone would look for partners for a third of a second.
   if (rank_in_environment()) return std::make_unique<MpiRanks>();
 #endif
+  refuse_strangers(1);
   return nullptr;
 }
 

@@ -50,7 +50,11 @@ class Ensemble {
       if (options_.journal) saver.emplace(options_.save_every, [this] { save(); });
       if (options_.ranks && options_.ranks->size() > 1) lead();
       work_in_threads(order);
-      if (foreman_) foreman_->wait();
+      try {
+        if (foreman_) foreman_->wait();
+      } catch (...) {
+        fail();  // what went wrong here comes first
+      }
     }
     if (error_) std::rethrow_exception(error_);
     if (options_.records) order.flush();
@@ -94,7 +98,7 @@ class Ensemble {
   void take(EscapePart&& part) {
     if (options_.progress) report_progress(part.sum.done.size(), part.sum.counts.collisions);
     const std::lock_guard lock(mutex_);
-    if (part.sum.done.size() > 0 && !total_.add(part.sum)) throw InternalError("two ranks did the same trajectories");
+    if (!total_.add(part.sum)) throw InternalError("two ranks did the same trajectories");
     for (EscapePart::Block& block : part.blocks)
       if (options_.journal) options_.journal->block(block.range, std::move(block.records));
   }
@@ -164,6 +168,8 @@ class Ensemble {
     }
   }
   void save() noexcept {
+    // Counts may be ahead of records that could not be written.
+    if (failed_.load() || (foreman_ && foreman_->failed())) return;
     try {
       options_.journal->save(snapshot());
     } catch (...) {

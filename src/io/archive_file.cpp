@@ -67,6 +67,9 @@ void refuse_existing(const std::string& file, bool force) {
     throw InputError(Place{file, 0, 0, ""}, "the output is a directory", "the name of a file");
   if (!force && std::filesystem::exists(file, ignored))
     throw InputError(Place{file, 0, 0, ""}, "the output file exists already", "another name, or --force");
+  if (!force && has_checkpoint(file))
+    throw InputError(Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
+                     fmt::format("carom escape --resume {} to go on with it, another name, or --force", file));
 }
 
 ArchiveFile::ArchiveFile(Handle file, std::string path, std::string name)
@@ -183,9 +186,9 @@ void ArchiveFile::keep_as(const std::string& target) {
   if (target != path_ && std::rename(path_.c_str(), target.c_str()) != 0)
     throw InputError(fmt::format("cannot write '{}': {}", name_, std::strerror(errno)));
   path_ = target;
+  kept_ = true;  // whatever comes: there is nothing else of that name any more
   const std::filesystem::path folder = std::filesystem::path(target).parent_path();
   sync(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY, name_);
-  kept_ = true;
 }
 
 }  // namespace carom

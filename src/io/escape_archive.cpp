@@ -8,6 +8,7 @@
 #include "io/archive_file.hpp"
 #include "io/escape_columns.hpp"
 #include "io/escape_files.hpp"
+#include "io/file_lock.hpp"
 #include "io/record_log.hpp"
 
 namespace carom {
@@ -24,7 +25,7 @@ constexpr int most_failures = 6;
 class EscapeArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& system, const Provenance& provenance, const Plan& the_plan)
-      : target(path), loaded(system), origin(provenance), plan(the_plan) {
+      : lock(path), target(path), loaded(system), origin(provenance), plan(the_plan) {
     for (const Hole& hole : loaded.system.table->holes) holes.push_back(hole.name);
   }
   ~Implementation() {
@@ -34,6 +35,7 @@ class EscapeArchive::Implementation {
 
   void write(const EscapeResult& result, const std::string& status, bool last);
 
+  FileLock lock;
   std::string target;
   LoadedSystem loaded;
   Provenance origin;
@@ -84,9 +86,6 @@ void EscapeArchive::Implementation::write(const EscapeResult& result, const std:
 EscapeArchive::EscapeArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
                              const Plan& plan) {
   refuse_existing(file, plan.force);
-  if (!plan.force && exists(checkpoint_of(file)))
-    throw InputError(Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
-                     fmt::format("--resume {} to go on with it, another name, or --force", file));
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, plan);
   if (plan.per_trajectory) implementation_->log.emplace(records_of(file), file);
 }

@@ -105,7 +105,12 @@ void RecordLog::mark() {
 }
 
 std::vector<RecordLog::Piece> RecordLog::sync() {
-  if (::fdatasync(descriptor_) != 0) fail("write");
+  // An error is told once; after it nobody knows what is on the disk.
+  if (!broken_ && ::fdatasync(descriptor_) != 0) broken_ = errno;
+  if (broken_) {
+    errno = broken_;
+    fail("write");
+  }
   const std::lock_guard lock(mutex_);
   return marked_;
 }

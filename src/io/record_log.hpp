@@ -50,6 +50,7 @@ class RecordLog {
   std::string path_, name_;
   int descriptor_ = -1;
   bool kept_ = false;
+  int broken_ = 0;  ///< the error of a sync that failed
   mutable std::mutex mutex_;
   std::vector<Block> waiting_;
   std::size_t waiting_records_ = 0;

@@ -133,6 +133,23 @@ bool exists(const std::string& file) {
   return std::filesystem::exists(file, ignored);
 }
 
+bool has_checkpoint(const std::string& file) {
+  const std::string checkpoint = checkpoint_of(file);  // or what another command was writing there
+  if (!exists(checkpoint)) return false;
+  try {
+    hdf5::silence();
+    return hdf5::read_string_attribute(open_archive(checkpoint).get(), "kind", checkpoint) == "escape";
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+void remove_checkpoint(const std::string& file) {
+  if (!has_checkpoint(file)) return;
+  std::remove(checkpoint_of(file).c_str());
+  std::remove(records_of(file).c_str());
+}
+
 StoredEscape read_escape(const std::string& file) {
   const std::string checkpoint = checkpoint_of(file);
   if (!exists(checkpoint)) return read_one(file);
@@ -140,6 +157,7 @@ StoredEscape read_escape(const std::string& file) {
   if (!exists(file)) return part;
   StoredEscape whole = read_one(file);
   const bool one_ensemble = difference(whole.system_toml, part.system_toml).empty() && whole.shard == part.shard &&
+                            whole.version == part.version &&
                             whole.engine == part.engine && whole.everywhere == part.everywhere && whole.per_trajectory == part.per_trajectory;
   return one_ensemble && whole.result.done.size() >= part.result.done.size() ? whole : part;
 }

@@ -21,6 +21,10 @@ void prepare_archives();
 
 /// Throws InputError where `file` exists and `force` is not set.
 void refuse_existing(const std::string& file, bool force);
+/// Is there an escape ensemble of this name that has not ended?
+bool has_checkpoint(const std::string& file);
+/// Removes it, if there is one.
+void remove_checkpoint(const std::string& file);
 
 /// What made a part of a result.
 struct Origin {

@@ -1,0 +1,21 @@
+// One writer at a time.
+#pragma once
+
+#include <string>
+
+namespace carom {
+
+/// Holds FILE.lock as long as it lives. A killed process leaves the file behind, but not the lock.
+class FileLock {
+ public:
+  /// Throws InputError if another process holds it. Where the file system knows no locks, nothing is held.
+  explicit FileLock(const std::string& file);
+  FileLock(const FileLock&) = delete;
+  ~FileLock();
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+};
+
+}  // namespace carom
