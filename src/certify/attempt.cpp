@@ -118,6 +118,35 @@ Choice Attempt::choose() const {
   return scene_.next(where_, position, velocity, now_.standing, P0, v0);
 }
 
+// The joint, unless one of the other walls comes before it.
+Choice Attempt::choose_at(const KnownTies::Joint& joint) const {
+  const Choice at_joint{Choice::wall, joint.hit, {}};
+  if (joint.of.empty()) return at_joint;
+  const Choice other = choose();
+  if (other.answer == Choice::nothing) return at_joint;
+  if (other.answer != Choice::wall) return {Choice::undecided, joint.hit, other.first};
+  const Precision precision(bits_);
+  const Bound dP = position_error(), dv = velocity_error();
+  const BallVector P{now_.state.position.x.widened(dP), now_.state.position.y.widened(dP)};
+  const BallVector v{now_.state.velocity.x.widened(dv), now_.state.velocity.y.widened(dv)};
+  const auto seen = [&](const Copy& copy) {
+    return copy.cell == geometry::Cell{} ? P : P - scene_.translation(copy.cell);
+  };
+  const Copy& ends = joint.of.front();
+  const BallVector to_joint = scene_.walls[static_cast<std::size_t>(ends.wall)].to - seen(ends);
+  const bool standing = other.first.wall == now_.standing && other.first.cell == geometry::Cell{};
+  const Ball time =
+      meets(scene_.walls[static_cast<std::size_t>(other.first.wall)], seen(other.first), v, scene_.motion, standing).time;
+  switch (sign(time * dot(v, v) - dot(to_joint, v))) {
+    case Sign::positive:
+      return at_joint;
+    case Sign::negative:
+      return other;
+    default:
+      return {Choice::undecided, joint.hit, other.first};
+  }
+}
+
 // Flies to the wall; the state stands on it afterwards.
 void Attempt::move_to(const Copy& copy) {
   const auto index = static_cast<std::size_t>(copy.wall);
@@ -219,13 +248,15 @@ double Attempt::needed_bits() const {
 Outcome Attempt::step() {
   trim_precision();
   const Precision precision(bits_);
-  if (!ties_.passed_by.empty()) {
+  const auto joint = ties_.joints.find(now_.hits + 1);
+  const bool at_joint = joint != ties_.joints.end();
+  if (!ties_.passed_by.empty() || !ties_.joints.empty()) {
     const auto touched = ties_.passed_by.find(now_.hits + 1);
-    fast_.passed_by = scene_.passed_by = touched == ties_.passed_by.end() ? std::vector<Copy>() : touched->second;
+    std::vector<Copy> passed_by = touched == ties_.passed_by.end() ? std::vector<Copy>() : touched->second;
+    if (at_joint) passed_by.insert(passed_by.end(), joint->second.of.begin(), joint->second.of.end());
+    fast_.passed_by = scene_.passed_by = passed_by;
   }
-  Choice choice = choose();
-  if (const auto joint = ties_.joints.find(now_.hits + 1); joint != ties_.joints.end())
-    choice = {Choice::wall, joint->second, {}};
+  const Choice choice = at_joint ? choose_at(joint->second) : choose();
   switch (choice.answer) {
     case Choice::undecided:
       return {Outcome::undecided, needed_bits(), {Doubt::choice, choice.first, choice.second, -1}};

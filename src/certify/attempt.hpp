@@ -82,6 +82,7 @@ class Attempt {
   void set_interval_table();
   void trim_precision();
   Choice choose() const;
+  Choice choose_at(const KnownTies::Joint&) const;
   void move_to(const Copy&);
   bool settles_now() const;
   static Bound settle(LandingOf<Ball>&, const SceneOf<Ball>&, const WallOf<Ball>&, bool same, double unit);

@@ -28,6 +28,7 @@ std::string Attempt::name(const Copy& copy) const {
 
 std::string Attempt::description(const Doubt& doubt) {
   if (doubt.kind == Doubt::choice) return described(doubt);
+  const Precision precision(bits_);
   const Now before = now_;  // what is in doubt is seen at the wall
   move_to(doubt.first);
   std::string text = described(doubt);

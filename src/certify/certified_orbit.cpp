@@ -166,7 +166,8 @@ class CertifiedOrbit::Implementation {
 
   // First more bits, then algebra, then many more bits. False: the orbit has ended.
   bool decide(const Outcome& outcome) {
-    if (undecided_ == 1 || !end_.ties.empty()) {  // one tie is seldom alone
+    const bool known = ties_.joints.contains(attempt_->hits() + 1);  // what is in doubt is what comes before it
+    if (!known && (undecided_ == 1 || !end_.ties.empty())) {         // one tie is seldom alone
       if (const auto tie = tie_at(outcome)) {
         // Along the edge of a corridor discs are touched without end.
         if (!tie->goes_on() || end_.ties.size() >= 1000) {
@@ -177,11 +178,12 @@ class CertifiedOrbit::Implementation {
         const std::uint64_t event = attempt_->hits() + 1;
         if (tie->kind == certify::Tie::tangency) ties_.passed_by[event].push_back(tie->walls.front());
         if (tie->kind == certify::Tie::reflection) {
-          for (std::size_t i = 0; i < tie->walls.size(); ++i) ties_.joints[event + i] = tie->walls[i];
+          for (std::size_t i = 0; i < tie->walls.size(); ++i) 
+            ties_.joints[event + i] = {tie->walls[i], i == 0 ? tie->joint : std::vector<certify::Copy>()};
           if (tie->beside >= 0) ties_.passed_by[event + tie->walls.size()].push_back({tie->beside, {}});
         }
         if (tie->kind == certify::Tie::last_time) ties_.at_last_time = event;
-        if (tie->kind == certify::Tie::hole_start) ties_.holes[event] = outcome.doubt.hole_index;
+        if (tie->kind == certify::Tie::hole_start) ties_.holes[event] = tie->hole;
         if (tie->kind == certify::Tie::hole_end) ties_.holes[event] = -1;
         undecided_ = 0;
         return true;  // the attempt goes on from before the event

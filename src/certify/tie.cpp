@@ -178,6 +178,7 @@ class Follower {
       const bool from_end = form_after == Form::segment && form_before != Form::segment;
       Tie tie{Tie::reflection, "exactly into the joint between " + walls + ", where they have one tangent"};
       tie.walls = {{from_end ? ends : begins, met.cell}};
+      tie.joint = {{ends, met.cell}, {begins, met.cell}};
       const int other = from_end ? begins : ends;
       if (wall(other).form == Form::segment) tie.beside = other;  // a curve may be met elsewhere
       return tie;
@@ -186,8 +187,13 @@ class Follower {
     const int n =
         form_before == Form::segment && form_after == Form::segment ? parts_of_half_turn(before, after) : 0;
     if (n == 0) return Tie{Tie::corner, text};
+    // Orbits beside one that meets a hole there leave through it.
+    for (const Hole& hole : system_.table->holes)
+      if ((hole.wall == ends && hole.to == 1.0) || (hole.wall == begins && hole.from == 0.0))
+        return Tie{Tie::corner, text + ", at a hole"};
     // In either order n reflections come to the same.
     Tie tie{Tie::reflection, text + ", whose angle is pi/" + std::to_string(n)};
+    tie.joint = {{ends, met.cell}, {begins, met.cell}};
     for (int i = 0; i < n; ++i)
       tie.walls.push_back({i % 2 == 0 ? ends : begins, i == 0 ? met.cell : geometry::Cell{}});
     tie.beside = n % 2 == 0 ? ends : begins;
@@ -206,6 +212,28 @@ class Follower {
     return is_zero(four - Quadratic(3) * squares) ? 6 : 0;
   }
 
+  static Tie at_hole(Tie::Kind kind, std::string text, int hole) {
+    Tie tie{kind, std::move(text)};
+    tie.hole = hole;
+    return tie;
+  }
+  std::string name_of_hole(std::size_t spec) const {
+    const std::string& given = system_.spec->holes[spec].name;
+    return given.empty() ? "hole_" + std::to_string(spec + 1) : given;
+  }
+  // Another hole of the same wall, in Table::holes, that starts at this arc length; -1: none.
+  int hole_from(const Quadratic& s2, const Quadratic& length2, std::size_t but) const {
+    for (std::size_t k = 0; k < system_.spec->holes.size(); ++k) {
+      const HoleSpec& spec = system_.spec->holes[k];
+      if (k == but || spec.wall != system_.spec->holes[but].wall) continue;
+      const Quadratic start = Quadratic(spec.center) - Quadratic(spec.width) / Quadratic(2);
+      if (!is_zero(s2 - square(start) * length2)) continue;
+      for (std::size_t i = 0; i < system_.table->holes.size(); ++i)
+        if (system_.table->holes[i].name == name_of_hole(k)) return static_cast<int>(i);
+    }
+    return -1;
+  }
+
   // The arc length squared against that of the ends: so it costs no root.
   std::optional<Tie> with_hole(int index) const {
     const Wall& w = wall(standing_);
@@ -214,13 +242,15 @@ class Follower {
     const std::string hole = " '" + called + "' in " + name(standing_);
     for (std::size_t k = 0; k < system_.spec->holes.size(); ++k) {
       const HoleSpec& spec = system_.spec->holes[k];
-      if ((spec.name.empty() ? "hole_" + std::to_string(k + 1) : spec.name) != called) continue;
+      if (name_of_hole(k) != called) continue;
       const Quadratic half = Quadratic(spec.width) / Quadratic(2), centre(spec.center);
       const Quadratic s2 = square(dot(P_ - w.from, w.chord)), length2 = dot(w.chord, w.chord);
       if (is_zero(s2 - square(centre - half) * length2))
-        return Tie{Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it"};
-      if (is_zero(s2 - square(centre + half) * length2))
-        return Tie{Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it"};
+        return at_hole(Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it", index);
+      if (!is_zero(s2 - square(centre + half) * length2)) continue;
+      if (const int next = hole_from(s2, length2, k); next >= 0)
+        return at_hole(Tie::hole_start, "exactly at the end of hole" + hole + ", where the next one starts", next);
+      return at_hole(Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it", index);
     }
     return std::nullopt;
   }

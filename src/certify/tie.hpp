@@ -37,6 +37,8 @@ struct Tie {
   } kind = corner;
   std::string text;
   std::vector<Copy> walls{};
+  std::vector<Copy> joint{};  ///< of a reflection: the wall that ends there and the one that begins
+  int hole = -1;              ///< in Table::holes, of an end of a hole
   int beside = -1;  ///< of a reflection: the segment that is not met when the flight leaves the joint
   bool goes_on() const { return kind != corner && kind != along_wall; }
 };
@@ -61,7 +63,11 @@ class TieFinder {
 struct KnownTies {
   std::map<std::uint64_t, int> holes;                    ///< the hole that is left through, or -1
   std::map<std::uint64_t, std::vector<Copy>> passed_by;  ///< walls that are touched and not hit
-  std::map<std::uint64_t, Copy> joints;                  ///< the wall that is hit at a joint
+  struct Joint {
+    Copy hit;               ///< the wall that is hit there
+    std::vector<Copy> of;   ///< Tie::joint, or nothing where the particle is in the joint already
+  };
+  std::map<std::uint64_t, Joint> joints;
   std::uint64_t at_last_time = 0;
 };
 

@@ -82,6 +82,8 @@ constexpr int numbers_of_polynomial(int degree) {
   return degree < 0 ? 0 : 8 * (degree + 1) + (degree >= 8 ? 8 * (degree - 7) : 0);
 }
 
+constexpr int coarsest = 4;
+
 struct Choice {
   int grid = 0, near = 0, degree = -1;
   double cost = std::numeric_limits<double>::infinity(), error = 0.0;
@@ -95,7 +97,9 @@ double cost_of(int near, int degree) {
 /// Errors by distance: of the lower end of the bin that the distance is in.
 class ErrorsByDistance {
  public:
-  ErrorsByDistance(const BumpShape& shape, double way, double reach) : bin_(shape.length() / 8.0) {
+  /// Errors fall with distance: wider bins, where there would be very many, only enlarge the bound.
+  ErrorsByDistance(const BumpShape& shape, double way, double reach)
+      : bin_(std::max(shape.length() / 8.0, (reach + way) / 65536.0)) {
     for (double r = 0.0; r <= reach + way; r += bin_) errors_.push_back(series_errors(shape, r, way));
   }
   const SeriesErrors& at(const Copy& copy) const {
@@ -132,7 +136,9 @@ Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& cent
     }
   Choice best{grid, static_cast<int>(most_copies), -1, cost_of(static_cast<int>(most_copies), -1), 0.0};
   const auto nodes = static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid);
-  if (nodes * 2 * static_cast<std::size_t>(padded(best.near)) > most_numbers) best.cost *= 1.5;
+  // A large table is slow, and a coarser one of many copies is not much larger than they are.
+  if (nodes * 2 * static_cast<std::size_t>(padded(best.near)) > most_numbers)
+    best.cost *= grid == coarsest ? 1.5 : std::numeric_limits<double>::infinity();
   for (int near = 0; near <= most_near_beside_a_polynomial && near < static_cast<int>(most_copies); ++near)
     for (int degree = 1; degree <= LatticeSum::most_degree; ++degree) {
       const double error = largest[static_cast<std::size_t>(near)][static_cast<std::size_t>(degree)];
@@ -151,7 +157,7 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
                            const geometry::Lattice& lattice, double reach) {
   const Basis basis = shortest(lattice);
   Choice choice;
-  for (const int grid : {4, 8, 16, 32}) {
+  for (const int grid : {coarsest, 8, 16, 32}) {
     const Choice c = best_on(grid, shape, centers, basis, reach);
     if (c.cost < choice.cost) choice = c;
     if (choice.degree < 0 && choice.near <= 4) break;  // finer ones gain nothing

@@ -194,6 +194,36 @@ TEST(CertifiedTies, EndsOfAHole) {
             "event 2001: exactly at the end of hole 'door' in 'right', which does not belong to it");
 }
 
+// The point where one hole ends and the next one starts belongs to the next, in whatever order they are written.
+TEST(CertifiedTies, BetweenTwoHoles) {
+  for (const bool swapped : {false, true}) {
+    Shaped s = square("0.1", "0.3");
+    s.spec.holes = {door("2/10", "2/10"), door("4/10", "2/10")};
+    s.spec.holes[1].name = "window";
+    if (swapped) std::swap(s.spec.holes[0], s.spec.holes[1]);
+    const ExactSystem system = tests::system_of(s, {exactly("1"), exactly("0")});
+    CertifiedTask task;
+    task.collisions = 10;
+    CertifiedOrbit orbit(system, task);
+    const CertifiedEnd end = orbit.finish();
+    EXPECT_EQ(end.fate, CertifiedFate::escaped);
+    ASSERT_GE(end.hole, 0);
+    EXPECT_EQ(system.table->holes[static_cast<std::size_t>(end.hole)].name, "window") << swapped;
+    EXPECT_EQ(end.ties.size(), 1u);
+  }
+}
+
+// Into a corner at which a hole ends there is no limit of orbits beside.
+TEST(CertifiedTies, CornersWithAHole) {
+  Shaped s = square("1/2", "1/4");
+  s.spec.holes = {door("9/10", "2/10")};
+  const CertifiedEnd end = end_of(s, {exactly("2"), exactly("3")}, 2);
+  EXPECT_EQ(end.fate, CertifiedFate::singular);
+  EXPECT_EQ(end.reason, "event 1: exactly into the corner between 'right' and 'top', at a hole");
+  s.spec.holes = {door("1/2", "2/10")};
+  EXPECT_EQ(end_of(s, {exactly("2"), exactly("3")}, 2).fate, CertifiedFate::completed);
+}
+
 TEST(CertifiedTies, HitsAtTheLastTime) {
   const CertifiedEnd end = end_of(square("1/2", "1/4"), {exactly("3/5"), exactly("4/5")}, 0, "5/6");
   EXPECT_EQ(end.fate, CertifiedFate::completed);

@@ -62,7 +62,7 @@ struct CertifiedEnd : CertifiedState {
   CertifiedFate fate = CertifiedFate::completed;
   std::uint64_t collisions = 0;
   int wall = -1;             ///< of the last hit
-  geometry::Cell cell;       ///< of the last hit
+  geometry::Cell cell;       ///< of the last hit, or of the hole it left through
   int hole = -1;
   std::string reason;        ///< of singular and undecided ones
   std::vector<std::string> ties;  ///< exact coincidences that the orbit went through, decided by algebra
