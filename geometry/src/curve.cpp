@@ -59,6 +59,7 @@ void widen(double& low, double& high, double origin, double start, double a, dou
     const double step = start == 0.0     ? sign * extent
                         : sign * a > 0.0 ? sign * (b * b / (extent + sign * a))
                                          : sign * (extent - sign * a);
+    // 16 U, as derived above.
     const double margin = 0x1p-49 * (std::fabs(origin) + std::fabs(step));
     low = std::fmin(low, origin + step - margin);
     high = std::fmax(high, origin + step + margin);

@@ -2,12 +2,10 @@
 
 #include <flint/fmpq.h>
 
-#include "base/expression.hpp"
+#include "certify/evaluate.hpp"
 
 namespace carom::certify {
 namespace {
-
-using Node = ExactNumber::Node;
 
 Ball rational(const mpq_class& q) {
   fmpq_t value;
@@ -37,32 +35,12 @@ Ball closed(const ClosedForm& x) {
   return result;
 }
 
-Ball evaluate(const Node& x) {
-  switch (x.operation) {
-    case Node::Operation::leaf:
-      return closed(x.closed);
-    case Node::Operation::root:
-      return sqrt(evaluate(*x.first));
-    case Node::Operation::sum:
-      return evaluate(*x.first) + evaluate(*x.second);
-    case Node::Operation::difference:
-      return evaluate(*x.first) - evaluate(*x.second);
-    case Node::Operation::product:
-      return evaluate(*x.first) * evaluate(*x.second);
-    case Node::Operation::quotient:
-      return evaluate(*x.first) / evaluate(*x.second);
-    case Node::Operation::power:
-      break;
-  }
-  return power_of(evaluate(*x.first), x.exponent);
-}
-
 }  // namespace
 
 Ball value_of(const ExactNumber& number) {
   // A few more bits for what the operations of an expression lose.
   const Precision more(Precision::bits() + 32);
-  return number.expression() ? evaluate(*number.expression()) : Ball(0);
+  return number.expression() ? evaluate<Ball>(*number.expression(), closed, power_of) : Ball(0);
 }
 
 CosSin direction_of(const ExactNumber& angle, long part, long whole) {

@@ -1,11 +1,9 @@
 #include "certify/quadratic.hpp"
 
-#include "base/expression.hpp"
+#include "certify/evaluate.hpp"
 
 namespace carom::certify {
 namespace {
-
-using Node = ExactNumber::Node;
 
 bool is_square(const mpq_class& q) {
   return mpz_perfect_square_p(q.get_num_mpz_t()) != 0 && mpz_perfect_square_p(q.get_den_mpz_t()) != 0;
@@ -17,38 +15,24 @@ mpq_class root_of_square(const mpq_class& q) {
   return root;
 }
 
-Quadratic evaluate(const Node& x) {
-  switch (x.operation) {
-    case Node::Operation::leaf: {
-      if (x.closed.power != 0) throw NotQuadratic("pi is no root");
-      const Quadratic coefficient{x.closed.coefficient};
-      return x.closed.radicand == 1 ? coefficient : coefficient * sqrt(Quadratic{x.closed.radicand});
-    }
-    case Node::Operation::root:
-      return sqrt(evaluate(*x.first));
-    case Node::Operation::sum:
-      return evaluate(*x.first) + evaluate(*x.second);
-    case Node::Operation::difference:
-      return evaluate(*x.first) - evaluate(*x.second);
-    case Node::Operation::product:
-      return evaluate(*x.first) * evaluate(*x.second);
-    case Node::Operation::quotient:
-      return evaluate(*x.first) / evaluate(*x.second);
-    case Node::Operation::power:
-      break;
-  }
-  const Quadratic base = evaluate(*x.first);
-  const long exponent = x.exponent < 0 ? -x.exponent : x.exponent;
-  if (exponent > 1000) throw NotQuadratic("a high power");
+Quadratic leaf_of(const ClosedForm& x) {
+  if (x.power != 0) throw NotQuadratic("pi is no root");
+  const Quadratic coefficient{x.coefficient};
+  return x.radicand == 1 ? coefficient : coefficient * sqrt(Quadratic{x.radicand});
+}
+
+Quadratic power_of(const Quadratic& base, long exponent) {
+  const long times = exponent < 0 ? -exponent : exponent;
+  if (times > 1000) throw NotQuadratic("a high power");
   Quadratic result(1);
-  for (long i = 0; i < exponent; ++i) result = result * base;
-  return x.exponent < 0 ? Quadratic(1) / result : result;
+  for (long i = 0; i < times; ++i) result = result * base;
+  return exponent < 0 ? Quadratic(1) / result : result;
 }
 
 }  // namespace
 
 Quadratic::Quadratic(const ExactNumber& number) {
-  if (number.expression()) *this = evaluate(*number.expression());
+  if (number.expression()) *this = evaluate<Quadratic>(*number.expression(), leaf_of, power_of);
 }
 
 Quadratic operator*(const Quadratic& a, const Quadratic& b) {

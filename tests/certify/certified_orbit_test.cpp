@@ -21,13 +21,7 @@ using certify::ball_of;
 using certify::Precision;
 using tests::exactly;
 using tests::Shaped;
-
-CertifiedTask task_of(std::uint64_t collisions, int digits) {
-  CertifiedTask task;
-  task.collisions = collisions;
-  task.digits = digits;
-  return task;
-}
+using tests::task_of;
 
 std::vector<CertifiedHit> hits_of(const ExactSystem& system, std::uint64_t collisions, int digits) {
   std::vector<CertifiedHit> hits;

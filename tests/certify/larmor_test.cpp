@@ -24,16 +24,10 @@ using certify::ball_of;
 using certify::Precision;
 using tests::exactly;
 using tests::Shaped;
+using tests::task_of;
 
 constexpr auto state_numbers = {&CertifiedState::t, &CertifiedState::x, &CertifiedState::y,
                                 &CertifiedState::vx, &CertifiedState::vy};
-
-CertifiedTask task_of(std::uint64_t collisions, int digits) {
-  CertifiedTask task;
-  task.collisions = collisions;
-  task.digits = digits;
-  return task;
-}
 
 struct Flown {
   std::vector<CertifiedHit> hits;

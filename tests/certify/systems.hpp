@@ -13,6 +13,13 @@ namespace carom::tests {
 
 inline ExactNumber exactly(const std::string& text) { return {text, Place{}}; }
 
+inline CertifiedTask task_of(std::uint64_t collisions, int digits) {
+  CertifiedTask task;
+  task.collisions = collisions;
+  task.digits = digits;
+  return task;
+}
+
 /// Does the enclosure of a run of few digits contain that of many? Where the former took more attempts it may have
 /// turned out the smaller one: then the two must meet.
 inline bool holds(const CertifiedNumber& few, const CertifiedNumber& many) {
