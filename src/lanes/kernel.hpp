@@ -63,6 +63,7 @@ struct Meeting {
 #include "lanes/larmor.hpp"
 #include "lanes/straight.hpp"
 #include "lanes/cells.hpp"
+#include "lanes/stages.hpp"
 #include "lanes/landing.hpp"
 
 template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far, bool has_cells = false>
@@ -75,7 +76,10 @@ struct Kind {
 template <class Kind>
 void kernel(const LaneTable& table, LanePack& pack) {
   pack.calls = 0;
-  for (int lane = 0; lane < pack.used; lane += width) advance<Kind>(table, pack, lane);
+  Stages stages;
+  for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
+  for (int lane = 0; lane < pack.used; lane += width) fly<Kind>(table, pack, stages, lane);
+  for (int lane = 0; lane < pack.used; lane += width) land<Kind>(table, pack, stages, lane);
 }
 
 template <int turn, bool convex>

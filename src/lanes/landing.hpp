@@ -1,62 +1,20 @@
-// One hit of every lane: chosen, met, put back on its wall, reflected and stored; or a call. Included by kernel.hpp
+// The last stage of a hit of every lane: put back on its wall, reflected and stored; or a call. Included by kernel.hpp
 // inside the namespace of its instruction set.
 
 template <class Kind>
-INLINE void advance(const LaneTable& t, LanePack& pack, int lane) {
+INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, int lane) {
   constexpr bool larmor = Kind::turn != 0;
   const auto of = [&](const double* numbers, const Real& piece) { return look_up<Kind::reach>(numbers, piece); };
-  View f{t, {load(pack.x + lane), load(pack.y + lane)}, {load(pack.vx + lane), load(pack.vy + lane)},
-         load(pack.piece + lane), Real(0.0), load(pack.speed + lane), load(pack.square_speed + lane),
-         Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
-  if constexpr (larmor) {
-    f.omega = load(pack.omega + lane);
-    f.inverse_half = load(pack.inverse_half + lane);
-    f.pace = load(pack.pace + lane);
-    f.joint_margin = load(pack.joint_margin + lane);
-  }
-  f.start_wall = f.start_piece;
-  if (t.divided) where(f.start_piece >= 0.0, f.start_wall) = of(t.wall, max(f.start_piece, Real(0.0)));
-
+  const View f = view_of<Kind>(t, pack, lane);
   const Vector start = f.origin;
   const Real start_piece = f.start_piece;
-  CellOf cell{};
-  Choice choice;
-  if constexpr (Kind::cells) {
-    cell = {load(pack.cell_first + lane), load(pack.cell_second + lane)};
-    choice = first_in_cells(f, cell);
-  } else if constexpr (larmor)
-    choice = Kind::convex ? exit_of_loop_by_circle<Kind::turn, Kind>(f) : first_of_all_by_circle<Kind::turn, Kind>(f);
-  else
-    choice = Kind::convex ? exit_of_loop(f) : first_of_all(f);
-  const Real piece = max(choice.piece, Real(0.0));
-  Mask decided = choice.decided;
-  Mask gone(false);
-  if constexpr (Kind::cells) {
-    // Those still on their way only change their cell.
-    gone = decided && choice.piece < 0.0;
-    decided = decided && !gone;
-    store(choose(gone, cell.first, Real(0.0)), pack.cell_first + lane);
-    store(choose(gone, cell.second, Real(0.0)), pack.cell_second + lane);
-  } else if constexpr (!Kind::convex && !larmor) {
-    const Mask none = choice.piece < 0.0;
-    if (t.open) gone = decided && none;
-    decided = decided && !none;
-  }
-
-  Met met{{of(t.point_x, piece), of(t.point_y, piece)}, of(t.first_number, piece), of(t.second_number, piece),
-          Real(0.0), Real(1.0), Mask(Kind::circles), Mask(false)};
-  if constexpr (Kind::circles) {
-    met.orientation = of(t.orientation, piece);
-    met.off_power = of(t.off_power, piece);
-    if constexpr (Kind::segments) met.bent = met.orientation != 0.0;
-  }
-  if constexpr (Kind::circles || Kind::convex || larmor) met.stands = (t.divided ? of(t.wall, piece) : piece) == f.start_wall;
-  Meeting at;
-  if constexpr (larmor)
-    at = meet_by_circle<Kind>(f, met, choice);
-  else
-    at = meet_by_line<Kind>(f, met);
-  decided = decided && at.decided;
+  const Real piece = load(stages.piece + lane), known = load(stages.known + lane);
+  Mask decided = known > 0.0, gone(false);
+  if constexpr (!Kind::convex) gone = known < 0.0;
+  const Met met = met_by<Kind>(f, piece);
+  const Meeting at{{load(stages.x + lane), load(stages.y + lane)},
+                   larmor ? Vector{load(stages.vx + lane), load(stages.vy + lane)} : f.velocity,
+                   load(stages.duration + lane), decided};
   const Vector v = at.velocity;
 
   const Real high0 = load(pack.high + lane), low0 = load(pack.low + lane);
@@ -122,12 +80,12 @@ INLINE void advance(const LaneTable& t, LanePack& pack, int lane) {
   }
 
   if constexpr (Kind::cells) {
-    const auto add = [&](double* to, const Real& more) {
+    const auto add = [&](double* to, const double* more) {
       const Real before = load(to + lane);
-      store(choose(applies, before + more, before), to + lane);
+      store(choose(applies, before + load(more + lane), before), to + lane);
     };
-    add(pack.home_first, cell.first);
-    add(pack.home_second, cell.second);
+    add(pack.home_first, stages.cell_first);
+    add(pack.home_second, stages.cell_second);
   }
 
   const Mask capped = hits >= pack.limit;

@@ -215,10 +215,9 @@ INLINE Real angle(const Real& x, const Real& y) {
                       powers(angle_even, square, fourth), powers(angle_odd, square, fourth));
 }
 
-/// The flight to the piece that was chosen.
+/// The flight to the piece that was chosen; in a convex table kappa is still to be found.
 template <class Kind>
-INLINE Meeting meet_by_circle(const View& f, const Met& met, const Choice& choice) {
-  Real kappa = choice.kappa;
+INLINE Meeting meet_by_circle(const View& f, const Met& met, Real kappa) {
   Mask decided(true);
   if constexpr (Kind::convex) {
     geometry::Quadratic<Real> quadratic;

@@ -1,0 +1,105 @@
+// The first stages of a hit of every lane: which wall, and the flight to it. Each stage passes over all lanes before the
+// next one begins, so that roots and divisions of several registers are under way together: a core looks
+// ahead by some hundred instructions, and a whole hit is longer than that. Included by kernel.hpp inside the
+// namespace of its instruction set.
+
+/// What one stage leaves to the next one.
+struct Stages {
+  alignas(64) double piece[LanePack::lanes];
+  double known[LanePack::lanes];  ///< 1: decided, 0: not, -1: no wall follows (in this cell)
+  double kappa[LanePack::lanes];
+  double cell_first[LanePack::lanes], cell_second[LanePack::lanes];
+  double x[LanePack::lanes], y[LanePack::lanes], vx[LanePack::lanes], vy[LanePack::lanes], duration[LanePack::lanes];
+};
+
+/// The flights from their last hits.
+template <class Kind>
+INLINE View view_of(const LaneTable& t, const LanePack& pack, int lane) {
+  View f{t, {load(pack.x + lane), load(pack.y + lane)}, {load(pack.vx + lane), load(pack.vy + lane)},
+         load(pack.piece + lane), Real(0.0), load(pack.speed + lane), load(pack.square_speed + lane),
+         Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
+  if constexpr (Kind::turn != 0) {
+    f.omega = load(pack.omega + lane);
+    f.inverse_half = load(pack.inverse_half + lane);
+    f.pace = load(pack.pace + lane);
+    f.joint_margin = load(pack.joint_margin + lane);
+  }
+  f.start_wall = f.start_piece;
+  if (t.divided) where(f.start_piece >= 0.0, f.start_wall) = look_up<Kind::reach>(t.wall, max(f.start_piece, Real(0.0)));
+  return f;
+}
+
+/// As seen from a cell of the lattice.
+INLINE void look_from(View& f, const CellOf& cell) {
+  const Mask home = cell.first == 0.0 && cell.second == 0.0;
+  f.origin = seen_from(f.table, f.origin, cell);
+  f.start_wall = choose(home, f.start_wall, Real(-1.0));
+  f.start_piece = choose(home, f.start_piece, Real(-1.0));
+}
+
+template <class Kind>
+INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
+  constexpr bool larmor = Kind::turn != 0;
+  View f = view_of<Kind>(t, pack, lane);
+  Choice choice;
+  Real known;
+  if constexpr (Kind::cells) {
+    CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
+    choice = first_in_cells(f, cell);
+    // Those still on their way only change their cell.
+    known = choose(choice.piece < 0.0, Real(-1.0), Real(1.0));
+    const Mask gone = choice.decided && choice.piece < 0.0;
+    store(choose(gone, cell.first, Real(0.0)), pack.cell_first + lane);
+    store(choose(gone, cell.second, Real(0.0)), pack.cell_second + lane);
+    store(cell.first, stages.cell_first + lane);
+    store(cell.second, stages.cell_second + lane);
+  } else {
+    if constexpr (larmor)
+      choice = Kind::convex ? exit_of_loop_by_circle<Kind::turn, Kind>(f) : first_of_all_by_circle<Kind::turn, Kind>(f);
+    else
+      choice = Kind::convex ? exit_of_loop(f) : first_of_all(f);
+    known = Real(1.0);
+    if constexpr (!Kind::convex && !larmor) where(choice.piece < 0.0, known) = Real(t.open ? -1.0 : 0.0);
+  }
+  where(!choice.decided, known) = Real(0.0);
+  store(known, stages.known + lane);
+  store(max(choice.piece, Real(0.0)), stages.piece + lane);
+  if constexpr (larmor && !Kind::convex) store(choice.kappa, stages.kappa + lane);
+}
+
+/// What is needed of a piece.
+template <class Kind>
+INLINE Met met_by(const View& f, const Real& piece) {
+  const LaneTable& t = f.table;
+  const auto of = [&](const double* numbers) { return look_up<Kind::reach>(numbers, piece); };
+  Met met{{of(t.point_x), of(t.point_y)}, of(t.first_number), of(t.second_number),
+          Real(0.0), Real(1.0), Mask(Kind::circles), Mask(false)};
+  if constexpr (Kind::circles) {
+    met.orientation = of(t.orientation);
+    met.off_power = of(t.off_power);
+    if constexpr (Kind::segments) met.bent = met.orientation != 0.0;
+  }
+  if constexpr (Kind::circles || Kind::convex || Kind::turn != 0) met.stands = (t.divided ? of(t.wall) : piece) == f.start_wall;
+  return met;
+}
+
+template <class Kind>
+INLINE void fly(const LaneTable& t, const LanePack& pack, Stages& stages, int lane) {
+  View f = view_of<Kind>(t, pack, lane);
+  if constexpr (Kind::cells) look_from(f, {load(stages.cell_first + lane), load(stages.cell_second + lane)});
+  const Met met = met_by<Kind>(f, load(stages.piece + lane));
+  Meeting at;
+  if constexpr (Kind::turn != 0) {
+    at = meet_by_circle<Kind>(f, met, Kind::convex ? Real(0.0) : load(stages.kappa + lane));
+    store(at.velocity.x, stages.vx + lane);
+    store(at.velocity.y, stages.vy + lane);
+  } else {
+    at = meet_by_line<Kind>(f, met);
+  }
+  store(at.point.x, stages.x + lane);
+  store(at.point.y, stages.y + lane);
+  store(at.duration, stages.duration + lane);
+  Real known = load(stages.known + lane);
+  where(!at.decided && known > 0.0, known) = Real(0.0);
+  store(known, stages.known + lane);
+}
