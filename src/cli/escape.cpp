@@ -98,7 +98,6 @@ int escape(const Options& options) {
   const std::unique_ptr<EscapeArchive> archive = archive_of(options, job);
   how.journal = archive.get();
   how.ranks = ranks.get();
-  call.make(&job);
   EscapeResult result;
   try {
     Progress progress(!options.quiet);
@@ -109,6 +108,7 @@ int escape(const Options& options) {
           progress.show(static_cast<double>(trajectories) / all,
                         with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s");
       };
+    call.make(&job);  // the others count on what comes next
     result = run_escape(system, how);
     if (archive) archive->finish(result, result.complete ? "completed" : "interrupted");
   } catch (const InputError&) {

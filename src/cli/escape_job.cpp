@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <thread>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
 #include "cli/common.hpp"
-#include "ensemble/bytes.hpp"
+#include "ensemble/crew.hpp"
 
 namespace carom::cli {
 
@@ -75,27 +74,23 @@ EscapeJob job_of(const Options& options) {
 
 void JobCall::make(const EscapeJob* job) {
   if (!ranks_) return;
-  BytesOut out;
-  out << (job != nullptr);
-  if (job) out << job->loaded.system.name << job->loaded.system.dynamics.everywhere << job->loaded.resolved_toml;
-  for (int rank = 1; rank < ranks_->size(); ++rank) ranks_->send(rank, out.bytes);
-  ranks_ = nullptr;
+  Ranks& ranks = *std::exchange(ranks_, nullptr);
+  if (!job) return call_crew(ranks, nullptr);
+  const System& system = job->loaded.system;
+  const CrewJob crew_job{system.name, job->loaded.resolved_toml, system.dynamics.everywhere};
+  call_crew(ranks, &crew_job);
 }
 
 std::optional<LoadedSystem> called_job(Ranks& ranks) {
-  for (;;) {
-    if (const auto message = ranks.receive()) {
-      BytesIn in(message->bytes);
-      bool there = false, everywhere = false;
-      in >> there;
-      if (!there) return {};
-      std::string name, toml;
-      in >> name >> everywhere >> toml;
-      LoadedSystem loaded = read_system(toml, name);
-      loaded.system.dynamics.everywhere = everywhere;
-      return loaded;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::optional<CrewJob> job = called_by(ranks);
+  if (!job) return {};
+  try {
+    LoadedSystem loaded = read_system(job->toml, job->name);
+    loaded.system.dynamics.everywhere = job->everywhere;
+    return loaded;
+  } catch (const std::exception& error) {
+    Hand(ranks).end(text_of(error));
+    throw;
   }
 }
 

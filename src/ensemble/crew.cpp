@@ -1,17 +1,19 @@
 #include "ensemble/crew.hpp"
 
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "carom/base/error.hpp"
-#include "ensemble/bytes.hpp"
 
 namespace carom {
 
 namespace {
 
-// To the foreman: ask, part. To the others: plan, blocks, stop.
-enum class Kind : std::uint8_t { ask, part, plan, blocks, stop };
+// To the foreman: ask, part. To the others: job, plan, blocks, stop.
+enum class Kind : std::uint8_t { ask, part, job, plan, blocks, stop };
+// Why all stop: there is nothing left to do, or somebody was interrupted; somebody failed.
+enum class Why : std::uint8_t { done, failed };
 
 // Between looks for messages: short beside a block, long beside a look.
 constexpr auto pause = std::chrono::microseconds(500);
@@ -22,64 +24,65 @@ BytesOut message(Kind kind) {
   return out;
 }
 
-void write(BytesOut& out, const EscapePart& part) {
-  const EscapeResult& sum = part.sum;
-  const SurvivalCounts& c = sum.counts;
-  out << c.times << c.gone_in << c.gone_in_hits << c.hole_escapes;
-  for (const std::uint64_t n : {c.trajectories, c.escaped, c.survived, c.pinned, c.capped, c.singular, c.unbounded,
-                                c.lost, c.collisions, c.contacts, c.most_hits, sum.digest})
-    out << n;
-  out << sum.decisions << sum.effort << sum.cpu_seconds << sum.done.ranges();
-  out << std::uint64_t{sum.reports.size()};
-  for (const auto& [index, text] : sum.reports) out << index << text;
-  out << std::uint64_t{part.blocks.size()};
-  for (const EscapePart::Block& block : part.blocks) out << block.range << block.records;
+Ranks::Message next_message(Ranks& ranks) {
+  for (;;) {
+    if (auto incoming = ranks.receive()) return std::move(*incoming);
+    std::this_thread::sleep_for(pause);
+  }
 }
 
-EscapePart read_part(BytesIn& in) {
-  EscapePart part;
-  EscapeResult& sum = part.sum;
-  SurvivalCounts& c = sum.counts;
-  in >> c.times >> c.gone_in >> c.gone_in_hits >> c.hole_escapes;
-  for (std::uint64_t* n : {&c.trajectories, &c.escaped, &c.survived, &c.pinned, &c.capped, &c.singular, &c.unbounded,
-                           &c.lost, &c.collisions, &c.contacts, &c.most_hits, &sum.digest})
-    in >> *n;
-  std::vector<TrajectoryRange> done;
-  in >> sum.decisions >> sum.effort >> sum.cpu_seconds >> done;
-  for (const TrajectoryRange& range : done) sum.done.add(range);
-  std::uint64_t count = 0;
-  in >> count;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    auto& [index, text] = sum.reports.emplace_back();
-    in >> index >> text;
-  }
-  in >> count;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    EscapePart::Block& block = part.blocks.emplace_back();
-    in >> block.range >> block.records;
-  }
-  return part;
+void tell_others(Ranks& ranks, const BytesOut& out) {
+  for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, out.bytes);
 }
 
 }  // namespace
 
+std::string text_of(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) ? "out of memory" : error.what();
+}
+
+void call_crew(Ranks& ranks, const CrewJob* job) {
+  BytesOut out = message(Kind::job);
+  out << (job != nullptr);
+  if (job) out << job->name << job->toml << job->everywhere;
+  tell_others(ranks, out);
+}
+
+std::optional<CrewJob> called_by(Ranks& ranks) {
+  const Ranks::Message incoming = next_message(ranks);
+  BytesIn in(incoming.bytes);
+  Kind kind{};
+  bool there = false;
+  in >> kind >> there;
+  if (kind != Kind::job) throw InternalError("a rank was told something before its job");
+  if (!there) return {};
+  CrewJob job;
+  in >> job.name >> job.toml >> job.everywhere;
+  return job;
+}
+
+// An exception of its own ends the process, and with it the crew.
+Muster::~Muster() {
+  if (!ranks_) return;
+  BytesOut out = message(Kind::stop);
+  out << Why::failed;
+  tell_others(*ranks_, out);
+}
+
 Foreman::Foreman(Ranks& ranks, const CrewPlan& plan, Calls calls)
-    : ranks_(ranks), plan_(plan), calls_(std::move(calls)), left_(ranks.size() - 1), told_(static_cast<std::size_t>(ranks.size()), 0) {
-  for (int rank = 1; rank < ranks_.size(); ++rank) {
-    BytesOut out = message(Kind::plan);
-    out << plan_.records << plan_.seconds;
-    ranks_.send(rank, out.bytes);
-  }
+    : ranks_(ranks),
+      plan_(plan),
+      calls_(std::move(calls)),
+      left_(ranks.size() - 1),
+      told_(static_cast<std::size_t>(ranks.size()), 0) {
+  // First the thread, which may fail: whoever has the plan has somebody who listens.
   thread_ = std::thread([this] { serve(); });
 }
 
-void Foreman::dismiss(Ranks& ranks) {
-  for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, message(Kind::stop).bytes);
-}
-
 Foreman::~Foreman() {
-  failed_ = true;  // where an exception is on its way
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  failed_ = ended_ = true;  // an exception is on its way
+  thread_.join();
 }
 
 void Foreman::wait() {
@@ -87,9 +90,17 @@ void Foreman::wait() {
   if (!error_.empty()) throw InputError(error_);
 }
 
+void Foreman::fail(const std::string& error) {
+  failed_ = ended_ = true;
+  if (error_.empty()) error_ = error;
+}
+
 void Foreman::serve() {
+  BytesOut out = message(Kind::plan);
+  out << plan_.records << plan_.seconds;
+  tell_others(ranks_, out);
   while (left_ > 0) {
-    if (failed_ || calls_.stopped())
+    if (ended_ || calls_.stopped())
       for (int rank = 1; rank < ranks_.size(); ++rank) stop(rank);
     const auto incoming = ranks_.receive();
     if (incoming)
@@ -102,7 +113,9 @@ void Foreman::serve() {
 // Everybody is told once, at the latest when it has ended: so no message is left behind.
 void Foreman::stop(int rank) {
   if (std::exchange(told_[static_cast<std::size_t>(rank)], char{1})) return;
-  ranks_.send(rank, message(Kind::stop).bytes);
+  BytesOut out = message(Kind::stop);
+  out << (failed_ || calls_.failed() ? Why::failed : Why::done);
+  ranks_.send(rank, out.bytes);
 }
 
 void Foreman::answer(const Ranks::Message& incoming) {
@@ -115,40 +128,37 @@ void Foreman::answer(const Ranks::Message& incoming) {
     ranks_.send(incoming.from, out.bytes);
     return;
   }
-  bool last = false, stopped = false;
+  bool last = false, interrupted = false, with_part = false;
   std::string error;
-  in >> last >> stopped >> error;
+  in >> last >> interrupted >> error >> with_part;
+  if (interrupted) ended_ = true;
+  if (!error.empty()) fail(error);
+  try {
+    if (with_part) calls_.take(in);
+  } catch (const std::exception& problem) {
+    fail(text_of(problem));
+  }
   if (last) {
     --left_;
     stop(incoming.from);
-  }
-  if (stopped || !error.empty()) failed_ = true;
-  if (error_.empty() && !error.empty()) error_ = error;
-  try {
-    calls_.take(read_part(in));
-  } catch (const std::exception& problem) {
-    failed_ = true;
-    if (error_.empty()) error_ = problem.what();
   }
 }
 
 Hand::Hand(Ranks& ranks) : ranks_(ranks) {
   for (;;) {
-    if (const auto incoming = ranks_.receive()) {
-      BytesIn in(incoming->bytes);
-      Kind kind{};
-      in >> kind;
-      if (kind == Kind::plan) in >> plan_.records >> plan_.seconds;
-      if (kind == Kind::stop) stopped_ = true;
-      if (kind == Kind::plan || kind == Kind::stop) return;
-    }
-    std::this_thread::sleep_for(pause);
+    const Ranks::Message incoming = next_message(ranks_);
+    BytesIn in(incoming.bytes);
+    Kind kind{};
+    in >> kind;
+    if (kind == Kind::stop) throw InputError("the first process of this run could not begin");
+    if (kind != Kind::plan) continue;
+    in >> plan_.records >> plan_.seconds;
+    return;
   }
 }
 
-Hand::~Hand() {
-  if (thread_.joinable()) end("a rank ended early");
-}
+// Only where an exception is on its way, which is told.
+Hand::~Hand() { end("a process of this run ended early"); }
 
 void Hand::start(Calls calls, const std::atomic<bool>* interrupted) {
   calls_ = std::move(calls);
@@ -171,14 +181,20 @@ void Hand::end(const std::string& error) {
     ended_ = true;
     error_ = error;
   }
-  if (thread_.joinable()) thread_.join();
+  if (thread_.joinable())
+    thread_.join();
+  else
+    take_leave(error);
+  if (error.empty() && failed_) throw InputError("another process of this run failed");
 }
 
+// What was done is of no use to a crew that has failed.
 void Hand::tell(bool last, const std::string& error) {
   BytesOut out = message(Kind::part);
   const bool interrupted = interrupted_ && *interrupted_;
-  out << last << interrupted << error;
-  write(out, calls_.take());
+  const bool with_part = calls_.take && !failed_;
+  out << last << interrupted << error << with_part;
+  if (with_part) calls_.take(out);
   ranks_.send(0, out.bytes);
 }
 
@@ -187,7 +203,12 @@ void Hand::read(const Ranks::Message& incoming) {
   Kind kind{};
   in >> kind;
   const std::lock_guard lock(mutex_);
-  if (kind == Kind::stop) stopped_ = true;
+  if (kind == Kind::stop) {
+    Why why{};
+    in >> why;
+    failed_ = why == Why::failed;
+    stopped_ = true;
+  }
   if (kind == Kind::blocks) {
     std::vector<TrajectoryRange> ranges;
     std::uint64_t size = 1;
@@ -224,19 +245,18 @@ void Hand::serve() {
     if (last) break;
     if (ask) ranks_.send(0, message(Kind::ask).bytes);
     const auto now = std::chrono::steady_clock::now();
-    if (now - told > between || calls_.heavy()) {
+    if (!stopped_ && (now - told > between || calls_.heavy())) {
       tell(false, "");
       told = now;
     }
     if (!incoming) std::this_thread::sleep_for(pause);
   }
-  tell(true, error_);
-  while (asked_ || !stopped_) {
-    if (const auto incoming = ranks_.receive())
-      read(*incoming);
-    else
-      std::this_thread::sleep_for(pause);
-  }
+  take_leave(error_);
+}
+
+void Hand::take_leave(const std::string& error) {
+  tell(true, error);
+  while (asked_ || !stopped_) read(next_message(ranks_));
 }
 
 }  // namespace carom

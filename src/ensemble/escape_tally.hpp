@@ -12,8 +12,6 @@
 namespace carom {
 
 struct EscapeTally {
-  static constexpr std::size_t most_reports = 5;
-
   SurvivalCounts counts;
   std::uint64_t digest = 0;
   std::vector<std::pair<std::uint64_t, std::string>> reports;  // of the first
@@ -24,7 +22,7 @@ struct EscapeTally {
   void add(const TrajectoryRecord& end, int last_wall, const std::string& report) {
     counts.add(end.fate, end.time, end.hits, end.hole);
     digest += trajectory_hash(end.index, static_cast<std::uint64_t>(end.fate), end.time, end.hits, last_wall);
-    if (end.fate == Fate::lost && reports.size() < most_reports) reports.emplace_back(end.index, report);
+    if (end.fate == Fate::lost && reports.size() < EnsembleResult::most_reports) reports.emplace_back(end.index, report);
   }
 };
 

@@ -65,33 +65,44 @@ struct Crew {
   EscapeResult result;
   std::size_t messages_left = 0;
 };
-/// Each rank has a system of its own, as processes have. `slow`: a rank that starts late.
-Crew run_crew(int size, EscapeOptions options, int slow = -1, const System& system = make_system(magnetic_square)) {
+/// Each rank has a system of its own, as processes have. `slow`: a rank that starts late. Where one fails, none of
+/// the others ends as if nothing had happened.
+Crew run_crew(const std::vector<System>& systems, EscapeOptions options, int slow = -1) {
+  const int size = static_cast<int>(systems.size());
   Crew crew;
   Office office(size);
   std::vector<std::thread> hands;
+  std::atomic<int> failed{0};
   for (int rank = 1; rank < size; ++rank)
-    hands.emplace_back([&office, rank, slow, system, threads = options.threads] {
+    hands.emplace_back([&, rank, system = systems[static_cast<std::size_t>(rank)], threads = options.threads] {
       if (rank == slow) std::this_thread::sleep_for(std::chrono::milliseconds(300));
       ThreadRanks ranks(office, rank);
       EscapeOptions mine;
       mine.threads = threads;
       mine.ranks = &ranks;
-      EXPECT_EQ(run_escape(system, mine).counts.trajectories, 0u);
+      try {
+        EXPECT_EQ(run_escape(system, mine).counts.trajectories, 0u);
+      } catch (const std::exception&) {
+        ++failed;
+      }
     });
   ThreadRanks first(office, 0);
   options.ranks = &first;
   std::exception_ptr error;
   try {
-    crew.result = run_escape(system, options);
+    crew.result = run_escape(systems[0], options);
   } catch (...) {
     error = std::current_exception();
   }
   for (std::thread& hand : hands) hand.join();
   for (const auto& box : office.boxes) crew.messages_left += box.size();
   EXPECT_EQ(crew.messages_left, 0u);
+  EXPECT_EQ(failed, error ? size - 1 : 0);
   if (error) std::rethrow_exception(error);
   return crew;
+}
+Crew run_crew(int size, const EscapeOptions& options, int slow = -1, const System& system = make_system(magnetic_square)) {
+  return run_crew(std::vector<System>(static_cast<std::size_t>(size), system), options, slow);
 }
 
 void expect_equal(const EscapeResult& a, const EscapeResult& b) {
@@ -176,6 +187,24 @@ TEST(Crew, EndsWhenTheFirstRankFails) {
     options.save_every = 0.01;
     EXPECT_THROW(run_crew(3, options, -1, system), InputError);
   }
+}
+
+// What is impossible in one process alone stands for a memory that is full there: at once, or at the first start.
+TEST(Crew, EndsWhenOneRankCannotBegin) {
+  EscapeOptions options;
+  options.threads = 1;
+  System good = make_system(magnetic_square);
+  good.run.trajectories = 1'000'000'000;
+  for (const auto kind : {InitialCondition::Kind::birkhoff, InitialCondition::Kind::point})
+    for (const int broken : {0, 1, 2})
+      for (const bool with_journal : {false, true}) {
+        Records records;
+        options.journal = with_journal ? &records : nullptr;
+        std::vector<System> systems(3, good);
+        systems[static_cast<std::size_t>(broken)].initial.kind = kind;
+        systems[static_cast<std::size_t>(broken)].initial.position = {7, 7};
+        EXPECT_THROW(run_crew(systems, options), InputError) << broken;
+      }
 }
 
 TEST(Bytes, ComeBackAsTheyWere) {

@@ -50,10 +50,19 @@ class TrajectoryRanges {
   /// Adds all of another set; false, and no change, where they overlap.
   bool add(const TrajectoryRanges& other) {
     if (other.ranges_.size() == 1) return add(other.ranges_.front());
-    TrajectoryRanges sum = *this;
-    for (const TrajectoryRange& range : other.ranges_)
-      if (!sum.add(range)) return false;
-    ranges_ = std::move(sum.ranges_);
+    std::vector<TrajectoryRange> sum;
+    sum.reserve(ranges_.size() + other.ranges_.size());
+    for (auto a = ranges_.cbegin(), b = other.ranges_.cbegin(); a != ranges_.end() || b != other.ranges_.end();) {
+      const bool first = b == other.ranges_.end() || (a != ranges_.end() && a->first < b->first);
+      const TrajectoryRange next = first ? *a++ : *b++;
+      if (sum.empty() || sum.back().last < next.first)
+        sum.push_back(next);
+      else if (sum.back().last == next.first)
+        sum.back().last = next.last;
+      else
+        return false;
+    }
+    ranges_ = std::move(sum);
     return true;
   }
 

@@ -1,0 +1,92 @@
+// What all ensembles have in common that can be stopped, continued, cut into parts and shared between
+// processes.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carom/ensemble/ranks.hpp"
+#include "carom/ensemble/trajectory_ranges.hpp"
+#include "carom/events/decisions.hpp"
+#include "carom/events/event.hpp"
+#include "carom/lanes/instruction_set.hpp"
+
+namespace carom {
+
+/// One particle of one trajectory, for archives and exit basins. `index` is
+/// trajectory * (number of particles) + particle; with injections see particle_index().
+struct TrajectoryRecord {
+  std::uint64_t index = 0;
+  double x = 0, y = 0, vx = 0, vy = 0;  ///< start, unwrapped
+  Fate fate = Fate::survived;
+  std::int32_t hole = -1;
+  double time = 0;  ///< end: escape, last hit of an unbounded one, else t_max
+  std::uint64_t hits = 0;
+};
+
+/// Besides what a kind of ensemble adds up.
+struct EnsembleResult {
+  static constexpr std::size_t most_reports = 5;
+
+  std::uint64_t digest = 0;
+  TrajectoryRanges done;  ///< trajectories that are counted
+  DecisionCounts decisions;
+  bool complete = true;  ///< false when interrupted
+  double seconds = 0, cpu_seconds = 0;
+  int threads = 1;                                             ///< of each process
+  int ranks = 1;                                               ///< processes
+  std::optional<InstructionSet> lanes;                         ///< that flew it; empty: the scalar engine did
+  std::vector<std::pair<std::uint64_t, std::string>> reports;  ///< first few lost ones: index and state
+
+ protected:
+  /// False, and no change, where a trajectory is in both.
+  bool add_common(const EnsembleResult& other);
+};
+
+/// Keeps what an ensemble has done, so that it can go on after its process was killed.
+template <class Result>
+class EnsembleJournal {
+ public:
+  virtual ~EnsembleJournal() = default;
+  /// Is block() to be given the records of each trajectory?
+  virtual bool wants_records() const { return false; }
+  /// Trajectories that are done, in any order; one call at a time.
+  virtual void block(TrajectoryRange, std::vector<TrajectoryRecord>&&) {}
+  /// What came until now belongs to the next save(). Never during block().
+  virtual void mark() {}
+  /// Keeps `so_far`: all up to the last mark(), and what was there before. From a thread of its own, while
+  /// blocks come in. May throw: then the run ends with that error.
+  virtual void save(const Result& so_far) = 0;
+};
+
+/// How to run, without influence on the result.
+template <class Result>
+struct EnsembleOptions {
+  int threads = 0;             ///< 0: as many as OpenMP gives
+  std::uint64_t block = 1024;  ///< trajectories a block; the result does not depend on it
+  DecisionOptions decisions;
+  /// Instruction set of the lanes that fly systems of independent particles; empty: one by one.
+  std::optional<InstructionSet> lanes = widest_instruction_set();
+  /// The part of the trajectories 0 … System::run.trajectories - 1 that is asked for.
+  TrajectoryRange part{0, std::numeric_limits<std::uint64_t>::max()};
+  /// What was done before, and is not done again: the result holds it too.
+  const Result* before = nullptr;
+  EnsembleJournal<Result>* journal =
+      nullptr;  ///< is asked to save first of all, and then every so many seconds
+  double save_every = 10;
+  /// Processes that share the ensemble: each runs it. Rank 0 has the result; part, before, journal and
+  /// progress are its own. The others need the system, and their result is empty. Whatever fails, all of them
+  /// end.
+  Ranks* ranks = nullptr;
+  const std::atomic<bool>* interrupted = nullptr;  ///< asked between blocks and during long ones
+  /// Called now and then from one thread at a time with the trajectories done so far.
+  std::function<void(std::uint64_t done, std::uint64_t hits)> progress;
+};
+
+}  // namespace carom
