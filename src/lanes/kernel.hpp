@@ -35,6 +35,7 @@ struct View {
   const LaneTable& table;
   Vector origin, velocity;
   Real start_piece, start_wall, speed, square_speed;
+  Real sides, roots;  // margins, as in LanePack
   // Of Larmor circles.
   Real omega, inverse_half, pace, joint_margin;
 };
@@ -49,7 +50,7 @@ struct Choice {
 /// What is needed of that piece.
 struct Met {
   Vector point;
-  Real first, second, orientation, off_power;
+  Real first, second, orientation, into, off_power;
   Mask bent, stands;
 };
 
@@ -79,22 +80,26 @@ void kernel(const LaneTable& table, LanePack& pack) {
   Stages stages;
   for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
   for (int lane = 0; lane < pack.used; lane += width) fly<Kind>(table, pack, stages, lane);
-  for (int lane = 0; lane < pack.used; lane += width) land<Kind>(table, pack, stages, lane);
+  const Real end(pack.end);
+  for (int lane = 0; lane < pack.used; lane += width) land<Kind>(table, pack, stages, end, lane);
+  pack.sweep += 1.0;
 }
 
 template <int turn, bool convex>
 Advance kernel_of(const LaneTable& t) {
   if (t.pieces > LaneTable::fewest) return kernel<Kind<turn, convex, true, true, Reach::all>>;
-  if (!t.circles) return kernel<Kind<turn, convex, true, false, Reach::few>>;
+  if (t.pieces > LaneTable::eight) return kernel<Kind<turn, convex, true, true, Reach::few>>;
+  if (!t.circles) return kernel<Kind<turn, convex, true, false, Reach::eight>>;
   if constexpr (turn == 0) {
-    if (!t.segments) return kernel<Kind<turn, convex, false, true, Reach::few>>;
+    if (!t.segments) return kernel<Kind<turn, convex, false, true, Reach::eight>>;
   }
-  return kernel<Kind<turn, convex, true, true, Reach::few>>;
+  return kernel<Kind<turn, convex, true, true, Reach::eight>>;
 }
 template <int turn>
 Kernels kernels_of(const LaneTable& t) {
   if (t.edges > 0) {
-    const Advance over_cells = kernel<Kind<0, false, false, true, Reach::all, true>>;
+    const Advance over_cells = t.pieces > LaneTable::eight ? kernel<Kind<0, false, false, true, Reach::all, true>>
+                                                           : kernel<Kind<0, false, false, true, Reach::eight, true>>;
     return {over_cells, over_cells, width};
   }
   const Advance anywhere = kernel_of<turn, false>(t);

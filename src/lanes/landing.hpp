@@ -1,47 +1,69 @@
 // The last stage of a hit of every lane: put back on its wall, reflected and stored; or a call. Included by kernel.hpp
 // inside the namespace of its instruction set.
 
+/// What a hit makes of a lane.
+struct Landed {
+  Vector place, velocity;
+  Real high, low, piece;
+};
+
+INLINE void store_all(LanePack& pack, int lane, const Landed& now) {
+  store(now.place.x, pack.x + lane);
+  store(now.place.y, pack.y + lane);
+  store(now.velocity.x, pack.vx + lane);
+  store(now.velocity.y, pack.vy + lane);
+  store(now.high, pack.high + lane);
+  store(now.low, pack.low + lane);
+  store(now.piece, pack.piece + lane);
+}
+/// Where it applies. Whole stores: one through a mask takes 30 ns without AVX.
+INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& applies) {
+  const auto keep = [&](double* to, const Real& number) { store(choose(applies, number, load(to + lane)), to + lane); };
+  keep(pack.x, now.place.x);
+  keep(pack.y, now.place.y);
+  keep(pack.vx, now.velocity.x);
+  keep(pack.vy, now.velocity.y);
+  keep(pack.high, now.high);
+  keep(pack.low, now.low);
+  keep(pack.piece, now.piece);
+  const Real born = load(pack.born + lane);
+  store(choose(applies, born, born + 1.0), pack.born + lane);
+}
+
 template <class Kind>
-INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, int lane) {
+INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, const Real& end, int lane) {
   constexpr bool larmor = Kind::turn != 0;
-  const auto of = [&](const double* numbers, const Real& piece) { return look_up<Kind::reach>(numbers, piece); };
   const View f = view_of<Kind>(t, pack, lane);
-  const Vector start = f.origin;
-  const Real start_piece = f.start_piece;
-  const Real piece = load(stages.piece + lane), known = load(stages.known + lane);
-  Mask decided = known > 0.0, gone(false);
-  if constexpr (!Kind::convex) gone = known < 0.0;
+  const Real piece = load(stages.piece + lane), known = load(stages.known + lane), duration = load(stages.duration + lane);
+  const Vector point{load(stages.x + lane), load(stages.y + lane)};
+  const Vector v = larmor ? Vector{load(stages.vx + lane), load(stages.vy + lane)} : f.velocity;
   const Met met = met_by<Kind>(f, piece);
-  const Meeting at{{load(stages.x + lane), load(stages.y + lane)},
-                   larmor ? Vector{load(stages.vx + lane), load(stages.vy + lane)} : f.velocity,
-                   load(stages.duration + lane), decided};
-  const Vector v = at.velocity;
+  Mask decided = known > 0.0 && duration > 0.0;
 
-  const Real high0 = load(pack.high + lane), low0 = load(pack.low + lane);
-  const auto [high, low] = later(high0, low0, at.duration);
-  const Mask over = high >= pack.end;  // or there to the last digit
-
-  // As PreparedCurve::arrive. The flight of a Larmor circle must be seen to end on the wall.
-  Vector place, normal;
+  // As PreparedCurve::arrive, but for the normal's sign, which reflections do not see. The flight of a Larmor circle
+  // must be seen to end on the wall.
+  Landed now;
+  now.piece = piece;
+  Vector normal;
   Real square(1.0), off(0.0);
+  const Vector d = point - met.point;
   if constexpr (Kind::circles) {
-    const Vector d = at.point - met.point;
-    place = met.point + geometry::back_to_circle(d, met.first);
-    normal = -met.orientation * d;
+    now.place = met.point + geometry::back_to_circle(d, met.first);
+    normal = d;
     square = dot(met.off_power * d, d);
     if constexpr (larmor) off = (0.75 - dot(met.first * d, d)) * (0.25 * t.size);
     if (t.closed_circles) decided = decided && (!met.bent || abs(d.y) > sign_margin * t.size);
   }
   if constexpr (Kind::segments) {
     const Vector tangent{met.first, met.second};
-    const Vector on = geometry::back_to_line(at.point, met.point, tangent), across = geometry::left(tangent);
-    if constexpr (larmor) off = choose(met.bent, off, cross(tangent, at.point - met.point));
+    const Vector on = geometry::back_to_line(point, met.point, tangent), across = geometry::left(tangent);
+    if constexpr (larmor) off = choose(met.bent, off, cross(tangent, d));
     if constexpr (Kind::circles) {
-      place = {choose(met.bent, place.x, on.x), choose(met.bent, place.y, on.y)};
+      now.place = {choose(met.bent, now.place.x, on.x), choose(met.bent, now.place.y, on.y)};
       normal = {choose(met.bent, normal.x, across.x), choose(met.bent, normal.y, across.y)};
       where(!met.bent, square) = Real(1.0);
     } else {
-      place = on;
+      now.place = on;
       normal = across;
     }
   }
@@ -49,49 +71,36 @@ INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, int l
 
   const Real factor =
       Kind::circles ? geometry::reflection_factor(v, normal, square, met.off_power) : 2.0 * dot(v, normal);
-  const Vector after = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, load(pack.energy_weight + lane)));
-  Mask escaped(false);
-  if (t.divided) escaped = of(t.hole, piece) >= 0.0;
-  const Mask inward = dot(normal, after) > (sign_margin * t.size) * f.speed;
-  decided = decided && (escaped || over || inward);
-
-  const Mask applies = decided && !over && !escaped;
-  const Real hits0 = load(pack.hits + lane), hits = hits0 + 1.0;
-  if (!any_of(!applies)) [[likely]] {
-    store(place.x, pack.x + lane);
-    store(place.y, pack.y + lane);
-    store(after.x, pack.vx + lane);
-    store(after.y, pack.vy + lane);
-    store(high, pack.high + lane);
-    store(low, pack.low + lane);
-    store(piece, pack.piece + lane);
-    store(hits, pack.hits + lane);
-  } else {
-    // A whole store: one through a mask takes 30 ns without AVX.
-    const auto keep = [&](double* to, const Real& before, const Real& now) { store(choose(applies, now, before), to + lane); };
-    keep(pack.x, start.x, place.x);
-    keep(pack.y, start.y, place.y);
-    keep(pack.vx, f.velocity.x, after.x);
-    keep(pack.vy, f.velocity.y, after.y);
-    keep(pack.high, high0, high);
-    keep(pack.low, low0, low);
-    keep(pack.piece, start_piece, piece);
-    keep(pack.hits, hits0, hits);
+  now.velocity = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, load(pack.energy_weight + lane)));
+  const Real inner = Kind::circles ? met.into * dot(normal, now.velocity) : dot(normal, now.velocity);
+  const Mask inward = inner > f.sides;
+  const auto [high, low] = later(load(pack.high + lane), load(pack.low + lane), duration);
+  now.high = high;
+  now.low = low;
+  Mask applies = decided && inward && high < end;
+  Real hole(-1.0);
+  if (t.divided) {
+    hole = look_up<Kind::reach>(t.hole, piece);
+    applies = applies && hole < 0.0;
   }
-
   if constexpr (Kind::cells) {
+    store_some(pack, lane, now, applies);
     const auto add = [&](double* to, const double* more) {
       const Real before = load(to + lane);
       store(choose(applies, before + load(more + lane), before), to + lane);
     };
     add(pack.home_first, stages.cell_first);
     add(pack.home_second, stages.cell_second);
+  } else {
+    if (!any_of(!applies)) [[likely]] return store_all(pack, lane, now);
+    store_some(pack, lane, now, applies);
   }
 
-  const Mask capped = hits >= pack.limit;
-  Mask calls = load(pack.active + lane) > 0.0 && (!applies || capped);
+  const Mask gone = known < 0.0, over = high >= end, escaped = hole >= 0.0;  // over, or there to the last digit
+  Mask calls = load(pack.active + lane) > 0.0 && !applies;
   if constexpr (Kind::cells) calls = calls && !gone;
   if (any_of(calls)) [[unlikely]] {
+    decided = decided && (escaped || over || inward) && duration < __builtin_huge_val();
     for (int i = 0; i < width; ++i) {
       if (!lane_of(calls, i)) continue;
       pack.met[pack.calls] = {lane_of(piece, i), lane_of(high, i), lane_of(low, i)};
@@ -99,8 +108,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, int l
       pack.call[pack.calls++] = lane_of(gone, i)       ? Call::unbounded
                                 : !lane_of(decided, i) ? Call::undecided
                                 : lane_of(over, i)     ? Call::over
-                                : lane_of(escaped, i)  ? Call::escaped
-                                              : Call::capped;
+                                                       : Call::escaped;
     }
   }
 }

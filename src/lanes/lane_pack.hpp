@@ -23,11 +23,13 @@ struct LanePack {
   double y[lanes] = {}, vx[lanes] = {}, vy[lanes] = {};
   double high[lanes] = {}, low[lanes] = {};  ///< time
   double piece[lanes] = {};                  ///< that it stands on; -1: none
-  double hits[lanes] = {};
+  double born[lanes] = {};                   ///< the sweep at which it would have had no hits
   // On a lattice: the cell of the last hit, and the cell of the flight, counted from there.
   double home_first[lanes] = {}, home_second[lanes] = {}, cell_first[lanes] = {}, cell_second[lanes] = {};
   // Constants of its particle.
   double speed[lanes] = {}, square_speed[lanes] = {}, energy_weight[lanes] = {};
+  double sides[lanes] = {};                  ///< margins of signs of the sizes size * speed …
+  double roots[lanes] = {};                  ///< … and of its square
   double omega[lanes] = {};
   double inverse_half[lanes] = {};           ///< 1/|omega/2|
   double pace[lanes] = {};                   ///< power of two beyond speed + |omega| size
@@ -36,6 +38,11 @@ struct LanePack {
 
   double end = 0.0;    ///< of the run
   double limit = 0.0;  ///< of hits
+
+  // A lane's hits are the sweeps since it was born: a sweep without a hit makes it a sweep younger.
+  double sweep = 0.0;
+  double next_cap = 0.0;  ///< no lane has all its hits before this sweep
+  double hits(int i) const { return sweep - born[i]; }
 
   int used = lanes;  ///< lanes beyond are not looked at
 

@@ -8,7 +8,7 @@ namespace carom::lanes {
 
 struct LaneTable {
   static constexpr int most = 64;  ///< pieces
-  static constexpr int fewest = 16;  ///< numbers that may be read of each array
+  static constexpr int eight = 8, fewest = 16;  ///< numbers that may be read of each array
 
   int pieces = 0;
   int loops = 0;
@@ -27,10 +27,13 @@ struct LaneTable {
   // Of a segment: a point of it, and its unit tangent. Of a circle: centre, 0.75 / r^2, r^2.
   double point_x[most] = {}, point_y[most] = {}, first_number[most] = {}, second_number[most] = {};
   double orientation[most] = {};  ///< circle: +1 domain inside, -1 outside; segment: 0
+  double into[most] = {};         ///< the way into the domain, seen along a circle's radius or a segment's left: 1, -1
   double off_power[most] = {};    ///< circle: PreparedCurve::off_power; segment: 1
   // For Larmor circles, of a piece with joints: the unit vector from the one to the other, their distance. Of a circle:
   // its radius, and the distance of the chord from the centre in radii, positive if the centre lies on its left.
   double chord_x[most] = {}, chord_y[most] = {}, length[most] = {}, radius[most] = {}, chord_offset[most] = {};
+  // Of a piece with joints A and B: B - A, and A x B.
+  double along_x[most] = {}, back_y[most] = {}, turn[most] = {};  ///< back_y = (A - B)_y
   double wall[most] = {};
   double hole[most] = {};         ///< -1: a wall
   double from[most] = {};         ///< parameter of the wall where it begins
@@ -39,7 +42,7 @@ struct LaneTable {
   static constexpr double farthest_cell = 64.0;  ///< of a flight
   int edges = 0;
   int steps = 3;                  ///< edges that are crossed at once
-  double edge_x[fewest] = {}, edge_y[fewest] = {}, beyond_first[fewest] = {}, beyond_second[fewest] = {};
+  double edge_x[eight] = {}, edge_y[eight] = {}, beyond_first[eight] = {}, beyond_second[eight] = {};
   double lattice_x[2] = {}, lattice_y[2] = {};
 
   double size = 0.0;  ///< the length by which every margin is measured: a power of two (make_lane_table.cpp)

@@ -65,6 +65,7 @@ class LaneWorld::Implementation {
     for (Lanes* l : {&main, &entrance}) {
       l->pack.end = t_end;
       l->pack.limit = static_cast<double>(std::min(limit, most_hits));
+      l->pack.next_cap = HUGE_VAL;
       l->pack.used = LanePack::lanes;
       l->clear();
     }
@@ -74,6 +75,7 @@ class LaneWorld::Implementation {
     for (std::uint64_t sweep = 1; main.busy > 0; ++sweep) {
       if (interrupted && sweep % 64 == 0 && interrupted()) return;
       kernels.on_walls(pieces, main.pack);
+      cap(main);
       effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
       effort.idle += static_cast<std::uint64_t>(rounded_up(main.pack.used) - main.busy);
       for (int i = 0; i < main.pack.calls; ++i)
@@ -162,6 +164,7 @@ class LaneWorld::Implementation {
     waiting = 0;
     if (entrance.busy == 0) return;
     kernels.anywhere(pieces, entrance.pack);
+    cap(entrance);
     effort.steps += LanePack::lanes;
     effort.idle += static_cast<std::uint64_t>(LanePack::lanes - entrance.busy);
     const int calls = entrance.pack.calls;
@@ -221,13 +224,16 @@ class LaneWorld::Implementation {
     pack.high[lane] = s.time.high;
     pack.low[lane] = s.time.low;
     pack.piece[lane] = s.wall < 0 ? -1.0 : lanes::piece_at(pieces, s.wall, s.u);
-    pack.hits[lane] = static_cast<double>(mine.start.hits);
+    pack.born[lane] = pack.sweep - static_cast<double>(mine.start.hits);
+    pack.next_cap = std::min(pack.next_cap, pack.born[lane] + pack.limit);
     pack.home_first[lane] = static_cast<double>(s.cell.first);
     pack.home_second[lane] = static_cast<double>(s.cell.second);
     pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
     pack.speed[lane] = p.speed;
     pack.square_speed[lane] = p.speed * p.speed;
     pack.energy_weight[lane] = 0.75 / (p.speed * p.speed);
+    pack.sides[lane] = 0x1p-36 * pieces.size * p.speed;
+    pack.roots[lane] = pack.sides[lane] * pieces.size * p.speed;
     if (turn != Turn::straight) {
       const double turned = std::fabs(p.omega) * pieces.size, pace = p.speed + turned;
       pack.omega[lane] = p.omega;
@@ -239,11 +245,27 @@ class LaneWorld::Implementation {
     pack.active[lane] = 1.0;
   }
 
+  /// Calls for lanes that have made all their hits.
+  static void cap(Lanes& lanes) {
+    LanePack& pack = lanes.pack;
+    if (pack.sweep < pack.next_cap) return;
+    pack.next_cap = HUGE_VAL;
+    for (int lane = 0; lane < pack.used; ++lane) {
+      if (pack.active[lane] == 0.0) continue;
+      if (pack.hits(lane) < pack.limit) {
+        pack.next_cap = std::min(pack.next_cap, pack.born[lane] + pack.limit);
+        continue;
+      }
+      pack.lane[pack.calls] = lane;
+      pack.call[pack.calls++] = Call::capped;
+    }
+  }
+
   /// The lane's numbers as a state.
   void take_out(Lanes& lanes, int lane) {
     const LanePack& pack = lanes.pack;
     Trajectory& mine = lanes.trajectories[lane];
-    const auto hits = static_cast<std::uint64_t>(pack.hits[lane]);
+    const auto hits = static_cast<std::uint64_t>(pack.hits(lane));
     effort.hits += hits - mine.start.hits;
     filter += 2 * (hits - mine.start.hits);  // which wall, and which way the velocity points
     if (hits == mine.start.hits) return;

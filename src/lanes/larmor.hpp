@@ -207,7 +207,7 @@ INLINE Real angle(const Real& x, const Real& y) {
   const Real one(1.0);
   Real steps(0.0);
   for (const double step : angle_steps) where(far * step < y, steps) = steps + one;
-  const Real bx = look_up<Reach::few>(back_x, steps), by = look_up<Reach::few>(back_y, steps);
+  const Real bx = look_up<Reach::eight>(back_x, steps), by = look_up<Reach::eight>(back_y, steps);
   const Real quotient = (y * bx - far * by) / (far * bx + y * by), q = choose(back, -quotient, quotient);
   where(back, steps) = steps + Real(1.0 * angle_from_pi);
   const Real z = q * q, square = z * z, fourth = square * square;

@@ -49,6 +49,7 @@ void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part,
   t.first_number[i] = t.bent[i] ? w.weight : w.tangent.x;
   t.second_number[i] = t.bent[i] ? w.r2 : w.tangent.y;
   t.orientation[i] = t.bent[i] ? w.orientation : 0.0;
+  t.into[i] = t.bent[i] ? -w.orientation : 1.0;
   t.off_power[i] = t.bent[i] ? w.off_power : 1.0;
   (t.bent[i] ? t.circles : t.segments) = true;
   t.closed_circles |= w.closed;
@@ -65,6 +66,9 @@ void add_chord(LaneTable& t, int i, int next) {
   const Vector d = Vector{t.joint_x[next], t.joint_y[next]} - joint;
   t.length[i] = std::sqrt(dot(d, d));
   const Vector chord{d.x / t.length[i], d.y / t.length[i]};
+  t.along_x[i] = d.x;
+  t.back_y[i] = -d.y;
+  t.turn[i] = geometry::cross(joint, joint + d);
   t.chord_x[i] = chord.x;
   t.chord_y[i] = chord.y;
   if (t.bent[i]) t.chord_offset[i] = geometry::cross(chord, Vector{t.point_x[i], t.point_y[i]} - joint) / t.radius[i];
@@ -72,7 +76,7 @@ void add_chord(LaneTable& t, int i, int next) {
 
 /// Are all walls discs that do not reach an edge of the cell? As HitFinder::find_enclosure.
 bool discs_within_cell(const Table& table) {
-  if (table.lattice->edges.size() > LaneTable::fewest) return false;
+  if (table.lattice->edges.size() > LaneTable::eight) return false;
   for (const Wall& wall : table.walls) {
     const PreparedCurve w(wall.curve);
     if (!w.closed || w.kind != CurveKind::circle || w.orientation > 0) return false;

@@ -9,7 +9,8 @@ struct Stages {
   double known[LanePack::lanes];  ///< 1: decided, 0: not, -1: no wall follows (in this cell)
   double kappa[LanePack::lanes];
   double cell_first[LanePack::lanes], cell_second[LanePack::lanes];
-  double x[LanePack::lanes], y[LanePack::lanes], vx[LanePack::lanes], vy[LanePack::lanes], duration[LanePack::lanes];
+  double x[LanePack::lanes], y[LanePack::lanes], vx[LanePack::lanes], vy[LanePack::lanes];
+  double duration[LanePack::lanes];  ///< not a number: undecided
 };
 
 /// The flights from their last hits.
@@ -17,7 +18,7 @@ template <class Kind>
 INLINE View view_of(const LaneTable& t, const LanePack& pack, int lane) {
   View f{t, {load(pack.x + lane), load(pack.y + lane)}, {load(pack.vx + lane), load(pack.vy + lane)},
          load(pack.piece + lane), Real(0.0), load(pack.speed + lane), load(pack.square_speed + lane),
-         Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
+         load(pack.sides + lane), load(pack.roots + lane), Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
   if constexpr (Kind::turn != 0) {
     f.omega = load(pack.omega + lane);
     f.inverse_half = load(pack.inverse_half + lane);
@@ -73,9 +74,10 @@ INLINE Met met_by(const View& f, const Real& piece) {
   const LaneTable& t = f.table;
   const auto of = [&](const double* numbers) { return look_up<Kind::reach>(numbers, piece); };
   Met met{{of(t.point_x), of(t.point_y)}, of(t.first_number), of(t.second_number),
-          Real(0.0), Real(1.0), Mask(Kind::circles), Mask(false)};
+          Real(0.0), Real(1.0), Real(1.0), Mask(Kind::circles), Mask(false)};
   if constexpr (Kind::circles) {
     met.orientation = of(t.orientation);
+    met.into = of(t.into);
     met.off_power = of(t.off_power);
     if constexpr (Kind::segments) met.bent = met.orientation != 0.0;
   }
@@ -98,8 +100,6 @@ INLINE void fly(const LaneTable& t, const LanePack& pack, Stages& stages, int la
   }
   store(at.point.x, stages.x + lane);
   store(at.point.y, stages.y + lane);
+  where(!at.decided, at.duration) = Real(__builtin_nan(""));
   store(at.duration, stages.duration + lane);
-  Real known = load(stages.known + lane);
-  where(!at.decided && known > 0.0, known) = Real(0.0);
-  store(known, stages.known + lane);
 }

@@ -15,11 +15,35 @@ using simd::where;  // where(condition, x) = value: in those lanes alone
 /// A number or the truth of one lane.
 INLINE auto lane_of(const auto& x, int lane) { return x[static_cast<std::size_t>(lane)]; }
 
+/// 0, 1, 2 …: numbers of pieces.
+alignas(64) constexpr double counted[64] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+                                            22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43,
+                                            44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63};
+
 INLINE Real load(const double* from) { return Real(from, simd::element_aligned); }
 INLINE void store(const Real& x, double* to) { x.copy_to(to, simd::element_aligned); }
 
-/// How many numbers a look-up may choose from.
-enum class Reach { few, all };
+/// a b + c, rounded once where the instruction set can: for choices alone, never for a number that shows.
+INLINE Real fused(const Real& a, const Real& b, const Real& c) {
+#if defined(__AVX512F__)
+  return Real(_mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+#elif defined(__FMA__)
+  return Real(_mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+#else
+  return a * b + c;
+#endif
+}
+/// The smaller one of two sizes.
+INLINE Real least_size(const Real& a, const Real& b) {
+#if defined(__AVX512DQ__)
+  return Real(_mm512_range_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), 0b1010));
+#else
+  return min(abs(a), abs(b));
+#endif
+}
+
+/// How many numbers a look-up may choose from: 8, 16, or more.
+enum class Reach { eight, few, all };
 
 /// table[index], lane by lane; index >= 0.
 template <Reach reach>
@@ -27,11 +51,25 @@ INLINE Real look_up(const double* table, const Real& index) {
 #if defined(__AVX512F__)
   const Real bits = index + 0x1p52;  // the lowest bits are the index
   const __m512i i = _mm512_castpd_si512(static_cast<__m512d>(bits));
-  if constexpr (reach == Reach::few)
+  if constexpr (reach == Reach::eight)
+    return Real(_mm512_permutexvar_pd(i, _mm512_loadu_pd(table)));
+  else if constexpr (reach == Reach::few)
     return Real(_mm512_permutex2var_pd(_mm512_loadu_pd(table), i, _mm512_loadu_pd(table + 8)));
   else
     return Real(_mm512_i64gather_pd(_mm512_and_si512(i, _mm512_set1_epi64(0xffff)), table, 8));
 #else
+#if defined(__AVX2__)
+  if constexpr (reach == Reach::eight) {
+    // Four numbers are eight words: those of number i are 2i and 2i + 1.
+    const __m256i twice = _mm256_slli_epi64(_mm256_castpd_si256(static_cast<__m256d>(index + 0x1p52)), 1);
+    const __m256i words = _mm256_or_si256(_mm256_and_si256(twice, _mm256_set1_epi64x(0xff)),
+                                          _mm256_slli_epi64(_mm256_add_epi64(twice, _mm256_set1_epi64x(1)), 32));
+    const auto among = [&](const double* four) {
+      return Real(_mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(_mm256_loadu_pd(four)), words)));
+    };
+    return choose(index < 4.0, among(table), among(table + 4));
+  }
+#endif
   return Real([&](auto i) { return table[static_cast<int>(static_cast<double>(index[i]))]; });
 #endif
 }
