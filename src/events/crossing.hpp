@@ -10,16 +10,13 @@ namespace carom {
 
 inline double norm_1(geometry::Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
-/// The form that is 1 on a conic, in the frame of its axes. The weights come after the products: a rounded
-/// factor on each coordinate would bias every flight the same way.
+/// An ellipse without field. `stands`: as below.
 [[gnu::always_inline]] inline geometry::Quadratic<double> ellipse_quadratic(const geometry::PreparedCurve& w,
                                                                             geometry::Vector e,
                                                                             geometry::Vector v, bool stands) {
-  const geometry::Vector em{dot(w.first_direction, e), dot(w.second_direction, e)};
-  const geometry::Vector vm{dot(w.first_direction, v), dot(w.second_direction, v)};
-  const double p = w.first_weight, r = w.second_weight;
-  return {stands ? 0.0 : p * (em.x * em.x) + r * (em.y * em.y) - 1.0, p * (em.x * vm.x) + r * (em.y * vm.y),
-          p * (vm.x * vm.x) + r * (vm.y * vm.y)};
+  geometry::Quadratic<double> q = geometry::ellipse_quadratic(e, v, w.first_direction, w.first_weight, w.second_weight);
+  if (stands) q.a = 0.0;
+  return q;
 }
 
 /// All but Larmor circles against ellipses. `stands`: the start lies on the wall, and the leading

@@ -4,6 +4,8 @@
 // of a hit also name the hole. Nothing here has a function: the kernels of every instruction set include it.
 #pragma once
 
+#include "lanes/lane_ellipses.hpp"
+
 namespace carom::lanes {
 
 struct LaneTable {
@@ -19,7 +21,7 @@ struct LaneTable {
   bool closed_circles = false;
   bool open = false;      ///< beyond all walls lies the open plane
   bool divided = false;   ///< some wall is of several pieces
-  bool bent[most] = {};   ///< a circle or an arc of it
+  bool bent[most] = {};   ///< a circle, an ellipse or an arc of one
   bool closed[most] = {};
 
   // Start of each piece.
@@ -37,6 +39,8 @@ struct LaneTable {
   double wall[most] = {};
   double hole[most] = {};         ///< -1: a wall
   double from[most] = {};         ///< parameter of the wall where it begins
+
+  LaneEllipses<most> ellipses;
 
   // Of a lattice: the start of each edge of the cell and the cell beyond it; the two vectors.
   static constexpr double farthest_cell = 64.0;  ///< of a flight

@@ -33,6 +33,29 @@ std::vector<Part> parts_of(const Table& table, int wall) {
   return parts;
 }
 
+/// Beside what it has in common with circles.
+void add_ellipse(LaneTable& t, const PreparedCurve& w, int i) {
+  auto& all = t.ellipses;
+  all.any = all.of[i] = true;
+  const auto size = [](Vector v) { return std::fabs(v.x) + std::fabs(v.y); };
+  const double row = std::max(size(w.first_axis), size(w.second_axis));
+  const double largest = 1.0 / std::sqrt(std::min(w.first_weight, w.second_weight));
+  all.axis_x[i] = w.first_direction.x;
+  all.axis_y[i] = w.first_direction.y;
+  all.along[i] = w.first_weight;
+  all.across[i] = w.second_weight;
+  all.first_x[i] = w.first_axis.x;
+  all.first_y[i] = w.first_axis.y;
+  all.second_x[i] = w.second_axis.x;
+  all.second_y[i] = w.second_axis.y;
+  all.shrink[i] = 1.0 / (row * row);
+  // In units of the table's size, which is not complete yet.
+  all.off[i] = 0.75 * 0x1p-38 / largest;
+  all.at_start[i] = t.closed[i] ? 0x1p-36 * row : 0.0;
+  all.inward[i] = 0x1p-36 * row * row;
+  t.size = std::max({t.size, 4.0 * (largest + size(w.centre)), 0x1p40 * w.normal_bound / (row * row)});
+}
+
 void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part, bool whole) {
   const int i = t.pieces++;
   const Vector joint = part.from == 0.0 ? w.from : w.point(part.from);
@@ -41,7 +64,7 @@ void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part,
   t.wall[i] = wall;
   t.from[i] = part.from;
   t.hole[i] = part.hole;
-  t.bent[i] = w.kind == CurveKind::circle;
+  t.bent[i] = w.kind != CurveKind::segment;
   t.closed[i] = w.closed && whole;
   const Vector point = t.bent[i] ? w.centre : w.from;
   t.point_x[i] = point.x;
@@ -51,11 +74,12 @@ void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part,
   t.orientation[i] = t.bent[i] ? w.orientation : 0.0;
   t.into[i] = t.bent[i] ? -w.orientation : 1.0;
   t.off_power[i] = t.bent[i] ? w.off_power : 1.0;
-  (t.bent[i] ? t.circles : t.segments) = true;
-  t.closed_circles |= w.closed;
+  if (w.kind != CurveKind::ellipse) (t.bent[i] ? t.circles : t.segments) = true;
+  t.closed_circles |= w.closed && w.kind == CurveKind::circle;
   // Beyond every length that occurs, and 2^48 times every error of a point.
   t.size = std::max({t.size, 4.0 * w.extent, 0x1p48 * w.point_error, 0x1p48 * w.centre_error});
-  if (!t.bent[i]) return;
+  if (w.kind == CurveKind::ellipse) add_ellipse(t, w, i);
+  if (w.kind != CurveKind::circle) return;
   t.radius[i] = std::sqrt(w.r2);
   t.size = std::max(t.size, 4.0 * (t.radius[i] + std::fabs(w.centre.x) + std::fabs(w.centre.y)));
 }
@@ -71,7 +95,7 @@ void add_chord(LaneTable& t, int i, int next) {
   t.turn[i] = geometry::cross(joint, joint + d);
   t.chord_x[i] = chord.x;
   t.chord_y[i] = chord.y;
-  if (t.bent[i]) t.chord_offset[i] = geometry::cross(chord, Vector{t.point_x[i], t.point_y[i]} - joint) / t.radius[i];
+  if (t.radius[i] > 0.0) t.chord_offset[i] = geometry::cross(chord, Vector{t.point_x[i], t.point_y[i]} - joint) / t.radius[i];
 }
 
 /// Are all walls discs that do not reach an edge of the cell? As HitFinder::find_enclosure.
@@ -124,14 +148,18 @@ bool is_convex(const HitFinder& finder) {
 
 }  // namespace
 
+bool has_ellipses(const Table& table) {
+  return std::any_of(table.walls.begin(), table.walls.end(), [](const Wall& w) {
+    return std::holds_alternative<geometry::Ellipse>(w.curve) || std::holds_alternative<geometry::EllipticArc>(w.curve);
+  });
+}
+
 bool fits(const Table& table) {
   std::size_t pieces = 0;
   for (std::size_t i = 0; i < table.walls.size(); ++i) {
-    const geometry::Curve& c = table.walls[i].curve;
-    if (std::holds_alternative<geometry::Ellipse>(c) || std::holds_alternative<geometry::EllipticArc>(c)) return false;
     pieces += parts_of(table, static_cast<int>(i)).size();
   }
-  return pieces > 0 && pieces <= LaneTable::most && !table.crossing && (!table.lattice || discs_within_cell(table));
+  return pieces > 0 && !has_ellipses(table) && pieces <= LaneTable::most && !table.crossing && (!table.lattice || discs_within_cell(table));
 }
 
 LaneTable make_lane_table(const HitFinder& finder) {
@@ -155,6 +183,12 @@ LaneTable make_lane_table(const HitFinder& finder) {
   if (table.lattice) add_cell(t, *table.lattice);
   // A power of two. Lanes decide nothing where products of sizes might leave the range of doubles.
   t.size = t.size > 1e-30 && t.size < 1e30 ? std::ldexp(1.0, std::ilogb(t.size) + 1) : HUGE_VAL;
+  for (int i = 0; i < t.pieces; ++i) {
+    auto& e = t.ellipses;
+    e.off[i] = e.of[i] ? e.off[i] * t.size : HUGE_VAL;
+    e.at_start[i] *= t.size;
+    e.inward[i] = t.size * (e.of[i] ? e.inward[i] : 0x1p-36);
+  }
   for (int i = 0; i < t.pieces; ++i) t.divided |= t.wall[i] != i;
   t.convex = is_convex(finder);
   t.open = table.extent == Extent::open_plane;

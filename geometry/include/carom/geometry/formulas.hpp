@@ -61,6 +61,18 @@ constexpr Quadratic<Number> circle_quadratic(const BasicVector<Number>& e, const
   return {a, dot(e, v), a * (h * h) + omega * cross(e, v) + v2};
 }
 
+/// Flight without field against an ellipse about C, domain outside, by the form that is 1 on it; e = P - C, `axis` a unit
+/// vector along one of its axes. The weights (squares of the inverse semi-axes) come after the products: a rounded
+/// factor on each coordinate would bias every flight the same way.
+template <class Number>
+constexpr Quadratic<Number> ellipse_quadratic(const BasicVector<Number>& e, const BasicVector<Number>& v,
+                                              const BasicVector<Number>& axis, const Number& along, const Number& across) {
+  const BasicVector<Number> other = left(axis);
+  const BasicVector<Number> em{dot(axis, e), dot(other, e)}, vm{dot(axis, v), dot(other, v)};
+  return {along * (em.x * em.x) + across * (em.y * em.y) - Number(1), along * (em.x * vm.x) + across * (em.y * vm.y),
+          along * (vm.x * vm.x) + across * (vm.y * vm.y)};
+}
+
 /// Coefficients of kappa^0 … kappa^4.
 template <class Number>
 struct Quartic {
@@ -130,6 +142,20 @@ template <class Number>
 constexpr BasicVector<Number> back_to_line(const BasicVector<Number>& x, const BasicVector<Number>& from,
                                            const BasicVector<Number>& tangent) {
   return from + dot(x - from, tangent) * tangent;
+}
+
+/// A point on an ellipse up to rounding, d seen from its centre, under the axes that map the ellipse to the unit circle:
+/// its image, the gradient of half the form there, and what step_of_length brings it back by.
+template <class Number>
+struct OnEllipse {
+  BasicVector<Number> image, gradient;
+  Number measure{};
+};
+template <class Number>
+constexpr OnEllipse<Number> on_ellipse(const BasicVector<Number>& d, const BasicVector<Number>& first,
+                                       const BasicVector<Number>& second) {
+  const Number p = dot(first, d), q = dot(second, d);
+  return {{p, q}, {p * first.x + q * second.x, p * first.y + q * second.y}, Number(0.75) * p * p + Number(0.75) * q * q};
 }
 
 /// 2 (v.n)/|n|^2 for n2 = k |n|^2: how much of the normal n a reflection takes from v.

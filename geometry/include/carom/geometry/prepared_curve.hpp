@@ -116,9 +116,8 @@ struct PreparedCurve {
   }
   [[gnu::always_inline]] Frame settle_on_ellipse(Vector x) const {
     const Vector e = x - centre;
-    const double p = dot(first_axis, e), q = dot(second_axis, e);
-    const Vector g{p * first_axis.x + q * second_axis.x, p * first_axis.y + q * second_axis.y};
-    return {centre + lengthened(e, step_of_length(0.75 * p * p + 0.75 * q * q)), -orientation * g, dot(g, g), 1.0};
+    const OnEllipse<double> on = on_ellipse(e, first_axis, second_axis);
+    return {centre + lengthened(e, step_of_length(on.measure)), -orientation * on.gradient, dot(on.gradient, on.gradient), 1.0};
   }
 };
 
