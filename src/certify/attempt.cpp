@@ -378,12 +378,15 @@ Bound Attempt::error_of_state() const {
   return scene_.motion.turns ? error : error + now_.errors.of_time();
 }
 
-Forecast Attempt::look_ahead() const {
+Forecast Attempt::look_ahead(const std::function<bool()>& interrupted) const {
   const auto number = [](const Ball& x) { return x.to_double(); };
   const SceneOf<double> scene = converted<double>(scene_, number);
-  const std::uint64_t most = task_.collisions > 0 ? task_.collisions - now_.hits : 100'000;
-  const double rest = t_max_ ? t_max_->to_double() - now_.state.time.to_double() : HUGE_VAL;
-  return forecast(scene, where_, near(now_.state.position), near(now_.state.velocity), now_.standing, most, rest, unit_);
+  Horizon horizon;
+  horizon.hits = task_.collisions > 0 ? task_.collisions - now_.hits : 100'000;
+  horizon.t_max = t_max_ ? t_max_->to_double() - now_.state.time.to_double() : HUGE_VAL;
+  horizon.bits = static_cast<double>(task_.most_bits);
+  horizon.interrupted = &interrupted;
+  return forecast(scene, where_, near(now_.state.position), near(now_.state.velocity), now_.standing, horizon, unit_);
 }
 
 }  // namespace carom::certify

@@ -64,7 +64,7 @@ class Attempt {
   int standing() const { return now_.standing; }
 
   /// How many bits the orbit will lose from here on, by a look ahead.
-  Forecast look_ahead() const;
+  Forecast look_ahead(const std::function<bool()>& interrupted) const;
 
  private:
   /// All that the future depends on.

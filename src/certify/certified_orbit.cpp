@@ -37,6 +37,8 @@ const char* name_of(CertifiedFate fate) {
       return "pinned";
     case CertifiedFate::singular:
       return "singular";
+    case CertifiedFate::interrupted:
+      return "interrupted";
     case CertifiedFate::undecided:
       break;
   }
@@ -65,14 +67,19 @@ void fill(CertifiedState& state, const BallState& s) {
 
 class CertifiedOrbit::Implementation {
  public:
-  Implementation(const ExactSystem& system, const CertifiedTask& task) : system_(system), task_(task) {
+  Implementation(const ExactSystem& system, const CertifiedTask& task, std::function<bool()> interrupted)
+      : system_(system), task_(task), interrupted_(std::move(interrupted)) {
     if (task.collisions == 0 && !task.t_max)
       throw InputError(Place{}, "a certified orbit without an end", "a number of collisions or a last time");
     check_field();
     // A first attempt of few bits sees the table and the start, and looks ahead.
     const certify::Attempt scout(system_, task_, ties_, 128);
     effort_.rescaled = scout.rescaled();
-    forecast_ = scout.look_ahead();
+    forecast_ = scout.look_ahead(interrupted_);
+    if (interrupted_ && interrupted_()) {  // the start, for the end
+      restart(bits_of_digits());
+      return;
+    }
     const double wanted = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast_.hits);
     if (forecast_.hits > 0) rate_ = forecast_.bits / static_cast<double>(forecast_.hits);
     const double lost = forecast_.bits + rate_ * (wanted - static_cast<double>(forecast_.hits));
@@ -86,6 +93,10 @@ class CertifiedOrbit::Implementation {
         finish_with(CertifiedFate::completed, "");
         return std::nullopt;
       }
+      if (interrupted_ && interrupted_()) {
+        finish_interrupted();
+        return std::nullopt;
+      }
       const Outcome outcome = attempt_->step();
       switch (outcome.kind) {
         case Outcome::hit: {
@@ -97,6 +108,7 @@ class CertifiedOrbit::Implementation {
           hit.number = given_;
           hit.wall = attempt_->wall();
           hit.cell = attempt_->cell();
+          last_ = hit;
           return hit;
         }
         case Outcome::inaccurate:
@@ -153,7 +165,7 @@ class CertifiedOrbit::Implementation {
   // look ahead may have left through a hole that the orbit misses.
   long still_needed(const Outcome& outcome) const {
     const double lacks = std::isfinite(outcome.missing_bits) ? outcome.missing_bits : 64.0;
-    const certify::Forecast forecast = attempt_->look_ahead();
+    const certify::Forecast forecast = attempt_->look_ahead(interrupted_);
     double rest = forecast.bits;
     const auto flown = static_cast<double>(attempt_->hits());
     if (task_.collisions > 0 && flown > 100.0) {
@@ -206,8 +218,11 @@ class CertifiedOrbit::Implementation {
     return tie_finder_.find(walls, outcome.doubt);
   }
 
+  long bits_of_digits() const { return static_cast<long>(static_cast<double>(task_.digits) * 3.33) + 64; }
+
   void restart(long bits) {
     if (bits > task_.most_bits) {
+      if (!attempt_) attempt_.emplace(system_, task_, ties_, bits_of_digits());  // the end is the start
       finish_with(CertifiedFate::undecided, "the digits asked for need " + std::to_string(bits) + " bits");
       return;
     }
@@ -229,14 +244,26 @@ class CertifiedOrbit::Implementation {
     effort_.tangent_bits = attempt_->lost_bits();
   }
 
+  // With the last hit that was given out: a later attempt may not have come back to it.
+  void finish_interrupted() {
+    finish_with(CertifiedFate::interrupted, "");
+    if (given_ == 0) return;
+    static_cast<CertifiedState&>(end_) = last_;
+    end_.collisions = given_;
+    end_.wall = last_.wall;
+    end_.cell = last_.cell;
+  }
+
   const ExactSystem system_;
   const CertifiedTask task_;
+  const std::function<bool()> interrupted_;
   certify::KnownTies ties_;
   certify::TieFinder tie_finder_{system_, task_};
   certify::Forecast forecast_;
   double rate_ = 2.0;  ///< bits lost by a hit
   std::optional<certify::Attempt> attempt_;
   std::uint64_t given_ = 0;
+  CertifiedHit last_;  ///< that was given out
   int undecided_ = 0;
   bool turns_ = false;  ///< in a magnetic field
   bool done_ = false;
@@ -244,8 +271,8 @@ class CertifiedOrbit::Implementation {
   CertifiedEffort effort_;
 };
 
-CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task)
-    : implementation_(std::make_unique<Implementation>(system, task)) {}
+CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task, std::function<bool()> interrupted)
+    : implementation_(std::make_unique<Implementation>(system, task, std::move(interrupted))) {}
 CertifiedOrbit::~CertifiedOrbit() = default;
 CertifiedOrbit::CertifiedOrbit(CertifiedOrbit&&) noexcept = default;
 std::optional<CertifiedHit> CertifiedOrbit::next() { return implementation_->next(); }
@@ -261,7 +288,7 @@ CertifiedOrbit certified_orbit(const ExactSystem& system, std::uint64_t collisio
   CertifiedTask task;
   task.collisions = collisions;
   task.digits = digits;
-  return {system, task};
+  return CertifiedOrbit(system, task);
 }
 
 CertifiedOrbit certified_orbit(const TableSpec& spec, const ExactStart& start, std::uint64_t collisions,

@@ -8,15 +8,15 @@
 namespace carom::certify {
 
 Forecast forecast(const SceneOf<double>& scene, const Whereabouts& where, geometry::Vector position,
-                  geometry::Vector velocity, int standing, std::uint64_t most_hits, double t_max,
-                  double unit) {
+                  geometry::Vector velocity, int standing, const Horizon& horizon, double unit) {
   Forecast result;
   FrameOf<double> frame{{1.0, 0.0}, velocity, unit};
   // The images of both directions, the longer one normalised: their logarithm grows.
   double a[2] = {1.0, 0.0}, b[2] = {0.0, 1.0};
   double grown = 0.0;
   PseudoState<double> s{position, velocity, 0.0, standing, {}};
-  while (result.hits < most_hits) {
+  while (result.hits < horizon.hits && result.bits <= horizon.bits) {
+    if (result.hits % 256 == 0 && horizon.interrupted != nullptr && *horizon.interrupted && (*horizon.interrupted)()) break;
     const Choice choice = scene.next(where, s.position, s.velocity, s.standing, s.position, s.velocity);
     if (choice.answer != Choice::wall) break;
     const Copy& copy = choice.first;
@@ -25,7 +25,7 @@ Forecast forecast(const SceneOf<double>& scene, const Whereabouts& where, geomet
     const geometry::Vector from = scene.lattice ? s.position - scene.translation(copy.cell) : s.position;
     const geometry::Vector before = s.velocity;
     fly_to(scene, copy, s);
-    if (!(s.time <= t_max) || !std::isfinite(s.position.x)) break;
+    if (!(s.time <= horizon.t_max) || !std::isfinite(s.position.x)) break;
     if (scene.hole_at(copy.wall, s.position).verdict == Verdict::yes) break;
     const FrameOf<double> after{tangent_of(wall, s.position), s.velocity, unit};
     const auto map = tangent_map(wall, from, before, scene.motion, same, frame, after);

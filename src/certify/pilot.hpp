@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "certify/scene.hpp"
 
@@ -12,9 +13,17 @@ struct Forecast {
   std::uint64_t hits = 0;    ///< as many as were followed
 };
 
-/// Follows a pseudo-orbit of doubles, which stretches as the true orbit does on average, until `most_hits` or
-/// `t_max`, or until it does not know where to go.
+/// When to end a look ahead.
+struct Horizon {
+  std::uint64_t hits = 0;
+  double t_max = 0.0;
+  double bits = 0.0;
+  const std::function<bool()>* interrupted = nullptr;
+};
+
+/// Follows a pseudo-orbit of doubles, which stretches as the true orbit does on average, up to the horizon, or
+/// until it does not know where to go.
 Forecast forecast(const SceneOf<double>&, const Whereabouts&, geometry::Vector position,
-                  geometry::Vector velocity, int standing, std::uint64_t most_hits, double t_max, double unit);
+                  geometry::Vector velocity, int standing, const Horizon&, double unit);
 
 }  // namespace carom::certify

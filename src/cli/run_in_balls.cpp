@@ -96,10 +96,8 @@ std::string end_text(const System& system, const CertifiedEnd& end, const std::s
 
 namespace {
 
-// Follows the orbit hit by hit; true: interrupted, and the end is the last hit.
-bool follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& task,
-            CertifiedArchive* archive, CertifiedEnd& end) {
-  const std::atomic<bool>& interrupted = catch_interrupts();
+void follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& task,
+            CertifiedArchive* archive) {
   Progress progress(!options.quiet);
   while (const auto hit = orbit.next()) {
     if (archive) archive->hit(*hit);
@@ -111,15 +109,7 @@ bool follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& 
       progress.show(std::max(by_hits, by_time),
                     with_prefix(static_cast<double>(hit->number) / progress.seconds()) + "hits/s");
     }
-    if (!interrupted.load(std::memory_order_relaxed)) continue;
-    static_cast<CertifiedState&>(end) = *hit;
-    end.collisions = hit->number;
-    end.wall = hit->wall;
-    end.cell = hit->cell;
-    return true;
   }
-  end = orbit.end_state();
-  return false;
 }
 
 }  // namespace
@@ -135,15 +125,17 @@ int run_in_balls(const Options& options) {
   const LoadedSystem loaded = load_exact_run(options);
   const CertifiedTask task = task_of(options, loaded);
   const Stopwatch watch;
-  CertifiedOrbit orbit(loaded.exact, task);
+  const std::atomic<bool>& signal = catch_interrupts();
+  CertifiedOrbit orbit(loaded.exact, task, [&signal] { return signal.load(std::memory_order_relaxed); });
   std::unique_ptr<CertifiedArchive> archive;
   if (!options.output.empty())
     archive = std::make_unique<CertifiedArchive>(
         options.output, loaded, provenance_of(options, loaded.system, 1), task, options.force);
-  CertifiedEnd end;
-  const bool interrupted = follow(orbit, options, task, archive.get(), end);
+  follow(orbit, options, task, archive.get());
+  const CertifiedEnd& end = orbit.end_state();
+  const bool interrupted = end.fate == CertifiedFate::interrupted;
   const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
-  const std::string status = interrupted ? "interrupted" : name_of(end.fate);
+  const std::string status = name_of(end.fate);
   if (archive) archive->finish(end, orbit.effort(), status, !interrupted);
   print(options.json
             ? end_json(loaded.system, end, status, task, orbit.effort(), options.output, seconds, cpu_seconds)

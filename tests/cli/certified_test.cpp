@@ -31,6 +31,19 @@ TEST(Certified, EscapesThroughAHole) {
   EXPECT_EQ(t.size() - t.find('.') - 2, 40u);
 }
 
+// Also while it looks ahead, and where more bits are needed than there may be.
+TEST(Certified, EndsWhenAsked) {
+  const Shell shell;
+  const Outcome json = shell(
+      "timeout -s INT 1 $carom run ellipse-magnetic --set field.B=0 --collisions 1e9 --t-max 1e300 "
+      "--precision certified --json");
+  EXPECT_EQ(json_value(json.out, "status"), "\"interrupted\"") << json.err;
+  EXPECT_EQ(json_value(json.out, "collisions"), "0");
+  const Outcome far = shell("$carom run stadium --set table.hole=[] --collisions 1e8 --t-max 1e300 --precision certified");
+  EXPECT_EQ(far.status, 0) << far.err;
+  EXPECT_NE(far.out.find("the digits asked for need"), std::string::npos) << far.out;
+}
+
 TEST(Certified, LeavesAnArchive) {
   const Shell shell;
   const std::string run =

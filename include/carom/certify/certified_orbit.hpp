@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -54,7 +55,8 @@ enum class CertifiedFate : unsigned char {
   unbounded,  ///< no wall follows
   pinned,     ///< a Larmor circle that meets no wall
   singular,
-  undecided
+  undecided,
+  interrupted
 };
 const char* name_of(CertifiedFate);
 
@@ -89,8 +91,9 @@ struct CertifiedEffort {
 /// its exact start with more bits; hits that were given out stay true.
 class CertifiedOrbit {
  public:
-  /// Throws InputError for what has no certified form.
-  CertifiedOrbit(const ExactSystem&, const CertifiedTask&);
+  /// Throws InputError for what has no certified form. `interrupted`, if set, is asked at every hit of the orbit
+  /// and of the look ahead; then the orbit ends with the last hit that was given out.
+  CertifiedOrbit(const ExactSystem&, const CertifiedTask&, std::function<bool()> interrupted = {});
   ~CertifiedOrbit();
   CertifiedOrbit(CertifiedOrbit&&) noexcept;
 
