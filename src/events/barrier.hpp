@@ -25,6 +25,7 @@ struct Barrier {
   bool closed = false;   ///< every point of the carrier belongs to the piece
   Vector from, to;       ///< ends of the piece, if it has any
   Real side{1};          ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
+  Vector low, high;      ///< a box about the piece, larger than any rounding
   int wall = -1;         ///< which wall or support it is
   geometry::Cell cell;   ///< the cell whose copy of it this is
 
@@ -73,6 +74,13 @@ Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVect
   const auto exact = [](const geometry::Vector& a) { return Vector{Real(a.x), Real(a.y)}; };
   const auto length = [](const Vector& a) { return sqrt(dot(a, a)); };
   Barrier<Real> b;
+  const geometry::Box box = geometry::bounding_box(curve);
+  b.low = exact(box.low) + shift;
+  b.high = exact(box.high) + shift;
+  const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
+  const Real slack = Real(0x1p-20) * (size(b.low.x) + size(b.low.y) + size(b.high.x) + size(b.high.y));
+  b.low = b.low - Vector{slack, slack};
+  b.high = b.high + Vector{slack, slack};
   const auto conic = [&](const Vector& centre, const Vector& along, const Real& a, const Real& ratio, bool ccw) {
     const Vector unit = (Real(1) / length(along)) * along;
     b.conic = true;

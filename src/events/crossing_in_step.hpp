@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "events/barrier.hpp"
+#include "events/step_hull.hpp"
 #include "events/step_path.hpp"
 
 namespace carom {
@@ -39,39 +40,6 @@ struct Bernstein {
     return high;
   }
 };
-
-/// Can the path not meet the barrier from its positive side?
-template <class Real>
-bool stays_off(const Barrier<Real>& b, const PathHull<Real>& hull) {
-  if (!b.conic) {
-    Real low = b.gap(hull.points[0]), high = low;
-    for (std::size_t k = 1; k < 4; ++k) {
-      const Real g = b.gap(hull.points[k]);
-      low = g < low ? g : low;
-      high = high < g ? g : high;
-    }
-    return low > hull.margin || high < -hull.margin;
-  }
-  std::array<geometry::BasicVector<Real>, 4> y;
-  geometry::BasicVector<Real> sum{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto e = hull.points[k] - b.origin;
-    y[k] = {dot(b.first, e), dot(b.second, e)};
-    sum = sum + y[k];
-  }
-  const Real margin = (PathHull<Real>::norm(b.first) + PathHull<Real>::norm(b.second)) * hull.margin;
-  // Inside the conic: all points are. Outside: all lie beyond a tangent of it.
-  bool within = margin < Real(1);
-  const Real reach = (Real(1) - margin) * (Real(1) - margin);
-  for (std::size_t k = 0; within && k < 4; ++k) within = dot(y[k], y[k]) < reach;
-  if (within) return true;
-  Real lowest = dot(sum, y[0]);
-  for (std::size_t k = 1; k < 4; ++k) {
-    const Real p = dot(sum, y[k]);
-    lowest = p < lowest ? p : lowest;
-  }
-  return lowest > Real(0) && lowest * lowest > (Real(1) + margin) * (Real(1) + margin) * dot(sum, sum);
-}
 
 template <class Real>
 class CrossingSearch {

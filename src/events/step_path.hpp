@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "carom/integrators/stepper.hpp"
+#include "events/step_hull.hpp"
 
 namespace carom {
 
@@ -98,26 +99,15 @@ class StepPath {
   std::size_t used_ = 0;
 };
 
-/// Where one particle's path between two knots can be, from positions and velocities alone: the hull of
-/// the cubic's control points, widened by their second differences. These are of the order h^2 |a|, the
-/// cubic errs by h^4 / 384 times the fourth derivative.
+/// Where one particle's path between two knots can be.
 template <class Real>
-struct PathHull {
+struct PathHull : StepHull<Real> {
   using Vector = geometry::BasicVector<Real>;
-  std::array<Vector, 4> points;
-  Real margin{};
 
-  PathHull(const typename StepPath<Real>::Knot& a, const typename StepPath<Real>::Knot& b, std::size_t i) {
-    const Real third = (b.time - a.time) / Real(3);
-    points = {a.phase.position[i], a.phase.position[i] + third * a.phase.velocity[i],
-              b.phase.position[i] - third * b.phase.velocity[i], b.phase.position[i]};
-    const Vector first = (points[2] - points[1]) - (points[1] - points[0]);
-    const Vector second = (points[3] - points[2]) - (points[2] - points[1]);
-    margin = std::max(norm(first), norm(second));
-  }
-  static Real norm(const Vector& a) {
-    return (a.x < Real(0) ? -a.x : a.x) + (a.y < Real(0) ? -a.y : a.y);
-  }
+  PathHull(const typename StepPath<Real>::Knot& a, const typename StepPath<Real>::Knot& b, std::size_t i)
+      : StepHull<Real>(a.phase.position[i], a.phase.velocity[i], b.phase.position[i], b.phase.velocity[i],
+                       (b.time - a.time) / Real(3)) {}
+  static Real norm(const Vector& a) { return step_hull::norm(a); }
 };
 
 /// One particle's path between two knots as a Bezier curve of degree 5, with the largest distance
