@@ -43,6 +43,7 @@ class EscapeArchive::Implementation {
   std::vector<std::string> holes;
   std::optional<RecordLog> log;
   std::uint64_t kept = 0;
+  std::optional<InputError> unwritten;  // records that belong to the next checkpoint
   bool saved = false, finished = false;
   int failures = 0;
 };
@@ -65,6 +66,7 @@ void write_parts(const ArchiveFile& file, const EscapeResult& result, const Shar
 
 // Aside, synced, renamed: under its name a file is whole or is not there.
 void EscapeArchive::Implementation::write(const EscapeResult& result, const std::string& status, bool last) {
+  if (unwritten) throw *unwritten;  // what is counted and what is recorded would differ
   ArchiveFile file = ArchiveFile::create(checkpoint_of(target) + ".new", target);
   Provenance now = origin;
   now.threads = result.threads;
@@ -117,7 +119,13 @@ void EscapeArchive::block(TrajectoryRange range, std::vector<TrajectoryRecord>&&
 }
 
 void EscapeArchive::mark() {
-  if (implementation_->log) implementation_->log->mark();
+  Implementation& a = *implementation_;
+  a.unwritten.reset();
+  try {
+    if (a.log) a.log->mark();
+  } catch (const InputError& error) {
+    a.unwritten = error;
+  }
 }
 
 void EscapeArchive::save(const EscapeResult& so_far) {

@@ -20,19 +20,21 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<TrajectoryRecord>);
 constexpr std::size_t record_size = sizeof(TrajectoryRecord);
-// 16 MB wait in memory before they are written; 4 MB are read at a time.
-constexpr std::size_t most_waiting = (std::size_t{16} << 20) / record_size;
+// 16 MB wait in memory before they are written, more where the disk is full; 4 MB are read at a time.
+constexpr std::size_t enough_waiting = (std::size_t{16} << 20) / record_size;
+constexpr std::size_t most_waiting = (std::size_t{256} << 20) / record_size;
 constexpr std::uint64_t batch_size = (std::size_t{4} << 20) / record_size;
 
 }  // namespace
 
-RecordLog::RecordLog(const std::string& path, const std::string& name) : path_(path), name_(name) {
+RecordLog::RecordLog(const std::string& path, const std::string& name)
+    : path_(path), name_(name), next_write_(enough_waiting) {
   descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("write");
 }
 
 RecordLog::RecordLog(const std::string& path, const std::string& name, std::vector<Piece> pieces)
-    : path_(path), name_(name), pieces_(std::move(pieces)) {
+    : path_(path), name_(name), next_write_(enough_waiting), pieces_(std::move(pieces)) {
   for (const Piece& piece : pieces_) rows_ = std::max(rows_, piece.row + piece.rows);
   marked_ = pieces_;
   descriptor_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
@@ -61,7 +63,13 @@ void RecordLog::add(TrajectoryRange range, std::vector<TrajectoryRecord>&& recor
   const std::lock_guard lock(mutex_);
   waiting_records_ += records.size();
   waiting_.push_back({range, std::move(records)});
-  if (waiting_records_ >= most_waiting) write_out();
+  if (waiting_records_ < next_write_) return;
+  try {
+    write_out();
+  } catch (const InputError&) {
+    if (waiting_records_ >= most_waiting) throw;
+  }
+  next_write_ = waiting_records_ + enough_waiting;
 }
 
 // In order of trajectories, so that neighbours make one piece.

@@ -28,9 +28,10 @@ class RecordLog {
   RecordLog(const RecordLog&) = delete;
   ~RecordLog();
 
-  /// From any thread, by turns.
+  /// From any thread, by turns. What a full disk does not take waits in memory, up to 256 MB: then it throws.
   void add(TrajectoryRange, std::vector<TrajectoryRecord>&&);
-  /// Remembers what has come until now.
+  /// Remembers what has come until now. Throws InputError, and remembers nothing, where it cannot be written; it may
+  /// be asked again.
   void mark();
   /// Sees to it that what was marked is on the disk. add() may go on.
   std::vector<Piece> sync();
@@ -53,7 +54,7 @@ class RecordLog {
   int broken_ = 0;  ///< the error of a sync that failed
   mutable std::mutex mutex_;
   std::vector<Block> waiting_;
-  std::size_t waiting_records_ = 0;
+  std::size_t waiting_records_ = 0, next_write_;
   std::vector<Piece> pieces_, marked_;
   std::uint64_t rows_ = 0;
 };

@@ -177,28 +177,36 @@ TEST(EscapeResume, AfterAFullDisk) {
   EXPECT_EQ(shell.files().size(), 2u);
 }
 
-TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) {
+// `size`: of the disk, in kB.
+void fill_the_disk(const std::string& options, int size) {
   const Shell shell;
-  if (shell("mkdir small && mount -t tmpfs -o size=96k carom-test small").status != 0)
+  if (shell("mkdir small && mount -t tmpfs -o size=" + std::to_string(size) + "k carom-test small").status != 0)
     GTEST_SKIP() << "no right to mount a small disk";
-  const Undisturbed whole(shell, "");
-  const Outcome o = shell("$carom" + ensemble + " -o small/a.h5 --threads 1 --checkpoint 0.03 & pid=$!; "
-                          "until [ -e small/a.h5.part ]; do sleep 0.01; done; "
-                          "head -c 1M /dev/zero 2>&1 > small/filler; sleep 0.08; rm small/filler; wait $pid");
+  const std::string filler = "head -c " + std::to_string(2 * size) + "k /dev/zero 2>/dev/null > small/filler; ";
+  const Undisturbed whole(shell, options);
+  const Outcome o = shell("$carom" + ensemble + options + " -o small/a.h5 --threads 1 --checkpoint 0.03 & pid=$!; "
+                          "until [ -e small/a.h5.part ]; do sleep 0.01; done; " + filler + "sleep 0.08; rm small/filler; wait $pid");
   EXPECT_EQ(o.status, 0) << o.err;
   expect_same_datasets(shell.folder() + "/small/a.h5", whole.contents);
+  shell("rm small/a.h5");
   // To the end full: the old checkpoint stays.
-  const Outcome full = shell("$carom" + ensemble + " -o small/b.h5 --threads 1 --block 4 --checkpoint 0.02 & pid=$!; "
-                             "until [ -e small/b.h5.part ]; do sleep 0.01; done; sleep 0.1; "
-                             "head -c 1M /dev/zero 2>&1 > small/filler; wait $pid");
+  const Outcome full = shell("$carom" + ensemble + options + " -o small/b.h5 --threads 1 --block 4 --checkpoint 0.02 & pid=$!; "
+                             "until [ -e small/b.h5.part ]; do sleep 0.01; done; sleep 0.1; " + filler + "wait $pid");
   EXPECT_EQ(full.status, 1) << full.err;
-  EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
+  EXPECT_EQ(full.out, "");
+  EXPECT_NE(full.err.find("cannot write 'small/b.h5': No space left on device"), std::string::npos) << full.err;
+  EXPECT_NE(full.err.find("carom escape --resume small/b.h5"), std::string::npos) << full.err;
   expect_whole(shell, "small/b.h5.part");
   const Outcome end = shell("rm small/filler; $carom escape --resume small/b.h5 --quiet --json");
   EXPECT_EQ(end.status, 0) << end.err;
   expect_same_datasets(shell.folder() + "/small/b.h5", whole.contents);
+  EXPECT_FALSE(shell.exists("small/b.h5.part") || shell.exists("small/b.h5.records"));
   shell("umount small");
 }
+
+TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk("", 96); }
+
+TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNoRecords) { fill_the_disk(" --per-trajectory", 32 << 10); }
 
 }  // namespace
 }  // namespace carom
