@@ -47,11 +47,21 @@ struct Choice {
   Real kappa{};
 };
 
+/// A number of each lane's piece.
+template <class Kind>
+INLINE Real number_of(const double* numbers, const Real& piece) {
+  if constexpr (Kind::alone) return Real(numbers[0]);
+  return look_up<Kind::reach>(numbers, piece);
+}
+
+#include "lanes/ellipse.hpp"
+
 /// What is needed of that piece.
 struct Met {
   Vector point;
   Real first, second, orientation, into, off_power;
   Mask bent, stands;
+  MetEllipse ellipse{};
 };
 
 /// The flight to it.
@@ -67,10 +77,13 @@ struct Meeting {
 #include "lanes/stages.hpp"
 #include "lanes/landing.hpp"
 
-template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far, bool has_cells = false>
+template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far, bool has_cells = false,
+          bool has_ellipses = false, bool is_alone = false>
 struct Kind {
   static constexpr int turn = which_turn;
   static constexpr bool convex = is_convex, segments = has_segments, circles = has_circles, cells = has_cells;
+  static constexpr bool ellipses = has_ellipses;
+  static constexpr bool alone = is_alone;  ///< one closed curve about the domain, on which all particles stand
   static constexpr Reach reach = how_far;
 };
 
@@ -87,6 +100,11 @@ void kernel(const LaneTable& table, LanePack& pack) {
 
 template <int turn, bool convex>
 Advance kernel_of(const LaneTable& t) {
+  if (t.ellipses.any) {
+    const bool others = t.segments || t.circles;
+    return others || t.pieces > LaneTable::eight ? kernel<Kind<turn, convex, true, true, Reach::all, false, true>>
+                                                 : kernel<Kind<turn, convex, false, false, Reach::eight, false, true>>;
+  }
   if (t.pieces > LaneTable::fewest) return kernel<Kind<turn, convex, true, true, Reach::all>>;
   if (t.pieces > LaneTable::eight) return kernel<Kind<turn, convex, true, true, Reach::few>>;
   if (!t.circles) return kernel<Kind<turn, convex, true, false, Reach::eight>>;
@@ -104,6 +122,10 @@ Kernels kernels_of(const LaneTable& t) {
   }
   const Advance anywhere = kernel_of<turn, false>(t);
   if (!t.convex) return {anywhere, anywhere, width};
+  if constexpr (turn == 0) {
+    if (t.ellipses.any && t.pieces == 1)
+      return {kernel<Kind<turn, true, false, false, Reach::eight, false, true, true>>, kernel_of<turn, true>(t), width};
+  }
   const Advance on_walls = kernel_of<turn, true>(t);
   return {on_walls, turn == 0 ? on_walls : anywhere, width};
 }

@@ -68,12 +68,27 @@ INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, const
     }
   }
   if constexpr (larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
+  if constexpr (Kind::ellipses) {
+    const LandedOnEllipse on = land_on_ellipse<Kind>(met.point, d, met.ellipse);
+    const Mask is = met.ellipse.is;
+    if constexpr (Kind::segments || Kind::circles) {
+      now.place = {choose(is, on.place.x, now.place.x), choose(is, on.place.y, now.place.y)};
+      normal = {choose(is, on.gradient.x, normal.x), choose(is, on.gradient.y, normal.y)};
+      where(is, square) = on.square;
+      decided = decided && (on.certain || !is);
+    } else {
+      now.place = on.place;
+      normal = on.gradient;
+      square = on.square;
+      decided = decided && on.certain;
+    }
+  }
 
-  const Real factor =
-      Kind::circles ? geometry::reflection_factor(v, normal, square, met.off_power) : 2.0 * dot(v, normal);
+  constexpr bool bent = Kind::circles || Kind::ellipses;
+  const Real factor = bent ? geometry::reflection_factor(v, normal, square, met.off_power) : 2.0 * dot(v, normal);
   now.velocity = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, load(pack.energy_weight + lane)));
-  const Real inner = Kind::circles ? met.into * dot(normal, now.velocity) : dot(normal, now.velocity);
-  const Mask inward = inner > f.sides;
+  const Real inner = bent ? met.into * dot(normal, now.velocity) : dot(normal, now.velocity);
+  const Mask inward = inner > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);
   const auto [high, low] = later(load(pack.high + lane), load(pack.low + lane), duration);
   now.high = high;
   now.low = low;

@@ -198,7 +198,7 @@ class LaneWorld::Implementation {
     if (!(s.u > geometry::first_parameter && s.u < w.last())) return false;
     const auto frame = w.frame(s.u);
     if (w.parameter(s.position) != s.u) s.position = frame.point;  // as World::add
-    return dot(frame.normal, s.velocity) > 0x1p-36 * pieces.size * p.speed;
+    return dot(frame.normal, s.velocity) > pieces.ellipses.inward[lanes::piece_at(pieces, s.wall, s.u)] * p.speed;
   }
 
   /// On a lattice flights start in the cell about the origin.
@@ -344,7 +344,8 @@ bool LaneWorld::suits(const Table& table, const std::vector<Particle>& particles
     if (turn_of(p.omega) != turn_of(particles[0].omega) || p.radius != 0.0 || !moderate(p.speed) ||
         (p.omega != 0.0 && !moderate(std::fabs(p.omega))))
       return false;
-  return !particles.empty() && lanes::fits(table) && (!table.lattice || turn_of(particles[0].omega) == Turn::straight);
+  const bool straight = !particles.empty() && turn_of(particles[0].omega) == Turn::straight;
+  return !particles.empty() && lanes::fits(table) && (straight || !(table.lattice || lanes::has_ellipses(table)));
 }
 
 LaneWorld::LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)

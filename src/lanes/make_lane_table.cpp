@@ -159,7 +159,7 @@ bool fits(const Table& table) {
   for (std::size_t i = 0; i < table.walls.size(); ++i) {
     pieces += parts_of(table, static_cast<int>(i)).size();
   }
-  return pieces > 0 && !has_ellipses(table) && pieces <= LaneTable::most && !table.crossing && (!table.lattice || discs_within_cell(table));
+  return pieces > 0 && pieces <= LaneTable::most && !table.crossing && (!table.lattice || discs_within_cell(table));
 }
 
 LaneTable make_lane_table(const HitFinder& finder) {

@@ -58,7 +58,7 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
     if constexpr (larmor)
       choice = Kind::convex ? exit_of_loop_by_circle<Kind::turn, Kind>(f) : first_of_all_by_circle<Kind::turn, Kind>(f);
     else
-      choice = Kind::convex ? exit_of_loop(f) : first_of_all(f);
+      choice = Kind::convex ? exit_of_loop(f) : first_of_all<Kind::ellipses>(f);
     known = Real(1.0);
     if constexpr (!Kind::convex && !larmor) where(choice.piece < 0.0, known) = Real(t.open ? -1.0 : 0.0);
   }
@@ -72,16 +72,17 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
 template <class Kind>
 INLINE Met met_by(const View& f, const Real& piece) {
   const LaneTable& t = f.table;
-  const auto of = [&](const double* numbers) { return look_up<Kind::reach>(numbers, piece); };
+  const auto of = [&](const double* numbers) { return number_of<Kind>(numbers, piece); };
   Met met{{of(t.point_x), of(t.point_y)}, of(t.first_number), of(t.second_number),
-          Real(0.0), Real(1.0), Real(1.0), Mask(Kind::circles), Mask(false)};
-  if constexpr (Kind::circles) {
+          Real(0.0), Real(1.0), Real(1.0), Mask(Kind::circles || Kind::ellipses), Mask(Kind::alone)};
+  if constexpr (Kind::circles || Kind::ellipses) {
     met.orientation = of(t.orientation);
     met.into = of(t.into);
     met.off_power = of(t.off_power);
     if constexpr (Kind::segments) met.bent = met.orientation != 0.0;
   }
-  if constexpr (Kind::circles || Kind::convex || Kind::turn != 0) met.stands = (t.divided ? of(t.wall) : piece) == f.start_wall;
+  if constexpr (Kind::ellipses) met.ellipse = ellipse_met_by<Kind>(t, piece);
+  if constexpr (!Kind::alone && (Kind::circles || Kind::ellipses || Kind::convex || Kind::turn != 0)) met.stands = (t.divided ? of(t.wall) : piece) == f.start_wall;
   return met;
 }
 

@@ -66,22 +66,23 @@ class Earliest {
   Real times_;  // margin
 };
 
-/// A circle or an arc of it, between joints of which each lies on the right of the line or not.
+/// A conic or an arc of it, between joints of which each lies on the right of the line or not. `form`: its quadratic, of
+/// the sizes of a circle's.
 struct SideOfJoint {
   Real side;
   Mask right;
 };
-INLINE void add_circle(Earliest& best, const View& f, const Line& line, int i, const SideOfJoint* a, const SideOfJoint* b) {
+INLINE void add_conic(Earliest& best, const View& f, const Line& line, int i, const SideOfJoint* a, const SideOfJoint* b,
+                      const geometry::Quadratic<Real>& form) {
   const LaneTable& t = f.table;
-  const Vector e = f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])};
-  const Real p = fused(e.x, e.x, fused(e.y, e.y, Real(-t.second_number[i]))), q = fused(e.x, f.velocity.x, e.y * f.velocity.y);
-  const Real discriminant = fused(q, q, -(p * f.square_speed));
+  const auto& [p, q, square] = form;
+  const Real discriminant = fused(q, q, -(p * square));
   const Real squares = sign_margin * t.size * t.size;
   const Mask stands = f.start_wall == Real(t.wall[i]);
   Mask leaves(true);
   if (a) {
     const Mask once = a->right && !b->right, same = a->right == b->right;
-    const Real foot = fused(f.square_speed, line.cross_of_ends(t, i), q * (b->side - a->side));
+    const Real foot = fused(square, line.cross_of_ends(t, i), q * (b->side - a->side));
     const Mask twice = same && !stands && t.orientation[i] * foot < 0.0;
     best.doubt(same && !stands && abs(foot) <= f.roots && discriminant > -f.roots);
     leaves = once || twice || (same && f.start_piece == Real(counted[i]));
@@ -102,19 +103,26 @@ INLINE void add_circle(Earliest& best, const View& f, const Line& line, int i, c
     const Real n = abs(q) + root;
     const Mask away = q >= 0.0 && !stands;
     const Real scale = t.size / f.speed;
-    best.add(i, leaves && certain, choose(away, -p, scale * n), choose(away, n, scale * f.square_speed));
+    best.add(i, leaves && certain, choose(away, -p, scale * n), choose(away, n, scale * square));
   }
 }
+INLINE geometry::Quadratic<Real> form_of_circle(const View& f, int i) {
+  const LaneTable& t = f.table;
+  const Vector e = f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])};
+  return {fused(e.x, e.x, fused(e.y, e.y, Real(-t.second_number[i]))), fused(e.x, f.velocity.x, e.y * f.velocity.y), f.square_speed};
+}
 
+template <bool ellipses = false>
 INLINE Choice first_of_all(const View& f) {
   const LaneTable& t = f.table;
   Earliest best(f);
   const Line line(f);
+  const auto form_of = [&](int i) { return ellipses && t.ellipses.of[i] ? form_of_ellipse(f, i) : form_of_circle(f, i); };
   Real least(__builtin_huge_val());
   for (int loop = 0; loop < t.loops; ++loop) {
     const int first = t.first[loop], last = first + t.count[loop] - 1;
     if (t.closed[first]) {
-      add_circle(best, f, line, first, nullptr, nullptr);
+      add_conic(best, f, line, first, nullptr, nullptr, form_of(first));
       continue;
     }
     const auto joint = [&](int i) {
@@ -127,7 +135,7 @@ INLINE Choice first_of_all(const View& f) {
     for (int i = first; i <= last; ++i) {
       const SideOfJoint b = i == last ? start : joint(i + 1);
       if (t.bent[i]) {
-        add_circle(best, f, line, i, &a, &b);
+        add_conic(best, f, line, i, &a, &b, form_of(i));
       } else {
         const Mask crosses = a.right && !b.right;
         const Real time = line.cross_of_ends(t, i), squares = sign_margin * t.size * t.size;
@@ -167,6 +175,19 @@ INLINE Meeting meet_by_line(const View& f, const Met& met) {
     if constexpr (Kind::convex) decided = decided && !(met.stands && !met.bent);
     time = Kind::circles ? choose(met.bent, time, across) : across;
     unit = Kind::circles ? choose(met.bent, unit, along) : along;
+  }
+  if constexpr (Kind::ellipses) {
+    const FractionOfTime to = time_to_ellipse<Kind>(f, e, met.ellipse, met.orientation, met.stands);
+    const Mask is = met.ellipse.is;
+    if constexpr (Kind::segments || Kind::circles) {
+      time = choose(is, to.time, time);
+      unit = choose(is, to.unit, unit);
+      decided = (is && to.decided) || (!is && decided);
+    } else {
+      time = to.time;
+      unit = to.unit;
+      decided = to.decided;
+    }
   }
   const Real duration = time / unit;
   return {f.origin + duration * v, v, duration, decided};

@@ -1,0 +1,66 @@
+// Straight flights against ellipses in lanes. Included by kernel.hpp inside the namespace of its instruction set.
+//
+// The form that is 1 on an ellipse, times the square of a length below its smaller semi-axis, has the sizes of a circle's
+// e.e - r^2: so it is chosen with a circle's margins.
+
+/// What is needed of the ellipse that was chosen.
+struct MetEllipse {
+  Vector axis, first, second;
+  Real along, across, shrink, off, at_start, inward;
+  Mask is;
+};
+template <class Kind>
+INLINE MetEllipse ellipse_met_by(const LaneTable& t, const Real& piece) {
+  const auto of = [&](const double* numbers) { return number_of<Kind>(numbers, piece); };
+  const auto& all = t.ellipses;
+  MetEllipse met{{of(all.axis_x), of(all.axis_y)}, {of(all.first_x), of(all.first_y)}, {of(all.second_x), of(all.second_y)},
+                 of(all.along), of(all.across), of(all.shrink), of(all.off), of(all.at_start), of(all.inward), Mask(true)};
+  if constexpr (Kind::segments || Kind::circles) met.is = met.shrink > 0.0;
+  return met;
+}
+
+/// The form of piece i, shrunk.
+INLINE geometry::Quadratic<Real> form_of_ellipse(const View& f, int i) {
+  const LaneTable& t = f.table;
+  const auto& all = t.ellipses;
+  const Real shrink(all.shrink[i]);
+  const auto q = geometry::ellipse_quadratic(f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])}, f.velocity,
+                                             {Real(all.axis_x[i]), Real(all.axis_y[i])}, Real(all.along[i]), Real(all.across[i]));
+  return {shrink * q.a, shrink * q.b, shrink * q.c};
+}
+
+/// Time of the flight to an ellipse, as a fraction.
+struct FractionOfTime {
+  Real time, unit;
+  Mask decided;
+};
+template <class Kind>
+INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetEllipse& met, const Real& orientation,
+                                      const Mask& stands) {
+  auto q = geometry::ellipse_quadratic(e, f.velocity, met.axis, met.along, met.across);
+  // On the only wall there is: no root is taken.
+  if constexpr (Kind::alone) return {Real(2.0) * abs(q.b), q.c, Mask(true)};
+  const Real discriminant = q.b * q.b - q.a * q.c;
+  Real root = sqrt(max(discriminant, Real(0.0)));
+  where(stands, q.a) = Real(0.0);
+  where(stands, root) = abs(q.b);
+  const Real n = abs(q.b) + root;
+  const Mask away = -orientation * q.b <= 0.0;
+  return {choose(away, -orientation * q.a, n), choose(away, n, orientation * q.c),
+          stands || met.shrink * met.shrink * discriminant > f.roots};
+}
+
+/// The landing at d, seen from the centre.
+struct LandedOnEllipse {
+  Vector place, gradient;
+  Real square;
+  Mask certain;  ///< on the wall, and not near the start of a closed one
+};
+template <class Kind>
+INLINE LandedOnEllipse land_on_ellipse(const Vector& centre, const Vector& d, const MetEllipse& met) {
+  const auto on = geometry::on_ellipse(d, met.first, met.second);
+  const Vector place = centre + geometry::lengthened(d, geometry::step_of_length(on.measure));
+  Mask certain = abs(on.image.y) > met.at_start;
+  if constexpr (!Kind::alone) certain = certain && abs(0.75 - on.measure) < met.off;
+  return {place, on.gradient, dot(on.gradient, on.gradient), certain};
+}
