@@ -17,7 +17,8 @@ struct Interval {
   Interval(double x) : low(x), high(x) {}  // NOLINT: exact
   Interval(double l, double h) : low(l), high(h) {}
 
-  /// The ends rounded outwards: half an ulp is at most 2^-53 |x|, or 2^-1075 where doubles are denormal.
+  /// The ends rounded outwards: half an ulp is at most 2^-53 |x|, or 2^-1075 where doubles are denormal. (An end that
+  /// ran over in the wrong direction becomes no number: of such an interval no sign is known.)
   static Interval outwards(double l, double h) {
     return {l - (std::fabs(l) * 0x1p-52 + 0x1p-1074), h + (std::fabs(h) * 0x1p-52 + 0x1p-1074)};
   }
@@ -30,17 +31,23 @@ struct Interval {
   }
   friend Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
   friend Interval operator*(const Interval& a, const Interval& b) {
-    const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
-    return outwards(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
+    return around(a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high);
   }
   friend Interval operator/(const Interval& a, const Interval& b) {
     if (!(b.low > 0.0 || b.high < 0.0)) return {-HUGE_VAL, HUGE_VAL};
-    const double p = a.low / b.low, q = a.low / b.high, r = a.high / b.low, s = a.high / b.high;
-    return outwards(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
+    return around(a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high);
   }
 
   double middle() const { return 0.5 * low + 0.5 * high; }
   double size() const { return std::max(std::fabs(low), std::fabs(high)); }
+
+ private:
+  /// Where ends are infinite a product may be no number (0 times infinity), which min and max would drop: then nothing
+  /// is known. Infinities of both signs say no more.
+  static Interval around(double p, double q, double r, double s) {
+    if (std::isnan(p + q + r + s)) return {-HUGE_VAL, HUGE_VAL};
+    return outwards(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
+  }
 };
 
 /// Of a number that is known not to be negative.

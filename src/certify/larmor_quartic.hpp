@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "certify/larmor_circle.hpp"
+#include "certify/next_wall.hpp"
 
 namespace carom::certify {
 
@@ -267,16 +268,8 @@ double kappa_scale(const WallOf<C>& w, const VectorOf<C>& v, const C& h) {
   return std::max(std::sqrt(x * x + y * y), std::fabs(middle_of(h)));
 }
 
-/// Does the place lie on the wall, by its middle?
-template <class N>
-bool nearly_on_arc(const WallOf<N>& w, const Kappa<N>& k, const VectorOf<N>& P, const VectorOf<N>& v,
-                   const N& h) {
-  if (w.closed) return true;
-  const VectorOf<N> X = larmor_state<N, N>(k, P, v, h).position;
-  return (middle_of(cross(w.chord, X - w.from)) < 0.0) == (w.turn > 0);
-}
-
-/// The exit that a choice among walls has found, and its chord and s.
+/// The first exit on the wall: its chord and s. Unknown where an exit before it may lie on the wall too, or it
+/// itself beside the wall: the next one must not be taken for it.
 template <class N>
 struct EllipsePlace {
   std::size_t chord = 0;
@@ -288,7 +281,9 @@ EllipsePlace<N> ellipse_place(const EllipseFlight<N>& flight, const WallOf<N>& w
   for (const LarmorExit<N>& exit : LarmorExits<N>(flight.chords(), w.closed ? 1 : 5)) {
     if (!exit.certain) break;
     const N s = narrowed(flight.chords()[exit.chord], exit);
-    if (nearly_on_arc(w, flight.place(exit.chord, s), P, v, h)) return {exit.chord, s};
+    const Verdict on_wall = on_arc(w, larmor_state<N, N>(flight.place(exit.chord, s), P, v, h).position);
+    if (on_wall == Verdict::yes) return {exit.chord, s};
+    if (on_wall == Verdict::undecided) break;
   }
   return {};
 }

@@ -64,4 +64,15 @@ TangentMap<N> tangent_map(const WallOf<N>& w, const VectorOf<N>& P, const Vector
   return map;
 }
 
+/// Intervals of doubles do not know which exit of an ellipse lies on an arc that ends beside it; balls may.
+inline bool is_known(const TangentMap<Interval>& map) {
+  for (const auto& row : map.rows)
+    for (const Interval& x : row)
+      if (!std::isfinite(x.size())) return false;
+  return true;
+}
+TangentMap<Interval> tangent_map_in_balls(const WallOf<Ball>& w, const VectorOf<Ball>& P, const VectorOf<Ball>& v,
+                                          const MotionOf<Ball>& motion, bool standing,
+                                          const FrameOf<Interval>& before, const FrameOf<Interval>& after);
+
 }  // namespace carom::certify

@@ -34,7 +34,17 @@ Enclosed some_interval(tests::Dice& dice) {
   const double a = some_double(dice),
                width = dice.coin() ? 0.0 : std::fabs(a) * std::ldexp(1.0, -dice.whole(0, 60));
   const Interval x{a, a + width};
-  return {x, std::min(x.high, a + width * dice.unit())};
+  const double inside = std::min(x.high, a + width * dice.unit());
+  switch (dice.whole(0, 29)) {  // ends may be unknown
+    case 0:
+      return {{a, HUGE_VAL}, inside};
+    case 1:
+      return {{-HUGE_VAL, x.high}, inside};
+    case 2:
+      return {{-HUGE_VAL, HUGE_VAL}, inside};
+    default:
+      return {x, inside};
+  }
 }
 
 bool holds(const Interval& x, const mpq_class& exact) {
@@ -43,8 +53,9 @@ bool holds(const Interval& x, const mpq_class& exact) {
 }
 // Is the root of `exact` inside? Compared by squares.
 bool holds_root(const Interval& x, const mpq_class& exact) {
-  const mpq_class low(x.low), high(x.high);
-  return (x.low <= 0.0 || low * low <= exact) && x.high >= 0.0 && high * high >= exact;
+  const auto below = [&exact](double root) { return mpq_class(root) * mpq_class(root) <= exact; };
+  if (std::isfinite(x.low) && x.low > 0.0 && !below(x.low)) return false;
+  return !std::isfinite(x.high) || (x.high >= 0.0 && mpq_class(x.high) * mpq_class(x.high) >= exact);
 }
 
 TEST(Arithmetic, IntervalsHoldTheExactAnswer) {
