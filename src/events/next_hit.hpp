@@ -268,17 +268,6 @@ class HitFinder {
   f.start_previous = -1;
 }
 
-/// geometry::displacement and geometry::turned at once: the same numbers, two quotients at a time.
-[[gnu::always_inline]] inline void arrive(double kappa, geometry::Vector v, double omega, geometry::Vector& way,
-                                          geometry::Vector& velocity) {
-  const double h = 0.5 * omega;
-  const Pair n = both(kappa * kappa + h * h);
-  const Pair d = Pair{kappa * v.x + h * v.y, kappa * v.y - h * v.x} / n;
-  const Pair turn = Pair{omega * kappa, omega * h} / n;
-  way = {d[0], d[1]};
-  velocity = {v.x + (turn[0] * v.y - turn[1] * v.x), v.y - (turn[0] * v.x + turn[1] * v.y)};
-}
-
 [[gnu::always_inline]] inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const {
   geometry::Vector origin = f.start;
   landing.wall = ahead.piece;  // the pieces begin with the walls in their own cell
@@ -297,7 +286,9 @@ class HitFinder {
   const bool larmor = f.omega != 0.0;
   geometry::Vector way;
   if (larmor) {
-    arrive(ahead.kappa, f.velocity, f.omega, way, landing.velocity);
+    const auto factors = geometry::flight_factors(ahead.kappa, f.omega, 0.5);
+    way = geometry::displacement(factors, f.velocity);
+    landing.velocity = geometry::turned(factors, f.velocity, f.omega);
   } else {
     way = ahead.duration * f.velocity;
     landing.velocity = f.velocity;

@@ -112,7 +112,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   Sign inward = finder.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.
-    after = geometry::reflected(after, normal, landing.at.square, landing.at.k, 0.0);
+    after = geometry::reflected(after, normal, dot(normal, normal), 1.0, 0.0);
     inward = finder.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts);
   }
   if (inward != Sign::positive) return end(index, Fate::singular, now, &observer);

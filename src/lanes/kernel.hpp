@@ -59,15 +59,14 @@ INLINE Real number_of(const double* numbers, const Real& piece) {
 /// What is needed of that piece.
 struct Met {
   Vector point;
-  Real first, second, orientation, into, off_power;
+  Real first, second, orientation, into, strength;
   Mask bent, stands;
   MetEllipse ellipse{};
 };
 
-/// The flight to it.
-struct Meeting {
-  Vector point, velocity;
-  Real duration;
+/// Where the flight meets it: kappa, or without field the duration.
+struct Where {
+  Real kappa;
   Mask decided;
 };
 
@@ -92,7 +91,10 @@ void kernel(const LaneTable& table, LanePack& pack) {
   pack.calls = 0;
   Stages stages;
   for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
-  for (int lane = 0; lane < pack.used; lane += width) fly<Kind>(table, pack, stages, lane);
+  if (Kind::turn == 0 || Kind::convex)
+    for (int lane = 0; lane < pack.used; lane += width) meet<Kind>(table, pack, stages, lane);
+  if (Kind::turn != 0)
+    for (int lane = 0; lane < pack.used; lane += width) time(pack, stages, lane);
   const Real end(pack.end);
   for (int lane = 0; lane < pack.used; lane += width) land<Kind>(table, pack, stages, end, lane);
   pack.sweep += 1.0;

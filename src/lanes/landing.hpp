@@ -33,10 +33,18 @@ INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& 
 template <class Kind>
 INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, const Real& end, int lane) {
   constexpr bool larmor = Kind::turn != 0;
-  const View f = view_of<Kind>(t, pack, lane);
+  View f = view_of<Kind>(t, pack, lane);
+  if constexpr (Kind::cells) look_from(f, {load(stages.cell_first + lane), load(stages.cell_second + lane)});
   const Real piece = load(stages.piece + lane), known = load(stages.known + lane), duration = load(stages.duration + lane);
-  const Vector point{load(stages.x + lane), load(stages.y + lane)};
-  const Vector v = larmor ? Vector{load(stages.vx + lane), load(stages.vy + lane)} : f.velocity;
+  Vector way, v = f.velocity;
+  if constexpr (larmor) {
+    const auto factors = geometry::flight_factors(load(stages.kappa + lane), f.omega, Real(0.5));
+    way = geometry::displacement(factors, f.velocity);
+    v = geometry::turned(factors, f.velocity, f.omega);
+  } else {
+    way = duration * f.velocity;
+  }
+  const Vector point = f.origin + way;
   const Met met = met_by<Kind>(f, piece);
   Mask decided = known > 0.0 && duration > 0.0;
 
@@ -45,13 +53,15 @@ INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, const
   Landed now;
   now.piece = piece;
   Vector normal;
-  Real square(1.0), off(0.0);
+  Real step(0.0), off(0.0);
   const Vector d = point - met.point;
   if constexpr (Kind::circles) {
-    now.place = met.point + geometry::back_to_circle(d, met.first);
+    const Real measure = dot(met.first * d, d);
+    step = geometry::step_of_length(measure);
+    now.place = met.point + geometry::lengthened(d, step);
     normal = d;
-    square = dot(met.off_power * d, d);
-    if constexpr (larmor) off = (0.75 - dot(met.first * d, d)) * (0.25 * t.size);
+    if constexpr (larmor) off = (0.75 - measure) * (0.25 * t.size);
+    if (t.small_circles) decided = decided && (!met.bent || abs(step) < geometry::longest_step);
     if (t.closed_circles) decided = decided && (!met.bent || abs(d.y) > sign_margin * t.size);
   }
   if constexpr (Kind::segments) {
@@ -61,31 +71,35 @@ INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, const
     if constexpr (Kind::circles) {
       now.place = {choose(met.bent, now.place.x, on.x), choose(met.bent, now.place.y, on.y)};
       normal = {choose(met.bent, normal.x, across.x), choose(met.bent, normal.y, across.y)};
-      where(!met.bent, square) = Real(1.0);
+      where(!met.bent, step) = Real(0.0);  // reflects by strength alone, which is 2
     } else {
       now.place = on;
       normal = across;
     }
   }
   if constexpr (larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
+  constexpr bool bent = Kind::circles || Kind::ellipses;
+  Real factor;
+  if constexpr (Kind::circles)
+    factor = geometry::reflection_factor_on_circle(v, normal, met.strength, step);
+  else if constexpr (Kind::segments)
+    factor = 2.0 * dot(v, normal);
   if constexpr (Kind::ellipses) {
     const LandedOnEllipse on = land_on_ellipse<Kind>(met.point, d, met.ellipse);
+    const Real own = geometry::reflection_factor(v, on.gradient, on.square, Real(1.0));
     const Mask is = met.ellipse.is;
     if constexpr (Kind::segments || Kind::circles) {
       now.place = {choose(is, on.place.x, now.place.x), choose(is, on.place.y, now.place.y)};
       normal = {choose(is, on.gradient.x, normal.x), choose(is, on.gradient.y, normal.y)};
-      where(is, square) = on.square;
+      factor = choose(is, own, factor);
       decided = decided && (on.certain || !is);
     } else {
       now.place = on.place;
       normal = on.gradient;
-      square = on.square;
+      factor = own;
       decided = decided && on.certain;
     }
   }
-
-  constexpr bool bent = Kind::circles || Kind::ellipses;
-  const Real factor = bent ? geometry::reflection_factor(v, normal, square, met.off_power) : 2.0 * dot(v, normal);
   now.velocity = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, load(pack.energy_weight + lane)));
   const Real inner = bent ? met.into * dot(normal, now.velocity) : dot(normal, now.velocity);
   const Mask inward = inner > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);

@@ -19,6 +19,7 @@ struct LaneTable {
   bool segments = false;  ///< has such pieces
   bool circles = false;
   bool closed_circles = false;
+  bool small_circles = false;  ///< whose hits may be far from them, in radii (geometry::longest_step)
   bool open = false;      ///< beyond all walls lies the open plane
   bool divided = false;   ///< some wall is of several pieces
   bool bent[most] = {};   ///< a circle, an ellipse or an arc of one
@@ -30,7 +31,7 @@ struct LaneTable {
   double point_x[most] = {}, point_y[most] = {}, first_number[most] = {}, second_number[most] = {};
   double orientation[most] = {};  ///< circle: +1 domain inside, -1 outside; segment: 0
   double into[most] = {};         ///< the way into the domain, seen along a circle's radius or a segment's left: 1, -1
-  double off_power[most] = {};    ///< circle: PreparedCurve::off_power; segment: 1
+  double strength[most] = {};     ///< of its reflections: PreparedCurve::strength; segment: 2
   // For Larmor circles, of a piece with joints: the unit vector from the one to the other, their distance. Of a circle:
   // its radius, and the distance of the chord from the centre in radii, positive if the centre lies on its left.
   double chord_x[most] = {}, chord_y[most] = {}, length[most] = {}, radius[most] = {}, chord_offset[most] = {};

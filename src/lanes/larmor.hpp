@@ -7,7 +7,8 @@
 
 struct CircleView {
   Vector centre;  ///< |omega| Z
-  Real rate;      ///< |omega|
+  Real rate, back;  ///< |omega|, -|omega|
+  Real minus_square_speed;
   Real lengths;   ///< margin of all lengths times |omega| ...
   Real squares;   ///< ... and of their squares
   Real joints;    ///< of |c|^2 - v^2
@@ -16,7 +17,7 @@ template <int turn>
 INLINE CircleView circle_of(const View& f) {
   const Real rate = Real(static_cast<double>(turn)) * f.omega;
   const Vector v = turn > 0 ? f.velocity : -f.velocity;
-  return {{rate * f.origin.x + v.y, rate * f.origin.y - v.x}, rate, 0x1p-40 * f.pace, (0x1p-40 * f.pace) * f.pace, f.joint_margin};
+  return {{fused(rate, f.origin.x, v.y), fused(rate, f.origin.y, -v.x)}, rate, -rate, -f.square_speed, 0x1p-40 * f.pace, (0x1p-40 * f.pace) * f.pace, f.joint_margin};
 }
 
 struct JointOfCircle {
@@ -26,9 +27,9 @@ struct JointOfCircle {
 };
 INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Real& least) {
   const LaneTable& t = f.table;
-  const Vector c{z.centre.x - z.rate * t.joint_x[i], z.centre.y - z.rate * t.joint_y[i]};
-  const Real side = dot(c, c) - f.square_speed;
-  least = min(least, abs(side));
+  const Vector c{fused(z.back, Real(t.joint_x[i]), z.centre.x), fused(z.back, Real(t.joint_y[i]), z.centre.y)};
+  const Real side = fused(c.x, c.x, fused(c.y, c.y, z.minus_square_speed));
+  least = least_size(least, side);
   return {c, side, side < 0.0};
 }
 
@@ -36,8 +37,8 @@ INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Real& l
 /// between them, nearer than the radius. Of its first end: `c` seen from it, `side` = |c|^2 - v^2.
 INLINE Real cut_of_segment(const View& f, const CircleView& z, int i, const JointOfCircle& end) {
   const LaneTable& t = f.table;
-  const Real foot = t.chord_x[i] * end.centre.x + t.chord_y[i] * end.centre.y, square = foot * foot;
-  return min(foot * (z.rate * t.length[i]) - square, square - end.side);
+  const Real foot = fused(end.centre.x, Real(t.chord_x[i]), end.centre.y * t.chord_y[i]), square = foot * foot;
+  return min(fused(foot, z.rate * t.length[i], -square), square - end.side);
 }
 
 /// Positive if the whole circle of an arc is cut.
@@ -49,10 +50,10 @@ INLINE Real cut_of_circle(const View& f, const CircleView& z, int i, const Real&
 /// middle of the part on the other side lies on the arc's side of its chord.
 INLINE Real cut_of_arc(const View& f, const CircleView& z, int i, const Mask& inside) {
   const LaneTable& t = f.table;
-  const Vector c{z.centre.x - z.rate * t.point_x[i], z.centre.y - z.rate * t.point_y[i]};
-  const Real distance = sqrt(dot(c, c));
+  const Vector c{fused(z.back, Real(t.point_x[i]), z.centre.x), fused(z.back, Real(t.point_y[i]), z.centre.y)};
+  const Real distance = sqrt(fused(c.x, c.x, c.y * c.y));
   const Real towards = cross(Vector{Real(t.chord_x[i]), Real(t.chord_y[i])}, c);
-  const Real middle = t.chord_offset[i] * distance + choose(inside, -towards, towards);
+  const Real middle = fused(distance, Real(t.chord_offset[i]), choose(inside, -towards, towards));
   return min(cut_of_circle(f, z, i, distance), -t.orientation[i] * middle);
 }
 
@@ -79,9 +80,9 @@ INLINE Choice exit_of_loop_by_circle(const View& f) {
       certain = certain && (before.inside || after.inside || abs(cut) > z.lengths);
     } else {
       cut = cut_of_segment(f, z, i, turn > 0 ? before : after);
-      least_cut = min(least_cut, abs(cut));
+      least_cut = least_size(least_cut, cut);
     }
-    const Real piece(static_cast<double>(i));
+    const Real piece(counted[i]);
     const Mask leaves = before.inside || (cut > 0.0 && !after.inside && f.start_piece != piece);
     where(leaves, any) = piece;
     where(leaves && (turn > 0 ? f.start_piece >= piece : f.start_piece <= piece), behind) = piece;
@@ -123,12 +124,12 @@ class EarliestOnCircle {
     Real scale = choose(quadratic.b <= 0.0, falling, rising);
     where(r.q < 0.0, scale) = -scale;
     const Real p = r.p * scale, q = r.q * scale;
-    const Real gap = p * q_ - p_ * q;
+    const Real gap = fused(p, q_, -(p_ * q));
     doubt(leaves && piece_ >= 0.0 && abs(gap) <= (0x1p-20 * f_.table.size) * f_.pace);
     const Mask better = leaves && gap > 0.0;
     where(better, p_) = p;
     where(better, q_) = q;
-    where(better, piece_) = Real(static_cast<double>(i));
+    where(better, piece_) = Real(counted[i]);
   }
   INLINE Choice choice() const { return {piece_, decided_ && piece_ >= 0.0, p_ / q_}; }
 
@@ -164,7 +165,7 @@ INLINE Choice first_of_all_by_circle(const View& f) {
     JointOfCircle start{}, a{};
     if (!closed) a = start = joint_at(f, z, first, least);
     for (int i = first; i <= last; ++i) {
-      const Real piece(static_cast<double>(i));
+      const Real piece(counted[i]);
       const Mask stands = f.start_wall == Real(t.wall[i]), own = f.start_piece == piece;
       const bool bent = Kind::circles && t.bent[i];
       JointOfCircle b{};
@@ -215,31 +216,23 @@ INLINE Real angle(const Real& x, const Real& y) {
                       powers(angle_even, square, fourth), powers(angle_odd, square, fourth));
 }
 
-/// The flight to the piece that was chosen; in a convex table kappa is still to be found.
+/// Kappa at the piece that was chosen.
 template <class Kind>
-INLINE Meeting meet_by_circle(const View& f, const Met& met, Real kappa) {
-  Mask decided(true);
-  if constexpr (Kind::convex) {
-    geometry::Quadratic<Real> quadratic;
-    Real length(1.0);
-    if constexpr (Kind::segments) quadratic = quadratic_of_segment(f, met.point, {met.first, met.second}, met.stands);
-    if constexpr (Kind::circles) {
-      const auto other = quadratic_of_circle(f, met.point, met.second, met.orientation, met.stands);
-      if constexpr (Kind::segments) {
-        quadratic = {choose(met.bent, other.a, quadratic.a), choose(met.bent, other.b, quadratic.b),
-                     choose(met.bent, other.c, quadratic.c)};
-        where(met.bent, length) = Real(f.table.size);
-      } else {
-        quadratic = other;
-        length = Real(f.table.size);
-      }
+INLINE Where meet_by_circle(const View& f, const Met& met) {
+  geometry::Quadratic<Real> quadratic;
+  Real length(1.0);
+  if constexpr (Kind::segments) quadratic = quadratic_of_segment(f, met.point, {met.first, met.second}, met.stands);
+  if constexpr (Kind::circles) {
+    const auto other = quadratic_of_circle(f, met.point, met.second, met.orientation, met.stands);
+    if constexpr (Kind::segments) {
+      quadratic = {choose(met.bent, other.a, quadratic.a), choose(met.bent, other.b, quadratic.b),
+                   choose(met.bent, other.c, quadratic.c)};
+      where(met.bent, length) = Real(f.table.size);
+    } else {
+      quadratic = other;
+      length = Real(f.table.size);
     }
-    const Fraction r = rising_root(f, quadratic, met.stands, length);
-    kappa = r.p / r.q;
-    decided = r.decided;
   }
-  const Real half(0.5);
-  const Real duration = angle(kappa, half * abs(f.omega)) * f.inverse_half;
-  const Vector x = f.origin + geometry::displacement(kappa, f.velocity, f.omega, half);
-  return {x, geometry::turned(kappa, f.velocity, f.omega, half), duration, decided};
+  const Fraction r = rising_root(f, quadratic, met.stands, length);
+  return {r.p / r.q, r.decided};
 }

@@ -73,7 +73,7 @@ void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part,
   t.second_number[i] = t.bent[i] ? w.r2 : w.tangent.y;
   t.orientation[i] = t.bent[i] ? w.orientation : 0.0;
   t.into[i] = t.bent[i] ? -w.orientation : 1.0;
-  t.off_power[i] = t.bent[i] ? w.off_power : 1.0;
+  t.strength[i] = t.bent[i] ? w.strength : 2.0;
   if (w.kind != CurveKind::ellipse) (t.bent[i] ? t.circles : t.segments) = true;
   t.closed_circles |= w.closed && w.kind == CurveKind::circle;
   // Beyond every length that occurs, and 2^48 times every error of a point.
@@ -188,8 +188,9 @@ LaneTable make_lane_table(const HitFinder& finder) {
     e.off[i] = e.of[i] ? e.off[i] * t.size : HUGE_VAL;
     e.at_start[i] *= t.size;
     e.inward[i] = t.size * (e.of[i] ? e.inward[i] : 0x1p-36);
+    t.divided |= t.wall[i] != i;
+    t.small_circles |= t.radius[i] > 0.0 && t.radius[i] < 0x1p-10 * t.size;
   }
-  for (int i = 0; i < t.pieces; ++i) t.divided |= t.wall[i] != i;
   t.convex = is_convex(finder);
   t.open = table.extent == Extent::open_plane;
   return t;

@@ -7,10 +7,9 @@
 struct Stages {
   alignas(64) double piece[LanePack::lanes];
   double known[LanePack::lanes];  ///< 1: decided, 0: not, -1: no wall follows (in this cell)
-  double kappa[LanePack::lanes];
-  double cell_first[LanePack::lanes], cell_second[LanePack::lanes];
-  double x[LanePack::lanes], y[LanePack::lanes], vx[LanePack::lanes], vy[LanePack::lanes];
+  double kappa[LanePack::lanes];  ///< of Larmor circles
   double duration[LanePack::lanes];  ///< not a number: undecided
+  double cell_first[LanePack::lanes], cell_second[LanePack::lanes];
 };
 
 /// The flights from their last hits.
@@ -78,7 +77,7 @@ INLINE Met met_by(const View& f, const Real& piece) {
   if constexpr (Kind::circles || Kind::ellipses) {
     met.orientation = of(t.orientation);
     met.into = of(t.into);
-    met.off_power = of(t.off_power);
+    met.strength = of(t.strength);
     if constexpr (Kind::segments) met.bent = met.orientation != 0.0;
   }
   if constexpr (Kind::ellipses) met.ellipse = ellipse_met_by<Kind>(t, piece);
@@ -87,20 +86,21 @@ INLINE Met met_by(const View& f, const Real& piece) {
 }
 
 template <class Kind>
-INLINE void fly(const LaneTable& t, const LanePack& pack, Stages& stages, int lane) {
+INLINE void meet(const LaneTable& t, const LanePack& pack, Stages& stages, int lane) {
   View f = view_of<Kind>(t, pack, lane);
   if constexpr (Kind::cells) look_from(f, {load(stages.cell_first + lane), load(stages.cell_second + lane)});
   const Met met = met_by<Kind>(f, load(stages.piece + lane));
-  Meeting at;
-  if constexpr (Kind::turn != 0) {
-    at = meet_by_circle<Kind>(f, met, Kind::convex ? Real(0.0) : load(stages.kappa + lane));
-    store(at.velocity.x, stages.vx + lane);
-    store(at.velocity.y, stages.vy + lane);
-  } else {
+  Where at;
+  if constexpr (Kind::turn != 0)
+    at = meet_by_circle<Kind>(f, met);
+  else
     at = meet_by_line<Kind>(f, met);
-  }
-  store(at.point.x, stages.x + lane);
-  store(at.point.y, stages.y + lane);
-  where(!at.decided, at.duration) = Real(__builtin_nan(""));
-  store(at.duration, stages.duration + lane);
+  where(!at.decided, at.kappa) = Real(__builtin_nan(""));
+  store(at.kappa, (Kind::turn != 0 ? stages.kappa : stages.duration) + lane);
+}
+
+/// The time that a Larmor circle takes.
+INLINE void time(const LanePack& pack, Stages& stages, int lane) {
+  const Real kappa = load(stages.kappa + lane);
+  store(angle(kappa, Real(0.5) * abs(load(pack.omega + lane))) * load(pack.inverse_half + lane), stages.duration + lane);
 }

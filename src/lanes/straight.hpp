@@ -149,9 +149,9 @@ INLINE Choice first_of_all(const View& f) {
   return best.choice();
 }
 
-/// The flight to the piece that was chosen: a fraction for either kind of wall.
+/// The duration of the flight to the piece that was chosen: a fraction for either kind of wall.
 template <class Kind>
-INLINE Meeting meet_by_line(const View& f, const Met& met) {
+INLINE Where meet_by_line(const View& f, const Met& met) {
   const Vector e = f.origin - met.point, v = f.velocity;
   Real time, unit;
   Mask decided(true);
@@ -189,6 +189,5 @@ INLINE Meeting meet_by_line(const View& f, const Met& met) {
       decided = to.decided;
     }
   }
-  const Real duration = time / unit;
-  return {f.origin + duration * v, v, duration, decided};
+  return {time / unit, decided};
 }

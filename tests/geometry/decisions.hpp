@@ -114,7 +114,7 @@ class Bench {
     } else {
       const double kappa = kappa_after(0.5 * a.duration, s.omega);
       free.point = from + geometry::displacement(kappa, s.velocity, s.omega, 0.5);
-      free.velocity = geometry::turned(kappa, s.velocity, s.omega, 0.5);
+      free.velocity = geometry::turned(geometry::flight_factors(kappa, s.omega, 0.5), s.velocity, s.omega);
     }
     return free;
   }

@@ -93,24 +93,33 @@ constexpr Quartic<Number> ellipse_quartic(const BasicVector<Number>& e, const Nu
            Number(2) * n * h + ew + dot(v, v), Number(2) * ev, h}};
 }
 
-/// Displacement x - P at kappa.
+/// kappa/N and (omega/2)/N. Divisions, not products with 1/N: numbers that come out even stay exact.
+template <class Number>
+struct FlightFactors {
+  Number along{}, across{};
+};
+template <class Number>
+constexpr FlightFactors<Number> flight_factors(const Number& kappa, const Number& omega, const Number& half) {
+  const Number h = half * omega;
+  const Number n = kappa * kappa + h * h;
+  return {kappa / n, h / n};
+}
+/// Displacement x - P.
+template <class Number>
+constexpr BasicVector<Number> displacement(const FlightFactors<Number>& f, const BasicVector<Number>& v) {
+  return {f.along * v.x + f.across * v.y, f.along * v.y - f.across * v.x};
+}
+/// Velocity there: v turned clockwise by omega t.
+template <class Number>
+constexpr BasicVector<Number> turned(const FlightFactors<Number>& f, const BasicVector<Number>& v, const Number& omega) {
+  const Number p = omega * f.along;
+  const Number q = omega * f.across;
+  return {v.x + (p * v.y - q * v.x), v.y - (p * v.x + q * v.y)};
+}
 template <class Number>
 constexpr BasicVector<Number> displacement(const Number& kappa, const BasicVector<Number>& v,
                                            const Number& omega, const Number& half) {
-  const Number h = half * omega;
-  const Number n = kappa * kappa + h * h;
-  return {(kappa * v.x + h * v.y) / n, (kappa * v.y - h * v.x) / n};
-}
-
-/// Velocity at kappa: v turned clockwise by omega t.
-template <class Number>
-constexpr BasicVector<Number> turned(const Number& kappa, const BasicVector<Number>& v,
-                                     const Number& omega, const Number& half) {
-  const Number h = half * omega;
-  const Number n = kappa * kappa + h * h;
-  const Number p = omega * kappa / n;
-  const Number q = omega * h / n;
-  return {v.x + (p * v.y - q * v.x), v.y - (p * v.x + q * v.y)};
+  return displacement(flight_factors(kappa, omega, half), v);
 }
 
 /// One Newton step of 1/sqrt for a length whose square is `measure`, where it should be 3/4: what is to be added, as a
@@ -164,6 +173,17 @@ constexpr Number reflection_factor(const BasicVector<Number>& v, const BasicVect
                                    const Number& k) {
   return Number(2) * k * dot(v, n) / n2;
 }
+/// The same for a circle, n = d of back_to_circle and `step` its step_of_length, without a division: 2/|d|^2 is
+/// `strength` (1 + 2 step) but for the square of 2 step, where strength is 2/r^2 of the r of its weight to the last digit.
+template <class Number>
+constexpr Number reflection_factor_on_circle(const BasicVector<Number>& v, const BasicVector<Number>& d, const Number& strength,
+                                             const Number& step) {
+  const Number factor = strength * dot(v, d);
+  return factor + (step + step) * factor;
+}
+/// Up to this step: the square of its double is below the last digit. Beyond lie hits on circles much smaller than the
+/// distances that particles come from.
+inline constexpr double longest_step = 0x1p-28;
 /// Velocity after a reflection by a wall with normal n, lengthened by the fraction `step`.
 template <class Number>
 constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n,

@@ -29,7 +29,8 @@ struct PreparedCurve {
   // Circle and ellipse.
   Vector centre;
   double r2 = 0.0;            ///< circle: squared radius
-  double weight = 0.0;        ///< circle: 0.75 / r2
+  double weight = 0.0;        ///< circle: 0.75 / r2 …
+  double strength = 0.0;      ///< … and exactly 8/3 of it
   double off_power = 1.0;     ///< circle: 1 or 0.75, such that off_power r2 is not near a power of two
   double parameter_stretch = 0.0;  ///< bounds |du| / |dx|_1
   double centre_error = 0.0;  ///< of `centre`
@@ -68,7 +69,6 @@ struct PreparedCurve {
   /// number, so that none waits for another.
   struct Arrival {
     Vector point, normal;
-    double square = 1.0, k = 1.0;  ///< as in Frame
     double factor = 0.0;
     double u = 0.0;
   };
@@ -79,16 +79,12 @@ struct PreparedCurve {
       a.u = segment_parameter(parametrisation, a.point, first_parameter);
     } else {
       if (kind == CurveKind::circle)
-        set(a, settle_on_circle(x));
+        arrive_on_circle(x, v, a);
       else
-        set(a, settle_on_ellipse(x));
-      a.factor = reflection_factor(v, a.normal, a.square, a.k);
+        reflect_by(settle_on_ellipse(x), v, a);
       a.u = conic_parameter(parametrisation, a.point, first_parameter);
     }
-    if (!(a.u > first_parameter && a.u < last())) [[unlikely]] {  // put there, off the joints
-      set(a, frame(a.u));
-      a.factor = reflection_factor(v, a.normal, a.square, a.k);
-    }
+    if (!(a.u > first_parameter && a.u < last())) [[unlikely]] reflect_by(frame(a.u), v, a);  // put there, off the joints
   }
   Frame frame(double u) const {
     const Frame f = settle(point(u));
@@ -99,13 +95,26 @@ struct PreparedCurve {
   double last() const { return parametrisation.last; }
 
  private:
+  [[gnu::always_inline]] void arrive_on_circle(Vector x, Vector v, Arrival& a) const {
+    const Vector d = x - centre;
+    const double step = step_of_length(dot(weight * d, d));
+    const Vector on = centre + lengthened(d, step);
+    a.point.x = on.x;
+    a.point.y = on.y;
+    a.normal.x = -orientation * d.x;
+    a.normal.y = -orientation * d.y;
+    a.factor = -orientation * (std::fabs(step) < longest_step ? reflection_factor_on_circle(v, d, strength, step)
+                                                              : reflection_factor(v, d, dot(d, d), 1.0));
+  }
+  [[gnu::always_inline]] static void reflect_by(const Frame& f, Vector v, Arrival& a) {
+    set(a, f);
+    a.factor = reflection_factor(v, f.normal, f.square, f.k);
+  }
   [[gnu::always_inline]] static void set(Arrival& a, const Frame& f) {
     a.point.x = f.point.x;
     a.point.y = f.point.y;
     a.normal.x = f.normal.x;
     a.normal.y = f.normal.y;
-    a.square = f.square;
-    a.k = f.k;
   }
   [[gnu::always_inline]] Frame settle_on_segment(Vector x) const {
     return {back_to_line(x, from, tangent), left(tangent), 1.0, 1.0};
