@@ -6,17 +6,12 @@
 #include <string>
 
 #include "carom/certify/certified_orbit.hpp"
+#include "certify/line_table.hpp"
 #include "certify/pilot.hpp"
-#include "certify/tangent.hpp"
+#include "certify/state_enclosure.hpp"
 #include "certify/tie.hpp"
 
 namespace carom::certify {
-
-/// A state in balls that contain the true one.
-struct BallState {
-  BallVector position, velocity;
-  Ball time;
-};
 
 /// What a step of an attempt came to.
 struct Outcome {
@@ -38,6 +33,8 @@ class Attempt {
   static constexpr std::size_t longest_path = 20'000;
 
   Attempt(const ExactSystem&, const CertifiedTask&, const KnownTies&, long bits);
+  Attempt(const Attempt&) = delete;
+  Attempt& operator=(const Attempt&) = delete;
 
   Outcome step();
 
@@ -57,10 +54,10 @@ class Attempt {
   /// What cannot be told, with the enclosures that overlap.
   std::string description(const Doubt&);
 
-  const SceneOf<Ball>& scene() const { return scene_; }
+  const SceneOf<Ball>& scene() const { return arena_.scene; }
   const Whereabouts& whereabouts() const { return where_; }
-  /// Midpoints, in the cell of the last hit.
-  const BallState& state() const { return now_.state; }
+  /// In the cell of the last hit.
+  BallState state() const { return now_.state->state(bits_); }
   int standing() const { return now_.standing; }
 
   /// How many bits the orbit will lose from here on, by a look ahead.
@@ -69,33 +66,27 @@ class Attempt {
  private:
   /// All that the future depends on.
   struct Now {
-    BallState state;  ///< midpoints
-    ErrorSet errors;
-    FrameOf<Interval> frame;
+    std::unique_ptr<StateEnclosure> state;
     int wall = -1;     ///< of the last hit
     int standing = -1; ///< the wall it lies on: also that of the start
     geometry::Cell cell;
     std::uint64_t hits = 0;
+
+    Now copy() const { return {state->clone(), wall, standing, cell, hits}; }
   };
 
-  void place_start(const ExactSystem&);
-  void set_interval_table();
+  void set_arena(BallTable);
+  std::unique_ptr<StateEnclosure> start_enclosure(const ExactSystem&);
   void trim_precision();
   Choice choose() const;
   Choice choose_at(const KnownTies::Joint&) const;
   void move_to(const Copy&);
-  bool settles_now() const;
-  static Bound settle(LandingOf<Ball>&, const SceneOf<Ball>&, const WallOf<Ball>&, bool same, double unit);
   Outcome arrive(const Copy&, const std::optional<Now>& before);
   Outcome landed(const Copy&, const std::optional<Now>& before);
   Passage pass() const;
   Outcome leave(const Now& before);
   Outcome stop_at_last_time();
   double needed_bits() const;
-  Bound error_of_state() const;
-  Bound position_error() const { return Bound(unit_) * now_.errors.of_position(); }
-  Bound velocity_error() const { return Bound(speed_) * now_.errors.of_velocity(); }
-  Bound time_error() const { return Bound(time_unit_) * now_.errors.of_time(); }
   std::string name(const Copy&) const;
   std::string described(const Doubt&) const;
 
@@ -103,9 +94,8 @@ class Attempt {
   const CertifiedTask& task_;
   const KnownTies& ties_;
   long first_bits_, bits_, table_bits_;
-  double unit_ = 1.0, speed_ = 1.0, time_unit_ = 1.0;  ///< at least the size of each
-  SceneOf<Ball> scene_;
-  SceneOf<Interval> fast_;
+  Arena arena_;
+  std::optional<LineTable> lines_;  ///< where the state is followed as a line
   Whereabouts where_;
   std::optional<Ball> t_max_;
 

@@ -20,7 +20,7 @@ std::string enclosure(const Ball& x) {
 std::string Attempt::name(const Copy& copy) const {
   if (copy.wall < 0) return "nothing";
   std::string text = "'" + system_.table->walls[static_cast<std::size_t>(copy.wall)].name + "'";
-  if (scene_.lattice)
+  if (arena_.scene.lattice)
     text += " of cell " + std::to_string(now_.cell.first + copy.cell.first) + ", " +
             std::to_string(now_.cell.second + copy.cell.second);
   return text;
@@ -29,31 +29,30 @@ std::string Attempt::name(const Copy& copy) const {
 std::string Attempt::description(const Doubt& doubt) {
   if (doubt.kind == Doubt::choice) return described(doubt);
   const Precision precision(bits_);
-  const Now before = now_;  // what is in doubt is seen at the wall
+  Now before = now_.copy();  // what is in doubt is seen at the wall
   move_to(doubt.first);
   std::string text = described(doubt);
-  now_ = before;
+  now_ = std::move(before);
   return text;
 }
 
 std::string Attempt::described(const Doubt& doubt) const {
   const Precision precision(bits_);
-  const Bound dP = position_error(), dv = velocity_error();
-  const BallVector P{now_.state.position.x.widened(dP), now_.state.position.y.widened(dP)};
-  const BallVector v{now_.state.velocity.x.widened(dv), now_.state.velocity.y.widened(dv)};
+  const BallState s = now_.state->state(bits_);
+  const BallVector &P = s.position, &v = s.velocity;
   const std::string event = "event " + std::to_string(now_.hits + 1) + ": ";
   const auto wall = [this](const Copy& copy) -> const WallOf<Ball>& {
-    return scene_.walls[static_cast<std::size_t>(copy.wall)];
+    return arena_.wall(copy.wall);
   };
   if (doubt.kind == Doubt::last_time)
     return event + "whether " + name({doubt.first.wall, {}}) + " is met before the last time, " +
-           enclosure(now_.state.time.widened(time_error())) + " or " + enclosure(*t_max_);
+           enclosure(now_.state->time()) + " or " + enclosure(*t_max_);
   if (doubt.kind == Doubt::hole) {
     std::string text = event + "on which side of an end of '" +
                        system_.table->holes[static_cast<std::size_t>(doubt.hole_index)].name + "' " +
                        name({doubt.first.wall, {}}) + " is met, at x = " + enclosure(P.x) +
                        ", y = " + enclosure(P.y);
-    for (const HoleOf<Ball>& hole : scene_.holes)
+    for (const HoleOf<Ball>& hole : arena_.scene.holes)
       if (hole.hole == doubt.hole_index && wall(doubt.first).form == Form::segment) {
         const Ball length = sqrt(dot(wall(doubt.first).chord, wall(doubt.first).chord));
         text += ": arc length " +
@@ -63,22 +62,22 @@ std::string Attempt::described(const Doubt& doubt) const {
     return text;
   }
   const auto seen = [&](const Copy& copy) {
-    return copy.cell == geometry::Cell{} ? P : P - scene_.translation(copy.cell);
+    return copy.cell == geometry::Cell{} ? P : P - arena_.scene.translation(copy.cell);
   };
   const auto time_to = [&](const Copy& copy) {
     const bool standing = copy.wall == now_.standing && copy.cell == geometry::Cell{};
-    if (!scene_.motion.turns)
-      return enclosure(meets(wall(copy), seen(copy), v, scene_.motion, standing).time);
-    return enclosure(flight_to<Ball, Ball>(wall(copy), seen(copy), v, scene_.motion, standing).time);
+    if (!arena_.scene.motion.turns)
+      return enclosure(meets(wall(copy), seen(copy), v, arena_.scene.motion, standing).time);
+    return enclosure(flight_to<Ball, Ball>(wall(copy), seen(copy), v, arena_.scene.motion, standing).time);
   };
   if (doubt.second.wall >= 0)
     return event + "which comes first, " + name(doubt.first) + " or " + name(doubt.second) +
            ", after the times " + time_to(doubt.first) + " and " + time_to(doubt.second);
   std::string text = event + "whether the flight meets " + name(doubt.first);
-  if (scene_.motion.turns) return text;
+  if (arena_.scene.motion.turns) return text;
   const WallOf<Ball>& w = wall(doubt.first);
   const BallVector at = seen(doubt.first);
-  const Ball per_speed = Ball(1) / sqrt(scene_.motion.speed2);
+  const Ball per_speed = Ball(1) / sqrt(arena_.scene.motion.speed2);
   if (w.form != Form::ellipse && !w.closed)
     text += ", passing its ends at the distances " + enclosure(cross(v, w.from - at) * per_speed) + " and " +
             enclosure(cross(v, w.to - at) * per_speed);

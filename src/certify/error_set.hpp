@@ -1,13 +1,10 @@
-// What is not known of a state: how far the true state may be from the one that is computed with many
-// bits. Carried by the tangent map in a frame of two directions that turns along (Lohner's QR form), so
-// that it grows as fast as neighbouring orbits part, and no faster.
+// What is not known of a state in a point and its velocity: how far the true state may be from the one that is
+// computed with many bits.
 #pragma once
 
 #include <array>
 
-#include "certify/ball.hpp"
-#include "certify/interval.hpp"
-#include "certify/wall.hpp"
+#include "certify/turning_box.hpp"
 
 namespace carom::certify {
 
@@ -29,20 +26,19 @@ class ErrorSet {
 
   /// An invariant says that the error in this direction (off or speed) is at most `size`.
   void constrain(Direction d, const Bound& size) {
-    if (size < size_[d]) size_[d] = size;
+    Bound& error = d == off ? off_ : speed_;
+    if (size < error) error = size;
   }
 
   /// Largest error in a direction.
-  const Bound& size(Direction d) const { return size_[d]; }
-  Bound of_position() const { return size_[along] + size_[off]; }
-  Bound of_velocity() const { return size_[turning] + size_[speed]; }
+  const Bound& size(Direction d) const { return d == off ? off_ : d == speed ? speed_ : box_.size(d); }
+  Bound of_position() const { return size(along) + off_; }
+  Bound of_velocity() const { return size(turning) + speed_; }
   const Bound& of_time() const { return time_; }
 
  private:
-  void update_sizes();
-  double frame_[2][2] = {{1, 0}, {0, 1}};  ///< columns: directions in the plane of (along, turning)
-  Bound extent_[2];                        ///< of the set along them
-  Bound size_[4];
+  TurningBox box_;  ///< along, turning
+  Bound off_, speed_;
   Bound time_;
 };
 

@@ -5,6 +5,7 @@
 #include "certify/exact_value.hpp"
 #include "certify/plain.hpp"
 #include "certify/pseudo_orbit.hpp"
+#include "certify/tangent.hpp"
 
 namespace carom {
 

@@ -1,0 +1,60 @@
+#include "certify/line_table.hpp"
+
+namespace carom::certify {
+namespace {
+
+bool is_zero(const Ball& x) { return arb_is_zero(x.raw()) != 0; }
+
+// Of any length: axes are short numbers.
+BallVector direction_of(const WallOf<Ball>& segment) {
+  if (is_zero(segment.chord.y)) return {Ball(1), Ball(0)};
+  if (is_zero(segment.chord.x)) return {Ball(0), Ball(1)};
+  return segment.chord;
+}
+
+LineWall line_wall(const WallOf<Ball>& w, const MotionOf<Ball>& motion) {
+  LineWall r;
+  r.arc = w.form == Form::circle;
+  if (r.arc) {
+    r.side = w.turn > 0 ? 1.0 : -1.0;
+    r.anchor = w.centre;
+    r.size2 = w.radius2 * motion.speed2;
+    r.inverse = Ball(1) / r.size2;
+    r.radius = std::sqrt(w.radius2.to_double());
+    return r;
+  }
+  r.anchor = w.from;
+  r.tangent = direction_of(w);
+  const Ball scale = Ball(2) / dot(r.tangent, r.tangent);
+  r.double_tangent = scale * r.tangent;
+  return r;
+}
+
+BallVector rounded(const BallVector& v) { return {v.x.rounded(), v.y.rounded()}; }
+
+LineWall rounded(const LineWall& w) {
+  return {w.arc,         w.side, rounded(w.anchor), rounded(w.tangent), rounded(w.double_tangent), w.size2.rounded(),
+          w.inverse.rounded(), w.radius};
+}
+
+}  // namespace
+
+LineTable::LineTable(const SceneOf<Ball>& scene, long few) : few_bits(few) {
+  for (const WallOf<Ball>& w : scene.walls) walls.push_back(line_wall(w, scene.motion));
+  const Precision precision(few);
+  for (const LineWall& w : walls) few_walls.push_back(rounded(w));
+  few_inverse_speed2 = scene.motion.inverse_speed2.rounded();
+}
+
+bool LineTable::holds(const SceneOf<Ball>& scene) {
+  if (scene.motion.turns) return false;
+  for (const WallOf<Ball>& w : scene.walls)
+    if (w.form == Form::ellipse) return false;
+  return true;
+}
+
+void LineTable::round() {
+  for (LineWall& w : walls) w = rounded(w);
+}
+
+}  // namespace carom::certify
