@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "carom/geometry/hull.hpp"
 #include "dyadic.hpp"
 
 namespace carom::geometry {
@@ -94,9 +95,7 @@ double least_width(const std::vector<Curve>& walls) {
     Box box = bounding_box(walls[first]);
     std::size_t next = first;
     do {
-      const Box piece = bounding_box(walls[next]);
-      box.low = {std::min(box.low.x, piece.low.x), std::min(box.low.y, piece.low.y)};
-      box.high = {std::max(box.high.x, piece.high.x), std::max(box.high.y, piece.high.y)};
+      box = hull(box, bounding_box(walls[next]));
       area += area_integral(walls[next]);
       ++next;
     } while (next < walls.size() && !is_closed(walls[next - 1]) &&

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "carom/geometry/curve.hpp"
+#include "carom/geometry/hull.hpp"
 
 namespace carom::geometry {
 
@@ -14,11 +14,7 @@ namespace carom::geometry {
 template <class Report>
 void overlapping_boxes(const std::vector<Box>& boxes, const Report& report) {
   if (boxes.empty()) return;
-  Box whole = boxes.front();
-  for (const Box& b : boxes) {
-    whole.low = {std::min(whole.low.x, b.low.x), std::min(whole.low.y, b.low.y)};
-    whole.high = {std::max(whole.high.x, b.high.x), std::max(whole.high.y, b.high.y)};
-  }
+  const Box whole = hull_of(boxes);
   const bool along_x = whole.high.x - whole.low.x >= whole.high.y - whole.low.y;
   const auto low = [&](std::size_t i) { return along_x ? boxes[i].low.x : boxes[i].low.y; };
   const auto high = [&](std::size_t i) { return along_x ? boxes[i].high.x : boxes[i].high.y; };

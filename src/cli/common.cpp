@@ -12,7 +12,7 @@
 #include <cstring>
 
 #include "carom/base/error.hpp"
-#include "carom/base/exact_number.hpp"
+#include "carom/base/whole_number.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "carom_version.hpp"
 
@@ -33,15 +33,11 @@ Place option_place(const char* option) { return Place{"command line", 0, 0, opti
 
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least) {
   const Place place = option_place(option);
-  const auto value = ExactNumber(text, place).to_rational();
   const std::string expected = fmt::format("a whole number from {} on", least);
-  if (!value || value->denominator != "1" || value->numerator.starts_with('-'))
-    throw InputError(place, fmt::format("'{}' is not a whole number", text), expected);
-  errno = 0;
-  const std::uint64_t number = std::strtoull(value->numerator.c_str(), nullptr, 10);
-  if (errno != 0 || number < least)
-    throw InputError(place, fmt::format("{} is {}", text, errno != 0 ? "too large" : "too small"), expected);
-  return number;
+  const auto number = carom::whole_number(ExactNumber(text, place));
+  if (!number) throw InputError(place, fmt::format("'{}' is not a whole number below 2^64", text), expected);
+  if (*number < least) throw InputError(place, fmt::format("{} is too small", text), expected);
+  return *number;
 }
 
 int threads_of(const Options& options) {

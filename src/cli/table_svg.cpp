@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "carom/geometry/curve_frame.hpp"
+#include "carom/geometry/hull.hpp"
 
 namespace carom::cli {
 
@@ -29,21 +30,11 @@ struct View {
   double height() const { return 2 * margin + scale * (box.high.y - box.low.y); }
 };
 
-void enlarge(geometry::Box& box, Vector p) {
-  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-}
-
 View view_of(const Table& table) {
   View view;
-  view.box = geometry::bounding_box(table.walls.front().curve);
-  for (const Wall& wall : table.walls) {
-    const geometry::Box box = geometry::bounding_box(wall.curve);
-    enlarge(view.box, box.low);
-    enlarge(view.box, box.high);
-  }
+  view.box = geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
   if (table.lattice)
-    for (const auto& edge : table.lattice->edges) enlarge(view.box, edge.segment.from);
+    for (const auto& edge : table.lattice->edges) view.box = hull(view.box, edge.segment.from);
   const double size = std::max(view.box.high.x - view.box.low.x, view.box.high.y - view.box.low.y);
   view.scale = drawing_size / size;
   return view;

@@ -10,6 +10,7 @@
 #include "carom/base/error.hpp"
 #include "carom/base/random.hpp"
 #include "carom/events/world.hpp"
+#include "carom/geometry/hull.hpp"
 
 namespace carom {
 
@@ -49,25 +50,14 @@ State off_walls(const Table& table, Vector position, Vector velocity) {
   return state;
 }
 
-void enlarge(geometry::Box& box, Vector point) {
-  box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
-  box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
-}
-
 geometry::Box domain_box(const Table& table) {
   if (table.extent == Extent::lattice) {
     const auto& edges = table.lattice->edges;
     geometry::Box box{edges.front().segment.from, edges.front().segment.from};
-    for (const auto& edge : edges) enlarge(box, edge.segment.to);
+    for (const auto& edge : edges) box = hull(box, edge.segment.to);
     return box;
   }
-  geometry::Box box = geometry::bounding_box(table.walls.front().curve);
-  for (const Wall& wall : table.walls) {
-    const geometry::Box next = geometry::bounding_box(wall.curve);
-    enlarge(box, next.low);
-    enlarge(box, next.high);
-  }
-  return box;
+  return geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/geometry/hull.hpp"
 #include "events/crossing.hpp"
 #include "events/next_hit.hpp"
 
@@ -59,9 +60,7 @@ void HitFinder::find_enclosure(bool complement) {
     const bool bent = w.kind != CurveKind::segment;
     enclosure_.add(w.from, bent ? Vector{} : w.tangent, w.length, bent);
     without_ellipses_ &= w.kind != CurveKind::ellipse;
-    const Box next = bounding_box(table_.walls[at(i)].curve);
-    box.low = {std::min(box.low.x, next.low.x), std::min(box.low.y, next.low.y)};
-    box.high = {std::max(box.high.x, next.high.x), std::max(box.high.y, next.high.y)};
+    box = hull(box, bounding_box(table_.walls[at(i)].curve));
   }
   enclosure_.set_diameter(1.01 * norm_1(box.high - box.low));
   enclosure_rounding_ = 4.1 * unit_roundoff * enclosure_.diameter();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/geometry/hull.hpp"
 #include "events/crossing.hpp"
 #include "events/next_hit.hpp"
 
@@ -38,12 +39,7 @@ void HitFinder::make_grid(bool edges) {
       boxes.push_back(box);
     }
   }
-  Box within = boxes.front();
-  for (const Box& b : boxes) {
-    within.low = {std::min(within.low.x, b.low.x), std::min(within.low.y, b.low.y)};
-    within.high = {std::max(within.high.x, b.high.x), std::max(within.high.y, b.high.y)};
-  }
-  grid_ = std::make_unique<const WallGrid>(pieces_, first, second, within);
+  grid_ = std::make_unique<const WallGrid>(pieces_, first, second, geometry::hull_of(boxes));
   seen_.assign(data_.size(), 0);
   near_.reserve(grid_->entries().size());
   for (const int piece : grid_->entries()) {

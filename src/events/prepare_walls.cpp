@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/geometry/hull.hpp"
 #include "events/next_hit.hpp"
 
 namespace carom {
@@ -92,15 +93,6 @@ void HitFinder::add_walls(Cell offset, bool complement, const std::vector<int>& 
       add(i, base + (k + 1) % count, base + (k + count - 1) % count);
   }
 }
-
-namespace {
-
-Box hull(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
-}  // namespace
 
 /// The loops of walls that, displaced by a lattice vector, may reach into the cell, by that vector. A loop too
 /// many costs time, one too few would lose walls: so boxes are compared, and circles by their distance from the

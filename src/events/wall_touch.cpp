@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/geometry/hull.hpp"
+
 namespace carom {
 
 using geometry::Vector;
@@ -21,13 +23,9 @@ WallTouch::WallTouch(const Table& table, int grid_from) : loop_of_(table.walls.s
   }
   if (table.walls.empty() || static_cast<int>(table.walls.size()) < grid_from) return;
   std::vector<geometry::Piece> pieces;
-  geometry::Box whole = geometry::bounding_box(table.walls.front().curve);
-  for (const Wall& wall : table.walls) {
-    const geometry::Box box = geometry::bounding_box(wall.curve);
-    whole.low = {std::min(whole.low.x, box.low.x), std::min(whole.low.y, box.low.y)};
-    whole.high = {std::max(whole.high.x, box.high.x), std::max(whole.high.y, box.high.y)};
-    pieces.push_back({wall.curve, {}, wall.next, false});
-  }
+  for (const Wall& wall : table.walls) pieces.push_back({wall.curve, {}, wall.next, false});
+  const geometry::Box whole =
+      geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
   grid_ = std::make_unique<const WallGrid>(pieces, Vector{}, Vector{}, whole);
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
+
+#include "carom/base/whole_number.hpp"
 
 namespace carom::io {
 namespace {
@@ -36,17 +37,9 @@ std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t mo
       most == UINT64_MAX ? "a whole number of at least " + std::to_string(least)
                          : "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
   if (value.kind != Value::Kind::number && value.kind != Value::Kind::text) wrong_type(value, expected);
-  std::optional<RationalText> rational;
   try {
-    rational = ExactNumber(value.text, value.place).to_rational();
+    if (const auto count = whole_number(ExactNumber(value.text, value.place), least, most)) return *count;
   } catch (const InputError&) {  // the reason would speak of sqrt and pi
-  }
-  std::uint64_t count = 0;
-  if (rational && rational->denominator == "1") {
-    const std::string& digits = rational->numerator;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
-    const bool whole = error == std::errc{} && end == digits.data() + digits.size();
-    if (whole && count >= least && count <= most) return count;
   }
   throw InputError(value.place, "must be " + expected + ", not " + value.text);
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "carom/geometry/hull.hpp"
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
@@ -110,12 +111,8 @@ void repeat(const LatticeSpec& lattice, Table& table) {
   }
   if (table.walls.empty())
     return set_lattice(table, point(lattice.first), point(lattice.second), {0, 0}, lattice.place);
-  geometry::Box box = geometry::bounding_box(table.walls.front().curve);
-  for (const Wall& wall : table.walls) {
-    const geometry::Box b = geometry::bounding_box(wall.curve);
-    box.low = {std::min(box.low.x, b.low.x), std::min(box.low.y, b.low.y)};
-    box.high = {std::max(box.high.x, b.high.x), std::max(box.high.y, b.high.y)};
-  }
+  const geometry::Box box =
+      geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
   const Vector centre{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2};
   set_lattice(table, point(lattice.first), point(lattice.second), centre, lattice.place);
 }

@@ -1,4 +1,5 @@
 // Rectangle, polygon, triangle, regular polygon.
+#include "carom/base/whole_number.hpp"
 #include "table/direction.hpp"
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
@@ -69,13 +70,12 @@ void triangle(const TableSpec& spec, Table& table) {
 
 void regular(const TableSpec& spec, Table& table) {
   const ExactNumber& sides = number(spec, "sides");
-  const auto whole = sides.to_rational();
-  const double count = sides.to_double();
-  if (!whole || whole->denominator != "1" || !(count >= 3) || !(count <= 10000)) {
+  const auto count = whole_number(sides, 3, 10000);
+  if (!count) {
     throw InputError(sides.place(), "must be a whole number of at least 3, not " + sides.text(),
                      "a whole number from 3 to 10000");
   }
-  const int n = static_cast<int>(count);
+  const int n = static_cast<int>(*count);
   const double radius = size(spec, "radius");
   const ExactNumber angle = number_or(spec, "angle", "0");
   std::vector<Vector> corners;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "carom/base/random.hpp"
+#include "carom/base/whole_number.hpp"
 #include "carom/geometry/lattice.hpp"
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
@@ -13,18 +14,28 @@ namespace {
 using geometry::Circle;
 using geometry::Vector;
 
-constexpr double most_discs = 10'000'000;
+constexpr std::uint64_t most_discs = 10'000'000;
+constexpr std::uint64_t most_seed = std::uint64_t{1} << 53;
 constexpr int most_draws = 1'000'000;  // of one disc
 
-std::uint64_t whole_number(const ExactNumber& value, double least, double most) {
-  const auto whole = value.to_rational();
-  const double number = value.to_double();
-  if (!whole || whole->denominator != "1" || !(number >= least && number <= most)) {
-    throw InputError(value.place(), "must be a whole number from " + ExactNumber(least).text() + " to " +
-                                        ExactNumber(most).text() + ", not " + value.text(),
+// u is the rounding of one operation.
+constexpr double u = 0x1p-53;
+// Of lengths in a square, in units of its side. A difference of two coordinates errs by u, and by u more when the
+// side is taken off it: their distance by 2 sqrt(2) u, the sum of both. A coordinate that is drawn errs by u for the
+// range, for the product and for the sum. The double of what is needed, and more.
+constexpr double rounding = 8.0 * u;
+// Of squared distances, in units of themselves: two squares, their sum and the square of the reach, 4 u; eight times.
+constexpr double rounding_of_squares = 32.0 * u;
+// So that a square is not taken to be too narrow for a reach by what its width was rounded.
+constexpr double narrower = 0.999;
+
+std::uint64_t whole_number_from(const ExactNumber& value, std::uint64_t least, std::uint64_t most) {
+  const auto number = whole_number(value, least, most);
+  if (!number)
+    throw InputError(value.place(), "must be a whole number from " + std::to_string(least) + " to " +
+                                        std::to_string(most) + ", not " + value.text(),
                      "a whole number");
-  }
-  return static_cast<std::uint64_t>(number);
+  return *number;
 }
 
 /// Places in a square [0, side]^2 one after the other, each drawn until it has room. Squares at least as wide as
@@ -35,8 +46,8 @@ class Arrangement {
       : side_(side),
         torus_(torus),
         // A difference of coordinates, and a side taken off it, are rounded: so discs are really apart.
-        reach_(2.0 * radius + 8.0 * 0x1p-53 * side) {
-    const double fitting = std::floor(0.999 * side / reach_), enough = std::ceil(std::sqrt(static_cast<double>(count)));
+        reach_(2.0 * radius + rounding * side) {
+    const double fitting = std::floor(narrower * side / reach_), enough = std::ceil(std::sqrt(static_cast<double>(count)));
     parts_ = static_cast<int>(std::fmax(1.0, std::fmin(fitting, enough)));
     squares_.resize(static_cast<std::size_t>(parts_) * static_cast<std::size_t>(parts_));
   }
@@ -70,7 +81,7 @@ class Arrangement {
   }
   bool near(Vector a, Vector b) const {
     const double x = shortest(a.x - b.x), y = shortest(a.y - b.y);
-    return x * x + y * y <= reach_ * reach_ * (1.0 + 0x1p-48);
+    return x * x + y * y <= reach_ * reach_ * (1.0 + rounding_of_squares);
   }
 
   double side_;
@@ -88,13 +99,13 @@ void random_discs(const TableSpec& spec, Table& table) {
   const ExactNumber& radius_number = number(spec, "radius");
   const double radius = size_of(radius_number, "radius");
   const ExactNumber& count_number = number(spec, "count");
-  const std::uint64_t count = whole_number(count_number, 1, most_discs);
-  const std::uint64_t seed = whole_number(number_or(spec, "seed", "1"), 0, 0x1p53);
+  const std::uint64_t count = whole_number_from(count_number, 1, most_discs);
+  const std::uint64_t seed = whole_number_from(number_or(spec, "seed", "1"), 0, most_seed);
   if (!(4 * radius < side)) {
     throw InputError(radius_number.place(), "the discs are too large for the square", "radius < side/4");
   }
   // Between walls a disc keeps off them by the margin that it keeps from others.
-  const double margin = spec.torus ? 0.0 : radius + 8.0 * 0x1p-53 * side;
+  const double margin = spec.torus ? 0.0 : radius + rounding * side;
   Arrangement arrangement(side, radius, count, spec.torus);
   for (std::uint64_t disc = 0; disc < count; ++disc) {
     RandomStream random(seed, Purpose::arrangement, disc);

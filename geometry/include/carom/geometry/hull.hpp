@@ -1,0 +1,29 @@
+// The smallest box around others.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "carom/geometry/curve.hpp"
+
+namespace carom::geometry {
+
+inline Box hull(const Box& a, const Box& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+inline Box hull(const Box& box, Vector point) { return hull(box, Box{point, point}); }
+
+/// Of the boxes of all elements of a list that is not empty; `box_of(element)` is a box.
+template <class List, class BoxOf>
+Box hull_of(const List& list, BoxOf box_of) {
+  Box whole = box_of(*std::begin(list));
+  for (const auto& element : list) whole = hull(whole, box_of(element));
+  return whole;
+}
+inline Box hull_of(const std::vector<Box>& boxes) {
+  return hull_of(boxes, [](const Box& box) { return box; });
+}
+
+}  // namespace carom::geometry
