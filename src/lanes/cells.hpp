@@ -15,59 +15,101 @@ INLINE Vector seen_from(const LaneTable& t, const Vector& start, const CellOf& c
           start.y - (cell.first * t.lattice_y[0] + cell.second * t.lattice_y[1])};
 }
 
-/// One disc alone, without holes: a line from outside meets it ahead exactly if it cuts it and comes nearer. The
-/// line passes its centre at `aside` and meets it `ahead`, both times the speed.
-INLINE Choice meets_disc(const View& f, const Real& aside, const Real& ahead) {
-  const Real discriminant = fused(Real(f.table.second_number[0]), f.square_speed, -(aside * aside));
-  const Mask stands = f.start_wall == Real(0.0);
-  const Mask leaves = !stands && ahead > f.sides && discriminant > f.roots;
-  Real piece(-1.0);
-  where(leaves, piece) = Real(0.0);
-  return {piece, leaves || stands || ahead < -f.sides || discriminant < -f.roots, Real(0.0)};
+/// As seen from a cell of the lattice.
+INLINE void look_from(View& f, const CellOf& cell) {
+  const Mask home = cell.first == 0.0 && cell.second == 0.0;
+  f.origin = seen_from(f.table, f.origin, cell);
+  f.start_wall = choose(home, f.start_wall, Real(-1.0));
+  f.start_piece = choose(home, f.start_piece, Real(-1.0));
 }
 
+/// The edge of the cell by which each line leaves it: between a corner on the right and the next one on the left.
+struct Exit {
+  Real edge;
+  Mask certain;
+};
+INLINE Exit exit_of_cell(const LaneTable& t, const Real& sides, const auto& side_of_corner) {
+  Real edge(-1.0);
+  const Real first = side_of_corner(0);
+  Real least = first;
+  const Mask first_right = first < 0.0;
+  Mask right = first_right;
+  for (int i = 1; i < t.edges; ++i) {
+    const Real side = side_of_corner(i);
+    least = least_size(least, side);
+    const Mask now = side < 0.0;
+    where(right && !now, edge) = Real(counted[i - 1]);
+    right = now;
+  }
+  where(right && !first_right, edge) = Real(counted[t.edges - 1]);
+  return {edge, abs(least) > sides && edge >= 0.0};
+}
+
+/// Into the cell beyond that edge.
+INLINE void go_beyond(const LaneTable& t, const Real& edge, const Mask& crosses, CellOf& cell) {
+  const Real beyond = max(edge, Real(0.0));
+  where(crosses, cell.first) = cell.first + look_up<Reach::eight>(t.beyond_first, beyond);
+  where(crosses, cell.second) = cell.second + look_up<Reach::eight>(t.beyond_second, beyond);
+}
+/// What is rounded in a translation grows with the cells.
+INLINE Mask near(const CellOf& cell) { return abs(cell.first) + abs(cell.second) <= LaneTable::farthest_cell; }
+
 /// Follows the flights over a few edges: who meets a disc stays in its cell. The piece is -1 for those still on
-/// their way; `f` is left as seen from the cell.
-INLINE Choice first_in_cells(View& f, CellOf& cell) {
+/// their way.
+INLINE Choice first_in_cells(View f, CellOf& cell) {
   const LaneTable& t = f.table;
-  const Vector start = f.origin;
-  const Real wall = f.start_wall, piece = f.start_piece;
-  const Real none(-1.0);
-  Choice found{none, Mask(true), Real(0.0)};
+  const View start = f;
+  Choice found{Real(-1.0), Mask(true), Real(0.0)};
   Mask under_way(true);
   for (int step = 0;; ++step) {
-    f.origin = seen_from(t, start, cell);
-    const Mask home = cell.first == 0.0 && cell.second == 0.0;
-    f.start_wall = choose(home, wall, none);
-    f.start_piece = choose(home, piece, none);
-    const Line line(f);
-    const Vector e{t.point_x[0] - f.origin.x, t.point_y[0] - f.origin.y};
-    const Choice disc = t.pieces == 1 ? meets_disc(f, cross(f.velocity, e), dot(f.velocity, e)) : first_of_all(f);
+    f.origin = start.origin;
+    f.start_wall = start.start_wall;
+    f.start_piece = start.start_piece;
+    look_from(f, cell);
+    const Choice disc = first_of_all(f);
     where(under_way, found.piece) = disc.piece;
     found.decided = found.decided && (!under_way || disc.decided);
     under_way = under_way && disc.decided && disc.piece < 0.0;
     if (step == t.steps || !any_of(under_way)) return found;
+    const Line line(f);
+    const Exit exit = exit_of_cell(t, f.sides, [&](int i) { return line.side(t.edge_x[i], t.edge_y[i]); });
+    found.decided = found.decided && (!under_way || exit.certain);
+    under_way = under_way && exit.certain;
+    go_beyond(t, exit.edge, under_way, cell);
+    found.decided = found.decided && near(cell);
+  }
+}
 
-    Real edge = none;
-    const Real first = line.side(t.edge_x[0], t.edge_y[0]);
-    Real least = first;
-    const Mask first_right = first < 0.0;
-    Mask right = first_right;
-    for (int i = 1; i < t.edges; ++i) {
-      const Real side = line.side(t.edge_x[i], t.edge_y[i]);
-      least = least_size(least, side);
-      const Mask now = side < 0.0;
-      where(right && !now, edge) = Real(counted[i - 1]);
-      right = now;
-    }
-    where(right && !first_right, edge) = Real(counted[t.edges - 1]);
-    const Mask certain = abs(least) > f.sides && edge >= 0.0;
-    found.decided = found.decided && (!under_way || certain);
-    under_way = under_way && certain;
-    const Real beyond = max(edge, Real(0.0));
-    where(under_way, cell.first) = cell.first + look_up<Reach::eight>(t.beyond_first, beyond);
-    where(under_way, cell.second) = cell.second + look_up<Reach::eight>(t.beyond_second, beyond);
-    // What is rounded in a translation grows with the cells.
-    found.decided = found.decided && abs(cell.first) + abs(cell.second) <= LaneTable::farthest_cell;
+/// The same for one disc without holes: a line from outside meets it ahead exactly if it cuts it and comes nearer. From
+/// cell to cell all signed areas change by one number.
+INLINE Choice only_disc_in_cells(const View& f, CellOf& cell) {
+  const LaneTable& t = f.table;
+  const Line line(f);
+  const Vector v = f.velocity, to_centre{t.point_x[0] - f.origin.x, t.point_y[0] - f.origin.y};
+  const Vector first{Real(t.lattice_x[0]), Real(t.lattice_y[0])}, second{Real(t.lattice_x[1]), Real(t.lattice_y[1])};
+  const Real aside_first = cross(v, first), aside_second = cross(v, second);
+  const Real ahead_first = dot(v, first), ahead_second = dot(v, second);
+  const Real aside_home = cross(v, to_centre), ahead_home = dot(v, to_centre);
+  const Real reach = t.second_number[0] * f.square_speed;
+  Real corners[LaneTable::eight];
+  for (int i = 0; i < t.edges; ++i) corners[i] = line.side(t.edge_x[i], t.edge_y[i]);
+  Mask decided(true), under_way(true), met(false);
+  Mask stands = f.start_wall == 0.0 && cell.first == 0.0 && cell.second == 0.0;
+  for (int step = 0;; ++step) {
+    const Real shift = fused(cell.first, aside_first, cell.second * aside_second);
+    const Real aside = aside_home + shift, ahead = fused(cell.first, ahead_first, fused(cell.second, ahead_second, ahead_home));
+    const Real discriminant = fused(aside, -aside, reach);
+    const Mask meets = under_way && !stands && ahead > f.sides && discriminant > f.roots;
+    const Mask misses = under_way && (stands || ahead < -f.sides || discriminant < -f.roots);
+    met = met || meets;
+    decided = decided && (!under_way || meets || misses);
+    under_way = misses;
+    if (step == t.steps || !any_of(under_way)) return {choose(met, Real(0.0), Real(-1.0)), decided, Real(0.0)};
+    const Exit exit = exit_of_cell(t, f.sides, [&](int i) { return corners[i] + shift; });
+    decided = decided && (!under_way || exit.certain);
+    under_way = under_way && exit.certain;
+    go_beyond(t, exit.edge, under_way, cell);
+    decided = decided && near(cell);
+    stands = Mask(false);
   }
 }

@@ -29,14 +29,6 @@ INLINE View view_of(const LaneTable& t, const LanePack& pack, int lane) {
   return f;
 }
 
-/// As seen from a cell of the lattice.
-INLINE void look_from(View& f, const CellOf& cell) {
-  const Mask home = cell.first == 0.0 && cell.second == 0.0;
-  f.origin = seen_from(f.table, f.origin, cell);
-  f.start_wall = choose(home, f.start_wall, Real(-1.0));
-  f.start_piece = choose(home, f.start_piece, Real(-1.0));
-}
-
 template <class Kind>
 INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   constexpr bool larmor = Kind::turn != 0;
@@ -45,7 +37,7 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
   Real known;
   if constexpr (Kind::cells) {
     CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
-    choice = first_in_cells(f, cell);
+    choice = t.pieces == 1 ? only_disc_in_cells(f, cell) : first_in_cells(f, cell);
     // Those still on their way only change their cell.
     known = choose(choice.piece < 0.0, Real(-1.0), Real(1.0));
     const Mask gone = choice.decided && choice.piece < 0.0;
@@ -75,10 +67,10 @@ INLINE Met met_by(const View& f, const Real& piece) {
   Met met{{of(t.point_x), of(t.point_y)}, of(t.first_number), of(t.second_number),
           Real(0.0), Real(1.0), Real(1.0), Mask(Kind::circles || Kind::ellipses), Mask(Kind::alone)};
   if constexpr (Kind::circles || Kind::ellipses) {
-    met.orientation = of(t.orientation);
     met.into = of(t.into);
+    met.orientation = Kind::convex ? Real(1.0) : of(t.orientation);
     met.strength = of(t.strength);
-    if constexpr (Kind::segments) met.bent = met.orientation != 0.0;
+    if constexpr (Kind::segments) met.bent = Kind::convex ? met.into < 0.0 : met.orientation != 0.0;
   }
   if constexpr (Kind::ellipses) met.ellipse = ellipse_met_by<Kind>(t, piece);
   if constexpr (!Kind::alone && (Kind::circles || Kind::ellipses || Kind::convex || Kind::turn != 0)) met.stands = (t.divided ? of(t.wall) : piece) == f.start_wall;
