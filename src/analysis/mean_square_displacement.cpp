@@ -86,12 +86,16 @@ void DisplacementSums::add(std::uint64_t trajectory, std::size_t k, double squar
 
 void DisplacementSums::merge(const DisplacementSums& other) {
   if (other.times_ != times_) throw InternalError("merged ensembles differ in their times");
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    if (other.sums_[i].count == 0) continue;
-    sums_[i].count += other.sums_[i].count;
-    sums_[i].square.merge(other.sums_[i].square);
-    sums_[i].fourth.merge(other.sums_[i].fourth);
-  }
+  for (std::size_t group = 0; group < groups && !times_.empty(); ++group)
+    for (std::size_t k = 0; k < times_.size(); ++k) merge(group, k, other.of(group, k));
+}
+
+void DisplacementSums::merge(std::size_t group, std::size_t k, const Sum& other) {
+  if (other.count == 0) return;
+  Sum& sum = sums_[group * times_.size() + k];
+  sum.count += other.count;
+  sum.square.merge(other.square);
+  sum.fourth.merge(other.fourth);
 }
 
 DisplacementMoments::DisplacementMoments(const DisplacementSums& sums) : times_(sums.times()) {

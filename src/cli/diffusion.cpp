@@ -47,7 +47,7 @@ int diffusion(const Options& options) {
   const DiffusionSummary summary = summary_of(system, result);
   if (archive) archive->finish(result, summary.points, status);
 
-  for (const std::string& report : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
+  for (const auto& [index, report] : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
   print(options.json ? diffusion_json(system, result, summary, status, options.output).text() + "\n"
                      : diffusion_text(system, result, summary, options.output));
   if (result.lost > 0) return lost;

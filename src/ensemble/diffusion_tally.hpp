@@ -1,92 +1,75 @@
-// What threads add up in a diffusion run.
+// How a trajectory is added to the result of a diffusion run.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "carom/base/digest.hpp"
 #include "carom/ensemble/diffusion.hpp"
+#include "ensemble/ensemble_run.hpp"
 
 namespace carom {
 
-struct DiffusionTally {
-  static constexpr std::size_t most_reports = 5;
+/// A particle of a trajectory: its number, how and when it ended, and |r - r(0)|^2 at the report times it reached.
+struct DiffusingParticle {
+  std::uint64_t number = 0;
+  Fate fate = Fate::survived;
+  double time = 0.0;
+  std::uint64_t hits = 0;
+  int last_wall = -1;
+  const std::vector<double>* squares = nullptr;
+  std::string report;
+};
 
-  explicit DiffusionTally(const System& system) { sums = DisplacementSums(system.run.times); }
+/// Adds whole trajectories to what a thread of the run has done.
+class DiffusionTally {
+ public:
+  using Thread = EnsembleRun<DiffusionResult>::Thread;
+  explicit DiffusionTally(Thread& thread) : thread_(thread) {}
 
-  /// A particle's trajectory: its number, how and when it ended, and |r - r(0)|^2 at the report times it
-  /// reached.
-  struct Trajectory {
-    std::uint64_t trajectory = 0, number = 0;
-    Fate fate = Fate::survived;
-    double time = 0.0;
+  bool stopped() const { return thread_.stopped(); }
+
+  /// `energy_change`: of its particles together.
+  void add(std::uint64_t trajectory, const std::vector<DiffusingParticle>& particles, double energy_change,
+           const DecisionCounts& decisions) {
     std::uint64_t hits = 0;
-    int last_wall = -1;
-  };
-  void add(const Trajectory& t, const std::vector<double>& squares, const std::string& report) {
-    count(t.fate);
-    for (std::size_t k = 0; k < squares.size(); ++k) sums.add(t.trajectory, k, squares[k]);
-    result.collisions += t.hits;
-    result.digest +=
-        trajectory_hash(t.number, static_cast<std::uint64_t>(t.fate), t.time, t.hits, t.last_wall);
-    if (t.fate == Fate::lost && reports.size() < most_reports) reports.emplace_back(t.number, report);
+    const TrajectoryRange range{trajectory, trajectory + 1};
+    thread_.deliver(range, [&](DiffusionResult& sum) {
+      for (const DiffusingParticle& p : particles) {
+        add_to(sum, trajectory, p);
+        hits += p.hits;
+      }
+      sum.energy_change = std::max(sum.energy_change, energy_change);
+      sum.decisions += decisions;
+      sum.done.add(range);
+    });
+    thread_.report(1, hits);
   }
-  void change_of_energy(double change) { result.energy_change = std::max(result.energy_change, change); }
-
-  void merge(const DiffusionTally& other) {
-    sums.merge(other.sums);
-    const DiffusionResult& r = other.result;
-    result.trajectories += r.trajectories;
-    result.survived += r.survived;
-    result.pinned += r.pinned;
-    result.escaped += r.escaped;
-    result.singular += r.singular;
-    result.unbounded += r.unbounded;
-    result.capped += r.capped;
-    result.lost += r.lost;
-    result.collisions += r.collisions;
-    result.energy_change = std::max(result.energy_change, r.energy_change);
-    result.digest += r.digest;
-    result.decisions += r.decisions;
-    reports.insert(reports.end(), other.reports.begin(), other.reports.end());
-    std::sort(reports.begin(), reports.end());
-    if (reports.size() > most_reports) reports.resize(most_reports);
-  }
-
-  DisplacementSums sums;
-  DiffusionResult result;  ///< its counts alone
-  std::vector<std::pair<std::uint64_t, std::string>> reports;
 
  private:
-  void count(Fate fate) {
-    ++result.trajectories;
+  static void add_to(DiffusionResult& sum, std::uint64_t trajectory, const DiffusingParticle& p) {
+    count(sum, p.fate);
+    for (std::size_t k = 0; k < p.squares->size(); ++k) sum.sums.add(trajectory, k, (*p.squares)[k]);
+    sum.collisions += p.hits;
+    sum.digest += trajectory_hash(p.number, static_cast<std::uint64_t>(p.fate), p.time, p.hits, p.last_wall);
+    if (p.fate == Fate::lost && sum.reports.size() < EnsembleResult::most_reports) sum.reports.emplace_back(p.number, p.report);
+  }
+  static void count(DiffusionResult& sum, Fate fate) {
+    ++sum.trajectories;
     switch (fate) {
-      case Fate::survived:
-        ++result.survived;
-        break;
-      case Fate::pinned:
-        ++result.survived, ++result.pinned;
-        break;
-      case Fate::capped:
-        ++result.capped;
-        break;
-      case Fate::escaped:
-        ++result.escaped;
-        break;
-      case Fate::singular:
-        ++result.singular;
-        break;
-      case Fate::unbounded:
-        ++result.unbounded;
-        break;
-      case Fate::lost:
-        ++result.lost;
-        break;
+      case Fate::survived: ++sum.survived; break;
+      case Fate::pinned: ++sum.survived, ++sum.pinned; break;
+      case Fate::capped: ++sum.capped; break;
+      case Fate::escaped: ++sum.escaped; break;
+      case Fate::singular: ++sum.singular; break;
+      case Fate::unbounded: ++sum.unbounded; break;
+      case Fate::lost: ++sum.lost; break;
     }
   }
+
+  Thread& thread_;
 };
 
 }  // namespace carom

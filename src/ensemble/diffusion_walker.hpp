@@ -25,24 +25,23 @@ inline double square_of_displacement(const System& system, const State& start, c
 /// Runs trajectories one by one in one thread and listens to their samples.
 class DiffusionWalker : public Observer {
  public:
-  DiffusionWalker(const System& system, const Sampler& sampler, DecisionOptions decisions,
-                  std::function<void(std::uint64_t)> done)
-      : tally(system),
+  DiffusionWalker(const System& system, const Sampler& sampler, DecisionOptions decisions, DiffusionTally tally)
+      : tally_(tally),
         system_(system),
         sampler_(sampler),
         world_(*system.table, system.dynamics, decisions),
         starts_(system.particles.size()),
         squares_(system.particles.size()),
-        ends_(system.particles.size()),
-        done_(std::move(done)) {
+        ends_(system.particles.size()) {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
     world_.sample_at(system.run.times);
   }
 
-  bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
-    for (std::uint64_t trajectory = first; trajectory < end; ++trajectory) {
+  /// False when stopped on the way.
+  bool run(TrajectoryRange range) {
+    const std::function<bool()> stopped = [this] { return tally_.stopped(); };
+    for (std::uint64_t trajectory = range.first; trajectory < range.last; ++trajectory) {
       if (stopped()) return false;
-      trajectory_ = trajectory;
       const int particles = static_cast<int>(system_.particles.size());
       world_.clear();
       add_starts(world_, sampler_, trajectory);
@@ -55,10 +54,9 @@ class DiffusionWalker : public Observer {
       const double energy = forces ? energy_now() : 0.0;
       world_.run_until(system_.run.times.back(), *this, stopped);
       if (stopped()) return false;
-      if (forces && everybody_is_left()) tally.change_of_energy(std::fabs(energy_now() - energy));
-      std::uint64_t hits = 0;
-      for (int p = 0; p < particles; ++p) hits += finish(p);
-      if (done_) done_(hits);
+      const double change = forces && everybody_is_left() ? std::fabs(energy_now() - energy) : 0.0;
+      const DecisionCounts now = world_.decisions();
+      tally_.add(trajectory, all_of(trajectory), change, now - std::exchange(decisions_, now));
     }
     return true;
   }
@@ -74,10 +72,7 @@ class DiffusionWalker : public Observer {
       ends_[index(event.particle)] = {event.fate, event.time.value()};
   }
 
-  void close() { tally.result.decisions = world_.decisions(); }
   const World& world() const { return world_; }
-
-  DiffusionTally tally;
 
  private:
   struct End {
@@ -95,24 +90,25 @@ class DiffusionWalker : public Observer {
     return std::all_of(ends_.begin(), ends_.end(), [](const End& e) { return e.fate == Fate::survived; });
   }
 
-  std::uint64_t finish(int particle) {
-    const std::uint64_t number =
-        trajectory_ * system_.particles.size() + static_cast<std::uint64_t>(particle);
-    const End& end = ends_[index(particle)];
-    const std::uint64_t hits = world_.hits(particle);
-    tally.add({trajectory_, number, end.fate, end.time, hits, world_.last_wall(particle)},
-              squares_[index(particle)], world_.report(particle));
-    return hits;
+  std::vector<DiffusingParticle> all_of(std::uint64_t trajectory) const {
+    std::vector<DiffusingParticle> all;
+    for (int p = 0; p < world_.size(); ++p) {
+      const End& end = ends_[index(p)];
+      const std::uint64_t number = trajectory * system_.particles.size() + static_cast<std::uint64_t>(p);
+      all.push_back({number, end.fate, end.time, world_.hits(p), world_.last_wall(p), &squares_[index(p)],
+                     end.fate == Fate::lost ? world_.report(p) : std::string()});
+    }
+    return all;
   }
 
+  DiffusionTally tally_;
   const System& system_;
   const Sampler& sampler_;
   World world_;
   std::vector<State> starts_;
   std::vector<std::vector<double>> squares_;  // of the trajectory under way
   std::vector<End> ends_;
-  std::uint64_t trajectory_ = 0;
-  std::function<void(std::uint64_t)> done_;
+  DecisionCounts decisions_;  // that were told
 };
 
 }  // namespace carom

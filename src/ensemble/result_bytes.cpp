@@ -1,5 +1,11 @@
 #include "ensemble/result_bytes.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "carom/base/error.hpp"
+
 namespace carom {
 
 namespace {
@@ -26,6 +32,31 @@ template <class Counts>
 auto numbers_of(Counts& c) {
   return std::vector{&c.trajectories, &c.escaped, &c.survived,   &c.pinned,   &c.capped,   &c.singular,
                      &c.unbounded,    &c.lost,    &c.collisions, &c.contacts, &c.most_hits};
+}
+
+template <class Result>
+auto diffusion_numbers_of(Result& r) {
+  return std::vector{&r.trajectories, &r.survived, &r.pinned, &r.escaped, &r.singular, &r.unbounded,
+                     &r.capped, &r.lost, &r.collisions};
+}
+
+// Most digits of a sum are zero: the others.
+void write_sum(BytesOut& out, const ExactSum& sum) {
+  const auto digits = sum.state();
+  const auto is_something = [](std::int64_t digit) { return digit != 0; };
+  const auto first = std::find_if(digits.begin(), digits.end(), is_something);
+  const auto last = std::find_if(digits.rbegin(), std::make_reverse_iterator(first), is_something).base();
+  out << static_cast<std::int32_t>(first - digits.begin()) << std::vector<std::int64_t>(first, last);
+}
+
+ExactSum read_sum(BytesIn& in) {
+  std::int32_t first = 0;
+  std::vector<std::int64_t> some;
+  in >> first >> some;
+  std::array<std::int64_t, ExactSum::digits> digits{};
+  if (first < 0 || static_cast<std::size_t>(first) + some.size() > digits.size()) throw InternalError("a message holds no sum");
+  std::copy(some.begin(), some.end(), digits.begin() + first);
+  return ExactSum::from_state(digits);
 }
 
 }  // namespace
@@ -56,6 +87,35 @@ void read_bytes(BytesIn& in, EscapeResult& sum) {
   in >> sum.counts.times >> sum.counts.gone_in >> sum.counts.gone_in_hits >> sum.counts.hole_escapes >>
       sum.effort;
   for (std::uint64_t* number : numbers_of(sum.counts)) in >> *number;
+}
+
+void write_bytes(BytesOut& out, const DiffusionResult& result) {
+  write_common(out, result);
+  for (const std::uint64_t* number : diffusion_numbers_of(result)) out << *number;
+  out << result.energy_change;
+  for (std::size_t group = 0; group < DisplacementSums::groups; ++group)
+    for (std::size_t k = 0; k < result.sums.times().size(); ++k) {
+      const DisplacementSums::Sum& sum = result.sums.of(group, k);
+      out << sum.count;
+      if (sum.count == 0) continue;
+      write_sum(out, sum.square);
+      write_sum(out, sum.fourth);
+    }
+}
+
+void read_bytes(BytesIn& in, DiffusionResult& result) {
+  read_common(in, result);
+  for (std::uint64_t* number : diffusion_numbers_of(result)) in >> *number;
+  in >> result.energy_change;
+  for (std::size_t group = 0; group < DisplacementSums::groups; ++group)
+    for (std::size_t k = 0; k < result.sums.times().size(); ++k) {
+      DisplacementSums::Sum sum;
+      in >> sum.count;
+      if (sum.count == 0) continue;
+      sum.square = read_sum(in);
+      sum.fourth = read_sum(in);
+      result.sums.merge(group, k, sum);
+    }
 }
 
 }  // namespace carom

@@ -15,28 +15,25 @@ class SoftWalker {
   static bool suits(const System& system) { return SoftLanes::suits(*system.table, system.dynamics); }
 
   SoftWalker(const System& system, const Sampler& sampler, InstructionSet set, DecisionOptions decisions,
-             std::function<void(std::uint64_t)> done)
+             DiffusionTally tally)
       : system_(system),
         sampler_(sampler),
         lanes_(*system.table, system.dynamics, set),
-        done_(std::move(done)),
-        one_by_one_(system, sampler, decisions, done_) {}
+        tally_(tally),
+        one_by_one_(system, sampler, decisions, tally) {}
 
-  bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end,
-           const std::function<bool()>& stopped) {
-    for (; first < end; first += together)
-      if (stopped() || !run_together(block, first, std::min(end, first + together), stopped)) return false;
+  /// False when stopped on the way.
+  bool run(TrajectoryRange range) {
+    for (; range.first < range.last; range.first += together)
+      if (tally_.stopped() || !run_together(range.first, std::min(range.last, range.first + together))) return false;
     return true;
   }
-
-  void close() { one_by_one_.close(); }
-  DiffusionTally& tally() { return one_by_one_.tally; }
 
  private:
   static constexpr std::uint64_t together = 64;
 
-  bool run_together(std::uint64_t block, std::uint64_t first, std::uint64_t end,
-                    const std::function<bool()>& stopped) {
+  bool run_together(std::uint64_t first, std::uint64_t end) {
+    const std::function<bool()> stopped = [this] { return tally_.stopped(); };
     const std::size_t count = end - first, particles = system_.particles.size();
     const double t_end = system_.run.times.back();
     starts_.resize(count);
@@ -59,16 +56,13 @@ class SoftWalker {
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint64_t trajectory = first + k;
       if (lost_[k]) {
-        if (!one_by_one_.run(block, trajectory, trajectory + 1, stopped)) return false;
+        if (!one_by_one_.run({trajectory, trajectory + 1})) return false;
         continue;
       }
-      for (std::size_t p = 0; p < particles; ++p) {
-        const DiffusionTally::Trajectory t{trajectory, trajectory * particles + p, Fate::survived, t_end, 0,
-                                           -1};
-        tally().add(t, squares_[k * particles + p], {});
-      }
-      tally().change_of_energy(std::fabs(energy_of(ends_[k]) - energy_of(starts_[k])));
-      if (done_) done_(0);
+      std::vector<DiffusingParticle> all;
+      for (std::size_t p = 0; p < particles; ++p)
+        all.push_back({trajectory * particles + p, Fate::survived, t_end, 0, -1, &squares_[k * particles + p], {}});
+      tally_.add(trajectory, all, std::fabs(energy_of(ends_[k]) - energy_of(starts_[k])), {});
     }
     return true;
   }
@@ -80,8 +74,8 @@ class SoftWalker {
   const System& system_;
   const Sampler& sampler_;
   SoftLanes lanes_;
-  std::function<void(std::uint64_t)> done_;
-  DiffusionWalker one_by_one_;  ///< for those who are lost; its tally is that of all
+  DiffusionTally tally_;
+  DiffusionWalker one_by_one_;  ///< for those who are lost
   std::vector<std::vector<State>> starts_, ends_;
   std::vector<std::vector<double>> squares_;
   std::vector<SoftLanes::Walk> walks_;

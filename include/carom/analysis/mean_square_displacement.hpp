@@ -37,6 +37,8 @@ class DisplacementSums {
     ExactSum square, fourth;
   };
   const Sum& of(std::size_t group, std::size_t k) const { return sums_[group * times_.size() + k]; }
+  /// Adds what was kept of one group at t_k.
+  void merge(std::size_t group, std::size_t k, const Sum& other);
 
  private:
   std::vector<double> times_;

@@ -1,18 +1,14 @@
 // Diffusion of an ensemble of independent trajectories.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "carom/analysis/mean_square_displacement.hpp"
+#include "carom/ensemble/parts.hpp"
 #include "carom/ensemble/system.hpp"
-#include "carom/events/decisions.hpp"
 #include "carom/geometry/corridors.hpp"
-#include "carom/lanes/instruction_set.hpp"
 
 namespace carom {
 
@@ -33,34 +29,23 @@ Horizon horizon_of(const System&);
 /// Why there is no D, as a phrase; "" where there is one.
 std::string no_diffusion(const Horizon&);
 
-/// How to run, without influence on the result.
-struct DiffusionOptions {
-  int threads = 0;             ///< 0: as many as OpenMP gives
-  std::uint64_t block = 1024;  ///< trajectories a block; the result does not depend on it
-  DecisionOptions decisions;
-  /// Instruction set of the lanes that independent particles under forces are stepped in; empty: one by one.
-  std::optional<InstructionSet> lanes = widest_instruction_set();
-  const std::atomic<bool>* interrupted = nullptr;
-  /// Called now and then from one thread at a time with the trajectories done so far.
-  std::function<void(std::uint64_t done, std::uint64_t hits)> progress;
-};
-
-/// What a diffusion run adds up.
-struct DiffusionResult {
+/// What a diffusion run adds up; of an interrupted one, whole trajectories.
+struct DiffusionResult : EnsembleResult {
   DisplacementSums sums;
   /// Particles of all trajectories by how they ended before the last report time.
   std::uint64_t trajectories = 0, survived = 0, pinned = 0, escaped = 0, singular = 0, unbounded = 0,
                 capped = 0, lost = 0;
   std::uint64_t collisions = 0;
   double energy_change = 0.0;  ///< with forces: the largest of a trajectory from its start to its end
-  std::uint64_t digest = 0;
-  DecisionCounts decisions;
-  std::optional<InstructionSet> lanes;  ///< that were used; empty: one by one
-  bool complete = true;
-  double seconds = 0, cpu_seconds = 0;
-  int threads = 1;
-  std::vector<std::string> reports;  ///< first few states that were lost
+
+  /// Adds another part of the same ensemble. In any order the sum is the same, bit for bit. False, and no change,
+  /// where a trajectory is in both.
+  bool add(const DiffusionResult& other);
 };
+
+using DiffusionJournal = EnsembleJournal<DiffusionResult>;
+/// `lanes`: those that independent particles under forces are stepped in.
+using DiffusionOptions = EnsembleOptions<DiffusionResult>;
 
 /// Runs trajectories until the last report time and sums their displacements in the plane: whole cells
 /// are subtracted as integers. A particle that ends earlier counts at the times before.
