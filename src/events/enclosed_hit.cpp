@@ -66,6 +66,18 @@ void HitFinder::find_enclosure(bool complement) {
   enclosure_rounding_ = 4.1 * unit_roundoff * enclosure_.diameter();
 }
 
+bool HitFinder::surely_inside(Vector point) const {
+  if (enclosure_.size() < 3) return false;
+  for (int i = 0; i < enclosure_size_; ++i) {
+    const PreparedCurve& w = curves_[at(i)];
+    const Vector chord = w.to - w.from, e = point - w.from;
+    // Each coordinate of e and chord errs by enclosure_rounding_ and its own last digit; products and difference 2u.
+    const double bound = (norm_1(chord) + norm_1(e)) * enclosure_rounding_ + 4.1 * unit_roundoff * norm_1(chord) * norm_1(e);
+    if (!(geometry::cross(chord, e) > options_.filter_inflation * bound)) return false;
+  }
+  return true;
+}
+
 /// A line leaves a convex region once: between a joint on its right and the next one on its left, or, with
 /// all joints on one side, through the arc that it stands on. -1: not decided.
 [[gnu::always_inline]] inline int HitFinder::exit_of_enclosure(const Flight& f, Vector origin,

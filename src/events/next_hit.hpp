@@ -77,6 +77,9 @@ class HitFinder {
     return ahead;
   }
 
+  /// Certainly inside: in a convex table on the left of the chords of all walls, beyond rounding. False: not known.
+  bool surely_inside(geometry::Vector point) const;
+
   /// Follows the flight over the edge that `ahead` names.
   void cross(Flight& flight, const Ahead& ahead) const;
 

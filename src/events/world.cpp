@@ -358,6 +358,7 @@ const DecisionCounts& World::decisions() const { return implementation_->counts;
 const std::string& World::report(int p) const { return body(implementation_->bodies, p).report; }
 
 bool World::Implementation::contains(Vector point) {
+  if (finder.surely_inside(point)) return true;
   if (!locator) locator = std::make_unique<Locator>(contacts ? finder.table() : table);
   return locator->contains(point);
 }

@@ -31,7 +31,7 @@ INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& 
 }
 
 template <class Kind>
-INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, const Real& end, int lane) {
+INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real& end, int lane) {
   constexpr bool larmor = Kind::turn != 0;
   View f = view_of<Kind>(t, pack, lane);
   if constexpr (Kind::cells) look_from(f, {load(stages.cell_first + lane), load(stages.cell_second + lane)});
@@ -125,19 +125,23 @@ INLINE void land(const LaneTable& t, LanePack& pack, const Stages& stages, const
     store_some(pack, lane, now, applies);
   }
 
-  const Mask gone = known < 0.0, over = high >= end, escaped = hole >= 0.0;  // over, or there to the last digit
+  const Mask over = high >= end, escaped = hole >= 0.0;  // over, or there to the last digit
   Mask calls = load(pack.active + lane) > 0.0 && !applies;
-  if constexpr (Kind::cells) calls = calls && !gone;
-  if (any_of(calls)) [[unlikely]] {
-    decided = decided && (escaped || over || inward) && duration < __builtin_huge_val();
-    for (int i = 0; i < width; ++i) {
-      if (!lane_of(calls, i)) continue;
-      pack.met[pack.calls] = {lane_of(piece, i), lane_of(high, i), lane_of(low, i)};
-      pack.lane[pack.calls] = lane + i;
-      pack.call[pack.calls++] = lane_of(gone, i)       ? Call::unbounded
-                                : !lane_of(decided, i) ? Call::undecided
-                                : lane_of(over, i)     ? Call::over
-                                                       : Call::escaped;
-    }
+  if constexpr (Kind::cells) calls = calls && !(known < 0.0);
+  unsigned waiting = bits_of(calls);
+  if (waiting == 0) return;
+  store(high, stages.high + lane);
+  store(low, stages.low + lane);
+  const unsigned gone = bits_of(known < 0.0), ends = bits_of(over),
+                 certain = bits_of(decided && (escaped || over || inward) && duration < __builtin_huge_val());
+  for (; waiting != 0; waiting &= waiting - 1) {
+    const int i = __builtin_ctz(waiting), at = lane + i;
+    const unsigned bit = 1u << i;
+    pack.met[pack.calls] = {stages.piece[at], stages.high[at], stages.low[at]};
+    pack.lane[pack.calls] = at;
+    pack.call[pack.calls++] = (gone & bit) != 0      ? Call::unbounded
+                              : (certain & bit) == 0 ? Call::undecided
+                              : (ends & bit) != 0    ? Call::over
+                                                     : Call::escaped;
   }
 }

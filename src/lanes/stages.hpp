@@ -10,6 +10,7 @@ struct Stages {
   double kappa[LanePack::lanes];  ///< of Larmor circles
   double duration[LanePack::lanes];  ///< not a number: undecided
   double cell_first[LanePack::lanes], cell_second[LanePack::lanes];
+  double high[LanePack::lanes], low[LanePack::lanes];  ///< time there, of those that wait for an answer
 };
 
 /// The flights from their last hits.

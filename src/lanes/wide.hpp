@@ -12,8 +12,19 @@ INLINE Real choose(const Mask& condition, const Real& yes, const Real& no) {
 }
 using simd::where;  // where(condition, x) = value: in those lanes alone
 
-/// A number or the truth of one lane.
-INLINE auto lane_of(const auto& x, int lane) { return x[static_cast<std::size_t>(lane)]; }
+/// One bit a lane, the first one's lowest.
+INLINE unsigned bits_of(const Mask& mask) {
+  const Real signs = choose(mask, Real(-1.0), Real(1.0));
+#if defined(__AVX512F__)
+  return _mm512_movepi64_mask(_mm512_castpd_si512(static_cast<__m512d>(signs)));
+#elif defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_pd(static_cast<__m256d>(signs)));
+#else
+  unsigned bits = 0;
+  for (int lane = 0; lane < width; ++lane) bits |= static_cast<unsigned>(signs[static_cast<std::size_t>(lane)] < 0.0) << lane;
+  return bits;
+#endif
+}
 
 /// 0, 1, 2 …: numbers of pieces.
 alignas(64) constexpr double counted[64] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
