@@ -25,17 +25,17 @@ namespace simd = std::experimental;
 #include "lanes/wide.hpp"
 using Vector = geometry::BasicVector<Real>;
 
-// A sign is certain if the number is beyond this share of its largest size, an order of two times beyond
-// that of theirs: far more than what rounding does (docs/developer/lanes.md), yet met once in 10^6 hits.
+// A sign is certain if the number is beyond this share of its largest size: far more than what rounding does
+// (docs/developer/lanes.md). Where times are compared, joints keep farther from the line.
 constexpr double sign_margin = 0x1p-36;
-constexpr double order_margin = 0x1p-22;
+constexpr double joint_margin = 0x1p-21;
 
 /// A pack's flights from their last hits.
 struct View {
   const LaneTable& table;
   Vector origin, velocity;
   Real start_piece, start_wall, speed, square_speed;
-  Real sides, roots;  // margins, as in LanePack
+  Real sides, roots, order;  // margins, as in LanePack
   // Of Larmor circles.
   Real omega, inverse_half, pace, joint_margin;
 };

@@ -29,7 +29,8 @@ struct LanePack {
   // Constants of its particle.
   double speed[lanes] = {}, square_speed[lanes] = {}, energy_weight[lanes] = {};
   double sides[lanes] = {};                  ///< margins of signs of the sizes size * speed …
-  double roots[lanes] = {};                  ///< … and of its square
+  double roots[lanes] = {};                  ///< … and of its square;
+  double order[lanes] = {};                  ///< of two times
   double omega[lanes] = {};
   double inverse_half[lanes] = {};           ///< 1/|omega/2|
   double pace[lanes] = {};                   ///< power of two beyond speed + |omega| size

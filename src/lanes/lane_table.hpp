@@ -50,6 +50,7 @@ struct LaneTable {
   double edge_x[eight] = {}, edge_y[eight] = {}, beyond_first[eight] = {}, beyond_second[eight] = {};
   double lattice_x[2] = {}, lattice_y[2] = {};
 
+  double order_margin = 0x1p-22;  ///< of two times, in sizes over the speed
   double size = 0.0;  ///< the length by which every margin is measured: a power of two (make_lane_table.cpp)
 };
 

@@ -233,6 +233,7 @@ class LaneWorld::Implementation {
     pack.square_speed[lane] = p.speed * p.speed;
     pack.energy_weight[lane] = 0.75 / (p.speed * p.speed);
     pack.sides[lane] = 0x1p-36 * pieces.size * p.speed;
+    pack.order[lane] = pieces.order_margin * pieces.size / p.speed;
     pack.roots[lane] = pack.sides[lane] * pieces.size * p.speed;
     if (turn != Turn::straight) {
       const double turned = std::fabs(p.omega) * pieces.size, pace = p.speed + turned;

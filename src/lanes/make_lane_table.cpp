@@ -49,6 +49,8 @@ void add_ellipse(LaneTable& t, const PreparedCurve& w, int i) {
   all.second_x[i] = w.second_axis.x;
   all.second_y[i] = w.second_axis.y;
   all.shrink[i] = 1.0 / (row * row);
+  // The form of the velocity, by which a time is divided, may be less than a circle's by the square of the axes' ratio.
+  t.order_margin = std::max(t.order_margin, 0x1p-22 * (row * largest) * (row * largest));
   // In units of the table's size, which is not complete yet.
   all.off[i] = 0.75 * 0x1p-38 / largest;
   all.at_start[i] = t.closed[i] ? 0x1p-36 * row : 0.0;

@@ -18,7 +18,7 @@ template <class Kind>
 INLINE View view_of(const LaneTable& t, const LanePack& pack, int lane) {
   View f{t, {load(pack.x + lane), load(pack.y + lane)}, {load(pack.vx + lane), load(pack.vy + lane)},
          load(pack.piece + lane), Real(0.0), load(pack.speed + lane), load(pack.square_speed + lane),
-         load(pack.sides + lane), load(pack.roots + lane), Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
+         load(pack.sides + lane), load(pack.roots + lane), load(pack.order + lane), Real(0.0), Real(0.0), Real(0.0), Real(0.0)};
   if constexpr (Kind::turn != 0) {
     f.omega = load(pack.omega + lane);
     f.inverse_half = load(pack.inverse_half + lane);

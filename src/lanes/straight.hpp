@@ -41,29 +41,30 @@ INLINE Choice exit_of_loop(const View& f) {
   return {piece, abs(least) > f.sides && piece >= 0.0, Real(0.0)};
 }
 
-/// Any table: the earliest of all exits, compared as fractions.
+/// Any table: the earliest of all exits, and whether it comes certainly first and later than now.
 class Earliest {
  public:
-  explicit Earliest(const View& f)
-      : decided_(true), piece_(-1.0), time_(1.0), unit_(0.0), times_((order_margin * f.table.size) * f.table.size * f.table.size * f.speed) {}
+  INLINE explicit Earliest(const View& f)
+      : decided_(true), piece_(-1.0), best_(never), second_(never), margin_(f.order) {}
 
-  /// `time`/`unit`, of the sizes size^2 and size * speed.
+  /// After `time`/`unit`.
   INLINE void add(int piece, const Mask& leaves, const Real& time, const Real& unit) {
-    // The first one meets 1/0: never later.
-    const Real gap = fused(time, unit_, -(time_ * unit));
-    const Mask better = leaves && gap < 0.0;
-    decided_ = decided_ && !(leaves && abs(gap) <= times_ && piece_ >= 0.0);
-    where(better, time_) = time;
-    where(better, unit_) = unit;
-    where(better, piece_) = Real(counted[piece]);
+    Real at = time / unit;
+    where(!(leaves && at > -margin_), at) = never;
+    second_ = min(second_, max(best_, at));
+    where(at < best_, piece_) = Real(counted[piece]);
+    best_ = min(best_, at);
   }
   INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
-  INLINE Choice choice() const { return {piece_, decided_, Real(0.0)}; }  // below 0: none
+  INLINE Choice choice() const {  // below 0: none
+    return {piece_, decided_ && !(best_ <= margin_) && !(second_ - best_ <= margin_), Real(0.0)};
+  }
 
  private:
+  static constexpr double never = __builtin_huge_val();
   Mask decided_;
-  Real piece_, time_, unit_;
-  Real times_;  // margin
+  Real piece_, best_, second_;
+  Real margin_;  // of two times
 };
 
 /// A conic or an arc of it, between joints of which each lies on the right of the line or not. `form`: its quadratic, of
@@ -102,8 +103,7 @@ INLINE void add_conic(Earliest& best, const View& f, const Line& line, int i, co
     where(stands, root) = abs(q);
     const Real n = abs(q) + root;
     const Mask away = q >= 0.0 && !stands;
-    const Real scale = t.size / f.speed;
-    best.add(i, leaves && certain, choose(away, -p, scale * n), choose(away, n, scale * square));
+    best.add(i, leaves && certain, choose(away, -p, n), choose(away, n, square));
   }
 }
 INLINE geometry::Quadratic<Real> form_of_circle(const View& f, int i) {
@@ -138,14 +138,12 @@ INLINE Choice first_of_all(const View& f) {
         add_conic(best, f, line, i, &a, &b, form_of(i));
       } else {
         const Mask crosses = a.right && !b.right;
-        const Real time = line.cross_of_ends(t, i), squares = sign_margin * t.size * t.size;
-        best.doubt(crosses && abs(time) <= squares);
-        best.add(i, crosses && time > squares, time, b.side - a.side);
+        best.add(i, crosses, line.cross_of_ends(t, i), b.side - a.side);
       }
       a = b;
     }
   }
-  best.doubt(least <= f.sides);
+  best.doubt(least <= joint_margin / sign_margin * f.sides);
   return best.choice();
 }
 
