@@ -19,14 +19,14 @@ INLINE MetEllipse ellipse_met_by(const LaneTable& t, const Real& piece) {
   return met;
 }
 
-/// The form of piece i, shrunk.
-INLINE geometry::Quadratic<Real> form_of_ellipse(const View& f, int i) {
+/// The same of an ellipse, its form shrunk.
+INLINE Cut cut_of_ellipse(const View& f, int i) {
   const LaneTable& t = f.table;
   const auto& all = t.ellipses;
   const Real shrink(all.shrink[i]);
   const auto q = geometry::ellipse_quadratic(f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])}, f.velocity,
                                              {Real(all.axis_x[i]), Real(all.axis_y[i])}, Real(all.along[i]), Real(all.across[i]));
-  return {shrink * q.a, shrink * q.b, shrink * q.c};
+  return {shrink * q.b, shrink * q.c, (shrink * shrink) * fused(q.b, q.b, -(q.a * q.c))};
 }
 
 /// Time of the flight to an ellipse, as a fraction.

@@ -54,6 +54,11 @@ INLINE Real number_of(const double* numbers, const Real& piece) {
   return look_up<Kind::reach>(numbers, piece);
 }
 
+/// Where a line meets a conic: at (-along ± root of `discriminant`) / square.
+struct Cut {
+  Real along, square, discriminant;
+};
+
 #include "lanes/ellipse.hpp"
 
 /// What is needed of that piece.

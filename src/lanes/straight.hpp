@@ -13,6 +13,10 @@ struct Line {
       : f(view), x(f.velocity.x), minus_y(-f.velocity.y), offset(-cross(f.velocity, f.origin)) {}
   /// v x (point - origin).
   INLINE Real side(double px, double py) const { return fused(x, Real(py), fused(minus_y, Real(px), offset)); }
+  /// v . (point - origin).
+  INLINE Real ahead(double px, double py) const {
+    return fused(x, Real(px), fused(f.velocity.y, Real(py), -dot(f.velocity, f.origin)));
+  }
   /// (A - origin) x (B - origin), the ends of a piece with joints.
   INLINE Real cross_of_ends(const LaneTable& t, int i) const {
     return fused(f.origin.y, Real(t.along_x[i]), fused(f.origin.x, Real(t.back_y[i]), Real(t.turn[i])));
@@ -67,49 +71,35 @@ class Earliest {
   Real margin_;  // of two times
 };
 
-/// A conic or an arc of it, between joints of which each lies on the right of the line or not. `form`: its quadratic, of
-/// the sizes of a circle's.
+INLINE Cut cut_of_circle(const View& f, const Line& line, int i) {
+  const LaneTable& t = f.table;
+  const Real aside = line.side(t.point_x[i], t.point_y[i]);
+  return {-line.ahead(t.point_x[i], t.point_y[i]), f.square_speed, fused(aside, -aside, t.second_number[i] * f.square_speed)};
+}
+
+/// A conic or an arc of it, between joints of which each lies on the right of the line or not. A particle leaves by the
+/// later cut if the domain is inside, else by the earlier one.
 struct SideOfJoint {
   Real side;
   Mask right;
 };
 INLINE void add_conic(Earliest& best, const View& f, const Line& line, int i, const SideOfJoint* a, const SideOfJoint* b,
-                      const geometry::Quadratic<Real>& form) {
+                      const Cut& cut) {
   const LaneTable& t = f.table;
-  const auto& [p, q, square] = form;
-  const Real discriminant = fused(q, q, -(p * square));
-  const Real squares = sign_margin * t.size * t.size;
-  const Mask stands = f.start_wall == Real(t.wall[i]);
-  Mask leaves(true);
+  const Mask stands = f.start_wall == Real(t.wall[i]), met = cut.discriminant > f.roots;
+  const bool inside = t.orientation[i] > 0.0;
+  Mask leaves = inside ? Mask(true) : !stands;
   if (a) {
-    const Mask once = a->right && !b->right, same = a->right == b->right;
-    const Real foot = fused(square, line.cross_of_ends(t, i), q * (b->side - a->side));
-    const Mask twice = same && !stands && t.orientation[i] * foot < 0.0;
-    best.doubt(same && !stands && abs(foot) <= f.roots && discriminant > -f.roots);
-    leaves = once || twice || (same && f.start_piece == Real(counted[i]));
+    // With both joints on one side: if the foot of the centre lies beyond the chord, on the arc's side; or from the arc.
+    const Mask same = a->right == b->right;
+    const Real foot = fused(cut.square, line.cross_of_ends(t, i), cut.along * (b->side - a->side));
+    best.doubt(same && !stands && abs(foot) <= f.roots && cut.discriminant > -f.roots);
+    const Mask twice = !stands && (inside ? foot < 0.0 : foot > 0.0), own = f.start_piece == Real(counted[i]);
+    leaves = leaves && ((a->right && !b->right) || (same && (inside ? twice || own : twice)));
   }
-  if (t.orientation[i] < 0.0) {
-    leaves = leaves && !stands && discriminant > -f.roots && q < f.sides && p > -squares;
-    const Mask certain = discriminant > f.roots && q < -f.sides && p > squares;
-    best.doubt(leaves && !certain);
-    best.add(i, leaves && certain, p, sqrt(max(discriminant, Real(0.0))) - q);
-  } else {
-    const Mask missed = a ? (!stands && discriminant < -f.roots) : Mask(false);
-    const Mask behind = q > f.sides && p > squares;
-    leaves = leaves && !missed && (stands || !behind);
-    const Mask certain = stands || (discriminant > f.roots && (q < -f.sides || p < -squares));
-    best.doubt(leaves && !certain);
-    Real root = sqrt(max(discriminant, Real(0.0)));
-    where(stands, root) = abs(q);
-    const Real n = abs(q) + root;
-    const Mask away = q >= 0.0 && !stands;
-    best.add(i, leaves && certain, choose(away, -p, n), choose(away, n, square));
-  }
-}
-INLINE geometry::Quadratic<Real> form_of_circle(const View& f, int i) {
-  const LaneTable& t = f.table;
-  const Vector e = f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])};
-  return {fused(e.x, e.x, fused(e.y, e.y, Real(-t.second_number[i]))), fused(e.x, f.velocity.x, e.y * f.velocity.y), f.square_speed};
+  best.doubt(leaves && !met && cut.discriminant > -f.roots);
+  const Real root = sqrt(max(cut.discriminant, Real(0.0)));
+  best.add(i, leaves && met, (inside ? root : -root) - cut.along, cut.square);
 }
 
 template <bool ellipses = false>
@@ -117,12 +107,12 @@ INLINE Choice first_of_all(const View& f) {
   const LaneTable& t = f.table;
   Earliest best(f);
   const Line line(f);
-  const auto form_of = [&](int i) { return ellipses && t.ellipses.of[i] ? form_of_ellipse(f, i) : form_of_circle(f, i); };
+  const auto cut_of = [&](int i) { return ellipses && t.ellipses.of[i] ? cut_of_ellipse(f, i) : cut_of_circle(f, line, i); };
   Real least(__builtin_huge_val());
   for (int loop = 0; loop < t.loops; ++loop) {
     const int first = t.first[loop], last = first + t.count[loop] - 1;
     if (t.closed[first]) {
-      add_conic(best, f, line, first, nullptr, nullptr, form_of(first));
+      add_conic(best, f, line, first, nullptr, nullptr, cut_of(first));
       continue;
     }
     const auto joint = [&](int i) {
@@ -135,7 +125,7 @@ INLINE Choice first_of_all(const View& f) {
     for (int i = first; i <= last; ++i) {
       const SideOfJoint b = i == last ? start : joint(i + 1);
       if (t.bent[i]) {
-        add_conic(best, f, line, i, &a, &b, form_of(i));
+        add_conic(best, f, line, i, &a, &b, cut_of(i));
       } else {
         const Mask crosses = a.right && !b.right;
         best.add(i, crosses, line.cross_of_ends(t, i), b.side - a.side);
