@@ -80,36 +80,53 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
   }
 }
 
-/// The same for one disc without holes: a line from outside meets it ahead exactly if it cuts it and comes nearer. From
-/// cell to cell all signed areas change by one number.
-INLINE Choice only_disc_in_cells(const View& f, CellOf& cell) {
+/// The same for one disc without holes, an edge at a time for all lanes: from cell to cell all signed areas of a flight
+/// change by one number. This is what does not change.
+struct Crossings {
+  alignas(64) double corner[LaneTable::eight][LanePack::lanes];  ///< v x corner of the home cell
+  double aside[LanePack::lanes], ahead[LanePack::lanes];         ///< v x and v . its disc's centre
+  double across_first[LanePack::lanes], across_second[LanePack::lanes];  ///< v x and v . the lattice's vectors
+  double along_first[LanePack::lanes], along_second[LanePack::lanes];
+};
+
+/// Who meets the disc of a cell, and who passes it: a line from outside meets it ahead exactly if it cuts it and comes
+/// nearer. 1, -1; 0: not certain.
+INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead) {
+  const Real discriminant = fused(aside, -aside, f.table.second_number[0] * f.square_speed);
+  Real known(0.0);
+  where(ahead < -f.sides || discriminant < -f.roots, known) = Real(-1.0);
+  where(ahead > f.sides && discriminant > f.roots, known) = Real(1.0);
+  return known;
+}
+
+INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, Real& known, int lane) {
   const LaneTable& t = f.table;
   const Line line(f);
-  const Vector v = f.velocity, to_centre{t.point_x[0] - f.origin.x, t.point_y[0] - f.origin.y};
-  const Vector first{Real(t.lattice_x[0]), Real(t.lattice_y[0])}, second{Real(t.lattice_x[1]), Real(t.lattice_y[1])};
-  const Real aside_first = cross(v, first), aside_second = cross(v, second);
-  const Real ahead_first = dot(v, first), ahead_second = dot(v, second);
-  const Real aside_home = cross(v, to_centre), ahead_home = dot(v, to_centre);
-  const Real reach = t.second_number[0] * f.square_speed;
-  Real corners[LaneTable::eight];
-  for (int i = 0; i < t.edges; ++i) corners[i] = line.side(t.edge_x[i], t.edge_y[i]);
-  Mask decided(true), under_way(true), met(false);
-  Mask stands = f.start_wall == 0.0 && cell.first == 0.0 && cell.second == 0.0;
-  for (int step = 0;; ++step) {
-    const Real shift = fused(cell.first, aside_first, cell.second * aside_second);
-    const Real aside = aside_home + shift, ahead = fused(cell.first, ahead_first, fused(cell.second, ahead_second, ahead_home));
-    const Real discriminant = fused(aside, -aside, reach);
-    const Mask meets = under_way && !stands && ahead > f.sides && discriminant > f.roots;
-    const Mask misses = under_way && (stands || ahead < -f.sides || discriminant < -f.roots);
-    met = met || meets;
-    decided = decided && (!under_way || meets || misses);
-    under_way = misses;
-    if (step == t.steps || !any_of(under_way)) return {choose(met, Real(0.0), Real(-1.0)), decided, Real(0.0)};
-    const Exit exit = exit_of_cell(t, f.sides, [&](int i) { return corners[i] + shift; });
-    decided = decided && (!under_way || exit.certain);
-    under_way = under_way && exit.certain;
-    go_beyond(t, exit.edge, under_way, cell);
-    decided = decided && near(cell);
-    stands = Mask(false);
-  }
+  const Vector v = f.velocity, first{Real(t.lattice_x[0]), Real(t.lattice_y[0])}, second{Real(t.lattice_x[1]), Real(t.lattice_y[1])};
+  for (int i = 0; i < t.edges; ++i) store(line.side(t.edge_x[i], t.edge_y[i]), c.corner[i] + lane);
+  const Real aside = line.side(t.point_x[0], t.point_y[0]), ahead = line.ahead(t.point_x[0], t.point_y[0]);
+  store(aside, c.aside + lane);
+  store(ahead, c.ahead + lane);
+  store(cross(v, first), c.across_first + lane);
+  store(cross(v, second), c.across_second + lane);
+  store(dot(v, first), c.along_first + lane);
+  store(dot(v, second), c.along_second + lane);
+  // The disc of this cell was asked for, but by those that begin off it.
+  known = Real(-1.0);
+  const Mask begins = f.start_wall < 0.0 && cell.first == 0.0 && cell.second == 0.0;
+  if (any_of(begins)) [[unlikely]] where(begins, known) = meets_disc(f, aside, ahead);
+}
+
+INLINE void cross_edge(const View& f, CellOf& cell, const Crossings& c, Real& known, int lane) {
+  const LaneTable& t = f.table;
+  const Mask under_way = known < 0.0;
+  const Real across_first = load(c.across_first + lane), across_second = load(c.across_second + lane);
+  const auto shift = [&] { return fused(cell.first, across_first, cell.second * across_second); };
+  const Real before = shift();
+  const Exit exit = exit_of_cell(t, f.sides, [&](int i) { return load(c.corner[i] + lane) + before; });
+  go_beyond(t, exit.edge, under_way, cell);
+  const Real ahead = fused(cell.first, load(c.along_first + lane), fused(cell.second, load(c.along_second + lane), load(c.ahead + lane)));
+  Real after = meets_disc(f, load(c.aside + lane) + shift(), ahead);
+  where(!(exit.certain && near(cell)), after) = Real(0.0);
+  where(under_way, known) = after;
 }

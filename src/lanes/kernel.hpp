@@ -95,7 +95,10 @@ template <class Kind>
 void kernel(const LaneTable& table, LanePack& pack) {
   pack.calls = 0;
   Stages stages;
-  for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
+  if (Kind::cells && table.pieces == 1)
+    choose_cells<Kind>(table, pack, stages);
+  else
+    for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
   if (Kind::turn == 0 || Kind::convex)
     for (int lane = 0; lane < pack.used; lane += width) meet<Kind>(table, pack, stages, lane);
   if (Kind::turn != 0)

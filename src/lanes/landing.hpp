@@ -120,6 +120,10 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
     };
     add(pack.home_first, stages.cell_first);
     add(pack.home_second, stages.cell_second);
+    // Those still on their way only change their cell.
+    const Mask gone = known < 0.0;
+    store(choose(gone, load(stages.cell_first + lane), Real(0.0)), pack.cell_first + lane);
+    store(choose(gone, load(stages.cell_second + lane), Real(0.0)), pack.cell_second + lane);
   } else {
     if (!any_of(!applies)) [[likely]] return store_all(pack, lane, now);
     store_some(pack, lane, now, applies);

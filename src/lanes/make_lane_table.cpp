@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <variant>
 
 namespace carom::lanes {
@@ -117,7 +118,7 @@ bool discs_within_cell(const Table& table) {
 }
 
 /// The cell of a lattice.
-void add_cell(LaneTable& t, const geometry::Lattice& lattice) {
+void add_cell(LaneTable& t, const geometry::Lattice& lattice, double mean_flight) {
   for (const geometry::CellEdge& edge : lattice.edges) {
     const Vector corner = edge.segment.from;
     t.edge_x[t.edges] = corner.x;
@@ -127,6 +128,14 @@ void add_cell(LaneTable& t, const geometry::Lattice& lattice) {
     t.size = std::max(t.size, 4.0 * (std::fabs(corner.x) + std::fabs(corner.y)));
   }
   for (const Vector& v : {lattice.first, lattice.second}) t.size = std::max(t.size, 4.0 * (std::fabs(v.x) + std::fabs(v.y)));
+  // By how many edges the mean flight passes: isotropic lines cross the boundary of a cell perimeter/(pi area) times a length.
+  double perimeter = 0.0;
+  for (const geometry::CellEdge& edge : lattice.edges) {
+    const Vector along = edge.segment.to - edge.segment.from;
+    perimeter += std::sqrt(dot(along, along));
+  }
+  const double passed = mean_flight * perimeter / (std::numbers::pi * geometry::cross(lattice.first, lattice.second));
+  t.steps = 1 + static_cast<int>(std::lround(std::clamp(passed, 0.0, 5.0)));
   t.lattice_x[0] = lattice.first.x;
   t.lattice_y[0] = lattice.first.y;
   t.lattice_x[1] = lattice.second.x;
@@ -182,7 +191,7 @@ LaneTable make_lane_table(const HitFinder& finder) {
     const int first = t.first[loop];
     for (int i = first; i < t.pieces && !t.closed[first]; ++i) add_chord(t, i, i + 1 < t.pieces ? i + 1 : first);
   }
-  if (table.lattice) add_cell(t, *table.lattice);
+  if (table.lattice) add_cell(t, *table.lattice, measure(table).mean_flight);
   // A power of two. Lanes decide nothing where products of sizes might leave the range of doubles.
   t.size = t.size > 1e-30 && t.size < 1e30 ? std::ldexp(1.0, std::ilogb(t.size) + 1) : HUGE_VAL;
   for (int i = 0; i < t.pieces; ++i) {

@@ -38,12 +38,8 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
   Real known;
   if constexpr (Kind::cells) {
     CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
-    choice = t.pieces == 1 ? only_disc_in_cells(f, cell) : first_in_cells(f, cell);
-    // Those still on their way only change their cell.
+    choice = first_in_cells(f, cell);
     known = choose(choice.piece < 0.0, Real(-1.0), Real(1.0));
-    const Mask gone = choice.decided && choice.piece < 0.0;
-    store(choose(gone, cell.first, Real(0.0)), pack.cell_first + lane);
-    store(choose(gone, cell.second, Real(0.0)), pack.cell_second + lane);
     store(cell.first, stages.cell_first + lane);
     store(cell.second, stages.cell_second + lane);
   } else {
@@ -58,6 +54,30 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
   store(known, stages.known + lane);
   store(max(choice.piece, Real(0.0)), stages.piece + lane);
   if constexpr (larmor && !Kind::convex) store(choice.kappa, stages.kappa + lane);
+}
+
+/// The same where the only piece is one disc in each cell.
+template <class Kind>
+INLINE void choose_cells(const LaneTable& t, const LanePack& pack, Stages& stages) {
+  Crossings crossings;
+  for (int lane = 0; lane < pack.used; lane += width) {
+    const CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
+    Real known;
+    begin_crossings(view_of<Kind>(t, pack, lane), cell, crossings, known, lane);
+    store(cell.first, stages.cell_first + lane);
+    store(cell.second, stages.cell_second + lane);
+    store(known, stages.known + lane);
+    store(Real(0.0), stages.piece + lane);
+  }
+  for (int step = 0; step < t.steps; ++step)
+    for (int lane = 0; lane < pack.used; lane += width) {
+      CellOf cell{load(stages.cell_first + lane), load(stages.cell_second + lane)};
+      Real known = load(stages.known + lane);
+      cross_edge(view_of<Kind>(t, pack, lane), cell, crossings, known, lane);
+      store(cell.first, stages.cell_first + lane);
+      store(cell.second, stages.cell_second + lane);
+      store(known, stages.known + lane);
+    }
 }
 
 /// What is needed of a piece.
