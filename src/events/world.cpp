@@ -98,7 +98,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
                                                               const HitFinder::Landing& landing) {
   const Vector before = landing.velocity;
   const Vector normal = landing.at.normal;
-  const double step = step_to_energy_shell(before, b.energy_weight);
+  const double step = step_to_energy_shell(before, b.shell);
   Vector after;
   int reflections = 1;
   if (b.ahead.kind == Ahead::Kind::joint) {
@@ -241,7 +241,7 @@ void World::Implementation::check_speed(const Body& b) const {
 
 /// Starts a flight from the body's state.
 void World::Implementation::begin_free(Body& b) {
-  b.energy_weight = 0.75 / (b.particle.speed * b.particle.speed);
+  b.shell = energy_shell(b.particle.speed);
   b.flight = Flight();
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;

@@ -308,7 +308,7 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
   const int index = group.bodies().front();
   b.state = {-1, 0.0, frame.point, velocity, cell, group.time()};
   b.particle.speed = std::sqrt(dot(velocity, velocity));
-  b.energy_weight = 0.75 / (b.particle.speed * b.particle.speed);
+  b.shell = energy_shell(b.particle.speed);
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;
   finder.begin_on_wall(b.flight, barrier.wall, u, frame.point, velocity);

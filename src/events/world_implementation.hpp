@@ -22,7 +22,7 @@ inline constexpr Time never{std::numeric_limits<double>::infinity()};
 /// A particle. It flies freely, or belongs to a group.
 struct Body {
   Particle particle;
-  double energy_weight = 0.75;
+  geometry::EnergyShell<double> shell;
   State state;
   Flight flight;
   Ahead ahead;

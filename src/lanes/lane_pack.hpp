@@ -27,7 +27,7 @@ struct LanePack {
   // On a lattice: the cell of the last hit, and the cell of the flight, counted from there.
   double home_first[lanes] = {}, home_second[lanes] = {}, cell_first[lanes] = {}, cell_second[lanes] = {};
   // Constants of its particle.
-  double speed[lanes] = {}, square_speed[lanes] = {}, energy_weight[lanes] = {};
+  double speed[lanes] = {}, square_speed[lanes] = {}, shell_weight[lanes] = {}, shell_rest[lanes] = {};
   double sides[lanes] = {};                  ///< margins of signs of the sizes size * speed …
   double roots[lanes] = {};                  ///< … and of its square;
   double order[lanes] = {};                  ///< of two times

@@ -8,6 +8,7 @@
 #include "events/next_hit.hpp"
 #include "lanes/kernels.hpp"
 #include "lanes/make_lane_table.hpp"
+#include "motion/free_motion.hpp"
 
 namespace carom {
 
@@ -231,7 +232,9 @@ class LaneWorld::Implementation {
     pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
     pack.speed[lane] = p.speed;
     pack.square_speed[lane] = p.speed * p.speed;
-    pack.energy_weight[lane] = 0.75 / (p.speed * p.speed);
+    const geometry::EnergyShell<double> shell = energy_shell(p.speed);
+    pack.shell_weight[lane] = shell.weight;
+    pack.shell_rest[lane] = shell.rest;
     pack.sides[lane] = 0x1p-36 * pieces.size * p.speed;
     pack.order[lane] = pieces.order_margin * pieces.size / p.speed;
     pack.roots[lane] = pack.sides[lane] * pieces.size * p.speed;

@@ -1,10 +1,17 @@
 #include "motion/free_motion.hpp"
 
+#include <cmath>
+
 #include "carom/base/elementary.hpp"
 
 namespace carom {
 
 using geometry::Vector;
+
+geometry::EnergyShell<double> energy_shell(double speed) {
+  const double square = speed * speed, weight = 0.75 / square;
+  return {weight, std::fma(weight, square, -0.75)};
+}
 
 Vector reflected_at_corner(Vector v, Vector before, Vector after, int n) {
   if (n % 2 == 0) return -v;

@@ -8,6 +8,9 @@
 
 namespace carom {
 
+/// Of particles of this speed.
+geometry::EnergyShell<double> energy_shell(double speed);
+
 /// Velocity after the n reflections at a corner of angle pi/n between the wall that ends there, with
 /// normal `before`, and the one that begins, with normal `after`. An even number is a turn
 /// by pi; an odd one is taken alternately at the two walls (the order does not matter in the limit).

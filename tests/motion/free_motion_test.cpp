@@ -67,7 +67,7 @@ TEST(FreeMotion, CornersHaveOneLimit) {
 
 TEST(FreeMotion, TheEnergyShellAttracts) {
   Vector v{0.6 * (1 + 1e-9), 0.8 * (1 + 1e-9)};
-  const double step = step_to_energy_shell(v, 0.75);
+  const double step = step_to_energy_shell(v, energy_shell(1.0));
   v = {v.x + step * v.x, v.y + step * v.y};
   EXPECT_NEAR(dot(v, v), 1.0, 4e-16);
 }

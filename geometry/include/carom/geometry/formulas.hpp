@@ -134,11 +134,19 @@ template <class Number>
 constexpr BasicVector<Number> lengthened(const BasicVector<Number>& d, const Number& step) {
   return {d.x + step * d.x, d.y + step * d.y};
 }
-/// The step for which the velocity v has the right speed; `weight` = 0.75 over the squared speed. It is taken from
-/// the velocity before a reflection, so that no hit waits for it; what one reflection errs, the next one mends.
+/// The squared speed V that a particle keeps: weight = 0.75/V, rounded, and what is left of weight V above 3/4. Flight times
+/// are taken from V itself: were the shell's speed another one, if only by its last digit, each hit would lie
+/// beyond its wall by as much, and angular momentum would drift.
 template <class Number>
-constexpr Number step_to_energy_shell(const BasicVector<Number>& v, const Number& weight) {
-  return step_of_length(weight * v.x * v.x + weight * v.y * v.y);
+struct EnergyShell {
+  Number weight{0.75}, rest{};
+};
+/// The step for which the velocity v has the right speed. It is taken from the velocity before a reflection, so that no
+/// hit waits for it; what one reflection errs, the next one mends.
+template <class Number>
+constexpr Number step_to_energy_shell(const BasicVector<Number>& v, const EnergyShell<Number>& shell) {
+  const Number measure = shell.weight * v.x * v.x + shell.weight * v.y * v.y;
+  return ((Number(0.75) - measure) + shell.rest) * Number(2.0 / 3.0);
 }
 /// A point x that is on a circle up to rounding brought back to it, seen from its centre: d = x - centre,
 /// `weight` = 0.75/r^2.
