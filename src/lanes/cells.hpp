@@ -28,20 +28,21 @@ struct Exit {
   Real edge;
   Mask certain;
 };
-INLINE Exit exit_of_cell(const LaneTable& t, const Real& sides, const auto& side_of_corner) {
+template <int edges>
+INLINE Exit exit_of_cell(const Real& sides, const auto& side_of_corner) {
   Real edge(-1.0);
   const Real first = side_of_corner(0);
   Real least = first;
   const Mask first_right = first < 0.0;
   Mask right = first_right;
-  for (int i = 1; i < t.edges; ++i) {
+  for (int i = 1; i < edges; ++i) {
     const Real side = side_of_corner(i);
     least = least_size(least, side);
     const Mask now = side < 0.0;
     where(right && !now, edge) = Real(counted[i - 1]);
     right = now;
   }
-  where(right && !first_right, edge) = Real(counted[t.edges - 1]);
+  where(right && !first_right, edge) = Real(counted[edges - 1]);
   return {edge, abs(least) > sides && edge >= 0.0};
 }
 
@@ -72,7 +73,8 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
     under_way = under_way && disc.decided && disc.piece < 0.0;
     if (step == t.steps || !any_of(under_way)) return found;
     const Line line(f);
-    const Exit exit = exit_of_cell(t, f.sides, [&](int i) { return line.side(t.edge_x[i], t.edge_y[i]); });
+    const auto corner = [&](int i) { return line.side(t.edge_x[i], t.edge_y[i]); };
+    const Exit exit = t.edges == 4 ? exit_of_cell<4>(f.sides, corner) : exit_of_cell<6>(f.sides, corner);
     found.decided = found.decided && (!under_way || exit.certain);
     under_way = under_way && exit.certain;
     go_beyond(t, exit.edge, under_way, cell);
@@ -117,13 +119,14 @@ INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, Rea
   if (any_of(begins)) [[unlikely]] where(begins, known) = meets_disc(f, aside, ahead);
 }
 
+template <int edges>
 INLINE void cross_edge(const View& f, CellOf& cell, const Crossings& c, Real& known, int lane) {
   const LaneTable& t = f.table;
   const Mask under_way = known < 0.0;
   const Real across_first = load(c.across_first + lane), across_second = load(c.across_second + lane);
   const auto shift = [&] { return fused(cell.first, across_first, cell.second * across_second); };
   const Real before = shift();
-  const Exit exit = exit_of_cell(t, f.sides, [&](int i) { return load(c.corner[i] + lane) + before; });
+  const Exit exit = exit_of_cell<edges>(f.sides, [&](int i) { return load(c.corner[i] + lane) + before; });
   go_beyond(t, exit.edge, under_way, cell);
   const Real ahead = fused(cell.first, load(c.along_first + lane), fused(cell.second, load(c.along_second + lane), load(c.ahead + lane)));
   Real after = meets_disc(f, load(c.aside + lane) + shift(), ahead);

@@ -95,8 +95,10 @@ template <class Kind>
 void kernel(const LaneTable& table, LanePack& pack) {
   pack.calls = 0;
   Stages stages;
-  if (Kind::cells && table.pieces == 1)
-    choose_cells<Kind>(table, pack, stages);
+  if (Kind::cells && table.pieces == 1 && table.edges == 4)
+    choose_cells<Kind, 4>(table, pack, stages);
+  else if (Kind::cells && table.pieces == 1)
+    choose_cells<Kind, 6>(table, pack, stages);
   else
     for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
   if (Kind::turn == 0 || Kind::convex)

@@ -45,7 +45,7 @@ struct LaneTable {
 
   // Of a lattice: the start of each edge of the cell and the cell beyond it; the two vectors.
   static constexpr double farthest_cell = 64.0;  ///< of a flight
-  int edges = 0;
+  int edges = 0;                  ///< 4 or 6
   int steps = 3;                  ///< edges that a kernel crosses
   double edge_x[eight] = {}, edge_y[eight] = {}, beyond_first[eight] = {}, beyond_second[eight] = {};
   double lattice_x[2] = {}, lattice_y[2] = {};

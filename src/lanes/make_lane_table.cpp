@@ -103,7 +103,7 @@ void add_chord(LaneTable& t, int i, int next) {
 
 /// Are all walls discs that do not reach an edge of the cell? As HitFinder::find_enclosure.
 bool discs_within_cell(const Table& table) {
-  if (table.lattice->edges.size() > LaneTable::eight) return false;
+  if (table.lattice->edges.size() != 4 && table.lattice->edges.size() != 6) return false;
   for (const Wall& wall : table.walls) {
     const PreparedCurve w(wall.curve);
     if (!w.closed || w.kind != CurveKind::circle || w.orientation > 0) return false;

@@ -57,7 +57,7 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
 }
 
 /// The same where the only piece is one disc in each cell.
-template <class Kind>
+template <class Kind, int edges>
 INLINE void choose_cells(const LaneTable& t, const LanePack& pack, Stages& stages) {
   Crossings crossings;
   for (int lane = 0; lane < pack.used; lane += width) {
@@ -73,7 +73,7 @@ INLINE void choose_cells(const LaneTable& t, const LanePack& pack, Stages& stage
     for (int lane = 0; lane < pack.used; lane += width) {
       CellOf cell{load(stages.cell_first + lane), load(stages.cell_second + lane)};
       Real known = load(stages.known + lane);
-      cross_edge(view_of<Kind>(t, pack, lane), cell, crossings, known, lane);
+      cross_edge<edges>(view_of<Kind>(t, pack, lane), cell, crossings, known, lane);
       store(cell.first, stages.cell_first + lane);
       store(cell.second, stages.cell_second + lane);
       store(known, stages.known + lane);
