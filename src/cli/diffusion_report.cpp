@@ -98,31 +98,14 @@ std::string ends_text(const DiffusionResult& result) {
   return text.empty() ? text : "\nof the particles: " + text + "\n";
 }
 
-}  // namespace
-
-DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
-  DiffusionSummary summary;
-  summary.horizon = horizon_of(system);
-  summary.no_D = no_diffusion(summary.horizon);
-  const DisplacementMoments moments(result.sums);
-  summary.points = moments.points();
-  const auto& window = system.run.window;
-  summary.fit = moments.fit(window ? TimeWindow{window->first, window->second} : moments.default_window());
-  if (summary.fit && summary.no_D.empty()) {
-    const Estimate& a = summary.fit->exponent;
-    if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
-      summary.note = "the MSD does not grow as t in the window: D depends on it";
-  }
-  if (!summary.fit && summary.no_D.empty()) summary.no_D = "fewer than two report times > 0 in the window";
-  return summary;
-}
-
 Json diffusion_json(const System& system, const DiffusionResult& result, const DiffusionSummary& summary,
-                    const std::string& status, const std::string& output) {
+                    const EnsembleContext& context) {
   Json json = Json::object();
   add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
                   result.lanes ? carom::name_of(*result.lanes) : "baseline");
-  json.set("status", status);
+  json.set("ranks", result.ranks);
+  json.set("status", context.status);
+  if (context.shard.of > 1) json.set("shard", text_of(context.shard));
   json.set("trajectories", result.trajectories);
   json.set("survived", result.survived);
   json.set("pinned", result.pinned);
@@ -171,29 +154,57 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   json.set("corridors", std::move(corridors));
   if (horizon.kind == Kind::infinite) json.set("flight_tail", horizon.flight_tail);
   if (horizon.machta_zwanzig) json.set("machta_zwanzig", *horizon.machta_zwanzig);
-  if (!output.empty()) json.set("archive", output);
+  if (!context.output.empty()) json.set("archive", context.output);
   return json;
 }
 
 std::string diffusion_text(const System& system, const DiffusionResult& result, const DiffusionSummary& summary,
-                           const std::string& output) {
+                           const EnsembleContext& context) {
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}\n", grouped(result.trajectories),
+  text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(result.trajectories),
                       system.run.times.back(), system.run.seed,
-                      result.complete ? "" : "  (interrupted: those that were finished)");
+                      context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
+                      result.complete ? "" : "  (" + context.status + ": those that were finished)");
   text += moments_table(summary.points);
   text += fit_text(summary);
   text += horizon_text(summary.horizon);
   text += ends_text(result);
   if (engine_of(system) != "events")
     text += fmt::format("\nlargest change of a trajectory's energy {:.2g}\n", result.energy_change);
-  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}: {}hits/s\n{}   digest {:016x}\n",
-                      grouped(result.collisions), result.seconds, result.threads,
+  text += fmt::format("\n{} collisions in {:.3g} s on {}{} thread{}: {}hits/s\n{}   digest {:016x}\n",
+                      grouped(result.collisions), result.seconds,
+                      result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "", result.threads,
                       result.threads == 1 ? "" : "s",
                       with_prefix(static_cast<double>(result.collisions) / std::max(result.seconds, 1e-9)),
                       decisions_text(result.decisions), result.digest);
-  if (!output.empty()) text += fmt::format("archive: {}\n", output);
+  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
+}
+
+}  // namespace
+
+DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
+  DiffusionSummary summary;
+  summary.horizon = horizon_of(system);
+  summary.no_D = no_diffusion(summary.horizon);
+  const DisplacementMoments moments(result.sums);
+  summary.points = moments.points();
+  const auto& window = system.run.window;
+  summary.fit = moments.fit(window ? TimeWindow{window->first, window->second} : moments.default_window());
+  if (summary.fit && summary.no_D.empty()) {
+    const Estimate& a = summary.fit->exponent;
+    if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
+      summary.note = "the MSD does not grow as t in the window: D depends on it";
+  }
+  if (!summary.fit && summary.no_D.empty()) summary.no_D = "fewer than two report times > 0 in the window";
+  return summary;
+}
+
+void print_diffusion(const Options& options, const System& system, const DiffusionResult& result,
+                     const EnsembleContext& context) {
+  const DiffusionSummary summary = summary_of(system, result);
+  print(options.json ? diffusion_json(system, result, summary, context).text() + "\n"
+                     : diffusion_text(system, result, summary, context));
 }
 
 }  // namespace carom::cli

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "carom/ensemble/diffusion.hpp"
-#include "io/json.hpp"
+#include "cli/ensemble_context.hpp"
+#include "cli/options.hpp"
 
 namespace carom::cli {
 
@@ -19,9 +20,7 @@ struct DiffusionSummary {
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 
-Json diffusion_json(const System&, const DiffusionResult&, const DiffusionSummary&, const std::string& status,
-                    const std::string& output);
-std::string diffusion_text(const System&, const DiffusionResult&, const DiffusionSummary&,
-                           const std::string& output);
+/// As JSON or as text, to standard output.
+void print_diffusion(const Options&, const System&, const DiffusionResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

@@ -66,7 +66,7 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
 
 }  // namespace
 
-Json escape_json(const System& system, const EscapeResult& result, const EscapeContext& context) {
+Json escape_json(const System& system, const EscapeResult& result, const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
   Json json = Json::object();
   add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
@@ -115,7 +115,7 @@ Json escape_json(const System& system, const EscapeResult& result, const EscapeC
   return json;
 }
 
-std::string escape_text(const System& system, const EscapeResult& result, const EscapeContext& context) {
+std::string escape_text(const System& system, const EscapeResult& result, const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(counts.trajectories),

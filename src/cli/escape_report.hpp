@@ -4,18 +4,12 @@
 #include <string>
 
 #include "carom/ensemble/escape.hpp"
-#include "carom/io/archive.hpp"
+#include "cli/ensemble_context.hpp"
 #include "io/json.hpp"
 
 namespace carom::cli {
 
-/// What a report says besides the numbers.
-struct EscapeContext {
-  std::string status;  ///< "completed", "interrupted", "incomplete"
-  std::string output;  ///< archive, or ""
-  Shard shard;
-};
-Json escape_json(const System&, const EscapeResult&, const EscapeContext&);
-std::string escape_text(const System&, const EscapeResult&, const EscapeContext&);
+Json escape_json(const System&, const EscapeResult&, const EnsembleContext&);
+std::string escape_text(const System&, const EscapeResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

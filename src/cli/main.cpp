@@ -6,7 +6,7 @@
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
 #include "cli/commands.hpp"
-#include "cli/escape_job.hpp"
+#include "cli/ensemble_job.hpp"
 #include "cli/mpi_ranks.hpp"
 
 int main(int argc, char** argv) {
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     const Parsed parsed = parse(argc, argv);
     if (parsed.exit) return *parsed.exit;
     const Options& options = parsed.options;
-    if (silent && !(options.command == "escape" && is_plain_ensemble(options))) return done;
+    if (silent && !is_plain_ensemble(options)) return done;
     if (options.command == "escape") return escape(options);
     if (options.command == "merge") return merge(options);
     if (options.command == "diffusion") return diffusion(options);

@@ -1,4 +1,4 @@
-// carom merge: parts of an escape ensemble become one archive.
+// carom merge: parts of an ensemble become one archive.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -6,6 +6,7 @@
 #include "carom/base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/diffusion_report.hpp"
 #include "cli/escape_report.hpp"
 
 namespace carom::cli {
@@ -13,13 +14,39 @@ namespace carom::cli {
 namespace {
 
 // What a part lacks is lacking in the sum.
-void say_what_is_missing(const StoredEscape& sum, const System& system) {
-  const auto gaps = sum.result.done.missing_from({0, system.run.trajectories});
+void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
+  const auto gaps = done.missing_from({0, system.run.trajectories});
   std::uint64_t missing = 0;
   for (const TrajectoryRange& gap : gaps) missing += gap.last - gap.first;
   if (missing > 0)
     fmt::print(stderr, "carom: {} of {} trajectories are missing, the first of them {}\n", grouped(missing),
                grouped(system.run.trajectories), gaps.front().first);
+}
+
+int print_sum(const Options& options, const System& system, const EscapeResult& result, const EnsembleContext& context) {
+  print(options.json ? escape_json(system, result, context).text() + "\n" : escape_text(system, result, context));
+  return result.counts.lost > 0 ? lost : done;
+}
+int print_sum(const Options& options, const System& system, const DiffusionResult& result, const EnsembleContext& context) {
+  print_diffusion(options, system, result, context);
+  return result.lost > 0 ? lost : done;
+}
+
+template <class Result>
+int merge_parts(const Options& options, const std::string& output, const std::vector<std::string>& files) {
+  std::vector<Stored<Result>> parts;
+  for (const std::string& file : files) parts.push_back(read_ensemble<Result>(file));
+  const Stored<Result> sum = sum_of(parts);
+  LoadedSystem loaded = read_system(sum.system_toml, parts.front().file + ": /system");
+  loaded.system.name = sum.system_name;
+  loaded.system.dynamics.everywhere = sum.everywhere;
+  Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
+  if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
+  write_sum(output, loaded, origin, sum, parts);
+  remove_checkpoint(output);  // there is one only if --force was given
+  say_what_is_missing(sum.result.done, loaded.system);
+  for (const auto& [index, text] : sum.result.reports) fmt::print(stderr, "carom: {}\n", text);
+  return print_sum(options, loaded.system, sum.result, {sum.status, output, sum.shard});
 }
 
 }  // namespace
@@ -34,22 +61,9 @@ int merge(const Options& options) {
   if (files.empty())
     throw InputError(Place{"command line", 0, 0, "merge"}, "there is nothing to merge", "OUT.h5 PART.h5 PART.h5 …");
   refuse_existing(output, options.force);
-  std::vector<StoredEscape> parts;
-  for (const std::string& file : files) parts.push_back(read_escape(file));
-  const StoredEscape sum = sum_of(parts);
-  LoadedSystem loaded = read_system(sum.system_toml, parts.front().file + ": /system");
-  loaded.system.name = sum.system_name;
-  loaded.system.dynamics.everywhere = sum.everywhere;
-  Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
-  if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
-  write_sum(output, loaded, origin, sum, parts);
-  remove_checkpoint(output);  // there is one only if --force was given
-  say_what_is_missing(sum, loaded.system);
-  for (const auto& [index, text] : sum.result.reports) fmt::print(stderr, "carom: {}\n", text);
-  const EscapeContext context{sum.status, output, sum.shard};
-  print(options.json ? escape_json(loaded.system, sum.result, context).text() + "\n"
-                     : escape_text(loaded.system, sum.result, context));
-  return sum.result.counts.lost > 0 ? lost : done;
+  if (kind_of_ensemble(files.front()) == kind_of(DiffusionResult()))
+    return merge_parts<DiffusionResult>(options, output, files);
+  return merge_parts<EscapeResult>(options, output, files);
 }
 
 }  // namespace carom::cli

@@ -94,6 +94,14 @@ class Command {
     text("--isa", options_.isa, "NAME", "Instruction set of lanes: auto, baseline, avx2 or avx512");
     return *this;
   }
+  /// Of ensembles that can be continued, parted and shared.
+  Command& parts() {
+    text("--resume", options_.resume, "FILE.h5", "Go on with a stored ensemble; SYSTEM may be left out");
+    text("--checkpoint", options_.checkpoint, "SECONDS", "Time between checkpoints of an archive (default 10)");
+    text("--shard", options_.shard, "K/N", "Only part K (from 1) of N parts of the trajectories");
+    text("--block", options_.block, "N", "Trajectories a block (default 1024); the result does not depend on it");
+    return *this;
+  }
 
  private:
   CLI::App* app_;
@@ -123,10 +131,7 @@ void define(CLI::App& app, Options& o) {
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .flag("--per-trajectory", o.per_trajectory,
             "Store start, fate, hole, time and hits of each trajectory in the archive")
-      .text("--resume", o.resume, "FILE.h5", "Go on with a stored ensemble; SYSTEM may be left out")
-      .text("--checkpoint", o.checkpoint, "SECONDS", "Time between checkpoints of an archive (default 10)")
-      .text("--shard", o.shard, "K/N", "Only part K (from 1) of N parts of the trajectories")
-      .text("--block", o.block, "N", "Trajectories a block (default 1024); the result does not depend on it")
+      .parts()
       .text("--splitting", o.splitting, "LEVELS", "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")
       .text("--population", o.population, "N", "With --splitting: trajectories of a population (default 20000)")
       .text("--certify-sample", o.certify_sample, "M",
@@ -158,10 +163,12 @@ void define(CLI::App& app, Options& o) {
           "  carom diffusion lorentz-triangular --set field.B=0.5 --window 20,200 --json\n"
           "  carom diffusion soft-lorentz --t-max 100 -o msd.h5\n"
           "\n"
-          "D is a quarter of the slope of the MSD in a window of report times (default: the last decade).")
+          "D is a quarter of the slope of the MSD in a window of report times (default: the last decade).\n"
+          "Checkpoints, --resume, --shard and mpirun as with carom escape.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
+      .parts()
       .text("--window", o.window, "FROM,TO", "Report times that D and the exponent are taken from");
   Command(app, o, "section", "Boundary map, or section by a line, a circle or a velocity, of many orbits",
           "Examples:\n"
@@ -178,7 +185,7 @@ void define(CLI::App& app, Options& o) {
       .text("--direction", o.direction, "NAME", "Crossings that count: both, positive or negative")
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
       .text("--orbits", o.orbits, "N", "Number of orbits (default: the listed starts, else at most 50)");
-  Command(app, o, "merge", "Parts of an escape ensemble become one archive",
+  Command(app, o, "merge", "Parts of an ensemble become one archive",
           "Examples:\n"
           "  carom escape stadium --shard 1/2 -o a.h5\n"
           "  carom escape stadium --shard 2/2 -o b.h5\n"

@@ -257,7 +257,7 @@ class EnsembleRun {
     return options_.journal && options_.journal->wants_records();
   }
   void keep(TrajectoryRange range, std::vector<TrajectoryRecord>&& records) {
-    if (!wants_records() && (post_.hand || !options_.journal)) return;
+    if (!wants_records()) return;
     const std::lock_guard turn(records_mutex_);
     if (!post_.hand) return options_.journal->block(range, std::move(records));
     waiting_records_ += records.size();

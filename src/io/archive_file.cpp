@@ -69,7 +69,7 @@ void refuse_existing(const std::string& file, bool force) {
     throw InputError(Place{file, 0, 0, ""}, "the output file exists already", "another name, or --force");
   if (!force && has_checkpoint(file))
     throw InputError(Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
-                     fmt::format("carom escape --resume {} to go on with it, another name, or --force", file));
+                     fmt::format("carom {} --resume {} to go on with it, another name, or --force", kind_of_ensemble(file), file));
 }
 
 ArchiveFile::ArchiveFile(Handle file, std::string path, std::string name)

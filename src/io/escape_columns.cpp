@@ -1,10 +1,7 @@
-#include "io/escape_columns.hpp"
-
-#include <fmt/format.h>
+#include "io/ensemble_columns.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <sstream>
 #include <type_traits>
 #include <utility>
 
@@ -15,36 +12,8 @@ namespace carom {
 using hdf5::Description;
 using hdf5::Handle;
 
-hdf5::Columns create_records(const ArchiveFile& file, const std::vector<std::string>& holes) {
-  const std::string& target = file.name();
-  hdf5::Columns trajectories(target);
-  const Handle group = file.group("trajectories", "Start and end of each trajectory, by index");
-  const hid_t to = group.get();
-  trajectories.add<std::uint64_t>(to, "index", {"1", "trajectory * particles + particle; with injections trajectory * 2^20 + particle"});
-  trajectories.add<double>(to, "x", {"length", "Start, unwrapped"});
-  trajectories.add<double>(to, "y", {"length", "Start, unwrapped"});
-  trajectories.add<double>(to, "vx", {"length/time", "Velocity at the start"});
-  trajectories.add<double>(to, "vy", {"length/time", "Velocity at the start"});
-  const hid_t fate = trajectories.add<std::int32_t>(to, "fate", {"1", "Index into the attribute `names`"});
-  std::vector<std::string> names;
-  for (int i = 0; i <= static_cast<int>(Fate::lost); ++i) names.push_back(name_of(static_cast<Fate>(i)));
-  hdf5::write_attribute(fate, "names", names, target);
-  const hid_t hole = trajectories.add<std::int32_t>(
-      to, "hole", {"1", "Index into the attribute `names`, -1: did not escape"});
-  if (!holes.empty()) hdf5::write_attribute(hole, "names", holes, target);
-  trajectories.add<double>(to, "t",
-                           {"time", "End: escape, last hit of an unbounded one, else the time reached"});
-  trajectories.add<std::uint64_t>(to, "hits", {"1", "Reflections"});
-  return trajectories;
-}
-
-void append_records(hdf5::Columns& trajectories, const std::vector<TrajectoryRecord>& records) {
-  for (const TrajectoryRecord& r : records)
-    trajectories.row(r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int32_t>(r.fate), r.hole, r.time, r.hits);
-}
-
-void write_counts(const ArchiveFile& file, const EscapeResult& result, const std::vector<std::string>& holes,
-                  bool of_discs) {
+void write_counts(const ArchiveFile& file, const EscapeResult& result, const System& system) {
+  const std::vector<std::string> holes = names_of_holes(system);
   const std::string& target = file.name();
   const auto column = [&](const Handle& group, const char* name, const auto& points, auto get, Description description) {
     std::vector<std::decay_t<decltype(get(points.front()))>> values;
@@ -88,17 +57,6 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const std
     column(group, "high", points, [](const auto& p) { return p.high; },
            {"1/time", "95 % interval, high end"});
   }
-  {
-    const auto& ranges = result.done.ranges();
-    const Handle group = file.group("done", "Trajectories first … last - 1 are counted here");
-    column(group, "first", ranges, [](const TrajectoryRange& r) { return r.first; }, {"1", "First trajectory"});
-    column(group, "last", ranges, [](const TrajectoryRange& r) { return r.last; }, {"1", "One after the last"});
-  }
-  if (!result.reports.empty()) {
-    std::string text;
-    for (const auto& [index, report] : result.reports) text += fmt::format("{}\t{}\n", index, report);
-    hdf5::write_text(file.id(), "lost", text, {"text", "Index and state of the first lost trajectories"}, target);
-  }
   const Handle group = file.group("fates", "Numbers of trajectories by fate");
   const auto number = [&](const char* name, std::uint64_t value, const char* text) {
     hdf5::write_column(group.get(), name, std::span<const std::uint64_t>(&value, 1), {"1", text}, target);
@@ -113,7 +71,7 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const std
   number("lost", counts.lost, "Internal errors: always 0");
   number("collisions", counts.collisions, "Reflections of all trajectories");
   number("most_hits", counts.most_hits, "Most reflections of a single trajectory");
-  if (of_discs) number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
+  if (system.of_discs()) number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
   number("digest", result.digest, "Sum of a hash of each trajectory: equal digests, equal bits");
   if (!holes.empty()) {
     const Handle dataset =
@@ -124,20 +82,23 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const std
                          counts.hole_escapes.data()) >= 0,
                 target);
   }
+  const Handle provenance = file.open_group("provenance");
+  const auto write = [&](const char* name, std::uint64_t value) {
+    hdf5::write_attribute(provenance.get(), name, static_cast<std::int64_t>(value), target);
+  };
+  write("lanes_hits", result.effort.hits);
+  write("lanes_left", result.effort.scalar);
+  write("lanes_steps", result.effort.steps);
+  write("lanes_idle", result.effort.idle);
 }
 
-EscapeResult read_counts(hid_t file, const std::string& name) {
-  const auto open = [&](const char* group) {
-    Handle handle(H5Gopen2(file, group, H5P_DEFAULT), H5Gclose);
-    if (!handle) throw InputError(Place{name, 0, 0, ""}, fmt::format("'{}' is missing", group), "an archive of carom escape");
-    return handle;
-  };
+void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   const auto integers = [&](const Handle& group, const char* column) {
     return hdf5::read_column<std::uint64_t>(group.get(), column, name);
   };
-  EscapeResult result;
   SurvivalCounts& counts = result.counts;
-  const Handle survival = open("survival"), hits = open("survival_hits"), done = open("done"), fates = open("fates");
+  const Handle survival = open_group(file, "survival", name), hits = open_group(file, "survival_hits", name);
+  const Handle fates = open_group(file, "fates", name), provenance = open_group(file, "provenance", name);
   const auto number = [&](const char* what) { return integers(fates, what).at(0); };
   std::vector<std::uint64_t> by_hole;
   if (H5Lexists(fates.get(), "holes", H5P_DEFAULT) > 0) by_hole = integers(fates, "holes");
@@ -160,53 +121,10 @@ EscapeResult read_counts(hid_t file, const std::string& name) {
   counts.most_hits = number("most_hits");
   if (H5Lexists(fates.get(), "contacts", H5P_DEFAULT) > 0) counts.contacts = number("contacts");
   result.digest = number("digest");
-  const auto first = integers(done, "first"), last = integers(done, "last");
-  for (std::size_t i = 0; i < first.size(); ++i)
-    if (!result.done.add(TrajectoryRange{first[i], last.at(i)}))
-      throw InputError(Place{name, 0, 0, ""}, "it counts trajectories twice");
-  if (H5Lexists(file, "lost", H5P_DEFAULT) > 0) {
-    std::istringstream lines(hdf5::read_text(file, "lost", name));
-    for (std::string line; std::getline(lines, line);) {
-      const std::size_t tab = line.find('\t');
-      if (tab == std::string::npos) continue;
-      result.reports.emplace_back(std::stoull(line.substr(0, tab)), line.substr(tab + 1));
-    }
-  }
-  return result;
-}
-
-RecordReader::RecordReader(const std::string& file) : name_(file) {
-  file_ = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  const Handle group(H5Gopen2(file_.get(), "trajectories", H5P_DEFAULT), H5Gclose);
-  if (!group) throw InputError(Place{file, 0, 0, ""}, "it holds no records of trajectories");
-  const char* names[] = {"index", "x", "y", "vx", "vy", "fate", "hole", "t", "hits"};
-  for (const char* column : names) columns_.push_back(hdf5::open_column(group.get(), column, file));
-  left_ = hdf5::rows_of(columns_.front().get(), file);
-}
-
-bool RecordReader::next(std::vector<TrajectoryRecord>& records) {
-  constexpr std::size_t batch = 65536;
-  const std::size_t count = std::min(batch, left_);
-  records.resize(count);
-  if (count == 0) return false;
-  const auto column = [&](std::size_t number, auto kind, auto put) {
-    std::vector<decltype(kind)> values(count);
-    hdf5::read_rows(columns_[number].get(), hdf5::native_type<decltype(kind)>(), row_, count, values.data(), name_);
-    for (std::size_t i = 0; i < count; ++i) put(records[i], values[i]);
+  const auto effort = [&](const char* what) {
+    return static_cast<std::uint64_t>(hdf5::read_integer_attribute(provenance.get(), what, name));
   };
-  using Record = TrajectoryRecord;
-  column(0, std::uint64_t{}, [](Record& r, std::uint64_t value) { r.index = value; });
-  column(1, double{}, [](Record& r, double value) { r.x = value; });
-  column(2, double{}, [](Record& r, double value) { r.y = value; });
-  column(3, double{}, [](Record& r, double value) { r.vx = value; });
-  column(4, double{}, [](Record& r, double value) { r.vy = value; });
-  column(5, std::int32_t{}, [](Record& r, std::int32_t value) { r.fate = static_cast<Fate>(value); });
-  column(6, std::int32_t{}, [](Record& r, std::int32_t value) { r.hole = value; });
-  column(7, double{}, [](Record& r, double value) { r.time = value; });
-  column(8, std::uint64_t{}, [](Record& r, std::uint64_t value) { r.hits = value; });
-  row_ += count;
-  left_ -= count;
-  return true;
+  result.effort = {effort("lanes_hits"), effort("lanes_left"), effort("lanes_steps"), effort("lanes_idle")};
 }
 
 }  // namespace carom

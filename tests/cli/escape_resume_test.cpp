@@ -2,97 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <random>
 
-#include "archive_contents.hpp"
-#include "program.hpp"
+#include "kill_and_resume.hpp"
 
 namespace carom {
 namespace {
 
-// Datasets in the form in which they must agree; nothing of /provenance is a dataset.
-std::map<std::string, std::string> datasets(const Shell& shell, const std::string& file) {
-  return open_archive(shell.folder() + "/" + file).datasets;
-}
-
-std::string seconds(double s) { return std::to_string(s); }
-
-// A few tenths of a second of computing.
-const std::string ensemble = " escape mushroom --trajectories 1.5e5 --t-max 400 --quiet --json";
-
-struct Undisturbed {
-  explicit Undisturbed(const Shell& shell, const std::string& options) {
-    const Outcome o = shell("$carom" + ensemble + options + " -o whole.h5");
-    EXPECT_EQ(o.status, 0) << o.err;
-    digest = json_value(o.out, "digest");
-    time = std::stod(json_value(o.out, "seconds"));
-    contents = datasets(shell, "whole.h5");
-    EXPECT_FALSE(contents.empty());
-  }
-  std::string digest;
-  double time = 1.0;
-  std::map<std::string, std::string> contents;
-};
-
-// A checkpoint, where there is one, is an archive that anybody can read.
-void expect_whole(const Shell& shell, const std::string& file) {
-  if (!shell.exists(file)) return;
-  const Contents c = open_archive(shell.folder() + "/" + file);
-  EXPECT_EQ(c.complete, 0) << file;
-  EXPECT_TRUE(c.datasets.count("survival/p") && c.datasets.count("done/first")) << file;
-  EXPECT_TRUE(c.undescribed.empty()) << file;
-}
-
-void kill_and_resume(const std::string& options, int kills, unsigned seed) {
-  const Shell shell;
-  const Undisturbed whole(shell, options);
-  std::mt19937 random(seed);
-  int killed = 0, runs = 0;
-  while (killed < kills) {
-    ASSERT_LT(++runs, 5 * kills) << "it ends before it is killed";
-    const bool anew = !shell.exists("a.h5") && !shell.exists("a.h5.part");
-    const std::string begin = anew ? ensemble + options + " -o a.h5" : " escape --resume a.h5 --quiet --json";
-    const double when = whole.time * 0.5 * static_cast<double>(random() % 1000) / 1000.0;
-    const std::string signal = random() % 2 ? "-9" : "-TERM";
-    const Outcome o = shell("$carom" + begin + " --checkpoint 0.02 --threads " + std::to_string(1 + random() % 2) +
-                            " & pid=$!; sleep " + seconds(0.01 + when) + "; kill " + signal + " $pid; wait $pid");
-    expect_whole(shell, "a.h5.part");
-    if (o.status == 0) {  // faster than the kill
-      expect_same_datasets(shell.folder() + "/a.h5", whole.contents);
-      shell("rm -f a.h5 a.h5.*");
-      continue;
-    }
-    // A signal may come before anything is ready for it.
-    if (signal == "-9") {
-      EXPECT_EQ(o.status, 137) << o.err;
-    } else {
-      EXPECT_TRUE(o.status == 130 || o.status == 143) << o.status << o.err;
-    }
-    if (signal == "-TERM" && o.status == 130) {
-      expect_whole(shell, "a.h5");
-      EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"");
-    }
-    ++killed;
-  }
-  const Outcome end = shell("$carom escape --resume a.h5 --quiet --json");
-  ASSERT_EQ(end.status, 0) << end.err;
-  EXPECT_EQ(json_value(end.out, "digest"), whole.digest);
-  expect_same_datasets(shell.folder() + "/a.h5", whole.contents);
-  EXPECT_EQ(shell.files().size(), 2u) << "something was left";
-  // What is complete is shown again, and nothing is computed.
-  const Outcome again = shell("$carom escape --resume a.h5 --json");
-  EXPECT_EQ(again.status, 0);
-  EXPECT_EQ(json_value(again.out, "digest"), whole.digest);
-  EXPECT_EQ(json_value(again.out, "seconds"), json_value(end.out, "seconds"));
-}
+const Ensemble mushroom{"escape", "mushroom --trajectories 1.5e5 --t-max 400"};
 
 // Five kills; fifty with CAROM_SOAK.
 int kills() { return std::getenv("CAROM_SOAK") ? 25 : 3; }
 
-TEST(EscapeResume, AfterKillsIsTheUndisturbedRun) { kill_and_resume("", kills(), 1); }
+TEST(EscapeResume, AfterKillsIsTheUndisturbedRun) { kill_and_resume(mushroom, "", kills(), 1); }
 
 TEST(EscapeResume, AfterKillsHoldsEveryRecord) {
-  kill_and_resume(" --per-trajectory --block 100", std::getenv("CAROM_SOAK") ? 25 : 2, 2);
+  kill_and_resume(mushroom, " --per-trajectory --block 100", std::getenv("CAROM_SOAK") ? 25 : 2, 2);
 }
 
 // A killed run's, with something in it.
@@ -162,9 +86,9 @@ TEST(EscapeResume, RefusesAnotherVersion) {
 
 TEST(EscapeResume, AfterAFullDisk) {
   const Shell shell;
-  const Undisturbed whole(shell, " --per-trajectory");
+  const Undisturbed whole(shell, mushroom, " --per-trajectory");
   // The records reach the limit on the size of a file; the checkpoint itself does not.
-  const Outcome o = shell("( ulimit -f 5000; $carom" + ensemble + " --per-trajectory -o a.h5 --checkpoint 0.02 )");
+  const Outcome o = shell("( ulimit -f 5000; $carom" + mushroom.anew(" --per-trajectory") + " -o a.h5 --checkpoint 0.02 )");
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");
   EXPECT_NE(o.err.find("cannot write 'a.h5': File too large"), std::string::npos) << o.err;
@@ -177,36 +101,9 @@ TEST(EscapeResume, AfterAFullDisk) {
   EXPECT_EQ(shell.files().size(), 2u);
 }
 
-// `size`: of the disk, in kB.
-void fill_the_disk(const std::string& options, int size) {
-  const Shell shell;
-  if (shell("mkdir small && mount -t tmpfs -o size=" + std::to_string(size) + "k carom-test small").status != 0)
-    GTEST_SKIP() << "no right to mount a small disk";
-  const std::string filler = "head -c " + std::to_string(2 * size) + "k /dev/zero 2>/dev/null > small/filler; ";
-  const Undisturbed whole(shell, options);
-  const Outcome o = shell("$carom" + ensemble + options + " -o small/a.h5 --threads 1 --checkpoint 0.03 & pid=$!; "
-                          "until [ -e small/a.h5.part ]; do sleep 0.01; done; " + filler + "sleep 0.08; rm small/filler; wait $pid");
-  EXPECT_EQ(o.status, 0) << o.err;
-  expect_same_datasets(shell.folder() + "/small/a.h5", whole.contents);
-  shell("rm small/a.h5");
-  // To the end full: the old checkpoint stays.
-  const Outcome full = shell("$carom" + ensemble + options + " -o small/b.h5 --threads 1 --block 4 --checkpoint 0.02 & pid=$!; "
-                             "until [ -e small/b.h5.part ]; do sleep 0.01; done; sleep 0.1; " + filler + "wait $pid");
-  EXPECT_EQ(full.status, 1) << full.err;
-  EXPECT_EQ(full.out, "");
-  EXPECT_NE(full.err.find("cannot write 'small/b.h5': No space left on device"), std::string::npos) << full.err;
-  EXPECT_NE(full.err.find("carom escape --resume small/b.h5"), std::string::npos) << full.err;
-  expect_whole(shell, "small/b.h5.part");
-  const Outcome end = shell("rm small/filler; $carom escape --resume small/b.h5 --quiet --json");
-  EXPECT_EQ(end.status, 0) << end.err;
-  expect_same_datasets(shell.folder() + "/small/b.h5", whole.contents);
-  EXPECT_FALSE(shell.exists("small/b.h5.part") || shell.exists("small/b.h5.records"));
-  shell("umount small");
-}
+TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk(mushroom, "", 96); }
 
-TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk("", 96); }
-
-TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNoRecords) { fill_the_disk(" --per-trajectory", 32 << 10); }
+TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNoRecords) { fill_the_disk(mushroom, " --per-trajectory", 32 << 10); }
 
 }  // namespace
 }  // namespace carom

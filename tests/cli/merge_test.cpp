@@ -81,14 +81,15 @@ std::string ranks(int n) {
                            std::to_string(n) + " ";
 }
 
-TEST(SameBits, OnAnyThreadsRanksLanesBlocksPartsAndAfterKills) {
+// `command` with its system and options; of the combinations every so many are run, all with CAROM_SOAK.
+void expect_one_result(const std::string& command, const std::string& options, int every_alone, int every_with_ranks) {
   const Shell shell;
-  ASSERT_EQ(shell(ensemble + "-o whole.h5 --per-trajectory").status, 0);
+  const std::string run_it = "$carom " + command + " " + options + " --quiet --json ";
+  ASSERT_EQ(shell(run_it + "-o whole.h5").status, 0);
   const auto whole = datasets(shell, "whole.h5");
   std::string isas;
   for (const char* isa : {"baseline", "avx2", "avx512"})
-    if (shell(ensemble + "--trajectories 1 --isa " + isa).status == 0) isas += std::string(" ") + isa;
-  // Every value of each, not every combination: that is what CAROM_SOAK asks for.
+    if (shell(run_it + "--trajectories 1 --isa " + isa).status == 0) isas += std::string(" ") + isa;
   const bool all = std::getenv("CAROM_SOAK") != nullptr;
   int number = 0;
   for (const int processes : {0, 2, 4}) {
@@ -97,10 +98,8 @@ TEST(SameBits, OnAnyThreadsRanksLanesBlocksPartsAndAfterKills) {
       for (const std::string block : {"7", "1024"})
         for (const std::string isa : {"baseline", "avx2", "avx512"}) {
           if (isas.find(isa) == std::string::npos) continue;
-          const int every = processes > 0 ? 12 : 3;
-          if (++number % every != 1 && !all) continue;
-          const std::string how = " --per-trajectory --threads " + std::to_string(threads) + " --block " + block + " --isa " + isa;
-          const std::string run = ranks(processes) + ensemble + how;
+          if (++number % (processes > 0 ? every_with_ranks : every_alone) != 1 && !all) continue;
+          const std::string run = ranks(processes) + run_it + "--threads " + std::to_string(threads) + " --block " + block + " --isa " + isa;
           SCOPED_TRACE(run);
           const Outcome one = shell("rm -f *.h5.* one.h5; " + run + " -o one.h5");
           EXPECT_EQ(one.status, 0) << run << one.err;
@@ -111,11 +110,23 @@ TEST(SameBits, OnAnyThreadsRanksLanesBlocksPartsAndAfterKills) {
           expect_same_datasets(shell.folder() + "/all.h5", whole);
           const Outcome stopped = shell("rm -f r.h5*; " + run + " -o r.h5 --checkpoint 0.01 & pid=$!; sleep 0.1; "
                                         "kill -INT $pid; wait $pid; if [ -e r.h5 ] || [ -e r.h5.part ]; then " +
-                                        ranks(processes) + "$carom escape --resume r.h5 --threads 2; else " + run + " -o r.h5; fi");
+                                        ranks(processes) + "$carom " + command + " --resume r.h5 --threads 2; else " + run + " -o r.h5; fi");
           EXPECT_EQ(stopped.status, 0) << run << stopped.err;
           expect_same_datasets(shell.folder() + "/r.h5", whole);
         }
   }
+}
+
+TEST(SameBits, OnAnyThreadsRanksLanesBlocksPartsAndAfterKills) {
+  expect_one_result("escape", "stadium --set run.trajectories=6000 --t-max 60 --per-trajectory", 3, 12);
+}
+
+TEST(SameBits, OnAnyThreadsOfDiffusion) {
+  expect_one_result("diffusion", "lorentz-triangular --set run.trajectories=3000 --t-max 40", 6, 24);
+}
+
+TEST(SameBits, OnAnyThreadsOfDiffusionUnderForces) {
+  expect_one_result("diffusion", "soft-lorentz --set run.trajectories=300 --t-max 5", 6, 24);
 }
 
 TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {

@@ -56,7 +56,7 @@ class EnsembleJournal {
   virtual ~EnsembleJournal() = default;
   /// Is block() to be given the records of each trajectory?
   virtual bool wants_records() const { return false; }
-  /// Trajectories that are done, in any order; one call at a time.
+  /// Trajectories that are done, in any order, if records are wanted; one call at a time.
   virtual void block(TrajectoryRange, std::vector<TrajectoryRecord>&&) {}
   /// What came until now belongs to the next save(). Never during block().
   virtual void mark() {}

@@ -21,7 +21,7 @@ void prepare_archives();
 
 /// Throws InputError where `file` exists and `force` is not set.
 void refuse_existing(const std::string& file, bool force);
-/// Is there an escape ensemble of this name that has not ended?
+/// Is there an ensemble of this name that has not ended?
 bool has_checkpoint(const std::string& file);
 /// Removes it, if there is one.
 void remove_checkpoint(const std::string& file);
@@ -80,54 +80,69 @@ struct Shard {
   TrajectoryRange range(std::uint64_t trajectories) const { return shard(k, of, trajectories); }
 };
 std::string text_of(const Shard&);  ///< "2/8"
+/// Part `k` of `of` as it is written: "2/8". Throws InputError for anything else.
+Shard shard_of(const std::string& text, const Place&);
 
-/// An escape ensemble as its archive holds it, or the checkpoint of one that has not ended.
-struct StoredEscape {
+/// Kinds of ensembles that can be continued, parted and merged, as archives name them.
+inline const char* kind_of(const EscapeResult&) { return "escape"; }
+inline const char* kind_of(const DiffusionResult&) { return "diffusion"; }
+
+/// An ensemble as its archive holds it, or the checkpoint of one that has not ended.
+struct StoredEnsemble {
   std::string file;  ///< that was read: FILE.h5 or FILE.h5.part
-  std::string version, system_name, system_toml, status;
+  std::string kind, version, system_name, system_toml, status;
   std::string engine;       ///< "events", "steps" or "auto"
   bool everywhere = false;  ///< --engine steps: integrates everything
   std::vector<Origin> origins;
   Shard shard;
   bool per_trajectory = false;
-  EscapeResult result;
 };
+/// With what it has added up.
+template <class Result>
+struct Stored : StoredEnsemble {
+  Result result;
+};
+/// The kind of ensemble that FILE.h5 or its checkpoint holds. Throws InputError for anything else.
+std::string kind_of_ensemble(const std::string& file);
 /// Of FILE.h5 and its checkpoint, what holds more of the same ensemble; the checkpoint of another one comes
 /// first. Throws InputError for anything else.
-StoredEscape read_escape(const std::string& file);
+template <class Result>
+Stored<Result> read_ensemble(const std::string& file);
 /// Throws InputError where another version of the program wrote it.
-void refuse_other_version(const StoredEscape&);
+void refuse_other_version(const StoredEnsemble&);
 /// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none.
 std::string difference(const std::string& toml, const std::string& other_toml);
 
 /// The sum of parts of one ensemble, in any order the same: shard 1/1, complete where nothing is missing. Throws
 /// InputError where parts overlap or do not match, and says in what.
-StoredEscape sum_of(const std::vector<StoredEscape>& parts);
+template <class Result>
+Stored<Result> sum_of(const std::vector<Stored<Result>>& parts);
 /// Writes the sum of parts as their ensemble's archive.
-void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const StoredEscape& sum,
-               const std::vector<StoredEscape>& parts);
+template <class Result>
+void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const Stored<Result>& sum,
+               const std::vector<Stored<Result>>& parts);
 
 /// An ensemble's result. While the ensemble runs, FILE.part is its checkpoint: an archive by itself, always
 /// whole, and FILE.records holds the records of trajectories. When finished, FILE replaces them.
-class EscapeArchive : public EscapeJournal {
+template <class Result>
+class EnsembleArchive : public EnsembleJournal<Result> {
  public:
   struct Plan {
     bool force = false, per_trajectory = false;
     Shard shard;
     std::function<void(const std::string&)> warn;  ///< of a checkpoint that could not be written
   };
-  EscapeArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Plan&);
+  EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Plan&);
   /// Goes on with a stored ensemble; plan and earlier provenance are those of the store.
-  EscapeArchive(const std::string& file, const LoadedSystem&, const Provenance&, const StoredEscape&,
-                const Plan&);
-  EscapeArchive(const EscapeArchive&) = delete;
-  ~EscapeArchive() override;
+  EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Stored<Result>&, const Plan&);
+  EnsembleArchive(const EnsembleArchive&) = delete;
+  ~EnsembleArchive() override;
 
   bool wants_records() const override;
   void block(TrajectoryRange, std::vector<TrajectoryRecord>&&) override;
   void mark() override;
-  void save(const EscapeResult& so_far) override;
-  void finish(const EscapeResult&, const std::string& status);
+  void save(const Result& so_far) override;
+  void finish(const Result&, const std::string& status);
   /// Trajectories of the checkpoint that is on the disk now.
   std::uint64_t kept() const;
 
@@ -135,8 +150,10 @@ class EscapeArchive : public EscapeJournal {
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+extern template class EnsembleArchive<EscapeResult>;
+extern template class EnsembleArchive<DiffusionResult>;
 
-/// The points of a section, orbit after orbit; written like an EscapeArchive.
+/// The points of a section, orbit after orbit; written aside, and renamed when finished.
 class SectionArchive {
  public:
   SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force);
@@ -145,20 +162,6 @@ class SectionArchive {
 
   void append(const std::vector<SectionPoint>&);
   void finish(const SectionResult&, const std::string& status);
-
- private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
-};
-
-/// The moments of a diffusing ensemble, written like an EscapeArchive.
-class DiffusionArchive {
- public:
-  DiffusionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force);
-  DiffusionArchive(const DiffusionArchive&) = delete;
-  ~DiffusionArchive();
-
-  void finish(const DiffusionResult&, const std::vector<MomentPoint>&, const std::string& status);
 
  private:
   class Implementation;

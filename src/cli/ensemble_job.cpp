@@ -1,4 +1,4 @@
-#include "cli/escape_job.hpp"
+#include "cli/ensemble_job.hpp"
 
 #include <fmt/format.h>
 
@@ -15,69 +15,76 @@ namespace {
 
 Place place_of(const char* option) { return Place{"command line", 0, 0, option}; }
 
-Shard shard_of(const std::string& text) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 32;
-  if (text.empty()) return {};
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos)
-    throw InputError(place_of("--shard"), fmt::format("'{}' is not a part", text), "K/N: part K of N, such as 2/8");
-  const Shard shard{whole_number(text.substr(0, slash), "--shard", 1), whole_number(text.substr(slash + 1), "--shard", 1)};
-  if (shard.of >= most) throw InputError(place_of("--shard"), "there are too many parts", "less than 2^32");
-  if (shard.k > shard.of)
-    throw InputError(place_of("--shard"), fmt::format("there is no part {} of {}", shard.k, shard.of), "K from 1 to N");
-  return shard;
+Shard shard_of(const Options& options) {
+  return options.shard.empty() ? Shard{} : carom::shard_of(options.shard, place_of("--shard"));
 }
 
-EscapeJob job_to_go_on(const Options& options) {
-  EscapeJob job;
-  job.output = options.resume;
-  if (job.output.ends_with(".part")) job.output.resize(job.output.size() - 5);
-  job.stored = read_escape(job.output);
-  const StoredEscape& stored = *job.stored;
+// --window is a key of the system.
+SystemOverrides overrides_of(const Options& options) {
+  SystemOverrides overrides = options.overrides;
+  if (!options.window.empty()) overrides.set.emplace_back("run.window", "[" + options.window + "]");
+  return overrides;
+}
+
+// Loads the system that is stored, and refuses another one.
+LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(Place{stored.file, 0, 0, ""}, "what is asked for is not what is stored: " + what,
                      "the same system and options, or none");
   };
-  if (!options.output.empty() && options.output != job.output)
-    throw InputError(place_of("--output"), "an ensemble goes on in the same archive", "no -o beside --resume");
-  if (!stored.result.complete) refuse_other_version(stored);
-  job.loaded = options.system.empty() ? read_system(stored.system_toml, stored.file + ": /system", options.overrides)
-                                      : load_system(options.system, options.overrides);
+  LoadedSystem loaded = options.system.empty()
+                            ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
+                            : load_system(options.system, overrides_of(options));
   // The name says more than the first key that differs.
-  const std::string differs = difference(stored.system_toml, job.loaded.resolved_toml);
+  const std::string differs = difference(stored.system_toml, loaded.resolved_toml);
   if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
     refuse(fmt::format("the system is {}, not {}", options.system, stored.system_name));
   if (!differs.empty()) refuse(differs);
-  System& system = job.loaded.system;
+  System& system = loaded.system;
   system.name = stored.system_name;
   choose_engine(options.engine == "auto" && stored.everywhere ? "steps" : options.engine, system);
   if (engine_of(system) != stored.engine || system.dynamics.everywhere != stored.everywhere)
     refuse(fmt::format("--engine is {}, not {}", options.engine, stored.everywhere ? "steps" : "auto"));
   if (options.per_trajectory && !stored.per_trajectory) refuse("it has no --per-trajectory");
-  job.shard = stored.shard;
-  if (!options.shard.empty() && shard_of(options.shard) != stored.shard)
+  if (!options.shard.empty() && shard_of(options) != stored.shard)
     refuse(fmt::format("--shard is {}, not {}", options.shard, text_of(stored.shard)));
+  return loaded;
+}
+
+template <class Result>
+EnsembleJob<Result> job_to_go_on(const Options& options) {
+  EnsembleJob<Result> job;
+  job.output = options.resume;
+  if (job.output.ends_with(".part")) job.output.resize(job.output.size() - 5);
+  job.stored = read_ensemble<Result>(job.output);
+  if (!options.output.empty() && options.output != job.output)
+    throw InputError(place_of("--output"), "an ensemble goes on in the same archive", "no -o beside --resume");
+  if (!job.stored->result.complete) refuse_other_version(*job.stored);
+  job.loaded = loaded_of(*job.stored, options);
+  job.shard = job.stored->shard;
   return job;
 }
 
 }  // namespace
 
-EscapeJob job_of(const Options& options) {
-  if (!options.resume.empty()) return job_to_go_on(options);
-  EscapeJob job;
+template <class Result>
+EnsembleJob<Result> job_of(const Options& options) {
+  if (!options.resume.empty()) return job_to_go_on<Result>(options);
+  EnsembleJob<Result> job;
   job.output = options.output;
-  job.shard = shard_of(options.shard);
-  job.loaded = load_system(options.system, options.overrides);
+  job.shard = shard_of(options);
+  job.loaded = load_system(options.system, overrides_of(options));
   choose_engine(options.engine, job.loaded.system);
   return job;
 }
+template EnsembleJob<EscapeResult> job_of(const Options&);
+template EnsembleJob<DiffusionResult> job_of(const Options&);
 
-void JobCall::make(const EscapeJob* job) {
+void JobCall::make(const LoadedSystem* job) {
   if (!ranks_) return;
   Ranks& ranks = *std::exchange(ranks_, nullptr);
   if (!job) return call_crew(ranks, nullptr);
-  const System& system = job->loaded.system;
-  const CrewJob crew_job{system.name, job->loaded.resolved_toml, system.dynamics.everywhere};
+  const CrewJob crew_job{job->system.name, job->resolved_toml, job->system.dynamics.everywhere};
   call_crew(ranks, &crew_job);
 }
 
@@ -94,7 +101,10 @@ std::optional<LoadedSystem> called_job(Ranks& ranks) {
   }
 }
 
-bool is_plain_ensemble(const Options& options) { return options.splitting.empty() && options.certify_sample.empty(); }
+bool is_plain_ensemble(const Options& options) {
+  const bool adds_up = options.command == "escape" || options.command == "diffusion";
+  return adds_up && options.splitting.empty() && options.certify_sample.empty();
+}
 
 void refuse_parts_of_others(const Options& options) {
   if (is_plain_ensemble(options)) return;

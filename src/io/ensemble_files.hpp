@@ -1,4 +1,4 @@
-// The files of an escape ensemble that has not ended, and how their records are read.
+// The files of an ensemble that has not ended, and how their records are read.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ inline std::string checkpoint_of(const std::string& file) { return file + ".part
 inline std::string records_of(const std::string& file) { return file + ".records"; }
 bool exists(const std::string& file);
 
-/// /provenance of an escape ensemble, besides what every archive has.
-void write_parts(const ArchiveFile&, const EscapeResult&, const Shard&, bool everywhere);
+/// /provenance of an ensemble, besides what every archive has; what is counted.
+void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere);
 /// Where the records of a checkpoint stand.
 void write_pieces(const ArchiveFile&, const std::vector<RecordLog::Piece>&);
 std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint);
 /// All records of an archive to a log.
-void copy_records(const StoredEscape&, const System&, RecordLog&);
+void copy_records(const StoredEnsemble&, const TrajectoryRanges& done, const System&, RecordLog&);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Which ensemble `carom escape` is to run: a new one, a part of it, or one that goes on.
+// Which ensemble a command is to run: a new one, a part of it, or one that goes on.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,16 @@
 
 namespace carom::cli {
 
-struct EscapeJob {
+template <class Result>
+struct EnsembleJob {
   LoadedSystem loaded;
   std::string output;  ///< archive, or ""
   Shard shard;
-  std::optional<StoredEscape> stored;  ///< what it goes on with
+  std::optional<Stored<Result>> stored;  ///< what it goes on with
 };
 /// Throws InputError where what is stored is not what is asked for, and says what differs.
-EscapeJob job_of(const Options&);
+template <class Result>
+EnsembleJob<Result> job_of(const Options&);
 
 /// Tells the other ranks what to run: the job, or that there is none if it is given back before.
 class JobCall {
@@ -26,7 +28,7 @@ class JobCall {
   explicit JobCall(Ranks* ranks) : ranks_(ranks) {}
   JobCall(const JobCall&) = delete;
   ~JobCall() { make(nullptr); }
-  void make(const EscapeJob* job);
+  void make(const LoadedSystem* job);
 
  private:
   Ranks* ranks_;
@@ -34,7 +36,7 @@ class JobCall {
 /// What it told this rank; nothing: no job.
 std::optional<LoadedSystem> called_job(Ranks&);
 
-/// Counts trajectories and does nothing else: such ensembles can be parted, continued and shared.
+/// Only adds up trajectories: such ensembles can be parted, continued and shared between processes.
 bool is_plain_ensemble(const Options&);
 void refuse_parts_of_others(const Options&);
 double seconds_between_checkpoints(const std::string& text);

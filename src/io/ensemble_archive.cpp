@@ -6,8 +6,8 @@
 
 #include "carom/base/error.hpp"
 #include "io/archive_file.hpp"
-#include "io/escape_columns.hpp"
-#include "io/escape_files.hpp"
+#include "io/ensemble_columns.hpp"
+#include "io/ensemble_files.hpp"
 #include "io/file_lock.hpp"
 #include "io/record_log.hpp"
 
@@ -22,25 +22,23 @@ constexpr int most_failures = 6;
 
 }  // namespace
 
-class EscapeArchive::Implementation {
+template <class Result>
+class EnsembleArchive<Result>::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& system, const Provenance& provenance, const Plan& the_plan)
-      : lock(path), target(path), loaded(system), origin(provenance), plan(the_plan) {
-    for (const Hole& hole : loaded.system.table->holes) holes.push_back(hole.name);
-  }
+      : lock(path), target(path), loaded(system), origin(provenance), plan(the_plan) {}
   ~Implementation() {
     if (finished || kept == 0) std::remove(checkpoint_of(target).c_str());
     if (log) log->keep(!finished && kept > 0);
   }
 
-  void write(const EscapeResult& result, const std::string& status, bool last);
+  void write(const Result& result, const std::string& status, bool last);
 
   FileLock lock;
   std::string target;
   LoadedSystem loaded;
   Provenance origin;
   Plan plan;
-  std::vector<std::string> holes;
   std::optional<RecordLog> log;
   std::uint64_t kept = 0;
   std::optional<InputError> unwritten;  // records that belong to the next checkpoint
@@ -48,34 +46,29 @@ class EscapeArchive::Implementation {
   int failures = 0;
 };
 
-void write_parts(const ArchiveFile& file, const EscapeResult& result, const Shard& shard, bool everywhere) {
+void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Shard& shard, bool everywhere) {
   const Handle provenance = file.open_group("provenance");
   hdf5::write_attribute(provenance.get(), "shard", text_of(shard), file.name());
   hdf5::write_attribute(provenance.get(), "everywhere", std::int64_t{everywhere}, file.name());
   hdf5::write_attribute(provenance.get(), "seconds", result.seconds, file.name());
   hdf5::write_attribute(provenance.get(), "cpu_seconds", result.cpu_seconds, file.name());
   file.add_decisions(result.decisions);
-  const auto write = [&](const char* name, std::uint64_t number) {
-    hdf5::write_attribute(provenance.get(), name, static_cast<std::int64_t>(number), file.name());
-  };
-  write("lanes_hits", result.effort.hits);
-  write("lanes_left", result.effort.scalar);
-  write("lanes_steps", result.effort.steps);
-  write("lanes_idle", result.effort.idle);
+  write_done(file, result);
 }
 
 // Aside, synced, renamed: under its name a file is whole or is not there.
-void EscapeArchive::Implementation::write(const EscapeResult& result, const std::string& status, bool last) {
+template <class Result>
+void EnsembleArchive<Result>::Implementation::write(const Result& result, const std::string& status, bool last) {
   if (unwritten) throw *unwritten;  // what is counted and what is recorded would differ
   ArchiveFile file = ArchiveFile::create(checkpoint_of(target) + ".new", target);
   Provenance now = origin;
   now.threads = result.threads;
   if (result.lanes) now.isa = name_of(*result.lanes);
-  file.write_head("escape", loaded, now);
+  file.write_head(kind_of(result), loaded, now);
   write_parts(file, result, plan.shard, loaded.system.dynamics.everywhere);
-  write_counts(file, result, holes, loaded.system.of_discs());
+  write_counts(file, result, loaded.system);
   if (log && last) {
-    hdf5::Columns columns = create_records(file, holes);
+    hdf5::Columns columns = create_records(file, loaded.system);
     log->read([&](const std::vector<TrajectoryRecord>& records) { append_records(columns, records); });
     columns.close();
   } else if (log) {
@@ -85,15 +78,17 @@ void EscapeArchive::Implementation::write(const EscapeResult& result, const std:
   file.keep_as(last ? target : checkpoint_of(target));
 }
 
-EscapeArchive::EscapeArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
-                             const Plan& plan) {
+template <class Result>
+EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
+                                         const Plan& plan) {
   refuse_existing(file, plan.force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, plan);
   if (plan.per_trajectory) implementation_->log.emplace(records_of(file), file);
 }
 
-EscapeArchive::EscapeArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
-                             const StoredEscape& stored, const Plan& plan) {
+template <class Result>
+EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
+                                         const Stored<Result>& stored, const Plan& plan) {
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, plan);
   Implementation& a = *implementation_;
   a.origin.before = stored.origins;
@@ -106,19 +101,23 @@ EscapeArchive::EscapeArchive(const std::string& file, const LoadedSystem& loaded
     a.log.emplace(records_of(file), file, read_pieces(stored.file));
   } else {
     a.log.emplace(records_of(file), file);
-    copy_records(stored, loaded.system, *a.log);
+    copy_records(stored, stored.result.done, loaded.system, *a.log);
   }
 }
 
-EscapeArchive::~EscapeArchive() = default;
+template <class Result>
+EnsembleArchive<Result>::~EnsembleArchive() = default;
 
-bool EscapeArchive::wants_records() const { return implementation_->plan.per_trajectory; }
+template <class Result>
+bool EnsembleArchive<Result>::wants_records() const { return implementation_->plan.per_trajectory; }
 
-void EscapeArchive::block(TrajectoryRange range, std::vector<TrajectoryRecord>&& records) {
+template <class Result>
+void EnsembleArchive<Result>::block(TrajectoryRange range, std::vector<TrajectoryRecord>&& records) {
   if (implementation_->log) implementation_->log->add(range, std::move(records));
 }
 
-void EscapeArchive::mark() {
+template <class Result>
+void EnsembleArchive<Result>::mark() {
   Implementation& a = *implementation_;
   a.unwritten.reset();
   try {
@@ -128,7 +127,8 @@ void EscapeArchive::mark() {
   }
 }
 
-void EscapeArchive::save(const EscapeResult& so_far) {
+template <class Result>
+void EnsembleArchive<Result>::save(const Result& so_far) {
   hdf5::silence();
   Implementation& a = *implementation_;
   try {
@@ -142,7 +142,8 @@ void EscapeArchive::save(const EscapeResult& so_far) {
   }
 }
 
-void EscapeArchive::finish(const EscapeResult& result, const std::string& status) {
+template <class Result>
+void EnsembleArchive<Result>::finish(const Result& result, const std::string& status) {
   hdf5::silence();
   Implementation& a = *implementation_;
   try {
@@ -159,7 +160,11 @@ void EscapeArchive::finish(const EscapeResult& result, const std::string& status
   a.finished = true;
 }
 
-std::uint64_t EscapeArchive::kept() const { return implementation_->kept; }
+template <class Result>
+std::uint64_t EnsembleArchive<Result>::kept() const { return implementation_->kept; }
+
+template class EnsembleArchive<EscapeResult>;
+template class EnsembleArchive<DiffusionResult>;
 
 std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.k, shard.of); }
 

@@ -1,4 +1,4 @@
-// Parts of one escape ensemble become one archive.
+// Parts of one ensemble become one archive.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
-#include "io/escape_columns.hpp"
-#include "io/escape_files.hpp"
+#include "io/ensemble_columns.hpp"
+#include "io/ensemble_files.hpp"
 
 namespace carom {
 
@@ -25,7 +25,7 @@ std::optional<TrajectoryRange> common(const TrajectoryRanges& a, const Trajector
   return {};
 }
 
-void refuse_others(const StoredEscape& part, const StoredEscape& first) {
+void refuse_others(const StoredEnsemble& part, const StoredEnsemble& first) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(Place{part.file, 0, 0, ""}, fmt::format("it does not match '{}': {}", first.file, what),
                      "parts of one ensemble");
@@ -39,14 +39,14 @@ void refuse_others(const StoredEscape& part, const StoredEscape& first) {
     refuse(part.per_trajectory ? "it alone has --per-trajectory" : "it has no --per-trajectory");
   if (part.per_trajectory && part.status == "running")
     throw InputError(Place{part.file, 0, 0, ""}, "it is the checkpoint of a run that has not ended",
-                     "an archive, which carom escape --resume makes of it");
+                     fmt::format("an archive, which carom {} --resume makes of it", part.kind));
 }
 
 // The records of one part, in order of index; its file is open only while they are read.
 class Source {
  public:
-  Source(const StoredEscape& part, const System& system) : file_(part.file) {
-    if (part.result.done.size() > 0) head_ = particle_index(system, part.result.done.ranges().front().first, 0);
+  Source(const std::string& file, const TrajectoryRanges& done, const System& system) : file_(file) {
+    if (done.size() > 0) head_ = particle_index(system, done.ranges().front().first, 0);
   }
   /// No record has a lower index; the largest number at the end.
   std::uint64_t head() const { return head_; }
@@ -85,11 +85,8 @@ class Source {
   std::ptrdiff_t at_ = 0;
 };
 
-void write_records(const ArchiveFile& file, const System& system, const std::vector<StoredEscape>& parts,
-                   const std::vector<std::string>& holes) {
-  hdf5::Columns columns = create_records(file, holes);
-  std::vector<Source> sources;
-  for (const StoredEscape& part : parts) sources.emplace_back(part, system);
+void write_records(const ArchiveFile& file, const System& system, std::vector<Source>& sources) {
+  hdf5::Columns columns = create_records(file, system);
   constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
   for (;;) {
     Source* lowest = nullptr;
@@ -112,8 +109,9 @@ void write_records(const ArchiveFile& file, const System& system, const std::vec
 
 }  // namespace
 
-StoredEscape sum_of(const std::vector<StoredEscape>& parts) {
-  StoredEscape sum = parts.at(0);
+template <class Result>
+Stored<Result> sum_of(const std::vector<Stored<Result>>& parts) {
+  Stored<Result> sum = parts.at(0);
   refuse_other_version(sum);
   refuse_others(sum, sum);
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -135,21 +133,32 @@ StoredEscape sum_of(const std::vector<StoredEscape>& parts) {
   return sum;
 }
 
-void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const StoredEscape& sum,
-               const std::vector<StoredEscape>& parts) {
+template <class Result>
+void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const Stored<Result>& sum,
+               const std::vector<Stored<Result>>& parts) {
   hdf5::silence();
   const System& system = loaded.system;
-  std::vector<std::string> holes, files;
-  for (const Hole& hole : system.table->holes) holes.push_back(hole.name);
-  for (const StoredEscape& part : parts) files.push_back(part.file);
+  std::vector<std::string> files;
+  for (const Stored<Result>& part : parts) files.push_back(part.file);
   ArchiveFile file = ArchiveFile::create(checkpoint_of(path) + ".new", path);
-  file.write_head("escape", loaded, origin);
+  file.write_head(kind_of(sum.result), loaded, origin);
   write_parts(file, sum.result, sum.shard, sum.everywhere);
   hdf5::write_attribute(file.open_group("provenance").get(), "merged", files, path);
-  write_counts(file, sum.result, holes, system.of_discs());
-  if (sum.per_trajectory) write_records(file, system, parts, holes);
+  write_counts(file, sum.result, system);
+  if (sum.per_trajectory) {
+    std::vector<Source> sources;
+    for (const Stored<Result>& part : parts) sources.emplace_back(part.file, part.result.done, system);
+    write_records(file, system, sources);
+  }
   file.set_status(sum.status, sum.result.complete);
   file.keep_as(path);
 }
+
+template Stored<EscapeResult> sum_of(const std::vector<Stored<EscapeResult>>&);
+template Stored<DiffusionResult> sum_of(const std::vector<Stored<DiffusionResult>>&);
+template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const Stored<EscapeResult>&,
+                        const std::vector<Stored<EscapeResult>>&);
+template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const Stored<DiffusionResult>&,
+                        const std::vector<Stored<DiffusionResult>>&);
 
 }  // namespace carom

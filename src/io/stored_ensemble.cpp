@@ -1,17 +1,17 @@
-// Escape ensembles read back from their archives and checkpoints.
+// Ensembles read back from their archives and checkpoints.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "carom/base/error.hpp"
-#include "carom/base/exact_number.hpp"
+#include "carom/base/whole_number.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom_version.hpp"
-#include "io/escape_columns.hpp"
-#include "io/escape_files.hpp"
+#include "io/ensemble_columns.hpp"
+#include "io/ensemble_files.hpp"
 #include "io/value.hpp"
 
 namespace carom {
@@ -24,44 +24,42 @@ Handle open_archive(const std::string& name) {
   const Place place{name, 0, 0, ""};
   if (!exists(name)) throw InputError(place, "there is no such file");
   Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file) throw InputError(place, "the file is not an archive", "an archive written by carom escape");
-  if (hdf5::read_string_attribute(file.get(), "kind", name) != "escape")
-    throw InputError(place, "the archive does not hold an escape ensemble", "one written by carom escape");
+  if (!file) throw InputError(place, "the file is not an archive", "an archive written by carom");
   if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
     throw InputError(place, "the archive has another schema", "one written by this version of carom");
   return file;
 }
 
-Shard shard_of(const std::string& text, const std::string& name) {
-  Shard shard;
-  char* end = nullptr;
-  shard.k = std::strtoull(text.c_str(), &end, 10);
-  if (*end == '/') shard.of = std::strtoull(end + 1, &end, 10);
-  if (*end != '\0' || shard.k < 1 || shard.k > shard.of)
-    throw InputError(Place{name, 0, 0, ""}, fmt::format("'{}' is not a part of an ensemble", text));
-  return shard;
+std::string kind_in(const Handle& file, const std::string& name) {
+  return hdf5::read_string_attribute(file.get(), "kind", name);
 }
 
-StoredEscape read_one(const std::string& name) {
+template <class Result>
+Stored<Result> read_one(const std::string& name) {
   hdf5::silence();
   const Handle file = open_archive(name);
-  const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
+  Stored<Result> stored;
+  Result& result = stored.result;
+  stored.kind = kind_of(result);
+  if (kind_in(file, name) != stored.kind)
+    throw InputError(Place{name, 0, 0, ""}, fmt::format("the archive does not hold {} {} ensemble", stored.kind == "escape" ? "an" : "a", stored.kind),
+                     fmt::format("one written by carom {}", stored.kind));
+  const Handle provenance = open_group(file.get(), "provenance", name);
   const hid_t from = provenance.get();
   const auto attribute = [&](const char* what) { return hdf5::read_string_attribute(from, what, name); };
-  StoredEscape stored;
   stored.file = name;
   stored.status = hdf5::read_string_attribute(file.get(), "status", name);
   stored.system_toml = hdf5::read_text(file.get(), "system", name);
   stored.system_name = attribute("system");
   stored.engine = attribute("engine");
   stored.everywhere = hdf5::read_integer_attribute(from, "everywhere", name) == 1;
-  stored.shard = shard_of(attribute("shard"), name);
+  stored.shard = shard_of(attribute("shard"), Place{name, 0, 0, ""});
   stored.origins = ArchiveFile::read_origins(from, name);
   stored.version = stored.origins.back().version;
   stored.per_trajectory = H5Lexists(file.get(), "trajectories", H5P_DEFAULT) > 0 ||
                           H5Lexists(file.get(), "records", H5P_DEFAULT) > 0;
-  EscapeResult& result = stored.result;
-  result = read_counts(file.get(), name);
+  read_counts(file.get(), name, result);
+  read_done(file.get(), name, result);
   result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) == 1;
   result.threads = static_cast<int>(hdf5::read_integer_attribute(from, "threads", name));
   result.seconds = hdf5::read_real_attribute(from, "seconds", name);
@@ -70,7 +68,6 @@ StoredEscape read_one(const std::string& name) {
     return static_cast<std::uint64_t>(hdf5::read_integer_attribute(from, what, name));
   };
   result.decisions = {count("decisions_filter"), count("decisions_exact")};
-  result.effort = {count("lanes_hits"), count("lanes_left"), count("lanes_steps"), count("lanes_idle")};
   const std::string isa = attribute("isa");
   for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512})
     if (isa == name_of(set)) result.lanes = set;
@@ -137,8 +134,8 @@ bool has_checkpoint(const std::string& file) {
   const std::string checkpoint = checkpoint_of(file);  // or what another command was writing there
   if (!exists(checkpoint)) return false;
   try {
-    hdf5::silence();
-    return hdf5::read_string_attribute(open_archive(checkpoint).get(), "kind", checkpoint) == "escape";
+    kind_of_ensemble(checkpoint);
+    return true;
   } catch (const InputError&) {
     return false;
   }
@@ -150,19 +147,51 @@ void remove_checkpoint(const std::string& file) {
   std::remove(records_of(file).c_str());
 }
 
-StoredEscape read_escape(const std::string& file) {
-  const std::string checkpoint = checkpoint_of(file);
-  if (!exists(checkpoint)) return read_one(file);
-  StoredEscape part = read_one(checkpoint);
-  if (!exists(file)) return part;
-  StoredEscape whole = read_one(file);
-  const bool one_ensemble = difference(whole.system_toml, part.system_toml).empty() && whole.shard == part.shard &&
-                            whole.version == part.version &&
-                            whole.engine == part.engine && whole.everywhere == part.everywhere && whole.per_trajectory == part.per_trajectory;
-  return one_ensemble && whole.result.done.size() >= part.result.done.size() ? whole : part;
+std::string kind_of_ensemble(const std::string& file) {
+  hdf5::silence();
+  const std::string checkpoint = checkpoint_of(file), name = exists(checkpoint) ? checkpoint : file;
+  const std::string kind = kind_in(open_archive(name), name);
+  if (kind != kind_of(EscapeResult()) && kind != kind_of(DiffusionResult()))
+    throw InputError(Place{name, 0, 0, ""}, "the archive does not hold an ensemble",
+                     "one written by carom escape or carom diffusion");
+  return kind;
 }
 
-void refuse_other_version(const StoredEscape& stored) {
+template <class Result>
+Stored<Result> read_ensemble(const std::string& file) {
+  const std::string checkpoint = checkpoint_of(file);
+  if (!exists(checkpoint)) return read_one<Result>(file);
+  Stored<Result> part = read_one<Result>(checkpoint);
+  if (!exists(file)) return part;
+  Stored<Result> whole = read_one<Result>(file);
+  const bool one_ensemble = difference(whole.system_toml, part.system_toml).empty() && whole.shard == part.shard &&
+                            whole.version == part.version && whole.engine == part.engine &&
+                            whole.everywhere == part.everywhere && whole.per_trajectory == part.per_trajectory;
+  return one_ensemble && whole.result.done.size() >= part.result.done.size() ? whole : part;
+}
+template Stored<EscapeResult> read_ensemble(const std::string&);
+template Stored<DiffusionResult> read_ensemble(const std::string&);
+
+Shard shard_of(const std::string& text, const Place& place) {
+  constexpr std::uint64_t most = (std::uint64_t{1} << 32) - 1;
+  const auto fail = [&](const std::string& problem, const char* expected) { return InputError(place, problem, expected); };
+  const std::size_t slash = text.find('/');
+  const auto part = [&](const std::string& number) {
+    try {
+      return whole_number(ExactNumber(number, place), 1);
+    } catch (const InputError&) {
+      return std::optional<std::uint64_t>();
+    }
+  };
+  const auto k = slash == std::string::npos ? std::nullopt : part(text.substr(0, slash));
+  const auto of = slash == std::string::npos ? std::nullopt : part(text.substr(slash + 1));
+  if (!k || !of) throw fail(fmt::format("'{}' is not a part", text), "K/N: part K of N, such as 2/8");
+  if (*of > most) throw fail("there are too many parts", "less than 2^32");
+  if (*k > *of) throw fail(fmt::format("there is no part {} of {}", *k, *of), "K from 1 to N");
+  return {*k, *of};
+}
+
+void refuse_other_version(const StoredEnsemble& stored) {
   if (stored.version == version) return;
   throw InputError(Place{stored.file, 0, 0, "version"}, fmt::format("version {} wrote it", stored.version),
                    fmt::format("version {}, which this is", version));
@@ -197,14 +226,14 @@ std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint) {
   return pieces;
 }
 
-void copy_records(const StoredEscape& stored, const System& system, RecordLog& log) {
+void copy_records(const StoredEnsemble& stored, const TrajectoryRanges& done, const System& system, RecordLog& log) {
   RecordReader reader(stored.file);
   std::vector<TrajectoryRecord> batch;
   bool more = reader.next(batch);
   auto next = batch.begin();
   // Pieces of a moderate size, so that one of them fits the memory.
   constexpr std::uint64_t most = 1 << 16;
-  for (const TrajectoryRange& range : stored.result.done.ranges())
+  for (const TrajectoryRange& range : done.ranges())
     for (std::uint64_t first = range.first; first < range.last; first += std::min(most, range.last - first)) {
       const TrajectoryRange piece{first, first + std::min(most, range.last - first)};
       std::vector<TrajectoryRecord> records;

@@ -1,0 +1,112 @@
+// A command that runs an ensemble: alone or with others, from the start or from where it was left.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "carom/base/error.hpp"
+#include "cli/common.hpp"
+#include "cli/ensemble_job.hpp"
+#include "cli/mpi_ranks.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+/// What is particular to an ensemble.
+template <class Result>
+struct EnsembleKind {
+  std::function<Result(const System&, const EnsembleOptions<Result>&)> run;
+  std::function<void(const EnsembleJob<Result>&, const Result&, const std::string& status)> print;
+  std::function<std::uint64_t(const Result&)> lost;
+};
+
+inline void warn(const std::string& text) { fmt::print(stderr, "carom: {}\n", text); }
+
+template <class Result>
+EnsembleOptions<Result> how_to_run(const Options& options) {
+  EnsembleOptions<Result> how;
+  how.threads = threads_of(options);
+  how.lanes = instruction_set_of(options);
+  if (!options.block.empty()) how.block = whole_number(options.block, "--block", 1);
+  if (!options.checkpoint.empty()) how.save_every = seconds_between_checkpoints(options.checkpoint);
+  how.interrupted = &catch_interrupts();
+  return how;
+}
+
+// The archive that the ensemble goes into, or null.
+template <class Result>
+std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options, const EnsembleJob<Result>& job) {
+  using Archive = EnsembleArchive<Result>;
+  if (job.output.empty()) return nullptr;
+  const typename Archive::Plan plan{options.force, options.per_trajectory, job.shard, warn};
+  const Provenance origin = provenance_of(options, job.loaded.system, threads_of(options));
+  if (job.stored) return std::make_unique<Archive>(job.output, job.loaded, origin, *job.stored, plan);
+  return std::make_unique<Archive>(job.output, job.loaded, origin, plan);
+}
+
+template <class Result>
+int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, const Result& result, const std::string& status) {
+  for (const auto& [index, text] : result.reports) warn(text);
+  kind.print(job, result, status);
+  if (kind.lost(result) > 0) return lost;
+  return result.complete ? done : stopped;
+}
+
+// Any rank but the first: what it does is reported there.
+template <class Result>
+int run_as_hand(const Options& options, const EnsembleKind<Result>& kind, Ranks& ranks) {
+  const std::optional<LoadedSystem> loaded = called_job(ranks);
+  if (!loaded) return done;
+  EnsembleOptions<Result> how = how_to_run<Result>(options);
+  how.ranks = &ranks;
+  kind.run(loaded->system, how);
+  return *how.interrupted ? stopped : done;
+}
+
+template <class Result>
+int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
+  const std::unique_ptr<Ranks> ranks = start_ranks();
+  if (ranks && ranks->rank() > 0) return run_as_hand(options, kind, *ranks);
+  JobCall call(ranks.get());
+  check_engine(options);
+  EnsembleOptions<Result> how = how_to_run<Result>(options);
+  const EnsembleJob<Result> job = job_of<Result>(options);
+  if (job.stored && job.stored->result.complete) return report(kind, job, job.stored->result, job.stored->status);
+  const System& system = job.loaded.system;
+  how.part = job.shard.range(system.run.trajectories);
+  if (job.stored) how.before = &job.stored->result;
+  const std::unique_ptr<EnsembleArchive<Result>> archive = archive_of(options, job);
+  how.journal = archive.get();
+  how.ranks = ranks.get();
+  const auto say_how_to_go_on = [&](std::uint64_t kept) {
+    if (job.output.empty() || kept == 0) return;
+    warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}", grouped(kept), options.command,
+                     job.output));
+  };
+  Result result;
+  try {
+    Progress progress(!options.quiet);
+    const double all = static_cast<double>(how.part.last - how.part.first);
+    if (progress.enabled())
+      how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
+        if (progress.due())
+          progress.show(static_cast<double>(trajectories) / all,
+                        with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s");
+      };
+    call.make(&job.loaded);  // the others count on what comes next
+    result = kind.run(system, how);
+    if (archive) archive->finish(result, result.complete ? "completed" : "interrupted");
+  } catch (const InputError&) {
+    if (archive) say_how_to_go_on(archive->kept());
+    throw;
+  }
+  if (!result.complete) say_how_to_go_on(result.done.size());
+  return report(kind, job, result, result.complete ? "completed" : "interrupted");
+}
+
+}  // namespace carom::cli

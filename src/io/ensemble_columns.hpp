@@ -1,0 +1,45 @@
+// What each kind of ensemble adds up, and the records of trajectories, as datasets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "io/archive_file.hpp"
+#include "io/columns.hpp"
+
+namespace carom {
+
+/// Trajectories that are counted, and reports of lost ones.
+void write_done(const ArchiveFile&, const EnsembleResult&);
+void read_done(hid_t file, const std::string& name, EnsembleResult&);
+
+/// What is added up, and the digest.
+void write_counts(const ArchiveFile&, const EscapeResult&, const System&);
+void read_counts(hid_t file, const std::string& name, EscapeResult&);
+void write_counts(const ArchiveFile&, const DiffusionResult&, const System&);
+void read_counts(hid_t file, const std::string& name, DiffusionResult&);
+
+/// A group of an archive that is read; InputError where it is missing.
+hdf5::Handle open_group(hid_t file, const char* group, const std::string& name);
+
+std::vector<std::string> names_of_holes(const System&);
+hdf5::Columns create_records(const ArchiveFile&, const System&);
+void append_records(hdf5::Columns&, const std::vector<TrajectoryRecord>&);
+
+/// Reads /trajectories in batches.
+class RecordReader {
+ public:
+  explicit RecordReader(const std::string& file);
+  /// False, and no records, at the end.
+  bool next(std::vector<TrajectoryRecord>&);
+
+ private:
+  std::string name_;
+  hdf5::Handle file_;
+  std::vector<hdf5::Handle> columns_;
+  std::size_t row_ = 0, left_ = 0;
+};
+
+}  // namespace carom
