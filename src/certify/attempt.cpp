@@ -99,6 +99,7 @@ Choice Attempt::choose_at(const KnownTies::Joint& joint) const {
   if (joint.of.empty()) return at_joint;
   const Choice other = choose();
   if (other.answer == Choice::nothing) return at_joint;
+  if (other.answer == Choice::undecided) return other;
   if (other.answer != Choice::wall) return {Choice::undecided, joint.hit, other.first};
   const Precision precision(bits_);
   const BallState s = now_.state->state(bits_);
@@ -106,12 +107,12 @@ Choice Attempt::choose_at(const KnownTies::Joint& joint) const {
   const auto seen = [&](const Copy& copy) {
     return copy.cell == geometry::Cell{} ? P : P - arena_.scene.translation(copy.cell);
   };
-  const Copy& ends = joint.of.front();
-  const BallVector to_joint = arena_.wall(ends.wall).to - seen(ends);
+  const WallOf<Ball>& wall_there = arena_.wall(joint.at.copy.wall);
+  const BallVector& J = joint.at.last ? wall_there.to : wall_there.from;
+  const MotionOf<Ball>& motion = arena_.scene.motion;
   const bool standing = other.first.wall == now_.standing && other.first.cell == geometry::Cell{};
-  const Ball time =
-      meets(arena_.wall(other.first.wall), seen(other.first), v, arena_.scene.motion, standing).time;
-  switch (sign(time * dot(v, v) - dot(to_joint, v))) {
+  const Ball time = meeting_with(arena_.wall(other.first.wall), seen(other.first), v, motion, standing).time;
+  switch (sign(time - passing_of(J, seen(joint.at.copy), v, motion))) {
     case Sign::positive:
       return at_joint;
     case Sign::negative:
@@ -156,9 +157,15 @@ Outcome Attempt::step() {
     case Choice::wall:
       break;
   }
+  if (at_joint && choice.first == joint->second.hit && !joint->second.dead_end.empty())
+    return {Outcome::dead_end, 0.0, {}};
   std::optional<Now> before;
   if (t_max_ || !arena_.scene.holes.empty()) before = now_.copy();
+  // Who is in the joint already meets the next wall at once: as straight as in a field.
+  const bool turns = arena_.scene.motion.turns, in_joint = at_joint && joint->second.of.empty();
+  if (in_joint) arena_.scene.motion.turns = arena_.fast.motion.turns = false;
   move_to(choice.first);
+  arena_.scene.motion.turns = arena_.fast.motion.turns = turns;
   const Outcome outcome = arrive(choice.first, before);
   if (outcome.kind == Outcome::undecided)
     now_ = std::move(*before);  // it may go on, should algebra tell
@@ -217,6 +224,8 @@ Outcome Attempt::leave(const Now& before) {
     const Ball twice = Ball(2) * dot(after.velocity, t);
     s.velocity = {twice * t.x - after.velocity.x, twice * t.y - after.velocity.y};
   }
+  const double missing = radius(s.velocity).log2() + bits_of(task_.digits) + 2.0;
+  if (!(missing <= 0.0)) return {Outcome::inaccurate, missing, {}};
   now_.wall = before.wall;
   stopped_ = std::move(s);
   return {Outcome::escaped, 0.0, {}};

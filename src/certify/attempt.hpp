@@ -20,6 +20,7 @@ struct Outcome {
     stopped,     ///< t_max comes before the next hit
     escaped,
     unbounded,   ///< no wall follows
+    dead_end,    ///< a tie at which the orbit ends (KnownTies::Joint)
     too_far,     ///< no wall within the longest flight that is followed
     undecided,   ///< more bits are needed to end `doubt`
     inaccurate,  ///< `missing_bits` more are needed

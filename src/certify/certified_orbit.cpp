@@ -133,6 +133,9 @@ class CertifiedOrbit::Implementation {
         case Outcome::unbounded:
           finish_with(turns_ ? CertifiedFate::pinned : CertifiedFate::unbounded, "");
           return std::nullopt;
+        case Outcome::dead_end:
+          finish_with(CertifiedFate::singular, ties_.joints.at(attempt_->hits() + 1).dead_end);
+          return std::nullopt;
         case Outcome::too_far: {
           const auto tie = outcome.doubt.first.wall < 0 ? std::nullopt : tie_at(outcome);
           if (tie)
@@ -178,20 +181,28 @@ class CertifiedOrbit::Implementation {
 
   // First more bits, then algebra, then many more bits. False: the orbit has ended.
   bool decide(const Outcome& outcome) {
-    const bool known = ties_.joints.contains(attempt_->hits() + 1);  // what is in doubt is what comes before it
+    const std::uint64_t event = attempt_->hits() + 1;
+    const auto joint = ties_.joints.find(event);  // what is in doubt may be what comes before it
+    const bool known = joint != ties_.joints.end() && outcome.doubt.kind == certify::Doubt::choice &&
+                       outcome.doubt.first == joint->second.hit;
     if (!known && (undecided_ == 1 || !end_.ties.empty())) {         // one tie is seldom alone
       if (const auto tie = tie_at(outcome)) {
+        if (!tie->goes_on() && tie->at && joint == ties_.joints.end()) {  // if no other wall comes before
+          ties_.joints[event] = {tie->joint.front(), tie->joint, *tie->at, tie->text};
+          undecided_ = 0;
+          return true;
+        }
         // Along the edge of a corridor discs are touched without end.
         if (!tie->goes_on() || end_.ties.size() >= 1000) {
           finish_with(CertifiedFate::singular, tie->text);
           return false;
         }
         end_.ties.push_back(tie->text);
-        const std::uint64_t event = attempt_->hits() + 1;
         if (tie->kind == certify::Tie::tangency) ties_.passed_by[event].push_back(tie->walls.front());
         if (tie->kind == certify::Tie::reflection) {
           for (std::size_t i = 0; i < tie->walls.size(); ++i) 
-            ties_.joints[event + i] = {tie->walls[i], i == 0 ? tie->joint : std::vector<certify::Copy>()};
+            ties_.joints[event + i] = {tie->walls[i], i == 0 ? tie->joint : std::vector<certify::Copy>(),
+                                       i == 0 ? *tie->at : certify::WallEnd(), ""};
           if (tie->beside >= 0) ties_.passed_by[event + tie->walls.size()].push_back({tie->beside, {}});
         }
         if (tie->kind == certify::Tie::last_time) ties_.at_last_time = event;
@@ -203,8 +214,10 @@ class CertifiedOrbit::Implementation {
     }
     const long more = 32L << undecided_++;
     if (more > task_.most_bits_a_doubt) {
-      finish_with(CertifiedFate::undecided, attempt_->description(outcome.doubt) + "; not decided by " +
-                                                std::to_string(effort_.bits) + " bits");
+      const std::string& obstacle = tie_finder_.obstacle();
+      finish_with(CertifiedFate::undecided,
+                  attempt_->description(outcome.doubt) + "; not decided by " + std::to_string(effort_.bits) + " bits" +
+                      (obstacle.empty() ? "" : ", nor by numbers a + b sqrt(d): " + obstacle));
       return false;
     }
     restart(effort_.bits + std::max(still_needed(outcome), 0L) + more);

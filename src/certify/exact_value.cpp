@@ -43,9 +43,14 @@ Ball value_of(const ExactNumber& number) {
   return number.expression() ? evaluate<Ball>(*number.expression(), closed, power_of) : Ball(0);
 }
 
+std::string exact_text(const ExactNumber& number) {
+  const auto rational = number.to_rational();
+  return rational ? rational->numerator + "/" + rational->denominator : number.text();
+}
+
 CosSin direction_of(const ExactNumber& angle, long part, long whole) {
   CosSin result;
-  const std::string turns = "((" + angle.text() + ")/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole) + ")";
+  const std::string turns = "((" + exact_text(angle) + ")/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole) + ")";
   const ExactNumber halves(turns + "*2", angle.place());  // in units of pi
   if (const auto exact = halves.to_rational()) {
     fmpq_t q;

@@ -1,6 +1,8 @@
 // Numbers as they were written, at any precision.
 #pragma once
 
+#include <string>
+
 #include "carom/base/exact_number.hpp"
 #include "certify/ball.hpp"
 
@@ -8,6 +10,9 @@ namespace carom::certify {
 
 /// A ball around what the number means, to the present precision.
 Ball value_of(const ExactNumber&);
+
+/// The number as text that means it exactly: that of a double is rounded.
+std::string exact_text(const ExactNumber&);
 
 struct CosSin {
   Ball cos, sin;

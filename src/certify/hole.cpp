@@ -120,7 +120,7 @@ std::vector<HoleOf<Ball>> ball_holes(const ExactSystem& system, const std::vecto
     const HoleSpec& spec = system.spec->holes[k];
     HoleOf<Ball> hole;
     hole.wall = system.table->wall_index(spec.wall);
-    hole.hole = system.table->hole_index(spec.name.empty() ? "hole_" + std::to_string(k + 1) : spec.name);
+    hole.hole = system.table->hole_index(name_of_hole(system.spec->holes, k));
     const WallOf<Ball>& w = walls[static_cast<std::size_t>(hole.wall)];
     const Ball centre = value_of(spec.center), half = value_of(spec.width) / 2;
     // Ends that agree with the wall's to rounding mean the wall's, as in the table of doubles.

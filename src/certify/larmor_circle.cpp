@@ -26,20 +26,8 @@ double time_at(const Kappa<double>& k, const MotionOf<double>& motion) {
   return elementary::atan2(h * turned * k.q, turned * k.p) / h;
 }
 
-LandingOf<Ball> larmor_state_after(const Ball& time, const BallVector& P, const BallVector& v,
-                                   const Ball& h) {
-  // kappa = h cos/sin (h t): p = h cos, q = sin, p^2 + h^2 q^2 = h^2.
-  Kappa<Ball> k;
-  const Ball angle = h * time;
-  arb_sin_cos(k.q.raw(), k.p.raw(), angle.raw(), Precision::bits());
-  const Ball ahead = k.p * k.q / h, aside = square(k.q) / h;
-  const BallVector Jv = right_of(v);
-  const Ball turned = (k.p * k.q) + (k.p * k.q), less = square(k.q) + square(k.q);
-  LandingOf<Ball> r;
-  r.time = time;
-  r.position = {P.x + (ahead * v.x + aside * Jv.x), P.y + (ahead * v.y + aside * Jv.y)};
-  r.velocity = {v.x + (turned * Jv.x - less * v.x), v.y + (turned * Jv.y - less * v.y)};
-  return r;
+void sin_cos(Ball& sin, Ball& cos, const Ball& angle) {
+  arb_sin_cos(sin.raw(), cos.raw(), angle.raw(), Precision::bits());
 }
 
 }  // namespace carom::certify

@@ -57,7 +57,21 @@ Dual<N> time_at(const Kappa<Dual<N>>& k, const MotionOf<N>& motion) {
       N{}, [&](std::size_t i) { return (k.p.value * k.q.slope[i] - k.p.slope[i] * k.q.value) / size; });
 }
 
-/// The state after a time, without a wall.
-LandingOf<Ball> larmor_state_after(const Ball& time, const BallVector& P, const BallVector& v, const Ball& h);
+void sin_cos(Ball& sin, Ball& cos, const Ball& angle);
+
+/// The state after a time, without a wall: kappa = h cos/sin (h t).
+template <class N>
+LandingOf<N> larmor_state_after(const N& time, const VectorOf<N>& P, const VectorOf<N>& v, const N& h) {
+  N sin, cos;
+  sin_cos(sin, cos, h * time);
+  const N ahead = cos * sin / h, aside = square(sin) / h, product = cos * sin, squared = square(sin);
+  const N turned = product + product, less = squared + squared;
+  const VectorOf<N> Jv = right_of(v);
+  LandingOf<N> r;
+  r.time = time;
+  r.position = {P.x + (ahead * v.x + aside * Jv.x), P.y + (ahead * v.y + aside * Jv.y)};
+  r.velocity = {v.x + (turned * Jv.x - less * v.x), v.y + (turned * Jv.y - less * v.y)};
+  return r;
+}
 
 }  // namespace carom::certify

@@ -79,11 +79,7 @@ LandingOf<N> fly_larmor(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf
     u = {u.x - factor * w.normal.x, u.y - factor * w.normal.y};
     return r;
   }
-  VectorOf<N> e = minus(r.position, w.centre);
-  if (w.form == Form::ellipse) {
-    const N X = dot2(e, w.along), Y = dot2(e, w.across);
-    e = {X * w.along.x + Y * w.across.x, X * w.along.y + Y * w.across.y};
-  }
+  const VectorOf<N> e = normal_at<N, C>(w, r.position);
   const N along_normal = e.x * u.x + e.y * u.y;
   const N factor = (along_normal + along_normal) / (square(e.x) + square(e.y));
   u = {u.x - factor * e.x, u.y - factor * e.y};

@@ -80,6 +80,14 @@ Meeting<N> meeting_with(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf
                                  : meets_larmor(w, P, v, motion, standing);
 }
 
+/// When a flight passes a point that it goes through, to compare with times of meetings.
+template <class N>
+N passing_of(const VectorOf<N>& X, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion) {
+  const VectorOf<N> d = X - P;
+  // d = (kappa v + (omega/2) Jv)/(kappa^2 + omega^2/4)
+  return motion.turns ? -(dot(v, d) / dot(d, d)) : dot(v, d) / dot(v, v);
+}
+
 /// A Larmor flight over a lattice in pieces of equal length, in doubles: where to look for walls.
 class LarmorPieces {
  public:
@@ -95,17 +103,22 @@ class LarmorPieces {
     return from_ + ahead * velocity_ + aside * right_of(velocity_);
   }
   /// All of the turn lies before the end of piece k.
-  bool last(double k) const { return angle_to(k) > 3.15; }
-  /// -kappa near the end of piece k, as far as walls have been looked for; nothing in the last piece.
+  bool last(double k) const { return angle_to(k) > above_pi; }
+  /// -kappa before the end of piece k, as far as walls have been looked for; nothing near the end of the turn.
   std::optional<double> seen_to(double k) const {
     const double angle = angle_to(k);
-    if (angle > 3.1) return std::nullopt;
+    if (angle > near_end_of_turn) return std::nullopt;
     const elementary::SinCos a = elementary::sincos(angle);
     return -std::fabs(h_) * a.cos / a.sin;
   }
 
  private:
-  double angle_to(double k) const { return std::fabs(h_) * (k + 0.999) * time_; }
+  static constexpr double above_pi = 0x1.921fb54442d19p+1;  ///< the double after pi
+  /// Any angle below pi whose sine is not small.
+  static constexpr double near_end_of_turn = 3.0;
+  /// Half the angle that is turned by the end of piece k, less 2^-40 of it: that is more than its rounding, and as the
+  /// cotangent has the slope -1/sin^2 it moves kappa by more than sine and cosine are rounded by (2^-50/sin^2).
+  double angle_to(double k) const { return std::fabs(h_) * (k + 1.0) * time_ * (1.0 - 0x1p-40); }
   geometry::Vector from_, velocity_;
   double h_, time_;
 };

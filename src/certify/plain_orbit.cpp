@@ -11,7 +11,7 @@ namespace carom {
 
 namespace certify {
 
-// Found by the flights of larmor_flight.hpp.
+// Found by the flights of larmor_flight.hpp, as sin_cos is.
 static Plain time_at(const Kappa<Plain>& k, const MotionOf<Plain>& motion) {
   const bool turned = sign(k.q) == Sign::negative;
   Plain h, angle;
@@ -21,25 +21,10 @@ static Plain time_at(const Kappa<Plain>& k, const MotionOf<Plain>& motion) {
   return angle / h;
 }
 
-namespace {
-
-// After a time, without a wall.
-void advance(const Plain& time, const MotionOf<Plain>& motion, PseudoState<Plain>& s) {
-  if (motion.turns) {
-    Kappa<Plain> k;  // kappa = h cos/sin (h t)
-    Plain cos;
-    const Plain angle = motion.half_omega * time;
-    mpfr_sin_cos(k.q.raw(), cos.raw(), angle.raw(), MPFR_RNDN);
-    k.p = motion.half_omega * cos;
-    const LandingOf<Plain> there = larmor_state<Plain, Plain>(k, s.position, s.velocity, motion.half_omega);
-    s.position = there.position;
-    s.velocity = there.velocity;
-  } else {
-    s.position = s.position + time * s.velocity;
-  }
+static void sin_cos(Plain& sin, Plain& cos, const Plain& angle) {
+  mpfr_sin_cos(sin.raw(), cos.raw(), angle.raw(), MPFR_RNDN);
 }
 
-}  // namespace
 }  // namespace certify
 
 const char* name_of(PlainEnd::Fate fate) {
@@ -98,8 +83,7 @@ class Runner {
       fly_to(scene_, choice.first, next);
       if (!next.position.x.is_number() || !next.position.y.is_number()) return ended(PlainEnd::lost);
       if (t_max_ && sign(next.time - *t_max_) == Sign::positive) {
-        advance(*t_max_ - state_.time, scene_.motion, state_);
-        state_.time = *t_max_;
+        stop_at_last_time();
         break;
       }
       const Passage passage = scene_.hole_at(choice.first.wall, next.position);
@@ -124,6 +108,18 @@ class Runner {
   PlainEnd::Fate nothing_follows() const {
     if (scene_.motion.turns) return PlainEnd::pinned;
     return system_.table->extent == Extent::bounded ? PlainEnd::lost : PlainEnd::unbounded;
+  }
+  void stop_at_last_time() {
+    const Plain rest = *t_max_ - state_.time;
+    if (scene_.motion.turns) {
+      const LandingOf<Plain> there =
+          larmor_state_after<Plain>(rest, state_.position, state_.velocity, scene_.motion.half_omega);
+      state_.position = there.position;
+      state_.velocity = there.velocity;
+    } else {
+      state_.position = state_.position + rest * state_.velocity;
+    }
+    state_.time = *t_max_;
   }
   PlainEnd ended(PlainEnd::Fate fate) {
     end_.fate = fate;

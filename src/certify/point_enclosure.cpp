@@ -48,6 +48,10 @@ void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
   const BallVector there = middle(landing.position), onwards = middle(landing.velocity);
   const FrameOf<Interval> after{tangent_of(fast_wall, point(there)), point(onwards), unit};
   TangentMap<Interval> map = tangent_map(fast_wall, P, v, arena_->fast.motion, same, frame_, after);
+  if (!is_known(map)) {
+    const BallState s = state(bits);
+    map = tangent_map_in_balls(wall, s.position, s.velocity, scene.motion, same, frame_, after);
+  }
   for (Interval& t : map.times) t = t / Interval(arena_->time_unit);
   errors_.move(map.rows, map.times);
   const Ball time = state_.time + landing.time;

@@ -19,7 +19,7 @@ Whereabouts whereabouts_of(const BallTable& table) {
       const geometry::Vector p = vector(w.along), q = vector(w.across);
       disc = {vector(w.centre), 1.0 / std::sqrt(std::min(dot(p, p), dot(q, q)))};
     }
-    disc.radius *= 1.000001;
+    disc.radius *= 1.0 + 0x1p-40;  // rounded some ten times, relative to itself
     r.discs.push_back(disc);
   }
   if (table.lattice) {
@@ -29,6 +29,10 @@ Whereabouts whereabouts_of(const BallTable& table) {
     r.to_first = {r.second.y / area, -r.second.x / area};
     r.to_second = {-r.first.y / area, r.first.x / area};
     r.stretch = std::sqrt(std::min(dot(r.first, r.first), dot(r.second, r.second)));
+    const auto length = [](geometry::Vector v) { return std::sqrt(dot(v, v)); };
+    r.skew = length(r.to_first) * length(r.first) + length(r.to_second) * length(r.second);
+    r.size = length(r.first) + length(r.second);
+    for (const Whereabouts::Disc& disc : r.discs) r.size = std::max(r.size, length(disc.centre) + disc.radius + r.stretch);
   }
   return r;
 }

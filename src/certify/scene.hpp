@@ -39,27 +39,50 @@ struct Whereabouts {
   geometry::Vector first, second;        ///< lattice vectors
   geometry::Vector to_first, to_second;  ///< coordinates of a point by them
   double stretch = 0.0;                  ///< length of pieces in which flights are followed on a lattice
+  double size = 0.0;                     ///< of the coordinates of all these
+  double skew = 0.0;                     ///< of the lattice vectors: 2 where they are at right angles
+
+  /// Part of a length that every rounding in the search for walls stays below. A handful of operations is rounded by
+  /// 2^-53 each, and dividing by the cell's area makes that worse by its skew: 32 of them leave much room.
+  static constexpr double rounding = 0x1p-48;
+  /// How far the roundings of coordinates may carry the middle of piece k, and what is seen from it, off.
+  double rounded_off(double from, double k) const {
+    return rounding * skew * (from + size + (k + 2.0) * stretch);
+  }
 };
 Whereabouts whereabouts_of(const BallTable&);
 
-/// Calls try_copy(copy) for every copy of a wall that comes near a piece of a flight with that middle.
+/// Calls try_copy(copy) for every copy of a wall that comes near a piece of a flight with that middle; `off`: how far the
+/// piece may be from there.
 template <class Try>
-void near_piece(const Whereabouts& w, geometry::Vector q, Try try_copy) {
+void near_piece(const Whereabouts& w, geometry::Vector q, double off, Try try_copy) {
   for (std::size_t i = 0; i < w.discs.size(); ++i) {
     const geometry::Vector d = q - w.discs[i].centre;
-    // Rounding is far below a millionth of the cell for the 10^5 pieces that are followed.
-    const double reach = 0.501 * w.stretch + w.discs[i].radius;
+    const double reach = 0.5 * w.stretch + w.discs[i].radius + off;
     const double c = dot(w.to_first, d), s = dot(w.to_second, d);
-    const double c_reach = reach * std::sqrt(dot(w.to_first, w.to_first)) + 1e-6;
-    const double s_reach = reach * std::sqrt(dot(w.to_second, w.to_second)) + 1e-6;
+    const double c_reach = reach * std::sqrt(dot(w.to_first, w.to_first));
+    const double s_reach = reach * std::sqrt(dot(w.to_second, w.to_second));
     for (double m = std::ceil(c - c_reach); m <= c + c_reach; ++m) {
       for (double n = std::ceil(s - s_reach); n <= s + s_reach; ++n) {
         const geometry::Vector there = d - m * w.first - n * w.second;
-        if (dot(there, there) > reach * reach * 1.0001) continue;
+        if (dot(there, there) > reach * reach) continue;
         try_copy(Copy{static_cast<int>(i), {static_cast<std::int64_t>(m), static_cast<std::int64_t>(n)}});
       }
     }
   }
+}
+
+/// At most how far an enclosure reaches from a point of doubles. Numbers that are taken at their word are that point, but
+/// for rounding.
+inline double off_by(const VectorOf<Interval>& v, geometry::Vector v0) {
+  return (v.x - Interval(v0.x)).size() + (v.y - Interval(v0.y)).size();
+}
+inline double off_by(const BallVector& v, geometry::Vector v0) {
+  return off_by(VectorOf<Interval>{interval_of(v.x), interval_of(v.y)}, v0);
+}
+template <class N>
+double off_by(const VectorOf<N>&, geometry::Vector) {
+  return 0.0;
 }
 
 template <class N>
@@ -97,7 +120,12 @@ class SceneOf {
       return answer(first);
     }
     if (walls.empty()) return {};
-    const double speed = std::sqrt(dot(v0, v0));
+    const double speed = std::sqrt(dot(v0, v0)), from = std::sqrt(dot(P0, P0));
+    // The flight starts near P0 and may turn aside from v0; also on Larmor circles, where a time only rotates the latter.
+    const double off_start = off_by(P, P0), turned = off_by(v, v0) / speed;
+    const auto off = [&](double k) {
+      return off_start + (k + 1.0) * where.stretch * turned + where.rounded_off(from, k);
+    };
     const auto try_copy = [&](const Copy& copy) {
       if (first.knows(copy)) return;
       const bool here = copy.cell == geometry::Cell{};
@@ -106,6 +134,7 @@ class SceneOf {
                                here && copy.wall == standing),
                   copy);
     };
+    const Choice unknown{Choice::undecided, {0, {}}, {}};  // too wide an enclosure
     // Everything up to the end of a piece has been looked at.
     const auto seen_to = [&](double end) {
       return first.found() && sign(first.time() - N(end)) == Sign::negative;
@@ -113,15 +142,17 @@ class SceneOf {
     if (motion.turns) {
       const LarmorPieces pieces(P0, v0, middle_of(motion.half_omega), where.stretch);
       for (double k = 0.0; k < most_pieces; ++k) {
-        near_piece(where, pieces.middle(k), try_copy);
+        if (!(off(k) <= where.stretch)) return unknown;
+        near_piece(where, pieces.middle(k), off(k), try_copy);
         const std::optional<double> end = pieces.seen_to(k);
         if (pieces.last(k) || (end && seen_to(*end))) return answer(first);
       }
     } else {
       const geometry::Vector step = (where.stretch / speed) * v0;
       for (double k = 0.0; k < most_pieces; ++k) {
-        near_piece(where, P0 + (k + 0.5) * step, try_copy);
-        if (seen_to((k + 0.999) * where.stretch / speed)) return answer(first);
+        if (!(off(k) <= where.stretch)) return unknown;
+        near_piece(where, P0 + (k + 0.5) * step, off(k), try_copy);
+        if (seen_to((k + 1.0) * where.stretch / speed * (1.0 - Whereabouts::rounding))) return answer(first);
       }
     }
     Choice none;

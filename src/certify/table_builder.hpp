@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <variant>
 
 #include "carom/base/error.hpp"
+#include "carom/table/table.hpp"
 #include "certify/ball_table.hpp"
 
 namespace carom::certify {
@@ -96,6 +98,8 @@ class TableBuilder {
       lorentz();
     } else if (shape == "discs") {
       discs();
+    } else if (shape == "random-discs") {
+      random_discs();
     } else if (shape == "path") {
       for (const LoopSpec& loop : spec_.loops) path(loop);
     } else if (shape != "plane") {
@@ -170,10 +174,7 @@ class TableBuilder {
   void sinai() {
     const N side = number("side"), half = side / 2;
     add(circle_wall({half, half}, number("radius"), false));
-    if (spec_.torus)
-      table_.lattice = {{side, 0}, {0, side}};
-    else
-      polygon(rectangle(side, side));
+    square_around(side);
   }
   void lorentz() {
     const N spacing = number("spacing");
@@ -191,6 +192,21 @@ class TableBuilder {
       add(circle_wall(centers[k],
                       list == spec_.lists.end() ? number("radius") : Source<N>::value(list->second[k]),
                       false));
+  }
+  // Centres are drawn as doubles, and are these exactly.
+  void random_discs() {
+    TableSpec closed = spec_;
+    closed.holes.clear();
+    for (const Wall& wall : build_table(closed).walls)
+      if (const auto* disc = std::get_if<geometry::Circle>(&wall.curve))
+        add(circle_wall({N(disc->centre.x), N(disc->centre.y)}, number("radius"), false));
+    square_around(number("side"));
+  }
+  void square_around(const N& side) {
+    if (spec_.torus)
+      table_.lattice = {{side, 0}, {0, side}};
+    else
+      polygon(rectangle(side, side));
   }
   void path(const LoopSpec& loop) {
     VectorOf<N> from = point(loop.start);

@@ -10,13 +10,7 @@ namespace carom::certify {
 template <class N>
 VectorOf<N> tangent_of(const WallOf<N>& w, const VectorOf<N>& P) {
   using std::sqrt;
-  VectorOf<N> normal = w.normal;
-  if (w.form == Form::circle) normal = P - w.centre;
-  if (w.form == Form::ellipse) {
-    const VectorOf<N> e = P - w.centre;
-    const N X = dot(e, w.along), Y = dot(e, w.across);
-    normal = {X * w.along.x + Y * w.across.x, X * w.along.y + Y * w.across.y};
-  }
+  const VectorOf<N> normal = w.form == Form::segment ? w.normal : normal_at<N, N>(w, P);
   const N length = sqrt(square(normal.x) + square(normal.y));
   return {-(normal.y / length), normal.x / length};
 }

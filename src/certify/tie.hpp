@@ -25,6 +25,12 @@ struct Doubt {
   int hole_index = -1;
 };
 
+/// An end of a wall: where it stops, or where it begins.
+struct WallEnd {
+  Copy copy;
+  bool last = true;
+};
+
 struct Tie {
   enum Kind : unsigned char {
     corner,      ///< into a joint at which reflection has no limit
@@ -37,7 +43,8 @@ struct Tie {
   } kind = corner;
   std::string text;
   std::vector<Copy> walls{};
-  std::vector<Copy> joint{};  ///< of a reflection: the wall that ends there and the one that begins
+  std::vector<Copy> joint{};  ///< the walls that are met there: that which ends and that which begins
+  std::optional<WallEnd> at{};  ///< balls have to prove that no other wall comes before this
   int hole = -1;              ///< in Table::holes, of an end of a hole
   int beside = -1;  ///< of a reflection: the segment that is not met when the flight leaves the joint
   bool goes_on() const { return kind != corner && kind != along_wall; }
@@ -53,6 +60,8 @@ class TieFinder {
   /// The tie at the event after the walls `path` were met (each call with a longer path of the same orbit),
   /// or nothing where algebra finds none: because there is none, or numbers are not of the form or too long.
   std::optional<Tie> find(const std::vector<Copy>& path, const Doubt&);
+  /// Why exact numbers could not follow to the last event that was asked for; "" where they could.
+  const std::string& obstacle() const;
 
  private:
   class Implementation;
@@ -66,6 +75,8 @@ struct KnownTies {
   struct Joint {
     Copy hit;               ///< the wall that is hit there
     std::vector<Copy> of;   ///< Tie::joint, or nothing where the particle is in the joint already
+    WallEnd at{};
+    std::string dead_end{};  ///< why the orbit ends there, if it does
   };
   std::map<std::uint64_t, Joint> joints;
   std::uint64_t at_last_time = 0;

@@ -48,6 +48,15 @@ WallOf<To> converted(const WallOf<From>& w, const Convert& convert) {
   return r;
 }
 
+/// Across a wall at a point of it, of any length: outwards from a circle or ellipse (a segment has one normal).
+template <class Number, class Constant>
+VectorOf<Number> normal_at(const WallOf<Constant>& w, const VectorOf<Number>& P) {
+  const VectorOf<Number> e{P.x - w.centre.x, P.y - w.centre.y};
+  if (w.form == Form::circle) return e;
+  const Number X = e.x * w.along.x + e.y * w.along.y, Y = e.x * w.across.x + e.y * w.across.y;
+  return {X * w.along.x + Y * w.across.x, X * w.along.y + Y * w.across.y};
+}
+
 /// What does not change along an orbit.
 template <class Number>
 struct MotionOf {

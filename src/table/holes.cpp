@@ -95,7 +95,7 @@ void add_holes(const TableSpec& spec, Table& table) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < spec.holes.size(); ++k) {
     const HoleSpec& hole = spec.holes[k];
-    const std::string name = hole.name.empty() ? "hole_" + std::to_string(k + 1) : hole.name;
+    const std::string name = name_of_hole(spec.holes, k);
     if (std::find(names.begin(), names.end(), name) != names.end()) {
       throw InputError(hole.place, "two holes are called '" + name + "'", "a name of its own");
     }

@@ -20,6 +20,8 @@ using certify::Kappa;
 using certify::Precision;
 using certify::VectorOf;
 using certify::WallOf;
+using tests::exactly;
+using tests::Shaped;
 
 template <class N>
 using DualVector = VectorOf<Dual<N>>;
@@ -91,6 +93,37 @@ TEST(LarmorExits, NextToAnArcsEnd) {
     EXPECT_GE(place.high, kappa);
   }
   EXPECT_EQ(known, 0);  // they are too close for doubles
+}
+
+// Circles that pass a joint of elliptic arcs by 10^-30: balls tell on which side.
+TEST(LarmorExits, BesideAJoint) {
+  Shaped s = tests::all_shapes().back();
+  ASSERT_EQ(s.spec.loops.at(0).pieces.at(1).kind, PieceSpec::Kind::ellipse);
+  long both_sides = 0;
+  for (const auto& [x, y] : {std::pair{"3/10", "3/10"}, {"1/2", "1/5"}, {"2/5", "7/10"}}) {
+    for (const auto& [u, v] : {std::pair{"0", "1"}, {"1", "0"}, {"0", "0"}}) {
+      // Through J = (u, v) from P along (1, 0): 2 omega d_y + omega^2 d^2 = 0 with d = J - P.
+      const std::string dx = std::string("(") + u + "-" + x + ")", dy = std::string("(") + v + "-" + y + ")";
+      const std::string omega = "-2*" + dy + "/(" + dx + "^2+" + dy + "^2)";
+      s.inside = {exactly(x), exactly(y)};
+      int walls[2] = {-1, -1};
+      for (const int side : {0, 1}) {
+        ExactSystem system = tests::system_of(s, {exactly("1"), exactly("0")});
+        system.omega = exactly(omega + (side == 0 ? "+1/10^30" : "-1/10^30"));
+        CertifiedOrbit few(system, tests::task_of(3, 10)), many(system, tests::task_of(3, 40));
+        for (const CertifiedHit& hit : few) {
+          if (walls[side] < 0) walls[side] = hit.wall;
+          const auto same = many.next();
+          ASSERT_TRUE(same.has_value());
+          EXPECT_EQ(hit.wall, same->wall);
+          EXPECT_TRUE(tests::holds(hit.x, same->x) && tests::holds(hit.vx, same->vx) && tests::holds(hit.t, same->t));
+        }
+        EXPECT_EQ(few.end_state().fate, CertifiedFate::completed) << few.end_state().reason;
+      }
+      both_sides += walls[0] != walls[1];
+    }
+  }
+  EXPECT_GT(both_sides, 2);
 }
 
 }  // namespace

@@ -59,6 +59,10 @@ inline std::vector<Shaped> all_shapes() {
   Shaped walled = shaped("sinai", {{"side", "1"}, {"radius", "0.3"}}, "0.05", "0.07");
   walled.spec.torus = false;
   all.push_back(walled);
+  // A corner is free whatever the arrangement.
+  Shaped many = shaped("random-discs", {{"side", "4"}, {"radius", "0.3"}, {"count", "7"}}, "0.02", "0.03");
+  many.spec.torus = false;
+  all.push_back(many);
   Shaped polygon = shaped("polygon", {}, "0.3", "0.4");
   polygon.spec.points["points"] = {{exactly("0"), exactly("0")},
                                    {exactly("2"), exactly("0.1")},

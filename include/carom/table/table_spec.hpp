@@ -1,6 +1,7 @@
 // A table as it was written: plain data whose values carry their place in the file.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -40,6 +41,11 @@ struct HoleSpec {
   std::string name;                    ///< "" : hole_1, hole_2 …
   Place place, wall_place;
 };
+
+/// "hole_1", "hole_2" … where none is given.
+inline std::string name_of_hole(const std::vector<HoleSpec>& holes, std::size_t index) {
+  return holes[index].name.empty() ? "hole_" + std::to_string(index + 1) : holes[index].name;
+}
 
 /// The two vectors of a lattice.
 struct LatticeSpec {
