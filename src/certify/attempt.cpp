@@ -23,8 +23,11 @@ Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const Kno
   const Precision precision(bits);
   set_arena(ball_table(*system.spec));
   if (task.t_max) t_max_ = value_of(*task.t_max);
-  // Few bits: the digits asked for, and somewhat more in each attempt, should the last time be a close call.
-  if (LineTable::holds(arena_.scene)) lines_.emplace(arena_.scene, static_cast<long>(bits_of(task.digits)) + 96 + bits / 16);
+  if (LineTable::holds(arena_.scene)) {
+    // Few bits: the digits asked for, and somewhat more in each attempt, should the last time be a close call.
+    lines_.emplace(arena_.scene, static_cast<long>(bits_of(task.digits)) + 96 + (t_max_ ? bits / 16 : 0));
+    if (bits > 1000) lines_->shorten(system);
+  }
   now_.standing = system.start.wall;
   now_.state = start_enclosure(system);
 }
@@ -259,6 +262,11 @@ BallState Attempt::enclosed() const {
 
 double Attempt::lost_bits() const {
   return std::max(0.0, now_.state->error().log2() + static_cast<double>(first_bits_));
+}
+
+// Measured. The errors of a line are only two, and roundings do not feed each other.
+double Attempt::rounding_loss(double hits) const {
+  return lines_ ? 8.0 + 0.6 * std::log2(hits + 1.0) : 16.0 + 1.5 * std::log2(hits + 1.0);
 }
 
 Forecast Attempt::look_ahead(const std::function<bool()>& interrupted) const {

@@ -61,6 +61,8 @@ class Attempt {
   BallState state() const { return now_.state->state(bits_); }
   int standing() const { return now_.standing; }
 
+  /// Bits that roundings cost besides what the tangent map stretches, nearly.
+  double rounding_loss(double hits) const;
   /// How many bits the orbit will lose from here on, by a look ahead.
   Forecast look_ahead(const std::function<bool()>& interrupted) const;
 

@@ -75,15 +75,18 @@ class CertifiedOrbit::Implementation {
     // A first attempt of few bits sees the table and the start, and looks ahead.
     const certify::Attempt scout(system_, task_, ties_, 128);
     effort_.rescaled = scout.rescaled();
-    forecast_ = scout.look_ahead(interrupted_);
+    const certify::Forecast forecast = scout.look_ahead(interrupted_);
     if (interrupted_ && interrupted_()) {  // the start, for the end
       restart(bits_of_digits());
       return;
     }
-    const double wanted = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast_.hits);
-    if (forecast_.hits > 0) rate_ = forecast_.bits / static_cast<double>(forecast_.hits);
-    const double lost = forecast_.bits + rate_ * (wanted - static_cast<double>(forecast_.hits));
-    restart(static_cast<long>(lost * 1.01 + static_cast<double>(task_.digits) * 3.33 + 24.0 + std::log2(wanted + 1.0)));
+    hits_ = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast.hits);
+    rounding_loss_ = scout.rounding_loss(hits_);
+    // Behind a hole that the orbit may miss it goes on as before.
+    const double more = forecast.hits > 0 ? hits_ / static_cast<double>(forecast.hits) : 1.0;
+    const double lost = forecast.bits * more + rounding_loss_;
+    restart(static_cast<long>(lost + margin(lost, forecast.spread * std::sqrt(more)) +
+                              static_cast<double>(task_.digits) * 3.3219280948873626 + 3.0));
   }
 
   std::optional<CertifiedHit> next() {
@@ -117,8 +120,8 @@ class CertifiedOrbit::Implementation {
                                                       std::to_string(effort_.bits) + " bits");
             return std::nullopt;
           }
-          restart(effort_.bits + std::max(still_needed(outcome), 0L) +
-                  (std::isfinite(outcome.missing_bits) ? 8L : 32L << undecided_++));
+          restart(effort_.bits + std::max(still_needed(outcome), 4L) +
+                  (std::isfinite(outcome.missing_bits) ? 0L : 32L << undecided_++));
           if (done_) return std::nullopt;
           break;
         case Outcome::undecided:
@@ -164,6 +167,14 @@ class CertifiedOrbit::Implementation {
       throw InputError(system_.omega.place(), "the magnetic field cannot be told from zero", "0, or another number");
   }
 
+  // What is added to the bits that will be lost as far as a forecast knows. An attempt with too few bits is repeated,
+  // one with too many has more than the tangent map asks for: 1.03 times its norm's logarithm and 30 + log2 n bits.
+  double margin(double lost, double spread) const {
+    const double all = std::sqrt(16.0 + spread * spread);
+    const double room = 0.03 * lost + 28.0 + std::log2(hits_ + 1.0) - rounding_loss_;
+    return std::clamp(room - 1.65 * all, -0.5 * all, 3.0 * all + 4.0);
+  }
+
   // What this attempt lacks now, and what the rest of the orbit will lose: seen from here, for the first
   // look ahead may have left through a hole that the orbit misses.
   long still_needed(const Outcome& outcome) const {
@@ -171,12 +182,12 @@ class CertifiedOrbit::Implementation {
     const certify::Forecast forecast = attempt_->look_ahead(interrupted_);
     double rest = forecast.bits;
     const auto flown = static_cast<double>(attempt_->hits());
+    const double lost = std::min(attempt_->lost_bits(), static_cast<double>(effort_.bits));
     if (task_.collisions > 0 && flown > 100.0) {
       const auto unseen = static_cast<double>(task_.collisions - forecast.hits) - flown;
-      const double lost = std::min(attempt_->lost_bits(), static_cast<double>(effort_.bits));
       rest += std::max(0.0, unseen) * lost / flown;
     }
-    return static_cast<long>(lacks + rest * 1.01);
+    return static_cast<long>(lacks + rest + margin(lost + rest, rest > 0.0 ? forecast.spread : 0.0)) + 1;
   }
 
   // First more bits, then algebra, then many more bits. False: the orbit has ended.
@@ -272,8 +283,8 @@ class CertifiedOrbit::Implementation {
   const std::function<bool()> interrupted_;
   certify::KnownTies ties_;
   certify::TieFinder tie_finder_{system_, task_};
-  certify::Forecast forecast_;
-  double rate_ = 2.0;  ///< bits lost by a hit
+  double hits_ = 0.0;  ///< expected
+  double rounding_loss_ = 0.0;
   std::optional<certify::Attempt> attempt_;
   std::uint64_t given_ = 0;
   CertifiedHit last_;  ///< that was given out

@@ -55,8 +55,8 @@ LineEnclosure::Turn LineEnclosure::turn_at(const LineWall& w) const {
   const Ball square_of_moment = square(moment_);
   turn.room = w.size2 - square_of_moment;
   const Ball outwards = sqrt(turn.room);
-  turn.cosine = Ball(2) * (w.inverse * square_of_moment) - Ball(1);
-  const Ball sine = w.inverse * square(moment_ + outwards) - Ball(1);
+  turn.cosine = Ball(2) * w.inverse.times(square_of_moment) - Ball(1);
+  const Ball sine = w.inverse.times(square(moment_ + outwards)) - Ball(1);
   turn.sine = w.side > 0.0 ? -sine : sine;
   return turn;
 }

@@ -1,5 +1,7 @@
 #include "certify/line_table.hpp"
 
+#include "certify/quadratic_table.hpp"
+
 namespace carom::certify {
 namespace {
 
@@ -19,7 +21,7 @@ LineWall line_wall(const WallOf<Ball>& w, const MotionOf<Ball>& motion) {
     r.side = w.turn > 0 ? 1.0 : -1.0;
     r.anchor = w.centre;
     r.size2 = w.radius2 * motion.speed2;
-    r.inverse = Ball(1) / r.size2;
+    r.inverse.value = Ball(1) / r.size2;
     r.radius = std::sqrt(w.radius2.to_double());
     return r;
   }
@@ -34,16 +36,41 @@ BallVector rounded(const BallVector& v) { return {v.x.rounded(), v.y.rounded()};
 
 LineWall rounded(const LineWall& w) {
   return {w.arc,         w.side, rounded(w.anchor), rounded(w.tangent), rounded(w.double_tangent), w.size2.rounded(),
-          w.inverse.rounded(), w.radius};
+          {w.inverse.value.rounded(), w.inverse.above, w.inverse.below}, w.radius};
 }
 
 }  // namespace
+
+Ball Factor::times(Ball x) const {
+  if (below == 0) return value * x;
+  if (above != 1) arb_mul_si(x.raw(), x.raw(), above, Precision::bits());
+  if (below != 1) arb_div_ui(x.raw(), x.raw(), below, Precision::bits());
+  return x;
+}
 
 LineTable::LineTable(const SceneOf<Ball>& scene, long few) : few_bits(few) {
   for (const WallOf<Ball>& w : scene.walls) walls.push_back(line_wall(w, scene.motion));
   const Precision precision(few);
   for (const LineWall& w : walls) few_walls.push_back(rounded(w));
   few_inverse_speed2 = scene.motion.inverse_speed2.rounded();
+}
+
+void LineTable::shorten(const ExactSystem& system) {
+  try {
+    const QuadraticField field;
+    const TableOf<Quadratic> table = TableBuilder<Quadratic>(*system.spec).build();
+    const Quadratic speed2 = square(Quadratic(system.speed));
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      if (!walls[i].arc) continue;
+      const Quadratic size2 = table.walls[i].radius2 * speed2;
+      const mpq_class* const q = size2.rational();
+      if (q == nullptr || !q->get_num().fits_slong_p() || !q->get_den().fits_slong_p()) continue;
+      walls[i].inverse.above = q->get_den().get_si();
+      walls[i].inverse.below = q->get_num().get_ui();
+    }
+  } catch (const NotQuadratic&) {
+    // Some number is of another form, and the constants stay long.
+  }
 }
 
 bool LineTable::holds(const SceneOf<Ball>& scene) {

@@ -8,6 +8,15 @@
 
 namespace carom::certify {
 
+/// A constant factor, and the same as a quotient of two words where it is known to be one: then a product is quick.
+struct Factor {
+  Ball value;
+  long above = 0;
+  unsigned long below = 0;  ///< 0: not known
+
+  Ball times(Ball x) const;
+};
+
 struct LineWall {
   bool arc = false;
   double side = 1.0;          ///< of an arc: +1 where the domain is inside the circle, -1 outside
@@ -15,7 +24,7 @@ struct LineWall {
   BallVector tangent;         ///< of a segment, of any length
   BallVector double_tangent;  ///< 2 tangent/(tangent . tangent)
   Ball size2;                 ///< of an arc: (radius speed)^2, the square of the largest moment that meets it
-  Ball inverse;               ///< 1/size2
+  Factor inverse;             ///< 1/size2
   double radius = 1.0;        ///< of an arc, nearly
 };
 
@@ -23,6 +32,8 @@ struct LineTable {
   LineTable() = default;
   /// `few_bits`: of numbers that are read and not carried on.
   LineTable(const SceneOf<Ball>&, long few_bits);
+  /// Looks for short constants among the numbers as they were written.
+  void shorten(const ExactSystem&);
   /// Are all walls segments and arcs, and all flights straight?
   static bool holds(const SceneOf<Ball>&);
   void round();  ///< to the present precision

@@ -10,6 +10,7 @@ namespace carom::certify {
 
 struct Forecast {
   double bits = 0.0;         ///< log2 of the largest stretch by the tangent map, relative to the start
+  double spread = 0.0;       ///< by how much another orbit's may differ: a standard deviation
   std::uint64_t hits = 0;    ///< as many as were followed
 };
 

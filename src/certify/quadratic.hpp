@@ -60,6 +60,8 @@ class Quadratic {
   /// Throws NotQuadratic where the root needs another one than the field has.
   friend Quadratic sqrt(const Quadratic&);
 
+  /// The number, where it has no root.
+  const mpq_class* rational() const { return sgn(root_) == 0 ? &rational_ : nullptr; }
   /// Of all numerators and denominators together.
   std::size_t bits() const;
 

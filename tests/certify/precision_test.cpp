@@ -86,6 +86,7 @@ class Stretch {
 TEST(CertifiedPrecision, LosesWhatTheTangentMapStretches) {
   tests::Dice dice(21);
   std::vector<double> beyond;  // of the precision that was chosen
+  int attempts = 0;
   for (const Shaped& s : tests::all_shapes()) {
     for (const std::uint64_t collisions : {100u, 1000u}) {
       for (long k = 0; k < tests::cases(2, 20); ++k) {
@@ -97,6 +98,7 @@ TEST(CertifiedPrecision, LosesWhatTheTangentMapStretches) {
         Stretch stretch(system, 1.0);
         for (const CertifiedHit& hit : orbit) stretch.hit(hit);
         const CertifiedEffort& effort = orbit.effort();
+        attempts += effort.attempts;
         // Roundings of all hits add up.
         const double allowed = 1.03 * stretch.log2() + 30.0 + std::log2(static_cast<double>(collisions));
         EXPECT_LE(effort.tangent_bits, allowed) << s.spec.shape << ", " << collisions << ", " << k;
@@ -107,9 +109,12 @@ TEST(CertifiedPrecision, LosesWhatTheTangentMapStretches) {
       }
     }
   }
-  // What was chosen before the orbit was known: right for most, a few per cent too much for the others.
+  // What was chosen rests on a forecast; some orbits stretch less.
   std::sort(beyond.begin(), beyond.end());
-  EXPECT_LE(beyond[beyond.size() * 6 / 10], 0.0);
+  const auto within = std::upper_bound(beyond.begin(), beyond.end(), 0.0) - beyond.begin();
+  std::printf("%ld of %zu orbits within the bound, the worst by %.0f bits beyond; %.2f attempts an orbit\n",
+              static_cast<long>(within), beyond.size(), beyond.back(), static_cast<double>(attempts) / static_cast<double>(beyond.size()));
+  EXPECT_LE(beyond[beyond.size() * 8 / 10], 0.0);
 }
 
 }  // namespace
