@@ -3,12 +3,8 @@
 
 #include <atomic>
 #include <chrono>
-#include <deque>
 #include <exception>
 #include <map>
-#include <memory>
-#include <mutex>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -17,38 +13,10 @@
 #include "carom/ensemble/ranks.hpp"
 #include "ensemble/bytes.hpp"
 #include "systems.hpp"
+#include "thread_ranks.hpp"
 
 namespace carom {
 namespace {
-
-struct Office {
-  explicit Office(int size) : boxes(static_cast<std::size_t>(size)) {}
-  std::mutex mutex;
-  std::vector<std::deque<Ranks::Message>> boxes;
-};
-
-class ThreadRanks : public Ranks {
- public:
-  ThreadRanks(Office& office, int rank) : office_(office), rank_(rank) {}
-  int rank() const override { return rank_; }
-  int size() const override { return static_cast<int>(office_.boxes.size()); }
-  void send(int to, const std::vector<std::byte>& bytes) override {
-    const std::lock_guard lock(office_.mutex);
-    office_.boxes[static_cast<std::size_t>(to)].push_back({rank_, bytes});
-  }
-  std::optional<Message> receive() override {
-    const std::lock_guard lock(office_.mutex);
-    auto& box = office_.boxes[static_cast<std::size_t>(rank_)];
-    if (box.empty()) return {};
-    Message first = std::move(box.front());
-    box.pop_front();
-    return first;
-  }
-
- private:
-  Office& office_;
-  int rank_;
-};
 
 class Records : public EscapeJournal {
  public:
@@ -61,47 +29,34 @@ class Records : public EscapeJournal {
   int saves = 0;
 };
 
-struct Crew {
-  EscapeResult result;
-  std::size_t messages_left = 0;
-};
 /// Each rank has a system of its own, as processes have. `slow`: a rank that starts late. Where one fails, none of
 /// the others ends as if nothing had happened.
-Crew run_crew(const std::vector<System>& systems, EscapeOptions options, int slow = -1) {
+EscapeResult run_crew(const std::vector<System>& systems, EscapeOptions options, int slow = -1) {
   const int size = static_cast<int>(systems.size());
-  Crew crew;
-  Office office(size);
-  std::vector<std::thread> hands;
-  std::atomic<int> failed{0};
-  for (int rank = 1; rank < size; ++rank)
-    hands.emplace_back([&, rank, system = systems[static_cast<std::size_t>(rank)], threads = options.threads] {
-      if (rank == slow) std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      ThreadRanks ranks(office, rank);
-      EscapeOptions mine;
-      mine.threads = threads;
-      mine.ranks = &ranks;
-      try {
-        EXPECT_EQ(run_escape(system, mine).counts.trajectories, 0u);
-      } catch (const std::exception&) {
-        ++failed;
-      }
-    });
-  ThreadRanks first(office, 0);
-  options.ranks = &first;
+  ThreadCrew crew(size);
+  crew.start_hands([&systems, slow, threads = options.threads](Ranks& ranks) {
+    if (ranks.rank() == slow) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EscapeOptions mine;
+    mine.threads = threads;
+    mine.ranks = &ranks;
+    const System system = systems[static_cast<std::size_t>(ranks.rank())];
+    EXPECT_EQ(run_escape(system, mine).counts.trajectories, 0u);
+  });
+  options.ranks = &crew.first();
+  EscapeResult result;
   std::exception_ptr error;
   try {
-    crew.result = run_escape(systems[0], options);
+    result = run_escape(systems[0], options);
   } catch (...) {
     error = std::current_exception();
   }
-  for (std::thread& hand : hands) hand.join();
-  for (const auto& box : office.boxes) crew.messages_left += box.size();
-  EXPECT_EQ(crew.messages_left, 0u);
-  EXPECT_EQ(failed, error ? size - 1 : 0);
+  crew.join();
+  EXPECT_EQ(crew.messages_left(), 0u);
+  EXPECT_EQ(crew.failed(), error ? size - 1 : 0);
   if (error) std::rethrow_exception(error);
-  return crew;
+  return result;
 }
-Crew run_crew(int size, const EscapeOptions& options, int slow = -1, const System& system = make_system(magnetic_square)) {
+EscapeResult run_crew(int size, const EscapeOptions& options, int slow = -1, const System& system = make_system(magnetic_square)) {
   return run_crew(std::vector<System>(static_cast<std::size_t>(size), system), options, slow);
 }
 
@@ -123,7 +78,7 @@ TEST(Crew, OfAnySizeHasTheSameResult) {
         EscapeOptions options;
         options.threads = threads;
         options.block = block;
-        const EscapeResult result = run_crew(size, options).result;
+        const EscapeResult result = run_crew(size, options);
         expect_equal(result, alone);
         EXPECT_EQ(result.ranks, size);
       }
@@ -132,7 +87,7 @@ TEST(Crew, OfAnySizeHasTheSameResult) {
 TEST(Crew, DoesNotWaitForASlowRank) {
   EscapeOptions options;
   options.threads = 1;
-  expect_equal(run_crew(3, options, 2).result, run_escape(make_system(magnetic_square)));
+  expect_equal(run_crew(3, options, 2), run_escape(make_system(magnetic_square)));
 }
 
 TEST(Crew, HandsOverEveryRecordAndSavesOnTheWay) {
@@ -161,12 +116,12 @@ TEST(Crew, GoesOnAfterAnInterruption) {
   options.threads = 1;
   options.interrupted = &stop;
   options.progress = [&](std::uint64_t done, std::uint64_t) { stop = stop || done > 100; };
-  const EscapeResult part = run_crew(3, options).result;
+  const EscapeResult part = run_crew(3, options);
   EXPECT_FALSE(part.complete);
   EscapeOptions rest;
   rest.before = &part;
   rest.threads = 1;
-  expect_equal(run_crew(2, rest).result, alone);
+  expect_equal(run_crew(2, rest), alone);
 }
 
 TEST(Crew, EndsWhenTheFirstRankFails) {

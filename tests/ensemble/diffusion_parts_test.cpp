@@ -1,0 +1,150 @@
+// Diffusion ensembles in parts: interrupted and continued, in shards, shared between ranks. The sum is the whole, bit
+// for bit, although it is one of doubles.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/io/system_file.hpp"
+#include "ensemble/result_bytes.hpp"
+#include "systems.hpp"
+#include "thread_ranks.hpp"
+
+namespace carom {
+namespace {
+
+System lorentz() {
+  return make_system(R"(
+[table]
+shape = "lorentz"
+lattice = "triangular"
+spacing = 2.2
+radius = 1
+[run]
+t_max = 30
+trajectories = 600
+)");
+}
+
+// Forces everywhere: these go in lanes.
+System soft() {
+  for (const BuiltinSystem& b : builtin_systems()) {
+    if (b.name != "soft-lorentz") continue;
+    System system = read_system(b.toml, "soft-lorentz").system;
+    system.run.trajectories = 300;
+    system.run.times = {1, 2, 5};
+    return system;
+  }
+  throw std::runtime_error("no such system");
+}
+
+void expect_equal(const DiffusionResult& a, const DiffusionResult& b) {
+  EXPECT_EQ(a.digest, b.digest);
+  EXPECT_EQ(a.done, b.done);
+  EXPECT_EQ(a.trajectories, b.trajectories);
+  EXPECT_EQ(a.survived, b.survived);
+  EXPECT_EQ(a.collisions, b.collisions);
+  EXPECT_EQ(a.energy_change, b.energy_change);
+  ASSERT_EQ(a.sums.times(), b.sums.times());
+  for (std::size_t group = 0; group < DisplacementSums::groups; ++group)
+    for (std::size_t k = 0; k < a.sums.times().size(); ++k) {
+      const auto &x = a.sums.of(group, k), &y = b.sums.of(group, k);
+      ASSERT_EQ(x.count, y.count);
+      ASSERT_EQ(x.square.state(), y.square.state());
+      ASSERT_EQ(x.fourth.state(), y.fourth.state());
+    }
+}
+
+class Memory : public DiffusionJournal {
+ public:
+  void save(const DiffusionResult& so_far) override { states.push_back(so_far); }
+  std::vector<DiffusionResult> states;
+};
+
+TEST(DiffusionInParts, GoesOnFromEverySavedState) {
+  for (const System& system : {lorentz(), soft()}) {
+    const DiffusionResult whole = run_diffusion(system);
+    EXPECT_EQ(whole.done.ranges(), (std::vector<TrajectoryRange>{{0, system.run.trajectories}}));
+    Memory memory;
+    DiffusionOptions options;
+    options.threads = 3;
+    options.block = 7;
+    options.journal = &memory;
+    options.save_every = 0.004;
+    expect_equal(run_diffusion(system, options), whole);
+    ASSERT_GT(memory.states.size(), 1u);
+    EXPECT_EQ(memory.states.front().done.size(), 0u);
+    const std::size_t step = 1 + memory.states.size() / 4;
+    for (std::size_t i = 0; i < memory.states.size(); i += step) {
+      const DiffusionResult& state = memory.states[i];
+      EXPECT_EQ(state.done.size(), state.trajectories) << "what is counted is what is done";
+      DiffusionOptions rest;
+      rest.threads = 2;
+      rest.before = &state;
+      expect_equal(run_diffusion(system, rest), whole);
+    }
+  }
+}
+
+TEST(DiffusionInParts, ShardsMakeTheWholeInAnyOrder) {
+  const System system = lorentz();
+  const DiffusionResult whole = run_diffusion(system);
+  std::vector<DiffusionResult> shards;
+  for (std::uint64_t k = 1; k <= 3; ++k) {
+    DiffusionOptions options;
+    options.part = shard(k, 3, system.run.trajectories);
+    shards.push_back(run_diffusion(system, options));
+  }
+  for (const auto& order : {std::vector<std::size_t>{0, 1, 2}, {2, 1, 0}, {1, 0, 2}}) {
+    DiffusionResult sum = shards[order[0]];
+    ASSERT_TRUE(sum.add(shards[order[1]]));
+    ASSERT_TRUE(sum.add(shards[order[2]]));
+    expect_equal(sum, whole);
+    EXPECT_FALSE(sum.add(shards[1])) << "twice the same shard";
+    expect_equal(sum, whole);
+  }
+}
+
+TEST(DiffusionInParts, ACrewHasTheSameResult) {
+  const System system = lorentz();
+  const DiffusionResult alone = run_diffusion(system);
+  for (const int size : {2, 4}) {
+    ThreadCrew crew(size);
+    crew.start_hands([&](Ranks& ranks) {
+      DiffusionOptions options;
+      options.threads = 1;
+      options.ranks = &ranks;
+      run_diffusion(system, options);
+    });
+    DiffusionOptions options;
+    options.threads = 1;
+    options.block = 5;
+    options.save_every = 0.005;
+    options.ranks = &crew.first();
+    expect_equal(run_diffusion(system, options), alone);
+    crew.join();
+    EXPECT_EQ(crew.failed(), 0);
+    EXPECT_EQ(crew.messages_left(), 0u);
+  }
+}
+
+TEST(DiffusionInParts, TravelsAsBytes) {
+  const DiffusionResult there = run_diffusion(lorentz());
+  BytesOut out;
+  write_bytes(out, there);
+  BytesIn in(out.bytes);
+  DiffusionResult back;
+  back.sums = DisplacementSums(there.sums.times());
+  read_bytes(in, back);
+  expect_equal(back, there);
+  // 70 digits a sum would be 4 MB.
+  EXPECT_LT(out.bytes.size(), std::size_t{1} << 20);
+}
+
+}  // namespace
+}  // namespace carom
