@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
@@ -33,6 +34,9 @@ int main(int argc, char** argv) {
     return bad_input;
   } catch (const std::bad_alloc&) {
     std::fputs("carom: out of memory\n", stderr);
+    return bad_input;
+  } catch (const std::system_error& error) {
+    std::fprintf(stderr, "carom: the system does not give what is needed: %s\n", error.what());
     return bad_input;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "carom: internal error, please report it: %s\n", error.what());

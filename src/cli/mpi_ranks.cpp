@@ -97,10 +97,13 @@ int rank_by_environment() {
   return text ? std::atoi(text) : 0;
 }
 
-std::unique_ptr<Ranks> start_ranks() {
+Ranks* start_ranks() {
 #ifdef CAROM_MPI
   // Without this, a process that was started alone would look for partners for a third of a second.
-  if (rank_in_environment()) return std::make_unique<MpiRanks>();
+  if (rank_in_environment()) {
+    static MpiRanks ranks;
+    return &ranks;
+  }
 #endif
   refuse_strangers(1);
   return nullptr;

@@ -70,9 +70,9 @@ int run_as_hand(const Options& options, const EnsembleKind<Result>& kind, Ranks&
 
 template <class Result>
 int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
-  const std::unique_ptr<Ranks> ranks = start_ranks();
+  Ranks* const ranks = start_ranks();
   if (ranks && ranks->rank() > 0) return run_as_hand(options, kind, *ranks);
-  JobCall call(ranks.get());
+  JobCall call(ranks);
   check_engine(options);
   EnsembleOptions<Result> how = how_to_run<Result>(options);
   const EnsembleJob<Result> job = job_of<Result>(options);
@@ -82,7 +82,7 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
   if (job.stored) how.before = &job.stored->result;
   const std::unique_ptr<EnsembleArchive<Result>> archive = archive_of(options, job);
   how.journal = archive.get();
-  how.ranks = ranks.get();
+  how.ranks = ranks;
   const auto say_how_to_go_on = [&](std::uint64_t kept) {
     if (job.output.empty() || kept == 0) return;
     warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}", grouped(kept), options.command,
@@ -101,7 +101,7 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
     call.make(&job.loaded);  // the others count on what comes next
     result = kind.run(system, how);
     if (archive) archive->finish(result, result.complete ? "completed" : "interrupted");
-  } catch (const InputError&) {
+  } catch (...) {
     if (archive) say_how_to_go_on(archive->kept());
     throw;
   }

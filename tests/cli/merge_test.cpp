@@ -146,6 +146,42 @@ TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
   expect_same_datasets(shell.folder() + "/a.h5", datasets(shell, "whole.h5"));
 }
 
+// `limit` of the shell for one rank alone: the others must not wait for it for ever.
+Outcome with_limit(const Shell& shell, int rank, const std::string& limit, const std::string& command) {
+  return shell("cat > one.sh <<'END'\n[ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(rank) + " ] && ulimit " + limit +
+               "\nexec \"$@\"\nEND\n" + "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 100 mpirun --oversubscribe "
+               "--bind-to none -n 3 bash one.sh " + command);
+}
+
+TEST(Ranks, AllEndWhenTheFirstHasNoDiskAndSayWhy) {
+  if (!has_mpi()) GTEST_SKIP() << "no mpirun";
+  const Shell shell;
+  const std::string run = "$carom escape stadium --trajectories 1e9 --t-max 60 --quiet --threads 1 --per-trajectory --checkpoint 0.05";
+  // No room for the first checkpoint; later, none for the records.
+  const Outcome first = with_limit(shell, 0, "-f 1", run + " -o a.h5");
+  EXPECT_EQ(first.status, 1) << first.err;
+  EXPECT_NE(first.err.find("cannot write 'a.h5': File too large"), std::string::npos) << first.err;
+  const Outcome later = with_limit(shell, 0, "-f 8000", run + " -o b.h5");
+  EXPECT_EQ(later.status, 1) << later.err;
+  EXPECT_NE(later.err.find("carom: cannot write 'b.h5': File too large"), std::string::npos) << later.err;
+  EXPECT_NE(later.err.find("carom escape --resume b.h5"), std::string::npos) << later.err;
+  EXPECT_EQ(open_archive(shell.folder() + "/b.h5.part").complete, 0);
+}
+
+// Where the memory ends depends on the machine, so there may even be enough; but nobody waits for ever.
+TEST(Ranks, AllEndWhenOneHasNoMemory) {
+  if (!has_mpi()) GTEST_SKIP() << "no mpirun";
+  const Shell shell;
+  for (const int rank : {0, 1})
+    for (const std::string memory : {"300000", "450000"}) {
+      const Outcome o = with_limit(shell, rank, "-v " + memory,
+                                   "$carom diffusion lorentz-triangular --trajectories 1000 --times lin:0.01:10:1000 --quiet --threads 1 --force -o a.h5");
+      EXPECT_NE(o.status, 124) << "rank " << rank << " with " << memory << " kB\n" << o.err;
+      EXPECT_EQ(o.status == 0, shell.exists("a.h5")) << o.err;
+      shell("rm -f a.h5*");
+    }
+}
+
 TEST(Ranks, SpeakWithOneVoice) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
