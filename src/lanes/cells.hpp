@@ -15,8 +15,15 @@ INLINE Vector seen_from(const LaneTable& t, const Vector& start, const CellOf& c
           start.y - (cell.first * t.lattice_y[0] + cell.second * t.lattice_y[1])};
 }
 
+/// Cells from home; and the factor of what is as uncertain as the square of a distance.
+INLINE Real way_of(const CellOf& cell) { return abs(cell.first) + abs(cell.second); }
+INLINE Real doubts_at(const Real& way) { return fused(way, 0.125 * way, Real(1.0)); }
+
 /// As seen from a cell of the lattice.
 INLINE void look_from(View& f, const CellOf& cell) {
+  const Real doubts = doubts_at(way_of(cell));
+  f.roots = doubts * f.roots;
+  f.order = doubts * f.order;
   const Mask home = cell.first == 0.0 && cell.second == 0.0;
   f.origin = seen_from(f.table, f.origin, cell);
   f.start_wall = choose(home, f.start_wall, Real(-1.0));
@@ -52,9 +59,6 @@ INLINE void go_beyond(const LaneTable& t, const Real& edge, const Mask& crosses,
   where(crosses, cell.first) = cell.first + look_up<Reach::eight>(t.beyond_first, beyond);
   where(crosses, cell.second) = cell.second + look_up<Reach::eight>(t.beyond_second, beyond);
 }
-/// What is rounded in a translation grows with the cells.
-INLINE Mask near(const CellOf& cell) { return abs(cell.first) + abs(cell.second) <= LaneTable::farthest_cell; }
-
 /// Follows the flights over a few edges: who meets a disc stays in its cell. The piece is -1 for those still on
 /// their way.
 INLINE Choice first_in_cells(View f, CellOf& cell) {
@@ -66,6 +70,8 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
     f.origin = start.origin;
     f.start_wall = start.start_wall;
     f.start_piece = start.start_piece;
+    f.roots = start.roots;
+    f.order = start.order;
     look_from(f, cell);
     const Choice disc = first_of_all(f);
     where(under_way, found.piece) = disc.piece;
@@ -78,7 +84,7 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
     found.decided = found.decided && (!under_way || exit.certain);
     under_way = under_way && exit.certain;
     go_beyond(t, exit.edge, under_way, cell);
-    found.decided = found.decided && near(cell);
+    found.decided = found.decided && way_of(cell) <= LaneTable::farthest_cell;
   }
 }
 
@@ -93,11 +99,11 @@ struct Crossings {
 
 /// Who meets the disc of a cell, and who passes it: a line from outside meets it ahead exactly if it cuts it and comes
 /// nearer. 1, -1; 0: not certain.
-INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead) {
+INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead, const Real& roots) {
   const Real discriminant = fused(aside, -aside, f.table.second_number[0] * f.square_speed);
   Real known(0.0);
-  where(ahead < -f.sides || discriminant < -f.roots, known) = Real(-1.0);
-  where(ahead > f.sides && discriminant > f.roots, known) = Real(1.0);
+  where(ahead < -f.sides || discriminant < -roots, known) = Real(-1.0);
+  where(ahead > f.sides && discriminant > roots, known) = Real(1.0);
   return known;
 }
 
@@ -116,7 +122,7 @@ INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, Rea
   // The disc of this cell was asked for, but by those that begin off it.
   known = Real(-1.0);
   const Mask begins = f.start_wall < 0.0 && cell.first == 0.0 && cell.second == 0.0;
-  if (any_of(begins)) [[unlikely]] where(begins, known) = meets_disc(f, aside, ahead);
+  if (any_of(begins)) [[unlikely]] where(begins, known) = meets_disc(f, aside, ahead, f.roots);
 }
 
 template <int edges>
@@ -129,7 +135,8 @@ INLINE void cross_edge(const View& f, CellOf& cell, const Crossings& c, Real& kn
   const Exit exit = exit_of_cell<edges>(f.sides, [&](int i) { return load(c.corner[i] + lane) + before; });
   go_beyond(t, exit.edge, under_way, cell);
   const Real ahead = fused(cell.first, load(c.along_first + lane), fused(cell.second, load(c.along_second + lane), load(c.ahead + lane)));
-  Real after = meets_disc(f, load(c.aside + lane) + shift(), ahead);
-  where(!(exit.certain && near(cell)), after) = Real(0.0);
+  const Real way = way_of(cell);
+  Real after = meets_disc(f, load(c.aside + lane) + shift(), ahead, doubts_at(way) * f.roots);
+  where(!(exit.certain && way <= LaneTable::farthest_cell), after) = Real(0.0);
   where(under_way, known) = after;
 }

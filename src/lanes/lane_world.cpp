@@ -194,13 +194,16 @@ class LaneWorld::Implementation {
 
   /// Is the state one that lanes may start from? Not at a joint, nor along a wall.
   bool can_start(State& s, const Particle& p) const {
-    if (s.wall < 0) return in_cell(s.position);
+    if (s.wall < 0) return within(s.position) && in_cell(s.position);
     const geometry::PreparedCurve& w = finder.curve(s.wall);
     if (!(s.u > geometry::first_parameter && s.u < w.last())) return false;
     const auto frame = w.frame(s.u);
     if (w.parameter(s.position) != s.u) s.position = frame.point;  // as World::add
     return dot(frame.normal, s.velocity) > pieces.ellipses.inward[lanes::piece_at(pieces, s.wall, s.u)] * p.speed;
   }
+
+  /// In the open plane flights may start beyond all lengths that margins are measured by.
+  bool within(Vector p) const { return std::fabs(p.x) <= 0.5 * pieces.size && std::fabs(p.y) <= 0.5 * pieces.size; }
 
   /// On a lattice flights start in the cell about the origin.
   bool in_cell(Vector p) const {

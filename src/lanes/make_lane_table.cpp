@@ -194,13 +194,16 @@ LaneTable make_lane_table(const HitFinder& finder) {
   if (table.lattice) add_cell(t, *table.lattice, measure(table).mean_flight);
   // A power of two. Lanes decide nothing where products of sizes might leave the range of doubles.
   t.size = t.size > 1e-30 && t.size < 1e30 ? std::ldexp(1.0, std::ilogb(t.size) + 1) : HUGE_VAL;
+  // A hit is off its circle by 2^-50 of the square of the flight, which is within S, over many cells within 16 S. With r^2
+  // above 2^-20 or 2^-12 S^2 no step of length is 2^-28, half of that share.
+  const double smallest = table.lattice ? 0x1p-6 : 0x1p-10;
   for (int i = 0; i < t.pieces; ++i) {
     auto& e = t.ellipses;
     e.off[i] = e.of[i] ? e.off[i] * t.size : HUGE_VAL;
     e.at_start[i] *= t.size;
     e.inward[i] = t.size * (e.of[i] ? e.inward[i] : 0x1p-36);
     t.divided |= t.wall[i] != i;
-    t.small_circles |= t.radius[i] > 0.0 && t.radius[i] < 0x1p-10 * t.size;
+    t.small_circles |= t.radius[i] > 0.0 && t.radius[i] < smallest * t.size;
   }
   t.convex = is_convex(finder);
   t.open = table.extent == Extent::open_plane;

@@ -202,6 +202,18 @@ TEST(LaneRuns, LeaveTheOpenPlane) {
   compare(table, all, totals, "three discs");
   EXPECT_GT(totals.fates[Fate::unbounded], 1000);
   EXPECT_LT(totals.scalar, 100u);
+  // From far away towards the rim of a disc: such a start is seen with all its rounding.
+  Case far;
+  for (int i = 0; i < 2000; ++i) {
+    LaneStart start;
+    const tests::Vector v = dice.direction();
+    const double distance = dice.spread(10.0, 1e12);
+    start.state.position = tests::Vector{0, 2.2} + (1.0 + 1e-9 * dice.between(-1, 1)) * left(v) - distance * v;
+    start.state.velocity = v;
+    start.particle.speed = std::sqrt(dot(v, v));
+    far.starts.push_back(start);
+  }
+  compare(table, far, totals, "three discs from far");
 }
 
 // Cells are crossed as the scalar engine crosses them; flights over very many cells are its own.
