@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "carom/ensemble/sampler.hpp"
-#include "carom/lanes/lane_world.hpp"
+#include "ensemble/either_lanes.hpp"
 #include "ensemble/escape_tally.hpp"
 
 namespace carom {
@@ -15,12 +15,7 @@ namespace carom {
 /// One thread's lanes.
 class LaneRunner {
  public:
-  /// Lanes fly free particles that do not interact, all of them from the start on.
-  static bool suits(const System& system) {
-    const Dynamics& d = system.dynamics;
-    return !d.everywhere && (!d.forces || d.forces->empty()) && system.injections.empty() && !system.of_discs() &&
-           LaneWorld::suits(*system.table, system.particles);
-  }
+  static bool suits(const System& system) { return EitherLanes::suits(system); }
 
   struct Block {
     std::uint64_t first = 0, end = 0;  ///< trajectories
@@ -32,7 +27,7 @@ class LaneRunner {
   };
 
   LaneRunner(const System& system, const Sampler& sampler, InstructionSet set, DecisionOptions decisions)
-      : system_(system), sampler_(sampler), world_(*system.table, decisions), lanes_(*system.table, system.particles, set, decisions) {
+      : system_(system), sampler_(sampler), world_(*system.table, decisions), lanes_(system, set, decisions) {
     if (system.run.collisions > 0) lanes_.limit_hits(system.run.collisions);
   }
 
@@ -116,7 +111,7 @@ class LaneRunner {
   const System& system_;
   const Sampler& sampler_;
   World world_;  ///< answers the sampler
-  LaneWorld lanes_;
+  EitherLanes lanes_;
   Blocks open_;
   Block block_;
   std::uint64_t trajectory_ = 0;

@@ -10,15 +10,16 @@ namespace carom {
 using geometry::Cell;
 using geometry::Vector;
 
+Time multiple(double k, double step) {
+  const double high = k * step;
+  return Time(high, std::fma(k, step, -high));
+}
+
 Time next_multiple(const Time& now, double step) {
-  const auto multiple = [&](double k) {
-    const double high = k * step;
-    return Time(high, std::fma(k, step, -high));
-  };
   double k = std::floor(now.value() / step);
-  while (multiple(k) > now) k -= 1.0;
-  while (!(multiple(k) > now)) k += 1.0;
-  return multiple(k);
+  while (multiple(k, step) > now) k -= 1.0;
+  while (!(multiple(k, step) > now)) k += 1.0;
+  return multiple(k, step);
 }
 
 Vector centre_of_cell(const geometry::Lattice& lattice) {

@@ -117,7 +117,9 @@ class Group final : public ForceLaw<double> {
   std::unique_ptr<StepPath<double>> path_;
 };
 
-/// The multiple k * step of the step that comes next after `now`.
+/// The instant k * step.
+Time multiple(double k, double step);
+/// The multiple of the step that comes next after `now`.
 Time next_multiple(const Time& now, double step);
 /// The middle of a lattice's cell.
 geometry::Vector centre_of_cell(const geometry::Lattice&);

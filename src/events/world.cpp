@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
 #include "carom/base/error.hpp"
+#include "events/group_hit.hpp"
 #include "events/table_with_supports.hpp"
 #include "events/world_implementation.hpp"
 #include "motion/free_motion.hpp"
@@ -15,17 +15,6 @@ namespace carom {
 
 using geometry::Cell;
 using geometry::Vector;
-
-namespace {
-
-std::string describe_state(const Particle& p, const State& s, const char* what) {
-  char text[400];
-  std::snprintf(text, sizeof text, "%s: wall %d, u %a, x %a, y %a, vx %a, vy %a, omega %a, t %.17g", what, s.wall,
-                s.u, s.position.x, s.position.y, s.velocity.x, s.velocity.y, p.omega, s.time.value());
-  return text;
-}
-
-}  // namespace
 
 World::Implementation::Implementation(const Table& the_table, const Dynamics& how, DecisionOptions options)
     : table(the_table),
@@ -90,7 +79,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   b.finished = true;
   queue.remove(index);
   if (fate == Fate::lost || fate == Fate::singular)
-    b.report = describe_state(b.particle, b.state, name_of(fate));
+    b.report = describe(b.particle, b.state, fate);
   if (observer) observer->end({index, fate, time, b.state, b.hole, b.hits});
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "events/group_hit.hpp"
+#include "events/surroundings.hpp"
 #include "events/table_with_supports.hpp"
 #include "events/world_implementation.hpp"
 #include "motion/free_motion.hpp"
@@ -20,29 +22,6 @@ bool acts(const Dynamics& d) { return d.forces && !d.forces->empty(); }
 bool acts_everywhere(const Dynamics& d) {
   const bool far = acts(d) && d.forces->interacts() && !std::isfinite(d.forces->pair_range());
   return d.everywhere || far || (acts(d) && d.forces->everywhere());
-}
-/// Copies of a wall that a particle in the lattice's cell may meet within a step that is shorter than
-/// the cell.
-constexpr std::int64_t copies = 2;
-
-/// How far a step may lead where there are walls: through a bounded table a thousand times, as it would
-/// hit them about as often; on a lattice to the next cell.
-double longest_way(const Table& table) {
-  double length = std::numeric_limits<double>::infinity();
-  if (table.lattice) {
-    for (const geometry::CellEdge& e : table.lattice->edges) {
-      const Vector t = table.lattice->translation(e.beyond);
-      length = std::min(length, std::sqrt(dot(t, t)));
-    }
-  } else if (table.extent == Extent::bounded) {
-    length = 0.0;
-    for (const Wall& wall : table.walls) {
-      const geometry::Box box = geometry::bounding_box(wall.curve);
-      length = std::max({length, box.high.x - box.low.x, box.high.y - box.low.y});
-    }
-    length *= 1000.0;
-  }
-  return length;
 }
 
 }  // namespace
@@ -78,23 +57,16 @@ void World::Implementation::add_barriers() {
     surroundings.lattice = &*table.lattice;
     surroundings.centre = centre_of_cell(*table.lattice);
   }
-  const std::int64_t range = table.lattice ? copies : 0;
   const std::vector<Wall>& walls = finder.table().walls;
   if (!walls.empty()) surroundings.longest_way = longest_way(table);
   for (std::size_t i = 0; i < walls.size(); ++i) {
     geometry::Curve curve = walls[i].curve;
     const bool support = is_support(static_cast<int>(i));
     if (support) curve = geometry::reversed(curve);  // what is inside it is integrated
-    for (std::int64_t m = -range; m <= range; ++m)
-      for (std::int64_t n = -range; n <= range; ++n) {
-        const Cell cell{m, n};
-        Barrier<double> barrier =
-            barrier_of<double>(curve, table.lattice ? table.lattice->translation(cell) : Vector{});
-        barrier.wall = static_cast<int>(i);
-        barrier.cell = cell;
-        surroundings.barriers.push_back(barrier);
-        if (support) surroundings.supports.push_back(barrier);
-      }
+    for (const Barrier<double>& barrier : barriers_of(curve, static_cast<int>(i), table.lattice)) {
+      surroundings.barriers.push_back(barrier);
+      if (support) surroundings.supports.push_back(barrier);
+    }
   }
 }
 
@@ -214,15 +186,10 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     // Near a wall the search had to decide: nobody may have slipped through.
     for (std::size_t k = group.bodies().size(); k-- > 0;) {
       const Vector x = group.phase().position[k];
-      const bool on_wall = std::any_of(
-          surroundings.barriers.begin(), surroundings.barriers.end(), [&](const Barrier<double>& b) {
-            return !is_support(b.wall) && b.covers(x) && std::fabs(b.gap(x)) <= 4.0 * b.rounding(x);
-          });
-      if (on_wall || contains(x)) continue;
+      if (on_some_wall(surroundings.barriers, wall_count, x) || contains(x)) continue;
       const int body = group.bodies()[k];
       end(body, Fate::lost, group.time(), &observer);
-      bodies[at(body)].report +=
-          ": it has left the table within this step and no wall was found; the step is too long";
+      bodies[at(body)].report += slipped_through;
       take_out(group, k);
     }
     if (group.bodies().empty()) return;
@@ -236,49 +203,31 @@ void World::Implementation::hit_in_group(Group& group, std::size_t member, const
                                          Observer& observer) {
   const int index = group.bodies()[member];
   Body& b = bodies[at(index)];
-  Cell cell = group.cells()[member];
-  cell.first += barrier.cell.first;
-  cell.second += barrier.cell.second;
-  Vector x = group.phase().position[member];
-  if (table.lattice) x = x - table.lattice->translation(barrier.cell);
-  const geometry::PreparedCurve& curve = finder.curve(barrier.wall);
-  geometry::PreparedCurve::Frame frame = curve.settle(x);
-  const double u = curve.parameter(frame.point);
-  if (u == curve.last() || u == geometry::first_parameter) frame = curve.frame(u);
-  const Vector before = group.phase().velocity[member];
-  b.state = {barrier.wall, u, frame.point, before, cell, group.time()};
+  const GroupHit hit = hit_of(finder, table, group, member, barrier, counts);
+  b.state = hit.state;
   b.last_wall = barrier.wall;
-  for (const int h : table.walls[at(barrier.wall)].holes) {
-    const Hole& hole = table.holes[at(h)];
-    if (!(hole.from <= u && u < hole.to)) continue;
-    b.hole = h;
+  if (hit.hole >= 0) {
+    b.hole = hit.hole;
     end(index, Fate::escaped, group.time(), &observer);
     take_out(group, member);
     return;
   }
-  Vector after = geometry::reflected(before, frame.normal, frame.square, frame.k, 0.0);
-  Sign inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
-  if (inward == Sign::negative) {  // a grazing rounding: reflecting once more turns it back
-    after = geometry::reflected(after, frame.normal, frame.square, frame.k, 0.0);
-    inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
-  }
   ++b.hits;
-  b.state.velocity = after;
-  group.phase().position[member] = frame.point;
-  group.phase().velocity[member] = after;
-  group.cells()[member] = cell;
+  group.phase().position[member] = hit.state.position;
+  group.phase().velocity[member] = hit.state.velocity;
+  group.cells()[member] = hit.state.cell;
   event.particle = index;
   event.wall = barrier.wall;
-  event.u = u;
+  event.u = hit.state.u;
   event.time = group.time();
   event.flight_time = group.time() - b.last_event;
-  event.position = frame.point;
-  event.cell = cell;
-  event.before = before;
-  event.after = after;
+  event.position = hit.state.position;
+  event.cell = hit.state.cell;
+  event.before = hit.before;
+  event.after = hit.state.velocity;
   event.reflections = 1;
   b.last_event = group.time();
-  if (inward != Sign::positive) {
+  if (!hit.inward) {
     end(index, Fate::singular, group.time(), &observer);
     take_out(group, member);
     return;

@@ -7,6 +7,7 @@
 
 #include <experimental/simd>
 
+#include "events/step_hull.hpp"
 #include "lanes/soft_pack.hpp"
 
 namespace carom::lanes {
@@ -14,6 +15,7 @@ namespace {
 
 namespace simd = std::experimental;
 using Real = simd::native_simd<double>;
+using Mask = Real::mask_type;
 using Vector = geometry::BasicVector<Real>;
 constexpr int width = static_cast<int>(Real::size());
 
@@ -128,20 +130,38 @@ void evaluate(const SoftForces& forces, SoftPack& pack) {
   pack.fresh = true;
 }
 
-/// A lane calls if a neighbouring cell's middle is nearer than that of its own, or if a number is absurd.
-CAROM_INLINE void find_calls(const SoftForces& forces, SoftPack& pack) {
+/// Does no wall, and no absurd number, come into the steps of these lanes? As Group::predict asks.
+CAROM_INLINE Mask is_clear(const SoftForces& forces, const Real& third, const SoftPack& pack, int lane) {
+  const Vector x{load(pack.x + lane), load(pack.y + lane)}, v{load(pack.vx + lane), load(pack.vy + lane)};
+  Mask clear = (abs(x.x) + abs(x.y)) + (abs(v.x) + abs(v.y)) <= 1e100;
+  if (forces.walls == 0) return clear;
+  const Vector from{load(pack.from_x + lane), load(pack.from_y + lane)};
+  clear = clear && abs(x.x - from.x) <= forces.longest_way && abs(x.y - from.y) <= forces.longest_way;
+  const StepHull<Real> hull(from, {load(pack.from_vx + lane), load(pack.from_vy + lane)}, x, v, third);
+  for (int i = 0; i < forces.walls; ++i) clear = clear && stays_off(forces.barriers[i], hull);
+  return clear;
+}
+
+/// A lane has left the cell if a neighbouring cell's middle is nearer than that of its own.
+CAROM_INLINE Mask has_left(const SoftForces& forces, const SoftPack& pack, int lane) {
+  const Vector x{load(pack.x + lane), load(pack.y + lane)};
+  const auto square = [&](const Vector& a) {
+    const Vector d = a - Vector{Real(forces.centre_x), Real(forces.centre_y)};
+    return dot(d, d);
+  };
+  const Real own = square(x);
+  Mask left(false);
+  for (int e = 0; e < forces.edges; ++e)
+    left = left || square(x - Vector{Real(forces.across_x[e]), Real(forces.across_y[e])}) < own;
+  return left;
+}
+
+void find_calls(const SoftForces& forces, double third, SoftPack& pack) {
   pack.calls = 0;
   for (int lane = 0; lane < pack.count; lane += width) {
-    const Vector x{load(pack.x + lane), load(pack.y + lane)};
-    const Real speed = abs(load(pack.vx + lane)) + abs(load(pack.vy + lane));
-    auto calls = !((abs(x.x) + abs(x.y)) + speed <= 1e100);
-    const auto square = [&](const Vector& a) {
-      const Vector d = a - Vector{Real(forces.centre_x), Real(forces.centre_y)};
-      return dot(d, d);
-    };
-    const Real own = square(x);
-    for (int e = 0; e < forces.edges; ++e)
-      calls = calls || square(x - Vector{Real(forces.across_x[e]), Real(forces.across_y[e])}) < own;
+    const Mask undecided = !is_clear(forces, Real(third), pack, lane);
+    const Mask calls = undecided || has_left(forces, pack, lane);
+    for (int k = 0; k < width; ++k) pack.undecided[lane + k] = undecided[static_cast<std::size_t>(k)];
     if (!any_of(calls)) continue;
     for (int k = 0; k < width; ++k)
       if (calls[static_cast<std::size_t>(k)]) pack.lane[pack.calls++] = lane + k;
@@ -150,6 +170,12 @@ CAROM_INLINE void find_calls(const SoftForces& forces, SoftPack& pack) {
 
 void step(const SoftForces& forces, const SoftStage* stage, int stages, SoftPack& pack) {
   using Kind = SoftStage::Kind;
+  for (int lane = 0; lane < pack.count; lane += width) {
+    store(load(pack.x + lane), pack.from_x + lane);
+    store(load(pack.y + lane), pack.from_y + lane);
+    store(load(pack.vx + lane), pack.from_vx + lane);
+    store(load(pack.vy + lane), pack.from_vy + lane);
+  }
   for (; stages > 0; --stages, ++stage) {
     if (stage->kind == Kind::kick && !pack.fresh) evaluate(forces, pack);
     for (int lane = 0; lane < pack.count; lane += width) {
@@ -176,10 +202,9 @@ void step(const SoftForces& forces, const SoftStage* stage, int stages, SoftPack
     }
     if (stage->kind == Kind::drift || stage->kind == Kind::straight) pack.fresh = false;
   }
-  find_calls(forces, pack);
 }
 
-SoftKernel soft_kernel() { return {evaluate, step, width}; }
+SoftKernel soft_kernel() { return {evaluate, step, find_calls, width}; }
 
 }  // namespace
 }  // namespace carom::lanes

@@ -1,85 +1,33 @@
 #include "carom/lanes/soft_lanes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <stdexcept>
 
-#include "carom/base/elementary.hpp"
-#include "carom/integrators/scheme.hpp"
 #include "events/group.hpp"
-#include "forces/potential.hpp"
-#include "integrators/stages.hpp"
-#include "lanes/soft_pack.hpp"
+#include "lanes/soft_engine.hpp"
 
 namespace carom {
 
-using geometry::Cell;
-using geometry::Vector;
-using lanes::SoftForces;
-using lanes::SoftKernel;
+using lanes::SoftEngine;
 using lanes::SoftPack;
-using lanes::SoftStage;
+using lanes::SoftTrack;
+using Outcome = SoftEngine::Outcome;
 
 namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr int steps_between_questions = 64;
 
-SoftKernel kernel_for(InstructionSet set) {
-  if (!available(set)) throw std::invalid_argument("this machine does not have the instruction set");
-#if defined(CAROM_WIDE_LANES)
-  if (set == InstructionSet::avx512) return lanes::avx512_soft_kernel();
-  if (set == InstructionSet::avx2) return lanes::avx2_soft_kernel();
-#endif
-  return lanes::baseline_soft_kernel();
-}
-
-SoftStage::Kind kind_of(Stage<double>::Kind kind) {
-  switch (kind) {
-    case Stage<double>::Kind::drift:
-      return SoftStage::Kind::drift;
-    case Stage<double>::Kind::kick:
-      return SoftStage::Kind::kick;
-    case Stage<double>::Kind::straight:
-      return SoftStage::Kind::straight;
-    case Stage<double>::Kind::turn:
-      break;
-  }
-  return SoftStage::Kind::turn;
-}
-
 }  // namespace
 
 class SoftLanes::Implementation {
  public:
-  Implementation(const Table& the_table, const Dynamics& dynamics, InstructionSet set)
-      : table_(the_table),
-        field_(*dynamics.forces),
-        step_(dynamics.integrator.step),
-        stages_(stages_of<double>(find_scheme(dynamics.integrator.scheme))),
-        kernel_(kernel_for(set)) {
-    forces_.exp = elementary::exp_by(kernel_.width);
-    forces_.other = add_one_by_one;
-    forces_.context = this;
-    for (const auto& potential : field_.potentials())
-      forces_.lattice[forces_.potentials++] = potential->lattice_field();
-    if (!table_.lattice) return;
-    for (const geometry::CellEdge& e : table_.lattice->edges) {
-      const Vector across = table_.lattice->translation(e.beyond);
-      forces_.across_x[forces_.edges] = across.x;
-      forces_.across_y[forces_.edges++] = across.y;
-    }
-    const Vector centre = centre_of_cell(*table_.lattice);
-    forces_.centre_x = centre.x;
-    forces_.centre_y = centre.y;
-  }
+  Implementation(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options)
+      : engine_(table, dynamics, set, options) {}
 
   bool run(const Particle& kind, std::span<Walk> walks, double t_end, std::span<const double> times,
            const Sample& sample, const std::function<bool()>& interrupted) {
-    particle_ = kind;
-    forces_.unit_mass = kind.mass == 1.0;
-    forces_.inverse_mass = 1.0 / kind.mass;
+    engine_.set_kind(kind);
     for (std::size_t first = 0; first < walks.size(); first += SoftPack::lanes) {
       const std::size_t count = std::min<std::size_t>(SoftPack::lanes, walks.size() - first);
       if (!run_pack(walks.subspan(first, count), first, t_end, times, sample, interrupted)) return false;
@@ -87,148 +35,144 @@ class SoftLanes::Implementation {
     return true;
   }
 
+  SoftEngine& engine() { return engine_; }
+
  private:
+  /// Where a walk is.
+  enum class Place { in_lane, on_wall, gone };
+
   bool run_pack(std::span<Walk> walks, std::size_t first, double t_end, std::span<const double> times,
                 const Sample& sample, const std::function<bool()>& interrupted) {
     fill(walks);
-    Time now;
+    now_ = Time();
     std::size_t next = 0;
-    const auto emit = [&](const SoftPack& pack, const Time& t) {
-      for (std::size_t k = 0; k < walks.size(); ++k)
-        if (!walks[k].lost) sample(first + k, next, state_of(pack, k, t));
-    };
     for (int steps = 1;; ++steps) {
       if (interrupted && steps % steps_between_questions == 0 && interrupted()) return false;
-      const Time end = next_multiple(now, step_);
+      const Time end = next_multiple(now_, engine_.step());
       const bool last = !(end <= Time(t_end));
-      const auto due = [&](double t) { return last ? Time(t) <= Time(t_end) : Time(t) < end; };
-      for (; next < times.size() && due(times[next]); ++next) {
-        const double since = Time(times[next]) - now;
-        if (since > 0.0) {
-          SoftPack copy = pack_;
-          take_step(since, copy);
-          emit(copy, times[next]);
-        } else {
-          emit(pack_, times[next]);
-        }
+      const std::size_t from = next;
+      while (next < times.size() && (last ? Time(times[next]) <= Time(t_end) : Time(times[next]) < end)) ++next;
+      const std::span<const double> due = times.subspan(from, next - from);
+      if (!due.empty()) start_ = pack_;
+      // Without walls nothing can happen in a step that is not completed.
+      pack_.calls = 0;
+      if (!last || engine_.has_walls()) {
+        const double duration = std::clamp(end - now_, 0.0, std::numeric_limits<double>::max());
+        engine_.take_step(duration, pack_);
+        engine_.find_calls(duration, pack_);
+      } else {
+        std::fill(std::begin(pack_.undecided), std::end(pack_.undecided), false);
       }
+      for (std::size_t i = 0; i < due.size(); ++i) emit(walks.size(), first, from + i, due[i], sample);
+      moved_.clear();
+      for (std::size_t k = 0; k < walks.size(); ++k)
+        if (place_[k] == Place::on_wall || (place_[k] == Place::in_lane && pack_.undecided[k]))
+          leave_to_scalar(k, t_end, due,
+                         [&](std::size_t i, const State& state) { sample(first + k, from + i, state); });
       if (last) break;
-      take_step(std::clamp(end - now, 0.0, std::numeric_limits<double>::max()), pack_);
-      now = end;
-      if (pack_.calls > 0) answer(walks);
+      for (int i = 0; i < pack_.calls; ++i) {
+        const int lane = pack_.lane[i];
+        if (place_[lane] == Place::in_lane && !pack_.undecided[lane]) fold(lane);
+      }
+      engine_.refresh(pack_, moved_);
+      now_ = end;
     }
-    for (std::size_t k = 0; k < walks.size(); ++k) walks[k].state = state_of(pack_, k, now);
+    finish(walks);
     return true;
   }
 
-  void fill(std::span<const Walk> walks) {
+  void fill(std::span<Walk> walks) {
     pack_.count = (static_cast<int>(walks.size()) + 7) / 8 * 8;
     pack_.fresh = false;
     for (int lane = 0; lane < pack_.count; ++lane) {
       // Lanes that are left over repeat the first.
-      const State& s = walks[at(lane) < walks.size() ? at(lane) : 0].state;
-      pack_.x[lane] = s.position.x;
-      pack_.y[lane] = s.position.y;
-      pack_.vx[lane] = s.velocity.x;
-      pack_.vy[lane] = s.velocity.y;
-      cells_[lane] = s.cell;
-      fold(lane);
+      State s = walks[at(lane) < walks.size() ? at(lane) : 0].state;
+      place_[lane] = s.wall < 0 ? Place::in_lane : Place::on_wall;
+      if (s.wall < 0) engine_.put(s, pack_, lane);
+      tracks_[lane] = SoftTrack();
+      tracks_[lane].state = s;
     }
   }
 
-  State state_of(const SoftPack& pack, std::size_t k, const Time& t) const {
-    State s;
-    s.position = {pack.x[k], pack.y[k]};
-    s.velocity = {pack.vx[k], pack.vy[k]};
-    s.cell = cells_[k];
-    s.time = t;
-    return s;
+  /// A sample of all that are decided in lanes, from where the step began.
+  void emit(std::size_t count, std::size_t first, std::size_t number, double time, const Sample& sample) {
+    const double since = Time(time) - now_;
+    SoftPack copy = start_;
+    if (since > 0.0) engine_.take_step(since, copy);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (place_[k] != Place::in_lane || pack_.undecided[k]) continue;
+      State s;
+      SoftEngine::read(copy, static_cast<int>(k), time, s);
+      s.cell = tracks_[k].state.cell;
+      sample(first + k, number, s);
+    }
   }
 
-  /// As SplittingStepper.
-  void take_step(double duration, SoftPack& pack) {
-    if (duration != made_for_ || particle_.omega != made_with_) {
-      made_.clear();
-      for (const Stage<double>& s : stages_)
-        made_.push_back({kind_of(s.kind), s.coefficient * duration,
-                         LarmorDrift<double>(particle_.omega, s.coefficient * duration)});
-      made_for_ = duration;
-      made_with_ = particle_.omega;
-    }
-    kernel_.step(forces_, made_.data(), static_cast<int>(made_.size()), pack);
-  }
-
-  /// Puts lanes back into the cell, and takes out those that are no numbers any more.
-  void answer(std::span<Walk> walks) {
-    SoftPack moved;
-    for (int i = 0; i < pack_.calls; ++i) {
-      const int lane = pack_.lane[i];
-      const double size = (std::fabs(pack_.x[lane]) + std::fabs(pack_.y[lane])) +
-                          (std::fabs(pack_.vx[lane]) + std::fabs(pack_.vy[lane]));
-      if (!(size <= 1e100)) {
-        if (at(lane) < walks.size()) walks[at(lane)].lost = true;
-        pack_.x[lane] = pack_.y[lane] = pack_.vx[lane] = pack_.vy[lane] = 0.0;  // it goes on as anything
-      }
-      fold(lane);
-      moved.x[i] = pack_.x[lane];
-      moved.y[i] = pack_.y[lane];
-    }
-    if (!pack_.fresh) return;
-    moved.count = (pack_.calls + 7) / 8 * 8;
-    kernel_.evaluate(forces_, moved);
-    for (int i = 0; i < pack_.calls; ++i) {
-      pack_.ax[pack_.lane[i]] = moved.ax[i];
-      pack_.ay[pack_.lane[i]] = moved.ay[i];
+  void leave_to_scalar(std::size_t k, double t_end, std::span<const double> times,
+                       const SoftEngine::Sample& sample) {
+    const int lane = static_cast<int>(k);
+    SoftTrack& track = tracks_[k];
+    if (place_[k] == Place::in_lane) SoftEngine::read_start(pack_, lane, now_, track.state);
+    place_[k] = Place::gone;
+    switch (engine_.follow(track, t_end, times, sample)) {
+      case Outcome::at_step_end:
+        place_[k] = Place::in_lane;
+        engine_.put(track.state, pack_, lane);
+        moved_.push_back(lane);
+        break;
+      case Outcome::on_a_wall:
+        place_[k] = Place::on_wall;
+        break;
+      case Outcome::over:
+      case Outcome::ended:
+        break;
     }
   }
 
   void fold(int lane) {
-    if (!table_.lattice) return;
-    Vector x{pack_.x[lane], pack_.y[lane]};
-    fold_towards_centre(*table_.lattice, {forces_.centre_x, forces_.centre_y}, x, cells_[lane]);
-    pack_.x[lane] = x.x;
-    pack_.y[lane] = x.y;
+    State& s = tracks_[lane].state;
+    SoftEngine::read(pack_, lane, now_, s);
+    engine_.put(s, pack_, lane);
+    moved_.push_back(lane);
   }
 
-  static void add_one_by_one(const SoftForces& forces, int potential, SoftPack& pack) {
-    const auto& self = *static_cast<const Implementation*>(forces.context);
-    const Potential& p = *self.field_.potentials()[at(potential)];
-    for (int lane = 0; lane < pack.count; ++lane) {
-      Vector force{pack.ax[lane], pack.ay[lane]};
-      p.add_force(self.particle_, {pack.x[lane], pack.y[lane]}, force);
-      pack.ax[lane] = force.x;
-      pack.ay[lane] = force.y;
+  void finish(std::span<Walk> walks) {
+    for (std::size_t k = 0; k < walks.size(); ++k) {
+      Walk& walk = walks[k];
+      SoftTrack& track = tracks_[k];
+      // With walls the last step was tried, and is not made.
+      if (place_[k] == Place::in_lane)
+        engine_.has_walls() ? SoftEngine::read_start(pack_, static_cast<int>(k), now_, track.state)
+                            : SoftEngine::read(pack_, static_cast<int>(k), now_, track.state);
+      walk.state = track.state;
+      walk.fate = track.fate;
+      walk.lost = track.fate == Fate::lost;
+      walk.ended = track.ended;
+      walk.hits = track.hits;
+      walk.last_wall = track.last_wall;
+      walk.report = std::move(track.report);
     }
   }
 
-  const Table& table_;
-  const ForceField& field_;
-  double step_;
-  std::vector<Stage<double>> stages_;
-  SoftKernel kernel_;
-  SoftForces forces_;
-  SoftPack pack_;
-  Cell cells_[SoftPack::lanes];
-  Particle particle_;
-  std::vector<SoftStage> made_;  ///< the stages of the latest step
-  double made_for_ = 0.0, made_with_ = 0.0;
+  SoftEngine engine_;
+  SoftPack pack_, start_;
+  Place place_[SoftPack::lanes] = {};
+  SoftTrack tracks_[SoftPack::lanes];
+  Time now_;
+  std::vector<int> moved_;  ///< lanes that hold another point than their last step left there
 };
 
 bool SoftLanes::suits(const Table& table, const Dynamics& dynamics) {
-  const IntegratorPlan& plan = dynamics.integrator;
-  if (!dynamics.forces || !dynamics.forces->external() || dynamics.forces->interacts()) return false;
-  if (!dynamics.forces->disc_radii().empty() || !(dynamics.everywhere || dynamics.forces->everywhere()))
-    return false;
-  if (!table.walls.empty() || dynamics.forces->potentials().size() > SoftForces::most) return false;
-  if (table.lattice && table.lattice->edges.size() > SoftForces::most_edges) return false;
-  if (is_adaptive(plan.scheme) || plan.split_walls || !(plan.step > 0.0)) return false;
-  return find_scheme(plan.scheme).form != Scheme::Form::spreiter_walter;
+  return table.walls.empty() && lanes::can_step(table, dynamics);
 }
 
-SoftLanes::SoftLanes(const Table& table, const Dynamics& dynamics, InstructionSet set)
-    : implementation_(std::make_unique<Implementation>(table, dynamics, set)) {}
+SoftLanes::SoftLanes(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options)
+    : implementation_(std::make_unique<Implementation>(table, dynamics, set, options)) {}
 SoftLanes::~SoftLanes() = default;
 SoftLanes::SoftLanes(SoftLanes&&) noexcept = default;
+
+void SoftLanes::limit_hits(std::uint64_t hits) { implementation_->engine().limit_hits(hits); }
+DecisionCounts SoftLanes::decisions() const { return implementation_->engine().decisions(); }
 
 bool SoftLanes::run(const Particle& kind, std::span<Walk> walks, double t_end, std::span<const double> times,
                     const Sample& sample, const std::function<bool()>& interrupted) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "events/barrier.hpp"
 #include "forces/lattice_sum.hpp"
 #include "integrators/larmor_drift.hpp"
 
@@ -17,9 +18,12 @@ struct SoftPack {
   double ax[lanes] = {}, ay[lanes] = {};  ///< accelerations at x, y, if `fresh`
   bool fresh = false;
   int count = 0;  ///< lanes in use, a multiple of eight
-  /// Lanes that the caller must look at after a step: outside the cell, or no number, or beyond all bounds.
+  double from_x[lanes] = {}, from_y[lanes] = {}, from_vx[lanes] = {}, from_vy[lanes] = {};  ///< at the step's start
+  /// Lanes that the caller must look at after a step. `undecided`: it may meet a wall, or leads too far, or
+  /// beyond all bounds. Else it has left the cell.
   int calls = 0;
   int lane[lanes] = {};
+  bool undecided[lanes] = {};  ///< by lane
 };
 
 /// A motion of a step: the numbers of integrators/stages.hpp for the step's length.
@@ -43,6 +47,10 @@ struct SoftForces {
   /// exp of numbers, which are a multiple of eight.
   void (*exp)(double*, std::size_t) = nullptr;
 
+  const Barrier<double>* barriers = nullptr;
+  int walls = 0;  ///< how many barriers there are
+  double longest_way = 0.0;  ///< as Group::Surroundings
+
   int edges = 0;  ///< 0: there is no lattice
   double across_x[most_edges] = {}, across_y[most_edges] = {}, centre_x = 0.0, centre_y = 0.0;
 };
@@ -52,6 +60,8 @@ struct SoftKernel {
   void (*evaluate)(const SoftForces&, SoftPack&) = nullptr;
   /// One step, by its stages.
   void (*step)(const SoftForces&, const SoftStage*, int stages, SoftPack&) = nullptr;
+  /// Which lanes call after a step that took three times `third`.
+  void (*find_calls)(const SoftForces&, double third, SoftPack&) = nullptr;
   int width = 0;
 };
 

@@ -1,0 +1,55 @@
+#include "events/group_hit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace carom {
+
+using geometry::Vector;
+
+GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group, std::size_t member,
+                const Barrier<double>& barrier, DecisionCounts& counts) {
+  GroupHit hit;
+  geometry::Cell cell = group.cells()[member];
+  cell.first += barrier.cell.first;
+  cell.second += barrier.cell.second;
+  Vector x = group.phase().position[member];
+  if (table.lattice) x = x - table.lattice->translation(barrier.cell);
+  const geometry::PreparedCurve& curve = finder.curve(barrier.wall);
+  geometry::PreparedCurve::Frame frame = curve.settle(x);
+  const double u = curve.parameter(frame.point);
+  if (u == curve.last() || u == geometry::first_parameter) frame = curve.frame(u);
+  hit.before = group.phase().velocity[member];
+  hit.state = {barrier.wall, u, frame.point, hit.before, cell, group.time()};
+  for (const int h : table.walls[static_cast<std::size_t>(barrier.wall)].holes) {
+    const Hole& hole = table.holes[static_cast<std::size_t>(h)];
+    if (!(hole.from <= u && u < hole.to)) continue;
+    hit.hole = h;
+    return hit;
+  }
+  Vector after = geometry::reflected(hit.before, frame.normal, frame.square, frame.k, 0.0);
+  Sign inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
+  if (inward == Sign::negative) {  // a grazing rounding: reflecting once more turns it back
+    after = geometry::reflected(after, frame.normal, frame.square, frame.k, 0.0);
+    inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
+  }
+  hit.state.velocity = after;
+  hit.inward = inward == Sign::positive;
+  return hit;
+}
+
+bool on_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Vector x) {
+  return std::any_of(barriers.begin(), barriers.end(), [&](const Barrier<double>& b) {
+    return b.wall < walls && b.covers(x) && std::fabs(b.gap(x)) <= 4.0 * b.rounding(x);
+  });
+}
+
+std::string describe(const Particle& p, const State& s, Fate fate) {
+  char text[400];
+  std::snprintf(text, sizeof text, "%s: wall %d, u %a, x %a, y %a, vx %a, vy %a, omega %a, t %.17g", name_of(fate),
+                s.wall, s.u, s.position.x, s.position.y, s.velocity.x, s.velocity.y, p.omega, s.time.value());
+  return text;
+}
+
+}  // namespace carom

@@ -1,0 +1,35 @@
+// What happens to a member of a group at a wall, and who has slipped through one.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "carom/events/decisions.hpp"
+#include "carom/motion/state.hpp"
+#include "carom/table/table.hpp"
+#include "events/group.hpp"
+#include "events/next_hit.hpp"
+
+namespace carom {
+
+struct GroupHit {
+  State state;           ///< on the wall; its velocity is that after the hit, or, if it escapes, before
+  geometry::Vector before;
+  int hole = -1;         ///< through which it escapes
+  bool inward = true;    ///< else the reflected velocity does not point into the domain
+};
+/// A member has come to a barrier, which is a wall. `finder` finds that table's walls.
+GroupHit hit_of(const HitFinder& finder, const Table&, const Group&, std::size_t member, const Barrier<double>&,
+                DecisionCounts&);
+
+/// Is the point on one of the first `walls` walls, to rounding?
+bool on_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vector);
+inline constexpr std::string_view slipped_through =
+    ": it has left the table within this step and no wall was found; the step is too long";
+
+/// For reports of particles that are lost, or singular.
+std::string describe(const Particle&, const State&, Fate);
+
+}  // namespace carom

@@ -1,0 +1,248 @@
+#include "lanes/soft_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "carom/base/elementary.hpp"
+#include "carom/integrators/scheme.hpp"
+#include "events/group_hit.hpp"
+#include "events/surroundings.hpp"
+#include "forces/potential.hpp"
+
+namespace carom::lanes {
+
+using geometry::Vector;
+
+namespace {
+
+constexpr Time never{std::numeric_limits<double>::infinity()};
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+SoftKernel kernel_for(InstructionSet set) {
+  if (!available(set)) throw std::invalid_argument("this machine does not have the instruction set");
+#if defined(CAROM_WIDE_LANES)
+  if (set == InstructionSet::avx512) return avx512_soft_kernel();
+  if (set == InstructionSet::avx2) return avx2_soft_kernel();
+#endif
+  return baseline_soft_kernel();
+}
+
+SoftStage::Kind kind_of(Stage<double>::Kind kind) {
+  switch (kind) {
+    case Stage<double>::Kind::drift:
+      return SoftStage::Kind::drift;
+    case Stage<double>::Kind::kick:
+      return SoftStage::Kind::kick;
+    case Stage<double>::Kind::straight:
+      return SoftStage::Kind::straight;
+    case Stage<double>::Kind::turn:
+      break;
+  }
+  return SoftStage::Kind::turn;
+}
+
+Group::Surroundings surroundings_of(const Table& table, const Dynamics& dynamics) {
+  Group::Surroundings in;
+  in.forces = dynamics.forces.get();
+  in.plan = dynamics.integrator;
+  if (table.lattice) {
+    in.lattice = &*table.lattice;
+    in.centre = centre_of_cell(*table.lattice);
+  }
+  for (std::size_t i = 0; i < table.walls.size(); ++i)
+    for (const Barrier<double>& b : barriers_of(table.walls[i].curve, static_cast<int>(i), table.lattice))
+      in.barriers.push_back(b);
+  if (!table.walls.empty()) in.longest_way = longest_way(table);
+  return in;
+}
+
+}  // namespace
+
+bool can_step(const Table& table, const Dynamics& dynamics) {
+  const IntegratorPlan& plan = dynamics.integrator;
+  if (!dynamics.forces || !dynamics.forces->external() || dynamics.forces->interacts()) return false;
+  if (!dynamics.forces->disc_radii().empty() || !(dynamics.everywhere || dynamics.forces->everywhere()))
+    return false;
+  if (dynamics.forces->potentials().size() > SoftForces::most) return false;
+  if (table.lattice && table.lattice->edges.size() > SoftForces::most_edges) return false;
+  if (is_adaptive(plan.scheme) || plan.split_walls || !(plan.step > 0.0)) return false;
+  return find_scheme(plan.scheme).form != Scheme::Form::spreiter_walter;
+}
+
+SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options)
+    : table_(table),
+      field_(*dynamics.forces),
+      step_(dynamics.integrator.step),
+      stages_(stages_of<double>(find_scheme(dynamics.integrator.scheme))),
+      surroundings_(surroundings_of(table, dynamics)),
+      kernel_(kernel_for(set)),
+      finder_(table, options),
+      group_(surroundings_) {
+  forces_.exp = elementary::exp_by(kernel_.width);
+  forces_.other = add_one_by_one;
+  forces_.context = this;
+  forces_.barriers = surroundings_.barriers.data();
+  forces_.walls = static_cast<int>(surroundings_.barriers.size());
+  forces_.longest_way = surroundings_.longest_way;
+  for (const auto& potential : field_.potentials())
+    forces_.lattice[forces_.potentials++] = potential->lattice_field();
+  if (!table_.lattice) return;
+  for (const geometry::CellEdge& e : table_.lattice->edges) {
+    const Vector across = table_.lattice->translation(e.beyond);
+    forces_.across_x[forces_.edges] = across.x;
+    forces_.across_y[forces_.edges++] = across.y;
+  }
+  forces_.centre_x = surroundings_.centre.x;
+  forces_.centre_y = surroundings_.centre.y;
+}
+
+void SoftEngine::set_kind(const Particle& kind) {
+  particle_ = kind;
+  forces_.unit_mass = kind.mass == 1.0;
+  forces_.inverse_mass = 1.0 / kind.mass;
+  group_.assign({0}, {kind});
+}
+
+void SoftEngine::put(State& s, SoftPack& pack, int lane) const {
+  if (table_.lattice)
+    fold_towards_centre(*table_.lattice, surroundings_.centre, s.position, s.cell);
+  pack.x[lane] = s.position.x;
+  pack.y[lane] = s.position.y;
+  pack.vx[lane] = s.velocity.x;
+  pack.vy[lane] = s.velocity.y;
+}
+
+/// As SplittingStepper.
+void SoftEngine::take_step(double duration, SoftPack& pack) {
+  if (duration != made_for_ || particle_.omega != made_with_) {
+    made_.clear();
+    for (const Stage<double>& s : stages_)
+      made_.push_back({kind_of(s.kind), s.coefficient * duration,
+                       LarmorDrift<double>(particle_.omega, s.coefficient * duration)});
+    made_for_ = duration;
+    made_with_ = particle_.omega;
+  }
+  kernel_.step(forces_, made_.data(), static_cast<int>(made_.size()), pack);
+}
+
+void SoftEngine::refresh(SoftPack& pack, std::span<const int> which) {
+  if (!pack.fresh || which.empty()) return;
+  SoftPack some;
+  int count = 0;
+  for (const int lane : which) {
+    some.x[count] = pack.x[lane];
+    some.y[count++] = pack.y[lane];
+  }
+  some.count = (count + 7) / 8 * 8;
+  for (int lane = count; lane < some.count; ++lane) {
+    some.x[lane] = some.x[0];
+    some.y[lane] = some.y[0];
+  }
+  kernel_.evaluate(forces_, some);
+  count = 0;
+  for (const int lane : which) {
+    pack.ax[lane] = some.ax[count];
+    pack.ay[lane] = some.ay[count++];
+  }
+}
+
+void SoftEngine::read(const SoftPack& pack, int lane, const Time& time, State& s) {
+  s.wall = -1;
+  s.position = {pack.x[lane], pack.y[lane]};
+  s.velocity = {pack.vx[lane], pack.vy[lane]};
+  s.time = time;
+}
+void SoftEngine::read_start(const SoftPack& pack, int lane, const Time& time, State& s) {
+  s.wall = -1;
+  s.position = {pack.from_x[lane], pack.from_y[lane]};
+  s.velocity = {pack.from_vx[lane], pack.from_vy[lane]};
+  s.time = time;
+}
+
+/// As World does it with a group of one.
+SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, double t_end, std::span<const double> times,
+                                       const Sample& sample) {
+  State& s = track.state;
+  const Time end = next_multiple(s.time, step_);
+  std::size_t sampled = 0;
+  const auto emit = [&](bool late, const Time& until) {
+    for (; sampled < times.size() && (late || Time(times[sampled]) < until); ++sampled)
+      sample(sampled, group_.state_at(0, times[sampled]));
+  };
+  for (;;) {
+    group_.phase().position[0] = s.position;
+    group_.phase().velocity[0] = s.velocity;
+    group_.cells()[0] = s.cell;
+    group_.set_time(s.time);
+    const Group::Next next = group_.predict(never);
+    const Time when = group_.next_time();
+    const bool over = when > Time(t_end);
+    emit(over, when);
+    if (over) return Outcome::over;
+    if (!next.fault.empty()) return this->end(track, Fate::lost, next.fault);
+    group_.advance();
+    if (next.member < 0) return end_step(track);
+    if (hit(track, *next.barrier)) return Outcome::ended;
+    if (!(s.time < end)) return Outcome::on_a_wall;
+  }
+}
+
+SoftEngine::Outcome SoftEngine::end_step(SoftTrack& track) {
+  group_.fold(0);
+  State& s = track.state;
+  s.wall = -1;
+  s.position = group_.phase().position[0];
+  s.velocity = group_.phase().velocity[0];
+  s.cell = group_.cells()[0];
+  s.time = group_.time();
+  // Near a wall the search had to decide: nobody may have slipped through.
+  if (!group_.near_wall() || table_.extent != Extent::bounded || inside(s.position)) return Outcome::at_step_end;
+  end(track, Fate::lost, {});
+  track.report += slipped_through;
+  return Outcome::ended;
+}
+
+bool SoftEngine::inside(Vector x) {
+  if (on_some_wall(surroundings_.barriers, static_cast<int>(table_.walls.size()), x)) return true;
+  if (!locator_) locator_ = std::make_unique<const Locator>(table_);
+  return locator_->contains(x);
+}
+
+/// Does it end there?
+bool SoftEngine::hit(SoftTrack& track, const Barrier<double>& barrier) {
+  const GroupHit hit = hit_of(finder_, table_, group_, 0, barrier, counts_);
+  track.state = hit.state;
+  track.last_wall = barrier.wall;
+  track.hole = hit.hole;
+  if (hit.hole < 0) ++track.hits;
+  if (hit.hole >= 0)
+    end(track, Fate::escaped, {});
+  else if (!hit.inward)
+    end(track, Fate::singular, {});
+  else if (track.hits >= limit_)
+    end(track, Fate::capped, {});
+  return track.finished;
+}
+
+SoftEngine::Outcome SoftEngine::end(SoftTrack& track, Fate fate, std::string_view fault) const {
+  track.finished = true;
+  track.fate = fate;
+  track.ended = track.state.time;
+  if (fate == Fate::lost || fate == Fate::singular) track.report = describe(particle_, track.state, fate);
+  if (!fault.empty()) track.report.append(": ").append(fault);
+  return Outcome::ended;
+}
+
+void SoftEngine::add_one_by_one(const SoftForces& forces, int potential, SoftPack& pack) {
+  const auto& self = *static_cast<const SoftEngine*>(forces.context);
+  const Potential& p = *self.field_.potentials()[at(potential)];
+  for (int lane = 0; lane < pack.count; ++lane) {
+    Vector force{pack.ax[lane], pack.ay[lane]};
+    p.add_force(self.particle_, {pack.x[lane], pack.y[lane]}, force);
+    pack.ax[lane] = force.x;
+    pack.ay[lane] = force.y;
+  }
+}
+
+}  // namespace carom::lanes

@@ -1,0 +1,102 @@
+// What a pack of particles under forces needs besides its kernel: the numbers of a step, the cell of a lattice,
+// the walls around, and the scalar engine's own means for the steps that lanes leave to it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "carom/events/decisions.hpp"
+#include "carom/events/dynamics.hpp"
+#include "carom/events/event.hpp"
+#include "carom/lanes/instruction_set.hpp"
+#include "events/group.hpp"
+#include "events/locator.hpp"
+#include "events/next_hit.hpp"
+#include "integrators/stages.hpp"
+#include "lanes/soft_pack.hpp"
+
+namespace carom::lanes {
+
+/// Do steps in lanes know all that acts there?
+bool can_step(const Table&, const Dynamics&);
+
+/// A trajectory on its way, where lanes do not know more than its phase.
+struct SoftTrack {
+  State state;  ///< after its last event in the scalar engine; in lanes its cell, and u, are kept
+  std::uint64_t hits = 0;
+  int last_wall = -1;
+  int hole = -1;
+  Fate fate = Fate::survived;
+  Time ended;
+  bool finished = false;
+  std::string report;
+};
+
+class SoftEngine {
+ public:
+  SoftEngine(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options);
+  SoftEngine(const SoftEngine&) = delete;
+  SoftEngine& operator=(const SoftEngine&) = delete;
+
+  void set_kind(const Particle&);
+  void limit_hits(std::uint64_t hits) { limit_ = hits; }
+  bool has_walls() const { return !surroundings_.barriers.empty(); }
+  double step() const { return step_; }
+
+  /// Puts a state into a lane, and its cell right; accelerations are not set.
+  void put(State& state, SoftPack& pack, int lane) const;
+  /// A step of that length.
+  void take_step(double duration, SoftPack& pack);
+  /// Fills in who calls after a step of that length.
+  void find_calls(double duration, SoftPack& pack) const { kernel_.find_calls(forces_, duration / 3.0, pack); }
+  /// Accelerations of these lanes, if the pack's are fresh.
+  void refresh(SoftPack& pack, std::span<const int> which);
+  /// Takes over the lane's phase after its step, or at the start of it; the cell stays.
+  static void read(const SoftPack& pack, int lane, const Time& time, State& state);
+  static void read_start(const SoftPack& pack, int lane, const Time& time, State& state);
+
+  enum class Outcome {
+    at_step_end,
+    on_a_wall,  ///< where the step's end found it: lanes cannot begin there
+    over,       ///< what comes next comes after t_end
+    ended,
+  };
+  using Sample = std::function<void(std::size_t, const State&)>;
+  /// The track's events until its step ends, or until `t_end` if that comes first, by the scalar engine.
+  /// `sample` receives the states at these times, none of them later than either.
+  Outcome follow(SoftTrack& track, double t_end, std::span<const double> times = {}, const Sample& sample = {});
+  const DecisionCounts& decisions() const { return counts_; }
+
+ private:
+  static void add_one_by_one(const SoftForces&, int potential, SoftPack&);
+  Outcome end_step(SoftTrack& track);
+  bool hit(SoftTrack& track, const Barrier<double>& barrier);
+  bool inside(geometry::Vector x);
+  Outcome end(SoftTrack& track, Fate fate, std::string_view fault) const;
+
+  const Table& table_;
+  const ForceField& field_;
+  double step_;
+  std::vector<Stage<double>> stages_;
+  Group::Surroundings surroundings_;
+  SoftKernel kernel_;
+  SoftForces forces_;
+  Particle particle_;
+  std::vector<SoftStage> made_;  ///< the stages of the latest step
+  double made_for_ = 0.0, made_with_ = 0.0;
+
+  // Of the scalar engine.
+  HitFinder finder_;
+  Group group_;
+  std::unique_ptr<const Locator> locator_;
+  std::uint64_t limit_ = std::numeric_limits<std::uint64_t>::max();
+  DecisionCounts counts_;
+};
+
+}  // namespace carom::lanes
