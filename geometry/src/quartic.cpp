@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "carom/geometry/first_root.hpp"
+
 namespace carom::geometry {
 
 namespace {
@@ -169,9 +171,7 @@ bool isolate(const Bernstein& p, int degree, double from, double to, const Part&
          isolate(first, degree, from, middle, part, ascending, depth - 1, out, most);
 }
 
-}  // namespace
-
-RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most) {
+RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most) {
   RisingRoots out;
   // kappa = K x: coefficients and errors of the polynomial in x.
   double c[5], e[5];
@@ -196,6 +196,68 @@ RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, in
       out.decided = false;
       return out;
     }
+  }
+  return out;
+}
+
+/// A polynomial's value, first and half second derivative at x, with bounds of their errors.
+struct Taylor {
+  double value = 0.0, first = 0.0, second = 0.0;
+  double value_error = 0.0, first_error = 0.0, second_error = 0.0;
+};
+Taylor cubic_at(const Quartic<double>& f, const QuarticError& error, double x) {
+  Taylor t;
+  double v = 0.0, d = 0.0, s = 0.0;  // the same of the coefficients' errors, those of 3 roundings a step included
+  const double size = std::fabs(x);
+  for (int i = 3; i >= 0; --i) {
+    t.second = t.second * x + t.first;
+    t.first = t.first * x + t.value;
+    t.value = t.value * x + f.q[i];
+    s = s * size + d;
+    d = d * size + v;
+    v = v * size + (error.q[i] + 20.0 * u * std::fabs(f.q[i]));
+  }
+  t.value_error = 1.01 * v;
+  t.first_error = 1.01 * d;
+  t.second_error = 1.01 * s;
+  return t;
+}
+
+/// Is x certain to be the largest root of a cubic? It is if f < 0 closely below, and closely above f > 0, f' > 0, and
+/// f' + f'' s/2 + q3 s^2, by which it grows from there, has no root s > 0.
+bool is_largest(const Quartic<double>& f, const QuarticError& error, double x, CertifiedRoot& root) {
+  const Taylor at = cubic_at(f, error, x);
+  const double width = 2.0 * (std::fabs(at.value) + at.value_error) / at.first + 8.0 * u * std::fabs(x);
+  if (!(at.first > at.first_error) || !(width < HUGE_VAL)) return false;
+  const Taylor below = cubic_at(f, error, x - width), above = cubic_at(f, error, x + width);
+  const double lead = f.q[3] - error.q[3], rise = above.first - above.first_error;
+  if (!(below.value < -below.value_error && above.value > above.value_error && rise > 0.0 && lead > 0.0)) return false;
+  const double bend = above.second_error - above.second;  // bounds how far it bends down
+  if (!(bend < 0.0) && !(bend * bend < 3.99 * lead * rise)) return false;
+  root = {x, 1.01 * width};
+  return true;
+}
+
+}  // namespace
+
+double likely_root(const Quartic<double>& f, int degree) {
+  return degree == 3 ? largest_root(f.q[3], f.q[2], f.q[1], f.q[0], RoughCubeRoot{}) : first_rising_root(f, RoughCubeRoot{});
+}
+
+RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most) {
+  const double likely = likely_root(f, degree);
+  RisingRoots out;
+  if (degree == 3 && most == 1 && is_largest(f, error, likely, out.roots[0])) {
+    out.count = 1;
+    return out;
+  }
+  out = isolated_roots(f, error, degree, scale, most);
+  for (int i = 0; i < out.count; ++i) {
+    CertifiedRoot& r = out.roots[i];
+    const double away = std::fabs(likely - r.kappa);
+    if (!(away <= 0x1p24 * r.error)) continue;
+    r.kappa = likely;
+    r.error += away;
   }
   return out;
 }

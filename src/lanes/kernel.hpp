@@ -12,6 +12,7 @@
 
 #include "base/angle.hpp"
 #include "carom/base/time.hpp"
+#include "carom/geometry/first_root.hpp"
 #include "carom/geometry/formulas.hpp"
 #include "lanes/kernels.hpp"
 #include "lanes/lane_pack.hpp"
@@ -75,6 +76,7 @@ struct Where {
   Mask decided;
 };
 
+#include "lanes/larmor_ellipse.hpp"
 #include "lanes/larmor.hpp"
 #include "lanes/straight.hpp"
 #include "lanes/cells.hpp"
@@ -112,11 +114,6 @@ void kernel(const LaneTable& table, LanePack& pack) {
 
 template <int turn, bool convex>
 Advance kernel_of(const LaneTable& t) {
-  if (t.ellipses.any) {
-    const bool others = t.segments || t.circles;
-    return others || t.pieces > LaneTable::eight ? kernel<Kind<turn, convex, true, true, Reach::all, false, true>>
-                                                 : kernel<Kind<turn, convex, false, false, Reach::eight, false, true>>;
-  }
   if (t.pieces > LaneTable::fewest) return kernel<Kind<turn, convex, true, true, Reach::all>>;
   if (t.pieces > LaneTable::eight) return kernel<Kind<turn, convex, true, true, Reach::few>>;
   if (!t.circles) return kernel<Kind<turn, convex, true, false, Reach::eight>>;
@@ -134,15 +131,12 @@ Kernels kernels_of(const LaneTable& t) {
   }
   const Advance anywhere = kernel_of<turn, false>(t);
   if (!t.convex) return {anywhere, anywhere, width};
-  if constexpr (turn == 0) {
-    if (t.ellipses.any && t.pieces == 1)
-      return {kernel<Kind<turn, true, false, false, Reach::eight, false, true, true>>, kernel_of<turn, true>(t), width};
-  }
   const Advance on_walls = kernel_of<turn, true>(t);
   return {on_walls, turn == 0 ? on_walls : anywhere, width};
 }
 
-/// The kernels of a table.
+/// The kernels of a table without ellipses. A template, that it be made only where it is asked for.
+template <class = void>
 Kernels kernels_of(const LaneTable& t, Turn turn) {
   switch (turn) {
     case Turn::clockwise: return kernels_of<1>(t);

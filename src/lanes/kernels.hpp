@@ -16,5 +16,9 @@ struct Kernels {
 Kernels baseline_kernels(const LaneTable&, Turn);
 Kernels avx2_kernels(const LaneTable&, Turn);
 Kernels avx512_kernels(const LaneTable&, Turn);
+/// Of tables with ellipses.
+Kernels baseline_ellipse_kernels(const LaneTable&, Turn);
+Kernels avx2_ellipse_kernels(const LaneTable&, Turn);
+Kernels avx512_ellipse_kernels(const LaneTable&, Turn);
 
 }  // namespace carom::lanes

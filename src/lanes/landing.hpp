@@ -61,8 +61,9 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
     now.place = met.point + geometry::lengthened(d, step);
     normal = d;
     if constexpr (larmor) off = (0.75 - measure) * (0.25 * t.size);
-    if (t.small_circles) decided = decided && (!met.bent || abs(step) < geometry::longest_step);
-    if (t.closed_circles) decided = decided && (!met.bent || abs(d.y) > sign_margin * t.size);
+    const Mask circle = Kind::ellipses ? met.bent && !met.ellipse.is : met.bent;
+    if (t.small_circles) decided = decided && (!circle || abs(step) < geometry::longest_step);
+    if (t.closed_circles) decided = decided && (!circle || abs(d.y) > sign_margin * t.size);
   }
   if constexpr (Kind::segments) {
     const Vector tangent{met.first, met.second};
@@ -77,6 +78,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
       normal = across;
     }
   }
+  if constexpr (larmor && Kind::ellipses) where(met.ellipse.is, off) = Real(0.0);  // they have a test of their own
   if constexpr (larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
   constexpr bool bent = Kind::circles || Kind::ellipses;
   Real factor;

@@ -10,7 +10,8 @@ struct LaneEllipses {
   // As in geometry::PreparedCurve: a unit vector along one axis, the weights of both; rows of the map to the unit circle.
   double axis_x[most] = {}, axis_y[most] = {}, along[most] = {}, across[most] = {};
   double first_x[most] = {}, first_y[most] = {}, second_x[most] = {}, second_y[most] = {};
-  double shrink[most] = {};     ///< brings the form to squared lengths: below the square of the smaller semi-axis; 0: no ellipse
+  double stretch[most] = {};    ///< bounds the form of unit vectors
+  double shrink[most] = {};     ///< its inverse, which brings the form to squared lengths: below the square of the smaller semi-axis; 0: no ellipse
   // Margins of a landing; for other pieces they are those that always hold, or hold for all.
   double off[most] = {};        ///< of the measure from 3/4
   double at_start[most] = {};   ///< closed curves: of the image's second coordinate from 0

@@ -25,12 +25,13 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
 
 lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn) {
+  const bool curved = table.ellipses.any;
 #if defined(CAROM_WIDE_LANES)
-  if (set == InstructionSet::avx512) return lanes::avx512_kernels(table, turn);
-  if (set == InstructionSet::avx2) return lanes::avx2_kernels(table, turn);
+  if (set == InstructionSet::avx512) return (curved ? lanes::avx512_ellipse_kernels : lanes::avx512_kernels)(table, turn);
+  if (set == InstructionSet::avx2) return (curved ? lanes::avx2_ellipse_kernels : lanes::avx2_kernels)(table, turn);
 #endif
   (void)set;
-  return lanes::baseline_kernels(table, turn);
+  return (curved ? lanes::baseline_ellipse_kernels : lanes::baseline_kernels)(table, turn);
 }
 
 Turn turn_of(double omega) {
@@ -352,7 +353,7 @@ bool LaneWorld::suits(const Table& table, const std::vector<Particle>& particles
         (p.omega != 0.0 && !moderate(std::fabs(p.omega))))
       return false;
   const bool straight = !particles.empty() && turn_of(particles[0].omega) == Turn::straight;
-  return !particles.empty() && lanes::fits(table) && (straight || !(table.lattice || lanes::has_ellipses(table)));
+  return !particles.empty() && lanes::fits(table) && (straight || !table.lattice);
 }
 
 LaneWorld::LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)

@@ -130,13 +130,29 @@ class EarliestOnCircle {
     where(better, p_) = p;
     where(better, q_) = q;
     where(better, piece_) = Real(counted[i]);
+    of_root_ = of_root_ && !better;
   }
-  INLINE Choice choice() const { return {piece_, decided_ && piece_ >= 0.0, p_ / q_}; }
+  /// A root as it stands, which errs by less than `spread`.
+  INLINE void add_root(int i, const Mask& leaves, const Real& kappa, const Real& spread) {
+    const Real size(f_.table.size), far = abs(kappa);
+    const Real q = choose(far * size <= f_.pace, size, f_.pace / far), p = kappa * q;
+    const Real gap = fused(p, q_, -(p_ * q));
+    doubt(leaves && ((piece_ >= 0.0 && abs(gap) <= (0x1p-20 * size) * f_.pace) || spread * q > 0x1p-21 * f_.pace));
+    const Mask better = leaves && gap > 0.0;
+    where(better, p_) = p;
+    where(better, q_) = q;
+    where(better, kappa_) = kappa;
+    where(better, piece_) = Real(counted[i]);
+    of_root_ = of_root_ || better;
+  }
+  INLINE Choice choice() const { return {piece_, decided_ && piece_ >= 0.0, choose(of_root_, kappa_, p_ / q_)}; }
 
  private:
   const View& f_;
   Mask decided_;
   Real piece_, p_, q_;
+  Real kappa_{0.0};
+  Mask of_root_{false};
 };
 
 /// The quadratic of a piece for flights from this start.
@@ -159,6 +175,7 @@ INLINE Choice first_of_all_by_circle(const View& f) {
   const CircleView z = circle_of<turn>(f);
   EarliestOnCircle best(f);
   Real least(__builtin_huge_val());
+  ExitThroughEllipse exit;
   for (int loop = 0; loop < t.loops; ++loop) {
     const int first = t.first[loop], last = first + t.count[loop] - 1;
     const bool closed = t.closed[first];
@@ -167,6 +184,15 @@ INLINE Choice first_of_all_by_circle(const View& f) {
     for (int i = first; i <= last; ++i) {
       const Real piece(counted[i]);
       const Mask stands = f.start_wall == Real(t.wall[i]), own = f.start_piece == piece;
+      if constexpr (Kind::ellipses) {
+        if (t.ellipses.of[i]) {
+          if (i == first || t.wall[i] != t.wall[i - 1]) exit.begin(best, f, i, stands);
+          exit.add(best, f, i);
+          if (i == last || t.wall[i] != t.wall[i + 1]) exit.end(best);
+          if (!closed && i != last) a = joint_at(f, z, i + 1, least);
+          continue;
+        }
+      }
       const bool bent = Kind::circles && t.bent[i];
       JointOfCircle b{};
       Mask leaves;
@@ -219,6 +245,11 @@ INLINE Real angle(const Real& x, const Real& y) {
 /// Kappa at the piece that was chosen.
 template <class Kind>
 INLINE Where meet_by_circle(const View& f, const Met& met) {
+  if constexpr (Kind::alone) {
+    const EllipseInField ellipse = ellipse_in_field(f.table, 0);
+    const RootOnEllipse root = root_from_ellipse(f, quartic_of_ellipse(f, ellipse, Mask(true)), ellipse.stretch);
+    return {root.kappa, root.certain};
+  }
   geometry::Quadratic<Real> quadratic;
   Real length(1.0);
   if constexpr (Kind::segments) quadratic = quadratic_of_segment(f, met.point, {met.first, met.second}, met.stands);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <variant>
 
 namespace carom::lanes {
 
@@ -49,6 +48,7 @@ void add_ellipse(LaneTable& t, const PreparedCurve& w, int i) {
   all.first_y[i] = w.first_axis.y;
   all.second_x[i] = w.second_axis.x;
   all.second_y[i] = w.second_axis.y;
+  all.stretch[i] = row * row;
   all.shrink[i] = 1.0 / (row * row);
   // The form of the velocity, by which a time is divided, may be less than a circle's by the square of the axes' ratio.
   t.order_margin = std::max(t.order_margin, 0x1p-22 * (row * largest) * (row * largest));
@@ -158,12 +158,6 @@ bool is_convex(const HitFinder& finder) {
 }
 
 }  // namespace
-
-bool has_ellipses(const Table& table) {
-  return std::any_of(table.walls.begin(), table.walls.end(), [](const Wall& w) {
-    return std::holds_alternative<geometry::Ellipse>(w.curve) || std::holds_alternative<geometry::EllipticArc>(w.curve);
-  });
-}
 
 bool fits(const Table& table) {
   std::size_t pieces = 0;

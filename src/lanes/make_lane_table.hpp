@@ -11,7 +11,6 @@ namespace carom::lanes {
 
 /// Can the pieces of this table be held by a LaneTable?
 bool fits(const Table&);
-bool has_ellipses(const Table&);
 LaneTable make_lane_table(const HitFinder& finder);
 /// The piece on which the point u of a wall lies.
 int piece_at(const LaneTable&, int wall, double u);

@@ -171,14 +171,14 @@ TEST_P(Lanes, FlyTheOrbitsOfTheWorld) {
   EXPECT_LT(static_cast<double>(totals.scalar), 0.01 * static_cast<double>(totals.hits));
 }
 TEST_P(Lanes, FlyLarmorCirclesBothWays) {
-  if (GetParam() == Shape::ellipse || GetParam() == Shape::elliptic_arcs) GTEST_SKIP();
   for (const int turn : {-1, 1}) {
     Totals totals = compare_on_tables(GetParam(), turn, tests::cases(30, 3000));
     // Who meets no wall is told so by the scalar engine.
     const int pinned = totals.fates[Fate::pinned];
     EXPECT_GT(pinned, 0);
     // Flat arcs and fields that bend a flight within a hundredth of their radius are of very different lengths.
-    const double share = GetParam() == Shape::arcs ? 0.05 : 0.01;
+    // An arc that a circle may leave elsewhere through its ellipse is left, too.
+    const double share = GetParam() == Shape::elliptic_arcs ? 0.4 : GetParam() == Shape::arcs ? 0.05 : 0.01;
     EXPECT_LT(static_cast<double>(totals.scalar) - pinned, share * static_cast<double>(totals.hits));
   }
 }

@@ -45,6 +45,10 @@ constexpr Row rows[] = {
     {"sinai torus", "[table]\nshape = \"sinai\"\nside = 1\nradius = \"1/4\"\ntorus = true\n"},
     {"lorentz triangular", "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 1\nradius = 0.45\n"},
     {"ellipse", "[table]\nshape = \"ellipse\"\na = 2\nb = 1\n"},
+    {"lens of elliptic arcs",
+     "[table]\nshape = \"path\"\n[[table.loop]]\nstart = [\"-1/4\", \"1/4\"]\npieces = [\n"
+     "{ellipse_via = [0, \"1/8\"], ellipse_to = [\"1/4\", \"1/4\"], ellipse_ratio = \"1/2\"},\n"
+     "{ellipse_via = [0, \"3/8\"], ellipse_to = [\"-1/4\", \"1/4\"], ellipse_ratio = \"1/2\"}]\n"},
     {"magnetic square", "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n", -1},
     {"magnetic square with hole",
      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 1e-6\n"
@@ -52,6 +56,11 @@ constexpr Row rows[] = {
      -1},
     {"magnetic stadium", "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[field]\nlarmor_radius = 2\n", -1},
     {"magnetic sinai", "[table]\nshape = \"sinai\"\nside = 1\nradius = \"1/4\"\ntorus = false\n[field]\nlarmor_radius = 0.7\n", -1},
+    {"magnetic ellipse", "[table]\nshape = \"ellipse\"\na = 1\nb = \"3/4\"\n[field]\nlarmor_radius = 3\n", -1},
+    {"magnetic ellipse with hole",
+     "[table]\nshape = \"ellipse\"\na = 1\nb = \"3/4\"\n[[table.hole]]\nwall = \"ellipse\"\ncenter = 0.5\nwidth = 1e-6\n"
+     "[field]\nlarmor_radius = 3\n",
+     -1},
     {"magnetic mushroom",
      "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n[field]\nlarmor_radius = 2\n", -1},
 };

@@ -38,7 +38,7 @@ struct LaneEnd {
 class LaneWorld {
  public:
   /// Can lanes fly such particles on that table? Straight flights, or Larmor circles that all turn the same way,
-  /// between segments and circles.
+  /// between segments, circles and ellipses.
   static bool suits(const Table&, const std::vector<Particle>&);
 
   /// `particles` suit, and every start is one of them. Keeps a reference to the table, which must live as long.

@@ -30,6 +30,10 @@ struct QuarticError {
 RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale,
                          int most = 4);
 
+/// The root that the first exit most likely is (first_root.hpp). Of the roots found, the one about it is given this
+/// number, whoever asks, and however it was isolated: lanes have it from the same operations.
+double likely_root(const Quartic<double>& f, int degree);
+
 /// Coefficients' errors for ellipse_quartic; as ellipse_error. `stands`: the start lies on the curve.
 QuarticError quartic_error(const FlightScale& f, double e1, double centre_error, double row, bool stands);
 
