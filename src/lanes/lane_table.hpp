@@ -30,7 +30,7 @@ struct LaneTable {
   // Of a segment: a point of it, and its unit tangent. Of a circle: centre, 0.75 / r^2, r^2.
   double point_x[most] = {}, point_y[most] = {}, first_number[most] = {}, second_number[most] = {};
   double orientation[most] = {};  ///< circle: +1 domain inside, -1 outside; segment: 0
-  double into[most] = {};         ///< the way into the domain, seen along a circle's radius or a segment's left: 1, -1
+  double into[most] = {};         ///< the way into the domain along a circle's radius, 1 or -1; segment: `size`, its normal's is 1
   double strength[most] = {};     ///< of its reflections: PreparedCurve::strength; segment: 2
   // For Larmor circles, of a piece with joints: the unit vector from the one to the other, their distance. Of a circle:
   // its radius, and the distance of the chord from the centre in radii, positive if the centre lies on its left.
@@ -50,7 +50,7 @@ struct LaneTable {
   double edge_x[eight] = {}, edge_y[eight] = {}, beyond_first[eight] = {}, beyond_second[eight] = {};
   double lattice_x[2] = {}, lattice_y[2] = {};
 
-  double order_margin = 0x1p-22;  ///< of two times, in sizes over the speed
+  double order_margin = 0x1p-21;  ///< of two times, in sizes over the speed
   double size = 0.0;  ///< the length by which every margin is measured: a power of two (make_lane_table.cpp)
 };
 

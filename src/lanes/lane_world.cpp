@@ -57,6 +57,7 @@ class LaneWorld::Implementation {
         pieces(lanes::make_lane_table(finder)),
         turn(turn_of(particles.at(0).omega)),
         kernels(kernels_for(set, pieces, turn)) {
+    if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
     if (!available(set)) throw std::invalid_argument("this machine does not have the instruction set");
   }
 
@@ -200,7 +201,8 @@ class LaneWorld::Implementation {
     if (!(s.u > geometry::first_parameter && s.u < w.last())) return false;
     const auto frame = w.frame(s.u);
     if (w.parameter(s.position) != s.u) s.position = frame.point;  // as World::add
-    return dot(frame.normal, s.velocity) > pieces.ellipses.inward[lanes::piece_at(pieces, s.wall, s.u)] * p.speed;
+    const int piece = lanes::piece_at(pieces, s.wall, s.u);
+    return std::fabs(pieces.into[piece]) * dot(frame.normal, s.velocity) > pieces.ellipses.inward[piece] * p.speed;
   }
 
   /// In the open plane flights may start beyond all lengths that margins are measured by.
@@ -260,7 +262,8 @@ class LaneWorld::Implementation {
     pack.next_cap = HUGE_VAL;
     for (int lane = 0; lane < pack.used; ++lane) {
       if (pack.active[lane] == 0.0) continue;
-      if (pack.hits(lane) < pack.limit) {
+      const auto before = static_cast<double>(lanes.trajectories[lane].start.hits);
+      if (pack.hits(lane) < pack.limit || pack.hits(lane) == before) {
         pack.next_cap = std::min(pack.next_cap, pack.born[lane] + pack.limit);
         continue;
       }

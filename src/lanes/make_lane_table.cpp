@@ -51,7 +51,7 @@ void add_ellipse(LaneTable& t, const PreparedCurve& w, int i) {
   all.stretch[i] = row * row;
   all.shrink[i] = 1.0 / (row * row);
   // The form of the velocity, by which a time is divided, may be less than a circle's by the square of the axes' ratio.
-  t.order_margin = std::max(t.order_margin, 0x1p-22 * (row * largest) * (row * largest));
+  t.order_margin = std::max(t.order_margin, 0x1p-21 * (row * largest) * (row * largest));
   // In units of the table's size, which is not complete yet.
   all.off[i] = 0.75 * 0x1p-38 / largest;
   all.at_start[i] = t.closed[i] ? 0x1p-36 * row : 0.0;
@@ -75,7 +75,7 @@ void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part,
   t.first_number[i] = t.bent[i] ? w.weight : w.tangent.x;
   t.second_number[i] = t.bent[i] ? w.r2 : w.tangent.y;
   t.orientation[i] = t.bent[i] ? w.orientation : 0.0;
-  t.into[i] = t.bent[i] ? -w.orientation : 1.0;
+  t.into[i] = -w.orientation;
   t.strength[i] = t.bent[i] ? w.strength : 2.0;
   if (w.kind != CurveKind::ellipse) (t.bent[i] ? t.circles : t.segments) = true;
   t.closed_circles |= w.closed && w.kind == CurveKind::circle;
@@ -196,12 +196,19 @@ LaneTable make_lane_table(const HitFinder& finder) {
     e.off[i] = e.of[i] ? e.off[i] * t.size : HUGE_VAL;
     e.at_start[i] *= t.size;
     e.inward[i] = t.size * (e.of[i] ? e.inward[i] : 0x1p-36);
+    if (!t.bent[i]) t.into[i] = t.size;
     t.divided |= t.wall[i] != i;
     t.small_circles |= t.radius[i] > 0.0 && t.radius[i] < smallest * t.size;
   }
   t.convex = is_convex(finder);
   t.open = table.extent == Extent::open_plane;
   return t;
+}
+
+void leave_short_arcs(LaneTable& t) {
+  // Joints err by 2^-54 S, so such a chord's direction by 2^-22, as much as the middle of an arc may.
+  for (int i = 0; i < t.pieces; ++i)
+    if (t.bent[i] && t.length[i] > 0.0 && t.length[i] < 0x1p-32 * t.size) t.size = HUGE_VAL;
 }
 
 int piece_at(const LaneTable& t, int wall, double u) {

@@ -15,4 +15,7 @@ LaneTable make_lane_table(const HitFinder& finder);
 /// The piece on which the point u of a wall lies.
 int piece_at(const LaneTable&, int wall, double u);
 
+/// Larmor circles: of an arc so short that rounding turns its chord the sides are not certain, so nothing is.
+void leave_short_arcs(LaneTable&);
+
 }  // namespace carom::lanes

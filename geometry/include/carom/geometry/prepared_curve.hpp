@@ -98,13 +98,19 @@ struct PreparedCurve {
   [[gnu::always_inline]] void arrive_on_circle(Vector x, Vector v, Arrival& a) const {
     const Vector d = x - centre;
     const double step = step_of_length(dot(weight * d, d));
+    if (!(std::fabs(step) < longest_step)) [[unlikely]] return arrive_from_far(d, v, a);
     const Vector on = centre + lengthened(d, step);
     a.point.x = on.x;
     a.point.y = on.y;
     a.normal.x = -orientation * d.x;
     a.normal.y = -orientation * d.y;
-    a.factor = -orientation * (std::fabs(step) < longest_step ? reflection_factor_on_circle(v, d, strength, step)
-                                                              : reflection_factor(v, d, dot(d, d), 1.0));
+    a.factor = -orientation * reflection_factor_on_circle(v, d, strength, step);
+  }
+  /// On a circle much smaller than the distance that was flown rounding leaves the point farther off than one step mends.
+  void arrive_from_far(Vector d, Vector v, Arrival& a) const {
+    const double scale = std::sqrt(0.75 / dot(weight * d, d));
+    const Vector near{scale * d.x, scale * d.y};
+    reflect_by({centre + back_to_circle(near, weight), -orientation * near, dot(off_power * near, near), off_power}, v, a);
   }
   [[gnu::always_inline]] static void reflect_by(const Frame& f, Vector v, Arrival& a) {
     set(a, f);
