@@ -18,9 +18,11 @@ class SoftWalker {
              DiffusionTally tally)
       : system_(system),
         sampler_(sampler),
-        lanes_(*system.table, system.dynamics, set),
-        tally_(tally),
-        one_by_one_(system, sampler, decisions, tally) {}
+        world_(*system.table, decisions),
+        lanes_(*system.table, system.dynamics, set, decisions),
+        tally_(tally) {
+    if (system.run.collisions > 0) lanes_.limit_hits(system.run.collisions);
+  }
 
   /// False when stopped on the way.
   bool run(TrajectoryRange range) {
@@ -37,10 +39,9 @@ class SoftWalker {
     const std::size_t count = end - first, particles = system_.particles.size();
     const double t_end = system_.run.times.back();
     starts_.resize(count);
-    for (std::size_t k = 0; k < count; ++k) starts_[k] = sampler_.draw_all(one_by_one_.world(), first + k);
+    for (std::size_t k = 0; k < count; ++k) starts_[k] = sampler_.draw_all(world_, first + k);
     squares_.assign(count * particles, {});
-    ends_.assign(count, std::vector<State>(particles));
-    lost_.assign(count, false);
+    ends_.assign(count, {});
     for (std::size_t p = 0; p < particles; ++p) {
       walks_.clear();
       for (std::size_t k = 0; k < count; ++k) walks_.push_back({starts_[k][p]});
@@ -48,38 +49,46 @@ class SoftWalker {
         squares_[k * particles + p].push_back(square_of_displacement(system_, starts_[k][p], state));
       };
       if (!lanes_.run(system_.particles[p], walks_, t_end, system_.run.times, sample, stopped)) return false;
-      for (std::size_t k = 0; k < count; ++k) {
-        ends_[k][p] = walks_[k].state;
-        if (walks_[k].lost) lost_[k] = true;
-      }
+      for (std::size_t k = 0; k < count; ++k) ends_[k].push_back(std::move(walks_[k]));
     }
     for (std::size_t k = 0; k < count; ++k) {
-      const std::uint64_t trajectory = first + k;
-      if (lost_[k]) {
-        if (!one_by_one_.run({trajectory, trajectory + 1})) return false;
-        continue;
-      }
       std::vector<DiffusingParticle> all;
-      for (std::size_t p = 0; p < particles; ++p)
-        all.push_back({trajectory * particles + p, Fate::survived, t_end, 0, -1, &squares_[k * particles + p], {}});
-      tally_.add(trajectory, all, std::fabs(energy_of(ends_[k]) - energy_of(starts_[k])), {});
+      for (std::size_t p = 0; p < particles; ++p) {
+        SoftLanes::Walk& walk = ends_[k][p];
+        const double time = walk.fate == Fate::survived ? t_end : walk.ended.value();
+        all.push_back({(first + k) * particles + p, walk.fate, time, walk.hits, walk.last_wall,
+                       &squares_[k * particles + p], {}});
+        if (walk.fate == Fate::lost) all.back().report = std::move(walk.report);
+      }
+      const DecisionCounts now = lanes_.decisions();
+      tally_.add(first + k, all, energy_change(k), now - std::exchange(decisions_, now));
     }
     return true;
   }
 
+  /// Of a trajectory whose particles are all left.
+  double energy_change(std::size_t k) const {
+    std::vector<State> states;
+    for (const SoftLanes::Walk& walk : ends_[k]) {
+      if (walk.fate != Fate::survived) return 0.0;
+      states.push_back(walk.state);
+    }
+    return std::fabs(energy_of(states) - energy_of(starts_[k]));
+  }
   double energy_of(const std::vector<State>& states) const {
     return carom::energy_of(system_.particles, states, system_.dynamics, *system_.table).total();
   }
 
   const System& system_;
   const Sampler& sampler_;
+  World world_;  ///< answers the sampler
   SoftLanes lanes_;
   DiffusionTally tally_;
-  DiffusionWalker one_by_one_;  ///< for those who are lost
-  std::vector<std::vector<State>> starts_, ends_;
+  DecisionCounts decisions_;  ///< that were told
+  std::vector<std::vector<State>> starts_;
+  std::vector<std::vector<SoftLanes::Walk>> ends_;
   std::vector<std::vector<double>> squares_;
   std::vector<SoftLanes::Walk> walks_;
-  std::vector<bool> lost_;
 };
 
 }  // namespace carom

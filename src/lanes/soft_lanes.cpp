@@ -146,7 +146,6 @@ class SoftLanes::Implementation {
                             : SoftEngine::read(pack_, static_cast<int>(k), now_, track.state);
       walk.state = track.state;
       walk.fate = track.fate;
-      walk.lost = track.fate == Fate::lost;
       walk.ended = track.ended;
       walk.hits = track.hits;
       walk.last_wall = track.last_wall;
@@ -163,7 +162,7 @@ class SoftLanes::Implementation {
 };
 
 bool SoftLanes::suits(const Table& table, const Dynamics& dynamics) {
-  return table.walls.empty() && lanes::can_step(table, dynamics);
+  return lanes::can_step(table, dynamics);
 }
 
 SoftLanes::SoftLanes(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options)

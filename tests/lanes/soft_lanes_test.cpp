@@ -88,7 +88,7 @@ void compare(const System& system, std::size_t count, const std::string& name) {
     EXPECT_TRUE(complete);
     EXPECT_EQ(samples, count * times.size());
     for (std::size_t k = 0; k < count; ++k) {
-      EXPECT_FALSE(walks[k].lost);
+      EXPECT_EQ(walks[k].fate, Fate::survived);
       expect_same(walks[k].state, expected[k].end, name + " end " + name_of(set));
     }
   }
@@ -132,6 +132,55 @@ TEST(SoftLanes, KnowEveryPotential) {
   compare(system, 30, "two lattices");
 }
 
+/// A well in a hard stadium, and hard discs among soft bumps.
+System among_walls(bool lattice) {
+  const std::string table = lattice ? R"(
+[table]
+shape = "lorentz"
+lattice = "triangular"
+spacing = 1
+radius = 0.2
+[[potential]]
+kind = "fermi"
+radius = 0.3
+softness = 0.05
+height = 0.3
+lattice = true
+)"
+                                    : R"(
+[table]
+shape = "stadium"
+half_length = 0.5
+radius = 0.5
+[[table.hole]]
+wall = "top"
+center = 0.5
+width = 0.2
+[[potential]]
+kind = "harmonic"
+omega = 1.3
+[field]
+B = 0.4
+)";
+  return read_system(table + R"(
+[integrator]
+step = 0.05
+[particles]
+speed = 1
+[initial]
+kind = "uniform"
+[run]
+t_max = 3
+trajectories = 150
+)",
+                     "among walls")
+      .system;
+}
+
+TEST(SoftLanes, MeetWallsWithinSteps) {
+  compare(among_walls(true), 150, "discs among bumps");
+}
+
 TEST(SoftLanes, RefuseWhatTheyCannotDo) {
   for (const char* name : {"stadium", "coulomb-circle", "wigner"}) {
     const System system = system_of(name);
@@ -159,9 +208,10 @@ TEST(SoftLanes, TellWhoIsLost) {
     alone.add(system.particles[0], starts[k].state);
     Observer nobody;
     alone.run_until(40.0, nobody);
-    EXPECT_EQ(walks[k].lost, alone.fate(0) == Fate::lost);
-    lost += walks[k].lost;
-    if (!walks[k].lost) expect_same(walks[k].state, alone.state(0), "survivor");
+    EXPECT_EQ(walks[k].fate, alone.fate(0));
+    EXPECT_EQ(walks[k].report, alone.report(0));
+    lost += walks[k].fate == Fate::lost;
+    if (walks[k].fate == Fate::survived) expect_same(walks[k].state, alone.state(0), "survivor");
   }
   EXPECT_GT(lost, 0);
   EXPECT_LT(lost, 30);
@@ -169,13 +219,17 @@ TEST(SoftLanes, TellWhoIsLost) {
 
 // Ensembles: one by one, in lanes of any kind, on any number of threads, in blocks of any size.
 TEST(SoftDiffusion, IsTheSameInEveryWay) {
-  for (const char* name : {"soft-lorentz", "antidot-magnetic"}) {
-    const System system = system_of(name, {{"run.t_max", "3"}, {"run.trajectories", "150"}});
+  for (const std::string name : {"soft-lorentz", "antidot-magnetic", "discs", "stadium with a hole"}) {
+    const bool walls = name == "discs" || name == "stadium with a hole";
+    const System system = walls ? among_walls(name == "discs")
+                                : system_of(name, {{"run.t_max", "3"}, {"run.trajectories", "150"}});
     DiffusionOptions options;
     options.lanes.reset();
     options.threads = 1;
     const DiffusionResult expected = run_diffusion(system, options);
     EXPECT_FALSE(expected.lanes);
+    EXPECT_EQ(expected.survived == 150u, name != "stadium with a hole");
+    EXPECT_EQ(expected.collisions > 0, walls);
     const std::vector<MomentPoint> points = DisplacementMoments(expected.sums).points();
     ASSERT_GT(points.back().square.value, 0.0);
     for (const InstructionSet set : available_instruction_sets())
@@ -188,7 +242,9 @@ TEST(SoftDiffusion, IsTheSameInEveryWay) {
           EXPECT_EQ(result.lanes, set);
           EXPECT_TRUE(result.complete);
           EXPECT_EQ(result.digest, expected.digest);
-          EXPECT_EQ(result.survived, 150u);
+          EXPECT_EQ(result.survived, expected.survived);
+          EXPECT_EQ(result.escaped, expected.escaped);
+          EXPECT_EQ(result.collisions, expected.collisions);
           EXPECT_EQ(result.energy_change, expected.energy_change);
           const std::vector<MomentPoint> same = DisplacementMoments(result.sums).points();
           ASSERT_EQ(same.size(), points.size());

@@ -22,7 +22,7 @@ namespace carom {
 class SoftLanes {
  public:
   /// Can such particles be stepped so? Where forces act everywhere, and nothing but forces, a magnetic
-  /// field: no walls, no interaction, a fixed step.
+  /// field and walls: no interaction, a fixed step, walls = "reflect".
   static bool suits(const Table&, const Dynamics&);
 
   /// Keeps references to both, which must live as long.
@@ -36,7 +36,6 @@ class SoftLanes {
   /// A particle on its way.
   struct Walk {
     State state;         ///< at time 0; then after the last event before the end
-    bool lost = false;   ///< it left the numbers, or rounding left it outside the walls: World says how
     Fate fate = Fate::survived;
     Time ended = {};     ///< unless it survived
     std::uint64_t hits = 0;
