@@ -23,6 +23,14 @@ namespace {
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Hits are counted in doubles.
 constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
+// Margins in units of what is asked, each 2^5 times its error or more (docs/developer/lanes.md derives both). The side of
+// a joint, of a cell's edge and what stands under a root err by 2^-44 of S = `size`, times the speed s, or S again.
+constexpr double side_margin = 0x1p-36;
+// | |c|^2 - v^2 | of a joint errs by 2^-45 g^2, g >= s + |omega| S ...
+constexpr double circle_margin = 0x1p-40;
+// ... and is |omega| d (|c| + s) <= |omega| d 2g at the distance d from the circle: beyond twice the margin of a side,
+// times |omega| S g, d is beyond that of a side.
+constexpr double near_margin = 2.0 * side_margin;
 
 lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn) {
   const bool curved = table.ellipses.any;
@@ -213,7 +221,7 @@ class LaneWorld::Implementation {
     for (int i = 0; i < pieces.edges; ++i) {
       const int next = i + 1 == pieces.edges ? 0 : i + 1;
       const Vector from{pieces.edge_x[i], pieces.edge_y[i]}, along = Vector{pieces.edge_x[next], pieces.edge_y[next]} - from;
-      if (!(cross(along, p - from) > 0x1p-36 * pieces.size * pieces.size)) return false;
+      if (!(cross(along, p - from) > side_margin * pieces.size * pieces.size)) return false;
     }
     return true;
   }
@@ -241,7 +249,7 @@ class LaneWorld::Implementation {
     const geometry::EnergyShell<double> shell = energy_shell(p.speed);
     pack.shell_weight[lane] = shell.weight;
     pack.shell_rest[lane] = shell.rest;
-    pack.sides[lane] = 0x1p-36 * pieces.size * p.speed;
+    pack.sides[lane] = side_margin * pieces.size * p.speed;
     pack.order[lane] = pieces.order_margin * pieces.size / p.speed;
     pack.roots[lane] = pack.sides[lane] * pieces.size * p.speed;
     if (turn != Turn::straight) {
@@ -249,7 +257,7 @@ class LaneWorld::Implementation {
       pack.omega[lane] = p.omega;
       pack.inverse_half[lane] = 1.0 / (0.5 * std::fabs(p.omega));
       pack.pace[lane] = std::ldexp(1.0, std::ilogb(pace) + 1);
-      pack.joint_margin[lane] = std::max(0x1p-35 * turned, 0x1p-40 * pace) * pace;
+      pack.joint_margin[lane] = std::max(near_margin * turned, circle_margin * pace) * pace;
     }
     if (pack.active[lane] == 0.0) ++lanes.busy;
     pack.active[lane] = 1.0;
