@@ -21,6 +21,16 @@ class Potential {
   virtual ~Potential() = default;
   /// Adds -grad V to `force`, returns V.
   virtual double add_force(const Particle&, geometry::Vector x, geometry::Vector& force) const = 0;
+  /// The same forces on many particles alike, to the bit: columns of `count` numbers.
+  virtual void add_forces(const Particle& p, int count, const double* x, const double* y, double* force_x,
+                          double* force_y) const {
+    for (int i = 0; i < count; ++i) {
+      geometry::Vector force{force_x[i], force_y[i]};
+      add_force(p, {x[i], y[i]}, force);
+      force_x[i] = force.x;
+      force_y[i] = force.y;
+    }
+  }
   /// Distance from a centre beyond which |V| is below `tail`; infinity if there is none.
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }

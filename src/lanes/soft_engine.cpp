@@ -80,7 +80,7 @@ SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, Instruction
       finder_(table, options),
       group_(surroundings_) {
   forces_.exp = elementary::exp_by(kernel_.width);
-  forces_.other = add_one_by_one;
+  forces_.other = add_other;
   forces_.context = this;
   forces_.barriers = surroundings_.barriers.data();
   forces_.walls = static_cast<int>(surroundings_.barriers.size());
@@ -234,15 +234,9 @@ SoftEngine::Outcome SoftEngine::end(SoftTrack& track, Fate fate, std::string_vie
   return Outcome::ended;
 }
 
-void SoftEngine::add_one_by_one(const SoftForces& forces, int potential, SoftPack& pack) {
+void SoftEngine::add_other(const SoftForces& forces, int potential, SoftPack& pack) {
   const auto& self = *static_cast<const SoftEngine*>(forces.context);
-  const Potential& p = *self.field_.potentials()[at(potential)];
-  for (int lane = 0; lane < pack.count; ++lane) {
-    Vector force{pack.ax[lane], pack.ay[lane]};
-    p.add_force(self.particle_, {pack.x[lane], pack.y[lane]}, force);
-    pack.ax[lane] = force.x;
-    pack.ay[lane] = force.y;
-  }
+  self.field_.potentials()[at(potential)]->add_forces(self.particle_, pack.count, pack.x, pack.y, pack.ax, pack.ay);
 }
 
 }  // namespace carom::lanes

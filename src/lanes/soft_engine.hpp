@@ -74,7 +74,7 @@ class SoftEngine {
   const DecisionCounts& decisions() const { return counts_; }
 
  private:
-  static void add_one_by_one(const SoftForces&, int potential, SoftPack&);
+  static void add_other(const SoftForces&, int potential, SoftPack&);
   Outcome end_step(SoftTrack& track);
   bool hit(SoftTrack& track, const Barrier<double>& barrier);
   bool inside(geometry::Vector x);
