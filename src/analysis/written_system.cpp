@@ -1,7 +1,8 @@
 #include "carom/analysis/written_system.hpp"
 
-#include <cmath>
 #include <variant>
+
+#include "motion/point_on_conic.hpp"
 
 namespace carom {
 
@@ -62,19 +63,8 @@ struct AsStored {
 
 TwofoldVector WrittenWall::point(double u) const {
   if (straight) return from + Twofold(u) * chord;
-  const double quarter = std::floor(u);
-  TwofoldVector a = from - centre;
-  // Its quarter turn in the frame in which the conic is a circle.
-  const Twofold x = dot(along, a), y = dot(across, a), determinant = cross(along, across);
-  TwofoldVector b{(-(y * across.y) - x * along.y) / determinant, (y * across.x + x * along.x) / determinant};
-  if (turn < 0) b = -b;
-  for (double q = 0.0; q < quarter; ++q) {
-    const TwofoldVector before = a;
-    a = b;
-    b = -before;
-  }
-  const Twofold one(1.0), w = Twofold::sum(u, -quarter), weight = one + w * w;
-  return centre + (((one - w * w) / weight) * a + (Twofold(2.0) * w / weight) * b);
+  const TwofoldVector a = from - centre, b = quarter_turn(a, along, across);
+  return point_on_conic(centre, a, turn < 0 ? -b : b, u);
 }
 
 WrittenSystem as_stored(const Table& table, const Particle& particle) {

@@ -7,6 +7,15 @@ namespace {
 
 constexpr std::size_t most_bits = 1u << 16;  ///< of one number of a state
 
+/// Has `a` the smaller angle, from 0 up to a whole turn?
+bool smaller_angle(const VectorOf<Quadratic>& a, const VectorOf<Quadratic>& b) {
+  const auto second_half = [](const VectorOf<Quadratic>& v) {
+    return sign(v.y) == Sign::negative || (is_zero(v.y) && sign(v.x) == Sign::negative);
+  };
+  if (second_half(a) != second_half(b)) return second_half(b);
+  return sign(cross(a, b)) == Sign::positive;
+}
+
 }  // namespace
 
 TieFollower::TieFollower(const ExactSystem& system, const CertifiedTask& task) : system_(system), task_(task) {
@@ -48,8 +57,11 @@ void TieFollower::fly_to(const Copy& copy) {
     landing = at_once ? fly<Quadratic, Quadratic>(w, P, v_, scene_.motion, same)
                       : fly_larmor<Quadratic, Quadratic>(w, P, v_, scene_.motion, same);
     const Vector before = velocity_after(landing.position - P), way = scene_.motion.inverse_speed2 * v_;
-    const Vector turn{dot(way, before), cross(way, before)};
-    turned_ = turn.x * turned_ + turn.y * left(turned_);
+    const bool clockwise = sign(scene_.motion.half_omega) == Sign::positive;
+    const Vector turn{dot(way, before), clockwise ? cross(before, way) : cross(way, before)};
+    const Vector sum = turn.x * turned_ + turn.y * left(turned_);
+    if (smaller_angle(sum, turned_)) ++whole_turns_;
+    turned_ = sum;
   }
   P_ = landing.position;
   v_ = landing.velocity;
@@ -82,11 +94,14 @@ std::optional<Tie> TieFollower::with_last_time() const {
     const Quadratic last = Quadratic(system_.speed) * Quadratic(*task_.t_max);
     return is_zero(way2 - square(last)) ? std::optional(tie) : std::nullopt;
   }
-  // The velocity has turned by -omega t, but for whole turns, which balls know. An algebraic angle other than zero has
-  // no algebraic sine (Lindemann): then there is no tie.
-  const std::string angle = "-(" + exact_text(system_.omega) + ")*(" + exact_text(*task_.t_max) + ")";
-  const Vector last = Source<Quadratic>::direction(ExactNumber(angle, Place{}));
-  return is_zero(turned_ - last) ? std::optional(tie) : std::nullopt;
+  // The velocity has turned by |omega| t. An algebraic angle other than zero has no algebraic sine (Lindemann): then
+  // there is no tie.
+  const std::string omega = "(" + exact_text(system_.omega) + ")", t = "(" + exact_text(*task_.t_max) + ")";
+  const auto parts = ExactNumber("sqrt(" + omega + "^2)*" + t + "/pi*12", Place{}).to_rational();
+  if (!parts || parts->denominator != "1") throw NotQuadratic("a last angle that is no multiple of pi/12");
+  const mpz_class all(parts->numerator), turns = all / 24, rest = all % 24;
+  if (turns != whole_turns_) return std::nullopt;
+  return is_zero(turned_ - twenty_fourth(rest.get_si())) ? std::optional(tie) : std::nullopt;
 }
 
 }  // namespace carom::certify

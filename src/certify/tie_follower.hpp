@@ -53,7 +53,8 @@ class TieFollower {
   SceneOf<Quadratic> scene_;
   Vector P_, v_;
   Quadratic time_;              ///< without field
-  Vector turned_{1, 0};         ///< by flights in a field: cosine and sine
+  Vector turned_{1, 0};         ///< by flights in a field, in their sense: cosine and sine
+  long whole_turns_ = 0;        ///< besides
   int standing_ = -1;
 };
 

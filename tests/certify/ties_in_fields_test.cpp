@@ -204,6 +204,9 @@ TEST(TiesInFields, HitsAtTheLastTime) {
   const CertifiedEnd end = end_of(system, task);
   EXPECT_EQ(end.collisions, 1u);
   EXPECT_EQ(end.ties.at(0), "event 1: 'right' is met exactly at the last time: the hit counts");
+  // The same place on the circle, but one turn later.
+  task.t_max = exactly("pi/6+2*pi");
+  EXPECT_GT(end_of(system, task).collisions, 1u);
   task.t_max = exactly("pi/6-1/10^40");
   EXPECT_EQ(end_of(system, task).collisions, 0u);
   task.t_max = exactly("pi/6+1/10^40");

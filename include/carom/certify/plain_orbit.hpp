@@ -23,7 +23,7 @@ struct PlainEnd {
   std::uint64_t collisions = 0;
   int wall = -1;                     ///< of the last hit
   int hole = -1;
-  geometry::Cell cell;
+  geometry::Cell cell;               ///< of the last hit, or of the hole it left through
   std::string t, x, y, vx, vy;       ///< all digits of the precision, right or wrong
 };
 const char* name_of(PlainEnd::Fate);
