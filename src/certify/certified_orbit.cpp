@@ -134,6 +134,7 @@ class CertifiedOrbit::Implementation {
           finish_with(CertifiedFate::escaped, "");
           return std::nullopt;
         case Outcome::unbounded:
+          check_domain();
           finish_with(turns_ ? CertifiedFate::pinned : CertifiedFate::unbounded, "");
           return std::nullopt;
         case Outcome::dead_end:
@@ -165,6 +166,17 @@ class CertifiedOrbit::Implementation {
     if (!turns_) return;
     if (turns == Sign::undecided)
       throw InputError(system_.omega.place(), "the magnetic field cannot be told from zero", "0, or another number");
+  }
+
+  // A flight from inside a bounded table meets a wall, and a Larmor circle comes back to a wall that it has left.
+  void check_domain() const {
+    const Extent extent = system_.table->extent;
+    if (attempt_->hits() == 0) {
+      if (extent == Extent::bounded && !turns_)
+        throw InputError(system_.start.position.x.place(), "the start lies outside the table", "a point inside its walls");
+    } else if (turns_ || extent == Extent::bounded) {
+      throw InternalError("a certified orbit has left its table after collision " + std::to_string(attempt_->hits()));
+    }
   }
 
   // What is added to the bits that will be lost as far as a forecast knows. An attempt with too few bits is repeated,

@@ -10,12 +10,12 @@
 
 namespace carom::certify {
 
-/// Does the crossing X of a line lie on the segment? Its start belongs to it, its end does not.
+/// Does the crossing X of a line lie on the segment? Of plain numbers its start belongs to it, its end does not.
 template <class N>
 Verdict on_segment(const WallOf<N>& w, const VectorOf<N>& X) {
-  const Sign after = sign(dot(X - w.from, w.chord));
+  const Sign after = sign_or_tie(dot(X - w.from, w.chord));
   if (after == Sign::negative) return Verdict::no;
-  const Sign before = sign(dot(w.to - X, w.chord));
+  const Sign before = sign_or_tie(dot(w.to - X, w.chord));
   if (before == Sign::negative || before == Sign::zero) return Verdict::no;
   return after == Sign::undecided || before == Sign::undecided ? Verdict::undecided : Verdict::yes;
 }
@@ -44,13 +44,13 @@ Meeting<N> meets_larmor(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf
                         const MotionOf<N>& motion, bool standing) {
   const LarmorQuadratic<N> f = larmor_quadratic<N, N>(w, P, v, motion, standing);
   if (standing) {
-    const Sign inwards = sign(f.b);
+    const Sign inwards = sign_or_tie(f.b);
     if (inwards == Sign::negative || inwards == Sign::zero) return {};
     const Verdict verdict = inwards == Sign::positive ? Verdict::yes : Verdict::undecided;
     return meeting_at(second_root(f), verdict, w, P, v, motion);
   }
   const N discriminant = discriminant_of(f);
-  const Sign crosses = sign(discriminant);  // a tangent flight does not hit
+  const Sign crosses = sign_or_tie(discriminant);  // a tangent flight does not hit
   if (crosses == Sign::negative || crosses == Sign::zero) return {};
   const Verdict verdict = crosses == Sign::positive ? Verdict::yes : Verdict::undecided;
   return meeting_at(rising_root(f, discriminant), verdict, w, P, v, motion);

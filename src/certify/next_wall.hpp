@@ -11,6 +11,22 @@ namespace carom::certify {
 
 enum class Verdict : unsigned char { no, yes, undecided };
 
+/// Of a number that decides a tie when it is zero: into a joint, touching, at an end. An enclosure that is the point zero
+/// proves the tie, and algebra is asked what follows from it, as where the enclosure is wider; numbers that are taken at
+/// their word give the joint to one of its walls.
+template <class N>
+Sign sign_or_tie(const N& x) {
+  return sign(x);
+}
+inline Sign sign_or_tie(const Ball& x) {
+  const Sign s = sign(x);
+  return s == Sign::zero ? Sign::undecided : s;
+}
+inline Sign sign_or_tie(const Interval& x) {
+  const Sign s = sign(x);
+  return s == Sign::zero ? Sign::undecided : s;
+}
+
 /// A wall that the flight may meet, and when.
 template <class N>
 struct Meeting {
@@ -20,14 +36,14 @@ struct Meeting {
 
 template <class N>
 Meeting<N> meets_segment(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v) {
-  // The flight leaves through a wall that runs from its right to its left. A zero is a plus, for both
+  // The flight leaves through a wall that runs from its right to its left. Of plain numbers a zero is a plus, for both
   // walls of a joint.
-  const Sign start = sign(cross(v, w.from - P));
+  const Sign start = sign_or_tie(cross(v, w.from - P));
   if (start == Sign::positive || start == Sign::zero) return {};
-  const Sign end = sign(cross(v, w.to - P));
+  const Sign end = sign_or_tie(cross(v, w.to - P));
   if (end == Sign::negative) return {};
   const N height = dot(P - w.from, w.normal);
-  const Sign inside = sign(height);
+  const Sign inside = sign_or_tie(height);
   if (inside == Sign::negative || inside == Sign::zero) return {};
   const bool certain = start != Sign::undecided && end != Sign::undecided && inside != Sign::undecided;
   return {certain ? Verdict::yes : Verdict::undecided, -(height / dot(v, w.normal))};
@@ -38,7 +54,7 @@ template <class N>
 Verdict on_arc(const WallOf<N>& w, const VectorOf<N>& X) {
   if (w.closed) return Verdict::yes;
   const VectorOf<N> e = X - w.from;
-  const Sign side = sign(cross(w.chord, e));
+  const Sign side = sign_or_tie(cross(w.chord, e));
   if (side == Sign::undecided) return Verdict::undecided;
   if (side == Sign::zero)  // a joint: it belongs to the wall that begins there
     return sign(e.x) == Sign::zero && sign(e.y) == Sign::zero ? Verdict::yes : Verdict::no;
@@ -67,21 +83,21 @@ Meeting<N> meets_conic(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<
   N time{};
   if (standing) {
     if (obstacle) return {};  // it moves away
-    require(sign(-b));
+    require(sign_or_tie(-b));
     if (verdict == Verdict::no) return {};
     time = -(b + b) / a;
   } else {
     if (obstacle) {
-      require(sign(-b));
+      require(sign_or_tie(-b));
       if (verdict == Verdict::no) return {};
     }
     const N c = (square(e.x) + square(e.y)) - (ellipse ? N(1) : w.radius2);
     const N discriminant = square(b) - a * c;
-    require(sign(discriminant));  // a tangent flight does not hit
+    require(sign_or_tie(discriminant));  // a tangent flight does not hit
     if (verdict == Verdict::no) return {};
     const N root = sqrt(discriminant);
     time = (obstacle ? -root - b : root - b) / a;
-    require(sign(time));
+    require(sign_or_tie(time));
     if (verdict == Verdict::no) return {};
   }
   const Verdict piece = on_arc(w, VectorOf<N>{P.x + time * v.x, P.y + time * v.y});

@@ -1,0 +1,123 @@
+// Starts and speeds that are short binary numbers: balls without width. Exact coincidences are then exact zeros, and mean
+// what they mean everywhere else.
+#include <gtest/gtest.h>
+
+#include "certify/systems.hpp"
+
+namespace carom {
+namespace {
+
+using tests::exactly;
+using tests::Shaped;
+using tests::task_of;
+
+struct Ray {
+  std::string x, y, u, v;
+};
+
+ExactSystem along(Shaped s, const Ray& ray, const char* speed) {
+  s.inside = {exactly(ray.x), exactly(ray.y)};
+  ExactSystem system = tests::system_of(s, {exactly(ray.u), exactly(ray.v)});
+  system.speed = exactly(speed);
+  return system;
+}
+CertifiedEnd end_of(const ExactSystem& system, std::uint64_t collisions) {
+  CertifiedOrbit orbit(system, task_of(collisions, 20));
+  return orbit.finish();
+}
+
+Shaped rectangle() { return tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "0", "0"); }
+Shaped stadium() { return tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0"); }
+Shaped diamond() {
+  Shaped s = tests::shaped("polygon", {}, "0", "0");
+  s.spec.points["points"] = {{exactly("1"), exactly("0")},
+                             {exactly("0"), exactly("1")},
+                             {exactly("-1"), exactly("0")},
+                             {exactly("0"), exactly("-1")}};
+  return s;
+}
+Shaped sinai(bool torus) {
+  Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/4"}}, "0", "0");
+  s.spec.torus = torus;
+  return s;
+}
+
+// The same ray from a point of it that no binary number names has the same ties, hits the same walls and ends there.
+void expect_same_from_beside(const Shaped& s, const Ray& ray, std::size_t ties) {
+  for (const char* speed : {"1", "5"}) {
+    SCOPED_TRACE(s.spec.shape + " from " + ray.x + ", " + ray.y + " along " + ray.u + ", " + ray.v + " with speed " + speed);
+    const CertifiedEnd exact = end_of(along(s, ray, speed), 12);
+    const Ray beside{ray.x + "+(" + ray.u + ")/100", ray.y + "+(" + ray.v + ")/100", ray.u, ray.v};
+    const CertifiedEnd other = end_of(along(s, beside, speed), 12);
+    EXPECT_EQ(name_of(exact.fate), name_of(other.fate));
+    EXPECT_EQ(exact.reason, other.reason);
+    EXPECT_EQ(exact.ties, other.ties);
+    EXPECT_EQ(exact.ties.size(), ties);
+    EXPECT_EQ(exact.collisions, other.collisions);
+    EXPECT_EQ(exact.wall, other.wall);
+    if (exact.collisions == 0) continue;
+    EXPECT_EQ(exact.x.text(20), other.x.text(20));
+    EXPECT_EQ(exact.y.text(20), other.y.text(20));
+    EXPECT_EQ(exact.vx.text(20), other.vx.text(20));
+    EXPECT_EQ(exact.vy.text(20), other.vy.text(20));
+  }
+}
+
+TEST(ExactStarts, IntoCorners) {
+  expect_same_from_beside(rectangle(), {"5/8", "1/2", "3", "4"}, 2);
+  expect_same_from_beside(rectangle(), {"1/2", "1/2", "1", "1"}, 6);
+  expect_same_from_beside(rectangle(), {"1/2", "1/2", "-1", "1"}, 6);
+  expect_same_from_beside(rectangle(), {"1/2", "1/4", "2", "3"}, 3);
+  for (const auto& [u, v] : {std::pair{"1", "0"}, {"0", "1"}, {"-1", "0"}, {"0", "-1"}})
+    expect_same_from_beside(diamond(), {"0", "0", u, v}, 6);
+  // A reflex corner has no limit.
+  const Shaped mushroom =
+      tests::shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}}, "0", "0");
+  expect_same_from_beside(mushroom, {"1/4", "1/2", "1", "-2"}, 0);
+}
+
+TEST(ExactStarts, IntoJoints) {
+  expect_same_from_beside(stadium(), {"1", "1/4", "0", "1"}, 12);
+  expect_same_from_beside(stadium(), {"1", "-1/4", "0", "1"}, 12);
+  expect_same_from_beside(stadium(), {"-1", "1/4", "0", "1"}, 12);
+  expect_same_from_beside(stadium(), {"-1", "-1/4", "0", "-1"}, 12);
+  expect_same_from_beside(stadium(), {"0", "0", "1", "1"}, 8);
+}
+
+TEST(ExactStarts, TouchingDiscs) {
+  expect_same_from_beside(sinai(false), {"1/8", "1/4", "1", "0"}, 12);
+  expect_same_from_beside(sinai(false), {"3/4", "7/8", "0", "-1"}, 12);
+}
+
+TEST(ExactStarts, AlongTheEdgeOfACorridor) {
+  const CertifiedEnd corridor = end_of(along(sinai(true), {"1/8", "1/4", "1", "0"}, "1"), 10);
+  EXPECT_EQ(corridor.fate, CertifiedFate::singular);
+  EXPECT_EQ(corridor.reason, "event 1: exactly tangent to 'disc', which is no hit");
+}
+
+// About (5/8, 5/8), and about (1/2, 11/8), with the radius 5/8.
+TEST(ExactStarts, InFields) {
+  const Shaped around = tests::shaped("rectangle", {{"width", "5/4"}, {"height", "5/4"}}, "0", "0");
+  ExactSystem inscribed = along(around, {"1", "9/8", "4", "-3"}, "5");
+  inscribed.omega = exactly("8");
+  const CertifiedEnd pinned = end_of(inscribed, 5);
+  EXPECT_EQ(pinned.fate, CertifiedFate::pinned);
+  EXPECT_EQ(pinned.ties.size(), 4u);
+  ExactSystem corner = along(rectangle(), {"1/2", "3/4", "5", "0"}, "5");
+  corner.omega = exactly("-8");
+  const CertifiedEnd back = end_of(corner, 2);
+  EXPECT_EQ(back.fate, CertifiedFate::completed);
+  ASSERT_EQ(back.ties.size(), 1u);
+  EXPECT_EQ(back.ties[0], "event 1: exactly into the corner between 'right' and 'top', whose angle is pi/2");
+  EXPECT_EQ(back.vx.text(20), "-3.00000000000000000000");
+  EXPECT_EQ(back.vy.text(20), "-4.00000000000000000000");
+  ExactSystem joint = along(stadium(), {"1/2", "3/4", "5", "0"}, "5");
+  joint.omega = exactly("-8");
+  const CertifiedEnd smooth = end_of(joint, 1);
+  ASSERT_EQ(smooth.ties.size(), 1u);
+  EXPECT_EQ(smooth.ties[0], "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
+  EXPECT_EQ(smooth.vy.text(20), "-4.00000000000000000000");
+}
+
+}  // namespace
+}  // namespace carom
