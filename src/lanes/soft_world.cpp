@@ -70,10 +70,10 @@ class SoftWorld::Implementation {
     sink_ = &ended;
     t_end_ = t_end;
     const double step = engine.step();
-    // Steps that end in time; the one after them may still meet a wall.
-    double whole = std::floor(t_end / step);
+    // Steps that end in time; the one after them may still meet a wall. Nobody makes as many as are counted here.
+    double whole = std::fmin(std::floor(t_end / step), 0x1p52);
     while (whole > 0.0 && multiple(whole, step) > Time(t_end)) whole -= 1.0;
-    while (multiple(whole + 1.0, step) <= Time(t_end)) whole += 1.0;
+    while (whole < 0x1p52 && multiple(whole + 1.0, step) <= Time(t_end)) whole += 1.0;
     whole_ = static_cast<std::uint64_t>(whole);
     next_ = 0;
     soonest_ = never;

@@ -240,6 +240,8 @@ TEST(SoftWorld, EndsWhereItShould) {
   for (const double t_max : {0.01, 0.07, 0.14, 0.15}) compare(system_of(cases[0], t_max), 130, "early end");
   const std::vector<int> fates = compare(system_of(cases[1], 40.0), 80, "capped", 5);
   EXPECT_GT(fates[static_cast<std::size_t>(Fate::capped)], 40);
+  // More steps than anybody counts.
+  compare(system_of(cases[0], 1e20), 70, "capped in endless time", 3);
 }
 
 TEST(SoftWorld, RefusesWhatItCannotDo) {
