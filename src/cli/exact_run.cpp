@@ -1,5 +1,7 @@
 #include "cli/exact_run.hpp"
 
+#include <fmt/format.h>
+
 #include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
@@ -53,6 +55,35 @@ LoadedSystem load_exact_run(const Options& options) {
 
 std::string wall_of(const System& system, int wall) {
   return wall < 0 ? std::string() : system.table->walls[static_cast<std::size_t>(wall)].name;
+}
+
+Json end_json(const System& system, const PrintedEnd& end, double seconds, double cpu_seconds) {
+  Json json = Json::object();
+  add_common_keys(json, system, 1, seconds, cpu_seconds);
+  json.set("status", end.status);
+  json.set("collisions", end.collisions);
+  const std::string wall = wall_of(system, end.wall);
+  json.set("wall", wall.empty() ? Json() : Json(wall));
+  json.set("t", end.t).set("x", end.x).set("y", end.y).set("vx", end.vx).set("vy", end.vy);
+  json.set("cell", Json::array().push(end.cell.first).push(end.cell.second));
+  if (end.hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(end.hole)].name);
+  if (!end.reason.empty()) json.set("reason", end.reason);
+  return json;
+}
+
+std::string end_text(const System& system, const PrintedEnd& end) {
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text += fmt::format("  status        {}", end.status);
+  if (end.hole >= 0)
+    text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
+  if (!end.reason.empty()) text += ": " + end.reason;
+  for (const std::string& note : end.notes) text += "\n  " + note;
+  text += fmt::format("\n  collisions    {}", grouped(end.collisions));
+  const std::string wall = wall_of(system, end.wall);
+  if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
+  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t, end.x, end.y);
+  if (system.table->lattice) text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
+  return text + fmt::format("\n  velocity      {}, {}\n", end.vx, end.vy);
 }
 
 bool says_rescaled(const System& system, bool rescaled) {

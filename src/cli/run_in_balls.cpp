@@ -40,20 +40,18 @@ CertifiedTask task_of(const Options& options, const LoadedSystem& loaded) {
   return task;
 }
 
-Json end_json(const System& system, const CertifiedEnd& end, const std::string& status,
-              const CertifiedTask& task, const CertifiedEffort& effort, const std::string& output,
-              double seconds, double cpu_seconds) {
-  Json json = Json::object();
-  add_common_keys(json, system, 1, seconds, cpu_seconds);
-  json.set("status", status);
-  json.set("collisions", end.collisions);
-  const std::string wall = wall_of(system, end.wall);
-  json.set("wall", wall.empty() ? Json() : Json(wall));
-  json.set("t", end.t.text(task.digits)).set("x", end.x.text(task.digits)).set("y", end.y.text(task.digits));
-  json.set("vx", end.vx.text(task.digits)).set("vy", end.vy.text(task.digits));
-  json.set("cell", Json::array().push(end.cell.first).push(end.cell.second));
-  if (end.hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(end.hole)].name);
-  if (!end.reason.empty()) json.set("reason", end.reason);
+PrintedEnd printed(const System& system, const CertifiedEnd& end, const std::string& status, int digits,
+                   const CertifiedEffort& effort) {
+  PrintedEnd r{status, end.collisions, end.wall, end.hole, end.cell, end.t.text(digits), end.x.text(digits),
+               end.y.text(digits), end.vx.text(digits), end.vy.text(digits), end.reason, {}};
+  if (says_rescaled(system, effort.rescaled))
+    r.notes.push_back("velocity      gave the direction; its length was made the speed, exactly");
+  for (const std::string& tie : end.ties) r.notes.push_back("exact tie     " + tie);
+  return r;
+}
+
+Json own_keys(Json json, const System& system, const CertifiedEnd& end, const CertifiedTask& task,
+              const CertifiedEffort& effort, const std::string& output) {
   if (!end.ties.empty()) {
     Json ties = Json::array();
     for (const std::string& tie : end.ties) ties.push(tie);
@@ -66,35 +64,14 @@ Json end_json(const System& system, const CertifiedEnd& end, const std::string& 
   return json;
 }
 
-std::string end_text(const System& system, const CertifiedEnd& end, const std::string& status,
-                     const CertifiedTask& task, const CertifiedEffort& effort, const std::string& output,
-                     double seconds) {
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("  status        {}", status);
-  if (end.hole >= 0)
-    text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
-  if (!end.reason.empty()) text += ": " + end.reason;
-  if (says_rescaled(system, effort.rescaled))
-    text += "\n  velocity      gave the direction; its length was made the speed, exactly";
-  for (const std::string& tie : end.ties) text += "\n  exact tie     " + tie;
-  text += fmt::format("\n  collisions    {}", grouped(end.collisions));
-  const std::string wall = wall_of(system, end.wall);
-  if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
-  const int d = task.digits;
-  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t.text(d), end.x.text(d),
-                      end.y.text(d));
-  if (system.table->lattice) text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
-  text += fmt::format("\n  velocity      {}, {}\n", end.vx.text(d), end.vy.text(d));
-  text += fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n", d,
-                      effort.bits, static_cast<long>(effort.tangent_bits), effort.attempts,
-                      effort.attempts == 1 ? "" : "s");
+std::string own_lines(const CertifiedTask& task, const CertifiedEffort& effort, const std::string& output,
+                      double seconds) {
+  std::string text = fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n", task.digits,
+                                 effort.bits, static_cast<long>(effort.tangent_bits), effort.attempts,
+                                 effort.attempts == 1 ? "" : "s");
   text += fmt::format("  computed in   {:.3g} s\n", seconds);
   return output.empty() ? text : text + fmt::format("  archive       {}\n", output);
 }
-
-}  // namespace
-
-namespace {
 
 void follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& task,
             CertifiedArchive* archive) {
@@ -137,11 +114,14 @@ int run_in_balls(const Options& options) {
   const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
   const std::string status = name_of(end.fate);
   if (archive) archive->finish(end, orbit.effort(), status, !interrupted);
-  print(options.json
-            ? end_json(loaded.system, end, status, task, orbit.effort(), options.output, seconds, cpu_seconds)
-                      .text() +
-                  "\n"
-            : end_text(loaded.system, end, status, task, orbit.effort(), options.output, seconds));
+  const PrintedEnd result = printed(loaded.system, end, status, task.digits, orbit.effort());
+  if (options.json)
+    print(own_keys(end_json(loaded.system, result, seconds, cpu_seconds), loaded.system, end, task, orbit.effort(),
+                   options.output)
+              .text() +
+          "\n");
+  else
+    print(end_text(loaded.system, result) + own_lines(task, orbit.effort(), options.output, seconds));
   return interrupted ? stopped : done;
 }
 

@@ -23,35 +23,8 @@ long bits_of(const Options& options) {
   return static_cast<long>(bits);
 }
 
-Json end_json(const System& system, const PlainEnd& end, const std::string& status, long bits, double seconds,
-              double cpu_seconds) {
-  Json json = Json::object();
-  add_common_keys(json, system, 1, seconds, cpu_seconds);
-  json.set("status", status);
-  json.set("collisions", end.collisions);
-  const std::string wall = wall_of(system, end.wall);
-  json.set("wall", wall.empty() ? Json() : Json(wall));
-  json.set("t", end.t).set("x", end.x).set("y", end.y).set("vx", end.vx).set("vy", end.vy);
-  json.set("cell", Json::array().push(end.cell.first).push(end.cell.second));
-  if (end.hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(end.hole)].name);
-  json.set("guarantee", false);
-  return json.set("bits", bits);
-}
-
-std::string end_text(const System& system, const PlainEnd& end, const std::string& status, long bits,
-                     double seconds) {
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("  status        {}", status);
-  if (end.hole >= 0)
-    text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
-  text += fmt::format("\n  collisions    {}", grouped(end.collisions));
-  const std::string wall = wall_of(system, end.wall);
-  if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
-  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t, end.x, end.y);
-  if (system.table->lattice) text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
-  text += fmt::format("\n  velocity      {}, {}\n", end.vx, end.vy);
-  text += fmt::format("  guarantee     {}\n", warning);
-  return text + fmt::format("  computed in   {:.3g} s, by {} bits\n", seconds, bits);
+PrintedEnd printed(const PlainEnd& end, const std::string& status) {
+  return {status, end.collisions, end.wall, end.hole, end.cell, end.t, end.x, end.y, end.vx, end.vy, "", {}};
 }
 
 }  // namespace
@@ -76,8 +49,14 @@ int run_in_plain_numbers(const Options& options) {
                                    [&] { return interrupted = interrupts.load(std::memory_order_relaxed); });
   const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
   const std::string status = interrupted ? "interrupted" : name_of(end.fate);
-  print(options.json ? end_json(loaded.system, end, status, task.bits, seconds, cpu_seconds).text() + "\n"
-                     : end_text(loaded.system, end, status, task.bits, seconds));
+  const PrintedEnd result = printed(end, status);
+  if (options.json) {
+    Json json = end_json(loaded.system, result, seconds, cpu_seconds);
+    print(json.set("guarantee", false).set("bits", task.bits).text() + "\n");
+  } else {
+    print(end_text(loaded.system, result) + fmt::format("  guarantee     {}\n", warning) +
+          fmt::format("  computed in   {:.3g} s, by {} bits\n", seconds, task.bits));
+  }
   if (end.fate == PlainEnd::lost) return lost;
   return interrupted ? stopped : done;
 }
