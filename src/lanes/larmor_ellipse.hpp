@@ -82,9 +82,9 @@ INLINE RootOnEllipse root_to_ellipse(const View& f, const geometry::Quartic<Real
   const Mask only = there && discriminant < -1.01 * change;
   const Mask grows = b2 > 0x1p-38 && b3 > 0x1p-38 && b4 > 0x1p-38;
   RootOnEllipse root{x, only || (there && grows), only, Mask(false), spread * y};
-  // No root at all if q is a positive form of (1, x, x^2). Of the square of x, 2l may be given to the product of the other
+  // No root at all if q or -q is a positive form of (1, x, x^2). Of the square of x, 2l may be given to the product of the other
   // two; all in units of what these are at most, and the best l is the root of a quadratic.
-  const Real half = 0.5 * h, wide = fused(half, Real(f.table.size), f.speed), share = 1.0 / stretch;
+  const Real half = 0.5 * h, wide = fused(half, Real(f.table.size), f.speed), share = choose(q[4] < 0.0, Real(-1.0), Real(1.0)) / stretch;
   const Real u4(1.0 / f.table.size), u2 = 1.0 / wide, u0 = u2 / half;
   const Real k4 = q[4] * u4 * u4 * share, k3 = 0.5 * q[3] * u4 * u2 * share, k2 = q[2] * u2 * u2 * share,
              k1 = 0.5 * q[1] * u2 * u0 * share, k0 = q[0] * u0 * u0 * share;

@@ -71,7 +71,7 @@ TEST_P(EscapeInLanes, HasTheDigestOfTheScalarEngine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EscapeInLanes, testing::Values("stadium", "mushroom", "circle", "three-disc", "magnetic-square", "sinai",
-                                                               "lorentz-triangular"));
+                                                               "lorentz-triangular", "ellipse-magnetic"));
 
 }  // namespace
 }  // namespace carom

@@ -36,6 +36,10 @@ struct Row {
   const char* table;  // TOML of [table], [lattice] and [field]
   double mean_flight = 0.0;  // expected; 0: pi A / L, below 0: not known
 };
+#define ELLIPTIC_STADIUM                                                                                             \
+  "[table]\nshape = \"path\"\n[[table.loop]]\nstart = [-2, -1]\npieces = [\n"                                           \
+  "{line_to = [2, -1]}, {ellipse_via = [\"16/5\", 0], ellipse_to = [2, 1], ellipse_ratio = \"5/6\"},\n"                 \
+  "{line_to = [-2, 1]}, {ellipse_via = [\"-16/5\", 0], ellipse_to = [-2, -1], ellipse_ratio = \"5/6\"}]\n"
 constexpr Row rows[] = {
     {"square", "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n"},
     {"circle", "[table]\nshape = \"circle\"\nradius = 1\n"},
@@ -45,10 +49,7 @@ constexpr Row rows[] = {
     {"sinai torus", "[table]\nshape = \"sinai\"\nside = 1\nradius = \"1/4\"\ntorus = true\n"},
     {"lorentz triangular", "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 1\nradius = 0.45\n"},
     {"ellipse", "[table]\nshape = \"ellipse\"\na = 2\nb = 1\n"},
-    {"lens of elliptic arcs",
-     "[table]\nshape = \"path\"\n[[table.loop]]\nstart = [\"-1/4\", \"1/4\"]\npieces = [\n"
-     "{ellipse_via = [0, \"1/8\"], ellipse_to = [\"1/4\", \"1/4\"], ellipse_ratio = \"1/2\"},\n"
-     "{ellipse_via = [0, \"3/8\"], ellipse_to = [\"-1/4\", \"1/4\"], ellipse_ratio = \"1/2\"}]\n"},
+    {"elliptic stadium", ELLIPTIC_STADIUM},
     {"magnetic square", "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n", -1},
     {"magnetic square with hole",
      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 1e-6\n"
@@ -61,6 +62,7 @@ constexpr Row rows[] = {
      "[table]\nshape = \"ellipse\"\na = 1\nb = \"3/4\"\n[[table.hole]]\nwall = \"ellipse\"\ncenter = 0.5\nwidth = 1e-6\n"
      "[field]\nlarmor_radius = 3\n",
      -1},
+    {"magnetic elliptic stadium", ELLIPTIC_STADIUM "[field]\nlarmor_radius = 3\n", -1},
     {"magnetic mushroom",
      "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n[field]\nlarmor_radius = 2\n", -1},
 };
