@@ -260,6 +260,13 @@ BallState Attempt::enclosed() const {
   return r;
 }
 
+double Attempt::missing_bits(const BallState& s) const {
+  Bound largest = s.time.radius();
+  for (const Ball* x : {&s.position.x, &s.position.y, &s.velocity.x, &s.velocity.y})
+    if (largest < x->radius()) largest = x->radius();
+  return largest.log2() + bits_of(task_.digits) + 1.001;
+}
+
 double Attempt::lost_bits() const {
   return std::max(0.0, now_.state->error().log2() + static_cast<double>(first_bits_));
 }

@@ -41,6 +41,8 @@ class Attempt {
 
   /// The state after the last event (or at t_max), unwrapped, in balls.
   BallState enclosed() const;
+  /// How many more are needed until each number of that state is off by less than half a unit of the last digit.
+  double missing_bits(const BallState&) const;
   int wall() const { return now_.wall; }
   int hole() const { return hole_; }
   const geometry::Cell& cell() const { return now_.cell; }

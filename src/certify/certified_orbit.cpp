@@ -55,12 +55,12 @@ CertifiedNumber number(Ball ball) {
   return CertifiedNumber(std::make_shared<const CertifiedNumber::Enclosure>(CertifiedNumber::Enclosure{std::move(ball)}));
 }
 
-void fill(CertifiedState& state, const BallState& s) {
-  state.t = number(s.time);
-  state.x = number(s.position.x);
-  state.y = number(s.position.y);
-  state.vx = number(s.velocity.x);
-  state.vy = number(s.velocity.y);
+void fill(CertifiedState& state, BallState s) {
+  state.t = number(std::move(s.time));
+  state.x = number(std::move(s.position.x));
+  state.y = number(std::move(s.position.y));
+  state.vx = number(std::move(s.velocity.x));
+  state.vy = number(std::move(s.velocity.y));
 }
 
 }  // namespace
@@ -97,27 +97,27 @@ class CertifiedOrbit::Implementation {
         return std::nullopt;
       }
       if (interrupted_ && interrupted_()) {
-        finish_interrupted();
+        finish_as_given(CertifiedFate::interrupted, "");
         return std::nullopt;
       }
-      const Outcome outcome = attempt_->step();
+      const Outcome outcome = checked(attempt_->step());
       switch (outcome.kind) {
         case Outcome::hit: {
           if (attempt_->hits() <= given_) break;  // given out by an earlier attempt
           given_ = attempt_->hits();
           undecided_ = 0;
           CertifiedHit hit;
-          fill(hit, attempt_->enclosed());
+          fill(hit, std::move(state_));
           hit.number = given_;
           hit.wall = attempt_->wall();
           hit.cell = attempt_->cell();
-          last_ = hit;
+          last_ = hit;  // the end, should what follows not be enclosed
           return hit;
         }
         case Outcome::inaccurate:
           if (!std::isfinite(outcome.missing_bits) && (32L << undecided_) > task_.most_bits_a_doubt) {
-            finish_with(CertifiedFate::undecided, "event " + std::to_string(attempt_->hits()) + " is not enclosed by " +
-                                                      std::to_string(effort_.bits) + " bits");
+            finish_as_given(CertifiedFate::undecided, "event " + std::to_string(attempt_->hits()) + " is not enclosed by " +
+                                                          std::to_string(effort_.bits) + " bits");
             return std::nullopt;
           }
           restart(effort_.bits + std::max(still_needed(outcome), 4L) +
@@ -258,8 +258,7 @@ class CertifiedOrbit::Implementation {
 
   void restart(long bits) {
     if (bits > task_.most_bits) {
-      if (!attempt_) attempt_.emplace(system_, task_, ties_, bits_of_digits());  // the end is the start
-      finish_with(CertifiedFate::undecided, "the digits asked for need " + std::to_string(bits) + " bits");
+      finish_as_given(CertifiedFate::undecided, "the digits asked for need " + std::to_string(bits) + " bits");
       return;
     }
     effort_.bits = bits;
@@ -267,27 +266,55 @@ class CertifiedOrbit::Implementation {
     attempt_.emplace(system_, task_, ties_, bits);
   }
 
+  // What is given out is accurate as it is: translated by its cell and rounded.
+  Outcome checked(Outcome outcome) {
+    const bool ends = outcome.kind == Outcome::stopped || outcome.kind == Outcome::escaped;
+    if (!ends && (outcome.kind != Outcome::hit || attempt_->hits() <= given_)) return outcome;
+    state_ = attempt_->enclosed();
+    const double missing = attempt_->missing_bits(state_);
+    return missing <= 0.0 ? outcome : Outcome{Outcome::inaccurate, missing, {}};
+  }
+
   void finish_with(CertifiedFate fate, std::string reason) {
-    done_ = true;
-    end_.fate = fate;
-    end_.reason = std::move(reason);
-    if (!attempt_) return;
+    BallState s = attempt_->enclosed();
+    if (!(attempt_->missing_bits(s) <= 0.0)) {
+      finish_as_given(fate, std::move(reason));
+      return;
+    }
+    finish(fate, std::move(reason));
     end_.collisions = attempt_->hits();
     end_.wall = attempt_->wall();
     end_.hole = attempt_->hole();
     end_.cell = attempt_->cell();
-    fill(end_, attempt_->enclosed());
-    effort_.tangent_bits = attempt_->lost_bits();
+    fill(end_, std::move(s));
   }
 
-  // With the last hit that was given out: a later attempt may not have come back to it.
-  void finish_interrupted() {
-    finish_with(CertifiedFate::interrupted, "");
-    if (given_ == 0) return;
-    static_cast<CertifiedState&>(end_) = last_;
-    end_.collisions = given_;
-    end_.wall = last_.wall;
-    end_.cell = last_.cell;
+  // With the last hit that was given out: the present attempt may not have come back to it, or not be accurate where it is.
+  void finish_as_given(CertifiedFate fate, std::string reason) {
+    finish(fate, std::move(reason));
+    if (given_ > 0) {
+      static_cast<CertifiedState&>(end_) = last_;
+      end_.collisions = given_;
+      end_.wall = last_.wall;
+      end_.cell = last_.cell;
+      return;
+    }
+    for (long bits = bits_of_digits();; bits *= 2) {  // the end is the start
+      attempt_.emplace(system_, task_, ties_, bits);
+      BallState s = attempt_->enclosed();
+      const bool accurate = attempt_->missing_bits(s) <= 0.0;
+      if (!accurate && bits < task_.most_bits) continue;
+      end_.wall = attempt_->wall();
+      fill(end_, std::move(s));
+      return;
+    }
+  }
+
+  void finish(CertifiedFate fate, std::string reason) {
+    done_ = true;
+    end_.fate = fate;
+    end_.reason = std::move(reason);
+    if (attempt_) effort_.tangent_bits = attempt_->lost_bits();
   }
 
   const ExactSystem system_;
@@ -300,6 +327,7 @@ class CertifiedOrbit::Implementation {
   std::optional<certify::Attempt> attempt_;
   std::uint64_t given_ = 0;
   CertifiedHit last_;  ///< that was given out
+  BallState state_;    ///< to be given out
   int undecided_ = 0;
   bool turns_ = false;  ///< in a magnetic field
   bool done_ = false;

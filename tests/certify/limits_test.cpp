@@ -1,0 +1,82 @@
+// Where certified orbits end, and what they ask of themselves: no number leaves with less than the digits asked for.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "certify/systems.hpp"
+
+namespace carom {
+namespace {
+
+using tests::exactly;
+using tests::Shaped;
+using tests::task_of;
+
+Shaped stadium(const std::string& size) {
+  return tests::shaped("stadium", {{"half_length", size.c_str()}, {"radius", size.c_str()}}, "0", "0");
+}
+ExactSystem flying(const Shaped& s, const char* speed) {
+  ExactSystem system = tests::system_of(s, {exactly("0.6"), exactly("0.7")});
+  system.speed = exactly(speed);
+  return system;
+}
+
+void expect_digits(const CertifiedState& s, int digits) {
+  for (const CertifiedNumber* x : {&s.t, &s.x, &s.y, &s.vx, &s.vy})
+    EXPECT_LT(x->log2_error(), -static_cast<double>(digits) * std::log2(10.0) - 1.0);
+}
+
+TEST(CertifiedLimits, WithoutBitsTheEndIsTheLastHit) {
+  const ExactSystem system = flying(stadium("1"), "1");
+  for (const long most_bits : {60L, 150L, 300L, 1000L}) {
+    CertifiedTask task = task_of(2000, 20);
+    task.most_bits = most_bits;
+    // The forecast asks for more: many hits by few attempts are had by those that grow.
+    for (const std::uint64_t hits : {20u, 200u, 2000u}) {
+      task.collisions = hits;
+      CertifiedOrbit orbit(system, task);
+      std::uint64_t given = 0;
+      CertifiedHit last;
+      for (const CertifiedHit& hit : orbit) {
+        expect_digits(hit, task.digits);
+        last = hit;
+        ++given;
+      }
+      const CertifiedEnd& end = orbit.end_state();
+      expect_digits(end, task.digits);
+      EXPECT_EQ(end.collisions, given);
+      if (end.fate == CertifiedFate::completed) continue;
+      EXPECT_EQ(end.fate, CertifiedFate::undecided);
+      if (given > 0) {
+        EXPECT_EQ(end.x.text(20), last.x.text(20));
+      }
+    }
+  }
+}
+
+// A hole that the pseudo-orbit leaves through and the true one misses, or a forecast that is too small by chance: then
+// attempts end on their way.
+TEST(CertifiedLimits, AnAttemptThatEndsOnItsWay) {
+  int ended = 0;
+  for (int k = 0; k < 40; ++k) {
+    Shaped s = stadium("1");
+    s.inside = {exactly("0." + std::to_string(10 + k)), exactly("0.1")};
+    const ExactSystem system = flying(s, "1");
+    CertifiedOrbit whole(system, task_of(150, 20));
+    whole.finish();
+    CertifiedTask task = task_of(150, 20);
+    task.most_bits = whole.effort().bits - 1;  // of the last attempt
+    if (whole.effort().attempts < 2) continue;
+    CertifiedOrbit orbit(system, task);
+    std::uint64_t given = 0;
+    for (const CertifiedHit& hit : orbit) given = hit.number;
+    ++ended;
+    EXPECT_EQ(orbit.end_state().fate, CertifiedFate::undecided);
+    EXPECT_EQ(orbit.end_state().collisions, given);
+    expect_digits(orbit.end_state(), 20);
+  }
+  EXPECT_GT(ended, 0);
+}
+
+}  // namespace
+}  // namespace carom
