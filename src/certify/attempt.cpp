@@ -18,14 +18,14 @@ double bits_of(int digits) { return static_cast<double>(digits) * 3.321928094887
 
 }  // namespace
 
-Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const KnownTies& ties, long bits)
-    : system_(system), task_(task), ties_(ties), first_bits_(bits), bits_(bits), table_bits_(bits) {
+Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const KnownTies& ties, long bits, long reading)
+    : system_(system), task_(task), ties_(ties), first_bits_(bits), bits_(bits), table_bits_(bits), reading_bits_(reading) {
   const Precision precision(bits);
   set_arena(ball_table(*system.spec));
   if (task.t_max) t_max_ = value_of(*task.t_max);
   if (LineTable::holds(arena_.scene)) {
     // Few bits: the digits asked for, and somewhat more in each attempt, should the last time be a close call.
-    lines_.emplace(arena_.scene, static_cast<long>(bits_of(task.digits)) + 96 + (t_max_ ? bits / 16 : 0));
+    lines_.emplace(arena_.scene, static_cast<long>(bits_of(task.digits)) + reading + (t_max_ ? bits / 16 : 0));
     if (bits > 1000) lines_->shorten(system);
   }
   now_.standing = system.start.wall;
@@ -75,8 +75,9 @@ std::unique_ptr<StateEnclosure> Attempt::start_enclosure(const ExactSystem& syst
 void Attempt::trim_precision() {
   bits_ = std::min(first_bits_, static_cast<long>(std::clamp(now_.state->useful_bits(), 64.0, 1e15)));
   if (arena_.scene.motion.turns) {
-    const double size = std::max(1.0, now_.state->time().to_double() / arena_.time_unit);
-    arena_.scene.motion.time_bits = static_cast<long>(bits_of(task_.digits) + 64.0 + std::log2(size)) + first_bits_ / 16;
+    const double time = now_.state->time().to_double(), size = std::max(1.0, time / arena_.time_unit);
+    const long digits = static_cast<long>(bits_of(task_.digits) + std::log2(size)) + reading_bits_ - 32;
+    arena_.scene.motion.time_bits = digits + first_bits_ / 16;
   }
   if (bits_ + 32 < table_bits_ - table_bits_ / 16) {
     const Precision precision(bits_ + 32);
@@ -269,6 +270,14 @@ double Attempt::missing_bits(const BallState& s) const {
 
 double Attempt::lost_bits() const {
   return std::max(0.0, now_.state->error().log2() + static_cast<double>(first_bits_));
+}
+
+double Attempt::size_bits() const {
+  return std::max(0.0, std::log2(std::max({arena_.unit, arena_.speed, arena_.time_unit})));
+}
+double Attempt::size_bits(const Forecast& f, double more) const {
+  const double time = t_max_ ? t_max_->to_double() : f.time * more;
+  return std::max({size_bits(), std::log2(arena_.unit * (1.0 + f.cells * more)), std::log2(1.0 + time)});
 }
 
 // Measured. The errors of a line are only two, and roundings do not feed each other.

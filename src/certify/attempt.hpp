@@ -33,7 +33,8 @@ class Attempt {
  public:
   static constexpr std::size_t longest_path = 20'000;
 
-  Attempt(const ExactSystem&, const CertifiedTask&, const KnownTies&, long bits);
+  /// `reading`: bits that numbers have besides the digits asked for where they are only read.
+  Attempt(const ExactSystem&, const CertifiedTask&, const KnownTies&, long bits, long reading);
   Attempt(const Attempt&) = delete;
   Attempt& operator=(const Attempt&) = delete;
 
@@ -63,6 +64,10 @@ class Attempt {
   BallState state() const { return now_.state->state(bits_); }
   int standing() const { return now_.standing; }
 
+  /// log2 of the largest number of the table and the motion, not below 0: bits before the point.
+  double size_bits() const;
+  /// The same of an orbit `more` times as long as a forecast.
+  double size_bits(const Forecast&, double more) const;
   /// Bits that roundings cost besides what the tangent map stretches, nearly.
   double rounding_loss(double hits) const;
   /// How many bits the orbit will lose from here on, by a look ahead.
@@ -98,7 +103,7 @@ class Attempt {
   const ExactSystem& system_;
   const CertifiedTask& task_;
   const KnownTies& ties_;
-  long first_bits_, bits_, table_bits_;
+  long first_bits_, bits_, table_bits_, reading_bits_;
   Arena arena_;
   std::optional<LineTable> lines_;  ///< where the state is followed as a line
   Whereabouts where_;

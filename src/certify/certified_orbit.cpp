@@ -73,9 +73,10 @@ class CertifiedOrbit::Implementation {
       throw InputError(Place{}, "a certified orbit without an end", "a number of collisions or a last time");
     check_field();
     // A first attempt of few bits sees the table and the start, and looks ahead.
-    const certify::Attempt scout(system_, task_, ties_, 128);
+    const certify::Attempt scout(system_, task_, ties_, 128, reading_bits_);
     effort_.rescaled = scout.rescaled();
     const certify::Forecast forecast = scout.look_ahead(interrupted_);
+    reading_bits_ += static_cast<long>(std::ceil(scout.size_bits()));
     if (interrupted_ && interrupted_()) {  // the start, for the end
       restart(bits_of_digits());
       return;
@@ -85,8 +86,9 @@ class CertifiedOrbit::Implementation {
     // Behind a hole that the orbit may miss it goes on as before.
     const double more = forecast.hits > 0 ? hits_ / static_cast<double>(forecast.hits) : 1.0;
     const double lost = forecast.bits * more + rounding_loss_;
+    reading_bits_ = usual_reading_bits + static_cast<long>(std::ceil(scout.size_bits(forecast, more)));
     restart(static_cast<long>(lost + margin(lost, forecast.spread * std::sqrt(more)) +
-                              static_cast<double>(task_.digits) * 3.3219280948873626 + 3.0));
+                              static_cast<double>(task_.digits) * 3.3219280948873626 + 3.0 + scout.size_bits()));
   }
 
   std::optional<CertifiedHit> next() {
@@ -120,6 +122,9 @@ class CertifiedOrbit::Implementation {
                                                           std::to_string(effort_.bits) + " bits");
             return std::nullopt;
           }
+          // What lacks may lack where numbers are read: then it is not the orbit's bits that help.
+          if (std::isfinite(outcome.missing_bits))
+            lacked_ = std::min(2 * lacked_ + static_cast<long>(outcome.missing_bits) + 1, effort_.bits);
           restart(effort_.bits + std::max(still_needed(outcome), 4L) +
                   (std::isfinite(outcome.missing_bits) ? 0L : 32L << undecided_++));
           if (done_) return std::nullopt;
@@ -263,7 +268,7 @@ class CertifiedOrbit::Implementation {
     }
     effort_.bits = bits;
     ++effort_.attempts;
-    attempt_.emplace(system_, task_, ties_, bits);
+    attempt_.emplace(system_, task_, ties_, bits, reading_bits_ + lacked_);
   }
 
   // What is given out is accurate as it is: translated by its cell and rounded.
@@ -300,7 +305,7 @@ class CertifiedOrbit::Implementation {
       return;
     }
     for (long bits = bits_of_digits();; bits *= 2) {  // the end is the start
-      attempt_.emplace(system_, task_, ties_, bits);
+      attempt_.emplace(system_, task_, ties_, bits, bits);
       BallState s = attempt_->enclosed();
       const bool accurate = attempt_->missing_bits(s) <= 0.0;
       if (!accurate && bits < task_.most_bits) continue;
@@ -329,6 +334,9 @@ class CertifiedOrbit::Implementation {
   CertifiedHit last_;  ///< that was given out
   BallState state_;    ///< to be given out
   int undecided_ = 0;
+  static constexpr long usual_reading_bits = 96;
+  long reading_bits_ = usual_reading_bits;  ///< Attempt's, by the sizes that are expected
+  long lacked_ = 0;                         ///< more of them, by what attempts have lacked
   bool turns_ = false;  ///< in a magnetic field
   bool done_ = false;
   CertifiedEnd end_;

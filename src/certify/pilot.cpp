@@ -90,6 +90,8 @@ Forecast forecast(const SceneOf<double>& scene, const Whereabouts& where, geomet
     }
     frame = after;
     ++result.hits;
+    result.time = s.time;
+    result.cells = std::fabs(static_cast<double>(s.cell.first)) + std::fabs(static_cast<double>(s.cell.second));
   }
   result.spread = of_both * std::sqrt(sums.variance(static_cast<double>(result.hits - true_hits)));
   return result;

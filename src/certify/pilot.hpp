@@ -12,6 +12,8 @@ struct Forecast {
   double bits = 0.0;         ///< log2 of the largest stretch by the tangent map, relative to the start
   double spread = 0.0;       ///< by how much another orbit's may differ: a standard deviation
   std::uint64_t hits = 0;    ///< as many as were followed
+  double time = 0.0;         ///< after these
+  double cells = 0.0;        ///< lattice vectors from the start's cell, then
 };
 
 /// When to end a look ahead.

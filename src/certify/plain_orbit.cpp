@@ -64,7 +64,7 @@ class Runner {
     CertifiedTask enclosed;
     enclosed.collisions = 1;
     const KnownTies none;
-    const Attempt start(system, enclosed, none, task.bits + 64);
+    const Attempt start(system, enclosed, none, task.bits + 64, task.bits + 64);
     scene_ = converted<Plain>(start.scene(), [](const Ball& x) { return rounded(x); });
     where_ = start.whereabouts();
     state_.position = rounded(start.state().position);

@@ -78,5 +78,24 @@ TEST(CertifiedLimits, AnAttemptThatEndsOnItsWay) {
   EXPECT_GT(ended, 0);
 }
 
+TEST(CertifiedLimits, SlowFastLargeAndSmall) {
+  for (const char* omega : {"0", "1"}) {
+    for (const char* speed : {"1/10^30", "1/10^12", "1", "10^12", "10^30"}) {
+      for (const char* size : {"1/10^12", "1", "10^30"}) {
+        SCOPED_TRACE(std::string("speed ") + speed + ", size " + size + ", field " + omega);
+        ExactSystem system = flying(stadium(size), speed);
+        if (omega[0] != '0') system.omega = exactly(std::string("(") + speed + ")/(" + size + ")");
+        CertifiedOrbit orbit(system, task_of(20, 20));
+        std::uint64_t given = 0;
+        while (orbit.next() && orbit.effort().attempts < 20) ++given;
+        ASSERT_LE(orbit.effort().attempts, 4);
+        EXPECT_EQ(given, 20u);
+        EXPECT_EQ(orbit.end_state().fate, CertifiedFate::completed);
+        expect_digits(orbit.end_state(), 20);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom
