@@ -91,7 +91,8 @@ Choice Attempt::choose() const {
   const VectorOf<Interval> P = now_.state->position(), v = now_.state->velocity();
   const geometry::Vector P0{P.x.middle(), P.y.middle()}, v0{v.x.middle(), v.y.middle()};
   const Choice fast = arena_.fast.next(where_, P, v, now_.standing, P0, v0);
-  if (fast.answer != Choice::undecided) return fast;
+  const bool unclear = fast.answer == Choice::too_far && fast.first.wall >= 0;  // whether that wall is met
+  if (fast.answer != Choice::undecided && !unclear) return fast;
   const Precision precision(bits_);
   const BallState s = now_.state->state(bits_);
   return arena_.scene.next(where_, s.position, s.velocity, now_.standing, P0, v0);

@@ -145,14 +145,13 @@ class CertifiedOrbit::Implementation {
         case Outcome::dead_end:
           finish_with(CertifiedFate::singular, ties_.joints.at(attempt_->hits() + 1).dead_end);
           return std::nullopt;
-        case Outcome::too_far: {
-          const auto tie = outcome.doubt.first.wall < 0 ? std::nullopt : tie_at(outcome);
-          if (tie)
-            finish_with(CertifiedFate::singular, tie->text);
-          else
+        case Outcome::too_far:
+          if (outcome.doubt.first.wall < 0) {
             finish_with(CertifiedFate::undecided, "no wall within 10^5 lattice vectors");
-          return std::nullopt;
-        }
+            return std::nullopt;
+          }
+          if (!decide(outcome)) return std::nullopt;
+          break;
       }
     }
   }
@@ -220,8 +219,10 @@ class CertifiedOrbit::Implementation {
           undecided_ = 0;
           return true;
         }
-        // Along the edge of a corridor discs are touched without end.
-        if (!tie->goes_on() || end_.ties.size() >= 1000) {
+        // Along the edge of a corridor discs are touched without end: on one flight that meets nothing else, or on many.
+        const bool again = outcome.kind == Outcome::too_far && tie->kind == certify::Tie::tangency &&
+                           ties_.passed_by.count(event) > 0;
+        if (!tie->goes_on() || again || end_.ties.size() >= 1000) {
           finish_with(CertifiedFate::singular, tie->text);
           return false;
         }

@@ -97,5 +97,21 @@ TEST(CertifiedLimits, SlowFastLargeAndSmall) {
   }
 }
 
+// Nearly along the edge of the corridor between the discs, a little to its inside or outside: intervals do not know whether
+// discs are met, balls do. Along y = 1/4 + 10^-25.
+TEST(CertifiedLimits, BesideTheEdgeOfACorridor) {
+  Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "1/10", "3/10+1/10^25");
+  const ExactSystem system = tests::system_of(s, {exactly("1"), exactly("0")});
+  CertifiedOrbit meets(system, task_of(1, 20));
+  const CertifiedEnd& end = meets.finish();
+  EXPECT_EQ(end.fate, CertifiedFate::completed);
+  EXPECT_EQ(end.collisions, 1u);
+  EXPECT_TRUE(end.ties.empty());
+  s.inside.y = exactly("3/10-1/10^25");
+  CertifiedOrbit misses(tests::system_of(s, {exactly("1"), exactly("0")}), task_of(1, 20));
+  EXPECT_EQ(misses.finish().fate, CertifiedFate::undecided);
+  EXPECT_EQ(misses.finish().reason, "no wall within 10^5 lattice vectors");
+}
+
 }  // namespace
 }  // namespace carom
