@@ -137,10 +137,14 @@ void Attempt::move_to(const Copy& copy) {
 double Attempt::needed_bits() const {
   const StateEnclosure& s = *now_.state;
   const double error = std::max({s.position_error().log2(), s.velocity_error().log2(), s.time_error().log2()});
-  return error + bits_of(task_.digits) + 2.0;
+  return std::max(error + bits_of(task_.digits) + 2.0, linear_bits());
 }
 
+// Errors by first order have room for the second one in their constants (1.0001 and the like) while they are small parts.
+double Attempt::linear_bits() const { return now_.state->error().log2() + 20.0; }
+
 Outcome Attempt::step() {
+  if (now_.hits == 0 && !(linear_bits() <= 0.0)) return {Outcome::inaccurate, linear_bits(), {}};
   trim_precision();
   const Precision precision(bits_);
   const auto joint = ties_.joints.find(now_.hits + 1);

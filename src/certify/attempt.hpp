@@ -97,6 +97,7 @@ class Attempt {
   Outcome leave(const Now& before);
   Outcome stop_at_last_time();
   double needed_bits() const;
+  double linear_bits() const;
   std::string name(const Copy&) const;
   std::string described(const Doubt&) const;
 

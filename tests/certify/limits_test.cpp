@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "certify/attempt.hpp"
 #include "certify/systems.hpp"
 
 namespace carom {
@@ -94,6 +95,23 @@ TEST(CertifiedLimits, SlowFastLargeAndSmall) {
         expect_digits(orbit.end_state(), 20);
       }
     }
+  }
+}
+
+// First order suffices for small parts of the table only: how few digits are asked for says nothing of that.
+TEST(CertifiedLimits, ErrorsStaySmallParts) {
+  for (const char* omega : {"0", "10^10"}) {
+    ExactSystem system = flying(stadium("1/10^10"), "1");
+    system.omega = exactly(omega);
+    const CertifiedTask task = task_of(1000, 2);
+    const certify::KnownTies ties;
+    constexpr long bits = 80;
+    certify::Attempt attempt(system, task, ties, bits, 96);
+    certify::Outcome outcome = attempt.step();
+    for (; outcome.kind == certify::Outcome::hit; outcome = attempt.step())
+      ASSERT_LE(attempt.lost_bits() - static_cast<double>(bits), -20.0);
+    EXPECT_EQ(outcome.kind, certify::Outcome::inaccurate);
+    EXPECT_GT(attempt.hits(), 10u);
   }
 }
 
