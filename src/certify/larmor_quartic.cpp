@@ -1,5 +1,7 @@
 #include "certify/larmor_quartic.hpp"
 
+#include <optional>
+
 namespace carom::certify {
 
 Interval narrowed(const Powers<Interval>& f, const LarmorExit<Interval>& exit) {
@@ -21,18 +23,29 @@ Interval narrowed(const Powers<Interval>& f, const LarmorExit<Interval>& exit) {
 Ball narrowed(const Powers<Ball>& f, const LarmorExit<Ball>& exit) {
   const slong bits = Precision::bits();
   Ball s = union_of(exit.low, exit.high), slope = exit.slope / (exit.high - exit.low);
+  // The slope holds over the bracket, and later over another ball: a step from a point beside it would prove nothing.
+  std::optional<Ball> over;
+  const auto holds_at = [&](const Ball& m) {
+    if (over) return over->contains(m);
+    return sign(m - exit.low) == Sign::positive && sign(exit.high - m) == Sign::positive;
+  };
   for (int step = 0; step < 200; ++step) {
     // Twice as many digits as before, if Newton's steps do what they should.
     const double error = s.radius().log2();
     const slong enough = static_cast<slong>(std::clamp(64.0 - 3.0 * error, 64.0, static_cast<double>(bits)));
     const Precision precision(enough);
     const Ball m = s.midpoint();
-    const Ball next = m - f.at(m) / slope;
+    const Ball image = m - f.at(m) / slope;
+    Ball next;
+    if (arb_intersection(next.raw(), s.raw(), image.raw(), enough) == 0) break;
     const double improved = next.radius().log2();
     if (!(improved < error - 0.4)) break;
     s = next;
     const Ball now = f.slope_at(s);
-    if (now.radius() < slope.radius()) slope = now;
+    if (now.radius() < slope.radius() || !holds_at(s.midpoint())) {
+      slope = now;
+      over = s;
+    }
   }
   return s;
 }
