@@ -15,6 +15,20 @@ BallVector turned(const BallVector& v, const Ball& angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+// But for whole turns; a vector along the negative axis has an angle like any other.
+Ball angle_of(const BallVector& v) {
+  Ball angle;
+  if (sign(v.x) != Sign::negative) {
+    arb_atan2(angle.raw(), v.y.raw(), v.x.raw(), Precision::bits());
+    return angle;
+  }
+  const BallVector w = -v;
+  arb_atan2(angle.raw(), w.y.raw(), w.x.raw(), Precision::bits());
+  Ball pi;
+  arb_const_pi(pi.raw(), Precision::bits());
+  return angle + pi;
+}
+
 // The arc length of an ellipse as a function of the angle in the frame where it is a circle:
 // b E(angle | 1 - a^2/b^2), for the element is b sqrt(1 - (1 - a^2/b^2) sin^2).
 class EllipseLength {
@@ -59,10 +73,11 @@ class EllipseLength {
       }
       if (now == bits) break;
     }
-    const Ball missing = (to(guess) - length) / (sign(a_ - b_) == Sign::positive ? b_ : a_);
-    Bound error;
-    arb_get_mag(error.raw(), missing.raw());
-    return guess.widened(error);
+    const Ball missing = to(guess) - length, by_a = missing / a_, by_b = missing / b_;
+    Bound error, other;
+    arb_get_mag(error.raw(), by_a.raw());
+    arb_get_mag(other.raw(), by_b.raw());
+    return guess.widened(error < other ? other : error);
   }
 
  private:
@@ -91,8 +106,7 @@ class Cutter {
     } else {
       const EllipseLength length(w_);
       const BallVector e{dot(d, w_.along), dot(d, w_.across)};
-      Ball start;
-      arb_atan2(start.raw(), e.y.raw(), e.x.raw(), Precision::bits());
+      const Ball start = angle_of(e);
       const auto angle_at = [&](const Ball& s) {
         return length.angle_at(length.to(start) + way * s,
                                (start + way * s / length.element(Ball(0.8))).midpoint());
@@ -104,7 +118,7 @@ class Cutter {
     }
     Ball pi;
     arb_const_pi(pi.raw(), Precision::bits());
-    hole.wide = sign(turn - pi) == Sign::positive;
+    hole.wide = above_zero(sign(turn - pi));
   }
 
  private:

@@ -15,7 +15,7 @@ struct HoleOf {
   int hole = -1;  ///< in Table::holes
   int wall = -1;
   bool whole = false;  ///< all of the wall
-  bool wide = false;   ///< more than half a turn
+  Verdict wide = Verdict::no;  ///< more than half a turn?
   Number low{}, high{};
   VectorOf<Number> first, last;
 };
@@ -56,7 +56,10 @@ Verdict in_hole(const HoleOf<N>& hole, const WallOf<N>& w, const VectorOf<N>& P)
     return both(at_least_zero(sign(w.turn > 0 ? behind : -behind)),
                 above_zero(sign(w.turn > 0 ? before : -before)));
   };
-  return hole.wide ? opposite(within(hole.last, hole.first)) : within(hole.first, hole.last);
+  if (hole.wide == Verdict::no) return within(hole.first, hole.last);
+  const Verdict wide = opposite(within(hole.last, hole.first));
+  if (hole.wide == Verdict::yes) return wide;
+  return within(hole.first, hole.last) == wide ? wide : Verdict::undecided;
 }
 
 /// To the present precision.
