@@ -61,6 +61,7 @@ std::string Attempt::described(const Doubt& doubt) const {
       }
     return text;
   }
+  if (doubt.first.wall < 0) return event + "which walls are near, for the position and velocity are not known well enough";
   const auto seen = [&](const Copy& copy) {
     return copy.cell == geometry::Cell{} ? P : P - arena_.scene.translation(copy.cell);
   };

@@ -165,6 +165,10 @@ class CertifiedOrbit::Implementation {
  private:
   void check_field() {
     const certify::Precision precision(1024);
+    const double speed = certify::value_of(system_.speed).to_double();
+    if (!(speed > 1e-120 && speed < 1e120))  // beyond, squares leave the range of doubles, in which errors are followed
+      throw InputError(system_.speed.place(), "a speed that certified orbits do not follow",
+                       "a speed between 10^-120 and 10^120");
     const Sign turns = certify::sign(certify::value_of(system_.omega));
     turns_ = turns != Sign::zero;
     if (!turns_) return;
@@ -255,7 +259,7 @@ class CertifiedOrbit::Implementation {
 
   std::optional<certify::Tie> tie_at(const Outcome& outcome) {
     std::vector<certify::Copy> walls = attempt_->path();
-    if (walls.size() < attempt_->hits()) return std::nullopt;
+    if (walls.size() < attempt_->hits() || outcome.doubt.first.wall < 0) return std::nullopt;
     walls.resize(attempt_->hits());  // those before the event in doubt
     return tie_finder_.find(walls, outcome.doubt);
   }

@@ -98,6 +98,7 @@ class LarmorPieces {
         time_(length / std::sqrt(dot(velocity, velocity))) {}
 
   geometry::Vector middle(double k) const {
+    if (angle_to(k) < hardly_turned) return from_ + ((k + 0.5) * time_) * velocity_;
     const elementary::SinCos a = elementary::sincos(h_ * (k + 0.5) * time_);
     const double ahead = a.sin * a.cos / h_, aside = a.sin * a.sin / h_;
     return from_ + ahead * velocity_ + aside * right_of(velocity_);
@@ -108,6 +109,7 @@ class LarmorPieces {
   std::optional<double> seen_to(double k) const {
     const double angle = angle_to(k);
     if (angle > near_end_of_turn) return std::nullopt;
+    if (angle < hardly_turned) return -1.0 / ((k + 1.0) * time_ * (1.0 - 0x1p-40));
     const elementary::SinCos a = elementary::sincos(angle);
     return -std::fabs(h_) * a.cos / a.sin;
   }
@@ -116,6 +118,8 @@ class LarmorPieces {
   static constexpr double above_pi = 0x1.921fb54442d19p+1;  ///< the double after pi
   /// Any angle below pi whose sine is not small.
   static constexpr double near_end_of_turn = 3.0;
+  /// Below it a flight is straight, but for less than its coordinates are rounded. A field may be too small for a double.
+  static constexpr double hardly_turned = 0x1p-60;
   /// Half the angle that is turned by the end of piece k, less 2^-40 of it: that is more than its rounding, and as the
   /// cotangent has the slope -1/sin^2 it moves kappa by more than sine and cosine are rounded by (2^-50/sin^2).
   double angle_to(double k) const { return std::fabs(h_) * (k + 1.0) * time_ * (1.0 - 0x1p-40); }

@@ -25,7 +25,7 @@ struct Choice {
     nothing,    ///< no wall follows, ever
     undecided,  ///< `first` and `second` could not be told apart, or whether `first` is met
     too_far     ///< no wall within the longest flight that is followed; `first` may have been met
-  } answer = nothing;
+  } answer = nothing;  // undecided without a `first`: the enclosure is too wide to look for walls
   Copy first, second;
 };
 
@@ -134,7 +134,7 @@ class SceneOf {
                                here && copy.wall == standing),
                   copy);
     };
-    const Choice unknown{Choice::undecided, {0, {}}, {}};  // too wide an enclosure
+    const Choice unknown{Choice::undecided, {}, {}};  // too wide an enclosure
     // Everything up to the end of a piece has been looked at.
     const auto seen_to = [&](double end) {
       return first.found() && sign(first.time() - N(end)) == Sign::negative;

@@ -1,6 +1,7 @@
-// Holes of half a turn, and arcs that start where angles jump.
+// Holes of half a turn, arcs that start where angles jump, fields and distances beyond doubles.
 #include <gtest/gtest.h>
 
+#include "carom/base/error.hpp"
 #include "certify/hole.hpp"
 #include "certify/systems.hpp"
 
@@ -59,6 +60,37 @@ TEST(CertifiedExtremes, ArcsFromTheNegativeAxis) {
   EXPECT_EQ(through.end_state().collisions, 0u);
   CertifiedOrbit beside(tests::system_of(s, {exactly("1"), exactly("0")}), task_of(1, 20));
   EXPECT_EQ(beside.finish().fate, CertifiedFate::completed) << beside.end_state().reason;
+}
+
+// In a field that is zero in doubles the flight is straight to all digits that are asked for.
+TEST(CertifiedExtremes, FieldsBelowDoubles) {
+  const Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "0.1", "0.2");
+  ExactSystem system = tests::system_of(s, {exactly("0.6"), exactly("0.7")});
+  CertifiedOrbit straight(system, task_of(5, 20));
+  for (const char* omega : {"1/10^320", "-1/10^400", "1/10^200"}) {
+    system.omega = exactly(omega);
+    CertifiedOrbit turning(system, task_of(5, 20));
+    EXPECT_EQ(turning.finish().fate, CertifiedFate::completed) << turning.end_state().reason;
+    EXPECT_EQ(turning.end_state().x.text(20), straight.finish().x.text(20));
+    EXPECT_EQ(turning.end_state().t.text(20), straight.finish().t.text(20));
+  }
+}
+
+TEST(CertifiedExtremes, TooFarFromHome) {
+  const Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "10^20+1/10", "1/5");
+  CertifiedOrbit orbit(tests::system_of(s, {exactly("3"), exactly("4")}), task_of(5, 20));
+  EXPECT_EQ(orbit.finish().fate, CertifiedFate::undecided);
+  EXPECT_EQ(orbit.end_state().reason.find("'disc'"), std::string::npos) << orbit.end_state().reason;
+  EXPECT_NE(orbit.end_state().reason.find("which walls are near"), std::string::npos) << orbit.end_state().reason;
+}
+
+TEST(CertifiedExtremes, SpeedsWithoutSquares) {
+  ExactSystem system = tests::system_of(tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "0.2", "0.3"),
+                                        {exactly("0.6"), exactly("0.7")});
+  for (const char* speed : {"1/10^160", "1/10^400", "10^160"}) {
+    system.speed = exactly(speed);
+    EXPECT_THROW(CertifiedOrbit(system, task_of(5, 20)), InputError) << speed;
+  }
 }
 
 }  // namespace
