@@ -2,7 +2,9 @@
 // what they mean everywhere else.
 #include <gtest/gtest.h>
 
+#include "carom/events/world.hpp"
 #include "certify/systems.hpp"
+#include "random_tables.hpp"
 
 namespace carom {
 namespace {
@@ -93,6 +95,47 @@ TEST(ExactStarts, AlongTheEdgeOfACorridor) {
   const CertifiedEnd corridor = end_of(along(sinai(true), {"1/8", "1/4", "1", "0"}, "1"), 10);
   EXPECT_EQ(corridor.fate, CertifiedFate::singular);
   EXPECT_EQ(corridor.reason, "event 1: exactly tangent to 'disc', which is no hit");
+}
+
+Shaped bent() {  // an L: a reflex corner, and sides in line with others
+  Shaped s = tests::shaped("polygon", {}, "0", "0");
+  for (const auto& [x, y] : {std::pair{"-1", "-1"}, {"1", "-1"}, {"1", "0"}, {"0", "0"}, {"0", "1"}, {"-1", "1"}})
+    s.spec.points["points"].push_back({exactly(x), exactly(y)});
+  return s;
+}
+
+// From points of a grid along short vectors: many run into corners and joints, touch, or move along walls.
+TEST(ExactStarts, OnAGrid) {
+  tests::Dice dice(11);
+  const std::vector<Shaped> tables{
+      rectangle(), stadium(), diamond(), bent(), sinai(false),
+      tests::shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}}, "0", "0"),
+      tests::shaped("circle", {{"radius", "1"}}, "0", "0"),
+      tests::shaped("annulus", {{"outer", "1"}, {"inner", "1/4"}, {"offset", "1/4"}}, "0", "0"),
+      tests::shaped("lemon", {{"radius", "5/4"}, {"separation", "3/2"}}, "0", "0")};
+  const std::vector<std::pair<const char*, const char*>> directions{
+      {"1", "0"}, {"0", "1"}, {"-1", "0"}, {"0", "-1"}, {"1", "1"}, {"-1", "1"}, {"1", "-1"}, {"3", "4"}, {"-4", "3"}, {"2", "-1"}};
+  long ties = 0;
+  for (long k = 0; k < tests::cases(400, 10000); ++k) {
+    const Shaped& s = tables[static_cast<std::size_t>(k) % tables.size()];
+    const Table table = build_table(s.spec);
+    const World world(table);
+    geometry::Vector P, u;
+    Ray ray;
+    do {
+      const auto& d = directions[static_cast<std::size_t>(dice.between(0.0, 9.999))];
+      const std::string x = std::to_string(static_cast<int>(dice.between(-8.5, 8.5))) + "/8",
+                        y = std::to_string(static_cast<int>(dice.between(-8.5, 8.5))) + "/8";
+      ray = {x, y, d.first, d.second};
+      P = {exactly(x).to_double(), exactly(y).to_double()};
+      u = {exactly(d.first).to_double(), exactly(d.second).to_double()};
+    } while (!world.contains(P) || !world.contains(P + 0.01 * u) || !world.contains(P - 0.01 * u));
+    const std::size_t before = end_of(along(s, ray, "5"), 12).ties.size();
+    expect_same_from_beside(s, ray, before);
+    ties += before > 0 ? 1 : 0;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(ties, 20);
 }
 
 // About (5/8, 5/8), and about (1/2, 11/8), with the radius 5/8.
