@@ -1,5 +1,5 @@
-// Starts and speeds that are short binary numbers: balls without width. Exact coincidences are then exact zeros, and mean
-// what they mean everywhere else.
+// Starts and speeds that are short binary numbers: balls without width. Exact coincidences are then exact
+// zeros, and mean what they mean everywhere else.
 #include <gtest/gtest.h>
 
 #include "carom/events/world.hpp"
@@ -44,10 +44,12 @@ Shaped sinai(bool torus) {
   return s;
 }
 
-// The same ray from a point of it that no binary number names has the same ties, hits the same walls and ends there.
+// The same ray from a point of it that no binary number names has the same ties, hits the same walls and ends
+// there.
 void expect_same_from_beside(const Shaped& s, const Ray& ray, std::size_t ties) {
   for (const char* speed : {"1", "5"}) {
-    SCOPED_TRACE(s.spec.shape + " from " + ray.x + ", " + ray.y + " along " + ray.u + ", " + ray.v + " with speed " + speed);
+    SCOPED_TRACE(s.spec.shape + " from " + ray.x + ", " + ray.y + " along " + ray.u + ", " + ray.v +
+                 " with speed " + speed);
     const CertifiedEnd exact = end_of(along(s, ray, speed), 12);
     const Ray beside{ray.x + "+(" + ray.u + ")/100", ray.y + "+(" + ray.v + ")/100", ray.u, ray.v};
     const CertifiedEnd other = end_of(along(s, beside, speed), 12);
@@ -99,7 +101,8 @@ TEST(ExactStarts, AlongTheEdgeOfACorridor) {
 
 Shaped bent() {  // an L: a reflex corner, and sides in line with others
   Shaped s = tests::shaped("polygon", {}, "0", "0");
-  for (const auto& [x, y] : {std::pair{"-1", "-1"}, {"1", "-1"}, {"1", "0"}, {"0", "0"}, {"0", "1"}, {"-1", "1"}})
+  for (const auto& [x, y] :
+       {std::pair{"-1", "-1"}, {"1", "-1"}, {"1", "0"}, {"0", "0"}, {"0", "1"}, {"-1", "1"}})
     s.spec.points["points"].push_back({exactly(x), exactly(y)});
   return s;
 }
@@ -108,13 +111,18 @@ Shaped bent() {  // an L: a reflex corner, and sides in line with others
 TEST(ExactStarts, OnAGrid) {
   tests::Dice dice(11);
   const std::vector<Shaped> tables{
-      rectangle(), stadium(), diamond(), bent(), sinai(false),
+      rectangle(),
+      stadium(),
+      diamond(),
+      bent(),
+      sinai(false),
       tests::shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}}, "0", "0"),
       tests::shaped("circle", {{"radius", "1"}}, "0", "0"),
       tests::shaped("annulus", {{"outer", "1"}, {"inner", "1/4"}, {"offset", "1/4"}}, "0", "0"),
       tests::shaped("lemon", {{"radius", "5/4"}, {"separation", "3/2"}}, "0", "0")};
   const std::vector<std::pair<const char*, const char*>> directions{
-      {"1", "0"}, {"0", "1"}, {"-1", "0"}, {"0", "-1"}, {"1", "1"}, {"-1", "1"}, {"1", "-1"}, {"3", "4"}, {"-4", "3"}, {"2", "-1"}};
+      {"1", "0"},  {"0", "1"},  {"-1", "0"}, {"0", "-1"}, {"1", "1"},
+      {"-1", "1"}, {"1", "-1"}, {"3", "4"},  {"-4", "3"}, {"2", "-1"}};
   long ties = 0;
   for (long k = 0; k < tests::cases(400, 10000); ++k) {
     const Shaped& s = tables[static_cast<std::size_t>(k) % tables.size()];
@@ -158,7 +166,8 @@ TEST(ExactStarts, InFields) {
   joint.omega = exactly("-8");
   const CertifiedEnd smooth = end_of(joint, 1);
   ASSERT_EQ(smooth.ties.size(), 1u);
-  EXPECT_EQ(smooth.ties[0], "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
+  EXPECT_EQ(smooth.ties[0],
+            "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
   EXPECT_EQ(smooth.vy.text(20), "-4.00000000000000000000");
 }
 

@@ -81,12 +81,14 @@ TEST(CertifiedExtremes, TooFarFromHome) {
   CertifiedOrbit orbit(tests::system_of(s, {exactly("3"), exactly("4")}), task_of(5, 20));
   EXPECT_EQ(orbit.finish().fate, CertifiedFate::undecided);
   EXPECT_EQ(orbit.end_state().reason.find("'disc'"), std::string::npos) << orbit.end_state().reason;
-  EXPECT_NE(orbit.end_state().reason.find("which walls are near"), std::string::npos) << orbit.end_state().reason;
+  EXPECT_NE(orbit.end_state().reason.find("which walls are near"), std::string::npos)
+      << orbit.end_state().reason;
 }
 
 TEST(CertifiedExtremes, SpeedsWithoutSquares) {
-  ExactSystem system = tests::system_of(tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "0.2", "0.3"),
-                                        {exactly("0.6"), exactly("0.7")});
+  ExactSystem system =
+      tests::system_of(tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "0.2", "0.3"),
+                       {exactly("0.6"), exactly("0.7")});
   for (const char* speed : {"1/10^160", "1/10^400", "10^160"}) {
     system.speed = exactly(speed);
     EXPECT_THROW(CertifiedOrbit(system, task_of(5, 20)), InputError) << speed;

@@ -1,8 +1,10 @@
-// Where certified orbits end, and what they ask of themselves: no number leaves with less than the digits asked for.
+// Where certified orbits end, and what they ask of themselves: no number leaves with less than the digits
+// asked for.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "carom/base/error.hpp"
 #include "certify/attempt.hpp"
 #include "certify/systems.hpp"
 
@@ -55,8 +57,8 @@ TEST(CertifiedLimits, WithoutBitsTheEndIsTheLastHit) {
   }
 }
 
-// A hole that the pseudo-orbit leaves through and the true one misses, or a forecast that is too small by chance: then
-// attempts end on their way.
+// A hole that the pseudo-orbit leaves through and the true one misses, or a forecast that is too small by
+// chance: then attempts end on their way.
 TEST(CertifiedLimits, AnAttemptThatEndsOnItsWay) {
   int ended = 0;
   for (int k = 0; k < 40; ++k) {
@@ -115,8 +117,8 @@ TEST(CertifiedLimits, ErrorsStaySmallParts) {
   }
 }
 
-// Nearly along the edge of the corridor between the discs, a little to its inside or outside: intervals do not know whether
-// discs are met, balls do. Along y = 1/4 + 10^-25.
+// Nearly along the edge of the corridor between the discs, a little to its inside or outside: intervals do
+// not know whether discs are met, balls do. Along y = 1/4 + 10^-25.
 TEST(CertifiedLimits, BesideTheEdgeOfACorridor) {
   Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "1/10", "3/10+1/10^25");
   const ExactSystem system = tests::system_of(s, {exactly("1"), exactly("0")});
@@ -129,6 +131,16 @@ TEST(CertifiedLimits, BesideTheEdgeOfACorridor) {
   CertifiedOrbit misses(tests::system_of(s, {exactly("1"), exactly("0")}), task_of(1, 20));
   EXPECT_EQ(misses.finish().fate, CertifiedFate::undecided);
   EXPECT_EQ(misses.finish().reason, "no wall within 10^5 lattice vectors");
+}
+
+// From inside a bounded table nothing is unbounded.
+TEST(CertifiedLimits, StartsOutside) {
+  const Shaped s = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1+1/10^40", "1/2");
+  for (const char* speed : {"1", "7/3"}) {
+    ExactSystem system = flying(s, speed);
+    CertifiedOrbit orbit(system, task_of(5, 20));
+    EXPECT_THROW(orbit.finish(), InputError);
+  }
 }
 
 }  // namespace
