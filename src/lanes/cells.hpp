@@ -88,17 +88,8 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
   }
 }
 
-/// The same for one disc without holes, an edge at a time for all lanes: from cell to cell all signed areas of a flight
-/// change by one number. This is what does not change.
-struct Crossings {
-  alignas(64) double corner[LaneTable::eight][LanePack::lanes];  ///< v x corner of the home cell
-  double aside[LanePack::lanes], ahead[LanePack::lanes];         ///< v x and v . its disc's centre
-  double across_first[LanePack::lanes], across_second[LanePack::lanes];  ///< v x and v . the lattice's vectors
-  double along_first[LanePack::lanes], along_second[LanePack::lanes];
-};
-
-/// Who meets the disc of a cell, and who passes it: a line from outside meets it ahead exactly if it cuts it and comes
-/// nearer. 1, -1; 0: not certain.
+/// Who meets the disc of the cell a flight begins in, and who passes it: a line from outside meets it ahead exactly if it
+/// cuts it and comes nearer. 1, -1; 0: not certain.
 INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead, const Real& roots) {
   const Real discriminant = fused(aside, -aside, f.table.second_number[0] * f.square_speed);
   Real known(0.0);
@@ -107,36 +98,113 @@ INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead, cons
   return known;
 }
 
-INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, Real& known, int lane) {
-  const LaneTable& t = f.table;
-  const Line line(f);
-  const Vector v = f.velocity, first{Real(t.lattice_x[0]), Real(t.lattice_y[0])}, second{Real(t.lattice_x[1]), Real(t.lattice_y[1])};
-  for (int i = 0; i < t.edges; ++i) store(line.side(t.edge_x[i], t.edge_y[i]), c.corner[i] + lane);
-  const Real aside = line.side(t.point_x[0], t.point_y[0]), ahead = line.ahead(t.point_x[0], t.point_y[0]);
-  store(aside, c.aside + lane);
-  store(ahead, c.ahead + lane);
-  store(cross(v, first), c.across_first + lane);
-  store(cross(v, second), c.across_second + lane);
-  store(dot(v, first), c.along_first + lane);
-  store(dot(v, second), c.along_second + lane);
-  // The disc of this cell was asked for, but by those that begin off it.
-  known = Real(-1.0);
-  const Mask begins = f.start_wall < 0.0 && cell.first == 0.0 && cell.second == 0.0;
-  if (any_of(begins)) [[unlikely]] where(begins, known) = meets_disc(f, aside, ahead, f.roots);
+/// The edge where the edges by which lines of a direction leave a cell begin: those along which a point goes to the left.
+/// Of two opposite edges it is one, so they follow each other.
+struct Forward {
+  Real edge;
+  Mask certain;
+};
+template <int edges>
+INLINE Forward forward_edges(const LaneTable& t, const View& f) {
+  constexpr int half = edges / 2;
+  Mask leaves[half];
+  Real least(__builtin_huge_val());
+  for (int i = 0; i < half; ++i) {
+    const Real leftwards = fused(f.velocity.x, Real(t.edge_along_y[i]), -f.velocity.y * t.edge_along_x[i]);
+    leaves[i] = leftwards > 0.0;
+    least = least_size(least, leftwards);
+  }
+  Real edge(0.0);
+  Mask before = !leaves[half - 1];
+  for (int i = 0; i < edges; ++i) {
+    const Mask now = i < half ? leaves[i] : !leaves[i - half];
+    where(now && !before, edge) = Real(counted[i]);
+    before = now;
+  }
+  return {edge, least > f.sides};
 }
 
+/// Flights among cells with one disc each, in two stages. The corners between forward edges tell by which of them a line leaves
+/// a cell; from cell to cell their sides, and the centre's, change by one number for each edge.
+struct Crossings {
+  static constexpr int most = 3;  ///< forward edges
+  alignas(64) double edge[LanePack::lanes], aside[LanePack::lanes];
+  double jump[most][LanePack::lanes], side[most - 1][LanePack::lanes];
+  double known[LanePack::lanes];  ///< 1: meets the disc of its first cell; -1: goes on; 0: not certain
+};
+
+INLINE Real next_edge(const Real& edge, int edges) { return choose(edge == Real(counted[edges - 1]), Real(0.0), edge + 1.0); }
+
 template <int edges>
-INLINE void cross_edge(const View& f, CellOf& cell, const Crossings& c, Real& known, int lane) {
+INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int lane) {
+  constexpr int forward = edges / 2;
   const LaneTable& t = f.table;
-  const Mask under_way = known < 0.0;
-  const Real across_first = load(c.across_first + lane), across_second = load(c.across_second + lane);
-  const auto shift = [&] { return fused(cell.first, across_first, cell.second * across_second); };
-  const Real before = shift();
-  const Exit exit = exit_of_cell<edges>(f.sides, [&](int i) { return load(c.corner[i] + lane) + before; });
-  go_beyond(t, exit.edge, under_way, cell);
-  const Real ahead = fused(cell.first, load(c.along_first + lane), fused(cell.second, load(c.along_second + lane), load(c.ahead + lane)));
-  const Real way = way_of(cell);
-  Real after = meets_disc(f, load(c.aside + lane) + shift(), ahead, doubts_at(way) * f.roots);
-  where(!(exit.certain && way <= LaneTable::farthest_cell), after) = Real(0.0);
-  where(under_way, known) = after;
+  const Line line(f);
+  const Vector v = f.velocity;
+  const Forward begin = forward_edges<edges>(t, f);
+  // From the home cell to this one.
+  const Real across_first = fused(v.x, Real(t.lattice_y[0]), -v.y * t.lattice_x[0]);
+  const Real across_second = fused(v.x, Real(t.lattice_y[1]), -v.y * t.lattice_x[1]);
+  const Real so_far = fused(cell.first, across_first, cell.second * across_second);
+  Real edge = begin.edge;
+  store(edge, c.edge + lane);
+  for (int i = 0; i < forward; ++i) {
+    const Real x = look_up<Reach::eight>(t.beyond_x, edge), y = look_up<Reach::eight>(t.beyond_y, edge);
+    store(fused(v.x, y, -v.y * x), c.jump[i] + lane);
+    if (i + 1 == forward) break;
+    edge = next_edge(edge, edges);
+    const Real px = look_up<Reach::eight>(t.edge_x, edge), py = look_up<Reach::eight>(t.edge_y, edge);
+    store(fused(line.x, py, fused(line.minus_y, px, line.offset)) + so_far, c.side[i] + lane);
+  }
+  const Real aside = line.side(t.point_x[0], t.point_y[0]);
+  store(aside + so_far, c.aside + lane);
+  Real known = choose(begin.certain && way_of(cell) + 2.0 * t.steps <= LaneTable::farthest_cell, Real(-1.0), Real(0.0));
+  // The disc of this cell was asked for, but by those that begin off it.
+  const Mask begins = f.start_wall < 0.0 && cell.first == 0.0 && cell.second == 0.0 && known < 0.0;
+  if (any_of(begins)) [[unlikely]] where(begins, known) = meets_disc(f, aside, line.ahead(t.point_x[0], t.point_y[0]), f.roots);
+  store(known, c.known + lane);
+}
+
+/// Over some edges. The disc of a cell that was entered lies ahead, if the line cuts it.
+template <int edges>
+INLINE Real cross_edges(const View& f, const Crossings& c, CellOf& cell, int lane) {
+  constexpr int forward = edges / 2;
+  const LaneTable& t = f.table;
+  Real jump[forward], crossed[forward], side[forward - 1];
+  for (int i = 0; i < forward; ++i) {
+    jump[i] = load(c.jump[i] + lane);
+    crossed[i] = Real(0.0);
+    if (i + 1 < forward) side[i] = load(c.side[i] + lane);
+  }
+  const Real roots = doubts_at(way_of(cell) + 2.0 * t.steps) * f.roots, square = t.second_number[0] * f.square_speed;
+  Real aside = load(c.aside + lane), known = load(c.known + lane);
+  Mask meets = known > 0.0, under_way = known < 0.0;
+  for (int step = 0; step < t.steps; ++step) {
+    Real least = side[0], by = jump[forward - 1];
+    Mask left[forward];  // which edge
+    left[forward - 1] = Mask(true);
+    for (int i = forward - 2; i >= 0; --i) {
+      if (i > 0) least = least_size(least, side[i]);
+      left[i] = side[i] > 0.0;
+      where(left[i], by) = jump[i];
+    }
+    Mask rest = under_way;
+    for (int i = 0; i < forward; ++i) {
+      where(rest && left[i], crossed[i]) = crossed[i] + 1.0;
+      rest = rest && !left[i];
+    }
+    under_way = under_way && abs(least) > f.sides;
+    aside = aside + by;
+    for (Real& s : side) s = s + by;
+    const Real discriminant = fused(aside, -aside, square);
+    meets = meets || (under_way && discriminant > roots);
+    under_way = under_way && discriminant < -roots;
+  }
+  Real edge = load(c.edge + lane);
+  for (int i = 0; i < forward; ++i) {
+    if (i > 0) edge = next_edge(edge, edges);
+    cell.first = fused(crossed[i], look_up<Reach::eight>(t.beyond_first, edge), cell.first);
+    cell.second = fused(crossed[i], look_up<Reach::eight>(t.beyond_second, edge), cell.second);
+  }
+  return choose(meets, Real(1.0), choose(under_way, Real(-1.0), Real(0.0)));
 }

@@ -51,7 +51,7 @@ struct Choice {
 /// A number of each lane's piece.
 template <class Kind>
 INLINE Real number_of(const double* numbers, const Real& piece) {
-  if constexpr (Kind::alone) return Real(numbers[0]);
+  if constexpr (Kind::single) return Real(numbers[0]);
   return look_up<Kind::reach>(numbers, piece);
 }
 
@@ -84,12 +84,13 @@ struct Where {
 #include "lanes/landing.hpp"
 
 template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far, bool has_cells = false,
-          bool has_ellipses = false, bool is_alone = false>
+          bool has_ellipses = false, bool is_alone = false, bool is_single = is_alone>
 struct Kind {
   static constexpr int turn = which_turn;
   static constexpr bool convex = is_convex, segments = has_segments, circles = has_circles, cells = has_cells;
   static constexpr bool ellipses = has_ellipses;
-  static constexpr bool alone = is_alone;  ///< one closed curve about the domain, on which all particles stand
+  static constexpr bool alone = is_alone;    ///< one closed curve about the domain, on which all particles stand
+  static constexpr bool single = is_single;  ///< one piece
   static constexpr Reach reach = how_far;
 };
 
@@ -97,12 +98,12 @@ template <class Kind>
 void kernel(const LaneTable& table, LanePack& pack) {
   pack.calls = 0;
   Stages stages;
-  if (Kind::cells && table.pieces == 1 && table.edges == 4)
-    choose_cells<Kind, 4>(table, pack, stages);
-  else if (Kind::cells && table.pieces == 1)
-    choose_cells<Kind, 6>(table, pack, stages);
-  else
+  if constexpr (!(Kind::cells && Kind::single))
     for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
+  else if (table.edges == 4)
+    choose_cells<Kind, 4>(table, pack, stages);
+  else
+    choose_cells<Kind, 6>(table, pack, stages);
   if (Kind::turn == 0 || Kind::convex)
     for (int lane = 0; lane < pack.used; lane += width) meet<Kind>(table, pack, stages, lane);
   if (Kind::turn != 0)
@@ -126,7 +127,8 @@ template <int turn>
 Kernels kernels_of(const LaneTable& t) {
   if (t.edges > 0) {
     const Advance over_cells = t.pieces > LaneTable::eight ? kernel<Kind<0, false, false, true, Reach::all, true>>
-                                                           : kernel<Kind<0, false, false, true, Reach::eight, true>>;
+                               : t.pieces > 1              ? kernel<Kind<0, false, false, true, Reach::eight, true>>
+                                              : kernel<Kind<0, false, false, true, Reach::eight, true, false, false, true>>;
     return {over_cells, over_cells, width};
   }
   const Advance anywhere = kernel_of<turn, false>(t);

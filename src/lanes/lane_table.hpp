@@ -43,11 +43,12 @@ struct LaneTable {
 
   LaneEllipses<most> ellipses;
 
-  // Of a lattice: the start of each edge of the cell and the cell beyond it; the two vectors.
+  // Of a lattice: the start and the way of each edge of the cell, the cell beyond it and where that begins; the two vectors.
   static constexpr double farthest_cell = 64.0;  ///< of a flight
   int edges = 0;                  ///< 4 or 6
-  int steps = 3;                  ///< edges that a kernel crosses
-  double edge_x[eight] = {}, edge_y[eight] = {}, beyond_first[eight] = {}, beyond_second[eight] = {};
+  int steps = 2;                  ///< edges that a kernel crosses
+  double edge_x[eight] = {}, edge_y[eight] = {}, edge_along_x[eight] = {}, edge_along_y[eight] = {};
+  double beyond_first[eight] = {}, beyond_second[eight] = {}, beyond_x[eight] = {}, beyond_y[eight] = {};
   double lattice_x[2] = {}, lattice_y[2] = {};
 
   double order_margin = 0x1p-21;  ///< of two times, in sizes over the speed

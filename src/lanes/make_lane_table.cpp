@@ -121,8 +121,13 @@ bool discs_within_cell(const Table& table) {
 void add_cell(LaneTable& t, const geometry::Lattice& lattice, double mean_flight) {
   for (const geometry::CellEdge& edge : lattice.edges) {
     const Vector corner = edge.segment.from;
+    const Vector along = edge.segment.to - corner, beyond = lattice.translation(edge.beyond);
     t.edge_x[t.edges] = corner.x;
     t.edge_y[t.edges] = corner.y;
+    t.edge_along_x[t.edges] = along.x;
+    t.edge_along_y[t.edges] = along.y;
+    t.beyond_x[t.edges] = beyond.x;
+    t.beyond_y[t.edges] = beyond.y;
     t.beyond_first[t.edges] = static_cast<double>(edge.beyond.first);
     t.beyond_second[t.edges++] = static_cast<double>(edge.beyond.second);
     t.size = std::max(t.size, 4.0 * (std::fabs(corner.x) + std::fabs(corner.y)));
@@ -135,7 +140,7 @@ void add_cell(LaneTable& t, const geometry::Lattice& lattice, double mean_flight
     perimeter += std::sqrt(dot(along, along));
   }
   const double passed = mean_flight * perimeter / (std::numbers::pi * geometry::cross(lattice.first, lattice.second));
-  t.steps = 1 + static_cast<int>(std::lround(std::clamp(passed, 0.0, 5.0)));
+  t.steps = 2 + static_cast<int>(std::lround(std::clamp(passed, 0.0, 5.0)));
   t.lattice_x[0] = lattice.first.x;
   t.lattice_y[0] = lattice.first.y;
   t.lattice_x[1] = lattice.second.x;

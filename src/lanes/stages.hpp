@@ -60,24 +60,15 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
 template <class Kind, int edges>
 INLINE void choose_cells(const LaneTable& t, const LanePack& pack, Stages& stages) {
   Crossings crossings;
+  for (int lane = 0; lane < pack.used; lane += width)
+    begin_crossings<edges>(view_of<Kind>(t, pack, lane), {load(pack.cell_first + lane), load(pack.cell_second + lane)}, crossings, lane);
   for (int lane = 0; lane < pack.used; lane += width) {
-    const CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
-    Real known;
-    begin_crossings(view_of<Kind>(t, pack, lane), cell, crossings, known, lane);
+    CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
+    store(cross_edges<edges>(view_of<Kind>(t, pack, lane), crossings, cell, lane), stages.known + lane);
     store(cell.first, stages.cell_first + lane);
     store(cell.second, stages.cell_second + lane);
-    store(known, stages.known + lane);
     store(Real(0.0), stages.piece + lane);
   }
-  for (int step = 0; step < t.steps; ++step)
-    for (int lane = 0; lane < pack.used; lane += width) {
-      CellOf cell{load(stages.cell_first + lane), load(stages.cell_second + lane)};
-      Real known = load(stages.known + lane);
-      cross_edge<edges>(view_of<Kind>(t, pack, lane), cell, crossings, known, lane);
-      store(cell.first, stages.cell_first + lane);
-      store(cell.second, stages.cell_second + lane);
-      store(known, stages.known + lane);
-    }
 }
 
 /// What is needed of a piece.
@@ -94,7 +85,7 @@ INLINE Met met_by(const View& f, const Real& piece) {
     if constexpr (Kind::segments) met.bent = Kind::convex ? met.into < 0.0 : met.orientation != 0.0;
   }
   if constexpr (Kind::ellipses) met.ellipse = ellipse_met_by<Kind>(t, piece);
-  if constexpr (!Kind::alone && (Kind::circles || Kind::ellipses || Kind::convex || Kind::turn != 0)) met.stands = (t.divided ? of(t.wall) : piece) == f.start_wall;
+  if constexpr (!Kind::alone && !(Kind::cells && Kind::single) && (Kind::circles || Kind::ellipses || Kind::convex || Kind::turn != 0)) met.stands = (t.divided ? of(t.wall) : piece) == f.start_wall;
   return met;
 }
 
