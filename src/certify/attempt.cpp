@@ -277,6 +277,8 @@ double Attempt::lost_bits() const {
   return std::max(0.0, now_.state->error().log2() + static_cast<double>(first_bits_));
 }
 
+double Attempt::spare_bits() const { return -now_.state->error().log2() - bits_of(task_.digits) - size_bits() - 2.0; }
+
 double Attempt::size_bits() const {
   return std::max(0.0, std::log2(std::max({arena_.unit, arena_.speed, arena_.time_unit})));
 }

@@ -48,6 +48,8 @@ class Attempt {
   int hole() const { return hole_; }
   const geometry::Cell& cell() const { return now_.cell; }
   std::uint64_t hits() const { return now_.hits; }
+  /// How many more the orbit may lose, nearly, until the digits asked for are not proven.
+  double spare_bits() const;
   /// log2 of the largest error over the first rounding: how much was lost.
   double lost_bits() const;
 

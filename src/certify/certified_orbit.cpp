@@ -86,6 +86,11 @@ class CertifiedOrbit::Implementation {
     // Behind a hole that the orbit may miss it goes on as before.
     const double more = forecast.hits > 0 ? hits_ / static_cast<double>(forecast.hits) : 1.0;
     const double lost = forecast.bits * more + rounding_loss_;
+    if (forecast.hits > 0) {
+      const auto seen = static_cast<double>(forecast.hits);
+      loss_a_hit_ = forecast.bits / seen;
+      spread_a_hit_ = forecast.spread / std::sqrt(seen);
+    }
     reading_bits_ = usual_reading_bits + static_cast<long>(std::ceil(scout.size_bits(forecast, more)));
     restart(static_cast<long>(lost + margin(lost, forecast.spread * std::sqrt(more)) +
                               static_cast<double>(task_.digits) * 3.3219280948873626 + 3.0 + scout.size_bits()));
@@ -114,6 +119,8 @@ class CertifiedOrbit::Implementation {
           hit.wall = attempt_->wall();
           hit.cell = attempt_->cell();
           last_ = hit;  // the end, should what follows not be enclosed
+          if (given_ % 32 == 0 && hopeless())
+            restart(effort_.bits + std::max(still_needed({Outcome::inaccurate, -attempt_->spare_bits(), {}}), 4L));
           return hit;
         }
         case Outcome::inaccurate:
@@ -192,7 +199,19 @@ class CertifiedOrbit::Implementation {
   double margin(double lost, double spread) const {
     const double all = std::sqrt(16.0 + spread * spread);
     const double room = 0.03 * lost + 28.0 + std::log2(hits_ + 1.0) - rounding_loss_;
-    return std::clamp(room - 1.65 * all, -0.5 * all, 3.0 * all + 4.0);
+    // Another attempt has been paid for already: it should last.
+    const bool again = effort_.attempts > 0;
+    return std::clamp(room - (again ? 0.5 : 1.65) * all, (again ? 0.5 : -0.5) * all, 3.0 * all + 4.0);
+  }
+
+  // An attempt whose bits will hardly last is given up as soon as this is more likely to save time than not: what
+  // is flown already must be flown again.
+  bool hopeless() const {
+    const auto flown = static_cast<double>(attempt_->hits());
+    const double rest = hits_ - flown;
+    if (!(rest > 0.0)) return false;
+    const double expected = loss_a_hit_ * rest, spread = spread_a_hit_ * std::sqrt(rest);
+    return attempt_->spare_bits() < expected - spread * hopeless_spreads;
   }
 
   // What this attempt lacks now, and what the rest of the orbit will lose: seen from here, for the first
@@ -334,6 +353,8 @@ class CertifiedOrbit::Implementation {
   certify::TieFinder tie_finder_{system_, task_};
   double hits_ = 0.0;  ///< expected
   double rounding_loss_ = 0.0;
+  double loss_a_hit_ = 0.0, spread_a_hit_ = 0.0;  ///< by the first forecast, bits; of n hits sqrt(n) times the latter
+  static constexpr double hopeless_spreads = 1.0;
   std::optional<certify::Attempt> attempt_;
   std::uint64_t given_ = 0;
   CertifiedHit last_;  ///< that was given out
