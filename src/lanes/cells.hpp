@@ -19,13 +19,15 @@ INLINE Vector seen_from(const LaneTable& t, const Vector& start, const CellOf& c
 INLINE Real way_of(const CellOf& cell) { return abs(cell.first) + abs(cell.second); }
 INLINE Real doubts_at(const Real& way) { return fused(way, 0.125 * way, Real(1.0)); }
 
-/// As seen from a cell of the lattice.
+/// As seen from a cell of the lattice. Its only disc was asked for with these doubts already.
+template <class Kind>
 INLINE void look_from(View& f, const CellOf& cell) {
+  f.origin = seen_from(f.table, f.origin, cell);
+  if constexpr (Kind::single) return;
   const Real doubts = doubts_at(way_of(cell));
   f.roots = doubts * f.roots;
   f.order = doubts * f.order;
   const Mask home = cell.first == 0.0 && cell.second == 0.0;
-  f.origin = seen_from(f.table, f.origin, cell);
   f.start_wall = choose(home, f.start_wall, Real(-1.0));
   f.start_piece = choose(home, f.start_piece, Real(-1.0));
 }
@@ -61,6 +63,7 @@ INLINE void go_beyond(const LaneTable& t, const Real& edge, const Mask& crosses,
 }
 /// Follows the flights over a few edges: who meets a disc stays in its cell. The piece is -1 for those still on
 /// their way.
+template <class Kind>
 INLINE Choice first_in_cells(View f, CellOf& cell) {
   const LaneTable& t = f.table;
   const View start = f;
@@ -72,7 +75,7 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
     f.start_piece = start.start_piece;
     f.roots = start.roots;
     f.order = start.order;
-    look_from(f, cell);
+    look_from<Kind>(f, cell);
     const Choice disc = first_of_all(f);
     where(under_way, found.piece) = disc.piece;
     found.decided = found.decided && (!under_way || disc.decided);

@@ -34,7 +34,7 @@ template <class Kind>
 INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real& end, int lane) {
   constexpr bool larmor = Kind::turn != 0;
   View f = view_of<Kind>(t, pack, lane);
-  if constexpr (Kind::cells) look_from(f, {load(stages.cell_first + lane), load(stages.cell_second + lane)});
+  if constexpr (Kind::cells) f.origin = {load(stages.start_x + lane), load(stages.start_y + lane)};
   const Real piece = load(stages.piece + lane), known = load(stages.known + lane), duration = load(stages.duration + lane);
   Vector way, v = f.velocity;
   if constexpr (larmor) {

@@ -10,6 +10,7 @@ struct Stages {
   double kappa[LanePack::lanes];  ///< of Larmor circles
   double duration[LanePack::lanes];  ///< not a number: undecided
   double cell_first[LanePack::lanes], cell_second[LanePack::lanes];
+  double start_x[LanePack::lanes], start_y[LanePack::lanes];  ///< of the flight, seen from that cell
   double high[LanePack::lanes], low[LanePack::lanes];  ///< time there, of those that wait for an answer
 };
 
@@ -38,7 +39,7 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
   Real known;
   if constexpr (Kind::cells) {
     CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
-    choice = first_in_cells(f, cell);
+    choice = first_in_cells<Kind>(f, cell);
     known = choose(choice.piece < 0.0, Real(-1.0), Real(1.0));
     store(cell.first, stages.cell_first + lane);
     store(cell.second, stages.cell_second + lane);
@@ -92,7 +93,11 @@ INLINE Met met_by(const View& f, const Real& piece) {
 template <class Kind>
 INLINE void meet(const LaneTable& t, const LanePack& pack, Stages& stages, int lane) {
   View f = view_of<Kind>(t, pack, lane);
-  if constexpr (Kind::cells) look_from(f, {load(stages.cell_first + lane), load(stages.cell_second + lane)});
+  if constexpr (Kind::cells) {
+    look_from<Kind>(f, {load(stages.cell_first + lane), load(stages.cell_second + lane)});
+    store(f.origin.x, stages.start_x + lane);
+    store(f.origin.y, stages.start_y + lane);
+  }
   const Met met = met_by<Kind>(f, load(stages.piece + lane));
   Where at;
   if constexpr (Kind::turn != 0)
