@@ -2,9 +2,12 @@
 
 #include <acb_elliptic.h>
 
+#include <cmath>
+
 #include "carom/base/error.hpp"
 #include "carom/table/table.hpp"
 #include "certify/exact_value.hpp"
+#include "certify/hole_reach.hpp"
 
 namespace carom::certify {
 namespace {
@@ -128,6 +131,29 @@ class Cutter {
 
 }  // namespace
 
+Ball arc_length(const WallOf<Ball>& w) {
+  if (w.form == Form::segment) return sqrt(dot(w.chord, w.chord));
+  const bool ellipse = w.form == Form::ellipse;
+  const auto seen = [&](const BallVector& P) {
+    const BallVector d = P - w.centre;
+    return angle_of(ellipse ? BallVector{dot(d, w.along), dot(d, w.across)} : d);
+  };
+  Ball whole_turn;
+  arb_const_pi(whole_turn.raw(), Precision::bits());
+  whole_turn = whole_turn + whole_turn;
+  const Ball start = seen(w.from);
+  Ball turn = whole_turn;
+  if (!w.closed) {
+    turn = Ball(w.turn) * (seen(w.to) - start);
+    const Sign forwards = sign(turn);
+    if (forwards == Sign::undecided) return turn.widened(Bound(HUGE_VAL));  // nothing is known
+    if (forwards != Sign::positive) turn = turn + whole_turn;
+  }
+  if (!ellipse) return sqrt(w.radius2) * turn;
+  const EllipseLength length(w);
+  return Ball(w.turn) * (length.to(start + Ball(w.turn) * turn) - length.to(start));
+}
+
 std::vector<HoleOf<Ball>> ball_holes(const ExactSystem& system, const std::vector<WallOf<Ball>>& walls) {
   std::vector<HoleOf<Ball>> holes;
   for (std::size_t k = 0; k < system.spec->holes.size(); ++k) {
@@ -137,10 +163,7 @@ std::vector<HoleOf<Ball>> ball_holes(const ExactSystem& system, const std::vecto
     hole.hole = system.table->hole_index(name_of_hole(system.spec->holes, k));
     const WallOf<Ball>& w = walls[static_cast<std::size_t>(hole.wall)];
     const Ball centre = value_of(spec.center), half = value_of(spec.width) / 2;
-    // Ends that agree with the wall's to rounding mean the wall's, as in the table of doubles.
-    const Hole& rounded = system.table->holes[static_cast<std::size_t>(hole.hole)];
-    const geometry::Curve& curve = system.table->walls[static_cast<std::size_t>(hole.wall)].curve;
-    hole.whole = rounded.from == 0.0 && rounded.to == geometry::end_parameter(curve);
+    hole.whole = is_all_of_its_wall(system, spec, w);
     if (!hole.whole) Cutter(w, centre - half, centre + half).cut(hole);
     holes.push_back(std::move(hole));
   }

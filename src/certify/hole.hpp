@@ -62,6 +62,9 @@ Verdict in_hole(const HoleOf<N>& hole, const WallOf<N>& w, const VectorOf<N>& P)
   return within(hole.first, hole.last) == wide ? wide : Verdict::undecided;
 }
 
+/// Of a wall, from its start to its end, to the present precision.
+Ball arc_length(const WallOf<Ball>&);
+
 /// To the present precision.
 std::vector<HoleOf<Ball>> ball_holes(const ExactSystem&, const std::vector<WallOf<Ball>>& walls);
 

@@ -1,6 +1,7 @@
 // Exact ties with the ends of holes.
 #include "carom/table/table.hpp"
 #include "certify/tie_follower.hpp"
+#include "certify/with_pi.hpp"
 
 namespace carom::certify {
 namespace {
@@ -11,13 +12,9 @@ Tie at_hole(Tie::Kind kind, std::string text, int hole) {
   return tie;
 }
 
-/// The arc length of an end of a hole, where it has no pi.
-std::optional<Quadratic> algebraic_end(const HoleSpec& spec, int side) {
-  try {
-    return Quadratic(spec.center) + Quadratic(side) * Quadratic(spec.width) / Quadratic(2);
-  } catch (const NotQuadratic&) {
-    return std::nullopt;
-  }
+/// The arc length of an end of a hole.
+WithPi end_of(const HoleSpec& spec, int side) {
+  return WithPi(spec.center) + WithPi(Quadratic(side)) * WithPi(spec.width) / WithPi(Quadratic(2));
 }
 
 }  // namespace
@@ -26,15 +23,12 @@ std::optional<Quadratic> algebraic_end(const HoleSpec& spec, int side) {
 // coordinates, so that no tie is there.
 std::optional<TieFollower::Vector> TieFollower::end_of_hole(const HoleSpec& spec, int side) const {
   const Wall& w = wall(standing_);
-  if (const auto s = algebraic_end(spec, side)) {
-    if (is_zero(*s)) return w.from;
-    if (w.form == Form::ellipse) throw NotQuadratic("an arc length of an ellipse");
-    return std::nullopt;  // an algebraic angle other than zero has no algebraic sine (Lindemann)
-  }
+  const WithPi s = end_of(spec, side);
+  if (is_zero(s)) return w.from;
   if (w.form == Form::ellipse) throw NotQuadratic("an arc length of an ellipse");
-  // s/r in units of pi/12, if that is a whole number.
-  const std::string s = "((" + exact_text(spec.center) + (side < 0 ? ")-(" : ")+(") + exact_text(spec.width) + ")/2)";
-  const Quadratic share = Quadratic(12) * Quadratic(ExactNumber(s + "/pi", spec.place)) / sqrt(w.radius2);
+  // The angle a + b pi with algebraic a, b has an algebraic sine only if a is zero (Lindemann; Baker).
+  if (!is_zero(s.plain)) return std::nullopt;
+  const Quadratic share = Quadratic(12) * s.pi / sqrt(w.radius2);  // s/r in units of pi/12, if that is a whole number
   for (int k = -24; k <= 24; ++k) {
     if (!is_zero(share - Quadratic(k))) continue;
     const Vector turn = twenty_fourth(w.turn > 0 ? k : -k), start = w.from - w.centre;

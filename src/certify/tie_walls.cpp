@@ -1,5 +1,6 @@
 // Exact ties with walls: along them, touching them, into their joints.
 #include "carom/table/table.hpp"
+#include "certify/hole_reach.hpp"
 #include "certify/larmor_wall.hpp"
 #include "certify/tie_follower.hpp"
 
@@ -115,9 +116,14 @@ std::optional<TieFollower::Passing> TieFollower::joint_ahead(const Wall& w, cons
 
 // A hole that begins or ends where the wall does.
 bool TieFollower::opens_at(int index, bool at_its_end) const {
-  const double end = geometry::end_parameter(system_.table->walls[static_cast<std::size_t>(index)].curve);
-  for (const Hole& hole : system_.table->holes)
-    if (hole.wall == index && (at_its_end ? hole.to == end : hole.from == 0.0)) return true;
+  bool known = true;
+  for (const HoleSpec& hole : system_.spec->holes) {
+    if (system_.table->wall_index(hole.wall) != index) continue;
+    const HoleReach reach = reach_of(system_, hole);
+    if (at_its_end ? reach.opens_at_end() : reach.opens_at_start()) return true;
+    known = known && (at_its_end ? reach.past_end : reach.before_start) != Sign::undecided;
+  }
+  if (!known) throw NotQuadratic("whether a hole ends at the corner");
   return false;
 }
 
