@@ -185,11 +185,8 @@ TimeWindow DisplacementMoments::default_window() const {
 std::optional<DiffusionFit> DisplacementMoments::fit(const TimeWindow& window) const {
   std::vector<std::size_t> inside;
   std::vector<double> t, log_t, weight, log_weight;
-  // A time of a grid may miss the round number it stands for by its rounding.
-  constexpr double rounding = 1e-9;
   for (std::size_t k = 0; k < times_.size(); ++k) {
-    const bool within = times_[k] >= window.from * (1 - rounding) && times_[k] <= window.to * (1 + rounding);
-    if (!(times_[k] > 0) || !within || counts_[k] == 0) continue;
+    if (!window.holds(times_[k]) || counts_[k] == 0) continue;
     const double square = whole_.square[k], variance = whole_.fourth[k] - square * square;
     if (!(square > 0)) return std::nullopt;
     inside.push_back(k);

@@ -70,17 +70,22 @@ std::string horizon_text(const Horizon& horizon) {
 std::string fit_text(const DiffusionSummary& summary) {
   std::string text = "\n";
   const auto& fit = summary.fit;
-  if (!summary.no_D.empty()) text += fmt::format("D does not exist: {}.\n", summary.no_D);
+  if (!summary.no_D.empty())
+    text += fmt::format("D {}: {}.\n", summary.estimable ? "does not exist" : "cannot be estimated", summary.no_D);
   if (fit && summary.no_D.empty())
     text += fmt::format("D = {}   from MSD = 4 D t + c, c = {}\n", with_error(fit->D), with_error(fit->offset));
   if (!summary.note.empty()) text += fmt::format("    {}\n", summary.note);
   if (summary.horizon.machta_zwanzig)
     text += fmt::format("    {:.6g} by Machta and Zwanzig, for narrow gaps\n", *summary.horizon.machta_zwanzig);
-  if (fit)
-    text += fmt::format(
-        "exponent a = {}   from MSD = A t^a + c;  slope of ln MSD against ln t {}\n"
-        "window {:.6g} <= t <= {:.6g}, {} times; errors by the jackknife over groups of trajectories\n",
-        with_error(fit->exponent), with_error(fit->local_exponent), fit->window.from, fit->window.to, fit->points);
+  if (!fit) return text;
+  if (std::isfinite(fit->exponent.value))
+    text += fmt::format("exponent a = {}   from MSD = A t^a + c;", with_error(fit->exponent));
+  else
+    text += "exponent a of MSD = A t^a + c needs four times in the window;";
+  text += fmt::format(
+      "  slope of ln MSD against ln t {}\n"
+      "window {:.6g} <= t <= {:.6g}, {} times; errors by the jackknife over groups of trajectories\n",
+      with_error(fit->local_exponent), fit->window.from, fit->window.to, fit->points);
   return text;
 }
 
@@ -192,11 +197,21 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
   const auto& window = system.run.window;
   summary.fit = moments.fit(window ? TimeWindow{window->first, window->second} : moments.default_window());
   if (summary.fit && summary.no_D.empty()) {
-    const Estimate& a = summary.fit->exponent;
+    // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
+    const bool enough = std::isfinite(summary.fit->exponent.value);
+    const Estimate& a = enough ? summary.fit->exponent : summary.fit->local_exponent;
     if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
       summary.note = "the MSD does not grow as t in the window: D depends on it";
   }
-  if (!summary.fit && summary.no_D.empty()) summary.no_D = "fewer than two report times > 0 in the window";
+  if (!summary.fit && summary.no_D.empty()) {
+    summary.estimable = false;
+    const bool any = std::any_of(summary.points.begin(), summary.points.end(), [](const MomentPoint& p) {
+      return p.count > 0 && p.square.value > 0;
+    });
+    summary.no_D = result.trajectories == 0 ? "no trajectory was followed"
+                   : !any                   ? "nothing moved until the last report time"
+                                            : "fewer than two report times > 0 in the window";
+  }
   return summary;
 }
 

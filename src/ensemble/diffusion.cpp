@@ -33,6 +33,12 @@ void refuse_impossible(const System& system) {
     throw InputError(Place{"", 0, 0, "run.times"},
                      std::to_string(system.run.times.size()) + " times are too many",
                      "at most " + std::to_string(most_times) + " report times");
+  if (const auto& window = system.run.window) {
+    const TimeWindow asked{window->first, window->second};
+    if (std::count_if(system.run.times.begin(), system.run.times.end(), [&](double t) { return asked.holds(t); }) < 2)
+      throw InputError(Place{"", 0, 0, "run.window"}, "it holds fewer than two report times > 0",
+                       "a window of two report times at least; four give the exponent, too");
+  }
   refuse_injections(system, "an ensemble that diffuses");
 }
 

@@ -56,6 +56,38 @@ TEST(Diffusion, TakesTheWindowItIsTold) {
   }
 }
 
+// Three times are enough for a line, not for the exponent: growth as t^2 is told all the same.
+TEST(Diffusion, DoubtsItsCoefficientWithFewTimes) {
+  const Shell shell;
+  const std::string ballistic =
+      "$carom diffusion lorentz-triangular --trajectories 200 --times 0.01,0.02,0.03 ";
+  const Outcome json = shell(ballistic + "--json"), text = shell(ballistic);
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_NE(json_value(json.out, "D").find("value"), std::string::npos);
+  EXPECT_NE(json_value(json.out, "note").find("does not grow as t"), std::string::npos) << json.out;
+  EXPECT_NE(text.out.find("does not grow as t"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("needs four times"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("nan"), std::string::npos) << text.out;
+}
+
+TEST(Diffusion, TellsLackOfDataFromPhysics) {
+  const Shell shell;
+  const std::string command = "$carom diffusion lorentz-triangular --trajectories 3 --t-max 20 ";
+  for (const char* few : {"--times 10", "--times 0,10", "--shard 1/4"}) {
+    const Outcome o = shell(command + few);
+    EXPECT_EQ(o.status, 0) << few << ": " << o.err;
+    EXPECT_NE(o.out.find("D cannot be estimated: "), std::string::npos) << o.out;
+    EXPECT_EQ(o.out.find("does not exist"), std::string::npos) << o.out;
+  }
+  for (const char* window : {"30,40", "19.9,20", "0,0.01"}) {
+    const Outcome o = shell(command + "-o a.h5 --window " + window);
+    EXPECT_EQ(o.status, 1) << window;
+    EXPECT_EQ(o.out, "");
+    EXPECT_NE(o.err.find("two report times"), std::string::npos) << o.err;
+  }
+  EXPECT_TRUE(shell.files().empty());
+}
+
 TEST(Diffusion, WritesAnArchiveThatReadsAlike) {
   const Shell shell;
   const std::string command = "$carom diffusion lorentz-triangular --trajectories 300 --t-max 10 ";

@@ -59,6 +59,8 @@ struct MomentPoint {
 /// Report times t with from <= t <= to.
 struct TimeWindow {
   double from = 0.0, to = 0.0;
+  /// A time of a grid may miss the round number it stands for by its rounding.
+  bool holds(double t) const { return t > 0.0 && t >= from * (1 - 1e-9) && t <= to * (1 + 1e-9); }
 };
 
 /// What the moments say together. Fits are weighted by the inverse variance of each point; points of one
