@@ -108,10 +108,18 @@ Population::Way Population::fly(Walker& walker, const Stage& stage, const std::f
   return Way::ended;
 }
 
+/// Of the walker that flew last and ended without a continuation.
+void Population::count_if_lost(PopulationRun& result, std::vector<std::string>& reports) const {
+  if (world_.fate(0) != Fate::lost) return;
+  ++result.lost;
+  if (reports.size() < most_reports) reports.push_back(world_.report(0));
+}
+
 /// Parts a copy from its like: a step of a Metropolis walk among the states some hits ago that reach the
 /// level. A kick keeps the invariant measure, so every new way that reaches the level is taken, and no other.
 void Population::part(Walker& walker, const Stage& stage, double delta, RandomStream& random,
-                      const std::function<bool()>& stopped, PopulationRun& result) {
+                      const std::function<bool()>& stopped, PopulationRun& result,
+                      std::vector<std::string>& reports) {
   if (walker.memory.size == 0) return;
   const double speed = system_.particles.front().speed;
   Walker other = walker;
@@ -123,6 +131,7 @@ void Population::part(Walker& walker, const Stage& stage, double delta, RandomSt
   const Way way = fly(other, stage, stopped);
   result.collisions += other.hits - before.hits;
   ++result.tried;
+  if (way == Way::ended) count_if_lost(result, reports);
   if (way != Way::reached) return;
   ++result.parted;
   walker = other;
@@ -131,7 +140,8 @@ void Population::part(Walker& walker, const Stage& stage, double delta, RandomSt
 /// Fills the population again: as many copies of each survivor as its weight asks for, by a comb with one
 /// random offset, so that the mean number of copies is exact. All copies have the same weight.
 void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double delta,
-                                const std::function<bool()>& stopped, PopulationRun& result) {
+                                const std::function<bool()>& stopped, PopulationRun& result,
+                                std::vector<std::string>& reports) {
   walkers_.clear();
   double all = 0.0;
   for (const Walker& survivor : survivors_) all += survivor.weight;
@@ -150,7 +160,7 @@ void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double
       walker.weight = weight;
       if (copy > 0) {
         RandomStream random(system_.run.seed, Purpose::splitting, stream, walkers_.size());
-        part(walker, stage, delta, random, stopped, result);
+        part(walker, stage, delta, random, stopped, result, reports);
       }
       walkers_.push_back(walker);
     }
@@ -217,9 +227,7 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
           break;
         case Way::ended:
           result.singular += walker.weight;
-          if (world_.fate(0) != Fate::lost) break;
-          ++result.lost;
-          if (reports.size() < most_reports) reports.push_back(world_.report(0));
+          count_if_lost(result, reports);
           break;
       }
     }
@@ -229,7 +237,7 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
     else
       result.survival[k] = reached + for_ever;
     before = stage.level;
-    if (k + 1 < stages) copy_survivors(stage, stream, delta, stopped, result);
+    if (k + 1 < stages) copy_survivors(stage, stream, delta, stopped, result, reports);
   }
   const double followed = 1.0 - result.singular;
   for (double& p : result.survival) p /= followed;

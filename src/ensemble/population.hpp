@@ -25,6 +25,8 @@ class Population {
   PopulationRun run(std::uint64_t repetition, std::size_t kick_number, const std::function<bool()>& stopped,
                     std::vector<std::string>& reports);
   const DecisionCounts& decisions() const { return world_.decisions(); }
+  /// Memory of a trajectory, with those of the stage before.
+  static std::size_t bytes_a_walker() { return 2 * sizeof(Walker); }
 
  private:
   struct Moment {
@@ -57,9 +59,10 @@ class Population {
 
   Way fly(Walker&, const Stage&, const std::function<bool()>& stopped);
   void copy_survivors(const Stage&, std::uint64_t stream, double delta, const std::function<bool()>& stopped,
-                      PopulationRun&);
-  void part(Walker&, const Stage&, double delta, RandomStream&, const std::function<bool()>& stopped,
-            PopulationRun&);
+                      PopulationRun&, std::vector<std::string>& reports);
+  void part(Walker&, const Stage&, double delta, RandomStream&, const std::function<bool()>& stopped, PopulationRun&,
+            std::vector<std::string>& reports);
+  void count_if_lost(PopulationRun&, std::vector<std::string>& reports) const;
   void report_times(double from, double to, double still_there, PopulationRun&) const;
 
   const System& system_;

@@ -1,5 +1,7 @@
 #include "carom/ensemble/splitting.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -48,6 +50,17 @@ void check(const System& system, const SplittingPlan& plan) {
     refuse("kick", "the kick is not possible", "above 0, at most 0.5; or 0 to have it chosen");
 }
 
+// A population is kept whole by the thread that follows it.
+void check_memory(const SplittingPlan& plan, int threads) {
+  const double here = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double each = static_cast<double>(Population::bytes_a_walker()) * threads;
+  if (static_cast<double>(plan.population) * each <= here) return;
+  const auto most = static_cast<std::uint64_t>(here / each);
+  throw InputError(Place{{}, 0, 0, "population"}, "the population does not fit into the memory of this machine",
+                   "at most " + std::to_string(most) + " trajectories on " + std::to_string(threads) +
+                       (threads == 1 ? " thread" : " threads"));
+}
+
 // What the threads of one run share.
 struct Shared {
   std::mutex mutex;
@@ -91,16 +104,18 @@ class Worker {
 };
 
 /// The kick of a plan that leaves it open (docs/physics/rare-events.md). One of these populations costs
-/// little beside those that follow.
+/// little beside those that follow. What it loses counts.
 double chosen_kick(const System& system, const Sampler& sampler, const Kick& kick, SplittingPlan plan,
-                   const std::vector<double>& at, const SplittingOptions& options) {
-  const std::uint64_t unused = plan.repetitions;  // its random numbers are no other's
+                   const std::vector<double>& at, const SplittingOptions& options, SplittingResult& result) {
+  const std::uint64_t starts = plan.repetitions * plan.population;
   plan.population = std::min<std::uint64_t>(plan.population, 1000);
+  // The first repetition of this size behind all starts: its random numbers are no other's.
+  const std::uint64_t unused = (starts + plan.population - 1) / plan.population;
   const auto stopped = [&] { return options.interrupted && options.interrupted->load(); };
-  std::vector<std::string> reports;  // a lost state will be met again, and reported, by those that count
   for (plan.kick = SplittingPlan::largest_choice; plan.kick > 0x1p-40 && !stopped(); plan.kick /= 2) {
     const PopulationRun one =
-        Population(system, sampler, kick, plan, at, options.decisions).run(unused, 0, stopped, reports);
+        Population(system, sampler, kick, plan, at, options.decisions).run(unused, 0, stopped, result.reports);
+    result.lost += one.lost;
     if (one.tried == 0) return SplittingPlan::largest_choice;  // nothing is copied, or nearly
     const auto kept = static_cast<double>(one.tried - one.parted);
     if (kept <= SplittingPlan::most_kept * static_cast<double>(one.tried)) break;
@@ -118,13 +133,15 @@ SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
   result.plan = plan;
   result.at = plan.by == SplittingPlan::Level::time ? system.run.times : plan.levels;
   for (auto& runs : result.runs) runs.resize(plan.repetitions);
+  // One population is one block: it needs no other, and its bits know no thread.
+  const BlockPlan blocks(plan.repetitions * kick_sizes, options.threads, 1);
+  check_memory(plan, blocks.threads);
   const Sampler sampler(system);
   const Kick kick(*system.table);
   const Stopwatch watch;
-  if (plan.kick == 0.0) result.plan.kick = chosen_kick(system, sampler, kick, plan, result.at, options);
-  // One population is one block: it needs no other, and its bits know no thread.
-  const BlockPlan blocks(plan.repetitions * kick_sizes, options.threads, 1);
+  if (plan.kick == 0.0) result.plan.kick = chosen_kick(system, sampler, kick, plan, result.at, options, result);
   Shared shared;
+  shared.reports = std::move(result.reports);
   result.complete = run_blocks(
       blocks, options.interrupted,
       [&] {

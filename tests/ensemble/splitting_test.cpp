@@ -148,6 +148,39 @@ TEST(Splitting, ClosedTablesKeepEverything) {
   for (const SplitPoint& point : survival(result)) EXPECT_NEAR(point.p.limit.value, 1.0, 1e-12);
 }
 
+// Around the discs of a table that is said to be closed, who leaves is lost. None goes without being counted:
+// walkers that did not reach their level, and kicked copies that did not.
+TEST(Splitting, CountsWhatItLosesAmongKickedCopies) {
+  System leaky = three_disc();
+  Table table = *leaky.table;
+  table.extent = Extent::bounded;
+  leaky.table = std::make_shared<const Table>(table);
+  SplittingPlan plan = by_hits(5, 100, 2);
+  plan.kick = 0x1p-4;
+  SplittingOptions options;
+  options.threads = 1;
+  const SplittingResult result = run_splitting(leaky, plan, options);
+  std::uint64_t left = 0, kept = 0;
+  for (const auto& runs : result.runs)
+    for (const PopulationRun& run : runs) {
+      std::uint64_t walkers = plan.population;
+      for (const std::uint64_t reached : run.reached) {
+        left += walkers - reached;
+        walkers = reached > 0 ? plan.population : 0;
+      }
+      kept += run.tried - run.parted;
+    }
+  EXPECT_GT(kept, 0u);
+  EXPECT_EQ(result.lost, left + kept);
+  EXPECT_EQ(result.reports.size(), 5u);
+  // A kick that is chosen loses some in its first populations, too.
+  plan.kick = 0;
+  plan.repetitions = 3;
+  const SplittingResult chosen = run_splitting(leaky, plan, options);
+  plan.kick = chosen.plan.kick;
+  EXPECT_GT(chosen.lost, run_splitting(leaky, plan, options).lost);
+}
+
 // Pinned orbits are never copied and never lost.
 TEST(Splitting, PinnedOrbitsKeepTheirShare) {
   const System system = make_system(
@@ -172,6 +205,7 @@ TEST(Splitting, RefusesWhatItCannotDo) {
   plan = by_hits(3, 100, 2);
   plan.kick = -0.1;
   EXPECT_THROW(run_splitting(system, plan), InputError);
+  EXPECT_THROW(run_splitting(system, by_hits(3, 1'000'000'000, 2)), InputError) << "terabytes";
   EXPECT_THROW(run_splitting(load_system("henon-heiles", {}).system, by_hits(3, 100, 2)), InputError);
 }
 
