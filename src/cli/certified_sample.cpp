@@ -30,7 +30,7 @@ OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
   return [system, task, written](const State& start) mutable -> std::optional<PairedEnd> {
     // A start that was drawn is its doubles, taken exactly; the direction's length is free.
     if (!written) system.start = exact_start(start);
-    CertifiedOrbit orbit(system, task);
+    CertifiedOrbit orbit(system, task, [&stop = catch_interrupts()] { return stop.load(std::memory_order_relaxed); });
     const CertifiedEnd& end = orbit.finish();
     PairedEnd result;
     result.hits = end.collisions;

@@ -1,5 +1,6 @@
 #include "carom/ensemble/paired_escape.hpp"
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -42,19 +43,22 @@ class Worker {
 
   bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
     for (std::uint64_t trajectory = first; trajectory < end; ++trajectory) {
-      if (stopped()) return false;
-      fly(trajectory, pairs_[static_cast<std::size_t>(trajectory)]);
+      Pair& pair = pairs_[static_cast<std::size_t>(trajectory)];
+      if (!stopped()) fly(trajectory, pair, stopped);
+      if (pair.state == Pair::State::open) return false;
     }
     return true;
   }
 
  private:
-  void fly(std::uint64_t trajectory, Pair& pair) {
+  // A pair that was stopped on the way stays open.
+  void fly(std::uint64_t trajectory, Pair& pair, const std::function<bool()>& stopped) {
     const State start = sampler_.draw(world_, trajectory, 0);
     world_.clear();
     world_.add(system_.particles.front(), start);
     LastEvent seen;
-    world_.run_until(system_.run.t_max, seen);
+    world_.run_until(system_.run.t_max, seen, stopped);
+    if (stopped()) return;
     const EndEvent& end = seen.last;
     if (end.fate == Fate::singular || end.fate == Fate::lost) {
       pair.state = end.fate == Fate::lost ? Pair::State::lost : Pair::State::singular;
@@ -64,6 +68,7 @@ class Worker {
     pair.first.hole = first_of_name(*system_.table, end.hole);
     pair.first.hits = end.hits;
     const std::optional<PairedEnd> other = other_(start);
+    if (!other && stopped()) return;
     pair.state = other ? Pair::State::known : Pair::State::unknown;
     if (!other) return;
     pair.second = *other;

@@ -53,9 +53,24 @@ TEST(CertifiedSample, PinnedOrbitsStay) {
     EXPECT_EQ(number(json.out, key), 0) << key;
 }
 
+// An orbit may take hours; Ctrl-C and SIGTERM end it, in doubles as in balls.
+TEST(CertifiedSample, StopsWithinAnOrbit) {
+  const Shell shell;
+  const char* sample = "$carom escape stadium --set 'table.hole=[]' --trajectories 1 --certify-sample 1 --json --times 1 ";
+  for (const char* in_doubles : {"--t-max 1e12", "--t-max 1e5"}) {
+    for (const char* signal : {"INT", "TERM"}) {
+      const Outcome stopped = shell(std::string("timeout --preserve-status -k 20 -s ") + signal + " 1 " + sample + in_doubles);
+      EXPECT_EQ(stopped.status, 130) << in_doubles << signal << stopped.err;
+      EXPECT_EQ(json_value(stopped.out, "status"), "\"interrupted\"");
+      EXPECT_EQ(number(stopped.out, "undecided"), 0) << "it is not known to be";
+    }
+  }
+}
+
 TEST(CertifiedSample, RefusesWhatItCannotCertify) {
   const Shell shell;
   for (const char* wrong : {"stadium --certify-sample 0", "stadium --certify-sample -5", "stadium --certify-sample x",
+                            "stadium --trajectories 1e19 --certify-sample 1.5e18",
                             "stadium --trajectories 10 --certify-sample 11", "coulomb-circle --certify-sample 10",
                             "stadium --certify-sample 10 --digits 0", "stadium --certify-sample 10 -o x.h5"}) {
     const Outcome refused = shell(std::string("$carom escape ") + wrong);
