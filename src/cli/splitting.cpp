@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
@@ -56,7 +59,9 @@ SplittingPlan plan_of(const Options& options) {
     levels = levels.substr(5);
   }
   plan.levels = numbers_of(levels, "--splitting");
-  if (plan.by == SplittingPlan::Level::hits)
+  // A grid is spaced as evenly as whole hits allow; levels that somebody wrote are whole or refused.
+  const bool grid = levels.find(':') != std::string::npos;
+  if (grid && plan.by == SplittingPlan::Level::hits)
     for (double& level : plan.levels) level = std::nearbyint(level);
   if (!options.population.empty()) plan.population = whole_number(options.population, "--population", 2);
   if (!options.repetitions.empty()) plan.repetitions = whole_number(options.repetitions, "--repetitions", 2);
@@ -78,7 +83,17 @@ std::optional<Decay> decay_of(const SplittingResult& result) {
   return decay;
 }
 
-Json json_of(const Extrapolated& value, Json json) {
+// Nobody was left in any population: how rare that is, they do not say.
+bool died_out(const Extrapolated& p) {
+  return std::all_of(p.at_kick.begin(), p.at_kick.end(), [](const Mean& mean) { return mean.value == 0.0; });
+}
+constexpr const char* all_died_out = "all populations died out";
+
+Json json_of(const Extrapolated& value, Json json, bool known = true) {
+  if (!known) {
+    for (const char* key : {"value", "stderr", "extrapolation", "low", "high", "at_kicks"}) json.set(key, Json());
+    return json;
+  }
   Json kicks = Json::array();
   for (const Mean& mean : value.at_kick)
     kicks.push(Json::object().set("value", mean.value).set("stderr", mean.error));
@@ -124,6 +139,9 @@ int splitting(const Options& options) {
   const bool by_time = result.plan.by == SplittingPlan::Level::time;
   const char* variable = by_time ? "t" : "n";
   const double rejected = share_rejected(result);
+  const std::vector<SplitPoint> points_of_p = survival(result);
+  const auto last = std::find_if(points_of_p.begin(), points_of_p.end(), [](const SplitPoint& p) { return died_out(p.p); });
+  const double extinction = last == points_of_p.end() ? std::numeric_limits<double>::infinity() : last->at;
   for (const std::string& report : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
   if (options.json) {
     Json json = Json::object();
@@ -135,12 +153,13 @@ int splitting(const Options& options) {
     json.set("lost", result.lost).set("collisions", result.collisions);
     json.set("digest", fmt::format("{:016x}", result.digest));
     Json points = Json::array(), rates = Json::array();
-    for (const SplitPoint& point : survival(result))
-      points.push(
-          json_of(point.p, Json::object().set(variable, point.at).set("equivalent", point.equivalent)));
+    for (const SplitPoint& point : points_of_p)
+      points.push(json_of(point.p, Json::object().set(variable, point.at).set("equivalent", point.equivalent),
+                          !died_out(point.p)));
     for (const SplitRate& rate : escape_rate(result))
-      rates.push(
-          json_of(rate.value, Json::object().set("t", rate.t).set("from", rate.from).set("to", rate.to)));
+      rates.push(json_of(rate.value, Json::object().set("t", rate.t).set("from", rate.from).set("to", rate.to),
+                         !(rate.from >= extinction)));
+    if (std::isfinite(extinction)) json.set("note", fmt::format("{} by {} = {:.6g}", all_died_out, variable, extinction));
     json.set(by_time ? "survival" : "survival_hits", std::move(points));
     if (by_time) json.set("rate", std::move(rates));
     if (const auto decay = decay_of(result))
@@ -153,12 +172,17 @@ int splitting(const Options& options) {
         "{:>12}           p   std error  extrapolation  as of trajectories\n",
         system.title.empty() ? system.name : system.title, grouped(result.runs.front().size()),
         grouped(result.plan.population), result.plan.kick, system.run.seed, variable);
-    for (const SplitPoint& point : survival(result))
+    for (const SplitPoint& point : points_of_p) {
+      if (point.at >= extinction) break;
       text += fmt::format("{:>12.6g}  {:>10.4e}  {:>10.1e}  {:>13.1e}  {:>18.1e}\n", point.at,
                           point.p.limit.value, point.p.limit.error, point.p.extrapolation, point.equivalent);
+    }
+    if (std::isfinite(extinction))
+      text += fmt::format("{:>12.6g}  {} by then: how rare survival is they do not say. More trajectories\n"
+                          "              (--population), or levels closer together, go further.\n", extinction, all_died_out);
     if (by_time) text += "\n           t     -dP/dt   std error  extrapolation\n";
     for (const SplitRate& rate : escape_rate(result))
-      text += fmt::format("{:>12.6g}  {:>9.3e}  {:>10.1e}  {:>13.1e}\n", rate.t, rate.value.limit.value,
+      if (rate.from < extinction) text += fmt::format("{:>12.6g}  {:>9.3e}  {:>10.1e}  {:>13.1e}\n", rate.t, rate.value.limit.value,
                           rate.value.limit.error, rate.value.extrapolation);
     if (const auto decay = decay_of(result))
       text += fmt::format("\nFrom {0} = {1:.6g} to {2:.6g} p decays as exp(-{3:.6f} {0}), standard error {4:.1e}, extrapolation {5:.1e}\n",

@@ -36,6 +36,26 @@ TEST(SplittingCommand, ChoosesItsKick) {
   EXPECT_GT(four, two / 1024);
 }
 
+// 0 +- 0 would say that survival is impossible.
+TEST(SplittingCommand, SaysThatItsPopulationsDiedOut) {
+  const Shell shell;
+  const std::string command = "$carom escape three-disc --splitting hits:0,30,60 --population 10 --repetitions 2 ";
+  const Outcome json = shell(command + "--json"), text = shell(command);
+  EXPECT_EQ(json.status, 0) << json.err;
+  const std::string points = json_value(json.out, "survival_hits");
+  const std::string after = points.substr(points.find("\"n\": 30"));
+  EXPECT_EQ(after.find("\"value\": 0"), std::string::npos) << points;
+  EXPECT_NE(after.find("\"value\": null"), std::string::npos) << points;
+  EXPECT_NE(points.find("\"value\": 0."), std::string::npos) << "after the first hit some are left";
+  EXPECT_NE(json_value(json.out, "note").find("died out"), std::string::npos) << json.out;
+  EXPECT_NE(text.out.find("died out"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("0.0000e+00"), std::string::npos) << text.out;
+  const Outcome by_time = shell("$carom escape three-disc --splitting 100,200 --times 0,50,150,250,350 --population 10 "
+                                "--repetitions 2 --t-max 350 --json");
+  EXPECT_EQ(by_time.status, 0) << by_time.err;
+  EXPECT_NE(json_value(by_time.out, "rate").find("null"), std::string::npos) << by_time.out;
+}
+
 TEST(SplittingCommand, RefusesWhatItCannotDo) {
   const Shell shell;
   for (const auto& [options, key] : {std::pair{"--splitting 5,4", "splitting"},
