@@ -10,11 +10,32 @@ namespace carom::cli {
 
 namespace {
 
-// Options that another one gives a meaning.
+// Each pair of a sample takes memory, and a certified orbit milliseconds at least.
+constexpr std::uint64_t largest_sample = 100'000'000;
+
+Place place_of(const char* option) { return {"command line", 0, 0, option}; }
+
+// Options that another one gives a meaning, or takes it away.
 void refuse_options_without_a_use(const Options& options) {
   const auto refuse = [](const std::string& given, const char* option, const char* other) {
-    if (!given.empty()) throw InputError(Place{"command line", 0, 0, option}, fmt::format("it means nothing without {}", other), other);
+    if (!given.empty()) throw InputError(place_of(option), fmt::format("it means nothing without {}", other), other);
   };
+  const auto refuse_beside = [](const std::string& given, const char* option, const char* other) {
+    if (!given.empty())
+      throw InputError(place_of(option), fmt::format("it means nothing beside {}", other), "one of the two");
+  };
+  if (!options.certify_sample.empty()) {
+    const std::uint64_t sample = whole_number(options.certify_sample, "--certify-sample", 1);
+    if (sample > largest_sample)
+      throw InputError(place_of("--certify-sample"), fmt::format("{} certified orbits are too many", options.certify_sample),
+                       fmt::format("at most {}", grouped(largest_sample)));
+  }
+  for (const auto& [given, other] : {std::pair{&options.splitting, "--splitting"}, {&options.certify_sample, "--certify-sample"}}) {
+    if (given->empty()) continue;
+    refuse_beside(options.block, "--block", other);
+    refuse_beside(options.checkpoint, "--checkpoint", other);
+  }
+  if (!options.splitting.empty()) refuse_beside(options.certify_sample, "--certify-sample", "--splitting");
   if (options.certify_sample.empty()) refuse(options.digits, "--digits", "--certify-sample");
   if (!options.splitting.empty()) return;
   refuse(options.population, "--population", "--splitting");

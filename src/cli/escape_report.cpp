@@ -31,12 +31,12 @@ std::vector<HoleEscapes> escapes_by_hole(const System& system, const SurvivalCou
 std::string survival_table(const SurvivalCounts& counts) {
   const auto points = survival(counts);
   const auto rates = escape_rate(counts);
+  auto rate = rates.begin();  // both lists in the order of time
   std::string text = "\n           t        p(t)   95 % interval            rate -dP/dt   95 % interval\n";
   for (const SurvivalPoint& point : points) {
     text += fmt::format("{:>12.6g}  {:>10.6f}   {:.6f} .. {:.6f}", point.t, point.p, point.low, point.high);
-    const auto rate =
-        std::find_if(rates.begin(), rates.end(), [&](const RatePoint& r) { return r.to == point.t; });
-    if (rate != rates.end())
+    while (rate != rates.end() && rate->to < point.t) ++rate;
+    if (rate != rates.end() && rate->to == point.t)
       text += fmt::format("   {:>12.4e}   {:.3e} .. {:.3e}", rate->value, rate->low, rate->high);
     text += '\n';
   }

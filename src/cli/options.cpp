@@ -3,7 +3,9 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,7 +24,7 @@ constexpr const char* introduction =
 constexpr const char* examples =
     "Examples:\n"
     "  carom escape magnetic-square               survival in a square with a hole, in a few seconds\n"
-    "  carom run stadium --collisions 1000 -o orbit.h5\n"
+    "  carom run stadium --set 'table.hole=[]' --collisions 1000 -o orbit.h5\n"
     "                                             one orbit, every hit in Birkhoff coordinates\n"
     "  carom table mushroom -o mushroom.svg       area, perimeter, walls; a drawing\n"
     "\n"
@@ -143,7 +145,7 @@ void define(CLI::App& app, Options& o) {
   Command(app, o, "run", "One trajectory, followed closely",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
-          "  carom run circle --position 1/10,0 --velocity 1,2 --collisions 1e4 -o orbit.h5\n"
+          "  carom run circle --set 'table.hole=[]' --position 1/10,0 --velocity 1,2 --collisions 1e4 -o orbit.h5\n"
           "  carom run --resume orbit.h5 --collisions 2e4     goes on from where the archive ends\n"
           "\n"
           "With --collisions and without --t-max the run has no last time.")
@@ -232,6 +234,28 @@ std::string unknown_word(const std::vector<std::string>& remaining) {
   return {};
 }
 
+// The first word that was typed and is not known, as a message. CLI11 tells them in another order.
+std::string unknown_option(const CLI::App& command, int argc, char** argv) {
+  const std::vector<std::string> remaining = command.remaining();
+  const auto is_option = [](const std::string& word) {
+    return word.size() > 1 && word[0] == '-' && std::string("0123456789.").find(word[1]) == std::string::npos;
+  };
+  std::string first;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (std::find(remaining.begin(), remaining.end(), word) == remaining.end()) continue;
+    if (first.empty()) first = word;
+    if (!is_option(word)) continue;
+    const std::string name = word.substr(0, word.find('='));
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& one : option->get_lnames()) known.push_back("--" + one);
+    const std::string near = nearest_name(name, known);
+    return "there is no option '" + name + "'" + (near.empty() ? std::string() : "; did you mean '" + near + "'?");
+  }
+  return "'" + (first.empty() ? remaining.front() : first) + "' is not expected";
+}
+
 }  // namespace
 
 Parsed parse(int argc, char** argv) {
@@ -259,9 +283,11 @@ Parsed parse(int argc, char** argv) {
     std::fputs((chosen.empty() ? app.help() : chosen.front()->help("carom")).c_str(), stdout);
     parsed.exit = done;
     return parsed;
-  } catch (const CLI::ExtrasError& error) {
-    const std::string word = app.get_subcommands().empty() ? unknown_word(app.remaining()) : std::string();
-    complain(word.empty() ? error.what() : word);
+  } catch (const CLI::ExtrasError&) {
+    const auto chosen = app.get_subcommands();
+    const std::string word = chosen.empty() ? unknown_word(app.remaining()) : std::string();
+    const bool before_it = !app.remaining().empty() || chosen.empty();
+    complain(word.empty() ? unknown_option(before_it ? app : *chosen.front(), argc, argv) : word);
     return parsed;
   } catch (const CLI::ParseError& error) {
     complain(error.what());
@@ -285,6 +311,8 @@ Parsed parse(int argc, char** argv) {
     complain("--resume takes the system from the archive: leave SYSTEM out");
   else if (options.per_trajectory && options.output.empty() && !resumes)
     complain("--per-trajectory writes to an archive: add -o FILE.h5");
+  else if (!options.checkpoint.empty() && options.output.empty() && !resumes && options.splitting.empty())
+    complain("--checkpoint writes to an archive: add -o FILE.h5");
   return parsed;
 }
 

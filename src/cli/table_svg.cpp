@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "carom/base/error.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "carom/geometry/hull.hpp"
 
@@ -31,10 +32,13 @@ struct View {
 };
 
 View view_of(const Table& table) {
-  View view;
-  view.box = geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
+  std::vector<geometry::Box> boxes;
+  for (const Wall& wall : table.walls) boxes.push_back(geometry::bounding_box(wall.curve));
   if (table.lattice)
-    for (const auto& edge : table.lattice->edges) view.box = hull(view.box, edge.segment.from);
+    for (const auto& edge : table.lattice->edges) boxes.push_back({edge.segment.from, edge.segment.from});
+  if (boxes.empty()) throw InputError("a table without walls cannot be drawn");
+  View view;
+  view.box = geometry::hull_of(boxes);
   const double size = std::max(view.box.high.x - view.box.low.x, view.box.high.y - view.box.low.y);
   view.scale = drawing_size / size;
   return view;

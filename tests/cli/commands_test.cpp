@@ -3,6 +3,7 @@
 
 #include <ostream>
 
+#include "carom/io/system_file.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -68,6 +69,27 @@ TEST(Table, MeasuresAndDraws) {
   EXPECT_EQ(json_value(open.out, "area"), "\"inf\"") << "no double holds it";
 }
 
+// Forces may act where no wall is: then the cell is drawn, or nothing.
+TEST(Table, DrawsEveryBuiltinSystem) {
+  const Shell shell;
+  for (const BuiltinSystem& system : builtin_systems()) {
+    const std::string name(system.name);
+    const Table table = *load_system(name).system.table;
+    const Outcome o = shell("$carom table " + name + " -o " + name + ".svg");
+    const bool drawable = !table.walls.empty() || table.lattice;
+    EXPECT_EQ(o.status, drawable ? 0 : 1) << name << ": " << o.err;
+    EXPECT_EQ(shell.exists(name + ".svg"), drawable) << name;
+    if (!drawable) {
+      EXPECT_NE(o.err.find("a table without walls cannot be drawn"), std::string::npos) << o.err;
+      continue;
+    }
+    const std::string svg = shell.read(name + ".svg");
+    EXPECT_EQ(svg.find("nan,"), std::string::npos) << name;
+    EXPECT_EQ(svg.find("inf,"), std::string::npos) << name;
+    EXPECT_EQ(svg.find("class=\"cell\"") != std::string::npos, table.lattice.has_value()) << name;
+  }
+}
+
 TEST(Escape, PrintsItsKeysAndOneDigest) {
   const Shell shell;
   const std::string command = "$carom escape magnetic-square --trajectories 2e3 --t-max 100 --json";
@@ -93,6 +115,17 @@ TEST(Escape, PrintsATable) {
   for (const char* part :
        {"500 trajectories", "p(t)", "95 % interval", "escaped", "survived", "hits/s", "digest"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part;
+}
+
+// A table of many times takes no longer than its lines.
+TEST(Escape, PrintsManyTimes) {
+  const Shell shell;
+  const Outcome o =
+      shell("timeout 20 $carom escape stadium --trajectories 10 --t-max 100 --times lin:0:100:300001 --quiet");
+  EXPECT_EQ(o.status, 0);
+  std::size_t intervals = 0;
+  for (std::size_t at = 0; (at = o.out.find(" .. ", at)) != std::string::npos; ++at) ++intervals;
+  EXPECT_EQ(intervals, 300001u + 300000u) << "of p at all times, of the rate but at the first, 0";
 }
 
 TEST(Escape, CountsAHoleAcrossTheStartOfAWallOnce) {
@@ -195,7 +228,20 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"$carom escape magnetic-square --set table.width", 2, "path.to.key=value"},
         Bad{"$carom escape magnetic-squar", 1, "did you mean 'magnetic-square'"},
         Bad{"$carom escape ./missing.toml", 1, "No such file"}, Bad{"$carom escape", 2, "SYSTEM is missing"},
-        Bad{"$carom escap sinai", 2, "did you mean 'escape'"}, Bad{"$carom escape sinai --fast", 2, "--fast"},
+        Bad{"$carom escap sinai", 2, "did you mean 'escape'"}, Bad{"$carom escape sinai --fast", 2, "'--fast'"},
+        Bad{"$carom escape stadium --trajectorie 10", 2, "'--trajectorie'; did you mean '--trajectories'?"},
+        Bad{"$carom escape stadium --trajectorie=10", 2, "'--trajectorie'; did you mean '--trajectories'?"},
+        Bad{"$carom escape --sead -5 stadium", 2, "'--sead'; did you mean '--seed'?"},
+        Bad{"$carom run stadium -p 1", 2, "'-p'"}, Bad{"$carom run stadium 7 8", 2, "'7' is not expected"},
+        Bad{"$carom --jsn", 2, "'--jsn'"}, Bad{"$carom --seed 1 escape stadium", 2, "'--seed'"},
+        Bad{"$carom escape stadium --splitting 10 --certify-sample 100", 1, "--certify-sample"},
+        Bad{"$carom escape stadium --splitting 10 --block 100", 1, "--block"},
+        Bad{"$carom escape stadium --splitting 10 --checkpoint 5", 1, "--checkpoint"},
+        Bad{"$carom escape stadium --certify-sample 10 --block 100", 1, "--block"},
+        Bad{"$carom escape stadium --checkpoint 5", 2, "--checkpoint"},
+        Bad{"$carom diffusion sinai --checkpoint 5", 2, "--checkpoint"},
+        Bad{"$carom escape stadium --splitting hits:1.5,2.5", 1, "not whole"},
+        Bad{"$carom escape three-disc --splitting hits:1,2 --population 1e9", 1, "memory"},
         Bad{"$carom escape sinai sinai", 2, "sinai"}, Bad{"$carom escape sinai --seed", 2, "--seed"},
         Bad{"$carom escape sinai --per-trajectory", 2, "-o FILE.h5"},
         Bad{"$carom escape sinai -o missing/a.h5", 1, "cannot write 'missing/a.h5'"},
