@@ -44,10 +44,11 @@ class Bound {
 
   /// At least the bound; infinity beyond the range of doubles.
   double to_double() const { return mag_get_d(x_); }
-  /// log2, to a few digits; hugely negative for zero.
+  /// log2, to nine digits; hugely negative for zero.
   double log2() const {
     if (mag_is_inf(x_) != 0) return HUGE_VAL;
-    return mag_is_zero(x_) != 0 ? -1e18 : mag_get_d_log2_approx(x_);
+    if (mag_is_zero(x_) != 0) return -1e18;
+    return fmpz_get_d(MAG_EXPREF(x_)) + std::log2(std::ldexp(static_cast<double>(MAG_MAN(x_)), -MAG_BITS));
   }
   mag_srcptr raw() const { return x_; }
   mag_ptr raw() { return x_; }

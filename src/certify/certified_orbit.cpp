@@ -199,8 +199,8 @@ class CertifiedOrbit::Implementation {
   double margin(double lost, double spread) const {
     const double all = std::sqrt(16.0 + spread * spread);
     const double room = 0.03 * lost + 28.0 + std::log2(hits_ + 1.0) - rounding_loss_;
-    // Another attempt has been paid for already: it has what the forecast says, at least.
-    return std::clamp(room - 1.65 * all, effort_.attempts > 0 ? 0.0 : -0.5 * all, 3.0 * all + 4.0);
+    // Another attempt has been paid for already: it has more than the forecast says.
+    return std::clamp(room - 1.65 * all, effort_.attempts > 0 ? 0.5 * all : -0.5 * all, 3.0 * all + 4.0);
   }
 
   // An attempt whose bits will hardly last is given up as soon as this is more likely to save time than not: what
