@@ -63,10 +63,11 @@ Meeting<N> meets_ellipse(const WallOf<N>& w, const VectorOf<N>& P, const VectorO
   const EllipseFlight<N> flight(larmor_form<N, N>(w, P, v, motion, standing),
                                 kappa_scale(w, v, motion.half_omega));
   for (const LarmorExit<N>& exit : LarmorExits<N>(flight.chords(), w.closed ? 1 : 5)) {
-    const Meeting<N> m =
-        meeting_at(flight.place(exit), exit.certain ? Verdict::yes : Verdict::undecided, w, P, v, motion);
+    const Kappa<N> k = flight.place(exit);
+    // It may leave there or anywhere later: whether on the arc there says nothing, and no time before the bracket's.
+    if (!exit.certain) return {Verdict::undecided, -(k.p / k.q)};
+    const Meeting<N> m = meeting_at(k, Verdict::yes, w, P, v, motion);
     if (m.verdict != Verdict::no) return m;
-    if (!exit.certain) return {Verdict::undecided, m.time};
   }
   return {};
 }

@@ -121,56 +121,43 @@ class First {
   void offer(const Meeting<N>& m, const Key& key) {
     if (m.verdict == Verdict::no) return;
     if (!passed_by_.empty() && std::find(passed_by_.begin(), passed_by_.end(), key) != passed_by_.end()) return;
-    if (m.verdict == Verdict::yes && (!found_ || sign(m.time - best_.time) == Sign::negative)) {
-      if (found_) keep(best_, best_key_);
+    const Sign order = found_ ? sign(m.time - best_.time) : Sign::negative;
+    if (order == Sign::positive) return;
+    if (m.verdict == Verdict::yes && order == Sign::negative) {  // what was the first comes later
       found_ = true;
       best_ = m;
       best_key_ = key;
     } else {
-      keep(m, key);
+      others_.push_back({m, key});
     }
   }
   bool found() const { return found_; }
-  /// Is this one among those that are kept?
+  /// Has this one been offered? Not of every one that is said: that only costs time. The copies of a wall along a flight
+  /// are offered again soon, so that the last ones tell.
   bool knows(const Key& key) const {
     if (found_ && best_key_ == key) return true;
-    for (int i = 0; i < others_; ++i)
-      if (other_keys_[i] == key) return true;
-    return false;
+    const auto last = others_.size() > 32 ? others_.end() - 32 : others_.begin();
+    return std::any_of(last, others_.end(), [&](const Other& other) { return other.key == key; });
   }
   const Key& key() const { return best_key_; }
   const N& time() const { return best_.time; }
   /// One that may come before the first, or null.
   const Key* rival() const {
-    for (int i = 0; i < others_; ++i)
-      if (!found_ || sign(others_at_[i].time - best_.time) != Sign::positive) return &other_keys_[i];
+    for (const Other& other : others_)
+      if (!found_ || sign(other.meeting.time - best_.time) != Sign::positive) return &other.key;
     return nullptr;
   }
 
  private:
-  void keep(const Meeting<N>& m, const Key& key) {
-    if (found_ && sign(m.time - best_.time) == Sign::positive) return;
-    if (others_ == most) {  // forget those that come later
-      int kept = 0;
-      for (int i = 0; i < others_; ++i) {
-        if (found_ && sign(others_at_[i].time - best_.time) == Sign::positive) continue;
-        others_at_[kept] = others_at_[i];
-        other_keys_[kept++] = other_keys_[i];
-      }
-      others_ = std::min(kept, most - 1);  // one of them is enough to say that nothing is decided
-    }
-    others_at_[others_] = m;
-    other_keys_[others_++] = key;
-  }
-
-  static constexpr int most = 16;
+  struct Other {
+    Meeting<N> meeting;
+    Key key;
+  };
   const std::vector<Key>& passed_by_;
   bool found_ = false;
   Meeting<N> best_;
   Key best_key_{};
-  int others_ = 0;
-  Meeting<N> others_at_[most];
-  Key other_keys_[most];
+  std::vector<Other> others_;  ///< undecided, or not known to come later; seldom any
 };
 
 }  // namespace carom::certify

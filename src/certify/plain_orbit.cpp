@@ -1,5 +1,7 @@
 #include "carom/certify/plain_orbit.hpp"
 
+#include <algorithm>
+
 #include "carom/base/error.hpp"
 #include "certify/attempt.hpp"
 #include "certify/exact_value.hpp"
@@ -24,6 +26,12 @@ static Plain time_at(const Kappa<Plain>& k, const MotionOf<Plain>& motion) {
 static void sin_cos(Plain& sin, Plain& cos, const Plain& angle) {
   mpfr_sin_cos(sin.raw(), cos.raw(), angle.raw(), MPFR_RNDN);
 }
+
+/// Exits as near to each other as their numbers can tell: the distance of two roots is that of a root from rounding.
+template <>
+struct IsolationEffort<Plain> {
+  int deepest = static_cast<int>(std::max<mpfr_prec_t>(mpfr_get_default_prec() / 2, 25));
+};
 
 }  // namespace certify
 
