@@ -1,8 +1,10 @@
 // carom run: one trajectory, of one or several particles.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
@@ -70,6 +72,21 @@ void refuse_going_back(const System& system, const StoredRun& stored) {
   }
 }
 
+// The archive stays as it is, and the result is printed again; that nothing was added must be said.
+void say_if_ended(const StoredRun& stored) {
+  const auto ended = [](const ParticleProgress& p) {
+    return p.fate == Fate::escaped || p.fate == Fate::unbounded || p.fate == Fate::singular || p.fate == Fate::lost;
+  };
+  if (!std::all_of(stored.particles.begin(), stored.particles.end(), ended)) return;
+  const Fate fate = stored.particles.front().fate;
+  const bool same = std::all_of(stored.particles.begin(), stored.particles.end(),
+                                [&](const ParticleProgress& p) { return p.fate == fate; });
+  const std::string how = same && fate == Fate::escaped ? "escaped"
+                          : same                        ? fmt::format("ended ({})", name_of(fate))
+                                                        : "ended";
+  fmt::print(stderr, "carom: the orbit has already {}: nothing to go on with\n", how);
+}
+
 }  // namespace
 
 int run(const Options& options) {
@@ -99,6 +116,7 @@ int run(const Options& options) {
                        "a new run");
     how.resume = stored.particles;
     refuse_going_back(loaded.system, stored);
+    say_if_ended(stored);
     if (output.empty()) output = options.resume;
     archive = RunArchive::extend(options.resume, output, loaded, provenance_of(options, loaded.system, 1),
                                  options.force);

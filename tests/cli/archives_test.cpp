@@ -102,6 +102,17 @@ TEST(RunArchive, GoesOnAsIfNeverStopped) {
   EXPECT_NE(back.err.find("a later time"), std::string::npos) << back.err;
 }
 
+TEST(RunArchive, SaysThatThereIsNothingToGoOnWith) {
+  const Shell shell;
+  shell("$carom run stadium --collisions 1000 -o gone.h5");
+  const Outcome more = shell("$carom run --resume gone.h5 --collisions 2000 --json");
+  EXPECT_EQ(more.status, 0);
+  EXPECT_EQ(json_value(more.out, "status"), "\"escaped\"");
+  EXPECT_NE(more.err.find("the orbit has already escaped: nothing to go on with"), std::string::npos) << more.err;
+  shell("$carom run sinai --collisions 100 -o here.h5");
+  EXPECT_EQ(shell("$carom run --resume here.h5 --collisions 200 --json").err, "");
+}
+
 TEST(RunArchive, SurvivesCtrlC) {
   const Shell shell;
   const Outcome o = shell(
