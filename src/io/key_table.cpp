@@ -178,12 +178,17 @@ const std::vector<KeyDescription>& key_table() {
 }
 
 std::string key_table_markdown() {
+  // There may be several of these, each under [[its name]].
+  const auto heading = [](std::string_view section) {
+    const bool list = section == "table.hole" || section == "table.loop" || section == "injection" || section == "potential";
+    return list ? fmt::format("[[{}]]", section) : std::string(section);
+  };
   std::string page;
   std::string_view section = "none";
   for (const KeyDescription& key : key_table()) {
     if (key.section != section) {
       section = key.section;
-      page += section.empty() ? "### Above all sections\n\n" : fmt::format("\n### {}\n\n", section);
+      page += section.empty() ? "### Above all sections\n\n" : fmt::format("\n### {}\n\n", heading(section));
       page += "| key | for | type | default | meaning |\n|---|---|---|---|---|\n";
     }
     std::string kinds(key.kind);
