@@ -15,7 +15,16 @@ Time multiple(double k, double step) {
   return Time(high, std::fma(k, step, -high));
 }
 
+namespace {
+
+/// Whole numbers of steps are counted in a double, k + 1 too.
+constexpr double most_steps = 0x1p52;
+bool too_late(const Time& now, double step) { return !(now.value() / step < most_steps); }
+
+}  // namespace
+
 Time next_multiple(const Time& now, double step) {
+  if (too_late(now, step)) return Time(std::numeric_limits<double>::infinity());
   double k = std::floor(now.value() / step);
   while (multiple(k, step) > now) k -= 1.0;
   while (!(multiple(k, step) > now)) k += 1.0;
@@ -85,6 +94,11 @@ Time Group::step_end(const Time& limit) const {
 
 const Group::Next& Group::predict(const Time& limit) {
   next_ = {};
+  if (in_.plan.step > 0.0 && too_late(time_, in_.plan.step)) {
+    whole_step_ = false;
+    next_.fault = "more than 2^52 steps lie behind it, and the next cannot be counted; a longer step goes farther";
+    return next_;
+  }
   const Phase<double>& from = splits_ ? begin_drift(limit) : phase_;
   if (!splits_) path_end_ = step_end(limit);
   const double rest = std::clamp(path_end_ - time_, 0.0, std::numeric_limits<double>::max());

@@ -119,7 +119,7 @@ class Group final : public ForceLaw<double> {
 
 /// The instant k * step.
 Time multiple(double k, double step);
-/// The multiple of the step that comes next after `now`.
+/// The multiple of the step that comes next after `now`; infinite where 2^52 steps or more lie behind it.
 Time next_multiple(const Time& now, double step);
 /// The middle of a lattice's cell.
 geometry::Vector centre_of_cell(const geometry::Lattice&);

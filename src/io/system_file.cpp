@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/single_run.hpp"
 #include "io/overrides.hpp"
 #include "io/read.hpp"
 
@@ -66,6 +67,18 @@ std::string text_of_file(const std::string& name) {
   return text.str();
 }
 
+// Steps end at the multiples of the step, which are counted in doubles. A run until its cap on hits may ask for
+// any last time: it ends there if it comes so far.
+void check_number_of_steps(const Value& root, const System& system) {
+  constexpr double most = 0x1p52;
+  const double step = system.dynamics.integrator.step, t_max = system.run.t_max;
+  if (!(step > 0.0) || t_max >= no_last_time || t_max / step < most) return;
+  throw InputError(root.find("run")->find("t_max")->place,
+                   "t_max = " + io::shown(t_max) + " is " + io::shown(t_max / step) + " steps of " + io::shown(step) +
+                       ": steps are counted up to 2^52",
+                   "t_max below " + io::shown(step * most) + ", or a longer step");
+}
+
 std::string text_of_builtin(const std::string& name) {
   std::vector<std::string> names;
   for (const BuiltinSystem& system : builtin_systems()) {
@@ -101,6 +114,7 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   if (!system.dynamics.forces->empty()) system.energies = io::read_energies(root, system.particles.size());
   system.initial = io::read_initial(root, *table, system.particles);
   system.run = io::read_run(root);
+  check_number_of_steps(root, system);
   system.injections = io::read_injections(root, *table, system.particles, system.run.t_max);
   if (!system.dynamics.forces->empty()) refuse_injections(system, "a system with forces");
   if (!radii.empty()) refuse_injections(system, "a system of hard discs");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "events/group.hpp"
 #include "lanes/soft_engine.hpp"
@@ -27,6 +28,8 @@ class SoftLanes::Implementation {
 
   bool run(const Particle& kind, std::span<Walk> walks, double t_end, std::span<const double> times,
            const Sample& sample, const std::function<bool()>& interrupted) {
+    if (!(next_multiple(Time(t_end), engine_.step()) < Time(std::numeric_limits<double>::infinity())))
+      throw std::invalid_argument("a last time beyond 2^52 steps");
     engine_.set_kind(kind);
     for (std::size_t first = 0; first < walks.size(); first += SoftPack::lanes) {
       const std::size_t count = std::min<std::size_t>(SoftPack::lanes, walks.size() - first);

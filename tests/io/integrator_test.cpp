@@ -44,6 +44,13 @@ TEST(Integrator, FaultsAreAtTheirPlaces) {
   EXPECT_HAS(fault(square("[integrator]\nstepp = 1\n")), "did you mean 'step'?");
 }
 
+TEST(Integrator, StepsAreCountedInDoubles) {
+  const std::string text = well + "[integrator]\nstep = 1e-6\n";
+  EXPECT_HAS(fault(text + "[run]\nt_max = 1e10\n"),
+             "line 7, column 9: run.t_max: t_max = 1e+10 is 1e+16 steps of 1e-06: steps are counted up to 2^52");
+  EXPECT_EQ(read(text + "[run]\nt_max = 1e9\n").run.t_max, 1e9);
+}
+
 TEST(Integrator, WallsInsideTheDrifts) {
   const std::string split = well + "[integrator]\nstep = 0.01\nwalls = \"split\"\n";
   EXPECT_HAS(fault(split), "line 6, column 9: integrator.walls: walls can be split off only where every drift");
