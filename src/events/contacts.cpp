@@ -109,15 +109,23 @@ void Contacts::first_contact(int i, int j, const Time& now, const Time& until) {
   // The nearest copy is at most half a cell's diameter away: farther copies only as far as they are reached.
   const Vector rest = separation(d, {}, near);
   const double reach = (a.radius + b.radius + way) * (1.0 + 0x1p-40);
-  const double longest = std::max(length(lattice_->first), length(lattice_->second));
-  const double most = std::floor((reach + length(rest)) * longest / lattice_->cell_area());
-  const std::int64_t range = static_cast<std::int64_t>(most);
-  for (std::int64_t m = -range; m <= range; ++m)
-    for (std::int64_t n = -range; n <= range; ++n) {
-      const Vector e = separation(rest, {}, {m, n});
+  // Row by row along the shortest lattice vector p, as far as a row comes near enough: e = rest - m p - n q.
+  // What may lie in reach by rounding is asked too; the distance decides.
+  const Vector p = lattice_->translation(along_), q = lattice_->translation(beyond_);
+  const double p2 = dot(p, p), width = std::sqrt(p2), area = geometry::cross(p, q);
+  const double row = geometry::cross(p, rest) / area, rows = reach * width / std::fabs(area);
+  for (double n = std::floor(row - rows); n <= row + rows + 1.0; ++n) {
+    const Vector r = rest - n * q;
+    const double off = geometry::cross(p, r) / width, middle = dot(r, p) / p2;
+    const double half = std::sqrt(std::max((reach - off) * (reach + off), 0.0)) / width;
+    for (double m = std::floor(middle - half); m <= middle + half + 1.0; ++m) {
+      const auto k = static_cast<std::int64_t>(m), l = static_cast<std::int64_t>(n);
+      const Cell by{k * along_.first + l * beyond_.first, k * along_.second + l * beyond_.second};
+      const Vector e = separation(rest, {}, by);
       if (!(dot(e, e) <= reach * reach)) continue;
-      try_copy(i, j, start, {near.first + m, near.second + n}, end);
+      try_copy(i, j, start, {near.first + by.first, near.second + by.second}, end);
     }
+  }
 }
 
 void Contacts::predict(int i, const Time& now) {
@@ -189,7 +197,8 @@ int Contacts::bin_of(Vector x) const {
 void Contacts::anchor(int i, const Time& now) {
   Disc& a = disc(i);
   if (!binned_) {
-    a.check = horizon_ < infinity ? std::max(now, a.time) + horizon_ : Time(infinity);
+    const double ahead = a.speed > 0.0 ? std::max(horizon_, spacing_ / a.speed) : infinity;
+    a.check = ahead < infinity ? std::max(now, a.time) + ahead : Time(infinity);
     return;
   }
   leave(i);
@@ -223,6 +232,7 @@ void Contacts::choose_bins(const Time& now) {
     high = {std::max(high.x, x.x), std::max(high.y, x.y)};
   }
   binned_ = false;
+  spacing_ = count > 0 ? std::max(high.x - low.x, high.y - low.y) / std::sqrt(count) : 0.0;
   if (count < 16) return;
   double across = high.x - low.x, up = high.y - low.y;
   if (lattice_ != nullptr) {
@@ -255,7 +265,19 @@ bool Contacts::tell_partner(int i) {
   return true;
 }
 
-Contacts::Contacts(const geometry::Lattice* lattice) : lattice_(lattice), unique_(largest_radius()) {}
+Contacts::Contacts(const geometry::Lattice* lattice) : lattice_(lattice), unique_(largest_radius()) {
+  if (lattice == nullptr) return;
+  // Two neighbours of a cell side by side are a basis.
+  const std::vector<geometry::CellEdge>& edges = lattice->edges;
+  double shortest = infinity;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const double l = length(lattice->translation(edges[k].beyond));
+    if (!(l < shortest)) continue;
+    shortest = l;
+    along_ = edges[k].beyond;
+    beyond_ = edges[(k + 1) % edges.size()].beyond;
+  }
+}
 
 void Contacts::prepare(const Time& now) {
   double omega = 0.0;

@@ -88,11 +88,13 @@ class Contacts {
   std::vector<int> partners_;  ///< apart, for those who look for theirs
   bool binned_ = false;
   double slack_ = 0.0;
-  double horizon_ = 0.0;  ///< unbinned: how far ahead one looks
+  /// Unbinned: how far ahead one looks, in time, and in a disc's own way if that takes longer.
+  double horizon_ = 0.0, spacing_ = 0.0;
   int columns_ = 0, rows_ = 0;
   geometry::Vector low_;               ///< without a lattice: corner of the bins
   double width_ = 0.0, height_ = 0.0;  ///< … and their sizes
   double unique_ = 0.0;                ///< half the shortest lattice vector
+  geometry::Cell along_, beyond_;      ///< a basis: that vector and one to the next row
   std::vector<std::vector<int>> bins_;
 };
 

@@ -113,6 +113,116 @@ double first_fall(const Gap& gap, double a, double b, int depth) {
   return first < no_contact ? first : first_fall(gap, middle, b, depth - 1);
 }
 
+/// Is the gap positive on [a, b] for certain?
+bool clear(const Gap& gap, double a, double b, int depth) {
+  const double h = 0.5 * (b - a), middle = a + h;
+  const Gap::At m = gap.at(middle);
+  if (!(m.gap > 0.0)) return false;
+  if (m.gap - std::fabs(m.rate) * h - 0.5 * gap.curvature(m, h) * h * h > 0.0) return true;
+  if (depth == 0 || !(middle > a && middle < b)) return false;
+  return clear(gap, a, middle, depth - 1) && clear(gap, middle, b, depth - 1);
+}
+
+double length(Vector v) { return std::sqrt(dot(v, v)); }
+
+/// What bounds say of a pair whose omegas differ, so that most strides need not be looked at. Each disc is
+/// |v/omega| away from its guiding centre, which rests; one without omega is its own centre and goes straight
+/// on. The bounds leave room for the rounding of what they are made of and of the gap itself, so that a
+/// stride that is left out is one in which no contact would have been found.
+class Guides {
+ public:
+  Guides(const PairFlight& pair, double reach) : apart_(pair.separation) {
+    const auto add = [this](Vector v, double omega, double side) {
+      if (omega == 0.0) {
+        velocity_ = side * v;
+        return 0.0;
+      }
+      apart_ = apart_ + (side / omega) * geometry::right(v);
+      return length(v) / std::fabs(omega);
+    };
+    const double first = add(pair.first, pair.first_omega, 1.0);
+    const double second = add(pair.second, pair.second_omega, -1.0);
+    const double size = length(pair.separation) + length(apart_) + first + second + reach;
+    margin_ = 64.0 * geometry::unit_roundoff * size;
+    near_ = reach + first + second + margin_;
+    const double first_speed = length(pair.first), second_speed = length(pair.second);
+    rounding_ = 4.0 * geometry::unit_roundoff * (first_speed + second_speed);
+    const double omega = std::fabs(pair.first_omega), other = std::fabs(pair.second_omega);
+    if (omega > other)
+      find_period(omega, other, first, second_speed);
+    else
+      find_period(other, omega, second, first_speed);
+  }
+
+  /// When the centres are near enough for a contact, |apart + velocity t| <= near: from a time until another,
+  /// or never.
+  struct Interval {
+    double from = 0.0, until = no_contact;
+  };
+  Interval near() const {
+    const double v2 = dot(velocity_, velocity_), d2 = dot(apart_, apart_);
+    const double gap = d2 - near_ * near_, b = dot(apart_, velocity_);
+    if (!(v2 > 0.0)) return gap > 0.0 ? Interval{0.0, 0.0} : Interval{};
+    // As in time_to_contact. `near` is larger than need be by more than the rounding of all this, but for
+    // that of the last operations.
+    const double speed = std::sqrt(v2), across = geometry::cross(apart_, velocity_);
+    const double discriminant = (near_ * speed - across) * (near_ * speed + across);
+    if (gap > 0.0 && (b >= 0.0 || discriminant <= 0.0)) return {0.0, 0.0};
+    if (!(discriminant >= 0.0)) return {};  // no numbers
+    const double root = std::sqrt(discriminant), late = (root - b) / v2;
+    const double rounding = 0x1p-40 * (root + std::fabs(b)) / v2;
+    return {gap > 0.0 ? std::max(gap / (root - b) - rounding, 0.0) : 0.0, late + rounding};
+  }
+
+  double period() const { return period_; }
+  bool periodic() const { return drift_ == 0.0; }
+  /// How much nearer than at a time in the period after t, as it is computed, the discs can be any number of
+  /// whole periods later, until t + ahead.
+  double shift(double t, double ahead) const { return drift_ * ahead + rounding_ * t + margin_; }
+  /// After which the shift is more than any contact is away from any other.
+  double longest() const { return 2.0 * near_ / drift_; }
+  /// The contact of a disc on a line with one whose circle is too small to be seen.
+  double with_centre(double reach) const { return time_to_contact(apart_, velocity_, 0.0, reach); }
+
+ private:
+  /// After a turn of the faster disc it is back, and the other has moved, by its speed times the time at
+  /// most. Or, after some turns of the slower disc, that is back and the faster one is nearly: there is a
+  /// shift by the part of a turn that is missing. Whichever drifts least.
+  void find_period(double fast, double slow, double radius, double slow_speed) {
+    constexpr double turn = 6.283185307179586;
+    period_ = turn / fast;
+    drift_ = slow_speed;
+    for (double q = 1.0; q * fast <= 256.0 * slow && drift_ > 0.0; ++q) {
+      const double whole = std::floor(q * (fast / slow) + 0.5);
+      double missing = std::fabs(std::fma(q, fast / slow, -whole));
+      // Ratios of charges and masses come rounded. What would take 2^40 turns to show is not looked for.
+      missing = missing <= 0x1p-40 * whole ? 0.0 : missing + 0x1p-52 * whole;
+      const double period = q * (turn / slow), drift = turn * missing * radius / period;
+      if (!(drift < drift_)) continue;
+      period_ = period;
+      drift_ = drift;
+    }
+  }
+
+  Vector apart_, velocity_{};  ///< of the centres: first less second
+  double near_ = 0.0, margin_ = 0.0, rounding_ = 0.0;
+  double period_ = 0.0, drift_ = 0.0;
+};
+
+/// How long from t on there is certainly no contact: a period without one is followed by others, until the
+/// drift has used up what was left between the discs in it.
+double free_time(const PairFlight& pair, double reach, const Guides& guides, double t, double until) {
+  double ahead = std::min(until - t, guides.longest());
+  for (; ahead > 8.0 * guides.period(); ahead *= 0.125) {
+    const Gap wide(pair, reach + guides.shift(t, ahead));
+    const double stride = wide.stride(), strides = std::ceil(guides.period() / stride) + 1.0;
+    double i = 0.0;
+    while (i < strides && clear(wide, t + i * stride, t + (i + 1.0) * stride, 12)) ++i;
+    if (i == strides) return ahead;
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 double enclosed_time_to_contact(const PairFlight& pair, double reach, double until) {
@@ -127,10 +237,40 @@ double enclosed_time_to_contact(const PairFlight& pair, double reach, double unt
   return no_contact;
 }
 
+double guided_time_to_contact(const PairFlight& pair, double reach, double until, std::int64_t* strides) {
+  const Gap gap(pair, reach);
+  const Gap::At start = gap.at(0.0);
+  if (start.gap <= 0.0 && start.rate < 0.0) return 0.0;
+  if (!(dot(pair.first, pair.first) + dot(pair.second, pair.second) > 0.0)) return no_contact;
+  const Guides guides(pair, reach);
+  const Guides::Interval near = guides.near();
+  until = std::min(until, near.until);
+  const double stride = gap.stride(), round = guides.period() / stride;
+  // The stride that holds a time, and one more for its rounding.
+  const auto stride_at = [stride](double t) { return std::max(std::floor(t / stride) - 1.0, 0.0); };
+  double k = stride_at(near.from), in_vain = 0.0;
+  while (k * stride < until) {
+    if (in_vain > round) {
+      if (guides.periodic()) return no_contact;
+      in_vain = 0.0;
+      const double t = k * stride;
+      k = std::max(k, stride_at(t + free_time(pair, reach, guides, t, until)));
+    }
+    if (strides != nullptr) ++*strides;
+    const double a = k * stride, b = (k + 1.0) * stride;
+    if (!(b > a)) return std::max(guides.with_centre(reach), a);  // so many turns that their phase is none
+    const double t = first_fall(gap, a, b, 60);
+    if (t < no_contact) return t;
+    ++k;
+    ++in_vain;
+  }
+  return no_contact;
+}
+
 double time_to_contact(const PairFlight& pair, double reach, double until) {
   if (pair.first_omega == pair.second_omega)
     return time_to_contact(pair.separation, pair.first - pair.second, pair.first_omega, reach);
-  return enclosed_time_to_contact(pair, reach, until);
+  return guided_time_to_contact(pair, reach, until);
 }
 
 ElasticContact elastic_contact(Vector d, Vector first, Vector second, double first_mass, double second_mass) {

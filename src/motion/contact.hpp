@@ -1,6 +1,7 @@
 // When two discs in free flight touch, and what their contact does to their velocities.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "carom/geometry/vector.hpp"
@@ -26,6 +27,10 @@ double time_to_contact(const PairFlight& pair, double reach, double until);
 double time_to_contact(geometry::Vector separation, geometry::Vector v, double omega, double reach);
 /// Isolation by enclosure, for any omega: also the witness of the closed form.
 double enclosed_time_to_contact(const PairFlight& pair, double reach, double until);
+/// The same contacts for unequal omega, without the strides that bounds exclude: see
+/// docs/physics/hard-discs.md. `strides`: counts those that were looked at.
+double guided_time_to_contact(const PairFlight& pair, double reach, double until,
+                              std::int64_t* strides = nullptr);
 
 /// Velocities after an elastic contact along the line of centres, and the size of the momentum that was
 /// exchanged. Equal masses in a line exchange their velocities exactly. Afterwards separation . (v_1 - v_2)

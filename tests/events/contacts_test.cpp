@@ -205,6 +205,65 @@ TEST(Contacts, NobodyOverlapsOnATorus) {
   }
 }
 
+// However many turns lie between the contacts, no disc passes through another.
+TEST(Contacts, OfDiscsThatTurnDifferentlyInAStrongField) {
+  const Table box = square(), sheet = plane(), periodic = torus({1, 0}, {0, 1});
+  for (const Table* table : {&box, &sheet, &periodic}) {
+    for (const double field : {30.0, 1e4, 1e6}) {
+      RandomStream random(21, Purpose::initial_state, 0);
+      std::vector<Disc> discs;
+      const double charges[] = {1, -1, 2, 0, 0, 0.1, 0.3};
+      int k = 0;
+      for (const double charge : charges) {
+        const Vector x{0.15 + 0.3 * (k % 3) + 0.05 * random.uniform(), 0.15 + 0.3 * (k / 3) + 0.05 * random.uniform()};
+        const Vector centre = table == &periodic ? Vector{-0.5, -0.5} : Vector{};
+        discs.push_back(disc_at(x + centre, {random.symmetric(), random.symmetric()}, 0.08, 1.0, charge * field));
+        ++k;
+      }
+      Gas gas(*table, discs);
+      const double energy = gas.energy();
+      ContactRecorder seen;
+      for (double t = 0.125; t <= 5.0; t += 0.125) {
+        gas.world.run_until(t, seen);
+        for (int i = 0; i < gas.world.size(); ++i)
+          for (int j = 0; j < i; ++j) {
+            const State a = gas.world.state_at(i, t), b = gas.world.state_at(j, t);
+            const geometry::Cell c{a.cell.first - b.cell.first, a.cell.second - b.cell.second};
+            Vector d = a.position - b.position;
+            if (table->lattice) {
+              d = d + table->lattice->translation(c);
+              d = d - Vector{std::round(d.x), std::round(d.y)};
+            }
+            EXPECT_GT(std::sqrt(dot(d, d)), 0.16 - 1e-12) << field;
+          }
+      }
+      EXPECT_GT(seen.contacts.size(), table == &sheet ? 0u : 5u) << field;
+      EXPECT_TRUE(std::all_of(seen.ends.begin(), seen.ends.end(), [](const EndEvent& e) {
+        return e.fate != Fate::lost && e.fate != Fate::singular;
+      }));
+      EXPECT_NEAR(gas.energy() / energy, 1.0, 1e-12);
+    }
+  }
+}
+
+// The same lattice by vectors of which one is long and nearly along the other.
+TEST(Contacts, DoNotDependOnTheVectorsOfALattice) {
+  const Table straight = torus({1, 0}, {0, 1});
+  for (const Table& table : {torus({1, 0}, {200, 1}), torus({1, 200}, {0, 1}), torus({1, 1}, {3, 4})}) {
+    const std::vector<Disc> discs = square_gas(2, 1.0, 0.15, 7);
+    Gas expected(straight, discs), gas(table, discs);
+    ContactRecorder all, seen;
+    expected.world.run_until(2.0, all);
+    gas.world.run_until(2.0, seen);
+    ASSERT_GT(all.contacts.size(), 5u);
+    ASSERT_EQ(seen.contacts.size(), all.contacts.size());
+    for (std::size_t i = 0; i < all.contacts.size(); ++i) {
+      EXPECT_EQ(seen.contacts[i].first, all.contacts[i].first);
+      EXPECT_NEAR(seen.contacts[i].time.value(), all.contacts[i].time.value(), 1e-9);
+    }
+  }
+}
+
 TEST(Contacts, OverlapsAreRefused) {
   const Table table = torus({1, 0}, {0, 1});
   EXPECT_THROW(Gas(table, {disc_at({-0.4, 0}, {1, 0}, 0.125), disc_at({0.4, 0.1}, {1, 0}, 0.125)}),

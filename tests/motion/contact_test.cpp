@@ -121,6 +121,66 @@ TEST(Contact, OfUnequalLarmorFlightsAgainstDenseSampling) {
   EXPECT_GT(contacts, 50);
 }
 
+// The plain search looks at every stride.
+TEST(Contact, BoundsLeaveOutNoContactOfThePlainSearch) {
+  RandomStream random(11, Purpose::initial_state, 0);
+  std::int64_t contacts = 0, strides = 0, plain = 0;
+  for (int i = 0; i < 2000; ++i) {
+    // Any two; one that flies straight; turns in nearly or exactly whole ratios.
+    const double omega = std::ldexp(random.symmetric(), i % 7);
+    double other = 3.0 * random.symmetric();
+    if (i % 5 == 0) other = 0.0;
+    if (i % 5 == 1) other = -omega;
+    if (i % 5 == 2) other = 2.0 * omega * (1.0 + (i % 2) * std::ldexp(random.symmetric(), -(i % 40)));
+    if (i % 5 == 3) other = 1.5 * omega * (1.0 + (i % 2) * std::ldexp(random.symmetric(), -(i % 40)));
+    PairFlight p = random_pair(random, omega, other);
+    if (i % 3 == 0) p.separation = std::ldexp(1.0, i % 11) * p.separation;
+    if (i % 11 == 0) p.second = std::ldexp(1.0, -(i % 13)) * p.second;
+    if (i % 17 == 0) p.second = {};
+    const double until = 100.0, t = guided_time_to_contact(p, 1.0, until, &strides);
+    const double expected = enclosed_time_to_contact(p, 1.0, until);
+    plain += static_cast<std::int64_t>(std::min(expected, until) * std::max(std::fabs(omega), std::fabs(other)));
+    if (expected < until) {
+      ++contacts;
+      EXPECT_EQ(t, expected) << i;
+    } else {
+      EXPECT_GE(t, until) << i;
+    }
+  }
+  EXPECT_GT(contacts, 200);
+  EXPECT_LT(strides, plain / 4);
+}
+
+TEST(Contact, IsFoundInAnyFieldInABoundedNumberOfStrides) {
+  RandomStream random(12, Purpose::initial_state, 0);
+  for (const double field : {1e3, 1e6, 1e9, 1e14, 1e20, 1e300}) {
+    std::int64_t strides = 0;
+    int contacts = 0;
+    for (int i = 0; i < 400; ++i) {
+      double omega = field, other = i % 4 == 0 ? 0.0 : (i % 4 == 1 ? -1.0 : (i % 4 == 2 ? 2.0 : 0.7)) * field;
+      if (i % 8 > 3) std::swap(omega, other);
+      PairFlight p = random_pair(random, omega, other);
+      const bool straight = omega == 0.0 || other == 0.0;
+      if (!straight) p.separation = (1.0 / field) * p.separation;  // as near as their circles are
+      const double reach = straight ? 1.0 : 1.0 / field, until = 1e3;
+      const double t = guided_time_to_contact(p, reach, until, &strides);
+      // A circle that is so small is a point: the line meets it as one at rest.
+      if (straight && field > 1e6) {
+        (omega == 0.0 ? p.second : p.first) = {};
+        const double at_rest = time_to_contact(p.separation, p.first - p.second, 0.0, reach);
+        if (at_rest < no_contact) {
+          EXPECT_NEAR(t, at_rest, 1e-4 * (1.0 + at_rest)) << field;
+        } else {
+          EXPECT_EQ(t, no_contact);
+        }
+      }
+      contacts += t < until;
+    }
+    EXPECT_GT(contacts, 100) << field;
+    EXPECT_LT(strides, 400 * 3000) << field;
+  }
+}
+
 TEST(Contact, DoesNotDependOnWhoAsks) {
   RandomStream random(5, Purpose::initial_state, 0);
   for (int i = 0; i < 500; ++i) {
