@@ -11,10 +11,13 @@ Kernels ellipse_kernels_of(const LaneTable& t) {
   // None but ellipses; or anything.
   const bool pure = !t.segments && !t.circles && t.pieces <= LaneTable::eight;
   const Advance mixed = kernel<Kind<turn, false, true, true, Reach::all, false, true>>;
-  constexpr bool walk = turn == 0;  // along the joints of a convex table
-  const Advance anywhere = pure && t.convex == walk ? kernel<Kind<turn, walk, false, false, Reach::eight, false, true>> : mixed;
-  const bool alone = t.convex && t.pieces == 1;
-  return {alone ? kernel<Kind<turn, true, false, false, Reach::eight, false, true, true>> : anywhere, anywhere, width};
+  if (t.convex && t.pieces == 1) return {kernel<Kind<turn, true, false, false, Reach::eight, false, true, true>>, mixed, width};
+  if constexpr (turn == 0) {  // along the joints of a convex table
+    return {pure && t.convex ? kernel<Kind<0, true, false, false, Reach::eight, false, true>> : mixed, mixed, width};
+  } else {
+    const Advance anywhere = pure && !t.convex ? kernel<Kind<turn, false, false, false, Reach::eight, false, true>> : mixed;
+    return {anywhere, anywhere, width};
+  }
 }
 
 Kernels ellipse_kernels_of(const LaneTable& t, Turn turn) {

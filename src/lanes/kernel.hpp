@@ -57,7 +57,7 @@ INLINE Real number_of(const double* numbers, const Real& piece) {
 
 /// Where a line meets a conic: at (-along ± root of `discriminant`) / square.
 struct Cut {
-  Real along, square, discriminant;
+  Real along, square, discriminant, inverse;  // 1/square, nearly
 };
 
 #include "lanes/ellipse.hpp"
@@ -119,6 +119,7 @@ Advance kernel_of(const LaneTable& t) {
   if (t.pieces > LaneTable::eight) return kernel<Kind<turn, convex, true, true, Reach::few>>;
   if (!t.circles) return kernel<Kind<turn, convex, true, false, Reach::eight>>;
   if constexpr (turn == 0) {
+    if (convex && t.pieces == 1) return kernel<Kind<turn, convex, false, true, Reach::eight, false, false, convex>>;
     if (!t.segments) return kernel<Kind<turn, convex, false, true, Reach::eight>>;
   }
   return kernel<Kind<turn, convex, true, true, Reach::eight>>;
@@ -134,7 +135,7 @@ Kernels kernels_of(const LaneTable& t) {
   const Advance anywhere = kernel_of<turn, false>(t);
   if (!t.convex) return {anywhere, anywhere, width};
   const Advance on_walls = kernel_of<turn, true>(t);
-  return {on_walls, turn == 0 ? on_walls : anywhere, width};
+  return {on_walls, anywhere, width};
 }
 
 /// The kernels of a table without ellipses. A template, that it be made only where it is asked for.

@@ -104,7 +104,8 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   }
   const geometry::EnergyShell<Real> shell{load(pack.shell_weight + lane), load(pack.shell_rest + lane)};
   now.velocity = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, shell));
-  const Real inner = bent ? met.into * dot(normal, now.velocity) : t.size * dot(normal, now.velocity);
+  // The reflection turns the normal component about, to rounding.
+  const Real inner = bent ? -met.into * dot(v, normal) : -t.size * dot(v, normal);
   const Mask inward = inner > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);
   const auto [high, low] = later(load(pack.high + lane), load(pack.low + lane), duration);
   now.high = high;

@@ -47,7 +47,7 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
     if constexpr (larmor)
       choice = Kind::convex ? exit_of_loop_by_circle<Kind::turn, Kind>(f) : first_of_all_by_circle<Kind::turn, Kind>(f);
     else
-      choice = Kind::convex ? exit_of_loop(f) : first_of_all<Kind::ellipses>(f);
+      choice = Kind::convex ? exit_of_loop<Kind>(f) : first_of_all<Kind::ellipses>(f);
     known = Real(1.0);
     if constexpr (!Kind::convex && !larmor) where(choice.piece < 0.0, known) = Real(t.open ? -1.0 : 0.0);
   }

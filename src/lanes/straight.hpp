@@ -23,26 +23,23 @@ struct Line {
   }
 };
 
-/// A convex loop alone: between a joint on the right and the next one on the left, or, with all joints on one
-/// side, through the arc that the particle stands on (meet_by_line sees that it is one).
+/// A convex loop alone, from a piece of it: along the walls, to the left of which the table lies, come first the joints on the
+/// right of the flight, then its exit. So that lies as many pieces on as there are joints on the right; with none or all of them, on the
+/// piece itself, which is an arc then.
+template <class Kind>
 INLINE Choice exit_of_loop(const View& f) {
   const LaneTable& t = f.table;
-  if (t.pieces == 1) return {Real(0.0), Mask(true), Real(0.0)};
-  Real piece = f.start_piece;
+  if constexpr (Kind::single) return {Real(0.0), Mask(true), Real(0.0)};
   const Line line(f);
-  const Real first = line.side(t.joint_x[0], t.joint_y[0]);
-  Real least = first;
-  const Mask first_right = first < 0.0;
-  Mask right = first_right;
-  for (int i = 1; i < t.pieces; ++i) {
+  Real piece = f.start_piece, least(__builtin_huge_val());
+  for (int i = 0; i < t.pieces; ++i) {
     const Real side = line.side(t.joint_x[i], t.joint_y[i]);
     least = least_size(least, side);
-    const Mask now = side < 0.0;
-    where(right && !now, piece) = Real(counted[i - 1]);
-    right = now;
+    where(side < 0.0, piece) = piece + 1.0;
   }
-  where(right && !first_right, piece) = Real(counted[t.pieces - 1]);
-  return {piece, abs(least) > f.sides && piece >= 0.0, Real(0.0)};
+  const Real pieces(t.pieces);
+  where(piece >= pieces, piece) = piece - pieces;
+  return {piece, least > f.sides && f.start_piece >= 0.0, Real(0.0)};
 }
 
 /// Any table: the earliest of all exits, and whether it comes certainly first and later than now.
@@ -51,10 +48,8 @@ class Earliest {
   INLINE explicit Earliest(const View& f)
       : decided_(true), piece_(-1.0), best_(never), second_(never), margin_(f.order) {}
 
-  /// After `time`/`unit`.
-  INLINE void add(int piece, const Mask& leaves, const Real& time, const Real& unit) {
-    Real at = time / unit;
-    where(!(leaves && at > -margin_), at) = never;
+  INLINE void add(int piece, const Mask& leaves, const Real& when) {
+    const Real at = choose(leaves && when > -margin_, when, Real(never));
     second_ = min(second_, max(best_, at));
     where(at < best_, piece_) = Real(counted[piece]);
     best_ = min(best_, at);
@@ -71,35 +66,38 @@ class Earliest {
   Real margin_;  // of two times
 };
 
-INLINE Cut cut_of_circle(const View& f, const Line& line, int i) {
+INLINE Cut cut_of_circle(const View& f, const Line& line, const Real& inverse, int i) {
   const LaneTable& t = f.table;
   const Real aside = line.side(t.point_x[i], t.point_y[i]);
-  return {-line.ahead(t.point_x[i], t.point_y[i]), f.square_speed, fused(aside, -aside, t.second_number[i] * f.square_speed)};
+  return {-line.ahead(t.point_x[i], t.point_y[i]), f.square_speed,
+          fused(aside, -aside, t.second_number[i] * f.square_speed), inverse};
 }
 
-/// A conic or an arc of it, between joints of which each lies on the right of the line or not. A particle leaves by the
-/// later cut if the domain is inside, else by the earlier one.
-struct SideOfJoint {
-  Real side;
-  Mask right;
-};
-INLINE void add_conic(Earliest& best, const View& f, const Line& line, int i, const SideOfJoint* a, const SideOfJoint* b,
-                      const Cut& cut) {
-  const LaneTable& t = f.table;
-  const Mask stands = f.start_wall == Real(t.wall[i]), met = cut.discriminant > f.roots;
-  const bool inside = t.orientation[i] > 0.0;
-  Mask leaves = inside ? Mask(true) : !stands;
-  if (a) {
-    // With both joints on one side: if the foot of the centre lies beyond the chord, on the arc's side; or from the arc.
-    const Mask same = a->right == b->right;
-    const Real foot = fused(cut.square, line.cross_of_ends(t, i), cut.along * (b->side - a->side));
-    best.doubt(same && !stands && abs(foot) <= f.roots && cut.discriminant > -f.roots);
-    const Mask twice = !stands && (inside ? foot < 0.0 : foot > 0.0), own = f.start_piece == Real(counted[i]);
-    leaves = leaves && ((a->right && !b->right) || (same && (inside ? twice || own : twice)));
-  }
-  best.doubt(leaves && !met && cut.discriminant > -f.roots);
+/// A closed conic, or an arc of one between joints on these sides of the line (below 0: on its right). A particle leaves by
+/// the later cut if the domain is inside, else by the earlier one.
+template <bool inside>
+INLINE void add_cut(Earliest& best, const View& f, int i, const Mask& leaves, const Cut& cut) {
+  best.doubt(leaves && abs(cut.discriminant) <= f.roots);
   const Real root = sqrt(max(cut.discriminant, Real(0.0)));
-  best.add(i, leaves && met, (inside ? root : -root) - cut.along, cut.square);
+  best.add(i, leaves && cut.discriminant > f.roots, ((inside ? root : -root) - cut.along) * cut.inverse);
+}
+template <bool inside>
+INLINE void add_closed(Earliest& best, const View& f, int i, const Cut& cut) {
+  add_cut<inside>(best, f, i, inside ? Mask(true) : f.start_wall != Real(f.table.wall[i]), cut);
+}
+template <bool inside>
+INLINE void add_arc(Earliest& best, const View& f, int i, const Real& cross_of_ends, const Real& a, const Real& b, const Cut& cut) {
+  // With both joints on one side: if the foot of the centre lies beyond the chord, on the arc's side; or from the arc.
+  const Real foot = fused(cut.square, cross_of_ends, cut.along * (b - a));
+  const Mask crosses = a < 0.0 && b >= 0.0, away = f.start_wall != Real(f.table.wall[i]);
+  const Mask same = (a < 0.0) == (b < 0.0), open = same && away;
+  best.doubt(open && abs(foot) <= f.roots && cut.discriminant > -f.roots);
+  if constexpr (inside) {
+    const Mask own = f.start_piece == Real(counted[i]);
+    add_cut<inside>(best, f, i, crosses || (same && own) || (open && foot < 0.0), cut);
+  } else {
+    add_cut<inside>(best, f, i, (crosses && away) || (open && foot > 0.0), cut);
+  }
 }
 
 template <bool ellipses = false>
@@ -107,29 +105,36 @@ INLINE Choice first_of_all(const View& f) {
   const LaneTable& t = f.table;
   Earliest best(f);
   const Line line(f);
-  const auto cut_of = [&](int i) { return ellipses && t.ellipses.of[i] ? cut_of_ellipse(f, i) : cut_of_circle(f, line, i); };
+  const Real inverse = nearly_inverse(f.square_speed);
+  const auto cut_of = [&](int i) {
+    return ellipses && t.ellipses.of[i] ? cut_of_ellipse(f, i) : cut_of_circle(f, line, inverse, i);
+  };
   Real least(__builtin_huge_val());
   for (int loop = 0; loop < t.loops; ++loop) {
     const int first = t.first[loop], last = first + t.count[loop] - 1;
     if (t.closed[first]) {
-      add_conic(best, f, line, first, nullptr, nullptr, cut_of(first));
+      if (t.orientation[first] > 0.0)
+        add_closed<true>(best, f, first, cut_of(first));
+      else
+        add_closed<false>(best, f, first, cut_of(first));
       continue;
     }
     const auto joint = [&](int i) {
       const Real side = line.side(t.joint_x[i], t.joint_y[i]);
       least = least_size(least, side);
-      return SideOfJoint{side, side < 0.0};
+      return side;
     };
-    const SideOfJoint start = joint(first);
-    SideOfJoint a = start;
+    const Real start = joint(first);
+    Real a = start;
     for (int i = first; i <= last; ++i) {
-      const SideOfJoint b = i == last ? start : joint(i + 1);
-      if (t.bent[i]) {
-        add_conic(best, f, line, i, &a, &b, cut_of(i));
-      } else {
-        const Mask crosses = a.right && !b.right;
-        best.add(i, crosses, line.cross_of_ends(t, i), b.side - a.side);
-      }
+      const Real b = i == last ? start : joint(i + 1);
+      const Real cross_of_ends = line.cross_of_ends(t, i);
+      if (!t.bent[i])
+        best.add(i, a < 0.0 && b >= 0.0, cross_of_ends * nearly_inverse(b - a));
+      else if (t.orientation[i] > 0.0)
+        add_arc<true>(best, f, i, cross_of_ends, a, b, cut_of(i));
+      else
+        add_arc<false>(best, f, i, cross_of_ends, a, b, cut_of(i));
       a = b;
     }
   }
@@ -151,7 +156,7 @@ INLINE Where meet_by_line(const View& f, const Met& met) {
     where(met.stands, a) = Real(0.0);
     where(met.stands, root) = abs(b);
     const Real n = abs(b) + root;
-    const Mask away = -met.orientation * b <= 0.0;
+    const Mask away = Kind::convex ? b >= 0.0 : -met.orientation * b <= 0.0;
     time = choose(away, -met.orientation * a, n);
     unit = choose(away, n, met.orientation * f.square_speed);
     decided = met.stands || discriminant > f.roots;
@@ -159,8 +164,7 @@ INLINE Where meet_by_line(const View& f, const Met& met) {
   }
   if constexpr (Kind::segments) {
     const Vector tangent{met.first, met.second};
-    const Real across = cross(tangent, e), along = -cross(tangent, v);
-    if constexpr (Kind::convex) decided = decided && !(met.stands && !met.bent);
+    const Real across = cross(tangent, e), along = cross(v, tangent);
     time = Kind::circles ? choose(met.bent, time, across) : across;
     unit = Kind::circles ? choose(met.bent, unit, along) : along;
   }
