@@ -27,7 +27,7 @@ INLINE Cut cut_of_ellipse(const View& f, int i) {
   const auto q = geometry::ellipse_quadratic(f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])}, f.velocity,
                                              {Real(all.axis_x[i]), Real(all.axis_y[i])}, Real(all.along[i]), Real(all.across[i]));
   const Real square = shrink * q.c;
-  return {shrink * q.b, square, (shrink * shrink) * fused(q.b, q.b, -(q.a * q.c)), nearly_inverse(square)};
+  return {shrink * q.b, square, (shrink * shrink) * fused(q.b, q.b, -(q.a * q.c)), 1.0 / square};
 }
 
 /// Time of the flight to an ellipse, as a fraction.

@@ -105,7 +105,7 @@ INLINE Choice first_of_all(const View& f) {
   const LaneTable& t = f.table;
   Earliest best(f);
   const Line line(f);
-  const Real inverse = nearly_inverse(f.square_speed);
+  const Real inverse = 1.0 / f.square_speed;
   const auto cut_of = [&](int i) {
     return ellipses && t.ellipses.of[i] ? cut_of_ellipse(f, i) : cut_of_circle(f, line, inverse, i);
   };
@@ -130,7 +130,7 @@ INLINE Choice first_of_all(const View& f) {
       const Real b = i == last ? start : joint(i + 1);
       const Real cross_of_ends = line.cross_of_ends(t, i);
       if (!t.bent[i])
-        best.add(i, a < 0.0 && b >= 0.0, cross_of_ends * nearly_inverse(b - a));
+        best.add(i, a < 0.0 && b >= 0.0, nearly_quotient(cross_of_ends, b - a));
       else if (t.orientation[i] > 0.0)
         add_arc<true>(best, f, i, cross_of_ends, a, b, cut_of(i));
       else

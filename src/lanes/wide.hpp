@@ -44,13 +44,13 @@ INLINE Real fused(const Real& a, const Real& b, const Real& c) {
   return a * b + c;
 #endif
 }
-/// 1/x, a share of 2^-26 off or less: for choices alone; |x| far from the ends of the doubles' range.
-INLINE Real nearly_inverse(const Real& x) {
+/// p/q, a share of 2^-26 off or less: for choices alone; |q| far from the ends of the doubles' range.
+INLINE Real nearly_quotient(const Real& p, const Real& q) {
 #if defined(__AVX512F__)
-  const Real rough(_mm512_rcp14_pd(static_cast<__m512d>(x)));
-  return fused(rough, fused(-x, rough, Real(1.0)), rough);
+  const Real rough(_mm512_rcp14_pd(static_cast<__m512d>(q)));
+  return p * fused(rough, fused(-q, rough, Real(1.0)), rough);
 #else
-  return 1.0 / x;
+  return p / q;
 #endif
 }
 /// The smaller one of two sizes.
