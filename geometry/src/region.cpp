@@ -7,6 +7,7 @@
 #include <memory>
 #include <tuple>
 
+#include "carom/geometry/lattice_copies.hpp"
 #include "contact.hpp"
 #include "exact_loop.hpp"
 #include "overlapping_boxes.hpp"
@@ -33,7 +34,11 @@ class Check {
     if (faults_.none())
       for (const Loop& loop : loops_) check_closed(loop, faults_);
     if (faults_.none()) {
-      place_boxes();
+      find_boxes();
+      if (kind_ == RegionKind::lattice && lattice_ && !loops_.empty()) find_copies();
+    }
+    if (faults_.none()) {
+      place_items();
       meetings();
       if (!faults_.any(Kind::crossing)) orientations();
       if (faults_.none()) nesting();
@@ -44,50 +49,57 @@ class Check {
  private:
   using Kind = RegionFault::Kind;
 
-  void place_boxes() {
-    Box whole{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-    for (std::size_t l = 0; l < loops_.size(); ++l) {
-      loop_boxes_.push_back(whole_of(loops_[l]));
-      whole.low = {std::fmin(whole.low.x, loop_boxes_[l].low.x),
-                   std::fmin(whole.low.y, loop_boxes_[l].low.y)};
-      whole.high = {std::fmax(whole.high.x, loop_boxes_[l].high.x),
-                    std::fmax(whole.high.y, loop_boxes_[l].high.y)};
-    }
-    if (kind_ == RegionKind::lattice && lattice_ && !loops_.empty()) find_copies(whole);
+  void find_boxes() {
+    for (const Loop& loop : loops_) loop_boxes_.push_back(whole_of(loop));
+    if (!loop_boxes_.empty()) whole_ = hull_of(loop_boxes_);
+  }
+
+  void place_items() {
+    items_.clear();
+    boxes_.clear();
     for (std::size_t copy = 0; copy < copies_.size(); ++copy)
       for (std::size_t l = 0; l < loops_.size(); ++l)
         for (std::size_t p = 0; p < loops_[l].size(); ++p) {
           const Box box = bounding_box(loops_[l][p].curve);
-          const Box there = copy == 0 ? box : moved(box, lattice_->translation(copies_[copy]));
-          if (copy != 0 && !overlap(there, whole)) continue;
+          const Box there = copy == 0 ? box : moved(box, translation(copy));
+          if (copy != 0 && !overlap(there, whole_)) continue;
           items_.push_back({l, p, copy});
           boxes_.push_back(there);
         }
   }
 
   Box whole_of(const Loop& loop) const {
-    Box whole{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-    for (const NamedCurve& c : loop) {
-      const Box b = bounding_box(c.curve);
-      whole.low = {std::fmin(whole.low.x, b.low.x), std::fmin(whole.low.y, b.low.y)};
-      whole.high = {std::fmax(whole.high.x, b.high.x), std::fmax(whole.high.y, b.high.y)};
-    }
-    return whole;
+    return hull_of(loop, [](const NamedCurve& c) { return bounding_box(c.curve); });
   }
 
-  /// Half of the cells that could bring something of the whole onto itself: c and -c tell the same.
-  void find_copies(const Box& whole) {
-    const Vector a = lattice_->first, b = lattice_->second, size = whole.high - whole.low;
-    const double area = lattice_->cell_area();
-    const auto count = [&](Vector other) {
-      return 1.0 + std::floor((size.x * std::fabs(other.y) + size.y * std::fabs(other.x)) / area);
+  Vector translation(std::size_t copy) const { return displacement(*lattice_, copies_[copy]); }
+
+  /// Half of the cells that could bring something of the whole onto itself: c and -c tell the same. Obstacles that
+  /// are wide for their cell meet the nearest copies, too: these are asked first, so that the others need not be
+  /// counted one by one.
+  void find_copies() {
+    std::size_t pieces = 0;
+    for (const Loop& loop : loops_) pieces += loop.size();
+    const std::size_t most = std::clamp<std::size_t>((std::size_t{1} << 20) / pieces, 64, 65536);
+    const auto add = [&](const Cell& c) {
+      if (c.first < 0 || (c.first == 0 && c.second <= 0)) return;
+      if (overlap(moved(whole_, displacement(*lattice_, c)), whole_)) copies_.push_back(c);
     };
-    const auto first = static_cast<std::int64_t>(count(b)), second = static_cast<std::int64_t>(count(a));
-    for (std::int64_t i = 0; i <= first; ++i)
-      for (std::int64_t j = -second; j <= second; ++j) {
-        if (i == 0 && j <= 0) continue;
-        if (overlap(moved(whole, lattice_->translation({i, j})), whole)) copies_.push_back({i, j});
-      }
+    const auto all = cells_that_reach(*lattice_, whole_, whole_, most);
+    if (!all || all->size() > 256) {
+      for (const CellEdge& e : lattice_->edges) add(e.beyond);
+      place_items();
+      meetings();
+      if (!faults_.none()) return;
+      copies_.resize(1);
+    }
+    if (!all) {
+      faults_.add(Kind::crossing, loops_[0][0].name, "", whole_.low,
+                  "the obstacles spread over more than " + std::to_string(most) +
+                      " cells of the lattice: too many copies could meet");
+      return;
+    }
+    for (const Cell& c : *all) add(c);
   }
 
   DyadicVector shift(std::size_t copy) const {
@@ -141,7 +153,7 @@ class Check {
     ExactCurve moved_second{Curve(second)};
     moved_second.centre = moved_second.centre + shift(b.copy);
     const Discs how = compare_discs(ExactCurve(Curve(first)), moved_second);
-    const Vector there = second.centre + (b.copy == 0 ? Vector{} : lattice_->translation(copies_[b.copy]));
+    const Vector there = second.centre + (b.copy == 0 ? Vector{} : translation(b.copy));
     const Vector between = there - first.centre;
     const double distance = std::sqrt(dot(between, between));
     // Where the common chord cuts the line of the centres, and half of that chord.
@@ -285,7 +297,7 @@ class Check {
   }
 
   void copies_inside(std::size_t copy) {
-    const Vector by = lattice_->translation(copies_[copy]);
+    const Vector by = translation(copy);
     for (std::size_t a = 0; a < loops_.size(); ++a) {
       if (is_disc({a, 0, 0})) continue;  // discs among themselves: told by their distance
       for (std::size_t b = 0; b < loops_.size() && !faults_.full(); ++b) {
@@ -316,6 +328,7 @@ class Check {
   std::vector<Cell> copies_{Cell{}};
   std::vector<Item> items_;
   std::vector<Box> boxes_, loop_boxes_;
+  Box whole_;
   std::vector<std::size_t> turning_left_;
   std::optional<std::size_t> outer_;
   std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<ExactLoop>> exact_;

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/base/error.hpp"
 #include "carom/geometry/hull.hpp"
+#include "carom/geometry/lattice_copies.hpp"
 #include "events/next_hit.hpp"
 
 namespace carom {
@@ -99,15 +101,9 @@ void HitFinder::add_walls(Cell offset, bool complement, const std::vector<int>& 
 /// edges, with the rounding of this comparison on the safe side.
 std::vector<HitFinder::Images> HitFinder::images() const {
   const Lattice& lattice = *table_.lattice;
-  double cell_size = 0.0, wall_size = 0.0;
+  double cell_size = 0.0;
   for (const CellEdge& e : lattice.edges)
     cell_size = std::max(cell_size, std::sqrt(dot(e.segment.from, e.segment.from)));
-  for (const PreparedCurve& c : curves_) wall_size = std::max(wall_size, 2.0 * c.extent);
-  const double area = lattice.cell_area();
-  const double longest = std::sqrt(std::max(dot(lattice.first, lattice.first), dot(lattice.second, lattice.second)));
-  // |m a + n b| >= max(|m|, |n|) area / longest: beyond this no wall reaches the cell.
-  const int range = static_cast<int>(std::ceil((cell_size + wall_size) * longest / area)) + 1;
-
   struct Edge {
     Vector from, direction;
     double length;
@@ -139,31 +135,38 @@ std::vector<HitFinder::Images> HitFinder::images() const {
     return false;
   };
 
+  std::vector<Images> found;
+  if (table_.walls.empty()) return found;
   std::vector<Box> boxes;
   for (const Wall& wall : table_.walls) boxes.push_back(bounding_box(wall.curve));
-  Box whole = boxes.empty() ? Box{} : boxes.front();
-  for (const Box& box : boxes) whole = hull(whole, box);
-  std::vector<Images> found;
-  for (int m = -range; m <= range; ++m)
-    for (int n = -range; n <= range; ++n) {
-      if (m == 0 && n == 0) continue;
-      const Vector t = lattice.translation({m, n});
-      if (outside(whole, 0.5 * wall_size, t)) continue;
-      Images images{{m, n}, {}};
-      std::vector<bool> done(table_.walls.size(), false);
-      for (std::size_t first = 0; first < table_.walls.size(); ++first) {
-        if (done[first]) continue;
-        bool reaches = false;
-        for (std::size_t i = first; !done[i]; i = at(table_.walls[i].next)) {
-          done[i] = true;
-          const PreparedCurve& c = curves_[i];
-          if (reaches) continue;
-          reaches = c.kind == CurveKind::circle ? !circle_outside(c, t) : !outside(boxes[i], c.extent, t);
-        }
-        if (reaches) images.loops.push_back(static_cast<int>(first));
+  double wall_size = 0.0;
+  for (const PreparedCurve& c : curves_) wall_size = std::max(wall_size, 2.0 * c.extent);
+  const Box whole = hull_of(boxes);
+  const Box cell = hull_of(lattice.edges, [](const CellEdge& e) { return Box{e.segment.from, e.segment.from}; });
+  constexpr std::size_t most = 65536;
+  const auto copies = cells_that_reach(lattice, whole, cell, most);
+  if (!copies)
+    throw InputError("copies of the walls and supports from more than " + std::to_string(most) +
+                     " cells of the lattice reach into one: the table is too wide for its lattice");
+  for (const Cell& cell_of_copy : *copies) {
+    if (cell_of_copy == Cell{}) continue;
+    const Vector t = displacement(lattice, cell_of_copy);
+    if (outside(whole, 0.5 * wall_size, t)) continue;
+    Images images{cell_of_copy, {}};
+    std::vector<bool> done(table_.walls.size(), false);
+    for (std::size_t first = 0; first < table_.walls.size(); ++first) {
+      if (done[first]) continue;
+      bool reaches = false;
+      for (std::size_t i = first; !done[i]; i = at(table_.walls[i].next)) {
+        done[i] = true;
+        const PreparedCurve& c = curves_[i];
+        if (reaches) continue;
+        reaches = c.kind == CurveKind::circle ? !circle_outside(c, t) : !outside(boxes[i], c.extent, t);
       }
-      if (!images.loops.empty()) found.push_back(std::move(images));
+      if (reaches) images.loops.push_back(static_cast<int>(first));
     }
+    if (!images.loops.empty()) found.push_back(std::move(images));
+  }
   return found;
 }
 

@@ -1,8 +1,10 @@
 // Discs: Sinai's billiard, Lorentz gases, discs in the open plane, and [lattice].
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 
 #include "carom/geometry/hull.hpp"
+#include "carom/geometry/lattice_copies.hpp"
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
@@ -12,12 +14,35 @@ namespace {
 using geometry::Circle;
 using geometry::Vector;
 
+std::string shown(Vector v) {
+  char text[64];
+  std::snprintf(text, sizeof text, "[%.9g, %.9g]", v.x, v.y);
+  return text;
+}
+
+// Cells are counted along the vectors as written. Where these are far longer than the lattice needs, the next
+// cell has large numbers, and displacements are differences of much larger ones.
+void refuse_long_vectors(const geometry::Lattice& lattice, const Place& place) {
+  constexpr std::int64_t most = 1024;
+  const auto large = [](std::int64_t n) { return n > most || n < -most; };
+  if (std::none_of(lattice.edges.begin(), lattice.edges.end(),
+                   [&](const geometry::CellEdge& e) { return large(e.beyond.first) || large(e.beyond.second); }))
+    return;
+  const auto [first, second] = geometry::shortest_cells(lattice);
+  throw InputError(place,
+                   "the lattice vectors are more than " + std::to_string(most) +
+                       " times as long as it needs, or nearly parallel",
+                   "shorter vectors of the same lattice: " + shown(geometry::displacement(lattice, first)) + " and " +
+                       shown(geometry::displacement(lattice, second)));
+}
+
 void set_lattice(Table& table, Vector first, Vector second, Vector centre, const Place& place) {
   try {
     table.lattice = geometry::make_lattice(first, second, centre);
   } catch (const std::invalid_argument&) {
     throw InputError(place, "the lattice vectors are parallel or zero", "two vectors that span the plane");
   }
+  refuse_long_vectors(*table.lattice, place);
   table.extent = Extent::lattice;
 }
 

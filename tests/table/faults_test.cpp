@@ -79,6 +79,12 @@ TEST(Faults, LatticesMustSpanThePlaneAndLeadSomewhere) {
   spec.points["centers"] = {at("0", "0")};
   spec.lattice = LatticeSpec{at("3", "0"), at("6", "0"), Place{"test.toml", 30, 5, "lattice.vectors"}};
   EXPECT_HAS(fault(spec), "test.toml, line 30, column 5: lattice.vectors: the lattice vectors are parallel");
+  spec.numbers.insert_or_assign("radius", exact("0.2"));
+  spec.lattice = LatticeSpec{at("1", "0"), at("10000.25", "1"), Place{"test.toml", 30, 5, "lattice.vectors"}};
+  EXPECT_HAS(fault(spec), "lattice.vectors: the lattice vectors are more than 1024 times as long as it needs");
+  EXPECT_HAS(fault(spec), "shorter vectors of the same lattice: [1, 0] and [0.25, 1]");
+  spec.lattice = LatticeSpec{at("1", "0"), at("1000.25", "1"), {}};
+  EXPECT_EQ(fault(spec), "no fault");
   TableSpec closed = shape("circle", {{"radius", "1"}});
   closed.lattice = LatticeSpec{at("3", "0"), at("0", "3"), {}};
   EXPECT_HAS(fault(closed), "closed by its walls");
