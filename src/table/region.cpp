@@ -35,7 +35,8 @@ geometry::RegionKind kind_of(Extent extent) {
   return geometry::RegionKind::lattice;
 }
 
-// Where the wall was written: its corner, centre or piece if it has one, else the table.
+}  // namespace
+
 Place place_of_wall(const TableSpec& spec, const Table& table, const std::string& name) {
   const int index = table.wall_index(name);
   if (index < 0) return spec.place;
@@ -50,8 +51,6 @@ Place place_of_wall(const TableSpec& spec, const Table& table, const std::string
   }
   return spec.place;
 }
-
-}  // namespace
 
 void check_region(const TableSpec& spec, const Table& table) {
   const auto faults = geometry::check_region(loops_of(table), kind_of(table.extent), table.lattice, 3);

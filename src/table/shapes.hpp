@@ -53,6 +53,11 @@ void path(const TableSpec& spec, Table& table);
 /// Turns the holes' arc lengths into parameters.
 void add_holes(const TableSpec& spec, Table& table);
 
+/// Are arcs bent enough for hits in doubles? docs/physics/exactness.md, Flat arcs.
+void refuse_flat_arcs(const TableSpec& spec, const Table& table);
+/// Where a wall was written: its corner, centre or piece if it has one, else the table.
+Place place_of_wall(const TableSpec& spec, const Table& table, const std::string& name);
+
 /// Is the table a region: closed, simple, oriented, obstacles inside and apart? Exact.
 void check_region(const TableSpec& spec, const Table& table);
 

@@ -171,7 +171,7 @@ Shaped bowl(const std::string& size, bool mirrored) {
 /// A box with a flat or deep arc below and a piece of an ellipse above.
 Shaped box(const std::string& size, Dice& dice) {
   Shaped s = path(size, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-  const double flat[] = {-0.1, -1e-6, 1e-6, 0.1, -1e-3};
+  const double flat[] = {-0.1, -1e-5, 1e-5, 0.1, -1e-3};
   const char* ratio[] = {"1/2", "1/30", "20", "3/4", "1/1000"};
   bend(s, 0, size, 0.5, flat[dice.whole(0, 4)], "", "");
   bend(s, 2, size, 0.45, dice.coin() ? 1.2 : 0.9, ratio[dice.whole(0, 4)], dice.coin() ? "0" : "0.3");
