@@ -22,7 +22,7 @@ std::string table(double side, double at, double bulge, const char* ellipse) {
   const double end = at + side, middle = at + 0.5 * side, dip = at - bulge * side;
   std::snprintf(text, sizeof text,
                 "[table]\nshape = \"path\"\n[[table.loop]]\nstart = [\"%.17g\", \"%.17g\"]\n"
-                "pieces = [{%s_via = [\"%.17g\", \"%.17g\"], %s_to = [\"%.17g\", \"%.17g\"]%s,\n"
+                "pieces = [{%s_via = [\"%.17g\", \"%.17g\"], %s_to = [\"%.17g\", \"%.17g\"]%s, "
                 "name = \"floor\"}, {line_to = [\"%.17g\", \"%.17g\"]},\n"
                 "{line_to = [\"%.17g\", \"%.17g\"]}, {line_to = [\"%.17g\", \"%.17g\"]}]\n",
                 at, at, *ellipse ? "ellipse" : "arc", middle, dip, *ellipse ? "ellipse" : "arc", end, at, ellipse, end, end,
