@@ -163,8 +163,11 @@ INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int
   store(aside + so_far, c.aside + lane);
   Real known = choose(begin.certain && way_of(cell) + 2.0 * t.steps <= LaneTable::farthest_cell, Real(-1.0), Real(0.0));
   // The disc of this cell was asked for, but by those that begin off it.
-  const Mask begins = f.start_wall < 0.0 && cell.first == 0.0 && cell.second == 0.0 && known < 0.0;
-  if (any_of(begins)) [[unlikely]] where(begins, known) = meets_disc(f, aside, line.ahead(t.point_x[0], t.point_y[0]), f.roots);
+  const Mask off = f.start_wall < 0.0;
+  if (any_of(off)) [[unlikely]] {
+    const Mask begins = off && cell.first == 0.0 && cell.second == 0.0 && known < 0.0;
+    where(begins, known) = meets_disc(f, aside, line.ahead(t.point_x[0], t.point_y[0]), f.roots);
+  }
   store(known, c.known + lane);
 }
 
@@ -173,7 +176,7 @@ template <int edges>
 INLINE Real cross_edges(const View& f, const Crossings& c, CellOf& cell, int lane) {
   constexpr int forward = edges / 2;
   const LaneTable& t = f.table;
-  Real jump[forward], crossed[forward], side[forward - 1];
+  Real jump[forward], side[forward - 1], crossed[forward], edges_crossed(0.0);
   for (int i = 0; i < forward; ++i) {
     jump[i] = load(c.jump[i] + lane);
     crossed[i] = Real(0.0);
@@ -184,18 +187,15 @@ INLINE Real cross_edges(const View& f, const Crossings& c, CellOf& cell, int lan
   Mask meets = known > 0.0, under_way = known < 0.0;
   for (int step = 0; step < t.steps; ++step) {
     Real least = side[0], by = jump[forward - 1];
-    Mask left[forward];  // which edge
-    left[forward - 1] = Mask(true);
-    for (int i = forward - 2; i >= 0; --i) {
+    Mask here = under_way;  // not by an edge before
+    for (int i = 0; i + 1 < forward; ++i) {
       if (i > 0) least = least_size(least, side[i]);
-      left[i] = side[i] > 0.0;
-      where(left[i], by) = jump[i];
+      const Mask left = side[i] > 0.0;
+      where(here && left, crossed[i]) = crossed[i] + 1.0;
+      if (i + 2 < forward) here = here && !left;
     }
-    Mask rest = under_way;
-    for (int i = 0; i < forward; ++i) {
-      where(rest && left[i], crossed[i]) = crossed[i] + 1.0;
-      rest = rest && !left[i];
-    }
+    for (int i = forward - 2; i >= 0; --i) where(side[i] > 0.0, by) = jump[i];
+    where(under_way, edges_crossed) = edges_crossed + 1.0;
     under_way = under_way && abs(least) > f.sides;
     aside = aside + by;
     for (Real& s : side) s = s + by;
@@ -203,6 +203,8 @@ INLINE Real cross_edges(const View& f, const Crossings& c, CellOf& cell, int lan
     meets = meets || (under_way && discriminant > roots);
     under_way = under_way && discriminant < -roots;
   }
+  crossed[forward - 1] = edges_crossed;
+  for (int i = 0; i + 1 < forward; ++i) crossed[forward - 1] = crossed[forward - 1] - crossed[i];
   Real edge = load(c.edge + lane);
   for (int i = 0; i < forward; ++i) {
     if (i > 0) edge = next_edge(edge, edges);

@@ -35,7 +35,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   constexpr bool larmor = Kind::turn != 0;
   View f = view_of<Kind>(t, pack, lane);
   if constexpr (Kind::cells) f.origin = {load(stages.start_x + lane), load(stages.start_y + lane)};
-  const Real piece = load(stages.piece + lane), known = load(stages.known + lane), duration = load(stages.duration + lane);
+  const Real piece = chosen<Kind>(stages, lane), known = load(stages.known + lane), duration = load(stages.duration + lane);
   Vector way, v = f.velocity;
   if constexpr (larmor) {
     const auto factors = geometry::flight_factors(load(stages.kappa + lane), f.omega, Real(0.5));
@@ -145,7 +145,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   for (; waiting != 0; waiting &= waiting - 1) {
     const int i = __builtin_ctz(waiting), at = lane + i;
     const unsigned bit = 1u << i;
-    pack.met[pack.calls] = {stages.piece[at], stages.high[at], stages.low[at]};
+    pack.met[pack.calls] = {Kind::single ? 0.0 : stages.piece[at], stages.high[at], stages.low[at]};
     pack.lane[pack.calls] = at;
     pack.call[pack.calls++] = (gone & bit) != 0      ? Call::unbounded
                               : (certain & bit) == 0 ? Call::undecided

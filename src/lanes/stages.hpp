@@ -53,7 +53,7 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
   }
   where(!choice.decided, known) = Real(0.0);
   store(known, stages.known + lane);
-  store(max(choice.piece, Real(0.0)), stages.piece + lane);
+  if constexpr (!Kind::single) store(max(choice.piece, Real(0.0)), stages.piece + lane);
   if constexpr (larmor && !Kind::convex) store(choice.kappa, stages.kappa + lane);
 }
 
@@ -68,11 +68,16 @@ INLINE void choose_cells(const LaneTable& t, const LanePack& pack, Stages& stage
     store(cross_edges<edges>(view_of<Kind>(t, pack, lane), crossings, cell, lane), stages.known + lane);
     store(cell.first, stages.cell_first + lane);
     store(cell.second, stages.cell_second + lane);
-    store(Real(0.0), stages.piece + lane);
   }
 }
 
-/// What is needed of a piece.
+/// The piece that was chosen.
+template <class Kind>
+INLINE Real chosen(const Stages& stages, int lane) {
+  return Kind::single ? Real(0.0) : load(stages.piece + lane);
+}
+
+/// What is needed of it.
 template <class Kind>
 INLINE Met met_by(const View& f, const Real& piece) {
   const LaneTable& t = f.table;
@@ -98,7 +103,7 @@ INLINE void meet(const LaneTable& t, const LanePack& pack, Stages& stages, int l
     store(f.origin.x, stages.start_x + lane);
     store(f.origin.y, stages.start_y + lane);
   }
-  const Met met = met_by<Kind>(f, load(stages.piece + lane));
+  const Met met = met_by<Kind>(f, chosen<Kind>(stages, lane));
   Where at;
   if constexpr (Kind::turn != 0)
     at = meet_by_circle<Kind>(f, met);
