@@ -8,6 +8,7 @@
 #include "certify/attempt.hpp"
 #include "certify/enclosure_of.hpp"
 #include "certify/exact_value.hpp"
+#include "certify/system_check.hpp"
 
 namespace carom {
 
@@ -72,6 +73,7 @@ class CertifiedOrbit::Implementation {
     if (task.collisions == 0 && !task.t_max)
       throw InputError(Place{}, "a certified orbit without an end", "a number of collisions or a last time");
     check_field();
+    certify::check_system(system_);
     // A first attempt of few bits sees the table and the start, and looks ahead.
     const certify::Attempt scout(system_, task_, ties_, 128, reading_bits_);
     effort_.rescaled = scout.rescaled();
@@ -185,13 +187,9 @@ class CertifiedOrbit::Implementation {
 
   // A flight from inside a bounded table meets a wall, and a Larmor circle comes back to a wall that it has left.
   void check_domain() const {
-    const Extent extent = system_.table->extent;
-    if (attempt_->hits() == 0) {
-      if (extent == Extent::bounded && !turns_)
-        throw InputError(system_.start.position.x.place(), "the start lies outside the table", "a point inside its walls");
-    } else if (turns_ || extent == Extent::bounded) {
+    const bool may_end = turns_ ? attempt_->hits() == 0 : system_.table->extent != Extent::bounded;
+    if (!may_end)
       throw InternalError("a certified orbit has left its table after collision " + std::to_string(attempt_->hits()));
-    }
   }
 
   // What is added to the bits that will be lost as far as a forecast knows. An attempt with too few bits is repeated,

@@ -9,8 +9,8 @@ namespace carom::certify {
 
 inline constexpr slong bits_of_a_first_look = 128, most_bits_of_a_sign = 1 << 14;
 
-/// By balls first; then by algebra, which may know the sign, or no more than that the number is not zero, or throw
-/// NotQuadratic; then by balls of many bits. Undecided where none of them tells.
+/// By balls first; then by algebra, which may know the sign, or no more than that the number is not zero, or
+/// throw NotQuadratic; then by balls of many bits. Undecided where none of them tells.
 template <class InBalls, class Algebra>
 Sign sign_by(const InBalls& in_balls, const Algebra& algebra) {
   for (const slong bits : {bits_of_a_first_look, slong{1024}, most_bits_of_a_sign}) {

@@ -31,7 +31,8 @@ class Reach {
   // Of an arc length less that of the wall.
   Sign past_length(const ExactNumber& s) const {
     const auto wall = [&] {
-      return known_ && Precision::bits() == bits_of_a_first_look ? *known_ : ball_table(*system_.spec).walls[wall_];
+      return known_ && Precision::bits() == bits_of_a_first_look ? *known_
+                                                                 : ball_table(*system_.spec).walls[wall_];
     };
     return sign_by([&] { return value_of(s) - arc_length(wall()); }, [&] { return by_algebra(s); });
   }

@@ -7,6 +7,7 @@
 #include "certify/exact_value.hpp"
 #include "certify/plain.hpp"
 #include "certify/pseudo_orbit.hpp"
+#include "certify/system_check.hpp"
 #include "certify/tangent.hpp"
 
 namespace carom {
@@ -157,6 +158,7 @@ PlainEnd plain_orbit(const ExactSystem& system, const PlainTask& task,
                      const std::function<bool()>& interrupted) {
   if (task.collisions == 0 && !task.t_max)
     throw InputError(Place{}, "an orbit without an end", "a number of collisions or a last time");
+  check_system(system);
   return Runner(system, task).run(interrupted);
 }
 

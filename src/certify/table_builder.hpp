@@ -15,6 +15,9 @@ namespace carom::certify {
 template <class N>
 struct Source;
 
+/// Is the stem of a mushroom narrower than its cap? By the numbers as written; an InputError where it is wider.
+bool has_brim(const TableSpec&);
+
 template <class N>
 WallOf<N> segment_wall(const VectorOf<N>& from, const VectorOf<N>& to) {
   WallOf<N> w;
@@ -154,9 +157,7 @@ class TableBuilder {
     const N cap = number("cap_radius"), half = number("stem_width") / 2, height = number("stem_height");
     const VectorOf<N> foot_left{-half, -height}, foot_right{half, -height};
     const VectorOf<N> neck_right{half, 0}, neck_left{-half, 0}, cap_right{cap, 0}, cap_left{-cap, 0};
-    // As in the table: whether there is a brim is read off the doubles.
-    const bool brim =
-        spec_.numbers.at("stem_width").to_double() / 2 < spec_.numbers.at("cap_radius").to_double();
+    const bool brim = has_brim(spec_);
     add(segment_wall(foot_left, foot_right));
     add(segment_wall(foot_right, neck_right));
     if (brim) add(segment_wall(neck_right, cap_right));

@@ -1,4 +1,5 @@
-// Exact numbers a + b pi, with quadratic a and b. As pi is transcendental, such a number is zero only if both are.
+// Exact numbers a + b pi, with quadratic a and b. As pi is transcendental, such a number is zero only if both
+// are.
 #pragma once
 
 #include "certify/evaluate.hpp"

@@ -14,8 +14,8 @@ namespace {
 
 void draw_start(const Options& options, LoadedSystem& loaded) {
   const System& system = loaded.system;
+  if (system.initial.kind == InitialCondition::Kind::point) return;  // the orbit asks whether it is one, exactly
   check_start(system);
-  if (system.initial.kind == InitialCondition::Kind::point) return;
   const std::uint64_t trajectory =
       options.trajectory.empty() ? 0 : whole_number(options.trajectory, "--trajectory", 0);
   const World world(*system.table);

@@ -1,4 +1,5 @@
-// Holes that end at a corner or joint, or beside it by less than doubles tell: by the numbers as they were written.
+// Holes that end at a corner or joint, or beside it by less than doubles tell: by the numbers as they were
+// written.
 #include <gtest/gtest.h>
 
 #include "carom/base/error.hpp"
@@ -78,7 +79,8 @@ TEST(HolesAtCorners, EndsShortOfThem) {
       EXPECT_EQ(end_of(t.square, t.to_corner(aside)).fate, CertifiedFate::completed) << aside;
   }
   // At its start: side_2 begins in that corner.
-  for (const auto& [center, fate] : {std::pair{"1/40", CertifiedFate::singular}, {"1/40+1/10^20", CertifiedFate::completed}}) {
+  for (const auto& [center, fate] :
+       {std::pair{"1/40", CertifiedFate::singular}, {"1/40+1/10^20", CertifiedFate::completed}}) {
     Tilted t = tilted(1, 2);
     t.square.spec.holes = {door("side_2", center, "1/20")};
     EXPECT_EQ(end_of(t.square, t.to_corner()).fate, fate) << center;
@@ -120,7 +122,8 @@ TEST(HolesAtCorners, SaysWhatItCannotTell) {
 // A hole in all of a wall but 10^-20 of it leaves a piece of wall.
 TEST(HolesAtCorners, AllOfAWall) {
   Shaped s = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1/2", "1/2");
-  const ExactPoint to_the_piece{exactly("1"), exactly("1-1/10^20")}, below{exactly("1"), exactly("1-3/10^20")};
+  const ExactPoint to_the_piece{exactly("1"), exactly("1-1/10^20")},
+      below{exactly("1"), exactly("1-3/10^20")};
   s.spec.holes = {door("right", "1/2-1/2/10^20", "1-1/10^20")};
   EXPECT_EQ(end_of(s, to_the_piece, 1).wall, 1);
   EXPECT_EQ(end_of(s, to_the_piece, 1).fate, CertifiedFate::completed);
