@@ -10,6 +10,7 @@
 
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/single_run.hpp"
+#include "carom/events/decision_range.hpp"
 #include "io/overrides.hpp"
 #include "io/read.hpp"
 
@@ -79,6 +80,13 @@ void check_number_of_steps(const Value& root, const System& system) {
                    "t_max below " + io::shown(step * most) + ", or a longer step");
 }
 
+void check_scales(const Value& root, const System& system, const Table& table) {
+  const std::string fault = beyond_decisions(table, system.particles);
+  if (fault.empty()) return;
+  throw InputError(root.find("particles")->place, fault,
+                   "other units, in which lengths, speeds and frequencies are nearer to 1");
+}
+
 std::string text_of_builtin(const std::string& name) {
   std::vector<std::string> names;
   for (const BuiltinSystem& system : builtin_systems()) {
@@ -105,6 +113,7 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   auto spec = std::make_shared<const TableSpec>(io::read_table(root));
   auto table = std::make_shared<Table>(build_table(*spec));
   system.particles = io::read_particles(root);
+  check_scales(root, system, *table);
   system.dynamics.forces =
       ForceField::build(io::read_forces(root, system.particles.size()), system.particles, table->lattice);
   const std::vector<double>& radii = system.dynamics.forces->disc_radii();
