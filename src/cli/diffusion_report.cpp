@@ -195,7 +195,8 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
   const DisplacementMoments moments(result.sums);
   summary.points = moments.points();
   const auto& window = system.run.window;
-  summary.fit = moments.fit(window ? TimeWindow{window->first, window->second} : moments.default_window());
+  const TimeWindow asked = window ? TimeWindow{window->first, window->second} : moments.default_window();
+  summary.fit = moments.fit(asked);
   if (summary.fit && summary.no_D.empty()) {
     // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
     const bool enough = std::isfinite(summary.fit->exponent.value);
@@ -205,12 +206,11 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
   }
   if (!summary.fit && summary.no_D.empty()) {
     summary.estimable = false;
-    const bool any = std::any_of(summary.points.begin(), summary.points.end(), [](const MomentPoint& p) {
-      return p.count > 0 && p.square.value > 0;
-    });
+    const auto times = std::count_if(summary.points.begin(), summary.points.end(),
+                                     [&](const MomentPoint& p) { return asked.holds(p.t); });
     summary.no_D = result.trajectories == 0 ? "no trajectory was followed"
-                   : !any                   ? "nothing moved until the last report time"
-                                            : "fewer than two report times > 0 in the window";
+                   : times < 2              ? "fewer than two report times > 0 in the window"
+                                            : "nobody was there, or nobody had moved, at the times of the window";
   }
   return summary;
 }

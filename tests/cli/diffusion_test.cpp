@@ -73,10 +73,13 @@ TEST(Diffusion, DoubtsItsCoefficientWithFewTimes) {
 TEST(Diffusion, TellsLackOfDataFromPhysics) {
   const Shell shell;
   const std::string command = "$carom diffusion lorentz-triangular --trajectories 3 --t-max 20 ";
-  for (const char* few : {"--times 10", "--times 0,10", "--shard 1/4"}) {
+  for (const auto& [few, why] : {std::pair{"--times 10", "fewer than two report times"},
+                                 {"--times 0,10", "fewer than two report times"},
+                                 {"--times 0", "fewer than two report times"},
+                                 {"--shard 1/4", "no trajectory"}}) {
     const Outcome o = shell(command + few);
     EXPECT_EQ(o.status, 0) << few << ": " << o.err;
-    EXPECT_NE(o.out.find("D cannot be estimated: "), std::string::npos) << o.out;
+    EXPECT_NE(o.out.find(std::string("D cannot be estimated: ") + why), std::string::npos) << o.out;
     EXPECT_EQ(o.out.find("does not exist"), std::string::npos) << o.out;
   }
   for (const char* window : {"30,40", "19.9,20", "0,0.01"}) {
