@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "carom/base/error.hpp"
 #include "carom/certify/certified_orbit.hpp"
 #include "carom/ensemble/paired_escape.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
+#include "carom/events/world.hpp"
 #include "cli/common.hpp"
 #include "cli/exact_run.hpp"
 #include "io/progress.hpp"
@@ -27,24 +30,31 @@ OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
   task.digits = digits;
   task.most_bits = 200'000;
   const bool written = loaded.system.initial.kind == InitialCondition::Kind::point;
-  return [system, task, written](const State& start) mutable -> std::optional<PairedEnd> {
+  return [system, task, written](const State& start) mutable -> OtherEnd {
     // A start that was drawn is its doubles, taken exactly; the direction's length is free.
     if (!written) system.start = exact_start(start);
-    CertifiedOrbit orbit(system, task, [&stop = catch_interrupts()] { return stop.load(std::memory_order_relaxed); });
-    const CertifiedEnd& end = orbit.finish();
-    PairedEnd result;
-    result.hits = end.collisions;
-    result.hole = end.hole;
+    std::optional<CertifiedOrbit> orbit;
+    try {
+      orbit.emplace(system, task, [&stop = catch_interrupts()] { return stop.load(std::memory_order_relaxed); });
+    } catch (const InputError&) {  // next to a wall, and outside of the table as it was written
+      return {};
+    }
+    const CertifiedEnd& end = orbit->finish();
+    OtherEnd result{OtherEnd::known, {}};
+    result.end.hits = end.collisions;
+    result.end.hole = end.hole;
     switch (end.fate) {
       case CertifiedFate::completed:
       case CertifiedFate::pinned:
         return result;
       case CertifiedFate::escaped:
       case CertifiedFate::unbounded:
-        result.time = end.t.to_double();
+        result.end.time = end.t.to_double();
         return result;
+      case CertifiedFate::singular:
+        return {OtherEnd::singular, {}};
       default:
-        return std::nullopt;
+        return {};
     }
   };
 }
@@ -61,7 +71,8 @@ void check(const LoadedSystem& loaded) {
   check_form(loaded.system, "--certify-sample");
   check_start(loaded.system);
   ExactSystem exact = loaded.exact;
-  if (loaded.system.initial.kind != InitialCondition::Kind::point) exact.start.direction = {1.0, 0.0};
+  if (loaded.system.initial.kind != InitialCondition::Kind::point)
+    exact.start = exact_start(draw_initial_state(loaded.system, World(*loaded.system.table), 0, 0));
   CertifiedTask task;
   task.collisions = 1;
   const CertifiedOrbit orbit(exact, task);
@@ -71,9 +82,11 @@ void add_result(Json& json, const PairedEscapeResult& result, int digits) {
   const PairedResult& r = result.pairs;
   json.set("status", result.complete ? "completed" : "interrupted");
   json.set("pairs", r.pairs).set("digits", digits).set("singular", result.singular).set("lost", result.lost);
-  json.set("undecided", result.unknown);
+  json.set("certified_singular", result.other_singular).set("undecided", result.unknown);
   json.set("other_hole", r.other_hole).set("other_hits", r.other_hits).set("other_time", r.other_time);
-  json.set("statistic", r.statistic).set("threshold", r.threshold).set("p_value", r.p_value).set("swaps", r.swaps);
+  const auto of_pairs = [&](double x) { return r.pairs > 0 ? Json(x) : Json(); };
+  json.set("statistic", of_pairs(r.statistic)).set("threshold", of_pairs(r.threshold));
+  json.set("p_value", of_pairs(r.p_value)).set("swaps", r.swaps);
   Json points = Json::array();
   for (const PairedPoint& p : r.points)
     points.push(Json::object()
@@ -100,9 +113,12 @@ std::string text_of(const PairedEscapeResult& result, int digits) {
   text += fmt::format("    elsewhere or not    {}\n", share(r.other_hole));
   text += fmt::format("    after other hits    {}\n", share(r.other_hits));
   text += fmt::format("    at another time     {}\n", share(r.other_time));
-  if (result.singular + result.lost + result.unknown > 0)
-    text += fmt::format("  not compared          {} singular, {} lost, {} undecided\n", result.singular, result.lost,
-                        result.unknown);
+  if (result.singular + result.lost + result.other_singular + result.unknown > 0)
+    text += fmt::format("  not compared          {} singular in doubles, {} certified as singular, {} lost, {} undecided\n",
+                        result.singular, result.other_singular, result.lost, result.unknown);
+  if (r.pairs == 0)
+    return text + fmt::format("  no pair was compared: nothing is known of the curves\n  computed in           {:.3g} s\n",
+                              result.seconds);
   text += "\n           t      double   certified   difference      error   detectable\n";
   for (const PairedPoint& p : r.points)
     text += fmt::format("{:>12.6g}  {:>10.6f}  {:>10.6f}   {:>+10.6f}   {:.6f}     {:.6f}\n", p.t, p.first, p.second,

@@ -17,7 +17,7 @@ namespace {
 
 struct Pair {
   PairedEnd first, second;
-  enum class State : unsigned char { open, known, singular, lost, unknown } state = State::open;
+  enum class State : unsigned char { open, known, singular, lost, other_singular, unknown } state = State::open;
 };
 
 // A hole across the parameter 0 of a closed wall is stored as two of one name.
@@ -67,12 +67,14 @@ class Worker {
     if (end.fate == Fate::escaped || end.fate == Fate::unbounded) pair.first.time = end.time.value();
     pair.first.hole = first_of_name(*system_.table, end.hole);
     pair.first.hits = end.hits;
-    const std::optional<PairedEnd> other = other_(start);
-    if (!other && stopped()) return;
-    pair.state = other ? Pair::State::known : Pair::State::unknown;
-    if (!other) return;
-    pair.second = *other;
-    pair.second.hole = first_of_name(*system_.table, other->hole);
+    const OtherEnd other = other_(start);
+    if (other.kind == OtherEnd::unknown && stopped()) return;
+    pair.state = other.kind == OtherEnd::known      ? Pair::State::known
+                 : other.kind == OtherEnd::singular ? Pair::State::other_singular
+                                                    : Pair::State::unknown;
+    if (other.kind != OtherEnd::known) return;
+    pair.second = other.end;
+    pair.second.hole = first_of_name(*system_.table, other.end.hole);
   }
 
   const System& system_;
@@ -121,6 +123,7 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
     if (pair.state == Pair::State::known) survival.add(pair.first, pair.second);
     if (pair.state == Pair::State::singular) ++result.singular;
     if (pair.state == Pair::State::lost) ++result.lost;
+    if (pair.state == Pair::State::other_singular) ++result.other_singular;
     if (pair.state == Pair::State::unknown) ++result.unknown;
   }
   result.pairs = survival.result(system.run.seed, options.swaps);

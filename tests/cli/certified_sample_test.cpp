@@ -53,6 +53,24 @@ TEST(CertifiedSample, PinnedOrbitsStay) {
     EXPECT_EQ(number(json.out, key), 0) << key;
 }
 
+// Orbits into a corner without a limit end as singular, in doubles and in balls; then there is nothing to compare.
+TEST(CertifiedSample, SaysThatNothingWasCompared) {
+  const Shell shell;
+  const std::string run =
+      "printf '[table]\nshape = \"triangle\"\npoints = [[0, 0], [3, 0], [0, 2]]\n[run]\nt_max = 10\n"
+      "[initial]\nkind = \"point\"\nposition = [1, 0.5]\nvelocity = [4, -1]\n' > corner.toml; "
+      "$carom escape ./corner.toml --quiet --trajectories 5 --certify-sample 5 --times 5 ";
+  const Outcome json = shell(run + "--json");
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(number(json.out, "pairs"), 0);
+  EXPECT_EQ(number(json.out, "singular") + number(json.out, "certified_singular"), 5);
+  EXPECT_EQ(number(json.out, "undecided"), 0);
+  for (const char* key : {"p_value", "statistic", "threshold"}) EXPECT_EQ(json_value(json.out, key), "null") << key;
+  const std::string text = shell(run).out;
+  EXPECT_NE(text.find("no pair was compared"), std::string::npos) << text;
+  EXPECT_EQ(text.find("do not differ"), std::string::npos) << text;
+}
+
 // An orbit may take hours; Ctrl-C and SIGTERM end it, in doubles as in balls.
 TEST(CertifiedSample, StopsWithinAnOrbit) {
   const Shell shell;

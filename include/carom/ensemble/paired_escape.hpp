@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <optional>
 
 #include "carom/analysis/paired_survival.hpp"
 #include "carom/ensemble/system.hpp"
@@ -12,8 +11,13 @@
 
 namespace carom {
 
-/// How a trajectory ends that starts there; nothing if that is not known.
-using OtherFlight = std::function<std::optional<PairedEnd>(const State& start)>;
+/// How a trajectory ends in the other way: `end`, unless it is singular or that is not known.
+struct OtherEnd {
+  enum Kind : unsigned char { known, singular, unknown } kind = unknown;
+  PairedEnd end{};
+};
+/// Of one that starts there.
+using OtherFlight = std::function<OtherEnd(const State& start)>;
 
 struct PairedEscapeOptions {
   std::uint64_t sample = 10000;  ///< trajectories 0 … sample - 1
@@ -27,8 +31,9 @@ struct PairedEscapeOptions {
 
 struct PairedEscapeResult {
   PairedResult pairs;
-  /// Pairs that are not compared: the engine's orbit ended as singular (or lost: an internal error), the other's end is not known.
-  std::uint64_t singular = 0, lost = 0, unknown = 0;
+  /// Pairs that are not compared: the engine's orbit ended as singular (or lost: an internal error), the other one did, its
+  /// end is not known.
+  std::uint64_t singular = 0, lost = 0, other_singular = 0, unknown = 0;
   bool complete = true;
   int threads = 1;
   double seconds = 0.0, cpu_seconds = 0.0;
