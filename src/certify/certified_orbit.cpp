@@ -72,6 +72,7 @@ class CertifiedOrbit::Implementation {
       : system_(system), task_(task), interrupted_(std::move(interrupted)) {
     if (task.collisions == 0 && !task.t_max)
       throw InputError(Place{}, "a certified orbit without an end", "a number of collisions or a last time");
+    check_digits(static_cast<std::uint64_t>(std::max(task.digits, 0)), *system.table);
     check_field();
     certify::check_system(system_);
     // A first attempt of few bits sees the table and the start, and looks ahead.

@@ -25,16 +25,8 @@ CertifiedTask task_of(const Options& options, const LoadedSystem& loaded) {
   task.collisions = loaded.system.run.collisions;
   if (loaded.system.run.t_max < no_last_time) task.t_max = loaded.t_max;
   if (!options.digits.empty()) {
-    const std::uint64_t digits = whole_number(options.digits, "--digits", 1);
-    // Numbers of the walls and of the state, 3.33 bits a digit.
-    const auto numbers = static_cast<double>(16 * loaded.system.table->walls.size() + 60);
-    const double bytes = 0.416 * numbers * static_cast<double>(digits), most = 4e9;
-    const auto at_most = static_cast<std::uint64_t>(std::min(1e6, most / (0.416 * numbers)));
-    if (digits > at_most)
-      throw InputError(
-          place_of("--digits"),
-          fmt::format("{} digits of {} numbers take {:.2g} GB of memory", digits, numbers, bytes * 1e-9),
-          fmt::format("at most {}", at_most));
+    const std::uint64_t digits = whole_number(options.digits, "--digits", 0);
+    check_digits(digits, *loaded.system.table, place_of("--digits"));
     task.digits = static_cast<int>(digits);
   }
   return task;

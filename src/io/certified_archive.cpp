@@ -27,21 +27,17 @@ const std::array<Coordinate, 5> coordinates{{
     {"vy", "vy_decimals", &CertifiedState::vy, {"length/time", "Velocity after the event"}},
 }};
 
-// Texts of one length, padded with zeros, row by row in batches of about a megabyte.
+// Texts of one length, padded with zeros, row by row in batches of about a megabyte. A longer one makes all of
+// them longer.
 class TextColumn {
  public:
-  TextColumn(hid_t group, const char* name, std::size_t length, Description description,
-             const std::string& file)
-      : file_(file), length_(length), batch_(std::clamp<std::size_t>((1u << 20) / length, 1, 1024)) {
-    type_ = hdf5::checked(H5Tcopy(H5T_C_S1), H5Tclose, file_);
-    hdf5::check(H5Tset_size(type_.get(), length_) >= 0, file_);
-    dataset_ = hdf5::create_growing(group, name, type_.get(), batch_, description, file_);
+  TextColumn(hid_t group, const char* name, std::size_t length, Description description, const std::string& file)
+      : group_(group), name_(name), description_(description), file_(file) {
+    begin(name_, length);
   }
 
   void push(const std::string& text) {
-    if (text.size() > length_)
-      throw InputError(Place{file_, 0, 0, ""},
-                       "a number has more digits before the point than the archive has room for");
+    if (text.size() > length_) widen(text.size() + room_to_grow);
     const std::size_t size = pending_.size();
     pending_ += text;
     pending_.resize(size + length_, '\0');
@@ -53,6 +49,34 @@ class TextColumn {
   }
 
  private:
+  static constexpr std::size_t room_to_grow = 20;
+
+  void begin(const std::string& name, std::size_t length) {
+    length_ = length;
+    batch_ = std::clamp<std::size_t>((1u << 20) / length, 1, 1024);
+    rows_ = 0;
+    type_ = hdf5::checked(H5Tcopy(H5T_C_S1), H5Tclose, file_);
+    hdf5::check(H5Tset_size(type_.get(), length_) >= 0, file_);
+    dataset_ = hdf5::create_growing(group_, name.c_str(), type_.get(), batch_, description_, file_);
+  }
+
+  // The rows so far move to a column with room, which takes the place and the name of this one.
+  void widen(std::size_t length) {
+    flush();
+    const Handle narrow = std::move(dataset_);
+    const std::size_t rows = rows_;
+    const std::string wide = name_ + ".wide";
+    begin(wide, length);
+    for (std::size_t row = 0; row < rows; row += batch_) {
+      const std::size_t count = std::min(batch_, rows - row);
+      pending_.assign(count * length_, '\0');
+      hdf5::read_rows(narrow.get(), type_.get(), row, count, pending_.data(), file_);
+      flush();
+    }
+    hdf5::check(H5Ldelete(group_, name_.c_str(), H5P_DEFAULT) >= 0, file_);
+    hdf5::check(H5Lmove(group_, wide.c_str(), group_, name_.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, file_);
+  }
+
   void flush() {
     const std::size_t count = pending_.size() / length_;
     if (count == 0) return;
@@ -61,11 +85,13 @@ class TextColumn {
     pending_.clear();
   }
 
+  hid_t group_;
+  std::string name_;
+  Description description_;
   std::string file_;
-  std::size_t length_, batch_;
+  std::size_t length_ = 0, batch_ = 0, rows_ = 0;
   Handle type_, dataset_;
   std::string pending_;
-  std::size_t rows_ = 0;
 };
 
 }  // namespace
@@ -78,15 +104,15 @@ class CertifiedArchive::Implementation {
     file.write_head("certified", loaded, origin);
     for (const Wall& w : loaded.system.table->walls) walls.push_back(w.name);
     for (const Hole& h : loaded.system.table->holes) holes.push_back(h.name);
-    const Handle group = file.group("collisions", "Reflections in order of time: the states after them");
-    const hid_t to = group.get();
+    collisions = file.group("collisions", "Reflections in order of time: the states after them");
+    const hid_t to = collisions.get();
     rows.add<std::uint64_t>(to, "number", {"1", "Number of the collision, from 1"});
     const hid_t wall = rows.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
     if (!walls.empty()) hdf5::write_attribute(wall, "names", walls, target);
     rows.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
     rows.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
     for (const Coordinate& c : coordinates) rows.add<double>(to, c.name, c.description);
-    // Up to 10^20 before the point, a sign and the point.
+    // Twenty digits before the point, a sign and the point: more as they come.
     const std::size_t length = static_cast<std::size_t>(digits) + 22;
     for (const Coordinate& c : coordinates) texts.emplace_back(to, c.decimals, length, c.description, target);
   }
@@ -115,6 +141,7 @@ class CertifiedArchive::Implementation {
   int digits;
   ArchiveFile file;
   hdf5::Columns rows;
+  Handle collisions;  ///< the group, while columns may grow
   std::vector<TextColumn> texts;
   std::vector<std::string> walls, holes;
 };
@@ -139,6 +166,7 @@ void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& ef
   Implementation& a = *implementation_;
   a.rows.close();
   for (TextColumn& column : a.texts) column.close();
+  hdf5::check(a.collisions.close(), a.target);
   a.write_end(end);
   {
     const Handle group = a.file.group("guarantee", "Every decimal is right: errors are below 10^-digits");

@@ -133,6 +133,32 @@ TEST(CertifiedLimits, BesideTheEdgeOfACorridor) {
   EXPECT_EQ(misses.finish().reason, "no wall within 10^5 lattice vectors");
 }
 
+TEST(CertifiedLimits, Digits) {
+  const ExactSystem system = flying(stadium("1"), "1");
+  for (const int digits : {0, -1, -1'000'000, 1'000'001, 1'000'000'000}) {
+    try {
+      CertifiedOrbit(system, task_of(5, digits));
+      ADD_FAILURE() << digits;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problem(),
+                digits < 1 ? "no digits are asked for"
+                           : std::to_string(digits) + " digits are more than certified orbits have");
+      EXPECT_EQ(error.expected(), digits < 1 ? "at least 1" : "at most 1000000");
+    }
+  }
+  Table many = *system.table;
+  many.walls.resize(10'000, many.walls.front());
+  try {
+    check_digits(100'000, many);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problem(), "100000 digits of the numbers of 10000 walls take 7 GB of memory");
+    EXPECT_EQ(error.expected(), "at most 60073");
+  }
+  CertifiedOrbit one(system, task_of(3, 1));
+  EXPECT_EQ(one.finish().fate, CertifiedFate::completed);
+}
+
 // From inside a bounded table nothing is unbounded.
 TEST(CertifiedLimits, StartsOutside) {
   const Shaped s = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1+1/10^40", "1/2");

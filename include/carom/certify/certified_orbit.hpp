@@ -79,6 +79,11 @@ struct CertifiedTask {
   long most_bits_a_doubt = 1 << 14;  ///< beyond what the orbit loses, spent on telling one event
 };
 
+inline constexpr std::uint64_t most_digits = 1'000'000;
+/// Throws InputError, at that place, unless so many digits can be asked for: at least one, at most `most_digits`,
+/// and fewer where the numbers of a table of many walls would take more than 4 GB.
+void check_digits(std::uint64_t digits, const Table&, const Place& = {});
+
 /// What it took.
 struct CertifiedEffort {
   long bits = 0;             ///< precision of the last attempt
