@@ -119,6 +119,7 @@ void SurvivalCounts::merge(const SurvivalCounts& other) {
   collisions += other.collisions;
   contacts += other.contacts;
   most_hits = std::max(most_hits, other.most_hits);
+  energy_change = std::max(energy_change, other.energy_change);
 }
 
 std::vector<SurvivalPoint> survival(const SurvivalCounts& counts) {

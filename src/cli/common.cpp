@@ -98,6 +98,11 @@ std::string engine_of(const System& system) {
   return dynamics.forces->everywhere() || dynamics.forces->interacts() ? "steps" : "auto";
 }
 
+const char* why_lost(const System& system) {
+  return engine_of(system) == "events" ? "an internal error: please report it"
+                                       : "a step failed, as a rule too long for its force: see the messages";
+}
+
 Provenance provenance_of(const Options& options, const System& system, int threads) {
   return {options.line, engine_of(system), "baseline", threads, {}};
 }

@@ -26,6 +26,8 @@ InstructionSet instruction_set_of(const Options&);
 void choose_engine(const std::string& engine, System&);
 /// What moves the particles: "events" (exact flights), "steps" (integration) or "auto" (both).
 std::string engine_of(const System&);
+/// Why trajectories of this system are lost. A step that fails is no fault of the program.
+const char* why_lost(const System&);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.

@@ -89,7 +89,7 @@ std::string fit_text(const DiffusionSummary& summary) {
   return text;
 }
 
-std::string ends_text(const DiffusionResult& result) {
+std::string ends_text(const System& system, const DiffusionResult& result) {
   std::string text;
   const auto add = [&](std::uint64_t number, const char* what) {
     if (number > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(number), what);
@@ -99,7 +99,7 @@ std::string ends_text(const DiffusionResult& result) {
   add(result.capped, "ended by the cap on hits");
   add(result.unbounded, "left all walls behind");
   add(result.singular, "singular");
-  add(result.lost, "lost: an internal error, please report it");
+  add(result.lost, fmt::format("lost: {}", why_lost(system)).c_str());
   return text.empty() ? text : "\nof the particles: " + text + "\n";
 }
 
@@ -173,7 +173,7 @@ std::string diffusion_text(const System& system, const DiffusionResult& result, 
   text += moments_table(summary.points);
   text += fit_text(summary);
   text += horizon_text(summary.horizon);
-  text += ends_text(result);
+  text += ends_text(system, result);
   if (engine_of(system) != "events")
     text += fmt::format("\nlargest change of a trajectory's energy {:.2g}\n", result.energy_change);
   text += fmt::format("\n{} collisions in {:.3g} s on {}{} thread{}: {}hits/s\n{}   digest {:016x}\n",

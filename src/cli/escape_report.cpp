@@ -60,7 +60,7 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
   line("  capped", counts.capped, "ended by the cap on hits", false);
   line("singular", counts.singular, "hit a corner without a limit, or moved along a wall", false);
   line("unbounded", counts.unbounded, "no wall follows any more", false);
-  line("lost", counts.lost, "an internal error: please report it", false);
+  line("lost", counts.lost, why_lost(system), false);
   return text;
 }
 
@@ -84,6 +84,7 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   json.set("lost", counts.lost);
   json.set("collisions", counts.collisions);
   if (system.of_discs()) json.set("contacts", counts.contacts);
+  if (engine_of(system) != "events") json.set("energy_change", counts.energy_change);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
   if (result.effort.steps > 0)
@@ -124,6 +125,8 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
                       result.complete ? "" : "  (" + context.status + ": those that were finished)");
   text += survival_table(counts);
   text += fates(system, counts);
+  if (engine_of(system) != "events")
+    text += fmt::format("\nlargest change of a trajectory's energy {:.2g}\n", counts.energy_change);
   const double hits = static_cast<double>(counts.collisions);
   text += fmt::format("\n{} collisions{} in {:.3g} s on {}{} thread{}: {}hits/s", grouped(counts.collisions),
                       system.of_discs() ? fmt::format(" and {} contacts", grouped(counts.contacts)) : "",

@@ -73,6 +73,15 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
   return text;
 }
 
+/// A doubt about the steps: "" where energy is kept to a thousandth of what moves.
+std::string energy_note(const System& system, const SingleRunResult& result) {
+  if (engine_of(system) == "events") return {};
+  const Energy &start = result.energy_at_start, &end = result.energy_at_end;
+  const double change = end.total() - start.total(), scale = std::max(start.kinetic, end.kinetic);
+  if (std::fabs(change) <= 1e-3 * scale) return {};
+  return fmt::format("energy changed by {:.2g}, with a kinetic energy of {:.2g}: take a shorter step", change, scale);
+}
+
 }  // namespace
 
 std::string run_status(const SingleRunResult& result) {
@@ -104,6 +113,8 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
     }
     json.set("particles", std::move(particles));
   }
+  const std::string note = energy_note(system, result);
+  if (!note.empty()) json.set("note", note);
   if (!output.empty()) json.set("archive", output);
   return json;
 }
@@ -118,6 +129,8 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
   if (result.particles.size() > 1)
     text += fmt::format("{}: {} collisions{}\n", status, grouped(result.collisions),
                         system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "");
+  const std::string note = energy_note(system, result);
+  if (!note.empty()) text += fmt::format("  note          {}\n", note);
   text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds, decisions_text(result.decisions));
   if (!output.empty()) text += fmt::format("  archive       {}\n", output);
   return text;

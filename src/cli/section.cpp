@@ -97,7 +97,7 @@ std::string section_text(const System& system, const SectionResult& result, cons
   end(result.capped, "ended by the cap on hits");
   end(result.unbounded, "left all walls behind");
   end(result.singular, "singular");
-  end(result.lost, "lost: an internal error, please report it");
+  end(result.lost, fmt::format("lost: {}", why_lost(system)).c_str());
   if (result.incomplete > 0)
     text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n", grouped(result.incomplete),
                         grouped(system.section.points), system.run.t_max, ends.empty() ? "" : " (" + ends + ")");

@@ -8,6 +8,7 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
+#include "ensemble/energy_watch.hpp"
 #include "ensemble/escape_tally.hpp"
 
 namespace carom {
@@ -32,7 +33,11 @@ class EscapeEnds : public Observer {
 class EscapeRunner {
  public:
   EscapeRunner(const System& system, const Sampler& sampler, const Injector& injector, DecisionOptions decisions)
-      : system_(system), sampler_(sampler), injector_(injector), world_(*system.table, system.dynamics, decisions) {
+      : system_(system),
+        sampler_(sampler),
+        injector_(injector),
+        world_(*system.table, system.dynamics, decisions),
+        energies_(system) {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
   }
 
@@ -47,8 +52,10 @@ class EscapeRunner {
     const std::size_t first_record = records ? records->size() : 0;
     for (int particle = 0; records && particle < count; ++particle)
       records->push_back(start_of(world_.state(particle)));
+    const std::vector<double> before = energies();
     world_.run_until(system_.run.t_max, ends_, interrupted);
     if (interrupted && interrupted()) return false;
+    note_energies(before, energies(), tally);
     tally.counts.contacts += ends_.contacts;
     for (int particle = 0; particle < count; ++particle) {
       const std::uint64_t index = particle_index(system_, trajectory, static_cast<std::uint64_t>(particle));
@@ -69,6 +76,25 @@ class EscapeRunner {
   const DecisionCounts& decisions() const { return world_.decisions(); }
 
  private:
+  std::vector<double> energies() const {
+    std::vector<double> all;
+    for (int p = 0; energies_.of_each() && p < world_.size(); ++p)
+      all.push_back(energies_.energy(world_.particle(p), world_.state(p)));
+    if (!energies_.of_all()) return all;
+    std::vector<State> states;
+    for (int p = 0; p < world_.size(); ++p) states.push_back(world_.state(p));
+    all.push_back(energies_.energy(states));
+    return all;
+  }
+  // Of a particle that is lost nothing is known; of particles that share their energy, all must be left.
+  void note_energies(const std::vector<double>& before, const std::vector<double>& after, EscapeTally& tally) const {
+    const auto is = [this](int p, Fate fate) { return ends_.of(p) && ends_.of(p)->fate == fate; };
+    bool all = true;
+    for (int p = 0; p < world_.size(); ++p) all = all && (!ends_.of(p) || is(p, Fate::survived));
+    for (std::size_t k = 0; k < before.size(); ++k)
+      if (energies_.of_all() ? all : !is(static_cast<int>(k), Fate::lost)) tally.note_energies(before[k], after[k]);
+  }
+
   TrajectoryRecord start_of(const State& state) const {
     TrajectoryRecord record;
     geometry::Vector position = state.position;
@@ -97,6 +123,7 @@ class EscapeRunner {
   const Sampler& sampler_;
   const Injector& injector_;
   World world_;
+  EnergyWatch energies_;
   EscapeEnds ends_;
 };
 

@@ -1,6 +1,8 @@
 // What a block of an escape ensemble adds up.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -18,6 +20,9 @@ struct EscapeTally {
 
   explicit EscapeTally(const System& system) : counts(system.run.times, system.table->holes.size()) {}
 
+  void note_energies(double before, double after) {
+    counts.energy_change = std::max(counts.energy_change, std::fabs(after - before));
+  }
   /// The end of one particle; record.time is t_max for survivors.
   void add(const TrajectoryRecord& end, int last_wall, const std::string& report) {
     counts.add(end.fate, end.time, end.hits, end.hole);

@@ -8,6 +8,7 @@
 
 #include "carom/ensemble/sampler.hpp"
 #include "ensemble/either_lanes.hpp"
+#include "ensemble/energy_watch.hpp"
 #include "ensemble/escape_tally.hpp"
 
 namespace carom {
@@ -27,7 +28,7 @@ class LaneRunner {
   };
 
   LaneRunner(const System& system, const Sampler& sampler, InstructionSet set, DecisionOptions decisions)
-      : system_(system), sampler_(sampler), world_(*system.table, decisions), lanes_(system, set, decisions) {
+      : system_(system), sampler_(sampler), world_(*system.table, decisions), lanes_(system, set, decisions), energies_(system) {
     if (system.run.collisions > 0) lanes_.limit_hits(system.run.collisions);
   }
 
@@ -52,6 +53,7 @@ class LaneRunner {
       start.tag = (trajectory_ - 1) * system_.particles.size() + particle_;
       ++particle_;
       if (records_) note_start(start);
+      if (energies_.of_each()) energy_of(start.tag) = energies_.energy(start.particle, start.state);
       return true;
     };
     const auto sink = [&](const LaneEnd& end) {
@@ -72,12 +74,14 @@ class LaneRunner {
   struct Open {
     std::uint64_t first = 0, left = 0;  ///< index of its first particle, and particles that have not ended
     Done done;
+    std::vector<double> energies;  ///< at the start, under forces
   };
   using Blocks = std::map<std::uint64_t, Open>;  // by the index of their first particle
 
   void open(const Block& block) {
     const std::uint64_t each = system_.particles.size();
-    Open b{block.first * each, (block.end - block.first) * each, {block, EscapeTally(system_), {}}};
+    Open b{block.first * each, (block.end - block.first) * each, {block, EscapeTally(system_), {}}, {}};
+    if (energies_.of_each()) b.energies.resize(b.left);
     if (records_) b.done.records.resize(b.left);
     open_.emplace(b.first, std::move(b));
   }
@@ -85,6 +89,10 @@ class LaneRunner {
   TrajectoryRecord& record_of(std::uint64_t index) {
     Open& b = block_of(index)->second;
     return b.done.records[index - b.first];
+  }
+  double& energy_of(std::uint64_t index) {
+    Open& b = block_of(index)->second;
+    return b.energies[index - b.first];
   }
 
   void note_start(const LaneStart& start) {
@@ -104,7 +112,12 @@ class LaneRunner {
     record.hits = end.hits;
     const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
     record.time = to_the_end ? system_.run.t_max : end.time.value();
-    block_of(end.tag)->second.done.tally.add(record, end.last_wall, end.report);
+    EscapeTally& tally = block_of(end.tag)->second.done.tally;
+    tally.add(record, end.last_wall, end.report);
+    if (energies_.of_each() && end.fate != Fate::lost) {
+      const Particle& particle = system_.particles[end.tag % system_.particles.size()];
+      tally.note_energies(energy_of(end.tag), energies_.energy(particle, end.state));
+    }
     if (records_) record_of(end.tag) = record;
   }
 
@@ -112,6 +125,7 @@ class LaneRunner {
   const Sampler& sampler_;
   World world_;  ///< answers the sampler
   EitherLanes lanes_;
+  EnergyWatch energies_;
   Blocks open_;
   Block block_;
   std::uint64_t trajectory_ = 0;

@@ -78,14 +78,14 @@ void read_bytes(BytesIn& in, std::vector<RecordBlock>& blocks) {
 void write_bytes(BytesOut& out, const EscapeResult& sum) {
   write_common(out, sum);
   out << sum.counts.times << sum.counts.gone_in << sum.counts.gone_in_hits << sum.counts.hole_escapes
-      << sum.effort;
+      << sum.counts.energy_change << sum.effort;
   for (const std::uint64_t* number : numbers_of(sum.counts)) out << *number;
 }
 
 void read_bytes(BytesIn& in, EscapeResult& sum) {
   read_common(in, sum);
   in >> sum.counts.times >> sum.counts.gone_in >> sum.counts.gone_in_hits >> sum.counts.hole_escapes >>
-      sum.effort;
+      sum.counts.energy_change >> sum.effort;
   for (std::uint64_t* number : numbers_of(sum.counts)) in >> *number;
 }
 

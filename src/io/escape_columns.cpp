@@ -68,10 +68,13 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
   number("capped", counts.capped, "Survivors ended by the cap on hits");
   number("singular", counts.singular, "Ended where no continuation is defined");
   number("unbounded", counts.unbounded, "No wall follows any more");
-  number("lost", counts.lost, "Internal errors: always 0");
+  number("lost", counts.lost, "Ended by an error: in free flight always 0, under forces a step that failed");
   number("collisions", counts.collisions, "Reflections of all trajectories");
   number("most_hits", counts.most_hits, "Most reflections of a single trajectory");
   if (system.of_discs()) number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
+  if (system.dynamics.forces && !system.dynamics.forces->empty())
+    hdf5::write_column(group.get(), "energy_change", std::span<const double>(&counts.energy_change, 1),
+                       {"energy", "The largest change of a particle's energy"}, target);
   number("digest", result.digest, "Sum of a hash of each trajectory: equal digests, equal bits");
   if (!holes.empty()) {
     const Handle dataset =
@@ -120,6 +123,8 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   counts.collisions = number("collisions");
   counts.most_hits = number("most_hits");
   if (H5Lexists(fates.get(), "contacts", H5P_DEFAULT) > 0) counts.contacts = number("contacts");
+  if (H5Lexists(fates.get(), "energy_change", H5P_DEFAULT) > 0)
+    counts.energy_change = hdf5::read_column<double>(fates.get(), "energy_change", name).at(0);
   result.digest = number("digest");
   const auto effort = [&](const char* what) {
     return static_cast<std::uint64_t>(hdf5::read_integer_attribute(provenance.get(), what, name));

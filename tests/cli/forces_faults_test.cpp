@@ -1,6 +1,7 @@
 // What goes wrong where forces act: a clear message or fate, never a silent NaN.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "carom/integrators/scheme.hpp"
@@ -99,6 +100,64 @@ void write_box(const Shell& shell, const std::string& expression) {
         expression +
         "\"\n[particles]\nspeed = 1\n[integrator]\nstep = 0.01\n[initial]\nkind = \"point\"\n"
         "position = [0.5, 0.5]\nangle = 0.3\n[run]\nt_max = 20\nEND\n");
+}
+
+// A hard bump, for which the step is much too long.
+const char* const steep = R"(cat > steep.toml << 'END'
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[[potential]]
+kind = "fermi"
+height = 1
+radius = 0.2
+softness = 1e-6
+centers = [[0.5, 0.5]]
+[integrator]
+step = 0.001
+[run]
+t_max = 5
+trajectories = 200
+END
+)";
+
+TEST(ForceFaults, EnergyThatAStepLosesIsTold) {
+  const Shell shell;
+  shell(steep);
+  const std::string run = "$carom run ./steep.toml --trajectory ";
+  int noted = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Outcome o = shell(run + std::to_string(i) + " --json"), text = shell(run + std::to_string(i));
+    EXPECT_EQ(o.status, 0) << o.err;
+    const bool wrong = std::fabs(std::stod(json_value(o.out, "energy_error"))) > 0.01;
+    EXPECT_EQ(holds(json_value(o.out, "note"), "shorter step"), wrong) << o.out;
+    EXPECT_EQ(holds(text.out, "  note          energy changed by "), wrong) << text.out;
+    noted += wrong;
+  }
+  EXPECT_GT(noted, 0);
+  EXPECT_EQ(json_value(shell("$carom run soft-lorentz --t-max 20 --json").out, "note"), "");
+  // Of an ensemble, the largest: the same in lanes and by one, in parts, and after a pause.
+  const std::string escape = "$carom escape ./steep.toml --json ";
+  const std::string change = json_value(shell(escape).out, "energy_change");
+  EXPECT_GT(std::stod(change), 0.1);
+  EXPECT_EQ(json_value(shell(escape + "--isa baseline").out, "energy_change"), change);
+  shell("$carom escape ./steep.toml --shard 1/2 -o a.h5; $carom escape ./steep.toml --shard 2/2 -o b.h5");
+  EXPECT_EQ(json_value(shell("$carom merge all.h5 a.h5 b.h5 --json").out, "energy_change"), change);
+  EXPECT_TRUE(holds(shell("$carom escape ./steep.toml").out, "largest change of a trajectory's energy "));
+  EXPECT_EQ(json_value(shell("$carom escape stadium --trajectories 10 --json").out, "energy_change"), "");
+}
+
+TEST(ForceFaults, AStepThatFailsIsNoInternalError) {
+  const Shell shell;
+  for (const char* command : {"escape --t-max 100", "diffusion --t-max 100", "section --on x=0 --t-max 100 --orbits 4"}) {
+    const Outcome o = shell(std::string("$carom ") + command +
+                            " henon-heiles --trajectories 20 --set particles.energy=2 --set integrator.step=0.01");
+    EXPECT_EQ(o.status, 3) << command << o.out << o.err;
+    EXPECT_TRUE(holds(o.out, "lost")) << o.out;
+    EXPECT_FALSE(holds(o.out, "internal error")) << o.out;
+    EXPECT_TRUE(holds(o.out, "a step failed")) << o.out;
+  }
 }
 
 // Poles and ends of a formula's domain that orbits come to: the right answer, or the particle is lost and

@@ -38,6 +38,7 @@ void expect_equal(const EscapeResult& a, const EscapeResult& b) {
   EXPECT_EQ(a.counts.gone_in, b.counts.gone_in);
   EXPECT_EQ(a.counts.gone_in_hits, b.counts.gone_in_hits);
   EXPECT_EQ(a.counts.most_hits, b.counts.most_hits);
+  EXPECT_EQ(a.counts.energy_change, b.counts.energy_change);
   EXPECT_EQ(a.counts.collisions, b.counts.collisions);
   EXPECT_EQ(a.counts.hole_escapes, b.counts.hole_escapes);
 }
