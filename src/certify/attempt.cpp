@@ -87,46 +87,6 @@ void Attempt::trim_precision() {
   }
 }
 
-Choice Attempt::choose() const {
-  const VectorOf<Interval> P = now_.state->position(), v = now_.state->velocity();
-  const geometry::Vector P0{P.x.middle(), P.y.middle()}, v0{v.x.middle(), v.y.middle()};
-  const Choice fast = arena_.fast.next(where_, P, v, now_.standing, P0, v0);
-  const bool unclear = fast.answer == Choice::too_far && fast.first.wall >= 0;  // whether that wall is met
-  if (fast.answer != Choice::undecided && !unclear) return fast;
-  const Precision precision(bits_);
-  const BallState s = now_.state->state(bits_);
-  return arena_.scene.next(where_, s.position, s.velocity, now_.standing, P0, v0);
-}
-
-// The joint, unless one of the other walls comes before it.
-Choice Attempt::choose_at(const KnownTies::Joint& joint) const {
-  const Choice at_joint{Choice::wall, joint.hit, {}};
-  if (joint.of.empty()) return at_joint;
-  const Choice other = choose();
-  if (other.answer == Choice::nothing) return at_joint;
-  if (other.answer == Choice::undecided) return other;
-  if (other.answer != Choice::wall) return {Choice::undecided, joint.hit, other.first};
-  const Precision precision(bits_);
-  const BallState s = now_.state->state(bits_);
-  const BallVector &P = s.position, &v = s.velocity;
-  const auto seen = [&](const Copy& copy) {
-    return copy.cell == geometry::Cell{} ? P : P - arena_.scene.translation(copy.cell);
-  };
-  const WallOf<Ball>& wall_there = arena_.wall(joint.at.copy.wall);
-  const BallVector& J = joint.at.last ? wall_there.to : wall_there.from;
-  const MotionOf<Ball>& motion = arena_.scene.motion;
-  const bool standing = other.first.wall == now_.standing && other.first.cell == geometry::Cell{};
-  const Ball time = meeting_with(arena_.wall(other.first.wall), seen(other.first), v, motion, standing).time;
-  switch (sign(time - passing_of(J, seen(joint.at.copy), v, motion))) {
-    case Sign::positive:
-      return at_joint;
-    case Sign::negative:
-      return other;
-    default:
-      return {Choice::undecided, joint.hit, other.first};
-  }
-}
-
 // Flies to the wall; the state stands on it afterwards.
 void Attempt::move_to(const Copy& copy) {
   now_.state->fly(copy, copy.wall == now_.standing && copy.cell == geometry::Cell{}, bits_);
@@ -149,11 +109,14 @@ Outcome Attempt::step() {
   const Precision precision(bits_);
   const auto joint = ties_.joints.find(now_.hits + 1);
   const bool at_joint = joint != ties_.joints.end();
+  std::vector<Copy> touched;
+  behind_.clear();
   if (!ties_.passed_by.empty() || !ties_.joints.empty()) {
-    const auto touched = ties_.passed_by.find(now_.hits + 1);
-    std::vector<Copy> passed_by = touched == ties_.passed_by.end() ? std::vector<Copy>() : touched->second;
+    const auto known = ties_.passed_by.find(now_.hits + 1);
+    if (known != ties_.passed_by.end()) touched = known->second;
+    std::vector<Copy> passed_by = touched;
     if (at_joint) passed_by.insert(passed_by.end(), joint->second.of.begin(), joint->second.of.end());
-    arena_.fast.passed_by = arena_.scene.passed_by = passed_by;
+    arena_.fast.passed_by = arena_.scene.passed_by = std::move(passed_by);
   }
   const Choice choice = at_joint ? choose_at(joint->second) : choose();
   switch (choice.answer) {
@@ -163,15 +126,24 @@ Outcome Attempt::step() {
       return {Outcome::too_far, 0.0, {Doubt::choice, choice.first, {}, -1}};
     case Choice::nothing:
       return {Outcome::unbounded, 0.0, {}};
+    case Choice::last_time:
+      look_behind(touched, *last_time());
+      return stop_at_last_time();
     case Choice::wall:
       break;
   }
-  if (at_joint && choice.first == joint->second.hit && !joint->second.dead_end.empty())
+  const bool here = at_joint && choice.first == joint->second.hit, in_joint = here && joint->second.of.empty();
+  if (!in_joint && !touched.empty())
+    look_behind(touched, here ? passing_time(joint->second.at) : meeting_time(choice.first));
+  if (here && !joint->second.dead_end.empty()) {
+    if (ties_.at_last_time != now_.hits + 1 && order_with_last_time(passing_time(joint->second.at)) == Sign::undecided)
+      return {Outcome::undecided, needed_bits(), {Doubt::last_time, choice.first, {}, -1}};
     return {Outcome::dead_end, 0.0, {}};
+  }
   std::optional<Now> before;
   if (t_max_ || !arena_.scene.holes.empty()) before = now_.copy();
   // Who is in the joint already meets the next wall at once: as straight as in a field.
-  const bool turns = arena_.scene.motion.turns, in_joint = at_joint && joint->second.of.empty();
+  const bool turns = arena_.scene.motion.turns;
   if (in_joint) arena_.scene.motion.turns = arena_.fast.motion.turns = false;
   move_to(choice.first);
   arena_.scene.motion.turns = arena_.fast.motion.turns = turns;
@@ -190,6 +162,9 @@ Outcome Attempt::arrive(const Copy& copy, const std::optional<Now>& before) {
   if (late == Sign::undecided) return {Outcome::undecided, needed_bits(), {Doubt::last_time, copy, {}, -1}};
   if (late != Sign::positive) return landed(copy, before);
   now_ = before->copy();
+  if (const auto touched = ties_.passed_by.find(now_.hits + 1); touched != ties_.passed_by.end()) {
+    if (const std::optional<Ball> last = last_time()) look_behind(touched->second, *last);
+  }
   return stop_at_last_time();
 }
 

@@ -1,6 +1,7 @@
 // One run of an orbit from its exact start at a given precision.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -65,6 +66,10 @@ class Attempt {
   /// In the cell of the last hit.
   BallState state() const { return now_.state->state(bits_); }
   int standing() const { return now_.standing; }
+  /// Does the flight of the last step end before it touches that wall?
+  bool lies_behind(const Copy& touched) const {
+    return std::find(behind_.begin(), behind_.end(), touched) != behind_.end();
+  }
 
   /// log2 of the largest number of the table and the motion, not below 0: bits before the point.
   double size_bits() const;
@@ -91,7 +96,14 @@ class Attempt {
   std::unique_ptr<StateEnclosure> start_enclosure(const ExactSystem&);
   void trim_precision();
   Choice choose() const;
+  Choice choose(const std::optional<Ball>& last) const;
   Choice choose_at(const KnownTies::Joint&) const;
+  BallVector seen(const Copy&, const BallVector& P) const;
+  std::optional<Ball> last_time() const;
+  Sign order_with_last_time(const Ball& time) const;
+  Ball meeting_time(const Copy&) const;
+  Ball passing_time(const WallEnd&) const;
+  void look_behind(const std::vector<Copy>& touched, const Ball& end);
   void move_to(const Copy&);
   Outcome arrive(const Copy&, const std::optional<Now>& before);
   Outcome landed(const Copy&, const std::optional<Now>& before);
@@ -113,7 +125,7 @@ class Attempt {
   std::optional<Ball> t_max_;
 
   Now now_;
-  std::vector<Copy> path_;
+  std::vector<Copy> path_, behind_;
   int hole_ = -1;
   bool rescaled_ = false;
   std::optional<BallState> stopped_;  ///< the state at t_max or in a hole

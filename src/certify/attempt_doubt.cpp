@@ -62,14 +62,11 @@ std::string Attempt::described(const Doubt& doubt) const {
     return text;
   }
   if (doubt.first.wall < 0) return event + "which walls are near, for the position and velocity are not known well enough";
-  const auto seen = [&](const Copy& copy) {
-    return copy.cell == geometry::Cell{} ? P : P - arena_.scene.translation(copy.cell);
-  };
   const auto time_to = [&](const Copy& copy) {
     const bool standing = copy.wall == now_.standing && copy.cell == geometry::Cell{};
     if (!arena_.scene.motion.turns)
-      return enclosure(meets(wall(copy), seen(copy), v, arena_.scene.motion, standing).time);
-    return enclosure(flight_to<Ball, Ball>(wall(copy), seen(copy), v, arena_.scene.motion, standing).time);
+      return enclosure(meets(wall(copy), seen(copy, P), v, arena_.scene.motion, standing).time);
+    return enclosure(flight_to<Ball, Ball>(wall(copy), seen(copy, P), v, arena_.scene.motion, standing).time);
   };
   if (doubt.second.wall >= 0)
     return event + "which comes first, " + name(doubt.first) + " or " + name(doubt.second) +
@@ -77,7 +74,7 @@ std::string Attempt::described(const Doubt& doubt) const {
   std::string text = event + "whether the flight meets " + name(doubt.first);
   if (arena_.scene.motion.turns) return text;
   const WallOf<Ball>& w = wall(doubt.first);
-  const BallVector at = seen(doubt.first);
+  const BallVector at = seen(doubt.first, P);
   const Ball per_speed = Ball(1) / sqrt(arena_.scene.motion.speed2);
   if (w.form != Form::ellipse && !w.closed)
     text += ", passing its ends at the distances " + enclosure(cross(v, w.from - at) * per_speed) + " and " +

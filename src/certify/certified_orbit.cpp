@@ -8,6 +8,7 @@
 #include "certify/attempt.hpp"
 #include "certify/enclosure_of.hpp"
 #include "certify/exact_value.hpp"
+#include "certify/listed_ties.hpp"
 #include "certify/system_check.hpp"
 
 namespace carom {
@@ -113,6 +114,7 @@ class CertifiedOrbit::Implementation {
       const Outcome outcome = checked(attempt_->step());
       switch (outcome.kind) {
         case Outcome::hit: {
+          listed_.pass(attempt_->hits(), *attempt_, end_.ties);
           if (attempt_->hits() <= given_) break;  // given out by an earlier attempt
           given_ = attempt_->hits();
           undecided_ = 0;
@@ -143,20 +145,24 @@ class CertifiedOrbit::Implementation {
           if (!decide(outcome)) return std::nullopt;
           break;
         case Outcome::stopped:
+          listed_.pass_touched(attempt_->hits() + 1, *attempt_, end_.ties);
           finish_with(CertifiedFate::completed, "");
           return std::nullopt;
         case Outcome::escaped:
+          listed_.pass(attempt_->hits() + 1, *attempt_, end_.ties);
           finish_with(CertifiedFate::escaped, "");
           return std::nullopt;
         case Outcome::unbounded:
           check_domain();
+          listed_.pass_touched(attempt_->hits() + 1, *attempt_, end_.ties);
           finish_with(turns_ ? CertifiedFate::pinned : CertifiedFate::unbounded, "");
           return std::nullopt;
         case Outcome::dead_end:
-          finish_with(CertifiedFate::singular, ties_.joints.at(attempt_->hits() + 1).dead_end);
+          finish_at_tie(ties_.joints.at(attempt_->hits() + 1).dead_end);
           return std::nullopt;
         case Outcome::too_far:
           if (outcome.doubt.first.wall < 0) {
+            listed_.pass_touched(attempt_->hits() + 1, *attempt_, end_.ties);
             finish_with(CertifiedFate::undecided, "no wall within 10^5 lattice vectors");
             return std::nullopt;
           }
@@ -233,7 +239,7 @@ class CertifiedOrbit::Implementation {
     const auto joint = ties_.joints.find(event);  // what is in doubt may be what comes before it
     const bool known = joint != ties_.joints.end() && outcome.doubt.kind == certify::Doubt::choice &&
                        outcome.doubt.first == joint->second.hit;
-    if (!known && (undecided_ == 1 || !end_.ties.empty())) {         // one tie is seldom alone
+    if (!known && (undecided_ == 1 || listed_.count() > 0)) {        // one tie is seldom alone
       if (const auto tie = tie_at(outcome)) {
         if (!tie->goes_on() && tie->at && joint == ties_.joints.end()) {  // if no other wall comes before
           ties_.joints[event] = {tie->joint.front(), tie->joint, *tie->at, tie->text};
@@ -243,11 +249,11 @@ class CertifiedOrbit::Implementation {
         // Along the edge of a corridor discs are touched without end: on one flight that meets nothing else, or on many.
         const bool again = outcome.kind == Outcome::too_far && tie->kind == certify::Tie::tangency &&
                            ties_.passed_by.count(event) > 0;
-        if (!tie->goes_on() || again || end_.ties.size() >= 1000) {
-          finish_with(CertifiedFate::singular, tie->text);
+        if (!tie->goes_on() || again || listed_.count() >= 1000) {
+          finish_at_tie(tie->text);
           return false;
         }
-        end_.ties.push_back(tie->text);
+        listed_.found(event, *tie);
         if (tie->kind == certify::Tie::tangency) ties_.passed_by[event].push_back(tie->walls.front());
         if (tie->kind == certify::Tie::reflection) {
           for (std::size_t i = 0; i < tie->walls.size(); ++i) 
@@ -302,6 +308,11 @@ class CertifiedOrbit::Implementation {
     return missing <= 0.0 ? outcome : Outcome{Outcome::inaccurate, missing, {}};
   }
 
+  void finish_at_tie(const std::string& text) {
+    listed_.pass(attempt_->hits() + 1, *attempt_, end_.ties);
+    finish_with(CertifiedFate::singular, text);
+  }
+
   void finish_with(CertifiedFate fate, std::string reason) {
     BallState s = attempt_->enclosed();
     if (!(attempt_->missing_bits(s) <= 0.0)) {
@@ -349,6 +360,7 @@ class CertifiedOrbit::Implementation {
   const std::function<bool()> interrupted_;
   certify::KnownTies ties_;
   certify::TieFinder tie_finder_{system_, task_};
+  certify::ListedTies listed_;
   double hits_ = 0.0;  ///< expected
   double rounding_loss_ = 0.0;
   double loss_a_hit_ = 0.0, spread_a_hit_ = 0.0;  ///< by the first forecast, bits; of n hits sqrt(n) times the latter

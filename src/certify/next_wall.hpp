@@ -116,11 +116,15 @@ Meeting<N> meets(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
 template <class N, class Key>
 class First {
  public:
-  /// `passed_by`: keys that are touched and not hit.
-  explicit First(const std::vector<Key>& passed_by) : passed_by_(passed_by) {}
+  /// `passed_by`: keys that are touched and not hit. `last`: meetings after that time are of no interest; or null.
+  explicit First(const std::vector<Key>& passed_by, const N* last = nullptr) : passed_by_(passed_by), last_(last) {}
   void offer(const Meeting<N>& m, const Key& key) {
     if (m.verdict == Verdict::no) return;
     if (!passed_by_.empty() && std::find(passed_by_.begin(), passed_by_.end(), key) != passed_by_.end()) return;
+    if (last_ != nullptr && sign(m.time - *last_) == Sign::positive) {
+      later_ = true;
+      return;
+    }
     const Sign order = found_ ? sign(m.time - best_.time) : Sign::negative;
     if (order == Sign::positive) return;
     if (m.verdict == Verdict::yes && order == Sign::negative) {  // what was the first comes later
@@ -132,6 +136,8 @@ class First {
     }
   }
   bool found() const { return found_; }
+  /// Was there one after the last time?
+  bool later() const { return later_; }
   /// Has this one been offered? Not of every one that is said: that only costs time. The copies of a wall along a flight
   /// are offered again soon, so that the last ones tell.
   bool knows(const Key& key) const {
@@ -154,7 +160,8 @@ class First {
     Key key;
   };
   const std::vector<Key>& passed_by_;
-  bool found_ = false;
+  const N* last_;
+  bool found_ = false, later_ = false;
   Meeting<N> best_;
   Key best_key_{};
   std::vector<Other> others_;  ///< undecided, or not known to come later; seldom any

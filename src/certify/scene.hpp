@@ -24,7 +24,8 @@ struct Choice {
     wall,       ///< `first`
     nothing,    ///< no wall follows, ever
     undecided,  ///< `first` and `second` could not be told apart, or whether `first` is met
-    too_far     ///< no wall within the longest flight that is followed; `first` may have been met
+    too_far,    ///< no wall within the longest flight that is followed; `first` may have been met
+    last_time   ///< comes before all walls
   } answer = nothing;  // undecided without a `first`: the enclosure is too wide to look for walls
   Copy first, second;
 };
@@ -108,10 +109,11 @@ class SceneOf {
   }
 
   /// The first wall ahead of P, which lies on the wall `standing` of cell 0 (-1: on none). `P0` and `v0`:
-  /// the same in doubles, nearly.
+  /// the same in doubles, nearly. `last`: the flight's last time (in a field: -kappa there), if it is asked whether
+  /// that comes before all walls.
   Choice next(const Whereabouts& where, const VectorOf<N>& P, const VectorOf<N>& v, int standing,
-              geometry::Vector P0, geometry::Vector v0) const {
-    First<N, Copy> first(passed_by);
+              geometry::Vector P0, geometry::Vector v0, const N* last = nullptr) const {
+    First<N, Copy> first(passed_by, last);
     if (!lattice) {
       for (std::size_t i = 0; i < walls.size(); ++i) {
         const int wall = static_cast<int>(i);
@@ -139,6 +141,7 @@ class SceneOf {
     const auto seen_to = [&](double end) {
       return first.found() && sign(first.time() - N(end)) == Sign::negative;
     };
+    const auto seen_to_last = [&](double end) { return last != nullptr && sign(*last - N(end)) == Sign::negative; };
     if (motion.turns) {
       const LarmorPieces pieces(P0, v0, middle_of(motion.half_omega), where.stretch);
       for (double k = 0.0; k < most_pieces; ++k) {
@@ -146,13 +149,16 @@ class SceneOf {
         near_piece(where, pieces.middle(k), off(k), try_copy);
         const std::optional<double> end = pieces.seen_to(k);
         if (pieces.last(k) || (end && seen_to(*end))) return answer(first);
+        if (end && seen_to_last(*end)) return answer(first, true);
       }
     } else {
       const geometry::Vector step = (where.stretch / speed) * v0;
       for (double k = 0.0; k < most_pieces; ++k) {
         if (!(off(k) <= where.stretch)) return unknown;
         near_piece(where, P0 + (k + 0.5) * step, off(k), try_copy);
-        if (seen_to((k + 1.0) * where.stretch / speed * (1.0 - Whereabouts::rounding))) return answer(first);
+        const double end = (k + 1.0) * where.stretch / speed * (1.0 - Whereabouts::rounding);
+        if (seen_to(end)) return answer(first);
+        if (seen_to_last(end)) return answer(first, true);
       }
     }
     Choice none;
@@ -162,7 +168,9 @@ class SceneOf {
   }
 
  private:
-  static Choice answer(const First<N, Copy>& first) {
+  /// `later`: where nothing was looked for walls come after the last time. One that is found may then do so too, and
+  /// behind another one: who flies there looks at the time.
+  static Choice answer(const First<N, Copy>& first, bool later = false) {
     Choice choice;
     const Copy* rival = first.rival();
     if (first.found()) choice.first = first.key();
@@ -171,6 +179,8 @@ class SceneOf {
       (first.found() ? choice.second : choice.first) = *rival;
     } else if (first.found()) {
       choice.answer = Choice::wall;
+    } else if (later || first.later()) {
+      choice.answer = Choice::last_time;
     }
     return choice;
   }
