@@ -1,6 +1,7 @@
 // Crossings of a surface within a step of an integrator, by the scheme's own partial steps.
 #include <cmath>
 
+#include "events/bracketed_root.hpp"
 #include "events/group.hpp"
 
 namespace carom {
@@ -35,6 +36,12 @@ class SectionSearch {
       before = &after;
     }
   }
+
+  // For bracketed_root.
+  Knot* at(double time) { return &path_.at(time); }
+  static double time(const Knot* k) { return k->time; }
+  double g(const Knot* k) const { return g(*k); }
+  double rate(Knot* k) const { return rate(*k); }
 
  private:
   Vector position(const Knot& k) const { return k.phase.position[member_] + origin_; }
@@ -73,26 +80,9 @@ class SectionSearch {
 
   // The only crossing between two knots on different sides.
   void root(Knot& a, Knot& b) {
-    Knot *low = &a, *high = &b;
-    const bool rising = g(b) > 0.0;
-    const double width = b.time - a.time;
-    const auto nearer = [&] { return std::fabs(g(*low)) < std::fabs(g(*high)) ? low : high; };
-    Knot* best = nearer();
-    for (int i = 0; i < 100 && g(*best) != 0.0; ++i) {
-      const double newton = g(*best) / rate(*best);
-      if (std::fabs(newton) <= 0x1p-52 * best->time) break;
-      double time = best->time - newton;
-      if (!(time > low->time && time < high->time)) time = low->time + 0.5 * (high->time - low->time);
-      if (!(time > low->time && time < high->time)) break;
-      Knot& next = path_.at(time);
-      const bool better = std::fabs(g(next)) < std::fabs(g(*best));
-      const double step = std::fabs(next.time - best->time);
-      ((g(next) > 0.0) == rising ? high : low) = &next;
-      best = better ? &next : nearer();
-      if (!better && step <= 1e-8 * width) break;
-    }
-    if (on_surface_part(surface_, position(*best)))
-      found_.push_back({best->time, rising ? 1 : -1, position(*best), best->phase.velocity[member_]});
+    const Knot* found = bracketed_root(*this, &a, &b);
+    if (on_surface_part(surface_, position(*found)))
+      found_.push_back({found->time, g(b) > 0.0 ? 1 : -1, position(*found), found->phase.velocity[member_]});
   }
 
   StepPath<double>& path_;

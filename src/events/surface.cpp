@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "carom/base/elementary.hpp"
+#include "events/bracketed_root.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {
@@ -20,33 +21,24 @@ struct Point {
   Vector position, velocity;
 };
 
-Point at(const Surface& s, const FreeFlight& f, double time) {
-  const auto [position, velocity] = moved(f.position, f.velocity, f.omega, time);
-  return {time, surface_function(s, position, velocity), position, velocity};
-}
-
-// Newton's method between two points with different signs, halving where it leaves them.
-Point refined(const Surface& s, const FreeFlight& f, Point low, Point high) {
-  const bool rising = high.g > 0.0;
-  const double width = high.time - low.time;
-  const auto nearer = [&] { return std::fabs(low.g) < std::fabs(high.g) ? low : high; };
-  Point best = nearer();
-  for (int i = 0; i < 200 && best.g != 0.0; ++i) {
-    const double newton = best.g / surface_rate(s, best.position, best.velocity, f.omega * geometry::right(best.velocity));
-    if (std::fabs(newton) <= 0x1p-52 * best.time) break;
-    double time = best.time - newton;
-    if (!(time > low.time && time < high.time)) time = low.time + 0.5 * (high.time - low.time);
-    if (!(time > low.time && time < high.time)) break;
-    const Point next = at(s, f, time);
-    const bool better = std::fabs(next.g) < std::fabs(best.g);
-    const double step = std::fabs(next.time - best.time);
-    ((next.g > 0.0) == rising ? high : low) = next;
-    best = better ? next : nearer();
-    // A small step that does not improve has met the rounding of g.
-    if (!better && step <= 1e-8 * width) break;
+// A flight as it is seen from a surface.
+class SeenFlight {
+ public:
+  SeenFlight(const Surface& surface, const FreeFlight& flight) : surface_(surface), flight_(flight) {}
+  Point at(double time) const {
+    const auto [position, velocity] = moved(flight_.position, flight_.velocity, flight_.omega, time);
+    return {time, surface_function(surface_, position, velocity), position, velocity};
   }
-  return best;
-}
+  static double time(const Point& p) { return p.time; }
+  static double g(const Point& p) { return p.g; }
+  double rate(const Point& p) const {
+    return surface_rate(surface_, p.position, p.velocity, flight_.omega * geometry::right(p.velocity));
+  }
+
+ private:
+  const Surface& surface_;
+  const FreeFlight& flight_;
+};
 
 // The phase in [0, pi) at which dg/dt = 0 for the first time, of a Larmor flight with phase |omega| t.
 double first_extreme(const Surface& s, const FreeFlight& f) {
@@ -144,11 +136,12 @@ SurfaceCoordinates surface_coordinates(const Surface& s, Vector position, Vector
 
 void crossings(const Surface& s, const FreeFlight& f, std::size_t most, std::vector<SurfaceCrossing>& found) {
   found.clear();
+  const SeenFlight seen(s, f);
   Point before{0.0, surface_function(s, f.position, f.velocity), f.position, f.velocity};
   // Adds the crossing on a stretch on which g is monotone.
   const auto stretch = [&](const Point& after) {
     if ((before.g > 0.0) != (after.g > 0.0)) {
-      const Point p = refined(s, f, before, after);
+      const Point p = bracketed_root(seen, before, after);
       if (on_surface_part(s, p.position))
         found.push_back({p.time, after.g > 0.0 ? 1 : -1, p.position, p.velocity});
     }
@@ -161,14 +154,14 @@ void crossings(const Surface& s, const FreeFlight& f, std::size_t most, std::vec
     for (double k = 0.0; found.size() < most && !in_vain(k); k += 1.0) {
       const double time = (phase + k * pi) * per_time;
       if (!(time < f.duration)) break;
-      if (time > 0.0) stretch(at(s, f, time));
+      if (time > 0.0) stretch(seen.at(time));
     }
   } else if (s.kind == Surface::Kind::circle) {
     const double time = -dot(f.position - s.from, f.velocity) / dot(f.velocity, f.velocity);
-    if (time > 0.0 && time < f.duration) stretch(at(s, f, time));
+    if (time > 0.0 && time < f.duration) stretch(seen.at(time));
   }
   if (found.size() >= most) return;
-  Point last = at(s, f, f.duration);
+  Point last = seen.at(f.duration);
   last.position = f.end;
   last.g = surface_function(s, f.end, last.velocity);
   stretch(last);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "events/bracketed_root.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {
@@ -197,6 +198,50 @@ TEST(Surface, StartsOnTheSurfaceCountToThePositiveSide) {
   // Onto the surface from the right: at the end; from the left: it belongs to the next flight.
   EXPECT_EQ(all(x, {{1, 0}, {-1, 0}, 0, 1, {0, 0}}).size(), 1u);
   EXPECT_TRUE(all(x, {{-1, 0}, {1, 0}, 0, 1, {0, 0}}).empty());
+}
+
+// A chord through a circle so small that its far side lies in the last digits of the way: where the flight comes
+// nearest to the centre Newton's method says nothing.
+TEST(Surface, ShortChordsAreAsExactAsLongOnes) {
+  for (double radius = 1e-3; radius > 1e-15; radius *= 0.3) {
+    const FreeFlight f{{-1, 0}, {1, 0}, 0, 3, {2, 0}};
+    const auto found = all({Kind::circle, {0, 0}, {}, radius, 0}, f);
+    ASSERT_EQ(found.size(), 2u) << radius;
+    EXPECT_NEAR(found[0].position.x, -radius, 0x1p-52) << radius;
+    EXPECT_NEAR(found[1].position.x, radius, 0x1p-52) << radius;
+  }
+}
+
+TEST(BracketedRoot, LeavesNoDoubleBetweenTheSides) {
+  struct Path {
+    double order, zero, floor;
+    int calls = 0;
+    double at(double t) {
+      ++calls;
+      return t;
+    }
+    static double time(double t) { return t; }
+    // t^order about the zero, with steps at its foot as rounding makes them.
+    double g(double t) const {
+      const double x = t - zero, y = std::copysign(std::pow(std::fabs(x), order), x);
+      return floor > 0.0 ? floor * std::floor(y / floor) + (y < 0.0 ? 0.0 : 0.5 * floor) : y;
+    }
+    double rate(double t) const { return order * std::pow(std::fabs(t - zero), order - 1.0); }
+  };
+  for (const double order : {0.5, 1.0, 2.0, 3.0, 7.0})
+    for (const double floor : {0.0, 1e-18, 1e-6})
+      for (const double zero : {0.3, 1.0 / 3.0, 0.9999}) {
+        Path path{order, zero, floor};
+        const double root = bracketed_root(path, 0.0, 1.0);
+        const bool above = path.g(root) > 0.0;
+        EXPECT_TRUE(path.g(root) == 0.0 || path.g(std::nextafter(root, above ? 0.0 : 1.0)) * path.g(root) <= 0.0)
+            << order << ' ' << floor << ' ' << zero;
+        EXPECT_LT(path.calls, 250);
+      }
+  // In a plain case it is Newton's method and two points more.
+  Path plain{1.0, 1.0 / 3.0, 0.0};
+  EXPECT_DOUBLE_EQ(bracketed_root(plain, 0.0, 1.0), 1.0 / 3.0);
+  EXPECT_LT(plain.calls, 6);
 }
 
 TEST(Surface, CoordinatesRunAlongIt) {
