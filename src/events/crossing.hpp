@@ -61,6 +61,14 @@ template <bool larmor>
   return error;
 }
 
+/// In a field: is the sign of the rising root certain where it goes through infinity? There a flight of no length passes
+/// into a full turn. Falling towards the curve the root is a quotient by a, the distance of the start; standing on it
+/// one by b, which is positive, but may have been rounded away.
+[[gnu::always_inline]] inline bool far_root_certain(const geometry::Quadratic<double>& q, const geometry::QuadraticError& e,
+                                                    bool stands) {
+  return stands ? q.b > 0.0 : q.b > e.b || std::fabs(q.a) > e.a;
+}
+
 /// Without field, the time of a crossing is a quotient: that of a conic's rising root.
 struct Quotient {
   double time, unit;

@@ -101,6 +101,16 @@ inline constexpr double least_square = 0x1p-900;
   } else {
     q = quadratic<true>(w, origin, v, f.square_speed, f.omega, wall == f.start_piece);
   }
+  const bool stands = wall == f.start_piece;
+  if (!stands && w.kind == geometry::CurveKind::segment) {
+    // Twice the rounding of lengths exceeds 8u of them.
+    const double bound = options_.filter_inflation * (1.42 * f.start_error + 2.0 * enclosure_rounding_);
+    if (!(std::fabs(q.a) > bound)) [[unlikely]] return false;
+  } else {
+    const geometry::FlightScale scale{f.start_error, norm_1(v), std::fabs(f.omega), options_.filter_inflation};
+    if (stands ? !(q.b > 0.0) : !far_root_certain(q, quadratic_error(w, origin, scale, false), false)) [[unlikely]]
+      return false;
+  }
   const double discriminant = q.b * q.b - q.a * q.c;
   const double n = std::fabs(q.b) + std::sqrt(discriminant > 0.0 ? discriminant : 0.0);
   const double kappa = detail::quotients(q.b, Pair{n, q.a}, Pair{-q.c, n})[0];

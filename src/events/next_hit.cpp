@@ -310,6 +310,12 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
     best_q = q;
     best_root = root;
   }
+  if (larmor && best >= 0 && !is_quartic(f, best)) {
+    const PieceData& p = data_[at(best)];
+    const Origin& origin = origin_of(p);
+    const QuadraticError e = quadratic_error(*p.shape, origin.point, origin.scale, best == start);
+    if (!far_root_certain(best_q, e, best == start)) return false;
+  }
   // Bounds are allowed to change where a quartic's root is looked for, not the number that is found.
   if (larmor && best >= 0 && options_.filter_inflation != 1.0 && is_quartic(f, best)) {
     Candidate c;
@@ -362,9 +368,17 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
       const Quotient quotient = straight_time(c.quadratic, c.root.root);
       ahead.duration = quotient.time / quotient.unit;
     }
-    // A flight along a wall to the last digit: the formula in doubles may have lost the sign.
+    // A flight along a wall to the last digit, or of no length: the formula in doubles may have lost the sign, and in a
+    // field a full turn with it. Else its number is good enough, if cancelled: a root that errs much belongs to a graze
+    // or to a start beside the wall, and the place of the hit to few ulps either way, as tables have no flat arcs. It must
+    // be the filter's number, as results do not depend on the stage; so this question does not on the inflation.
+    const PieceData& p = data_[at(ahead.piece)];
+    FlightScale scale = origins_[at(p.offset)].scale;
+    scale.inflation = 1.0;
+    const bool stands = stands_on(f, ahead.piece);
+    const QuadraticError error = quadratic_error(*p.shape, origins_[at(p.offset)].point, scale, stands);
     const bool lost = f.omega == 0.0 ? !(ahead.duration > 0.0) || !std::isfinite(ahead.duration)
-                                     : !std::isfinite(ahead.kappa);
+                                     : !std::isfinite(ahead.kappa) || !far_root_certain(c.quadratic, error, stands);
     if (lost) ahead.kappa = first.kappa;
     if (f.omega == 0.0 && !lost) return ahead;
   }
