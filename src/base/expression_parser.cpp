@@ -71,11 +71,7 @@ class Parser {
 
   [[noreturn]] void fail(std::size_t at, const std::string& problem, const std::string& expected = {},
                          const std::string& nearest = {}) const {
-    std::string message = problem + " at character " + std::to_string(character(at));
-    const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-    const bool printable = std::none_of(text_.begin(), text_.end(), control);
-    if (text_.size() <= 60 && printable) message += " of \"" + std::string(text_) + "\"";
-    throw InputError(place_, message, expected, nearest);
+    throw InputError(place_, at_character(problem, character(at), text_), expected, nearest);
   }
 
   // An operation that may have no value; `at` is the character to blame.

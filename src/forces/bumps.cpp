@@ -47,28 +47,33 @@ struct Batch {
   alignas(64) std::array<double, batch> dx, dy, r, e;
 };
 
+/// Adds the forces of all bumps of a kind, and returns their potential: of sums of units of each.
+template <class Bumps>
+double add_bumps(const Bumps& bumps, const Centers& centers, Vector x, double height, double slope, Vector& force) {
+  Lanes value{}, fx{}, fy{};
+  Batch b;
+  for (std::size_t from = 0; from < centers.x.size(); from += batch) {
+    const std::size_t n = std::min(batch, centers.x.size() - from);
+    bumps.distances(x, from, n, b);
+    elementary::exp(std::span(b.e.data(), n));
+    bumps.sum(from, n, b, value, fx, fy);
+  }
+  force.x += slope * total(fx);
+  force.y += slope * total(fy);
+  return height * total(value);
+}
+
 class FermiBumps final : public Potential {
  public:
   FermiBumps(double height, double radius, double softness, const std::vector<Vector>& centers)
       : height_(height), radius_(radius), softness_(softness), inverse_(1.0 / softness), centers_(centers) {}
 
   double add_force(const Particle&, Vector x, Vector& force) const override {
-    Lanes value{}, fx{}, fy{};
-    Batch b;
-    for (std::size_t from = 0; from < centers_.x.size(); from += batch) {
-      const std::size_t n = std::min(batch, centers_.x.size() - from);
-      distances(x, from, n, b);
-      elementary::exp(std::span(b.e.data(), n));
-      sum(from, n, b, value, fx, fy);
-    }
-    force.x += height_ * inverse_ * total(fx);
-    force.y += height_ * inverse_ * total(fy);
-    return height_ * total(value);
+    return add_bumps(*this, centers_, x, height_, height_ * inverse_, force);
   }
   double reach() const override { return radius_ + tail_exponent * softness_; }
   double tail() const override { return tail_share * std::fabs(height_); }
 
- private:
   CAROM_VECTORISED void distances(Vector x, std::size_t from, std::size_t n, Batch& b) const {
     for (std::size_t i = 0; i < n; i += lanes) {
       Lanes cx, cy;
@@ -110,6 +115,7 @@ class FermiBumps final : public Potential {
     }
   }
 
+ private:
   double height_, radius_, softness_, inverse_;
   Centers centers_;
 };
@@ -120,22 +126,11 @@ class GaussianBumps final : public Potential {
       : height_(height), width_(width), inverse_square_(1.0 / (width * width)), centers_(centers) {}
 
   double add_force(const Particle&, Vector x, Vector& force) const override {
-    Lanes value{}, fx{}, fy{};
-    Batch b;
-    for (std::size_t from = 0; from < centers_.x.size(); from += batch) {
-      const std::size_t n = std::min(batch, centers_.x.size() - from);
-      distances(x, from, n, b);
-      elementary::exp(std::span(b.e.data(), n));
-      sum(from, n, b, value, fx, fy);
-    }
-    force.x += height_ * inverse_square_ * total(fx);
-    force.y += height_ * inverse_square_ * total(fy);
-    return height_ * total(value);
+    return add_bumps(*this, centers_, x, height_, height_ * inverse_square_, force);
   }
   double reach() const override { return std::sqrt(2.0 * tail_exponent) * width_; }
   double tail() const override { return tail_share * std::fabs(height_); }
 
- private:
   CAROM_VECTORISED void distances(Vector x, std::size_t from, std::size_t n, Batch& b) const {
     for (std::size_t i = 0; i < n; i += lanes) {
       Lanes cx, cy;
@@ -162,6 +157,7 @@ class GaussianBumps final : public Potential {
     }
   }
 
+ private:
   double height_, width_, inverse_square_;
   Centers centers_;
 };
