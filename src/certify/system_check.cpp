@@ -50,7 +50,8 @@ void check_velocity(const ExactStart& start) {
   const Sign x = sign_of(start.direction.x), y = sign_of(start.direction.y);
   const auto moves = [](Sign s) { return s == Sign::positive || s == Sign::negative; };
   if (moves(x) || moves(y)) return;
-  if (x == Sign::zero && y == Sign::zero) throw InputError(start.direction.x.place(), "the velocity is zero");
+  if (x == Sign::zero && y == Sign::zero)
+    throw InputError(start.direction.x.place(), "the velocity is zero", "a velocity that is not zero");
   throw InputError(start.direction.x.place(), "the velocity cannot be told from zero", "another velocity");
 }
 

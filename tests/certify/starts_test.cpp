@@ -78,9 +78,9 @@ TEST(CertifiedStarts, OutsideOrOnAWall) {
 
 TEST(CertifiedStarts, WithoutAVelocity) {
   ExactSystem system = tests::system_of(shaped("circle", {{"radius", "1"}}, "0", "0"), {0.0, 0.0});
-  EXPECT_EQ(refusal(system), "the velocity is zero");
+  EXPECT_EQ(refusal(system), "the velocity is zero (expected a velocity that is not zero)");
   system.start.direction.y = exactly("sqrt(8)-2*sqrt(2)");
-  EXPECT_EQ(refusal(system), "the velocity is zero");
+  EXPECT_EQ(refusal(system), "the velocity is zero (expected a velocity that is not zero)");
   system.start.direction.y = exactly("sqrt(8)-2*sqrt(2)+1/10^900");
   EXPECT_EQ(refusal(system), "");
   system.start.direction.y = exactly("sqrt(2)+sqrt(3)-sqrt(5+2*sqrt(6))");

@@ -138,9 +138,9 @@ class CertifiedOrbit {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The first `collisions` hits of a system as its file gives it (LoadedSystem::exact), each with `digits`
-/// guaranteed decimals; fewer where the orbit ends before:
-///   for (const CertifiedHit& hit : certified_orbit(load_system("stadium").exact, 1000, 20)) …
+/// The first `collisions` hits of a system as its file gives it (LoadedSystem::exact, whose start is a point), each
+/// with `digits` guaranteed decimals; fewer where the orbit ends before:
+///   for (const CertifiedHit& hit : certified_orbit(load_system("siam-photon").exact, 1000, 20)) …
 CertifiedOrbit certified_orbit(const ExactSystem&, std::uint64_t collisions, int digits);
 /// The same on a table, with speed 1 and without field.
 CertifiedOrbit certified_orbit(const TableSpec& table, const ExactStart& start, std::uint64_t collisions,
