@@ -31,7 +31,6 @@ class ExactPiece {
   const std::vector<Stretch>& stretches() const { return stretches_; }
   /// Parameter of the end, rounded.
   double end() const { return static_cast<double>(stretches_.size() - 1) + last_.get_d(); }
-  bool full_circle() const { return curve_.closed && curve_.metric.euclidean; }
 
   /// The implicit equation of the carrier along a stretch of another piece: identically zero exactly
   /// when both have one carrier.
