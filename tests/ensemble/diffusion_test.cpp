@@ -87,7 +87,7 @@ TEST(Diffusion, StartsBallistic) {
   EXPECT_NEAR(points[1].square.value, 1e-12, 1e-15);
 }
 
-// REFERENCE: D = .1699(3) for gap .2 in units of the disc's radius; Machta and Zwanzig only as w -> 0.
+// An independent simulation: D = .1699(3) for gap .2 in units of the disc's radius; Machta and Zwanzig only as w -> 0.
 TEST(Diffusion, OfTheTriangularGas) {
   const System system = lorentz("triangular", 2.2, 1, 100, 30000);
   const DiffusionResult result = run_diffusion(system);

@@ -22,6 +22,7 @@ struct PairedPoint {
   double detectable = 0.0;
 };
 
+/// How many pairs differ, both curves, and the test of their difference.
 struct PairedResult {
   std::uint64_t pairs = 0;
   std::uint64_t other_hole = 0;  ///< both escaped, through different holes, or only one did

@@ -56,9 +56,11 @@ struct SurvivalHitsPoint {
 struct RatePoint {
   double t, from, to, value, low, high;
 };
+/// p(t) at every report time.
 std::vector<SurvivalPoint> survival(const SurvivalCounts&);
 /// Up to the first reported number that no trajectory exceeded.
 std::vector<SurvivalHitsPoint> survival_by_hits(const SurvivalCounts&);
+/// Between each report time and the one before; from 0 to the first.
 std::vector<RatePoint> escape_rate(const SurvivalCounts&);
 
 }  // namespace carom

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <system_error>
 
 #include "carom/base/exact_number.hpp"
 

@@ -60,6 +60,7 @@ enum class CertifiedFate : unsigned char {
 };
 const char* name_of(CertifiedFate);
 
+/// The end of an orbit: its fate, and the state after the last event.
 struct CertifiedEnd : CertifiedState {
   CertifiedFate fate = CertifiedFate::completed;
   std::uint64_t collisions = 0;

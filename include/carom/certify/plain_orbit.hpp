@@ -12,12 +12,14 @@
 
 namespace carom {
 
+/// What an orbit is asked for.
 struct PlainTask {
   std::uint64_t collisions = 0;      ///< 0: no cap
   std::optional<ExactNumber> t_max;  ///< last time
   long bits = 53;                    ///< of every number: operations round to nearest
 };
 
+/// The end of an orbit: its fate, and the state after the last event.
 struct PlainEnd {
   enum Fate : unsigned char { completed, escaped, unbounded, pinned, lost } fate = completed;
   std::uint64_t collisions = 0;

@@ -25,6 +25,7 @@ struct Horizon {
   double flight_tail = 0.0;       ///< limit of t P(no hit until t) at speed 1; 0 without corridors
   std::optional<double> machta_zwanzig;  ///< their estimate of D: triangular lattice of one disc, finite horizon
 };
+/// From the lattice and the walls alone; exact signs decide whether a corridor is free.
 Horizon horizon_of(const System&);
 /// Why there is no D, as a phrase; "" where there is one.
 std::string no_diffusion(const Horizon&);

@@ -12,6 +12,7 @@ namespace carom {
 
 class World;
 
+/// A particle that enters during a run, and how.
 struct InjectedParticle {
   Particle particle;
   State state;  ///< on the wall, inside the hole, inwards; its time is that of entry

@@ -19,6 +19,7 @@ struct OtherEnd {
 /// Of one that starts there.
 using OtherFlight = std::function<OtherEnd(const State& start)>;
 
+/// Which trajectories, and when two ends are the same.
 struct PairedEscapeOptions {
   std::uint64_t sample = 10000;  ///< trajectories 0 … sample - 1
   /// Ends that differ by no more are the same, in times the size of the table over the speed.
@@ -29,6 +30,7 @@ struct PairedEscapeOptions {
   const std::atomic<bool>* interrupted = nullptr;
 };
 
+/// How often the two ends of a start differ, and whether the two survival curves do.
 struct PairedEscapeResult {
   PairedResult pairs;
   /// Pairs that are not compared: the engine's orbit ended as singular (or lost: an internal error), the other one did, its

@@ -10,6 +10,7 @@ namespace carom {
 /// Messages between the processes of one run, numbered from 0. At any time one thread of a process calls it.
 class Ranks {
  public:
+  /// What one process has sent.
   struct Message {
     int from = 0;
     std::vector<std::byte> bytes;

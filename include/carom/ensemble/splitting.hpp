@@ -57,6 +57,7 @@ struct PopulationRun {
                 parted = 0;  ///< copies that were kicked, and those whose new way reached the level
 };
 
+/// What all populations give; of an interrupted run, whole repetitions.
 struct SplittingResult {
   SplittingPlan plan;
   std::vector<double> at;                                   ///< report times, or the levels in hits
@@ -85,12 +86,14 @@ struct Extrapolated {
   /// Half the width of the 95 % band: statistics and extrapolation.
   double band() const;
 };
+/// Share still there at a report time, or not gone within so many hits.
 struct SplitPoint {
   double at = 0.0;
   Extrapolated p;
   /// Independent trajectories that would give the same statistical error.
   double equivalent = 0.0;
 };
+/// Escapes per unit time between two report times; t is their middle (geometric where from > 0).
 struct SplitRate {
   double t = 0.0, from = 0.0, to = 0.0;
   Extrapolated value;

@@ -16,7 +16,7 @@
 
 namespace carom {
 
-/// How initial states are chosen (CONTRACT §1, [initial]).
+/// How initial states are chosen ([initial] of docs/guide/system-file.md).
 struct InitialCondition {
   enum class Kind { uniform, boundary, hole, point, birkhoff, rectangle, line, list } kind = Kind::uniform;
   int wall = -1;                     ///< boundary, birkhoff

@@ -19,7 +19,8 @@
 namespace carom {
 
 /// Particles on one table. Where nothing acts they fly exactly (straight or Larmor flights). Where a
-/// force acts they are integrated, from the edge of its support on and back (DESIGN §5).
+/// force acts they are integrated, from the edge of its support on and back
+/// (docs/physics/walls-in-steps.md).
 class World {
  public:
   /// Free particles. Keeps a reference to the table, which must live as long.

@@ -1,4 +1,4 @@
-// What the system file asks of the integration ([integrator], CONTRACT §1).
+// What the system file asks of the integration ([integrator] of docs/guide/system-file.md).
 #pragma once
 
 #include <string>

@@ -127,6 +127,7 @@ void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, 
 template <class Result>
 class EnsembleArchive : public EnsembleJournal<Result> {
  public:
+  /// What is written, and over what: `force` replaces an archive that exists.
   struct Plan {
     bool force = false, per_trajectory = false;
     Shard shard;

@@ -1,6 +1,7 @@
 // Reads a system: TOML file, built-in name, --set and other overrides.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,7 @@
 
 namespace carom {
 
-/// The one table of keys: parser, hints, --set and the guide's page are made from it.
+/// A key of the system file.
 struct KeyDescription {
   std::string_view section;   ///< "table", "table.hole", "table.loop", "lattice", "field", …
   std::string_view kind;      ///< shape or kind the key belongs to ("" : all), several by |
@@ -21,6 +22,7 @@ struct KeyDescription {
   std::string_view fallback;  ///< default as written ("" : required or none)
   std::string_view meaning;
 };
+/// The one table of keys: parser, hints, --set and the guide's page are made from it.
 const std::vector<KeyDescription>& key_table();
 /// The table as Markdown, for the guide (docs/guide/system-file.md holds it; a test compares).
 std::string key_table_markdown();
@@ -29,6 +31,7 @@ std::string key_table_markdown();
 struct BuiltinSystem {
   std::string_view name, toml;
 };
+/// All of them, in the order in which `carom systems` lists them.
 const std::vector<BuiltinSystem>& builtin_systems();
 
 /// A system and the complete resolved TOML it came from (can be read again).

@@ -5,6 +5,7 @@
 
 namespace carom {
 
+/// Counts of what lanes did.
 struct LaneEffort {
   std::uint64_t hits = 0;    ///< decided and made in lanes
   std::uint64_t scalar = 0;  ///< hits and ends left to the scalar engine

@@ -38,7 +38,8 @@ struct LaneEnd {
 class LaneWorld {
  public:
   /// Can lanes fly such particles on that table? Straight flights, or Larmor circles that all turn the same way,
-  /// between segments, circles and ellipses.
+  /// between segments, circles and ellipses: at most 64 pieces. On a lattice straight flights alone, among discs that
+  /// lie inside the cell.
   static bool suits(const Table&, const std::vector<Particle>&);
 
   /// `particles` suit, and every start is one of them. Keeps a reference to the table, which must live as long.

@@ -30,9 +30,16 @@ struct State {
   Time time;
 };
 
-/// How a trajectory ended (DESIGN §1). `survived` is reaching t_max or the cap on hits; a pinned
-/// cyclotron orbit, which can never hit anything, survives too.
-enum class Fate : unsigned char { survived, pinned, capped, escaped, singular, unbounded, lost };
+/// How a trajectory ended (docs/physics/conventions.md).
+enum class Fate : unsigned char {
+  survived,   ///< still there at t_max
+  pinned,     ///< on a cyclotron orbit that can never hit anything: survives
+  capped,     ///< ended by the cap on hits: survives
+  escaped,    ///< left through a hole
+  singular,   ///< its exact path ends at a corner without a continuation, or runs along a wall
+  unbounded,  ///< no wall follows any more: gone since its last hit
+  lost        ///< an internal error
+};
 const char* name_of(Fate);
 
 }  // namespace carom

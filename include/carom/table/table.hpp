@@ -54,6 +54,7 @@ struct Table {
 struct TableMeasure {
   double area = 0.0, perimeter = 0.0, mean_flight = 0.0;
 };
+/// Measures the walls of a table that was built.
 TableMeasure measure(const Table&);
 
 /// Builds a table from its specification: named shapes become walls, holes become parameters, and

@@ -16,7 +16,7 @@ struct ExactPoint {
   ExactNumber x, y;
 };
 
-/// One piece of a path: which keys are set decides its kind (CONTRACT: line_to, arc_via + arc_to,
+/// One piece of a path: which keys are set decides its kind (docs/guide/system-file.md: line_to, arc_via + arc_to,
 /// ellipse_via + ellipse_to + ellipse_ratio + ellipse_angle).
 struct PieceSpec {
   enum class Kind { line, arc, ellipse } kind = Kind::line;
@@ -53,7 +53,7 @@ struct LatticeSpec {
   Place place;
 };
 
-/// `numbers`, `points`, `lists` and `words` hold the keys of the shape by name (CONTRACT §1): width,
+/// `numbers`, `points`, `lists` and `words` hold the keys of the shape by name (docs/guide/system-file.md): width,
 /// height, radius, sides, angle, a, b, outer, inner, offset, half_length, cap_radius, stem_width,
 /// stem_height, separation, side, spacing, count, seed; points, centers; radii; lattice.
 struct TableSpec {

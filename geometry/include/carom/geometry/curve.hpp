@@ -65,6 +65,7 @@ using Curve = std::variant<Segment, CircularArc, Circle, EllipticArc, Ellipse>;
 
 /// True for a full circle or ellipse: a loop by itself, without a joint.
 bool is_closed(const Curve&);
+/// Where the curve begins and ends; of a closed one both are its point at parameter 0, rounded.
 Vector start_point(const Curve&);
 Vector end_point(const Curve&);
 
