@@ -1,9 +1,7 @@
 // How well the energies of an escape ensemble's particles are kept where forces act.
 #pragma once
 
-#include <cmath>
 #include <span>
-#include <vector>
 
 #include "carom/ensemble/system.hpp"
 #include "carom/events/energy.hpp"

@@ -144,6 +144,7 @@ TEST(ForceFaults, EnergyThatAStepLosesIsTold) {
   EXPECT_EQ(json_value(shell(escape + "--isa baseline").out, "energy_change"), change);
   shell("$carom escape ./steep.toml --shard 1/2 -o a.h5; $carom escape ./steep.toml --shard 2/2 -o b.h5");
   EXPECT_EQ(json_value(shell("$carom merge all.h5 a.h5 b.h5 --json").out, "energy_change"), change);
+  EXPECT_EQ(json_value(shell("$carom escape --resume all.h5 --json").out, "energy_change"), change);
   EXPECT_TRUE(holds(shell("$carom escape ./steep.toml").out, "largest change of a trajectory's energy "));
   EXPECT_EQ(json_value(shell("$carom escape stadium --trajectories 10 --json").out, "energy_change"), "");
 }
