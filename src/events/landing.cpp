@@ -51,6 +51,7 @@ int HitFinder::hole_at(const Flight& f, const Ahead& ahead, double u, DecisionCo
   const bool stands = stands_on(f, ahead.piece);
   for (const int h : wall.holes) {
     const Hole& hole = table_.holes[at(h)];
+    if (hole.from == 0.0 && hole.to >= end_parameter(wall.curve)) return h;  // all of the wall
     const double end = hole.to >= end_parameter(wall.curve) ? -1.0 : hole.to;
     if (exact.exit_within(ahead.piece, ahead.root, f.cell, hole.from, end, stands)) return h;
   }

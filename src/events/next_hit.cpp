@@ -63,6 +63,19 @@ HitFinder::Candidate HitFinder::candidate(const Flight& f, int piece, bool stand
   return c;
 }
 
+namespace {
+
+/// Does the flight to kappa end on the ellipse to half of the digits? e: its start seen from the centre. Where roots of the
+/// quartic cannot be told apart an interval may hold one root and be of no use as a number.
+bool ends_on_ellipse(const PreparedCurve& w, Vector e, Vector v, double omega, double kappa) {
+  const Vector d = e + displacement(flight_factors(kappa, omega, 0.5), v);
+  const geometry::OnEllipse<double> on = geometry::on_ellipse(d, w.first_axis, w.second_axis);
+  constexpr double of_measure = 0.75;  // on the ellipse
+  return std::fabs(on.measure - of_measure) <= 0x1p-26 * norm_1(on.gradient) * (norm_1(e) + norm_1(d));
+}
+
+}  // namespace
+
 Sign HitFinder::quartic_candidate(const Flight& f, int piece, bool stands, double inflation,
                                   Candidate& c) const {
   const PieceData& p = data_[at(piece)];
@@ -84,8 +97,8 @@ Sign HitFinder::quartic_candidate(const Flight& f, int piece, bool stands, doubl
   for (int i = 0; i < found.count; ++i) {
     c.root.kappa = found.roots[i].kappa;
     c.kappa_error = found.roots[i].error;
-    if (w.closed) return Sign::positive;
-    const Sign on = on_part(f, piece, c, inflation);
+    const Sign on = w.closed ? Sign::positive : on_part(f, piece, c, inflation);
+    if (on == Sign::positive && !ends_on_ellipse(w, e, f.velocity, f.omega, c.root.kappa)) return Sign::undecided;
     if (on != Sign::negative) return on;
   }
   return found.decided ? Sign::negative : Sign::undecided;

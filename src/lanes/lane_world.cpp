@@ -73,6 +73,8 @@ class LaneWorld::Implementation {
                  const std::function<bool()>& interrupted) {
     source = &next;
     sink = &ended;
+    stop = &interrupted;
+    stopped = false;
     for (Lanes* l : {&main, &entrance}) {
       l->pack.end = t_end;
       l->pack.limit = static_cast<double>(std::min(limit, most_hits));
@@ -84,7 +86,7 @@ class LaneWorld::Implementation {
     waiting = 0;
     for (int lane = 0; lane < LanePack::lanes; ++lane) fill(lane);
     for (std::uint64_t sweep = 1; main.busy > 0; ++sweep) {
-      if (interrupted && sweep % 64 == 0 && interrupted()) return;
+      if (stopped || (sweep % 64 == 0 && asked_to_stop())) return;
       kernels.on_walls(pieces, main.pack);
       cap(main);
       effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
@@ -112,6 +114,10 @@ class LaneWorld::Implementation {
   LaneEffort effort;
 
  private:
+  bool asked_to_stop() {
+    stopped = stopped || (*stop && (*stop)());
+    return stopped;
+  }
   /// Lanes that a sweep touches.
   int rounded_up(int used) const { return (used + kernels.width - 1) / kernels.width * kernels.width; }
 
@@ -188,7 +194,7 @@ class LaneWorld::Implementation {
   bool begin(Lanes& lanes, int lane) {
     for (;;) {
       Trajectory& mine = lanes.trajectories[lane];
-      if (exhausted || !(*source)(mine.start)) {
+      if (exhausted || stopped || !(*source)(mine.start)) {
         exhausted = true;
         return false;
       }
@@ -204,6 +210,7 @@ class LaneWorld::Implementation {
 
   /// Is the state one that lanes may start from? Not at a joint, nor along a wall.
   bool can_start(State& s, const Particle& p) const {
+    if (s.time > Time(main.pack.end)) return false;
     if (s.wall < 0) return within(s.position) && in_cell(s.position);
     const geometry::PreparedCurve& w = finder.curve(s.wall);
     if (!(s.u > geometry::first_parameter && s.u < w.last())) return false;
@@ -256,7 +263,8 @@ class LaneWorld::Implementation {
       const double turned = std::fabs(p.omega) * pieces.size, pace = p.speed + turned;
       pack.omega[lane] = p.omega;
       pack.inverse_half[lane] = 1.0 / (0.5 * std::fabs(p.omega));
-      pack.pace[lane] = std::ldexp(1.0, std::ilogb(pace) + 1);
+      // Where the table has no size to measure by, no lane decides anything.
+      pack.pace[lane] = std::isfinite(pace) ? std::ldexp(1.0, std::ilogb(pace) + 1) : HUGE_VAL;
       pack.joint_margin[lane] = std::max(near_margin * turned, circle_margin * pace) * pace;
     }
     if (pack.active[lane] == 0.0) ++lanes.busy;
@@ -334,7 +342,12 @@ class LaneWorld::Implementation {
     scalar.clear();
     scalar.limit_hits(std::min(limit, mine.start.hits + 1));
     scalar.add(mine.start.particle, mine.start.state, mine.start.hits);
-    scalar.run_until(lanes.pack.end, last);
+    // A flight may be long by itself: it is asked on the way.
+    scalar.run_until(lanes.pack.end, last, [this] { return asked_to_stop(); });
+    if (stopped) {
+      lanes.leave(lane);
+      return false;
+    }
     mine.start.hits = scalar.hits(0);
     mine.start.state = scalar.state(0);
     if (scalar.fate(0) == Fate::capped && mine.start.hits < limit) {
@@ -352,6 +365,8 @@ class LaneWorld::Implementation {
 
   const std::function<bool(LaneStart&)>* source = nullptr;
   const std::function<void(const LaneEnd&)>* sink = nullptr;
+  const std::function<bool()>* stop = nullptr;
+  bool stopped = false;
   Lanes main;
   Lanes entrance;   ///< used where particles are not born on walls and `on_walls` cannot fly them
   int waiting = 0;  ///< the next lane of the entrance that may wait

@@ -130,7 +130,10 @@ void add_cell(LaneTable& t, const geometry::Lattice& lattice, double mean_flight
     t.beyond_y[t.edges] = beyond.y;
     t.beyond_first[t.edges] = static_cast<double>(edge.beyond.first);
     t.beyond_second[t.edges++] = static_cast<double>(edge.beyond.second);
-    t.size = std::max(t.size, 4.0 * (std::fabs(corner.x) + std::fabs(corner.y)));
+    // Lattice vectors that are long for their cell are many to the next one: what cells sum up has their size.
+    const auto part = [](std::int64_t n, Vector v) { return std::fabs(static_cast<double>(n)) * (std::fabs(v.x) + std::fabs(v.y)); };
+    t.size = std::max({t.size, 4.0 * (std::fabs(corner.x) + std::fabs(corner.y)),
+                       2.0 * (part(edge.beyond.first, lattice.first) + part(edge.beyond.second, lattice.second))});
   }
   for (const Vector& v : {lattice.first, lattice.second}) t.size = std::max(t.size, 4.0 * (std::fabs(v.x) + std::fabs(v.y)));
   // By how many edges the mean flight passes: isotropic lines cross the boundary of a cell perimeter/(pi area) times a length.
@@ -211,9 +214,9 @@ LaneTable make_lane_table(const HitFinder& finder) {
 }
 
 void leave_short_arcs(LaneTable& t) {
-  // Joints err by 2^-54 S, so such a chord's direction by 2^-22, as much as the middle of an arc may.
+  // Joints err by 2^-52 S, the ends of holes among them, so such a chord's direction by 2^-23; the middle of an arc may by 2^-22.
   for (int i = 0; i < t.pieces; ++i)
-    if (t.bent[i] && t.length[i] > 0.0 && t.length[i] < 0x1p-32 * t.size) t.size = HUGE_VAL;
+    if (t.bent[i] && t.length[i] > 0.0 && t.length[i] < 0x1p-28 * t.size) t.size = HUGE_VAL;
 }
 
 int piece_at(const LaneTable& t, int wall, double u) {

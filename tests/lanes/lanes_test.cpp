@@ -246,6 +246,77 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
   EXPECT_LT(static_cast<double>(totals.scalar), 0.15 * static_cast<double>(totals.hits));
 }
 
+// A hole that is all of a closed wall has no end that a start could touch.
+TEST(LaneRuns, LeaveThroughAWallThatIsAllHole) {
+  Dice dice(9);
+  for (const bool ellipse : {false, true}) {
+    Table table = ellipse ? tests::loop({geometry::Ellipse{{0, 0}, {1, 0}, 0.7, true}}) : tests::disc(1.0);
+    const double end = geometry::end_parameter(table.walls[0].curve);
+    table.holes.push_back({"hole", 0, 0.0, end});
+    table.walls[0].holes = {0};
+    Case all;
+    for (int i = 0; i < 400; ++i) {
+      LaneStart start;
+      start.state.velocity = tests::Vector{1.0, i % 4 == 0 ? 0.0 : dice.sign() * dice.spread(1e-18, 1e-3)};
+      start.particle.speed = std::sqrt(dot(start.state.velocity, start.state.velocity));
+      start.particle.omega = i < 200 ? 0.0 : 0.3;
+      if (i == 200) {
+        Totals totals;
+        compare(table, all, totals, "all hole");
+        EXPECT_EQ(totals.fates.size(), 1u);
+        EXPECT_GT(totals.fates[Fate::escaped], 0);
+        all.starts.clear();
+      }
+      all.starts.push_back(start);
+    }
+    Totals totals;
+    compare(table, all, totals, "all hole, field");
+    EXPECT_EQ(totals.fates.size(), 1u);
+    EXPECT_GT(totals.fates[Fate::escaped], 0);
+  }
+}
+
+// In a free corridor of a lattice, a flight as long as the run: the question comes up inside it.
+TEST(LaneRuns, StopWithinAFlight) {
+  Table table;
+  tests::add_loop(table, {geometry::Circle{{0, 0}, 0.25, false}});
+  table.extent = Extent::lattice;
+  table.lattice = geometry::make_lattice({1, 0}, {0, 1}, {0, 0});
+  LaneStart corridor;
+  corridor.state.position = {0.1, 0.4};
+  corridor.state.velocity = {1, 0};
+  LaneWorld lanes(table, {corridor.particle}, widest_instruction_set());
+  int asked = 0, ended = 0;
+  lanes.run_until(
+      1e12, [&](LaneStart& start) { return start = corridor, true; }, [&](const LaneEnd&) { ++ended; }, [&] { return ++asked > 10; });
+  EXPECT_EQ(asked, 11);
+  EXPECT_EQ(ended, 0);
+}
+
+// Starts after the end of the run, and a table too large for any margin.
+TEST(LaneRuns, LeaveTheUnusualToTheWorld) {
+  const Table discs = tests::discs({{-1.3, 0}, {1.3, 0}, {0, 2.2}});
+  Case late;
+  late.t_end = 5.0;
+  LaneStart away;
+  away.state.position = {0, -1};
+  away.state.velocity = {0, -1};
+  away.state.time = Time(6.0);
+  late.starts = {away};
+  Totals totals;
+  compare(discs, late, totals, "late");
+  EXPECT_GT(totals.fates[Fate::survived], 0);
+  Case huge;
+  LaneStart start;
+  start.state.position = {0.3e30, 0.4e30};
+  start.state.velocity = {0.6, 0.8};
+  start.particle.omega = 1e-29;
+  huge.starts = {start};
+  huge.limit = 5;
+  Totals none;
+  compare(tests::rectangle(1e30, 1e30), huge, none, "huge");
+}
+
 TEST(LaneRuns, GoOnFromWhereTheyWereStopped) {
   Dice dice(6);
   const Table table = tests::stadium();
