@@ -4,6 +4,7 @@
 
 #include "carom/base/error.hpp"
 #include "certify/exact_value.hpp"
+#include "certify/flight_end.hpp"
 #include "certify/line_enclosure.hpp"
 #include "certify/point_enclosure.hpp"
 #include "certify/start.hpp"
@@ -204,9 +205,7 @@ Outcome Attempt::leave(const Now& before) {
   if (arena_.scene.motion.turns) {  // that has turned since then: the reflection is undone instead
     const Precision precision(bits_);
     const BallState after = now_.state->state(bits_);
-    const BallVector t = tangent_of(arena_.wall(now_.wall), after.position);
-    const Ball twice = Ball(2) * dot(after.velocity, t);
-    s.velocity = {twice * t.x - after.velocity.x, twice * t.y - after.velocity.y};
+    s.velocity = before_reflection(arena_.wall(now_.wall), after.position, after.velocity);
   }
   const double missing = radius(s.velocity).log2() + bits_of(task_.digits) + 2.0;
   if (!(missing <= 0.0)) return {Outcome::inaccurate, missing, {}};
@@ -217,14 +216,7 @@ Outcome Attempt::leave(const Now& before) {
 
 Outcome Attempt::stop_at_last_time() {
   BallState s = enclosed();
-  const Ball rest = *t_max_ - s.time;
-  if (arena_.scene.motion.turns) {
-    const LandingOf<Ball> end = larmor_state_after(rest, s.position, s.velocity, arena_.scene.motion.half_omega);
-    s.position = end.position;
-    s.velocity = end.velocity;
-  } else {
-    s.position = s.position + rest * s.velocity;
-  }
+  fly_for(*t_max_ - s.time, s.position, s.velocity, arena_.scene.motion);
   s.time = *t_max_;
   const double needed = std::max(radius(s.position).log2(), radius(s.velocity).log2()) + bits_of(task_.digits) + 2.0;
   if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, {}};

@@ -5,10 +5,10 @@
 #include "carom/base/error.hpp"
 #include "certify/attempt.hpp"
 #include "certify/exact_value.hpp"
+#include "certify/flight_end.hpp"
 #include "certify/plain.hpp"
 #include "certify/pseudo_orbit.hpp"
 #include "certify/system_check.hpp"
-#include "certify/tangent.hpp"
 
 namespace carom {
 
@@ -97,11 +97,8 @@ class Runner {
       }
       const Passage passage = scene_.hole_at(choice.first.wall, next.position);
       if (passage.verdict == Verdict::yes) {
-        // With the velocity that it came with: the reflection is undone.
-        const VectorOf<Plain> t =
-            tangent_of(scene_.walls[static_cast<std::size_t>(choice.first.wall)], next.position);
-        const Plain twice = Plain(2) * dot(next.velocity, t);
-        next.velocity = twice * t - next.velocity;
+        const WallOf<Plain>& wall = scene_.walls[static_cast<std::size_t>(choice.first.wall)];
+        next.velocity = before_reflection(wall, next.position, next.velocity);
         state_ = std::move(next);
         end_.hole = passage.hole;
         return ended(PlainEnd::escaped);
@@ -119,15 +116,7 @@ class Runner {
     return system_.table->extent == Extent::bounded ? PlainEnd::lost : PlainEnd::unbounded;
   }
   void stop_at_last_time() {
-    const Plain rest = *t_max_ - state_.time;
-    if (scene_.motion.turns) {
-      const LandingOf<Plain> there =
-          larmor_state_after<Plain>(rest, state_.position, state_.velocity, scene_.motion.half_omega);
-      state_.position = there.position;
-      state_.velocity = there.velocity;
-    } else {
-      state_.position = state_.position + rest * state_.velocity;
-    }
+    fly_for<Plain>(*t_max_ - state_.time, state_.position, state_.velocity, scene_.motion);
     state_.time = *t_max_;
   }
   PlainEnd ended(PlainEnd::Fate fate) {

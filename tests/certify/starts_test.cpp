@@ -108,10 +108,32 @@ TEST(CertifiedStarts, OnTheirWall) {
   }
 }
 
+// A block with one round side in each cell of a skew lattice.
+Shaped blocks() {
+  Shaped s = shaped("path", {}, "0", "0");
+  LoopSpec loop;
+  loop.start = {exactly("1/5"), exactly("1/5")};
+  PieceSpec up, over, down, back;
+  up.to = {exactly("1/5"), exactly("4/5")};
+  over.kind = PieceSpec::Kind::arc;
+  over.via = {exactly("1/2"), exactly("1.1")};
+  over.to = {exactly("4/5"), exactly("4/5")};
+  down.to = {exactly("4/5"), exactly("1/5")};
+  back.to = loop.start;
+  loop.pieces = {up, over, down, back};
+  s.spec.loops = {loop};
+  LatticeSpec lattice;
+  lattice.first = {exactly("1"), exactly("0")};
+  lattice.second = {exactly("1/4"), exactly("5/4")};
+  s.spec.lattice = lattice;
+  return s;
+}
+
 // In agreement with the engine, which decides by the table's doubles, wherever these are not next to a wall.
 TEST(CertifiedStarts, InsideAsTheEngineSays) {
   tests::Dice dice(31);
-  const std::vector<Shaped> shapes = tests::all_shapes();
+  std::vector<Shaped> shapes = tests::all_shapes();
+  shapes.push_back(blocks());
   long inside = 0, all = 0;
   for (const Shaped& s : shapes) {
     SCOPED_TRACE(s.spec.shape);
