@@ -7,77 +7,11 @@
 #include "carom/base/error.hpp"
 #include "carom/geometry/formulas.hpp"
 #include "exact_boundary.hpp"
+#include "exact_crossing.hpp"
 
 namespace carom::geometry {
 
 namespace {
-
-/// A crossing in kappa: (p + q sqrt(d)) / r, or a root beyond quadratics.
-struct Crossing {
-  Dyadic p, q, r{1}, d;
-  Quadratic<Dyadic> quadratic;
-  std::optional<AlgebraicRoot> root;
-
-  AlgebraicRoot algebraic() const {
-    if (root) return *root;
-    if (q.sign() != 0) return rising_roots({quadratic.c, Dyadic(2) * quadratic.b, quadratic.a}).front();
-    return rising_roots({-p, r * Dyadic(r.sign())}).front();  // r kappa - p, rising
-  }
-};
-
-/// Order of two crossings along kappa: -1 when a < b.
-int compare(const Crossing& a, const Crossing& b) {
-  if (a.root || b.root) return compare(a.algebraic(), b.algebraic());
-  const int s = sign_with_two_roots(a.p * b.r - b.p * a.r, a.q * b.r, a.d, -(b.q * a.r), b.d);
-  return s * a.r.sign() * b.r.sign();
-}
-
-int sign_of_kappa(const Crossing& a) {
-  if (a.root) return compare(*a.root, mpq_class(0));
-  return sign_with_root(a.p, a.q, a.d) * a.r.sign();
-}
-
-Crossing rational_crossing(Dyadic p, Dyadic r) {
-  Crossing c;
-  c.p = std::move(p);
-  c.r = std::move(r);
-  if (c.r.sign() < 0) {
-    c.p = -c.p;
-    c.r = -c.r;
-  }
-  return c;
-}
-
-double approximate(const Crossing& k) {
-  if (k.root) return approximate(*k.root);
-  constexpr int bits = 512;  // far beyond what p + q sqrt(d) can cancel between doubles
-  const auto real = [](const Dyadic& x) { return mpf_class(x.rational(), bits); };
-  const mpf_class numerator = real(k.p) + real(k.q) * sqrt(real(k.d));
-  return mpf_class(numerator / real(k.r)).get_d();
-}
-
-/// The root of a kappa^2 + 2 b kappa + c at which it rises (rising = +1) or falls (-1), if any.
-std::optional<Crossing> quadratic_crossing(const Quadratic<Dyadic>& f, int rising = 1) {
-  if (f.a.sign() == 0) {
-    if (f.b.sign() != rising) return std::nullopt;
-    return rational_crossing(-f.c, Dyadic(2) * f.b);
-  }
-  Crossing crossing;
-  crossing.d = f.b * f.b - f.a * f.c;
-  if (crossing.d.sign() <= 0) return std::nullopt;
-  crossing.p = -f.b;
-  crossing.q = Dyadic(rising);
-  crossing.r = f.a;
-  crossing.quadratic = f;
-  return crossing;
-}
-
-/// Sign of s2 kappa^2 + s1 kappa + s0 at a crossing.
-int sign_at_crossing(const Dyadic& s2, const Dyadic& s1, const Dyadic& s0, const Crossing& k) {
-  if (k.root) return sign_at({s0, s1, s2}, *k.root);
-  return sign_with_root(s2 * (k.p * k.p + k.q * k.q * k.d) + s1 * k.p * k.r + s0 * k.r * k.r,
-                        Dyadic(2) * s2 * k.p * k.q + s1 * k.q * k.r, k.d);
-}
 
 const Dyadic& one_half() {
   static const Dyadic half(0.5);
