@@ -56,6 +56,7 @@ EnsembleJob<Result> job_to_go_on(const Options& options) {
   EnsembleJob<Result> job;
   job.output = options.resume;
   if (job.output.ends_with(".part")) job.output.resize(job.output.size() - 5);
+  job.lock = lock_archive(job.output);
   job.stored = read_ensemble<Result>(job.output);
   if (!options.output.empty() && options.output != job.output)
     throw InputError(place_of("--output"), "an ensemble goes on in the same archive", "no -o beside --resume");
@@ -72,6 +73,7 @@ EnsembleJob<Result> job_of(const Options& options) {
   if (!options.resume.empty()) return job_to_go_on<Result>(options);
   EnsembleJob<Result> job;
   job.output = options.output;
+  if (!job.output.empty()) job.lock = lock_archive(job.output);
   job.shard = shard_of(options);
   job.loaded = load_system(options.system, overrides_of(options));
   choose_engine(options.engine, job.loaded.system);

@@ -13,6 +13,7 @@ namespace carom::cli {
 
 template <class Result>
 struct EnsembleJob {
+  ArchiveLock lock;  ///< of the archive, taken before anything was read; none without an archive
   LoadedSystem loaded;
   std::string output;  ///< archive, or ""
   Shard shard;

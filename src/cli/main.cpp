@@ -1,4 +1,5 @@
 // The program. Exceptions become exit codes here and nowhere else.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
     // Of processes that were started together, the first one speaks.
     const bool silent = rank_by_environment() > 0;
     if (silent && (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr))) return bad_input;
+    std::signal(SIGPIPE, SIG_IGN);  // whoever does not read on is told of as an error of the write
     carom::prepare_archives();
     const Parsed parsed = parse(argc, argv);
     if (parsed.exit) return *parsed.exit;

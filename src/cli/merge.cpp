@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "cli/commands.hpp"
@@ -33,7 +34,8 @@ int print_sum(const Options& options, const System& system, const DiffusionResul
 }
 
 template <class Result>
-int merge_parts(const Options& options, const std::string& output, const std::vector<std::string>& files) {
+int merge_parts(const Options& options, const std::string& output, const std::vector<std::string>& files,
+                ArchiveLock lock) {
   std::vector<Stored<Result>> parts;
   for (const std::string& file : files) parts.push_back(read_ensemble<Result>(file));
   const Stored<Result> sum = sum_of(parts);
@@ -42,8 +44,8 @@ int merge_parts(const Options& options, const std::string& output, const std::ve
   loaded.system.dynamics.everywhere = sum.everywhere;
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
-  write_sum(output, loaded, origin, sum, parts);
-  remove_checkpoint(output);  // there is one only if --force was given
+  write_sum(output, loaded, origin, sum, parts, lock);
+  lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
   for (const auto& [index, text] : sum.result.reports) fmt::print(stderr, "carom: {}\n", text);
   return print_sum(options, loaded.system, sum.result, {sum.status, output, sum.shard});
@@ -60,10 +62,11 @@ int merge(const Options& options) {
   }
   if (files.empty())
     throw InputError(Place{"command line", 0, 0, "merge"}, "there is nothing to merge", "OUT.h5 PART.h5 PART.h5 …");
+  ArchiveLock lock = lock_archive(output);
   refuse_existing(output, options.force);
   if (kind_of_ensemble(files.front()) == kind_of(DiffusionResult()))
-    return merge_parts<DiffusionResult>(options, output, files);
-  return merge_parts<EscapeResult>(options, output, files);
+    return merge_parts<DiffusionResult>(options, output, files, std::move(lock));
+  return merge_parts<EscapeResult>(options, output, files, std::move(lock));
 }
 
 }  // namespace carom::cli

@@ -106,6 +106,8 @@ int run(const Options& options) {
     if (!output.empty()) archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1), options.force,
                                                       how.trajectory);
   } else {
+    if (output.empty()) output = options.resume;
+    const ArchiveLock lock = lock_archive(output);
     const StoredRun stored = read_run(options.resume);
     loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
     loaded.system.name = stored.system_name;
@@ -117,9 +119,8 @@ int run(const Options& options) {
     how.resume = stored.particles;
     refuse_going_back(loaded.system, stored);
     say_if_ended(stored);
-    if (output.empty()) output = options.resume;
     archive = RunArchive::extend(options.resume, output, loaded, provenance_of(options, loaded.system, 1),
-                                 options.force);
+                                 options.force, lock);
   }
   const System& system = loaded.system;
   if (estimates_trust(system)) how.written = written_system(loaded);

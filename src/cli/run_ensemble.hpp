@@ -43,7 +43,7 @@ template <class Result>
 std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options, const EnsembleJob<Result>& job) {
   using Archive = EnsembleArchive<Result>;
   if (job.output.empty()) return nullptr;
-  const typename Archive::Plan plan{options.force, options.per_trajectory, job.shard, warn};
+  const typename Archive::Plan plan{options.force, options.per_trajectory, job.shard, warn, job.lock};
   const Provenance origin = provenance_of(options, job.loaded.system, threads_of(options));
   if (job.stored) return std::make_unique<Archive>(job.output, job.loaded, origin, *job.stored, plan);
   return std::make_unique<Archive>(job.output, job.loaded, origin, plan);
@@ -75,12 +75,16 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
   JobCall call(ranks);
   check_engine(options);
   EnsembleOptions<Result> how = how_to_run<Result>(options);
-  const EnsembleJob<Result> job = job_of<Result>(options);
-  if (job.stored && job.stored->result.complete) return report(kind, job, job.stored->result, job.stored->status);
+  EnsembleJob<Result> job = job_of<Result>(options);
+  if (job.stored && job.stored->result.complete) {
+    remove_checkpoint_files(job.output);  // left by a process that was killed at its last step
+    job.lock.reset();
+    return report(kind, job, job.stored->result, job.stored->status);
+  }
   const System& system = job.loaded.system;
   how.part = job.shard.range(system.run.trajectories);
   if (job.stored) how.before = &job.stored->result;
-  const std::unique_ptr<EnsembleArchive<Result>> archive = archive_of(options, job);
+  std::unique_ptr<EnsembleArchive<Result>> archive = archive_of(options, job);
   how.journal = archive.get();
   how.ranks = ranks;
   const auto say_how_to_go_on = [&](std::uint64_t kept) {
@@ -105,6 +109,8 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
     if (archive) say_how_to_go_on(archive->kept());
     throw;
   }
+  archive.reset();  // whatever becomes of the report
+  job.lock.reset();
   if (!result.complete) say_how_to_go_on(result.done.size());
   return report(kind, job, result, result.complete ? "completed" : "interrupted");
 }

@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "io/archive_file.hpp"
 #include "io/ensemble_columns.hpp"
 #include "io/ensemble_files.hpp"
-#include "io/file_lock.hpp"
 #include "io/record_log.hpp"
 
 namespace carom {
@@ -26,19 +26,18 @@ template <class Result>
 class EnsembleArchive<Result>::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& system, const Provenance& provenance, const Plan& the_plan)
-      : lock(path), target(path), loaded(system), origin(provenance), plan(the_plan) {}
+      : target(path), loaded(system), origin(provenance), plan(the_plan) {}
   ~Implementation() {
-    if (finished || kept == 0) std::remove(checkpoint_of(target).c_str());
-    if (log) log->keep(!finished && kept > 0);
+    if (saved && !finished && kept == 0) std::remove(checkpoint_of(target).c_str());
+    if (log) log->keep(kept > 0);
   }
 
   void write(const Result& result, const std::string& status, bool last);
 
-  FileLock lock;
   std::string target;
   LoadedSystem loaded;
   Provenance origin;
-  Plan plan;
+  Plan plan;  // first of those that let go of files: its lock is the last
   std::optional<RecordLog> log;
   std::uint64_t kept = 0;
   std::optional<InputError> unwritten;  // records that belong to the next checkpoint
@@ -81,15 +80,21 @@ void EnsembleArchive<Result>::Implementation::write(const Result& result, const 
 template <class Result>
 EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
                                          const Plan& plan) {
+  Plan locked = plan;
+  if (!locked.lock) locked.lock = lock_archive(file);
   refuse_existing(file, plan.force);
-  implementation_ = std::make_unique<Implementation>(file, loaded, origin, plan);
-  if (plan.per_trajectory) implementation_->log.emplace(records_of(file), file);
+  implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
+  if (!plan.per_trajectory) return;
+  remove_checkpoint(file);  // its records go now
+  implementation_->log.emplace(records_of(file), file);
 }
 
 template <class Result>
 EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
                                          const Stored<Result>& stored, const Plan& plan) {
-  implementation_ = std::make_unique<Implementation>(file, loaded, origin, plan);
+  Plan locked = plan;
+  if (!locked.lock) locked.lock = lock_archive(file);
+  implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
   Implementation& a = *implementation_;
   a.origin.before = stored.origins;
   a.plan.per_trajectory = stored.per_trajectory;
@@ -133,6 +138,7 @@ void EnsembleArchive<Result>::save(const Result& so_far) {
   Implementation& a = *implementation_;
   try {
     a.write(so_far, "running", false);
+    if (!a.log && !a.saved) std::remove(records_of(a.target).c_str());  // of a checkpoint that had some
     a.kept = so_far.done.size();
     a.saved = true;
     a.failures = 0;
@@ -158,6 +164,9 @@ void EnsembleArchive<Result>::finish(const Result& result, const std::string& st
     throw;
   }
   a.finished = true;
+  a.kept = 0;
+  a.log.reset();
+  remove_checkpoint_files(a.target);
 }
 
 template <class Result>

@@ -13,6 +13,8 @@ namespace carom {
 inline std::string checkpoint_of(const std::string& file) { return file + ".part"; }
 inline std::string records_of(const std::string& file) { return file + ".records"; }
 bool exists(const std::string& file);
+/// For whoever holds the lock of `file`: removes its checkpoint, if it has one.
+void remove_checkpoint(const std::string& file);
 
 /// /provenance of an ensemble, besides what every archive has; what is counted.
 void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere);

@@ -2,20 +2,40 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 
 #include "carom/base/error.hpp"
+#include "carom/io/archive.hpp"
 
 namespace carom {
 
+// Who lets go removes the file. So a lock counts only on the file that still has the name: another process may
+// have opened the file before it was removed, and a third one made the next.
 FileLock::FileLock(const std::string& file) : path_(file + ".lock") {
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) return;  // what cannot be written there will say so itself
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(descriptor_);
-  throw InputError(Place{file, 0, 0, ""}, "another process writes it", "another name, or the end of that process");
+  if (!take())
+    throw InputError(Place{file, 0, 0, ""}, "another process writes it", "another name, or the end of that process");
+}
+
+bool FileLock::take() {
+  for (;;) {
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) return true;  // what cannot be written there will say so itself
+    const bool held = ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    const bool there = is_there();
+    if (there && !held) return true;
+    ::close(descriptor_);
+    descriptor_ = -1;
+    if (there) return false;
+  }
+}
+
+bool FileLock::is_there() const {
+  struct stat mine {}, named {};
+  return ::fstat(descriptor_, &mine) == 0 && ::stat(path_.c_str(), &named) == 0 && mine.st_ino == named.st_ino &&
+         mine.st_dev == named.st_dev;
 }
 
 FileLock::~FileLock() {
@@ -23,5 +43,7 @@ FileLock::~FileLock() {
   ::unlink(path_.c_str());
   ::close(descriptor_);
 }
+
+ArchiveLock lock_archive(const std::string& file) { return std::make_shared<FileLock>(file); }
 
 }  // namespace carom

@@ -14,6 +14,10 @@ class FileLock {
   ~FileLock();
 
  private:
+  bool take();  // false: another one holds it
+  /// Is the file that is open still the one of that name?
+  bool is_there() const;
+
   std::string path_;
   int descriptor_ = -1;
 };

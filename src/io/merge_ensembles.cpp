@@ -135,8 +135,9 @@ Stored<Result> sum_of(const std::vector<Stored<Result>>& parts) {
 
 template <class Result>
 void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const Stored<Result>& sum,
-               const std::vector<Stored<Result>>& parts) {
+               const std::vector<Stored<Result>>& parts, ArchiveLock lock) {
   hdf5::silence();
+  if (!lock) lock = lock_archive(path);
   const System& system = loaded.system;
   std::vector<std::string> files;
   for (const Stored<Result>& part : parts) files.push_back(part.file);
@@ -152,13 +153,14 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   }
   file.set_status(sum.status, sum.result.complete);
   file.keep_as(path);
+  remove_checkpoint(path);
 }
 
 template Stored<EscapeResult> sum_of(const std::vector<Stored<EscapeResult>>&);
 template Stored<DiffusionResult> sum_of(const std::vector<Stored<DiffusionResult>>&);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const Stored<EscapeResult>&,
-                        const std::vector<Stored<EscapeResult>>&);
+                        const std::vector<Stored<EscapeResult>>&, ArchiveLock);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const Stored<DiffusionResult>&,
-                        const std::vector<Stored<DiffusionResult>>&);
+                        const std::vector<Stored<DiffusionResult>>&, ArchiveLock);
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
@@ -8,8 +9,9 @@
 #include "carom/geometry/curve_frame.hpp"
 #include "io/archive_file.hpp"
 #include "io/columns.hpp"
-#include "io/trust_columns.hpp"
 #include "io/contact_columns.hpp"
+#include "io/ensemble_files.hpp"
+#include "io/trust_columns.hpp"
 
 namespace carom {
 
@@ -136,6 +138,7 @@ class RunArchive::Implementation {
   void write_state(const std::vector<ParticleEnd>& particles);
   bool with_energies() const { return of_discs || (dynamics.forces && !dynamics.forces->empty()); }
 
+  ArchiveLock lock;  // first: it lets go last
   ArchiveFile file;
   std::string target;
   std::shared_ptr<const Table> table;
@@ -266,8 +269,10 @@ RunArchive::~RunArchive() = default;
 
 std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
                                                const Provenance& origin, bool force, std::uint64_t trajectory) {
+  ArchiveLock lock = lock_archive(file);
   refuse_existing(file, force);
   auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), file, loaded);
+  made->lock = std::move(lock);
   made->create(loaded, origin, trajectory);
   made->file.start_swmr();
   return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
@@ -275,16 +280,18 @@ std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const Lo
 
 std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const std::string& target,
                                                const LoadedSystem& loaded, const Provenance& origin,
-                                               bool force) {
+                                               bool force, ArchiveLock lock) {
+  if (!lock) lock = lock_archive(target);
   std::error_code error;
   if (!std::filesystem::equivalent(source, target, error)) refuse_existing(target, force);
-  const std::string part = target + ".part";
-  if (!std::filesystem::copy_file(source, part, std::filesystem::copy_options::overwrite_existing, error)) {
+  const std::string copy = aside_of(target);
+  if (!std::filesystem::copy_file(source, copy, std::filesystem::copy_options::overwrite_existing, error)) {
     const std::string reason = error.message();
-    std::filesystem::remove(part, error);
-    throw InputError("cannot write '" + part + "': " + reason);
+    std::filesystem::remove(copy, error);
+    throw InputError("cannot write '" + copy + "': " + reason);
   }
-  auto made = std::make_unique<Implementation>(ArchiveFile::open(part, target), target, loaded);
+  auto made = std::make_unique<Implementation>(ArchiveFile::open(copy, target), target, loaded);
+  made->lock = std::move(lock);
   made->reopen(loaded, origin);
   made->file.start_swmr();
   return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
@@ -342,6 +349,8 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   a.file.add_decisions(result.decisions);
   a.file.set_status(status, !result.interrupted);
   a.file.keep_as(a.target);
+  remove_checkpoint(a.target);
+  a.lock.reset();
 }
 
 StoredRun read_run(const std::string& name) {

@@ -1,7 +1,9 @@
 #include <span>
+#include <utility>
 
 #include "io/archive_file.hpp"
 #include "io/columns.hpp"
+#include "io/ensemble_files.hpp"
 
 namespace carom {
 
@@ -10,7 +12,7 @@ using hdf5::Handle;
 class SectionArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin)
-      : target(path), file(ArchiveFile::create(path + ".part", path)), rows(path) {
+      : target(path), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
     file.write_head("section", loaded, origin);
     const System& system = loaded.system;
     const Handle group = file.group("section", "Points of the section, orbit after orbit, in order of time");
@@ -33,6 +35,7 @@ class SectionArchive::Implementation {
     rows.add<double>(to, "vy", {"length/time", "Velocity, after the hit at a wall"});
   }
 
+  ArchiveLock lock;
   std::string target;
   ArchiveFile file;
   hdf5::Columns rows;
@@ -40,8 +43,10 @@ class SectionArchive::Implementation {
 
 SectionArchive::SectionArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
                                bool force) {
+  ArchiveLock lock = lock_archive(file);
   refuse_existing(file, force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin);
+  implementation_->lock = std::move(lock);
 }
 SectionArchive::~SectionArchive() = default;
 
@@ -77,6 +82,8 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
   a.file.add_decisions(result.decisions);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);
+  remove_checkpoint(a.target);
+  a.lock.reset();
 }
 
 }  // namespace carom

@@ -131,7 +131,7 @@ bool exists(const std::string& file) {
 }
 
 bool has_checkpoint(const std::string& file) {
-  const std::string checkpoint = checkpoint_of(file);  // or what another command was writing there
+  const std::string checkpoint = checkpoint_of(file);
   if (!exists(checkpoint)) return false;
   try {
     kind_of_ensemble(checkpoint);
@@ -142,9 +142,12 @@ bool has_checkpoint(const std::string& file) {
 }
 
 void remove_checkpoint(const std::string& file) {
-  if (!has_checkpoint(file)) return;
-  std::remove(checkpoint_of(file).c_str());
-  std::remove(records_of(file).c_str());
+  if (has_checkpoint(file)) remove_checkpoint_files(file);
+}
+
+void remove_checkpoint_files(const std::string& file) {
+  for (const std::string& one : {checkpoint_of(file), checkpoint_of(file) + ".new", records_of(file)})
+    std::remove(one.c_str());
 }
 
 std::string kind_of_ensemble(const std::string& file) {

@@ -23,8 +23,16 @@ void prepare_archives();
 void refuse_existing(const std::string& file, bool force);
 /// Is there an ensemble of this name that has not ended?
 bool has_checkpoint(const std::string& file);
-/// Removes it, if there is one.
-void remove_checkpoint(const std::string& file);
+
+/// For who knows that `file` is an ensemble's archive, and holds its lock: removes FILE.part and FILE.records.
+void remove_checkpoint_files(const std::string& file);
+
+class FileLock;
+/// As long as it lives, no other process writes the archive.
+using ArchiveLock = std::shared_ptr<FileLock>;
+/// Throws InputError where another process writes it. Archives take their lock themselves, unless they are given one
+/// that was taken before something was read.
+ArchiveLock lock_archive(const std::string& file);
 
 /// What made a part of a result.
 struct Origin {
@@ -46,10 +54,10 @@ class RunArchive : public Observer {
  public:
   static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&, const Provenance&,
                                             bool force, std::uint64_t trajectory = 0);
-  /// Goes on with the run stored in `source`: works on a copy TARGET.part, which becomes `target`
+  /// Goes on with the run stored in `source`: works on a copy TARGET.new, which becomes `target`
   /// (often the source itself) when finished.
   static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
-                                            const LoadedSystem&, const Provenance&, bool force);
+                                            const LoadedSystem&, const Provenance&, bool force, ArchiveLock = nullptr);
   ~RunArchive() override;
 
   void hit(const HitEvent&) override;
@@ -117,10 +125,10 @@ std::string difference(const std::string& toml, const std::string& other_toml);
 /// InputError where parts overlap or do not match, and says in what.
 template <class Result>
 Stored<Result> sum_of(const std::vector<Stored<Result>>& parts);
-/// Writes the sum of parts as their ensemble's archive.
+/// Writes the sum of parts as their ensemble's archive, in place of what there is of that name.
 template <class Result>
 void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const Stored<Result>& sum,
-               const std::vector<Stored<Result>>& parts);
+               const std::vector<Stored<Result>>& parts, ArchiveLock = nullptr);
 
 /// An ensemble's result. While the ensemble runs, FILE.part is its checkpoint: an archive by itself, always
 /// whole, and FILE.records holds the records of trajectories. When finished, FILE replaces them.
@@ -132,6 +140,7 @@ class EnsembleArchive : public EnsembleJournal<Result> {
     bool force = false, per_trajectory = false;
     Shard shard;
     std::function<void(const std::string&)> warn;  ///< of a checkpoint that could not be written
+    ArchiveLock lock = nullptr;
   };
   EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Plan&);
   /// Goes on with a stored ensemble; plan and earlier provenance are those of the store.
@@ -143,6 +152,7 @@ class EnsembleArchive : public EnsembleJournal<Result> {
   void block(TrajectoryRange, std::vector<TrajectoryRecord>&&) override;
   void mark() override;
   void save(const Result& so_far) override;
+  /// Last of all: the result takes the place of the checkpoint.
   void finish(const Result&, const std::string& status);
   /// Trajectories of the checkpoint that is on the disk now.
   std::uint64_t kept() const;
@@ -154,7 +164,7 @@ class EnsembleArchive : public EnsembleJournal<Result> {
 extern template class EnsembleArchive<EscapeResult>;
 extern template class EnsembleArchive<DiffusionResult>;
 
-/// The points of a section, orbit after orbit; written aside, and renamed when finished.
+/// The points of a section, orbit after orbit; written aside (FILE.new), and renamed when finished.
 class SectionArchive {
  public:
   SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force);

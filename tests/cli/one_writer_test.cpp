@@ -1,0 +1,107 @@
+// Who writes an archive is alone with it, and what is over leaves nothing behind.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "kill_and_resume.hpp"
+
+namespace carom {
+namespace {
+
+std::vector<std::string> sorted_files(const Shell& shell) {
+  std::vector<std::string> names = shell.files();
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// Starts `command`, waits for its checkpoint q.h5.part, does `meanwhile` and kills it.
+Outcome while_it_runs(const Shell& shell, const std::string& command, const std::string& meanwhile) {
+  return shell("$carom " + command + " --quiet -o q.h5 >log 2>&1 & pid=$!; "
+               "until [ -e q.h5.part ]; do kill -0 $pid || exit 99; sleep 0.02; done; sleep 0.2; " + meanwhile +
+               "\nstatus=$?; kill -9 $pid; wait $pid 2>/dev/null; rm log; exit $status");
+}
+
+const std::string endless = "escape mushroom --trajectories 1e9 --t-max 400 --per-trajectory --block 4 --checkpoint 0.05";
+
+TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
+  const Shell shell;
+  ASSERT_EQ(shell("for k in 2 3; do $carom escape stadium --trajectories 100 --t-max 9 --shard $k/3 -o s$k.h5 --quiet || exit 9; done").status, 0);
+  for (const std::string other :
+       {"merge q.h5 s2.h5 s3.h5 --force", "section ellipse-magnetic --orbits 2 --points 3 --force -o q.h5",
+        "run stadium --t-max 3 --force -o q.h5", "escape stadium --trajectories 10 --force -o q.h5",
+        "escape stadium --trajectories 10 -o q.h5", "escape --resume q.h5"}) {
+    const Outcome o = while_it_runs(shell, endless, "timeout 20 $carom " + other);
+    EXPECT_EQ(o.status, 1) << other;
+    EXPECT_NE(o.err.find("q.h5: another process writes it"), std::string::npos) << other << "\n" << o.err;
+    EXPECT_TRUE(shell.exists("q.h5.part") && shell.exists("q.h5.records")) << other;
+    const Outcome on = shell("timeout 20 $carom escape --resume q.h5 --quiet & pid=$!; sleep 0.3; kill -INT $pid; wait $pid");
+    EXPECT_EQ(on.status, 130) << other << "\n" << on.err;
+    EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"})) << other;
+    shell("rm -f q.h5*");
+  }
+}
+
+TEST(OneWriter, OfTwoRunsTheSecondIsRefused) {
+  const Shell shell;
+  const Outcome o = shell("$carom run stadium --set 'table.hole=[]' --collisions 1e9 -o r.h5 --quiet & pid=$!; until [ -e r.h5 ]; do sleep 0.02; done; "
+                          "$carom run stadium --t-max 3 --force -o r.h5; status=$?; kill -INT $pid; wait $pid; exit $status");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("r.h5: another process writes it"), std::string::npos) << o.err;
+  EXPECT_EQ(sorted_files(shell), std::vector<std::string>{"r.h5"});
+}
+
+// Others write aside under a name that is no checkpoint's: killed, they leave it as it was.
+TEST(OneWriter, AKilledSectionLeavesTheCheckpoint) {
+  const Shell shell;
+  while_it_runs(shell, endless, "true");
+  const std::string before = shell.read("q.h5.part");
+  const Outcome o = shell("$carom section ellipse-magnetic --orbits 1e6 --points 100 --force --quiet -o q.h5 & pid=$!; sleep 0.5; kill -9 $pid; wait $pid");
+  EXPECT_EQ(o.status, 137) << o.err;
+  EXPECT_TRUE(shell.read("q.h5.part") == before);
+  // To its end it takes the name, as --force says.
+  const Outcome end = shell("$carom section ellipse-magnetic --orbits 2 --points 3 --force --quiet -o q.h5");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(sorted_files(shell), std::vector<std::string>{"q.h5"});
+}
+
+TEST(OneWriter, ASecondStartRefusesWhatTheFirstHasMade) {
+  const Shell shell;
+  const Outcome o = shell("for i in 1 2 3 4 5 6; do $carom escape stadium --trajectories 2000 --t-max 20 --quiet --seed $i -o a.h5 >/dev/null && echo $i >> won & done; wait");
+  EXPECT_EQ(shell.read("won").size(), 2u) << shell.read("won") << o.err;
+  EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"a.h5", "won"}));
+}
+
+TEST(OneWriter, AClosedPipeLeavesTheArchiveAlone) {
+  const Shell shell;
+  const Outcome o = shell("( $carom escape magnetic-square --trajectories 3e4 --per-trajectory --quiet -o g.h5; echo $? > status ) | true");
+  EXPECT_EQ(shell.read("status"), "1\n");
+  EXPECT_NE(o.err.find("cannot write to standard output: Broken pipe"), std::string::npos) << o.err;
+  EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"g.h5", "status"}));
+  EXPECT_EQ(open_archive(shell.folder() + "/g.h5").complete, 1);
+}
+
+TEST(OneWriter, WhatIsCompleteIsCleanedUp) {
+  const Shell shell;
+  while_it_runs(shell, endless, "true");
+  // As if it had been killed between its last steps.
+  ASSERT_EQ(shell("cp q.h5.records left.records; cp q.h5.part left.part; rm q.h5.*; "
+                  "$carom escape mushroom --trajectories 20 --t-max 40 --per-trajectory --quiet -o q.h5 && "
+                  "cp left.records q.h5.records && rm left.*").status, 0);
+  const Outcome o = shell("$carom escape --resume q.h5 --quiet");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(sorted_files(shell), std::vector<std::string>{"q.h5"});
+}
+
+TEST(OneWriter, ForceWithoutRecordsLeavesNoOldOnes) {
+  const Shell shell;
+  while_it_runs(shell, endless, "true");
+  ASSERT_TRUE(shell.exists("q.h5.records"));
+  const Outcome o = shell("$carom escape mushroom --trajectories 100 --t-max 40 --force --quiet -o q.h5");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(sorted_files(shell), std::vector<std::string>{"q.h5"});
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,59 @@
+// One writer at a time, also while others let go.
+#include "io/file_lock.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "carom/io/archive.hpp"
+
+namespace carom {
+namespace {
+
+std::string name_of_own() {
+  return (std::filesystem::temp_directory_path() / ("carom-lock-" + std::to_string(::getpid()))).string();
+}
+
+TEST(FileLock, RefusesTheSecondAndLeavesNothing) {
+  const std::string file = name_of_own();
+  {
+    const ArchiveLock first = lock_archive(file);
+    EXPECT_THROW(lock_archive(file), InputError);
+    EXPECT_TRUE(std::filesystem::exists(file + ".lock"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(file + ".lock"));
+  EXPECT_NO_THROW(lock_archive(file));
+}
+
+// Threads stand for processes: a lock belongs to an open file.
+TEST(FileLock, IsHeldByOneWhileTheOthersLetGo) {
+  const std::string file = name_of_own();
+  std::atomic<int> inside{0}, most{0}, held{0};
+  const auto work = [&] {
+    for (int i = 0; i < 20000; ++i) {
+      try {
+        const FileLock lock(file);
+        const int now = ++inside;
+        if (now > most) most = now;
+        ++held;
+        --inside;
+      } catch (const InputError&) {
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(most, 1);
+  EXPECT_GT(held, 100);
+}
+
+}  // namespace
+}  // namespace carom
