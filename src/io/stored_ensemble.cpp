@@ -166,7 +166,12 @@ Stored<Result> read_ensemble(const std::string& file) {
   if (!exists(checkpoint)) return read_one<Result>(file);
   Stored<Result> part = read_one<Result>(checkpoint);
   if (!exists(file)) return part;
-  Stored<Result> whole = read_one<Result>(file);
+  Stored<Result> whole;
+  try {
+    whole = read_one<Result>(file);
+  } catch (const InputError&) {
+    return part;  // what is to be replaced may be anything
+  }
   const bool one_ensemble = difference(whole.system_toml, part.system_toml).empty() && whole.shard == part.shard &&
                             whole.version == part.version && whole.engine == part.engine &&
                             whole.everywhere == part.everywhere && whole.per_trajectory == part.per_trajectory;

@@ -84,6 +84,24 @@ TEST(EscapeResume, RefusesAnotherVersion) {
   EXPECT_NE(o.err.find("version " + text + " wrote it"), std::string::npos) << o.err;
 }
 
+// With --force over anything: until it is replaced, what is there says nothing about the checkpoint.
+TEST(EscapeResume, OverAFileOfAnotherKind) {
+  const std::string files[] = {"$carom run stadium --t-max 3 -o a.h5", "echo none > a.h5",
+                               "$carom diffusion lorentz-triangular --trajectories 10 --t-max 5 -o a.h5"};
+  for (const std::string& file : files) {
+    const Shell shell;
+    const Undisturbed whole(shell, mushroom, " --per-trajectory");
+    ASSERT_EQ(shell(file).status, 0);
+    shell("$carom" + mushroom.anew(" --per-trajectory --force --block 4 --checkpoint 0.02") + " -o a.h5 & pid=$!; "
+          "until [ -e a.h5.part ]; do sleep 0.01; done; sleep 0.1; kill -9 $pid; wait $pid");
+    ASSERT_TRUE(shell.exists("a.h5.part")) << "it ended before it was killed";
+    const Outcome o = shell("$carom" + mushroom.on("a.h5"));
+    EXPECT_EQ(o.status, 0) << file << "\n" << o.err;
+    expect_same_datasets(shell.folder() + "/a.h5", whole.contents);
+    EXPECT_EQ(shell.files().size(), 2u);
+  }
+}
+
 TEST(EscapeResume, AfterAFullDisk) {
   const Shell shell;
   const Undisturbed whole(shell, mushroom, " --per-trajectory");

@@ -112,8 +112,8 @@ struct Stored : StoredEnsemble {
 };
 /// The kind of ensemble that FILE.h5 or its checkpoint holds. Throws InputError for anything else.
 std::string kind_of_ensemble(const std::string& file);
-/// Of FILE.h5 and its checkpoint, what holds more of the same ensemble; the checkpoint of another one comes
-/// first. Throws InputError for anything else.
+/// Of FILE.h5 and its checkpoint, what holds more of the same ensemble; where FILE.h5 is anything else, the
+/// checkpoint. Throws InputError where there is no ensemble.
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file);
 /// Throws InputError where another version of the program wrote it.
