@@ -94,8 +94,8 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
   };
   Result result;
   try {
-    Progress progress(!options.quiet);
     const double all = static_cast<double>(how.part.last - how.part.first);
+    Progress progress(!options.quiet, how.before ? static_cast<double>(how.before->done.size()) / all : 0.0);
     if (progress.enabled())
       how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
         if (progress.due())

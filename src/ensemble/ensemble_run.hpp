@@ -74,7 +74,6 @@ class EnsembleRun {
         post_(post) {
     if (options.before && !total_.add(*options.before)) throw InternalError("what was done overlaps itself");
     trajectories_ = total_.done.size();
-    hits_ = collisions_of(total_);
     const std::uint64_t most = post_.hand ? wanted_threads() : std::min(wanted_threads(), blocks_.size());
     threads_ = static_cast<int>(std::max<std::uint64_t>(1, most));
     for (int i = 0; i < threads_; ++i) sums_.emplace_back(*this);

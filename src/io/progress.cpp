@@ -8,8 +8,8 @@
 
 namespace carom {
 
-Progress::Progress(bool wanted)
-    : enabled_(wanted && isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_(start_) {}
+Progress::Progress(bool wanted, double done)
+    : enabled_(wanted && isatty(STDERR_FILENO) != 0), done_(done), start_(Clock::now()), last_(start_) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
@@ -23,11 +23,15 @@ void Progress::show(double share, const std::string& rate) {
   if (!enabled_) return;
   last_ = Clock::now();
   shown_ = true;
-  const std::string left =
-      share > 0.0 && share < 1.0 ? as_duration(seconds() * (1.0 - share) / share) + " left" : std::string();
-  const std::string line = fmt::format("\r{:5.1f} %  {}  {}\033[K", 100.0 * share, rate, left);
+  const double left = seconds_left(seconds(), done_, share);
+  const std::string line = fmt::format("\r{:5.1f} %  {}  {}\033[K", 100.0 * share, rate,
+                                       left > 0.0 ? as_duration(left) + " left" : std::string());
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
+}
+
+double seconds_left(double seconds, double from, double share) {
+  return share > from && share < 1.0 ? seconds * (1.0 - share) / (share - from) : -1.0;
 }
 
 std::string with_prefix(double value) {

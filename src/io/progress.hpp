@@ -9,7 +9,8 @@ namespace carom {
 /// Rewrites one line a few times a second while standard error is a terminal.
 class Progress {
  public:
-  explicit Progress(bool wanted);
+  /// `done`: the share of the work that others have done before.
+  explicit Progress(bool wanted, double done = 0.0);
   Progress(const Progress&) = delete;
   ~Progress();
 
@@ -23,8 +24,12 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   bool enabled_, shown_ = false;
+  double done_;
   Clock::time_point start_, last_;
 };
+
+/// How long the rest will take after `seconds` took the work from the share `from` to `share`. Negative: unknown.
+double seconds_left(double seconds, double from, double share);
 
 /// "950", "12.3 k", "4.56 M", "7.89 G": three digits and a prefix, with a blank for a unit to follow.
 std::string with_prefix(double value);

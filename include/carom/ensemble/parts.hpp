@@ -85,7 +85,7 @@ struct EnsembleOptions {
   /// end.
   Ranks* ranks = nullptr;
   const std::atomic<bool>* interrupted = nullptr;  ///< asked between blocks and during long ones
-  /// Called now and then from one thread at a time with the trajectories done so far.
+  /// Called now and then from one thread at a time with the trajectories done so far and the hits of this call alone.
   std::function<void(std::uint64_t done, std::uint64_t hits)> progress;
 };
 
