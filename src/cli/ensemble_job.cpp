@@ -26,7 +26,7 @@ SystemOverrides overrides_of(const Options& options) {
   return overrides;
 }
 
-// Loads the system that is stored, and refuses another one.
+// Loads the system that is stored, and refuses another one. The window may be another: the report alone asks for it.
 LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(Place{stored.file, 0, 0, ""}, "what is asked for is not what is stored: " + what,
@@ -36,12 +36,16 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
                             ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
                             : load_system(options.system, overrides_of(options));
   // The name says more than the first key that differs.
-  const std::string differs = difference(stored.system_toml, loaded.resolved_toml);
+  const std::string differs = difference(stored.system_toml, loaded.resolved_toml, "run.window");
   if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
     refuse(fmt::format("the system is {}, not {}", options.system, stored.system_name));
   if (!differs.empty()) refuse(differs);
   System& system = loaded.system;
   system.name = stored.system_name;
+  if (!system.run.window) system.run.window = read_system(stored.system_toml, stored.file + ": /system").system.run.window;
+  loaded.resolved_toml = stored.system_toml;
+  if (options.engine != "auto" && (options.engine == "steps") != stored.everywhere)
+    refuse(fmt::format("--engine is {}, not {}", options.engine, stored.everywhere ? "steps" : "auto"));
   choose_engine(options.engine == "auto" && stored.everywhere ? "steps" : options.engine, system);
   if (engine_of(system) != stored.engine || system.dynamics.everywhere != stored.everywhere)
     refuse(fmt::format("--engine is {}, not {}", options.engine, stored.everywhere ? "steps" : "auto"));

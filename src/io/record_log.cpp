@@ -38,7 +38,10 @@ RecordLog::RecordLog(const std::string& path, const std::string& name, std::vect
   for (const Piece& piece : pieces_) rows_ = std::max(rows_, piece.row + piece.rows);
   marked_ = pieces_;
   descriptor_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor_ < 0) fail("read");
+  if (descriptor_ < 0)
+    throw InputError(Place{path, 0, 0, ""},
+                     errno == ENOENT ? "there is no such file" : fmt::format("it cannot be opened: {}", std::strerror(errno)),
+                     "the records that the checkpoint names");
   struct stat about {};
   const std::uint64_t bytes = rows_ * record_size;
   const bool whole = ::fstat(descriptor_, &about) == 0 && static_cast<std::uint64_t>(about.st_size) >= bytes;

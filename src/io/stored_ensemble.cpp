@@ -101,7 +101,7 @@ std::string shown(const io::Value* value) {
   }
 }
 
-std::string difference(const std::string& path, const io::Value& a, const io::Value& b) {
+std::string difference(const std::string& path, const io::Value& a, const io::Value& b, const std::string& but) {
   const auto inner = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
   const auto say = [](const std::string& key, const io::Value* x, const io::Value* y) {
     const std::string here = shown(x), there = shown(y);
@@ -109,20 +109,22 @@ std::string difference(const std::string& path, const io::Value& a, const io::Va
   };
   for (const io::Entry& entry : a.entries) {
     const io::Value* other = b.find(entry.key);
-    if (other != nullptr && same(entry.value, *other)) continue;
+    if (inner(entry.key) == but || (other != nullptr && same(entry.value, *other))) continue;
     const bool tables = other != nullptr && entry.value.kind == io::Value::Kind::table && other->kind == entry.value.kind;
-    return tables ? difference(inner(entry.key), entry.value, *other) : say(inner(entry.key), &entry.value, other);
+    if (!tables) return say(inner(entry.key), &entry.value, other);
+    const std::string within = difference(inner(entry.key), entry.value, *other, but);
+    if (!within.empty()) return within;
   }
   for (const io::Entry& entry : b.entries)
-    if (a.find(entry.key) == nullptr) return say(inner(entry.key), nullptr, &entry.value);
+    if (inner(entry.key) != but && a.find(entry.key) == nullptr) return say(inner(entry.key), nullptr, &entry.value);
   return {};
 }
 
 }  // namespace
 
-std::string difference(const std::string& toml, const std::string& other_toml) {
-  io::Value a = io::parse_document(toml, "system"), b = io::parse_document(other_toml, "system");
-  return difference("", a, b);
+std::string difference(const std::string& toml, const std::string& other_toml, const std::string& but) {
+  const io::Value a = io::parse_document(toml, "system"), b = io::parse_document(other_toml, "system");
+  return difference("", a, b, but);
 }
 
 bool exists(const std::string& file) {

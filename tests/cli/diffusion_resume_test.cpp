@@ -27,11 +27,11 @@ TEST(DiffusionResume, RefusesWhatDiffers) {
   ASSERT_TRUE(shell.exists("a.h5.part"));
   const std::pair<const char*, const char*> cases[] = {
       {"diffusion --resume a.h5 --seed 2", "run.seed is 2, not 1"},
-      {"diffusion --resume a.h5 --window 1,2", "run.window"},
       {"diffusion lorentz-square --resume a.h5", "the system is lorentz-square, not lorentz-triangular"},
       {"diffusion --resume a.h5 --shard 1/2", "--shard is 1/2, not 1/1"},
       {"escape --resume a.h5", "does not hold an escape ensemble"},
       {"diffusion lorentz-triangular -o a.h5", "carom diffusion --resume a.h5"},
+      {"diffusion --resume a.h5 --engine steps", "--engine is steps, not auto"},
   };
   for (const auto& [options, message] : cases) {
     const Outcome o = shell("$carom " + std::string(options));
@@ -39,6 +39,30 @@ TEST(DiffusionResume, RefusesWhatDiffers) {
     EXPECT_EQ(o.out, "") << options;
     EXPECT_NE(o.err.find(message), std::string::npos) << options << "\n" << o.err;
   }
+}
+
+// What D is taken from belongs to the report: nothing is computed for it, and the archive stays as it is.
+TEST(DiffusionResume, TakesAnotherWindow) {
+  const Shell shell;
+  const std::string ensemble = "lorentz-triangular --trajectories 2000 --t-max 50 --times lin:1:50:50 --quiet --json";
+  const Outcome whole = shell("$carom diffusion " + ensemble + " --window 5,50 -o a.h5");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const std::string before = shell.read("a.h5");
+  const Outcome as_it_was = shell("$carom diffusion --resume a.h5 --json"), other = shell("$carom diffusion --resume a.h5 --window 20,40 --json");
+  EXPECT_EQ(as_it_was.status, 0) << as_it_was.err;
+  EXPECT_EQ(json_value(as_it_was.out, "window"), json_value(whole.out, "window"));
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_EQ(json_value(other.out, "digest"), json_value(whole.out, "digest"));
+  EXPECT_EQ(json_value(other.out, "window"), json_value(shell("$carom diffusion " + ensemble + " --window 20,40").out, "window"));
+  EXPECT_NE(json_value(other.out, "window"), json_value(whole.out, "window"));
+  EXPECT_TRUE(shell.read("a.h5") == before);
+  // A system without one: that of the archive.
+  EXPECT_EQ(json_value(shell("$carom diffusion " + ensemble + " --resume a.h5").out, "window"), json_value(whole.out, "window"));
+  // On the way, too: the archive is that of the first command.
+  const auto contents = datasets(shell, "a.h5");
+  shell("$carom diffusion " + ensemble + " --window 5,50 -o b.h5 --checkpoint 0.02 & pid=$!; sleep 0.1; kill -INT $pid; wait $pid; "
+        "$carom diffusion --resume b.h5 --window 20,40");
+  expect_same_datasets(shell.folder() + "/b.h5", contents);
 }
 
 }  // namespace

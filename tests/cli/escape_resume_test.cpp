@@ -37,7 +37,7 @@ TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
       {"--resume a.h5 --set table.stem_width=0.9", "table.stem_width is 0.9, not"},
       {"stadium --resume a.h5", "the system is stadium, not mushroom"},
       {"mushroom --resume a.h5", "run.trajectories is"},
-      {"--resume a.h5 --engine steps", "--engine"},
+      {"--resume a.h5 --engine steps", "--engine is steps, not auto"},
       {"--resume a.h5 --per-trajectory", "--per-trajectory"},
       {"--resume a.h5 --shard 1/2", "--shard is 1/2, not 1/1"},
       {"--resume b.h5", "there is no such file"},
@@ -63,6 +63,21 @@ TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
   shell("$carom run stadium --t-max 3 -o run.h5; echo none > none.h5");
   EXPECT_NE(shell("$carom escape --resume run.h5").err.find("escape"), std::string::npos);
   EXPECT_NE(shell("$carom escape --resume none.h5").err.find("not an archive"), std::string::npos);
+}
+
+TEST(EscapeResume, NamesTheRecordsThatAreMissing) {
+  const Shell shell;
+  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint 0.02 & pid=$!; "
+        "until [ -e a.h5.part ]; do sleep 0.02; done; sleep 0.3; kill -9 $pid; wait $pid");
+  const std::string records = shell.read("a.h5.records");
+  ASSERT_NE(records, "");
+  const Outcome cut = shell("truncate -s 50 a.h5.records; $carom escape --resume a.h5");
+  EXPECT_EQ(cut.status, 1);
+  EXPECT_NE(cut.err.find("a.h5.records: records that the checkpoint names are missing"), std::string::npos) << cut.err;
+  const Outcome gone = shell("rm a.h5.records; $carom escape --resume a.h5");
+  EXPECT_EQ(gone.status, 1);
+  EXPECT_NE(gone.err.find("a.h5.records: there is no such file"), std::string::npos) << gone.err;
+  EXPECT_TRUE(shell.exists("a.h5.part"));
 }
 
 TEST(EscapeResume, RefusesAnotherVersion) {

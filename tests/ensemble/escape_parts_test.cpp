@@ -98,6 +98,22 @@ TEST(EscapeInParts, GoesOnFromEverySavedState) {
   }
 }
 
+// For rates: the hits of earlier parts took no time of this one.
+TEST(EscapeInParts, TellsItsOwnHits) {
+  const System system = stadium();
+  EscapeOptions half;
+  half.part = shard(1, 2, system.run.trajectories);
+  const EscapeResult before = run_escape(system, half);
+  std::uint64_t done = 0, hits = 0;
+  EscapeOptions rest;
+  rest.threads = 1;
+  rest.before = &before;
+  rest.progress = [&](std::uint64_t trajectories, std::uint64_t so_far) { done = trajectories, hits = so_far; };
+  const EscapeResult whole = run_escape(system, rest);
+  EXPECT_EQ(done, system.run.trajectories);
+  EXPECT_EQ(hits, whole.counts.collisions - before.counts.collisions);
+}
+
 TEST(EscapeInParts, ShardsMakeTheWhole) {
   const System system = stadium();
   const EscapeResult whole = run_escape(system);

@@ -118,8 +118,8 @@ template <class Result>
 Stored<Result> read_ensemble(const std::string& file);
 /// Throws InputError where another version of the program wrote it.
 void refuse_other_version(const StoredEnsemble&);
-/// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none.
-std::string difference(const std::string& toml, const std::string& other_toml);
+/// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none. `but` is a key that may.
+std::string difference(const std::string& toml, const std::string& other_toml, const std::string& but = {});
 
 /// The sum of parts of one ensemble, in any order the same: shard 1/1, complete where nothing is missing. Throws
 /// InputError where parts overlap or do not match, and says in what.
