@@ -36,15 +36,13 @@ int print_sum(const Options& options, const System& system, const DiffusionResul
 template <class Result>
 int merge_parts(const Options& options, const std::string& output, const std::vector<std::string>& files,
                 ArchiveLock lock) {
-  std::vector<Stored<Result>> parts;
-  for (const std::string& file : files) parts.push_back(read_ensemble<Result>(file));
-  const Stored<Result> sum = sum_of(parts);
-  LoadedSystem loaded = read_system(sum.system_toml, parts.front().file + ": /system");
+  const SumOfParts<Result> sum = sum_of<Result>(files);
+  LoadedSystem loaded = read_system(sum.system_toml, sum.parts.front().file + ": /system");
   loaded.system.name = sum.system_name;
   loaded.system.dynamics.everywhere = sum.everywhere;
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
-  write_sum(output, loaded, origin, sum, parts, lock);
+  write_sum(output, loaded, origin, sum, lock);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
   for (const auto& [index, text] : sum.result.reports) fmt::print(stderr, "carom: {}\n", text);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
@@ -110,37 +111,44 @@ void write_records(const ArchiveFile& file, const System& system, std::vector<So
 }  // namespace
 
 template <class Result>
-Stored<Result> sum_of(const std::vector<Stored<Result>>& parts) {
-  Stored<Result> sum = parts.at(0);
-  refuse_other_version(sum);
-  refuse_others(sum, sum);
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    refuse_others(parts[i], parts[0]);
-    for (std::size_t j = 0; j < i; ++j)
-      if (const auto both = common(parts[i].result.done, parts[j].result.done))
-        throw InputError(Place{parts[i].file, 0, 0, ""},
-                         fmt::format("trajectories {} to {} are in '{}', too", both->first, both->last - 1, parts[j].file),
+SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
+  SumOfParts<Result> sum;
+  TrajectoryRange whole;
+  for (const std::string& file : files) {
+    Stored<Result> part = read_ensemble<Result>(file);
+    const bool first = sum.parts.empty();
+    refuse_others(part, first ? part : sum);
+    for (const EnsemblePart& other : sum.parts)
+      if (const auto both = common(part.result.done, other.done))
+        throw InputError(Place{part.file, 0, 0, ""},
+                         fmt::format("trajectories {} to {} are in '{}', too", both->first, both->last - 1, other.file),
                          "parts that do not overlap");
-    if (!sum.result.add(parts[i].result)) throw InternalError("parts overlap");
-    sum.result.threads = std::max(sum.result.threads, parts[i].result.threads);
-    if (parts[i].result.lanes != sum.result.lanes) sum.result.lanes.reset();
+    sum.parts.push_back({part.file, part.result.done});
+    if (first) {
+      refuse_other_version(part);
+      whole.last = read_system(part.system_toml, part.file + ": /system").system.run.trajectories;
+      static_cast<Stored<Result>&>(sum) = std::move(part);
+      continue;
+    }
+    if (!sum.result.add(part.result)) throw InternalError("parts overlap");
+    sum.result.threads = std::max(sum.result.threads, part.result.threads);
+    if (part.result.lanes != sum.result.lanes) sum.result.lanes.reset();
   }
   sum.shard = {};
   sum.file.clear();
-  const TrajectoryRange whole{0, read_system(sum.system_toml, "system").system.run.trajectories};
   sum.result.complete = sum.result.done.missing_from(whole).empty();
   sum.status = sum.result.complete ? "completed" : "incomplete";
   return sum;
 }
 
 template <class Result>
-void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const Stored<Result>& sum,
-               const std::vector<Stored<Result>>& parts, ArchiveLock lock) {
+void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const SumOfParts<Result>& sum,
+               ArchiveLock lock) {
   hdf5::silence();
   if (!lock) lock = lock_archive(path);
   const System& system = loaded.system;
   std::vector<std::string> files;
-  for (const Stored<Result>& part : parts) files.push_back(part.file);
+  for (const EnsemblePart& part : sum.parts) files.push_back(part.file);
   ArchiveFile file = ArchiveFile::create(checkpoint_of(path) + ".new", path);
   file.write_head(kind_of(sum.result), loaded, origin);
   write_parts(file, sum.result, sum.shard, sum.everywhere);
@@ -148,7 +156,7 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   write_counts(file, sum.result, system);
   if (sum.per_trajectory) {
     std::vector<Source> sources;
-    for (const Stored<Result>& part : parts) sources.emplace_back(part.file, part.result.done, system);
+    for (const EnsemblePart& part : sum.parts) sources.emplace_back(part.file, part.done, system);
     write_records(file, system, sources);
   }
   file.set_status(sum.status, sum.result.complete);
@@ -156,11 +164,11 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   remove_checkpoint(path);
 }
 
-template Stored<EscapeResult> sum_of(const std::vector<Stored<EscapeResult>>&);
-template Stored<DiffusionResult> sum_of(const std::vector<Stored<DiffusionResult>>&);
-template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const Stored<EscapeResult>&,
-                        const std::vector<Stored<EscapeResult>>&, ArchiveLock);
-template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const Stored<DiffusionResult>&,
-                        const std::vector<Stored<DiffusionResult>>&, ArchiveLock);
+template SumOfParts<EscapeResult> sum_of(const std::vector<std::string>&);
+template SumOfParts<DiffusionResult> sum_of(const std::vector<std::string>&);
+template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<EscapeResult>&,
+                        ArchiveLock);
+template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<DiffusionResult>&,
+                        ArchiveLock);
 
 }  // namespace carom

@@ -75,6 +75,17 @@ TEST(Merge, RefusesWhatOverlapsOrDoesNotMatch) {
     EXPECT_EQ(shell(ensemble + "--shard " + wrong).status, 1) << wrong;
 }
 
+// Parts with many report times are large in memory: 145 kB a time. One by one they fit.
+TEST(Merge, HoldsOnePartAtATime) {
+  const Shell shell;
+  const Outcome o = shell("for k in $(seq 9); do $carom diffusion lorentz-triangular --trajectories 90 --times lin:0.01:10:500 "
+                          "--shard $k/9 --quiet -o $k.h5 || exit 9; done");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Outcome merged = shell("ulimit -v 750000; $carom merge all.h5 ?.h5 --json");
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  EXPECT_EQ(json_value(merged.out, "status"), "\"completed\"");
+}
+
 bool has_mpi() { return std::system("mpirun --version >/dev/null 2>&1") == 0; }
 std::string ranks(int n) {
   return n == 0 ? "" : "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe --bind-to none -n " +

@@ -121,14 +121,23 @@ void refuse_other_version(const StoredEnsemble&);
 /// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none. `but` is a key that may.
 std::string difference(const std::string& toml, const std::string& other_toml, const std::string& but = {});
 
-/// The sum of parts of one ensemble, in any order the same: shard 1/1, complete where nothing is missing. Throws
-/// InputError where parts overlap or do not match, and says in what.
+/// Where a sum comes from.
+struct EnsemblePart {
+  std::string file;
+  TrajectoryRanges done;
+};
 template <class Result>
-Stored<Result> sum_of(const std::vector<Stored<Result>>& parts);
-/// Writes the sum of parts as their ensemble's archive, in place of what there is of that name.
+struct SumOfParts : Stored<Result> {
+  std::vector<EnsemblePart> parts;
+};
+/// The sum of parts of one ensemble, in any order the same: shard 1/1, complete where nothing is missing. One part
+/// at a time is in memory. Throws InputError where parts overlap or do not match, and says in what.
 template <class Result>
-void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const Stored<Result>& sum,
-               const std::vector<Stored<Result>>& parts, ArchiveLock = nullptr);
+SumOfParts<Result> sum_of(const std::vector<std::string>& files);
+/// Writes the sum as its ensemble's archive, in place of what there is of that name.
+template <class Result>
+void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const SumOfParts<Result>&,
+               ArchiveLock = nullptr);
 
 /// An ensemble's result. While the ensemble runs, FILE.part is its checkpoint: an archive by itself, always
 /// whole, and FILE.records holds the records of trajectories. When finished, FILE replaces them.
