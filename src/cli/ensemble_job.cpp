@@ -66,6 +66,7 @@ EnsembleJob<Result> job_to_go_on(const Options& options) {
     throw InputError(place_of("--output"), "an ensemble goes on in the same archive", "no -o beside --resume");
   if (!job.stored->result.complete) refuse_other_version(*job.stored);
   job.loaded = loaded_of(*job.stored, options);
+  check_stored(*job.stored, job.loaded.system);
   job.shard = job.stored->shard;
   return job;
 }

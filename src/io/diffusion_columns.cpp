@@ -1,11 +1,12 @@
 // The moments of a diffusing ensemble as datasets, and the exact sums that they come from.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <span>
 #include <type_traits>
 #include <utility>
 
-#include "carom/base/error.hpp"
 #include "io/ensemble_columns.hpp"
 
 namespace carom {
@@ -45,7 +46,7 @@ std::vector<ExactSum> read_sums(const Handle& group, const char* name, std::size
   const auto first = static_cast<std::uint64_t>(hdf5::read_integer_attribute(dataset.get(), "first", file));
   const auto each = static_cast<std::uint64_t>(hdf5::read_integer_attribute(dataset.get(), "digits", file));
   if (first > ExactSum::digits || each > ExactSum::digits - first || column.size() != each * count)
-    throw InputError(Place{file, 0, 0, ""}, "its sums have lost digits");
+    damaged(file, fmt::format("'/msd_groups/{}' has lost digits", name));
   std::vector<ExactSum> sums;
   for (std::size_t i = 0; i < count; ++i) {
     Digits digits{};
@@ -137,12 +138,15 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult& result) {
   const auto counts = hdf5::read_column<std::uint64_t>(by.get(), "count", name);
   const std::size_t times = result.sums.times().size();
   if (counts.size() != DisplacementSums::groups * times)
-    throw InputError(Place{name, 0, 0, ""}, "its columns differ in length");
+    damaged(name, "'/msd_groups/count' has not one row a group and time of '/msd/t'");
   const auto squares = read_sums(by, "square_digits", counts.size(), name), fourths = read_sums(by, "fourth_digits", counts.size(), name);
   for (std::size_t i = 0; i < counts.size(); ++i) result.sums.merge(i / times, i % times, {counts[i], squares[i], fourths[i]});
-  for (const Number& number : numbers) result.*number.value = hdf5::read_column<std::uint64_t>(ends.get(), number.name, name).at(0);
-  result.energy_change = hdf5::read_column<double>(ends.get(), energy_change, name).at(0);
-  result.digest = hdf5::read_column<std::uint64_t>(ends.get(), digest, name).at(0);
+  const auto read = [&](auto& value, const char* column) {
+    value = read_number<std::decay_t<decltype(value)>>(ends.get(), column, fmt::format("/fates/{}", column), name);
+  };
+  for (const Number& number : numbers) read(result.*number.value, number.name);
+  read(result.energy_change, energy_change);
+  read(result.digest, digest);
 }
 
 }  // namespace carom

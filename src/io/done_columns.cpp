@@ -1,6 +1,7 @@
 // Which trajectories an ensemble's archive counts.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <span>
 #include <sstream>
 #include <utility>
@@ -34,15 +35,20 @@ void read_done(hid_t file, const std::string& name, EnsembleResult& result) {
   const Handle done = open_group(file, "done", name);
   const auto first = hdf5::read_column<std::uint64_t>(done.get(), "first", name);
   const auto last = hdf5::read_column<std::uint64_t>(done.get(), "last", name);
-  for (std::size_t i = 0; i < first.size(); ++i)
-    if (!result.done.add(TrajectoryRange{first[i], last.at(i)}))
-      throw InputError(Place{name, 0, 0, ""}, "it counts trajectories twice");
+  if (first.size() != last.size()) damaged(name, "'/done/first' and '/done/last' differ in length");
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] >= last[i]) damaged(name, "'/done/first' is not below '/done/last'");
+    if (!result.done.add(TrajectoryRange{first[i], last[i]})) damaged(name, "'/done' counts trajectories twice");
+  }
   if (H5Lexists(file, "lost", H5P_DEFAULT) <= 0) return;
   std::istringstream lines(hdf5::read_text(file, "lost", name));
   for (std::string line; std::getline(lines, line);) {
     const std::size_t tab = line.find('\t');
-    if (tab == std::string::npos) continue;
-    result.reports.emplace_back(std::stoull(line.substr(0, tab)), line.substr(tab + 1));
+    std::uint64_t index = 0;
+    const bool starts_with_index = tab != std::string::npos && tab > 0 &&
+                                   std::from_chars(line.data(), line.data() + tab, index).ptr == line.data() + tab;
+    if (!starts_with_index) damaged(name, "a line of '/lost' does not begin with an index");
+    result.reports.emplace_back(index, line.substr(tab + 1));
   }
 }
 

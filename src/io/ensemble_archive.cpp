@@ -103,7 +103,7 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
   if (goes_on) a.kept = stored.result.done.size();
   if (!stored.per_trajectory) return;
   if (goes_on) {
-    a.log.emplace(records_of(file), file, read_pieces(stored.file));
+    a.log.emplace(records_of(file), file, read_pieces(stored.file, stored.result.done));
   } else {
     a.log.emplace(records_of(file), file);
     copy_records(stored, stored.result.done, loaded.system, *a.log);

@@ -11,6 +11,12 @@
 
 namespace carom {
 
+/// Throws InputError: what an archive holds cannot be.
+[[noreturn]] void damaged(const std::string& name, const std::string& problem);
+/// Does what was read belong to the system that it was read with? Throws InputError where it does not.
+void check_stored(const StoredEnsemble&, const EscapeResult&, const System&);
+void check_stored(const StoredEnsemble&, const DiffusionResult&, const System&);
+
 /// Trajectories that are counted, and reports of lost ones.
 void write_done(const ArchiveFile&, const EnsembleResult&);
 void read_done(hid_t file, const std::string& name, EnsembleResult&);
@@ -23,6 +29,13 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult&);
 
 /// A group of an archive that is read; InputError where it is missing.
 hdf5::Handle open_group(hid_t file, const char* group, const std::string& name);
+/// The only number of a column, which is called `path` in messages.
+template <class T>
+T read_number(hid_t group, const char* column, const std::string& path, const std::string& name) {
+  const std::vector<T> values = hdf5::read_column<T>(group, column, name);
+  if (values.size() != 1) damaged(name, "'" + path + "' is not one number");
+  return values.front();
+}
 
 std::vector<std::string> names_of_holes(const System&);
 hdf5::Columns create_records(const ArchiveFile&, const System&);

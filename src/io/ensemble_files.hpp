@@ -20,7 +20,8 @@ void remove_checkpoint(const std::string& file);
 void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere);
 /// Where the records of a checkpoint stand.
 void write_pieces(const ArchiveFile&, const std::vector<RecordLog::Piece>&);
-std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint);
+/// Throws InputError where they are not those of the trajectories that it counts.
+std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint, const TrajectoryRanges& done);
 /// All records of an archive to a log.
 void copy_records(const StoredEnsemble&, const TrajectoryRanges& done, const System&, RecordLog&);
 

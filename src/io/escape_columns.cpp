@@ -1,7 +1,10 @@
 #include "io/ensemble_columns.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -95,6 +98,14 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
   write("lanes_idle", result.effort.idle);
 }
 
+namespace {
+
+std::uint64_t total(const std::vector<std::uint64_t>& numbers) {
+  return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
+}
+
+}  // namespace
+
 void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   const auto integers = [&](const Handle& group, const char* column) {
     return hdf5::read_column<std::uint64_t>(group.get(), column, name);
@@ -102,15 +113,17 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   SurvivalCounts& counts = result.counts;
   const Handle survival = open_group(file, "survival", name), hits = open_group(file, "survival_hits", name);
   const Handle fates = open_group(file, "fates", name), provenance = open_group(file, "provenance", name);
-  const auto number = [&](const char* what) { return integers(fates, what).at(0); };
+  const auto number = [&](const char* what) {
+    return read_number<std::uint64_t>(fates.get(), what, fmt::format("/fates/{}", what), name);
+  };
   std::vector<std::uint64_t> by_hole;
   if (H5Lexists(fates.get(), "holes", H5P_DEFAULT) > 0) by_hole = integers(fates, "holes");
   counts = SurvivalCounts(hdf5::read_column<double>(survival.get(), "t", name), by_hole.size());
   counts.hole_escapes = by_hole;
   counts.gone_in = integers(survival, "gone");
   const std::vector<std::uint64_t> gone_in_hits = integers(hits, "gone");
-  if (counts.gone_in.size() != counts.times.size() || gone_in_hits.size() > counts.gone_in_hits.size())
-    throw InputError(Place{name, 0, 0, ""}, "its columns differ in length");
+  if (counts.gone_in.size() != counts.times.size()) damaged(name, "'/survival/t' and '/survival/gone' differ in length");
+  if (gone_in_hits.size() > counts.gone_in_hits.size()) damaged(name, "'/survival_hits/gone' is too long");
   std::copy(gone_in_hits.begin(), gone_in_hits.end(), counts.gone_in_hits.begin());
   counts.trajectories = number("trajectories");
   counts.escaped = number("escaped");
@@ -124,7 +137,12 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   counts.most_hits = number("most_hits");
   if (H5Lexists(fates.get(), "contacts", H5P_DEFAULT) > 0) counts.contacts = number("contacts");
   if (H5Lexists(fates.get(), "energy_change", H5P_DEFAULT) > 0)
-    counts.energy_change = hdf5::read_column<double>(fates.get(), "energy_change", name).at(0);
+    counts.energy_change = read_number<double>(fates.get(), "energy_change", "/fates/energy_change", name);
+  if (counts.escaped + counts.survived + counts.singular + counts.unbounded + counts.lost != counts.trajectories)
+    damaged(name, "'/fates' do not add up to '/fates/trajectories'");
+  const std::uint64_t gone = counts.escaped + counts.unbounded;
+  if (total(counts.gone_in) > gone) damaged(name, "'/survival/gone' has more than '/fates'");
+  if (total(counts.gone_in_hits) > gone) damaged(name, "'/survival_hits/gone' has more than '/fates'");
   result.digest = number("digest");
   const auto effort = [&](const char* what) {
     return static_cast<std::uint64_t>(hdf5::read_integer_attribute(provenance.get(), what, name));

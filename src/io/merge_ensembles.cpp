@@ -113,7 +113,7 @@ void write_records(const ArchiveFile& file, const System& system, std::vector<So
 template <class Result>
 SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
   SumOfParts<Result> sum;
-  TrajectoryRange whole;
+  System system;
   for (const std::string& file : files) {
     Stored<Result> part = read_ensemble<Result>(file);
     const bool first = sum.parts.empty();
@@ -126,7 +126,10 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
     sum.parts.push_back({part.file, part.result.done});
     if (first) {
       refuse_other_version(part);
-      whole.last = read_system(part.system_toml, part.file + ": /system").system.run.trajectories;
+      system = read_system(part.system_toml, part.file + ": /system").system;
+    }
+    check_stored(part, system);
+    if (first) {
       static_cast<Stored<Result>&>(sum) = std::move(part);
       continue;
     }
@@ -136,7 +139,7 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
   }
   sum.shard = {};
   sum.file.clear();
-  sum.result.complete = sum.result.done.missing_from(whole).empty();
+  sum.result.complete = sum.result.done.missing_from({0, system.run.trajectories}).empty();
   sum.status = sum.result.complete ? "completed" : "incomplete";
   return sum;
 }

@@ -179,6 +179,14 @@ Stored<Result> read_ensemble(const std::string& file) {
                             whole.everywhere == part.everywhere && whole.per_trajectory == part.per_trajectory;
   return one_ensemble && whole.result.done.size() >= part.result.done.size() ? whole : part;
 }
+
+template <class Result>
+void check_stored(const Stored<Result>& stored, const System& system) {
+  check_stored(stored, stored.result, system);
+}
+template void check_stored(const Stored<EscapeResult>&, const System&);
+template void check_stored(const Stored<DiffusionResult>&, const System&);
+
 template Stored<EscapeResult> read_ensemble(const std::string&);
 template Stored<DiffusionResult> read_ensemble(const std::string&);
 
@@ -220,19 +228,24 @@ void write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& 
   column("rows", &RecordLog::Piece::rows, "Number of records");
 }
 
-std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint) {
+std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint, const TrajectoryRanges& done) {
   const Handle file = open_archive(checkpoint);
-  const Handle group(H5Gopen2(file.get(), "records", H5P_DEFAULT), H5Gclose);
+  const Handle group = open_group(file.get(), "records", checkpoint);
   std::vector<RecordLog::Piece> pieces;
   const auto column = [&](const char* name, std::uint64_t RecordLog::Piece::*field) {
     const auto values = hdf5::read_column<std::uint64_t>(group.get(), name, checkpoint);
-    pieces.resize(values.size());
+    if (pieces.empty()) pieces.resize(values.size());
+    if (pieces.size() != values.size()) damaged(checkpoint, fmt::format("'/records/{}' differs in length", name));
     for (std::size_t i = 0; i < values.size(); ++i) pieces[i].*field = values[i];
   };
   column("first", &RecordLog::Piece::first);
   column("last", &RecordLog::Piece::last);
   column("row", &RecordLog::Piece::row);
   column("rows", &RecordLog::Piece::rows);
+  TrajectoryRanges held;
+  bool once = true;
+  for (const RecordLog::Piece& piece : pieces) once = held.add(TrajectoryRange{piece.first, piece.last}) && once;
+  if (!once || held != done) damaged(checkpoint, "'/records' holds others than the trajectories of '/done'");
   return pieces;
 }
 

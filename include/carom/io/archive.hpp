@@ -116,6 +116,9 @@ std::string kind_of_ensemble(const std::string& file);
 /// checkpoint. Throws InputError where there is no ensemble.
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file);
+/// Throws InputError where it cannot be what this system gave: it was damaged or changed.
+template <class Result>
+void check_stored(const Stored<Result>&, const System&);
 /// Throws InputError where another version of the program wrote it.
 void refuse_other_version(const StoredEnsemble&);
 /// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none. `but` is a key that may.
