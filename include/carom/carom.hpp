@@ -15,4 +15,5 @@
 #include "carom/io/archive.hpp"
 #include "carom/io/certified_archive.hpp"
 #include "carom/io/system_file.hpp"
+#include "carom/table/hole_names.hpp"
 #include "carom/table/table.hpp"

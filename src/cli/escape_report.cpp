@@ -6,27 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "carom/table/hole_names.hpp"
 #include "cli/common.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
 
 namespace {
-
-// A hole across the parameter 0 of a closed wall is stored as two of one name.
-struct HoleEscapes {
-  std::string name;
-  std::uint64_t escaped = 0;
-};
-std::vector<HoleEscapes> escapes_by_hole(const System& system, const SurvivalCounts& counts) {
-  std::vector<HoleEscapes> list;
-  for (std::size_t i = 0; i < counts.hole_escapes.size(); ++i) {
-    const std::string& name = system.table->holes[i].name;
-    if (list.empty() || list.back().name != name) list.push_back({name, 0});
-    list.back().escaped += counts.hole_escapes[i];
-  }
-  return list;
-}
 
 std::string survival_table(const SurvivalCounts& counts) {
   const auto points = survival(counts);
@@ -52,9 +38,9 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
                         100.0 * static_cast<double>(number) / all, *note ? "   " : "", note);
   };
   line("escaped", counts.escaped, "", true);
-  const std::vector<HoleEscapes> holes = escapes_by_hole(system, counts);
+  const std::vector<std::string> holes = hole_names(*system.table);
   for (std::size_t i = 0; holes.size() > 1 && i < holes.size(); ++i)
-    line("  by " + holes[i].name, holes[i].escaped, "", true);
+    line("  by " + holes[i], counts.hole_escapes[i], "", true);
   line("survived", counts.survived, "", true);
   line("  pinned", counts.pinned, "on cyclotron orbits that never hit", false);
   line("  capped", counts.capped, "ended by the cap on hits", false);
@@ -93,8 +79,9 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
                           .set("left", result.effort.scalar)
                           .set("busy", result.effort.busy()));
   Json holes = Json::array();
-  for (const HoleEscapes& hole : escapes_by_hole(system, counts))
-    holes.push(Json::object().set("name", hole.name).set("escaped", hole.escaped));
+  const std::vector<std::string> names = hole_names(*system.table);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    holes.push(Json::object().set("name", names[i]).set("escaped", counts.hole_escapes[i]));
   json.set("holes", std::move(holes));
   Json by_time = Json::array(), by_hits = Json::array(), rates = Json::array();
   for (const auto& [t, p, low, high] : survival(counts))

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "block_order.hpp"
+#include "carom/table/hole_names.hpp"
 #include "ensemble/ensemble_run.hpp"
 #include "ensemble/escape_runner.hpp"
 #include "ensemble/lane_runner.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 EscapeResult nothing(const System& system) {
   EscapeResult result;
-  result.counts = SurvivalCounts(system.run.times, system.table->holes.size());
+  result.counts = SurvivalCounts(system.run.times, hole_names(*system.table).size());
   return result;
 }
 

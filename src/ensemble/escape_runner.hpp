@@ -36,6 +36,7 @@ class EscapeRunner {
       : system_(system),
         sampler_(sampler),
         injector_(injector),
+        holes_(hole_numbers(*system.table)),
         world_(*system.table, system.dynamics, decisions),
         energies_(system) {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
@@ -114,7 +115,7 @@ class EscapeRunner {
     const std::optional<EndEvent>& end = ends_.of(particle);
     if (!end) return record;
     record.fate = end->fate;
-    record.hole = end->hole;
+    if (end->hole >= 0) record.hole = holes_[static_cast<std::size_t>(end->hole)];
     if (end->fate != Fate::survived && end->fate != Fate::pinned) record.time = end->time.value();
     return record;
   }
@@ -122,6 +123,7 @@ class EscapeRunner {
   const System& system_;
   const Sampler& sampler_;
   const Injector& injector_;
+  const std::vector<int> holes_;
   World world_;
   EnergyWatch energies_;
   EscapeEnds ends_;

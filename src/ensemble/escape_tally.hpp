@@ -10,6 +10,7 @@
 
 #include "carom/base/digest.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/table/hole_names.hpp"
 
 namespace carom {
 
@@ -18,7 +19,7 @@ struct EscapeTally {
   std::uint64_t digest = 0;
   std::vector<std::pair<std::uint64_t, std::string>> reports;  // of the first
 
-  explicit EscapeTally(const System& system) : counts(system.run.times, system.table->holes.size()) {}
+  explicit EscapeTally(const System& system) : counts(system.run.times, hole_names(*system.table).size()) {}
 
   void note_energies(double before, double after) {
     counts.energy_change = std::max(counts.energy_change, std::fabs(after - before));

@@ -108,7 +108,7 @@ class LaneRunner {
     if (records_) record = record_of(end.tag);
     record.index = end.tag;
     record.fate = end.fate;
-    record.hole = end.hole;
+    if (end.hole >= 0) record.hole = holes_[static_cast<std::size_t>(end.hole)];
     record.hits = end.hits;
     const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
     record.time = to_the_end ? system_.run.t_max : end.time.value();
@@ -123,6 +123,7 @@ class LaneRunner {
 
   const System& system_;
   const Sampler& sampler_;
+  const std::vector<int> holes_ = hole_numbers(*system_.table);
   World world_;  ///< answers the sampler
   EitherLanes lanes_;
   EnergyWatch energies_;

@@ -9,6 +9,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/world.hpp"
+#include "carom/table/hole_names.hpp"
 #include "ensemble/parallel_blocks.hpp"
 
 namespace carom {
@@ -19,13 +20,6 @@ struct Pair {
   PairedEnd first, second;
   enum class State : unsigned char { open, known, singular, lost, other_singular, unknown } state = State::open;
 };
-
-// A hole across the parameter 0 of a closed wall is stored as two of one name.
-int first_of_name(const Table& table, int hole) {
-  for (int i = 0; i < hole; ++i)
-    if (table.holes[static_cast<std::size_t>(i)].name == table.holes[static_cast<std::size_t>(hole)].name) return i;
-  return hole;
-}
 
 class LastEvent : public Observer {
  public:
@@ -65,7 +59,7 @@ class Worker {
       return;
     }
     if (end.fate == Fate::escaped || end.fate == Fate::unbounded) pair.first.time = end.time.value();
-    pair.first.hole = first_of_name(*system_.table, end.hole);
+    pair.first.hole = number_of(end.hole);
     pair.first.hits = end.hits;
     const OtherEnd other = other_(start);
     if (other.kind == OtherEnd::unknown && stopped()) return;
@@ -74,11 +68,13 @@ class Worker {
                                                     : Pair::State::unknown;
     if (other.kind != OtherEnd::known) return;
     pair.second = other.end;
-    pair.second.hole = first_of_name(*system_.table, other.end.hole);
+    pair.second.hole = number_of(other.end.hole);
   }
+  int number_of(int hole) const { return hole < 0 ? hole : holes_[static_cast<std::size_t>(hole)]; }
 
   const System& system_;
   const Sampler& sampler_;
+  const std::vector<int> holes_ = hole_numbers(*system_.table);
   World world_;
   OtherFlight other_;
   std::vector<Pair>& pairs_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
+#include "carom/table/hole_names.hpp"
 #include "io/ensemble_columns.hpp"
 
 namespace carom {
@@ -39,7 +40,7 @@ void check_stored(const StoredEnsemble& stored, const EscapeResult& result, cons
   const SurvivalCounts& counts = result.counts;
   check_common(stored, result, counts.trajectories, "/fates/trajectories", system);
   check_times(stored, counts.times, "/survival/t", system);
-  if (counts.hole_escapes.size() != system.table->holes.size())
+  if (counts.hole_escapes.size() != hole_names(*system.table).size())
     damaged(stored.file, "'/fates/holes' are not the holes of '/system'");
 }
 

@@ -37,7 +37,6 @@ T read_number(hid_t group, const char* column, const std::string& path, const st
   return values.front();
 }
 
-std::vector<std::string> names_of_holes(const System&);
 hdf5::Columns create_records(const ArchiveFile&, const System&);
 void append_records(hdf5::Columns&, const std::vector<TrajectoryRecord>&);
 

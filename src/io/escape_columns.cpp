@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "carom/base/error.hpp"
+#include "carom/table/hole_names.hpp"
 
 namespace carom {
 
@@ -16,7 +17,7 @@ using hdf5::Description;
 using hdf5::Handle;
 
 void write_counts(const ArchiveFile& file, const EscapeResult& result, const System& system) {
-  const std::vector<std::string> holes = names_of_holes(system);
+  const std::vector<std::string> holes = hole_names(*system.table);
   const std::string& target = file.name();
   const auto column = [&](const Handle& group, const char* name, const auto& points, auto get, Description description) {
     std::vector<std::decay_t<decltype(get(points.front()))>> values;

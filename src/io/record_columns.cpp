@@ -3,21 +3,16 @@
 #include <cstddef>
 
 #include "carom/base/error.hpp"
+#include "carom/table/hole_names.hpp"
 #include "io/ensemble_columns.hpp"
 
 namespace carom {
 
 using hdf5::Handle;
 
-std::vector<std::string> names_of_holes(const System& system) {
-  std::vector<std::string> names;
-  for (const Hole& hole : system.table->holes) names.push_back(hole.name);
-  return names;
-}
-
 hdf5::Columns create_records(const ArchiveFile& file, const System& system) {
   const std::string& target = file.name();
-  const std::vector<std::string> holes = names_of_holes(system);
+  const std::vector<std::string> holes = hole_names(*system.table);
   hdf5::Columns trajectories(target);
   const Handle group = file.group("trajectories", "Start and end of each trajectory, by index");
   const hid_t to = group.get();

@@ -73,6 +73,23 @@ int Table::wall_index(const std::string& name) const {
   return -1;
 }
 
+std::vector<int> hole_numbers(const Table& table) {
+  std::vector<int> numbers;
+  int number = -1;
+  for (std::size_t i = 0; i < table.holes.size(); ++i) {
+    if (i == 0 || table.holes[i].name != table.holes[i - 1].name) ++number;
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+std::vector<std::string> hole_names(const Table& table) {
+  std::vector<std::string> names;
+  for (const Hole& hole : table.holes)
+    if (names.empty() || names.back() != hole.name) names.push_back(hole.name);
+  return names;
+}
+
 int Table::hole_index(const std::string& name) const {
   for (std::size_t k = 0; k < holes.size(); ++k) {
     if (holes[k].name == name) return static_cast<int>(k);

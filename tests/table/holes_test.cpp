@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "carom/table/hole_names.hpp"
 #include "spec.hpp"
 
 namespace carom::tests {
@@ -31,6 +32,14 @@ TEST(Holes, LieAtTheirArcLength) {
     EXPECT_NEAR(length_to(table, hole, hole.to), 1.5, 1e-15);
     EXPECT_EQ(table.walls[static_cast<std::size_t>(hole.wall)].holes, std::vector<int>{0});
   }
+}
+
+TEST(Holes, InTwoPiecesHaveOneName) {
+  const Table table = build_table(with_hole(with_hole(with_hole(circle, "circle", "2", "0.4"), "circle", "0", "0.5"), "circle", "3", "0.1"));
+  ASSERT_EQ(table.holes.size(), 4u);
+  EXPECT_EQ(hole_names(table), (std::vector<std::string>{"hole_1", "hole_2", "hole_3"}));
+  EXPECT_EQ(hole_numbers(table), (std::vector<int>{0, 1, 1, 2}));
+  EXPECT_TRUE(hole_names(build_table(circle)).empty());
 }
 
 TEST(Holes, RunAlongTheWallWithTheDomainOnTheLeft) {

@@ -30,7 +30,7 @@ struct SurvivalCounts {
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; counted by whoever follows them
   std::uint64_t most_hits = 0;  ///< of a single trajectory
   double energy_change = 0.0;   ///< the largest of a particle under forces; from whoever follows them
-  std::vector<std::uint64_t> hole_escapes;
+  std::vector<std::uint64_t> hole_escapes;  ///< by hole_names()
 
   SurvivalCounts() = default;
   SurvivalCounts(std::vector<double> times, std::size_t holes);

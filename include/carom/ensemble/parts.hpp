@@ -25,7 +25,7 @@ struct TrajectoryRecord {
   std::uint64_t index = 0;
   double x = 0, y = 0, vx = 0, vy = 0;  ///< start, unwrapped
   Fate fate = Fate::survived;
-  std::int32_t hole = -1;
+  std::int32_t hole = -1;  ///< index into hole_names()
   double time = 0;  ///< end: escape, last hit of an unbounded one, else t_max
   std::uint64_t hits = 0;
 };
