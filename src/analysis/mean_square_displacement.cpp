@@ -98,7 +98,8 @@ void DisplacementSums::merge(std::size_t group, std::size_t k, const Sum& other)
   sum.fourth.merge(other.fourth);
 }
 
-DisplacementMoments::DisplacementMoments(const DisplacementSums& sums) : times_(sums.times()) {
+DisplacementMoments::DisplacementMoments(const DisplacementSums& sums, std::size_t particles)
+    : times_(sums.times()), particles_(particles) {
   const std::size_t n = times_.size();
   counts_.assign(n, 0);
   std::vector<double> square(n), fourth(n);
@@ -148,11 +149,15 @@ std::vector<MomentPoint> DisplacementMoments::points() const {
     MomentPoint point;
     point.t = times_[k];
     point.count = counts_[k];
-    // The exact variance of the squares is at hand; that of the fourth powers is not.
+    // The exact variance of the squares is at hand; that of the fourth powers is not. It makes an error where
+    // all that was summed is independent, which particles of one trajectory are not.
     const auto count = static_cast<double>(counts_[k]);
     const double square = whole_.square[k], fourth = whole_.fourth[k];
     const double variance = std::max(0.0, fourth - square * square);
-    point.square = {square, counts_[k] > 1 ? std::sqrt(variance / (count - 1)) : nan};
+    point.square.value = square;
+    point.square.error = particles_ > 1    ? error_of([k](const Means& m) { return m.square[k]; }, square)
+                         : counts_[k] > 1 ? std::sqrt(variance / (count - 1))
+                                          : nan;
     point.fourth = {fourth, error_of([k](const Means& m) { return m.fourth[k]; }, fourth)};
     point.middle = nan;
     point.exponent = {nan, nan};

@@ -192,7 +192,7 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
   DiffusionSummary summary;
   summary.horizon = horizon_of(system);
   summary.no_D = no_diffusion(summary.horizon);
-  const DisplacementMoments moments(result.sums);
+  const DisplacementMoments moments(result.sums, system.particles.size());
   summary.points = moments.points();
   const auto& window = system.run.window;
   const TimeWindow asked = window ? TimeWindow{window->first, window->second} : moments.default_window();

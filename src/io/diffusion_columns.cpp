@@ -56,9 +56,9 @@ std::vector<ExactSum> read_sums(const Handle& group, const char* name, std::size
   return sums;
 }
 
-void write_moments(const ArchiveFile& file, const DisplacementSums& sums) {
+void write_moments(const ArchiveFile& file, const DisplacementSums& sums, std::size_t particles) {
   using Point = const MomentPoint&;
-  const std::vector<MomentPoint> points = DisplacementMoments(sums).points();
+  const std::vector<MomentPoint> points = DisplacementMoments(sums, particles).points();
   const Handle g = file.group("msd", "Moments of the displacement in the plane since t = 0");
   const auto column = [&](const char* name, auto get, Description description) {
     std::vector<std::decay_t<decltype(get(points.front()))>> values;
@@ -120,8 +120,8 @@ constexpr const char* energy_change = "energy_change";
 
 }  // namespace
 
-void write_counts(const ArchiveFile& file, const DiffusionResult& result, const System&) {
-  write_moments(file, result.sums);
+void write_counts(const ArchiveFile& file, const DiffusionResult& result, const System& system) {
+  write_moments(file, result.sums, system.particles.size());
   write_groups(file, result.sums);
   const Handle ends = file.group("fates", "Numbers of particles by their end before the last report time");
   const auto write = [&](const char* name, const auto& value, Description description) {

@@ -79,7 +79,9 @@ struct DiffusionFit {
 /// Moments of the displacement with their errors, and what follows from them: D and exponents.
 class DisplacementMoments {
  public:
-  explicit DisplacementMoments(const DisplacementSums& sums);
+  /// `particles` of each trajectory. Where there are several they need not be independent: then all errors are the
+  /// jackknife's over groups of trajectories.
+  explicit DisplacementMoments(const DisplacementSums& sums, std::size_t particles = 1);
 
   std::vector<MomentPoint> points() const;
   /// From the first report time that is at least a tenth of the last one, to the last; from the
@@ -96,6 +98,7 @@ class DisplacementMoments {
   double error_of(Statistic, double whole) const;
 
   std::vector<double> times_;
+  std::size_t particles_;
   std::vector<std::uint64_t> counts_;
   Means whole_;
   std::vector<Means> without_;  ///< one group left out; empty groups have no entry
