@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "carom/ensemble/diffusion.hpp"
+#include "table/inset.hpp"
 
 namespace carom {
 
@@ -31,8 +32,12 @@ std::optional<double> machta_zwanzig(const Table& table, double speed) {
 }  // namespace
 
 Horizon horizon_of(const System& system) {
+  // A hard disc flies as its centre does: among the curves at its radius from the walls. Several also meet each
+  // other, and what corridors there are is not where they fly freely.
+  const bool of_discs = system.of_discs(), one_disc = of_discs && system.particles.size() == 1;
+  const bool inset = one_disc && system.table->extent == Extent::lattice;
+  const Table table = inset ? inset_table(*system.table, system.particles.front().radius) : *system.table;
   Horizon horizon;
-  const Table& table = *system.table;
   const bool bent = std::all_of(system.particles.begin(), system.particles.end(),
                                 [](const Particle& p) { return p.omega != 0.0; });
   const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
@@ -45,6 +50,7 @@ Horizon horizon_of(const System& system) {
       return horizon;
     case Extent::lattice: break;
   }
+  if (of_discs && !one_disc) return horizon;
   std::vector<geometry::Curve> curves;
   for (const Wall& wall : table.walls) curves.push_back(wall.curve);
   horizon.corridors = geometry::free_corridors(*table.lattice, curves);

@@ -142,6 +142,28 @@ TEST(Horizon, CorridorsAreTheTailOfFreeFlights) {
   }
 }
 
+// Corridors of points are too narrow for discs: a disc among discs is a point among larger ones.
+TEST(Horizon, OfADiscIsThatOfItsCentre) {
+  const char* disc = "[interaction]\nkind = \"hard-discs\"\nradius = 0.05\n";
+  ASSERT_EQ(horizon_of(lorentz("triangular", 2.4, 1, 1, 1)).kind, Horizon::Kind::infinite);
+  const Horizon point = horizon_of(lorentz("triangular", 2.4, 1.05, 1, 1));
+  const Horizon one = horizon_of(lorentz("triangular", 2.4, 1, 1, 1, disc));
+  EXPECT_EQ(one.kind, Horizon::Kind::finite);
+  EXPECT_EQ(one.corridors.list.size(), 0u);
+  EXPECT_EQ(one.machta_zwanzig.value(), point.machta_zwanzig.value());
+  const Horizon wide = horizon_of(lorentz("square", 1, 0.35, 1, 1, disc));
+  EXPECT_EQ(wide.kind, Horizon::Kind::infinite);
+  EXPECT_NEAR(wide.flight_tail, 2 * 0.04 / (pi * (1 - pi * 0.16)), 1e-14);
+  for (const char* radii : {"radius = 0.05\n", "radius = 0.001\n"}) {
+    const Horizon two = horizon_of(lorentz("triangular", 2.4, 1, 1, 1,
+                                           std::string("[particles]\ncount = 2\n[interaction]\nkind = \"hard-discs\"\n") + radii));
+    EXPECT_EQ(two.kind, Horizon::Kind::unknown);
+    EXPECT_FALSE(two.machta_zwanzig);
+    EXPECT_EQ(two.flight_tail, 0);
+    EXPECT_TRUE(two.corridors.list.empty());
+  }
+}
+
 TEST(Horizon, FieldsAndWallsDecide) {
   EXPECT_EQ(horizon_of(lorentz("triangular", 2.4, 1, 1, 1)).kind, Horizon::Kind::infinite);
   const Horizon bent = horizon_of(lorentz("triangular", 2.4, 1, 1, 1, "[field]\nB = 0.1\n"));

@@ -12,14 +12,14 @@
 
 namespace carom {
 
-/// What the table says about diffusion before anything has moved.
+/// What the table says about diffusion before anything has moved; of one hard disc, the table that its centre sees.
 struct Horizon {
   enum class Kind {
     finite,      ///< no straight flight is free for ever, or flights are bent
     infinite,    ///< free corridors: the MSD grows faster than t, D does not exist
     bounded,     ///< the table is closed: the MSD ends at a constant
     open_plane,  ///< particles leave for good: the MSD ends as t^2
-    unknown      ///< not decided for these walls, or forces act
+    unknown      ///< not decided for these walls, or forces act, or hard discs meet each other
   } kind = Kind::unknown;
   geometry::Corridors corridors;  ///< of a lattice, also where a field bends all flights
   double flight_tail = 0.0;       ///< limit of t P(no hit until t) at speed 1; 0 without corridors
