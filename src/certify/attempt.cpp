@@ -35,8 +35,7 @@ Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const Kno
 
 void Attempt::set_arena(BallTable table) {
   where_ = whereabouts_of(table);
-  double size = where_.stretch;
-  for (const Whereabouts::Disc& disc : where_.discs) size = std::max(size, disc.radius);
+  const double size = std::max(where_.stretch, where_.widest);
   arena_.unit = size > 0.0 ? power_near(size) : 1.0;
   SceneOf<Ball>& scene = arena_.scene;
   scene.walls = std::move(table.walls);

@@ -3,6 +3,15 @@
 #include "certify/interval.hpp"
 
 namespace carom::certify {
+namespace {
+
+/// An arc of at most half a turn: its centre is beside it or behind its chord. Of others this is not said.
+bool is_half_at_most(const WallOf<Ball>& w) {
+  if (w.form == Form::segment || w.closed) return false;
+  return sign(cross(w.chord, w.centre - w.from)) == (w.turn > 0.0 ? Sign::positive : Sign::negative);
+}
+
+}  // namespace
 
 Whereabouts whereabouts_of(const BallTable& table) {
   Whereabouts r;
@@ -18,6 +27,16 @@ Whereabouts whereabouts_of(const BallTable& table) {
       // Rows of the map to the unit circle are axes over their squares.
       const geometry::Vector p = vector(w.along), q = vector(w.across);
       disc = {vector(w.centre), 1.0 / std::sqrt(std::min(dot(p, p), dot(q, q)))};
+    }
+    r.widest = std::max(r.widest, disc.radius);
+    if (is_half_at_most(w)) {
+      // No point of it is farther from the middle of its chord than the ends; of an ellipse, where that is a circle.
+      double half = 0.5 * std::sqrt(dot(vector(w.chord), vector(w.chord)));
+      if (w.form == Form::ellipse) {
+        const double x = dot(w.along, w.chord).to_double(), y = dot(w.across, w.chord).to_double();
+        half = disc.radius * 0.5 * std::sqrt(x * x + y * y);
+      }
+      disc = {0.5 * vector(w.from) + 0.5 * vector(w.to), half};
     }
     disc.radius *= 1.0 + 0x1p-40;  // rounded some ten times, relative to itself
     r.discs.push_back(disc);

@@ -41,6 +41,7 @@ struct Whereabouts {
   geometry::Vector to_first, to_second;  ///< coordinates of a point by them
   double stretch = 0.0;                  ///< length of pieces in which flights are followed on a lattice
   double size = 0.0;                     ///< of the coordinates of all these
+  double widest = 0.0;                   ///< radius of a circle or ellipse, or half a segment
   double skew = 0.0;                     ///< of the lattice vectors: 2 where they are at right angles
 
   /// Part of a length that every rounding in the search for walls stays below. A handful of operations is rounded by

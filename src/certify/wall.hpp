@@ -74,11 +74,4 @@ struct LandingOf {
   VectorOf<Number> position, velocity;
 };
 
-/// The quadratic (speed2) t^2 + 2 b t + c of a flight against a circle or ellipse, and b^2 - speed2 c.
-template <class Number, class Constant>
-struct Roots {
-  Number b{}, discriminant{};
-  Constant inverse{};
-};
-
 }  // namespace carom::certify

@@ -1,6 +1,8 @@
 // Where on a lattice walls are looked for.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "certify/ball_table.hpp"
 #include "certify/scene.hpp"
 #include "certify/systems.hpp"
@@ -11,6 +13,7 @@ namespace {
 using certify::Ball;
 using certify::Interval;
 using certify::Precision;
+using tests::exactly;
 
 // A disc that only some of the enclosed flights meet, too far from the middle one to come near any of its pieces.
 TEST(LatticeSearch, LooksAsFarAsTheEnclosureReaches) {
@@ -35,6 +38,51 @@ TEST(LatticeSearch, LooksAsFarAsTheEnclosureReaches) {
       EXPECT_EQ(scene.next(where, line, along, -1, {0.5, 1.0}, v0).answer, certify::Choice::too_far);
     }
   }
+}
+
+// The disc that stands for a wall holds it, and no more than it where an arc is flat.
+TEST(LatticeSearch, DiscsHoldTheirWalls) {
+  const Precision precision(100);
+  std::vector<tests::Shaped> shapes = tests::all_shapes();
+  tests::Shaped lens = tests::shaped("path", {}, "0", "0");
+  LoopSpec loop;
+  loop.start = {exactly("1/4"), exactly("1/2")};
+  PieceSpec above, below;
+  above.kind = below.kind = PieceSpec::Kind::arc;
+  above.via = {exactly("1/2"), exactly("1/2+1/10000")};
+  above.to = {exactly("3/4"), exactly("1/2")};
+  below.via = {exactly("1/2"), exactly("1/2-1/10000")};
+  below.to = loop.start;
+  loop.pieces = {above, below};
+  lens.spec.loops = {loop};
+  for (const certify::Whereabouts::Disc& disc : certify::whereabouts_of(certify::ball_table(lens.spec)).discs) {
+    EXPECT_NEAR(disc.radius, 0.25, 1e-6);
+  }
+  shapes.push_back(lens);
+  long points = 0, narrow = 0;
+  for (const tests::Shaped& s : shapes) {
+    const certify::BallTable table = certify::ball_table(s.spec);
+    const certify::Whereabouts where = certify::whereabouts_of(table);
+    for (std::size_t k = 0; k < table.walls.size(); ++k) {
+      const certify::WallOf<Ball>& w = table.walls[k];
+      if (w.form == certify::Form::segment) continue;
+      const bool ellipse = w.form == certify::Form::ellipse;
+      const Ball radius = ellipse ? Ball(1) : sqrt(w.radius2);
+      const auto semi_axis = [](const certify::BallVector& v) { return Ball(1) / dot(v, v) * v; };
+      const certify::BallVector a = ellipse ? semi_axis(w.along) : certify::BallVector{radius, Ball(0)};
+      const certify::BallVector b = ellipse ? semi_axis(w.across) : certify::BallVector{Ball(0), radius};
+      for (int i = 0; i < 4000; ++i) {
+        const certify::BallVector X = w.centre + Ball(std::cos(i * 0.001571)) * a + Ball(std::sin(i * 0.001571)) * b;
+        if (certify::on_arc(w, X) != certify::Verdict::yes) continue;
+        const certify::BallVector d = X - certify::BallVector{where.discs[k].centre.x, where.discs[k].centre.y};
+        ASSERT_LE(sqrt(dot(d, d)).to_double(), where.discs[k].radius * (1.0 + 1e-12)) << s.spec.shape << " " << k;
+        ++points;
+      }
+      narrow += where.discs[k].radius < 0.999 * (ellipse ? sqrt(dot(a, a)).to_double() : radius.to_double());
+    }
+  }
+  EXPECT_GT(points, 20000);
+  EXPECT_GT(narrow, 3);
 }
 
 }  // namespace
