@@ -49,11 +49,22 @@ SystemOverrides section_overrides(const Options& options) {
     if (!text->empty()) overrides.set.emplace_back(key, *text);
   if (options.orbits.empty() && !overrides.trajectories.empty())
     overrides.set.emplace_back("section.orbits", overrides.trajectories);
-  // Every hit is a point: orbits that are asked for a number of points have no last time.
-  const bool boundary = options.on.empty() || options.on == "boundary";
-  if (boundary && !options.points.empty() && overrides.t_max.empty())
-    overrides.t_max = fmt::format("{}", no_last_time);
   return overrides;
+}
+
+// Every hit is a point: orbits that are asked for a number of points have no last time. On one wall, on a line or
+// at a velocity they may never have so many. Where the section is taken the command line or the file says.
+LoadedSystem load_section(const Options& options) {
+  SystemOverrides overrides = section_overrides(options);
+  const bool last_time = !overrides.t_max.empty() ||
+                         std::any_of(overrides.set.begin(), overrides.set.end(),
+                                     [](const auto& one) { return one.first == "run.t_max"; });
+  if (options.points.empty() || last_time) return load_system(options.system, overrides);
+  LoadedSystem loaded = load_system(options.system, overrides);
+  const SectionPlan& plan = loaded.system.section;
+  if (!plan.boundary || plan.wall >= 0) return loaded;
+  overrides.t_max = fmt::format("{}", no_last_time);
+  return load_system(options.system, overrides);
 }
 
 Json section_json(const System& system, const SectionResult& result, const std::string& status,
@@ -114,7 +125,7 @@ int section(const Options& options) {
   check_engine(options);
   SectionOptions how;
   how.threads = threads_of(options);
-  LoadedSystem loaded = load_system(options.system, section_overrides(options));
+  LoadedSystem loaded = load_section(options);
   choose_engine(options.engine, loaded.system);
   const System& system = loaded.system;
 

@@ -63,5 +63,26 @@ TEST(Section, ComesFromTheFileToo) {
   EXPECT_NE(text.out.find("40 points of 4 orbits"), std::string::npos) << text.out;
 }
 
+// On one wall the points may never come: there is a last time, wherever the wall is named.
+TEST(Section, OnAWallEndsWhereverTheWallIsNamed) {
+  const Shell shell;
+  const std::string vertical =
+      " --set initial.kind=point --position 0,0 --velocity 0,1 --set 'table.hole=[]' --points 5 --json --quiet";
+  for (const char* on : {"--on wall:right", "--set section.on=wall:right"}) {
+    const Outcome o = shell("timeout 20 $carom section stadium " + std::string(on) + vertical);
+    EXPECT_EQ(o.status, 0) << on << o.err;
+    EXPECT_EQ(json_value(o.out, "points"), "0") << on;
+    EXPECT_EQ(json_value(o.out, "incomplete"), "1") << on;
+  }
+  shell("$carom systems stadium > a.toml; printf '[section]\non = \"wall:right\"\n' >> a.toml");
+  const Outcome file = shell("timeout 20 $carom section a.toml" + vertical);
+  EXPECT_EQ(file.status, 0) << file.err;
+  EXPECT_EQ(json_value(file.out, "points"), "0");
+  // All walls: the points come, unless a last time is asked for.
+  const std::string closed = "$carom section stadium --set 'table.hole=[]' --orbits 1 --points 2000 --json --quiet";
+  EXPECT_EQ(json_value(shell(closed + " --set section.on=boundary").out, "points"), "2000");
+  EXPECT_EQ(json_value(shell(closed + " --set run.t_max=1/1000").out, "incomplete"), "1");
+}
+
 }  // namespace
 }  // namespace carom
