@@ -67,15 +67,16 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
   text += fmt::format("\n  t             {}\n  position      {}, {}", particle.t, particle.x, particle.y);
   if (system.table->lattice)
     text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
-  text += fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g}\n", particle.vx, particle.vy,
-                      particle.energy_error);
+  const double error = particle.energy_error;
+  text += fmt::format("\n  velocity      {}, {}\n  energy error  {}\n", particle.vx, particle.vy,
+                      std::isnan(error) ? "not known: not all that interact are left" : fmt::format("{:.2g}", error));
   text += fmt::format("  trusted       {}\n", trust_text(system, particle));
   return text;
 }
 
 /// A doubt about the steps: "" where energy is kept to a thousandth of what moves.
 std::string energy_note(const System& system, const SingleRunResult& result) {
-  if (engine_of(system) == "events") return {};
+  if (engine_of(system) == "events" || std::isnan(result.particles.front().energy_error)) return {};
   const Energy &start = result.energy_at_start, &end = result.energy_at_end;
   const double change = end.total() - start.total(), scale = std::max(start.kinetic, end.kinetic);
   if (std::fabs(change) <= 1e-3 * scale) return {};

@@ -1,5 +1,7 @@
 #include "carom/ensemble/single_run.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -211,6 +213,11 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     result.energy_at_end = energy_of(particles, states, system.dynamics, *system.table);
     const double start = result.energy_at_start.total(), change = result.energy_at_end.total() - start;
     energy_error = start == 0.0 ? change : change / start;
+    // Particles that feel each other share their energy until the first of them is gone.
+    const bool everybody = std::none_of(progress.begin(), progress.end(), [](const ParticleProgress& one) {
+      return gone(one.fate) || one.fate == Fate::capped;
+    });
+    if (count > 1 && field->interacts() && !everybody) energy_error = std::numeric_limits<double>::quiet_NaN();
   }
   for (std::size_t p = 0; p < count; ++p) {
     const double error = forces ? energy_error : speed_error(all[p], last[p]);

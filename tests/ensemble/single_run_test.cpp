@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "systems.hpp"
 
 namespace carom {
@@ -130,6 +132,39 @@ TEST(SingleRunEnd, FollowsSeveralParticles) {
     options.resume = {part.particles[0].progress, part.particles[1].progress};
   }
   expect_same_hits(whole.hits, parts.hits);
+}
+
+// One of two that repel each other leaves: what is left of their common energy is not said.
+TEST(SingleRun, HasNoEnergyErrorOnceAnInteractingParticleIsGone) {
+  const std::string pair = R"(
+[table]
+shape = "rectangle"
+width = 2
+height = 1
+[[table.hole]]
+wall = "right"
+center = 0.5
+width = 0.5
+[particles]
+count = 2
+speed = 1
+[interaction]
+kind = "coulomb"
+strength = 0.01
+[integrator]
+step = 0.001
+[initial]
+kind = "list"
+starts = [[0.5, 0.5, -1, 0], [1.5, 0.5, 1, 0]]
+[run]
+t_max = )";
+  Trace trace;
+  const SingleRunResult early = run_single(make_system(pair + "0.25"), trace);
+  EXPECT_LT(std::fabs(early.particles[0].energy_error), 1e-9);
+  const SingleRunResult late = run_single(make_system(pair + "2"), trace);
+  ASSERT_EQ(late.particles[1].progress.fate, Fate::escaped);
+  EXPECT_TRUE(std::isnan(late.particles[0].energy_error));
+  EXPECT_TRUE(std::isnan(late.particles[1].energy_error));
 }
 
 }  // namespace

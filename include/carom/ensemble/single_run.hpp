@@ -34,7 +34,8 @@ struct ParticleEnd {
   Trust trust;  ///< at the end: up to which collision and time
   double t = 0, x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped
   geometry::Cell cell;
-  /// Relative. Free particles: each against its own speed; with forces: of all together since the start.
+  /// Relative. Free particles: each against its own speed; with forces: of the total energy of all together since
+  /// the start (not relative where that was 0), NaN once one of several that interact has ended.
   double energy_error = 0;
   std::string report;       ///< of lost and singular ones
 };
