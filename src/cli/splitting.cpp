@@ -100,8 +100,8 @@ Json json_of(const Extrapolated& value, Json json, bool known = true) {
   return json.set("value", value.limit.value)
       .set("stderr", value.limit.error)
       .set("extrapolation", value.extrapolation)
-      .set("low", value.limit.value - value.band())
-      .set("high", value.limit.value + value.band())
+      .set("low", value.low())
+      .set("high", value.high())
       .set("at_kicks", std::move(kicks));
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/student.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/ensemble/splitting.hpp"
 
@@ -13,8 +14,6 @@ namespace {
 
 // Intercept of the least-squares line in delta^2 through the values at delta, delta / 2, delta / 4.
 constexpr std::array<double, kick_sizes> intercept{-1.0 / 6.0, 1.0 / 2.0, 2.0 / 3.0};
-
-constexpr double quantile = 1.959963984540054;
 
 Mean mean_of(const std::vector<double>& values) {
   const double n = static_cast<double>(values.size());
@@ -45,13 +44,17 @@ Extrapolated extrapolated(const SplittingResult& result,
     limits.push_back(limit);
   }
   out.limit = mean_of(limits);
+  out.repetitions = common;
   out.extrapolation = std::fabs(out.limit.value - out.at_kick.back().value);
   return out;
 }
 
 }  // namespace
 
-double Extrapolated::band() const { return quantile * limit.error + extrapolation; }
+double Extrapolated::band() const {
+  if (repetitions < 2) return std::nan("");
+  return student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error + extrapolation;
+}
 
 std::vector<SplitPoint> survival(const SplittingResult& result) {
   std::vector<SplitPoint> points;
@@ -60,6 +63,8 @@ std::vector<SplitPoint> survival(const SplittingResult& result) {
     point.at = result.at[i];
     point.p =
         extrapolated(result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
+    point.p.least = 0.0;
+    point.p.most = 1.0;
     const Mean& p = point.p.limit;
     point.equivalent = p.error > 0.0 ? p.value * (1.0 - p.value) / (p.error * p.error) : 0.0;
     points.push_back(point);
@@ -80,6 +85,7 @@ std::vector<SplitRate> escape_rate(const SplittingResult& result) {
       point.t = from > 0.0 ? std::sqrt(from) * std::sqrt(to) : to / 2;
       point.value = extrapolated(
           result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].gone[i] / (to - from); });
+      point.value.least = 0.0;
       points.push_back(point);
     }
     from = to;

@@ -267,5 +267,27 @@ TEST(Kick, KeepsTheInvariantMeasure) {
   }
 }
 
+// Two repetitions tell 12.7 standard errors at 95 %, sixteen 2.13, and no share lies beyond 0 and 1.
+TEST(Splitting, IntervalsKnowHowFewRepetitionsThereAre) {
+  Extrapolated value;
+  value.limit = {0.5, 0.01};
+  for (const auto& [repetitions, quantile] : {std::pair{2u, 12.706205}, {3u, 4.302653}, {16u, 2.131450}, {1000u, 1.962341}}) {
+    value.repetitions = repetitions;
+    EXPECT_NEAR(value.band(), quantile * 0.01, 1e-8) << repetitions;
+  }
+  const std::vector<SplitPoint> points = survival(run_splitting(three_disc(), by_hits(6, 100, 2)));
+  EXPECT_LE(points.front().p.least, 0.0);
+  value.limit = {0.01, 0.01};
+  value.repetitions = 2;
+  value.least = 0.0;
+  EXPECT_EQ(value.low(), 0.0);
+  EXPECT_GT(value.high(), 0.13);
+  for (const SplitPoint& point : points) {
+    EXPECT_EQ(point.p.repetitions, 2u);
+    EXPECT_GE(point.p.low(), 0.0);
+    EXPECT_LE(point.p.high(), 1.0);
+  }
+}
+
 }  // namespace
 }  // namespace carom

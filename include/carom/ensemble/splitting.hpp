@@ -1,10 +1,12 @@
 // Rare events by population splitting: survival far beyond what independent trajectories reach.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -83,8 +85,13 @@ struct Extrapolated {
   std::array<Mean, kick_sizes> at_kick;
   Mean limit;                ///< error: statistical, from the repetitions
   double extrapolation = 0;  ///< |limit - value at the smallest kick|: what the limit rests on
-  /// Half the width of the 95 % band: statistics and extrapolation.
+  std::size_t repetitions = 0;  ///< that the limit is a mean of
+  double least = -std::numeric_limits<double>::infinity(), most = -least;  ///< what is possible
+  /// Half the width of the 95 % band: statistics (Student's t of as many repetitions) and extrapolation.
   double band() const;
+  /// Ends of the band, as far as that is possible.
+  double low() const { return std::max(least, limit.value - band()); }
+  double high() const { return std::min(most, limit.value + band()); }
 };
 /// Share still there at a report time, or not gone within so many hits.
 struct SplitPoint {
