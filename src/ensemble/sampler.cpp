@@ -19,14 +19,32 @@ namespace {
 using geometry::Vector;
 using Kind = InitialCondition::Kind;
 
-// A domain that fills less than this share of its box is reported as missed.
-constexpr int most_rejections = 10'000'000;
+// A box of which the domain fills less than about 1e-5, or a line of which 5e-4, is reported as missed: within seconds
+// even if each of the points needs exact arithmetic. A single point is drawn once.
+constexpr int most_tries = 1'000'000, most_tries_of_a_line = 30'000;
+
+int tries_in(Vector low, Vector high) {
+  const bool no_width = low.x == high.x, no_height = low.y == high.y;
+  return no_width && no_height ? 1 : no_width || no_height ? most_tries_of_a_line : most_tries;
+}
 
 InputError impossible(const InitialCondition& initial, const std::string& problem,
                       const std::string& expected = {}) {
   Place place = initial.place;
   if (place.key.empty()) place.key = "initial";
   return InputError(place, problem, expected);
+}
+
+InputError none_inside(const InitialCondition& initial, const char* where, const char* expected) {
+  return impossible(initial, fmt::format("no point of {} was found inside the table", where), expected);
+}
+
+InputError missed_rectangle(const InitialCondition& initial, const char* where = "the rectangle") {
+  return none_inside(initial, where, "a region that overlaps the table");
+}
+
+InputError missed_line(const InitialCondition& initial) {
+  return none_inside(initial, "the line", "a line that crosses the table");
 }
 
 Vector unit(Vector v) {
@@ -60,7 +78,25 @@ geometry::Box domain_box(const Table& table) {
   return geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
 }
 
+// Is all of a box outside or on the edge of that around a bounded table? Domains are open.
+bool beside(const Table& table, Vector low, Vector high) {
+  if (table.extent != Extent::bounded) return false;
+  const geometry::Box box = domain_box(table);
+  return !(low.x < box.high.x && high.x > box.low.x && low.y < box.high.y && high.y > box.low.y);
+}
+
 }  // namespace
+
+std::uint64_t listed_trajectories(const System& system) {
+  const std::uint64_t particles = system.particles.size();
+  const auto shared = [&](std::size_t starts) { return std::max<std::uint64_t>(1, (starts + particles - 1) / particles); };
+  switch (system.initial.kind) {
+    case Kind::birkhoff: return shared(system.initial.s.size());
+    case Kind::list: return shared(system.initial.positions.size());
+    case Kind::point: return 1;
+    default: return 0;
+  }
+}
 
 void fold_into_cell(const Table& table, Vector& position, geometry::Cell& cell) {
   if (!table.lattice) return;
@@ -126,10 +162,16 @@ Sampler::Sampler(const System& system) : system_(system) {
       if (initial.s.empty() || initial.s.size() != initial.v_parallel.size())
         throw impossible(initial, "s and v_parallel must be given in pairs");
       break;
-    case Kind::point:
     case Kind::rectangle:
-    case Kind::list:
+      if (beside(table, initial.low, initial.high)) throw missed_rectangle(initial);
+      break;
     case Kind::line:
+      if (beside(table, {std::min(initial.from.x, initial.to.x), std::min(initial.from.y, initial.to.y)},
+                 {std::max(initial.from.x, initial.to.x), std::max(initial.from.y, initial.to.y)}))
+        throw missed_line(initial);
+      break;
+    case Kind::point:
+    case Kind::list:
       break;
   }
 }
@@ -167,6 +209,8 @@ State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) 
 State Sampler::draw_free(const World& world, RandomStream& random, std::uint64_t trajectory, int particle) const {
   const InitialCondition& initial = system_.initial;
   const double speed = system_.particles.at(static_cast<std::size_t>(particle)).speed;
+  // Listed starts go to one particle after the other.
+  const std::uint64_t number = trajectory * system_.particles.size() + static_cast<std::uint64_t>(particle);
   switch (initial.kind) {
     case Kind::uniform:
       return in_box(world, random, low_, high_, speed, "the box around the table");
@@ -177,7 +221,6 @@ State Sampler::draw_free(const World& world, RandomStream& random, std::uint64_t
     case Kind::point:
       return at_point(world, initial.position, initial.velocity, speed);
     case Kind::list: {
-      const std::uint64_t number = trajectory * system_.particles.size() + static_cast<std::uint64_t>(particle);
       const auto i = static_cast<std::size_t>(number % initial.positions.size());
       return at_point(world, initial.positions[i], initial.velocities[i], speed);
     }
@@ -185,14 +228,15 @@ State Sampler::draw_free(const World& world, RandomStream& random, std::uint64_t
     case Kind::hole:
       return cosine_law(random, speed);
     case Kind::birkhoff:
-      return birkhoff(trajectory, speed);
+      return birkhoff(number, speed);
   }
   throw InternalError("unknown kind of initial condition");
 }
 
 State Sampler::in_box(const World& world, RandomStream& random, Vector low, Vector high, double speed,
                       const char* where) const {
-  for (int tries = 0; tries < most_rejections; ++tries) {
+  const int most = tries_in(low, high);
+  for (int tries = 0; tries < most; ++tries) {
     const double x = low.x + random.uniform() * (high.x - low.x);
     const double y = low.y + random.uniform() * (high.y - low.y);
     State state = off_walls(*system_.table, {x, y}, {});
@@ -204,8 +248,7 @@ State Sampler::in_box(const World& world, RandomStream& random, Vector low, Vect
     if (speed == 0.0) state.velocity = {};
     return state;
   }
-  throw impossible(system_.initial, fmt::format("no point of {} was found inside the table", where),
-                   "a region that overlaps the table");
+  throw missed_rectangle(system_.initial, where);
 }
 
 State Sampler::on_line(const World& world, RandomStream& random, double speed) const {
@@ -216,13 +259,13 @@ State Sampler::on_line(const World& world, RandomStream& random, double speed) c
     direction = {turned.cos, turned.sin};
   }
   const Vector velocity = speed * unit(direction);
-  for (int tries = 0; tries < most_rejections; ++tries) {
+  const int most = initial.from == initial.to ? 1 : most_tries_of_a_line;
+  for (int tries = 0; tries < most; ++tries) {
     const Vector point = initial.from + random.uniform() * (initial.to - initial.from);
     const State state = off_walls(*system_.table, point, velocity);
     if (world.contains(state.position)) return state;
   }
-  throw impossible(initial, "no point of the line was found inside the table",
-                   "a line that crosses the table");
+  throw missed_line(initial);
 }
 
 State Sampler::at_point(const World& world, Vector position, Vector given, double speed) const {
@@ -262,9 +305,9 @@ State Sampler::cosine_law(RandomStream& random, double speed) const {
   }
 }
 
-State Sampler::birkhoff(std::uint64_t trajectory, double speed) const {
+State Sampler::birkhoff(std::uint64_t number, double speed) const {
   const InitialCondition& initial = system_.initial;
-  const std::size_t i = static_cast<std::size_t>(trajectory % initial.s.size());
+  const std::size_t i = static_cast<std::size_t>(number % initial.s.size());
   double s = initial.s[i];
   const double tangential = initial.v_parallel[i];
   if (!(std::abs(tangential) < speed))

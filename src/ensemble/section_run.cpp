@@ -157,12 +157,8 @@ class Follower {
 
 std::uint64_t section_orbits(const System& system) {
   if (system.section.orbits > 0) return system.section.orbits;
-  switch (system.initial.kind) {
-    case InitialCondition::Kind::birkhoff: return std::max<std::uint64_t>(1, system.initial.s.size());
-    case InitialCondition::Kind::list: return std::max<std::uint64_t>(1, system.initial.positions.size());
-    case InitialCondition::Kind::point: return 1;
-    default: return std::min(system.run.trajectories, default_orbits);
-  }
+  const std::uint64_t listed = listed_trajectories(system);
+  return listed > 0 ? listed : std::min(system.run.trajectories, default_orbits);
 }
 
 SectionResult run_section(const System& system, const SectionOptions& options) {

@@ -277,5 +277,42 @@ TEST(Sampler, RefusesWhatCannotStart) {
       << "a point on a wall";
 }
 
+TEST(Sampler, ListedPairsGoToOneParticleAfterTheOther) {
+  const Drawn draw(R"(
+[table]
+shape = "circle"
+radius = 1
+[particles]
+count = 2
+[initial]
+kind = "birkhoff"
+wall = "circle"
+s = [1, 2, 3, 4, 5]
+v_parallel = [0.1, 0.2, 0.3, 0.4, 0.5]
+)");
+  EXPECT_EQ(listed_trajectories(draw.system), 3u);
+  EXPECT_EQ(draw.system.run.trajectories, 3u);
+  const geometry::Curve& curve = draw.system.table->walls[0].curve;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    const State state = draw(i / 2, static_cast<int>(i % 2));
+    EXPECT_NEAR(geometry::arc_length_at(curve, state.u), static_cast<double>(i % 5 + 1), 1e-14);
+  }
+}
+
+TEST(Sampler, RefusesRegionsBesideTheTable) {
+  const char* regions[] = {"kind = \"rectangle\"\nmin = [-2, 1.5]\nmax = [2, 3]",
+                           "kind = \"rectangle\"\nmin = [1.5, -3]\nmax = [4, 3]",
+                           "kind = \"line\"\nfrom = [-1, -1]\nto = [1, -1]\nangle = 1",
+                           "kind = \"line\"\nfrom = [2, 0]\nto = [5, 4]\nangle = 1"};
+  for (const char* region : regions) EXPECT_THROW(Drawn(std::string(mushroom) + region), InputError) << region;
+  // On a wall inside the box, and at a single point: after few tries.
+  const Drawn brim(std::string(mushroom) + "kind = \"line\"\nfrom = [0.5, 0]\nto = [1, 0]\nangle = 1");
+  EXPECT_THROW(brim(0), InputError);
+  const Drawn point(std::string(mushroom) + "kind = \"rectangle\"\nmin = [0.75, -0.5]\nmax = [0.75, -0.5]");
+  EXPECT_THROW(point(0), InputError);
+  const Drawn inside(std::string(mushroom) + "kind = \"rectangle\"\nmin = [0.25, -0.5]\nmax = [0.25, -0.5]");
+  EXPECT_EQ(inside(5).position, (Vector{0.25, -0.5}));
+}
+
 }  // namespace
 }  // namespace carom

@@ -19,7 +19,7 @@ class World;
 ///   line       position uniform in the part of a line that lies in the domain, direction given
 ///   boundary   cosine law: uniform in arc length and in the tangential velocity, from one wall or all
 ///   hole       cosine law over the opening of one hole or all
-///   birkhoff   given arc length and tangential velocity
+///   birkhoff   given arc length and tangential velocity, one pair of a list for each particle of each trajectory
 ///   point      given position and velocity
 ///   list       the same, one of a list for each particle of each trajectory
 ///
@@ -59,7 +59,7 @@ class Sampler {
                const char* where) const;
   State on_line(const World&, RandomStream&, double speed) const;
   State at_point(const World&, geometry::Vector position, geometry::Vector velocity, double speed) const;
-  State birkhoff(std::uint64_t trajectory, double speed) const;
+  State birkhoff(std::uint64_t number, double speed) const;
   /// `tangential` and `normal` give the direction against the wall, in any unit.
   State on_wall(int wall, double u, double tangential, double normal, double speed) const;
 
@@ -73,6 +73,9 @@ class Sampler {
 int add_start(World&, const Sampler&, std::uint64_t trajectory, int particle);
 /// The same for all particles of a trajectory.
 void add_starts(World&, const Sampler&, std::uint64_t trajectory);
+/// How many trajectories start differently where starts are listed (point, list, birkhoff): later ones repeat them.
+/// 0 where starts are drawn.
+std::uint64_t listed_trajectories(const System&);
 /// Throws InputError if the first trajectory cannot start.
 void check_start(const System&);
 /// One state by a sampler made on the spot.

@@ -26,7 +26,7 @@ struct InitialCondition {
   geometry::Vector low, high;        ///< rectangle: min, max
   geometry::Vector from, to;         ///< line
   double angle = 0.0;                ///< line: direction of flight against +x
-  std::vector<double> s, v_parallel; ///< birkhoff: trajectory i starts at the i-th pair (cyclic)
+  std::vector<double> s, v_parallel; ///< birkhoff: one pair a particle (cyclic)
   std::vector<geometry::Vector> positions, velocities;  ///< list: of trajectory i (cyclic)
   Place place;                       ///< where it is written, for messages about impossible starts
 };
