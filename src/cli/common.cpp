@@ -13,6 +13,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/whole_number.hpp"
+#include "carom/ensemble/sampler.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "carom_version.hpp"
 
@@ -101,6 +102,13 @@ std::string engine_of(const System& system) {
 const char* why_lost(const System& system) {
   return engine_of(system) == "events" ? "an internal error: please report it"
                                        : "a step failed, as a rule too long for its force: see the messages";
+}
+
+std::string repeated_starts(const System& system) {
+  const std::uint64_t listed = listed_trajectories(system), all = system.run.trajectories;
+  if (listed == 0 || listed >= all || !system.injections.empty()) return {};
+  return fmt::format("{} trajectories repeat {} listed one{}: they are not independent, and errors and intervals too small",
+                     grouped(all), grouped(listed), listed == 1 ? "" : "s");
 }
 
 Provenance provenance_of(const Options& options, const System& system, int threads) {

@@ -28,6 +28,8 @@ void choose_engine(const std::string& engine, System&);
 std::string engine_of(const System&);
 /// Why trajectories of this system are lost. A step that fails is no fault of the program.
 const char* why_lost(const System&);
+/// A doubt about an ensemble's errors: "" unless its trajectories repeat the starts that are listed.
+std::string repeated_starts(const System&);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.

@@ -189,6 +189,9 @@ std::string diffusion_text(const System& system, const DiffusionResult& result, 
 }  // namespace
 
 DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
+  const auto add = [](std::string& note, const std::string& more) {
+    if (!more.empty()) note += (note.empty() ? "" : "; ") + more;
+  };
   DiffusionSummary summary;
   summary.horizon = horizon_of(system);
   summary.no_D = no_diffusion(summary.horizon);
@@ -202,15 +205,24 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
     const bool enough = std::isfinite(summary.fit->exponent.value);
     const Estimate& a = enough ? summary.fit->exponent : summary.fit->local_exponent;
     if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
-      summary.note = "the MSD does not grow as t in the window: D depends on it";
+      add(summary.note, "the MSD does not grow as t in the window: D depends on it");
   }
+  // Those that hit often are the first to be ended by a cap.
+  if (result.capped > 0 && summary.fit && summary.no_D.empty()) {
+    const auto last = std::find_if(summary.points.rbegin(), summary.points.rend(),
+                                   [&](const MomentPoint& p) { return p.t <= summary.fit->window.to; });
+    if (last != summary.points.rend() && last->count < result.trajectories)
+      add(summary.note, "the cap on hits ended particles before the window's end: those that hit least are left");
+  }
+  add(summary.note, repeated_starts(system));
   if (!summary.fit && summary.no_D.empty()) {
     summary.estimable = false;
     const auto times = std::count_if(summary.points.begin(), summary.points.end(),
                                      [&](const MomentPoint& p) { return asked.holds(p.t); });
     summary.no_D = result.trajectories == 0 ? "no trajectory was followed"
                    : times < 2              ? "fewer than two report times > 0 in the window"
-                                            : "nobody was there, or nobody had moved, at the times of the window";
+                                            : "nobody was there, nobody had moved, or squares of displacements are too small for "
+                                              "doubles, at the times of the window";
   }
   return summary;
 }

@@ -19,10 +19,9 @@ Shard shard_of(const Options& options) {
   return options.shard.empty() ? Shard{} : carom::shard_of(options.shard, place_of("--shard"));
 }
 
-// --window is a key of the system.
 SystemOverrides overrides_of(const Options& options) {
   SystemOverrides overrides = options.overrides;
-  if (!options.window.empty()) overrides.set.emplace_back("run.window", "[" + options.window + "]");
+  overrides.window = options.window;
   return overrides;
 }
 

@@ -99,6 +99,7 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   json.set("survival", std::move(by_time));
   json.set("survival_hits", std::move(by_hits));
   json.set("rate", std::move(rates));
+  if (const std::string note = repeated_starts(system); !note.empty()) json.set("note", note);
   if (!context.output.empty()) json.set("archive", context.output);
   return json;
 }
@@ -110,6 +111,7 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
                       system.run.t_max, system.run.seed,
                       context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
                       result.complete ? "" : "  (" + context.status + ": those that were finished)");
+  if (const std::string note = repeated_starts(system); !note.empty()) text += note + '\n';
   text += survival_table(counts);
   text += fates(system, counts);
   if (engine_of(system) != "events")

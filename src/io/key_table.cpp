@@ -148,7 +148,9 @@ const std::vector<KeyDescription>& key_table() {
 
       {"run", "", "t_max", "number", "1000", "when a trajectory stops"},
       {"run", "", "collisions", "whole number", "", "most hits a trajectory may make; no limit if not given"},
-      {"run", "", "trajectories", "whole number", "100000", "size of an ensemble"},
+      {"run", "", "trajectories", "whole number", "100000",
+       "size of an ensemble; where starts are listed (point, list, file, birkhoff) and nothing else is drawn, their number "
+       "if not given"},
       {"run", "", "seed", "whole number", "1", "of the random numbers"},
       {"run", "", "trust_tolerance", "number", "1e-3",
        "largest error of a trusted collision of `carom run`, relative to the table's size"},

@@ -82,6 +82,8 @@ Value rows_of_file(const std::string& name, const Place& key, const Row& row) {
   rows.place = key;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
+    // Some editors begin a file with a byte-order mark.
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     Value one = numbers_of_line(line, {name, number, 1, ""});
     const std::size_t count = one.items.size();
     if (count == 0) continue;

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <utility>
 
+#include "io/read.hpp"
+
 namespace carom::io {
 namespace {
 
@@ -57,11 +59,11 @@ void drop_rival(Value& section, const std::string& key) {
   }
 }
 
-// "x,y" of --position and --velocity.
-Value pair_of(const std::string& text, const Place& place) {
+// "x,y" of --position and --velocity, "from,to" of --window.
+Value pair_of(const std::string& text, const Place& place, const char* expected = "x,y such as 0.5,1/3") {
   const std::size_t comma = text.find(',');
   if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos) {
-    throw InputError(place, "'" + text + "' is not a pair of numbers", "x,y such as 0.5,1/3");
+    throw InputError(place, "'" + text + "' is not a pair of numbers", expected);
   }
   Value value = empty(Value::Kind::list, place);
   value.items = {parse_value(text.substr(0, comma), place), parse_value(text.substr(comma + 1), place)};
@@ -74,6 +76,14 @@ void place_start(const SystemOverrides& overrides, Value& root) {
   Value* old = root.find("initial");
   const Value* kind = old == nullptr ? nullptr : old->find("kind");
   Value initial = kind != nullptr && kind->text == "point" ? *old : empty(Value::Kind::table, place);
+  // What --set says of the start counts whatever kind the file has.
+  for (const char* key : {"position", "velocity", "angle"}) {
+    const Value* typed = old == nullptr ? nullptr : old->find(key);
+    if (typed != nullptr && typed->place.file == command_line_file) initial.set(key, *typed);
+  }
+  const Value* angle = initial.find("angle");
+  if (!overrides.velocity.empty() && angle != nullptr && angle->place.file == command_line_file)
+    throw InputError(angle->place, "initial.angle is given beside --velocity", "one of them");
   initial.set("kind", text_value("point", place));
   if (!overrides.position.empty())
     initial.set("position", pair_of(overrides.position, command_line("--position")));
@@ -85,9 +95,22 @@ void place_start(const SystemOverrides& overrides, Value& root) {
     throw InputError(place, "no position is given", "--position x,y beside --velocity");
   }
   if (initial.find("velocity") == nullptr && initial.find("angle") == nullptr) {
-    throw InputError(place, "no velocity is given", "--velocity u,v beside --position");
+    throw InputError(place, "no velocity is given", "--velocity u,v or --set initial.angle=A beside --position");
   }
   root.set("initial", std::move(initial));
+}
+
+// Are the report times those that a system with this t_max and without times is given? A stored system has them
+// written out.
+bool has_default_times(const Value& root, const Value& t_max) {
+  const Value* run = root.find("run");
+  const Value* times = run == nullptr ? nullptr : run->find("times");
+  if (times == nullptr || times->entries.size() != 4) return false;
+  const Value wanted = default_times(t_max, times->place);
+  return std::all_of(wanted.entries.begin(), wanted.entries.end(), [&](const Entry& entry) {
+    const Value* written = times->find(entry.key);
+    return written != nullptr && written->text == entry.value.text;
+  });
 }
 
 }  // namespace
@@ -129,6 +152,8 @@ void set_path(Value& root, const std::string& path, Value value) {
 }
 
 void apply(const SystemOverrides& overrides, Value& root) {
+  const Value* written = root.find("run") == nullptr ? nullptr : root.find("run")->find("t_max");
+  const Value old_t_max = written == nullptr ? Value{} : *written;
   for (const auto& [path, text] : overrides.set) set_path(root, path, parse_value(text, command_line(path)));
   const std::pair<const char*, const std::string*> options[] = {{"seed", &overrides.seed},
                                                                 {"trajectories", &overrides.trajectories},
@@ -145,6 +170,11 @@ void apply(const SystemOverrides& overrides, Value& root) {
     const Value value = std::string(key) == "times" ? text_value(*text, place) : parse_value(*text, place);
     set_path(root, std::string("run.") + key, value);
   }
+  // Default times go along with t_max.
+  if (!old_t_max.text.empty() && has_default_times(root, old_t_max) && root.find("run")->find("t_max")->text != old_t_max.text)
+    root.find("run")->erase("times");
+  if (!overrides.window.empty())
+    set_path(root, "run.window", pair_of(overrides.window, command_line("--window"), "from,to such as 20,200"));
   place_start(overrides, root);
 }
 

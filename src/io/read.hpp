@@ -22,8 +22,11 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
 /// [[injection]]: each particle that enters is like the first one, at its own speed.
 std::vector<Injection> read_injections(Value& root, const Table& table, const std::vector<Particle>& particles,
                                        double t_max);
-/// [run].
-RunPlan read_run(Value& root);
+/// [run]. `starts`: how many trajectories start differently where starts are listed, which is the default of
+/// trajectories; else 0.
+RunPlan read_run(Value& root, std::uint64_t starts = 0);
+/// run.times where they are not written.
+Value default_times(const Value& t_max, const Place& place);
 /// The energies of the particles where these are given; empty where speeds are.
 std::vector<double> read_energies(Value& root, std::size_t particles);
 /// [[potential]] and [interaction].

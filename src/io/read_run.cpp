@@ -39,6 +39,8 @@ Value parse_times(const Value& written) {
   return value;
 }
 
+}  // namespace
+
 Value default_times(const Value& t_max, const Place& place) {
   Value value;
   value.place = place;
@@ -50,6 +52,8 @@ Value default_times(const Value& t_max, const Place& place) {
   value.set("spacing", text_value("log", place));
   return value;
 }
+
+namespace {
 
 std::vector<double> read_grid(Value& value) {
   Section section(value, "run.times");
@@ -67,7 +71,13 @@ std::vector<double> read_grid(Value& value) {
   const double last = as_double(to);
   if (first < 0) throw InputError(from.place, "must not be negative", "a time >= 0");
   if (!(first < last)) throw InputError(to.place, "the times end before they begin", "to > from");
-  return spaced(first, last, as_count(count, 2, most_times), name == "log");
+  std::vector<double> times = spaced(first, last, as_count(count, 2, most_times), name == "log");
+  const auto repeated = std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(a < b); });
+  if (repeated != times.end())
+    throw InputError(count.place, "so many times between " + shown(first) + " and " + shown(last) +
+                                      " are closer together than doubles",
+                     "fewer times");
+  return times;
 }
 
 std::vector<double> read_list(const Value& value) {
@@ -131,10 +141,11 @@ std::vector<double> spaced(double first, double last, std::uint64_t count, bool 
   return values;
 }
 
-RunPlan read_run(Value& root) {
+RunPlan read_run(Value& root, std::uint64_t starts) {
   Section section(*root.find("run"), "run");
   section.check_keys();
   RunPlan plan;
+  if (starts > 0) section.fill("trajectories", number_value(std::to_string(starts), section.place_of("trajectories")));
   plan.t_max = as_positive(section.get("t_max"));
   plan.trajectories = as_count(section.get("trajectories"), 1, std::uint64_t{1} << 62);
   plan.seed = as_count(section.get("seed"), 0);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/decision_range.hpp"
 #include "io/overrides.hpp"
@@ -122,7 +123,8 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
                                                    !table->walls.empty());
   if (!system.dynamics.forces->empty()) system.energies = io::read_energies(root, system.particles.size());
   system.initial = io::read_initial(root, *table, system.particles);
-  system.run = io::read_run(root);
+  // Where particles enter at random no trajectory repeats another.
+  system.run = io::read_run(root, root.find("injection") != nullptr ? 0 : listed_trajectories(system));
   check_number_of_steps(root, system);
   system.injections = io::read_injections(root, *table, system.particles, system.run.t_max);
   if (!system.dynamics.forces->empty()) refuse_injections(system, "a system with forces");

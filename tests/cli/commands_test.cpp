@@ -280,5 +280,35 @@ TEST(StandardOutput, ThatIsFullIsAnError) {
   EXPECT_NE(o.err.find("standard output"), std::string::npos);
 }
 
+// Starts that are listed are flown once, and nobody takes their repetitions for trials.
+TEST(Escape, FliesListedStartsOnce) {
+  const Shell shell;
+  const Outcome point = shell("$carom escape siam-photon --t-max 10 --json");
+  EXPECT_EQ(point.status, 0) << point.err;
+  EXPECT_EQ(json_value(point.out, "trajectories"), "1");
+  EXPECT_EQ(json_value(point.out, "note"), "");
+  shell("printf '[table]\nshape = \"circle\"\nradius = 2\n' > a.toml");
+  const std::string list = "$carom escape a.toml --t-max 5 --set initial.kind=list --set "
+                           "'initial.starts=[[0,0,1,0],[0,0.1,1,0.5],[0.2,0,0.3,1]]' ";
+  EXPECT_EQ(json_value(shell(list + "--json").out, "trajectories"), "3");
+  const Outcome more = shell(list + "--trajectories 9 --json"), text = shell(list + "--trajectories 9");
+  EXPECT_NE(json_value(more.out, "note").find("9 trajectories repeat 3 listed ones"), std::string::npos) << more.out;
+  EXPECT_NE(text.out.find("9 trajectories repeat 3 listed ones"), std::string::npos) << text.out;
+  EXPECT_EQ(json_value(shell("$carom escape stadium --t-max 5 --trajectories 9 --json").out, "note"), "");
+}
+
+// Nothing to draw from: that is known at once.
+TEST(Escape, RefusesStartsThatCannotBeWithoutTrying) {
+  const Shell shell;
+  const char* impossible[] = {"--set initial.kind=line --set 'initial.from=[0,0]' --set 'initial.to=[1,0]' --set initial.angle=1",
+                              "--set initial.kind=rectangle --set 'initial.min=[0,0]' --set 'initial.max=[0,0]'",
+                              "--set initial.kind=rectangle --set 'initial.min=[2,0]' --set 'initial.max=[3,1]'"};
+  for (const char* start : impossible) {
+    const Outcome o = shell("timeout 20 $carom escape magnetic-square --trajectories 10 " + std::string(start));
+    EXPECT_EQ(o.status, 1) << start;
+    EXPECT_NE(o.err.find("was found inside the table"), std::string::npos) << o.err;
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -52,8 +52,30 @@ TEST(Diffusion, TakesTheWindowItIsTold) {
     const Outcome o = shell(command + "--window=" + bad);
     EXPECT_EQ(o.status, 1) << bad;
     EXPECT_EQ(o.out, "");
-    EXPECT_NE(o.err.find("run.window"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("--window"), std::string::npos) << o.err;
   }
+  // Numbers are read as everywhere.
+  const std::string exact = json_value(shell(command + "--window '5/2,sqrt(36)'").out, "window");
+  EXPECT_NE(exact.find("\"from\": 3"), std::string::npos) << exact;
+  EXPECT_NE(exact.find("\"to\": 6"), std::string::npos) << exact;
+}
+
+// Of particles that a cap has ended, those that hit often are the first.
+TEST(Diffusion, DoubtsItsCoefficientUnderACap) {
+  const Shell shell;
+  const std::string command = "$carom diffusion lorentz-triangular --trajectories 200 --t-max 20 --json --collisions ";
+  EXPECT_NE(json_value(shell(command + "30").out, "note").find("the cap on hits"), std::string::npos);
+  EXPECT_EQ(json_value(shell(command + "1000000").out, "note"), "");
+}
+
+TEST(Diffusion, CountsTrajectoriesThatRepeatAStart) {
+  const Shell shell;
+  shell("printf '[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 2.2\nradius = 1\n' > a.toml");
+  const std::string command = "$carom diffusion a.toml --times lin:0:5:3 --t-max 5 --position 0,1.1 --velocity 1,1/3 --json";
+  const Outcome one = shell(command), many = shell(command + " --trajectories 50");
+  EXPECT_EQ(json_value(one.out, "trajectories"), "1") << one.err;
+  EXPECT_EQ(json_value(one.out, "note").find("repeat"), std::string::npos);
+  EXPECT_NE(json_value(many.out, "note").find("50 trajectories repeat 1 listed one"), std::string::npos) << many.out;
 }
 
 // Three times are enough for a line, not for the exponent: growth as t^2 is told all the same.

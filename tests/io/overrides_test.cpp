@@ -130,5 +130,63 @@ TEST(Overrides, BadOptionsAreNamed) {
   }
 }
 
+TEST(Overrides, AnAngleThatIsSetGoesWithThePosition) {
+  SystemOverrides o = set("initial.angle", "pi/2");
+  o.position = "0.3,0.4";
+  const System s = read(square(), o);
+  EXPECT_EQ(s.initial.position, (geometry::Vector{0.3, 0.4}));
+  EXPECT_EQ(s.initial.velocity, (geometry::Vector{0, 1}));
+  o.velocity = "1,0";
+  EXPECT_HAS(fault(square(), o), "command line: initial.angle: initial.angle is given beside --velocity");
+  SystemOverrides v = set("initial.velocity", "[0, 1]");
+  v.position = "0.3,0.4";
+  EXPECT_EQ(read(square(), v).initial.velocity, (geometry::Vector{0, 1}));
+}
+
+TEST(Overrides, WindowIsAPairOfNumbers) {
+  SystemOverrides o;
+  o.window = "1/3,pi";
+  EXPECT_EQ(read(square(), o).run.window, (std::pair{1.0 / 3, 3.141592653589793}));
+  for (const char* bad : {"1", "1,2,3", "2,1", "a,b", "-1,3"}) {
+    o.window = bad;
+    EXPECT_HAS(fault(square(), o), "command line: --window") << bad;
+  }
+}
+
+// A stored system has its default times written out; they are still those of its t_max.
+TEST(Overrides, DefaultTimesOfAStoredSystemFollowItsLastTime) {
+  const std::string stored = read_system(square("[run]\nt_max = 100\n"), "test.toml").resolved_toml;
+  for (const char* t_max : {"2000", "20"}) {
+    SystemOverrides o;
+    o.t_max = t_max;
+    EXPECT_EQ(read(stored, o).run.times, read(square(), o).run.times) << t_max;
+  }
+  SystemOverrides changed = set("run.times.count", "11");
+  changed.t_max = "200";
+  EXPECT_EQ(read(stored, changed).run.times.size(), 11u);
+  EXPECT_EQ(read(stored).run.times.back(), 100);
+}
+
+TEST(Overrides, TrajectoriesAreThoseThatAreListed) {
+  const std::string list = square("[initial]\nkind = \"list\"\nstarts = [[0.5,0.5,1,0],[0.4,0.5,1,0],[0.3,0.5,1,0]]\n");
+  EXPECT_EQ(read(list).run.trajectories, 3u);
+  EXPECT_EQ(read(list + "[particles]\ncount = 2\n").run.trajectories, 2u);
+  EXPECT_EQ(read(list + "[run]\ntrajectories = 7\n").run.trajectories, 7u);
+  EXPECT_EQ(read(square()).run.trajectories, 100000u);
+  const std::string hole = "[[table.hole]]\nwall = \"top\"\ncenter = 0.5\nwidth = 0.1\n";
+  EXPECT_EQ(read(square(hole + "[initial]\nkind = \"point\"\nposition = [0.5,0.5]\nangle = 1\n")).run.trajectories, 1u);
+  EXPECT_EQ(read(square(hole + "[initial]\nkind = \"point\"\nposition = [0.5,0.5]\nangle = 1\n"
+                               "[[injection]]\nhole = \"hole_1\"\nrate = 1\n")).run.trajectories, 100000u)
+      << "what enters is drawn";
+}
+
+TEST(Overrides, TimesOfAGridThatDoublesCannotTellApartAreRefused) {
+  SystemOverrides o;
+  o.times = "log:100:100.0000000000001:31";
+  EXPECT_HAS(fault(square(), o), "closer together than doubles");
+  o.times = "lin:100:100.0000000000001:5";
+  EXPECT_EQ(read(square(), o).run.times.size(), 5u);
+}
+
 }  // namespace
 }  // namespace carom::tests

@@ -59,5 +59,10 @@ TEST_F(StartsFile, FaultsNameTheLine) {
   for (const auto& [starts, message] : faults) EXPECT_HAS(fault_of(starts), message);
 }
 
+TEST_F(StartsFile, MayBeginWithAByteOrderMark) {
+  EXPECT_EQ(read_with("\xEF\xBB\xBF""0.25 0.5 1 0\n").system.initial.positions[0], (geometry::Vector{0.25, 0.5}));
+  EXPECT_EQ(read_with("\xEF\xBB\xBF# x y vx vy\n0.25 0.5 1 0\n").system.initial.positions.size(), 1u);
+}
+
 }  // namespace
 }  // namespace carom::tests

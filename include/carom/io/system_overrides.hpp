@@ -10,7 +10,7 @@ namespace carom {
 /// Options of the command line that change a system. Values are text; one parser reads them.
 struct SystemOverrides {
   std::vector<std::pair<std::string, std::string>> set;  ///< --set path.to.key=value
-  std::string seed, trajectories, t_max, collisions, times, position, velocity, trust_tolerance;  ///< "" : not given
+  std::string seed, trajectories, t_max, collisions, times, position, velocity, trust_tolerance, window;  ///< "" : not given
 };
 
 }  // namespace carom
