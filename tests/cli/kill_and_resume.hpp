@@ -52,15 +52,18 @@ inline void expect_whole(const Shell& shell, const std::string& file) {
 inline void kill_and_resume(const Ensemble& ensemble, const std::string& options, int kills, unsigned seed) {
   const Shell shell;
   const Undisturbed whole(shell, ensemble, options);
+  // What was killed before its first checkpoint begins anew.
+  const auto begin = [&] {
+    const bool anew = !shell.exists("a.h5") && !shell.exists("a.h5.part");
+    return anew ? ensemble.anew(options) + " -o a.h5" : ensemble.on("a.h5");
+  };
   std::mt19937 random(seed);
   int killed = 0, runs = 0;
   while (killed < kills) {
     ASSERT_LT(++runs, 5 * kills) << "it ends before it is killed";
-    const bool anew = !shell.exists("a.h5") && !shell.exists("a.h5.part");
-    const std::string begin = anew ? ensemble.anew(options) + " -o a.h5" : ensemble.on("a.h5");
     const double when = whole.time * 0.5 * static_cast<double>(random() % 1000) / 1000.0;
     const std::string signal = random() % 2 ? "-9" : "-TERM";
-    const Outcome o = shell("$carom" + begin + " --checkpoint 0.02 --threads " + std::to_string(1 + random() % 2) +
+    const Outcome o = shell("$carom" + begin() + " --checkpoint 0.02 --threads " + std::to_string(1 + random() % 2) +
                             " & pid=$!; sleep " + seconds(0.01 + when) + "; kill " + signal + " $pid; wait $pid");
     expect_whole(shell, "a.h5.part");
     if (o.status == 0) {  // faster than the kill
@@ -80,7 +83,7 @@ inline void kill_and_resume(const Ensemble& ensemble, const std::string& options
     }
     ++killed;
   }
-  const Outcome end = shell("$carom" + ensemble.on("a.h5"));
+  const Outcome end = shell("$carom" + begin());
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(json_value(end.out, "digest"), whole.digest);
   expect_same_datasets(shell.folder() + "/a.h5", whole.contents);
