@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "io/archive_file.hpp"
 #include "io/columns.hpp"
+#include "io/ensemble_files.hpp"
 
 namespace carom {
 
@@ -100,7 +102,7 @@ class CertifiedArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
                  const CertifiedTask& task)
-      : target(path), digits(task.digits), file(ArchiveFile::create(path + ".part", path)), rows(path) {
+      : target(path), digits(task.digits), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
     file.write_head("certified", loaded, origin);
     for (const Wall& w : loaded.system.table->walls) walls.push_back(w.name);
     for (const Hole& h : loaded.system.table->holes) holes.push_back(h.name);
@@ -137,6 +139,7 @@ class CertifiedArchive::Implementation {
     }
   }
 
+  ArchiveLock lock;
   std::string target;
   int digits;
   ArchiveFile file;
@@ -148,8 +151,10 @@ class CertifiedArchive::Implementation {
 
 CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& loaded,
                                    const Provenance& origin, const CertifiedTask& task, bool force) {
+  ArchiveLock lock = lock_archive(file);
   refuse_existing(file, force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, task);
+  implementation_->lock = std::move(lock);
 }
 CertifiedArchive::~CertifiedArchive() = default;
 
@@ -181,6 +186,8 @@ void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& ef
   }
   a.file.set_status(status, complete);
   a.file.keep_as(a.target);
+  remove_checkpoint(a.target);
+  a.lock.reset();
 }
 
 }  // namespace carom

@@ -30,7 +30,7 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
   ASSERT_EQ(shell("for k in 2 3; do $carom escape stadium --trajectories 100 --t-max 9 --shard $k/3 -o s$k.h5 --quiet || exit 9; done").status, 0);
   for (const std::string other :
        {"merge q.h5 s2.h5 s3.h5 --force", "section ellipse-magnetic --orbits 2 --points 3 --force -o q.h5",
-        "run stadium --t-max 3 --force -o q.h5", "escape stadium --trajectories 10 --force -o q.h5",
+        "run stadium --t-max 3 --force -o q.h5", "run siam-photon --precision certified --digits 20 --force -o q.h5", "escape stadium --trajectories 10 --force -o q.h5",
         "escape stadium --trajectories 10 -o q.h5", "escape --resume q.h5"}) {
     const Outcome o = while_it_runs(shell, endless, "timeout 20 $carom " + other);
     EXPECT_EQ(o.status, 1) << other;
