@@ -36,8 +36,9 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
     EXPECT_EQ(o.status, 1) << other;
     EXPECT_NE(o.err.find("q.h5: another process writes it"), std::string::npos) << other << "\n" << o.err;
     EXPECT_TRUE(shell.exists("q.h5.part") && shell.exists("q.h5.records")) << other;
-    // Interrupted after its first checkpoint: on a busy machine it may be long until it listens.
-    const Outcome on = shell("first=$(stat -c %i q.h5.part); timeout 20 $carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; "
+    // Interrupted after its first checkpoint: on a busy machine it may be long until it listens. In the background `timeout` may
+    // interrupt twice, which ends it at once.
+    const Outcome on = shell("first=$(stat -c %i q.h5.part); timeout --foreground 20 $carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; "
                              "while kill -0 $pid && [ $(stat -c %i q.h5.part) = $first ]; do sleep 0.02; done; kill -INT $pid; wait $pid");
     EXPECT_EQ(on.status, 130) << other << "\n" << on.err;
     EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"})) << other;
