@@ -141,7 +141,7 @@ void define(CLI::App& app, Options& o) {
       .text("--digits", o.digits, "D", "With --certify-sample: guaranteed decimals (default 10)")
       .text("--repetitions", o.repetitions, "N", "With --splitting: populations for each kick (default 16)")
       .text("--kick", o.kick, "DELTA", "With --splitting: the largest kick (default: chosen by a first population)")
-      .text("--lookback", o.lookback, "N", "With --splitting: hits that a copy goes back (default 2)");
+      .text("--lookback", o.lookback, "N", "With --splitting: hits that a copy goes back (default 6)");
   Command(app, o, "run", "One trajectory, followed closely",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"

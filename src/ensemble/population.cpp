@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "carom/base/digest.hpp"
+#include "carom/base/elementary.hpp"
 #include "carom/base/random.hpp"
 
 namespace carom {
@@ -26,12 +27,14 @@ void Population::Memory::keep(const State& state, std::uint64_t hits) {
   ring[next] = {state, hits};
   next = (next + 1) % ring.size();
   size = std::min(size + 1, ring.size());
+  ++since_start;
 }
 
 void Population::Memory::forget(std::size_t newest) {
   newest = std::min(newest, size);
   next = (next + ring.size() - newest) % ring.size();
   size -= newest;
+  since_start -= newest;
 }
 
 const Population::Moment& Population::Memory::ago(std::size_t back) const {
@@ -69,7 +72,20 @@ Population::Population(const System& system, const Sampler& sampler, const Kick&
       kick_(kick),
       plan_(plan),
       reports_(reports),
-      world_(*system.table, decisions) {}
+      world_(*system.table, decisions) {
+  // Where the start is fewer hits away than a copy goes back, a kick there has fewer to grow in and is larger.
+  // Starts by the cosine law bear a kick of any size; others one as small as is chosen elsewhere.
+  using Kind = InitialCondition::Kind;
+  const bool any = system.initial.kind == Kind::boundary || system.initial.kind == Kind::hole;
+  const double most = any ? 0.5 : SplittingPlan::largest_choice;
+  const double logarithm = plan.kick > 0.0 ? elementary::log(plan.kick) : 0.0;
+  const auto lookback = static_cast<double>(plan.lookback);
+  for (std::uint64_t back = 0; back < plan.lookback; ++back) {
+    const double as_far = elementary::exp(logarithm * static_cast<double>(back) / lookback);
+    kicks_.push_back(std::max(plan.kick, std::min(most, as_far)));
+  }
+  kicks_.push_back(plan.kick);
+}
 
 /// Follows one walker through a stage.
 Population::Way Population::fly(Walker& walker, const Stage& stage, const std::function<bool()>& stopped) {
@@ -115,31 +131,33 @@ void Population::count_if_lost(PopulationRun& result, std::vector<std::string>& 
   if (reports.size() < most_reports) reports.push_back(world_.report(0));
 }
 
-/// Parts a copy from its like: a step of a Metropolis walk among the states some hits ago that reach the
-/// level. A kick keeps the invariant measure, so every new way that reaches the level is taken, and no other.
-void Population::part(Walker& walker, const Stage& stage, double delta, RandomStream& random,
+/// Parts a copy from its like: a step of a Metropolis walk among the states that lie `lookback` hits before the
+/// level (or at the start). A kick keeps the invariant measure, so every new way that reaches the level after as
+/// many hits is taken, and no other: one with more or fewer would never be kicked back to where it came from.
+void Population::part(Walker& walker, const Stage& stage, double shrink, RandomStream& random,
                       const std::function<bool()>& stopped, PopulationRun& result,
                       std::vector<std::string>& reports) {
   if (walker.memory.size == 0) return;
   const double speed = system_.particles.front().speed;
   Walker other = walker;
-  const Moment& before = walker.memory.ago(plan_.lookback);
-  other.memory.forget(plan_.lookback + 1);
-  other.state = kick_(before.state, speed, delta, random);
+  const auto back = static_cast<std::size_t>(std::min(plan_.lookback, walker.memory.since_start - 1));
+  const Moment& before = walker.memory.ago(back);
+  other.memory.forget(back + 1);
+  other.state = kick_(before.state, speed, shrink * kicks_[back], random);
   other.hits = before.hits;
   other.memory.keep(other.state, other.hits);
   const Way way = fly(other, stage, stopped);
   result.collisions += other.hits - before.hits;
   ++result.tried;
   if (way == Way::ended) count_if_lost(result, reports);
-  if (way != Way::reached) return;
+  if (way != Way::reached || other.memory.since_start != walker.memory.since_start) return;
   ++result.parted;
   walker = other;
 }
 
 /// Fills the population again: as many copies of each survivor as its weight asks for, by a comb with one
 /// random offset, so that the mean number of copies is exact. All copies have the same weight.
-void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double delta,
+void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double shrink,
                                 const std::function<bool()>& stopped, PopulationRun& result,
                                 std::vector<std::string>& reports) {
   walkers_.clear();
@@ -160,7 +178,7 @@ void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double
       walker.weight = weight;
       if (copy > 0) {
         RandomStream random(system_.run.seed, Purpose::splitting, stream, walkers_.size());
-        part(walker, stage, delta, random, stopped, result, reports);
+        part(walker, stage, shrink, random, stopped, result, reports);
       }
       walkers_.push_back(walker);
     }
@@ -179,7 +197,7 @@ void Population::report_times(double from, double to, double still_there, Popula
 
 PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
                               const std::function<bool()>& stopped, std::vector<std::string>& reports) {
-  const double delta = std::ldexp(plan_.kick, -static_cast<int>(kick_number));
+  const double shrink = std::ldexp(1.0, -static_cast<int>(kick_number));
   const std::uint64_t number = repetition * kick_sizes + kick_number;
   const bool by_time = plan_.by == SplittingPlan::Level::time;
   const std::size_t stages = plan_.levels.size() + (by_time ? 1 : 0);
@@ -237,7 +255,7 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
     else
       result.survival[k] = reached + for_ever;
     before = stage.level;
-    if (k + 1 < stages) copy_survivors(stage, stream, delta, stopped, result, reports);
+    if (k + 1 < stages) copy_survivors(stage, stream, shrink, stopped, result, reports);
   }
   const double followed = 1.0 - result.singular;
   for (double& p : result.survival) p /= followed;

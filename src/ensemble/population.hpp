@@ -37,6 +37,7 @@ class Population {
   struct Memory {
     std::array<Moment, SplittingPlan::most_lookback + 1> ring;
     std::size_t size = 0, next = 0;
+    std::uint64_t since_start = 0;  ///< moments of the whole way, forgotten ones too
     void keep(const State&, std::uint64_t hits);
     void forget(std::size_t newest);
     /// The moment `back` hits ago (0: the last one), or the oldest there is. Not of an empty memory.
@@ -58,9 +59,9 @@ class Population {
   enum class Way { reached, gone, for_ever, ended };
 
   Way fly(Walker&, const Stage&, const std::function<bool()>& stopped);
-  void copy_survivors(const Stage&, std::uint64_t stream, double delta, const std::function<bool()>& stopped,
+  void copy_survivors(const Stage&, std::uint64_t stream, double shrink, const std::function<bool()>& stopped,
                       PopulationRun&, std::vector<std::string>& reports);
-  void part(Walker&, const Stage&, double delta, RandomStream&, const std::function<bool()>& stopped, PopulationRun&,
+  void part(Walker&, const Stage&, double shrink, RandomStream&, const std::function<bool()>& stopped, PopulationRun&,
             std::vector<std::string>& reports);
   void count_if_lost(PopulationRun&, std::vector<std::string>& reports) const;
   void report_times(double from, double to, double still_there, PopulationRun&) const;
@@ -71,6 +72,7 @@ class Population {
   const SplittingPlan& plan_;
   const std::vector<double>& reports_;
   World world_;
+  std::vector<double> kicks_;  // the largest delta, by the hits that a copy goes back
   std::vector<Walker> walkers_, survivors_;
   std::vector<double> gone_by_;  // weight gone between reports; the last entry after all
 };

@@ -17,9 +17,8 @@ namespace carom {
 
 /// A population flies from level to level. At each level those that are left are copied until the population
 /// is as large as before, and share its weight. The first copy of a survivor goes on as it is. Every other
-/// one goes back by a few hits, is kicked there (its arc length by up to delta times the length of its wall,
-/// its v_parallel / v by up to delta), and takes its new way if that reaches the level, too
-/// (docs/physics/rare-events.md). Free particles only.
+/// one goes back by a few hits, is kicked there (its v_parallel / v by up to delta), and takes its new way if that
+/// reaches the level after as many hits, too (docs/physics/rare-events.md). Free particles only.
 struct SplittingPlan {
   enum class Level {
     time,  ///< the first hit after the time
@@ -32,7 +31,9 @@ struct SplittingPlan {
   /// largest_choice at which at most most_kept of the kicked copies of a small population keep their way.
   double kick = 0.0;
   static constexpr double largest_choice = 0x1p-9, most_kept = 0.3;
-  std::uint64_t lookback = 2;        ///< hits by which a copy goes back; at most most_lookback
+  /// Hits by which a copy goes back; at most most_lookback. Where the start is fewer hits away it goes there, and
+  /// the kick is larger.
+  std::uint64_t lookback = 6;
   static constexpr std::uint64_t most_lookback = 8;
 };
 
