@@ -73,8 +73,8 @@ Population::Population(const System& system, const Sampler& sampler, const Kick&
       plan_(plan),
       reports_(reports),
       world_(*system.table, decisions) {
-  // Where the start is fewer hits away than a copy goes back, a kick there has fewer to grow in and is larger.
-  // Starts by the cosine law bear a kick of any size; others one as small as is chosen elsewhere.
+  // Where the start is fewer hits away than a copy goes back, a kick there has fewer to grow in and is
+  // larger. Starts by the cosine law bear a kick of any size; others one as small as is chosen elsewhere.
   using Kind = InitialCondition::Kind;
   const bool any = system.initial.kind == Kind::boundary || system.initial.kind == Kind::hole;
   const double most = any ? 0.5 : SplittingPlan::largest_choice;
@@ -131,9 +131,10 @@ void Population::count_if_lost(PopulationRun& result, std::vector<std::string>& 
   if (reports.size() < most_reports) reports.push_back(world_.report(0));
 }
 
-/// Parts a copy from its like: a step of a Metropolis walk among the states that lie `lookback` hits before the
-/// level (or at the start). A kick keeps the invariant measure, so every new way that reaches the level after as
-/// many hits is taken, and no other: one with more or fewer would never be kicked back to where it came from.
+/// Parts a copy from its like: a step of a Metropolis walk among the states that lie `lookback` hits before
+/// the level (or at the start). A kick keeps the invariant measure, so every new way that reaches the level
+/// after as many hits is taken, and no other: one with more or fewer would never be kicked back to where it
+/// came from.
 void Population::part(Walker& walker, const Stage& stage, double shrink, RandomStream& random,
                       const std::function<bool()>& stopped, PopulationRun& result,
                       std::vector<std::string>& reports) {

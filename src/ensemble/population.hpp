@@ -61,8 +61,8 @@ class Population {
   Way fly(Walker&, const Stage&, const std::function<bool()>& stopped);
   void copy_survivors(const Stage&, std::uint64_t stream, double shrink, const std::function<bool()>& stopped,
                       PopulationRun&, std::vector<std::string>& reports);
-  void part(Walker&, const Stage&, double shrink, RandomStream&, const std::function<bool()>& stopped, PopulationRun&,
-            std::vector<std::string>& reports);
+  void part(Walker&, const Stage&, double shrink, RandomStream&, const std::function<bool()>& stopped,
+            PopulationRun&, std::vector<std::string>& reports);
   void count_if_lost(PopulationRun&, std::vector<std::string>& reports) const;
   void report_times(double from, double to, double still_there, PopulationRun&) const;
 

@@ -109,8 +109,8 @@ TEST(Splitting, ThreeDiscSurvivalPerBounce) {
               std::exp(-decay.limit.value) * decay.extrapolation);
 }
 
-// The orbit between two discs hits one of them where its wall begins. With kicks along the wall, folded there, these
-// short looks back gave .1814(1) with kicks of 2^-7.
+// The orbit between two discs hits one of them where its wall begins. With kicks along the wall, folded
+// there, these short looks back gave .1814(1) with kicks of 2^-7.
 TEST(Splitting, WhereAWallBeginsDoesNotMatter) {
   SplittingPlan plan = by_hits(25, 6000, 16);
   plan.kick = 0x1p-5;
@@ -127,8 +127,9 @@ TEST(Splitting, WhereAWallBeginsDoesNotMatter) {
   EXPECT_LT(std::sqrt(variance), 0.003);
 }
 
-// By time a kick changes the number of hits until the level, and with it from where a copy would go back. To take
-// such ways favoured those with many hits: with these kicks, by 14 % after the first level and by 36 % after the third.
+// By time a kick changes the number of hits until the level, and with it from where a copy would go back. To
+// take such ways favoured those with many hits: with these kicks, by 14 % after the first level and by 36 %
+// after the third.
 TEST(Splitting, CopiesByTimeKeepTheirNumberOfHits) {
   System system = three_disc();
   system.run.times = {6, 10, 14};
@@ -140,7 +141,9 @@ TEST(Splitting, CopiesByTimeKeepTheirNumberOfHits) {
   const auto brute = survival(run_escape(system).counts);
   for (std::size_t i = 0; i < brute.size(); ++i) {
     const Mean& there = split[i].p.at_kick[0];
-    EXPECT_LT(std::fabs(there.value - brute[i].p), 4 * std::hypot(there.error, (brute[i].high - brute[i].low) / 4)) << i;
+    EXPECT_LT(std::fabs(there.value - brute[i].p),
+              4 * std::hypot(there.error, (brute[i].high - brute[i].low) / 4))
+        << i;
     EXPECT_LT(there.error, 0.04 * brute[i].p) << i;
   }
 }
@@ -256,8 +259,9 @@ TEST(Splitting, CanBeInterrupted) {
   for (const auto& runs : result.runs) EXPECT_EQ(runs.size(), 2u);
 }
 
-// The invariant measure stays: kicked cosine-law states are cosine-law states, close by, at the same place: a move
-// along the wall would be folded at its end, and orbits that pass there lose their neighbours on the other side.
+// The invariant measure stays: kicked cosine-law states are cosine-law states, close by, at the same place: a
+// move along the wall would be folded at its end, and orbits that pass there lose their neighbours on the
+// other side.
 TEST(Kick, KeepsThePlaceAndTheInvariantMeasure) {
   for (const char* shape :
        {"shape = \"rectangle\"\nwidth = 1\nheight = 1\n", "shape = \"circle\"\nradius = 1\n"}) {
@@ -299,7 +303,8 @@ TEST(Kick, KeepsThePlaceAndTheInvariantMeasure) {
 TEST(Splitting, IntervalsKnowHowFewRepetitionsThereAre) {
   Extrapolated value;
   value.limit = {0.5, 0.01};
-  for (const auto& [repetitions, quantile] : {std::pair{2u, 12.706205}, {3u, 4.302653}, {16u, 2.131450}, {1000u, 1.962341}}) {
+  for (const auto& [repetitions, quantile] :
+       {std::pair{2u, 12.706205}, {3u, 4.302653}, {16u, 2.131450}, {1000u, 1.962341}}) {
     value.repetitions = repetitions;
     EXPECT_NEAR(value.band(), quantile * 0.01, 1e-8) << repetitions;
   }

@@ -17,8 +17,8 @@ namespace carom {
 
 /// A population flies from level to level. At each level those that are left are copied until the population
 /// is as large as before, and share its weight. The first copy of a survivor goes on as it is. Every other
-/// one goes back by a few hits, is kicked there (its v_parallel / v by up to delta), and takes its new way if that
-/// reaches the level after as many hits, too (docs/physics/rare-events.md). Free particles only.
+/// one goes back by a few hits, is kicked there (its v_parallel / v by up to delta), and takes its new way if
+/// that reaches the level after as many hits, too (docs/physics/rare-events.md). Free particles only.
 struct SplittingPlan {
   enum class Level {
     time,  ///< the first hit after the time
@@ -31,8 +31,8 @@ struct SplittingPlan {
   /// largest_choice at which at most most_kept of the kicked copies of a small population keep their way.
   double kick = 0.0;
   static constexpr double largest_choice = 0x1p-9, most_kept = 0.3;
-  /// Hits by which a copy goes back; at most most_lookback. Where the start is fewer hits away it goes there, and
-  /// the kick is larger.
+  /// Hits by which a copy goes back; at most most_lookback. Where the start is fewer hits away it goes there,
+  /// and the kick is larger.
   std::uint64_t lookback = 6;
   static constexpr std::uint64_t most_lookback = 8;
 };
@@ -84,8 +84,8 @@ struct Mean {
 /// A quantity at each kick and its limit for vanishing kicks: the least-squares line in delta^2.
 struct Extrapolated {
   std::array<Mean, kick_sizes> at_kick;
-  Mean limit;                ///< error: statistical, from the repetitions
-  double extrapolation = 0;  ///< |limit - value at the smallest kick|: what the limit rests on
+  Mean limit;                   ///< error: statistical, from the repetitions
+  double extrapolation = 0;     ///< |limit - value at the smallest kick|: what the limit rests on
   std::size_t repetitions = 0;  ///< that the limit is a mean of
   double least = -std::numeric_limits<double>::infinity(), most = -least;  ///< what is possible
   /// Half the width of the 95 % band: statistics (Student's t of as many repetitions) and extrapolation.
