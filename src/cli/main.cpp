@@ -1,4 +1,7 @@
 // The program. Exceptions become exit codes here and nowhere else.
+#include <fcntl.h>
+
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -11,8 +14,20 @@
 #include "cli/ensemble_job.hpp"
 #include "cli/mpi_ranks.hpp"
 
+namespace {
+
+// Where a standard stream is closed, the next file that is opened gets its number, and messages go into it. Standard output
+// is opened for reading: results that nobody gets are an error.
+void reserve_standard_streams() {
+  for (const int stream : {0, 1, 2})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", stream == 2 ? O_WRONLY : O_RDONLY) < 0) return;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace carom::cli;
+  reserve_standard_streams();
   try {
     // Of processes that were started together, the first one speaks.
     const bool silent = rank_by_environment() > 0;

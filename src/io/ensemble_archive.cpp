@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
 #include "io/archive_file.hpp"
 #include "io/ensemble_columns.hpp"
 #include "io/ensemble_files.hpp"
@@ -19,6 +20,19 @@ namespace {
 
 // A full disk may get room again; after so many checkpoints in a row that failed the run ends.
 constexpr int most_failures = 6;
+
+// The records of a piece are those of its trajectories, each once: what was read from the disk may be anything.
+void check_records(const RecordLog::Piece& piece, const std::vector<TrajectoryRecord>& records,
+                   std::optional<std::uint64_t>& before, const System& system, const std::string& target) {
+  const std::uint64_t first = particle_index(system, piece.first, 0), end = particle_index(system, piece.last, 0);
+  for (const TrajectoryRecord& record : records) {
+    const bool in_order = !before || record.index > *before;
+    if (!in_order || record.index < first || record.index - first >= end - first)
+      damaged(records_of(target), fmt::format("a record of the trajectories {} to {} was changed: its index is {}", piece.first,
+                                              piece.last - 1, record.index));
+    before = record.index;
+  }
+}
 
 }  // namespace
 
@@ -68,7 +82,11 @@ void EnsembleArchive<Result>::Implementation::write(const Result& result, const 
   write_counts(file, result, loaded.system);
   if (log && last) {
     hdf5::Columns columns = create_records(file, loaded.system);
-    log->read([&](const std::vector<TrajectoryRecord>& records) { append_records(columns, records); });
+    std::optional<std::uint64_t> before;
+    log->read([&](const RecordLog::Piece& piece, const std::vector<TrajectoryRecord>& records) {
+      check_records(piece, records, before, loaded.system, target);
+      append_records(columns, records);
+    });
     columns.close();
   } else if (log) {
     write_pieces(file, log->sync());

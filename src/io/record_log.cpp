@@ -126,7 +126,7 @@ std::vector<RecordLog::Piece> RecordLog::sync() {
   return marked_;
 }
 
-void RecordLog::read(const std::function<void(const std::vector<TrajectoryRecord>&)>& batch) const {
+void RecordLog::read(const std::function<void(const Piece&, const std::vector<TrajectoryRecord>&)>& batch) const {
   std::vector<Piece> pieces = marked_;
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
   std::vector<TrajectoryRecord> records;
@@ -144,7 +144,7 @@ void RecordLog::read(const std::function<void(const std::vector<TrajectoryRecord
         at += got;
         left -= static_cast<std::size_t>(got);
       }
-      batch(records);
+      batch(piece, records);
       piece.row += records.size();
       piece.rows -= records.size();
     }

@@ -35,8 +35,8 @@ class RecordLog {
   void mark();
   /// Sees to it that what was marked is on the disk. add() may go on.
   std::vector<Piece> sync();
-  /// All that was marked, in order of index, in batches.
-  void read(const std::function<void(const std::vector<TrajectoryRecord>&)>& batch) const;
+  /// All that was marked, in order of index, in batches: each with the piece that it is of.
+  void read(const std::function<void(const Piece&, const std::vector<TrajectoryRecord>&)>& batch) const;
 
   void keep(bool wanted) { kept_ = wanted; }
 

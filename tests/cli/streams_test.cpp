@@ -1,0 +1,45 @@
+// Standard streams that are closed or full: messages are lost, and nothing else.
+#include <gtest/gtest.h>
+
+#include "kill_and_resume.hpp"
+
+namespace carom {
+namespace {
+
+const Ensemble mushroom{"escape", "mushroom --trajectories 1.5e5 --t-max 400"};
+
+// Without a standard error, the records would be the file that messages go into.
+TEST(Streams, ThatAreClosedAreNoFilesOfTheRun) {
+  const Shell shell;
+  const Undisturbed whole(shell, mushroom, " --per-trajectory");
+  const Outcome o = shell("( ulimit -f 5000; $carom" + mushroom.anew(" --per-trajectory") +
+                          " -o a.h5 --checkpoint 0.02 >&- 2>&- )");
+  EXPECT_EQ(o.status, 1);
+  ASSERT_TRUE(shell.exists("a.h5.part"));
+  const Outcome end = shell("$carom" + mushroom.on("a.h5"));
+  EXPECT_EQ(end.status, 0) << end.err;
+  expect_same_datasets(shell.folder() + "/a.h5", whole.contents);
+}
+
+TEST(Streams, AResultThatNobodyGetsIsAnError) {
+  const Shell shell;
+  const Outcome o = shell("$carom escape stadium --trajectories 100 --t-max 9 >&-");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("cannot write to standard output"), std::string::npos) << o.err;
+}
+
+// What is read from the disk may be anything.
+TEST(Streams, RecordsOfOtherTrajectoriesAreRefused) {
+  const Shell shell;
+  shell("$carom" + mushroom.anew(" --per-trajectory --block 64") + " -o a.h5 --checkpoint 0.02 & pid=$!; "
+        "until [ -e a.h5.part ] && [ $(stat -c %s a.h5.records) -gt 100000 ]; do sleep 0.01; done; sleep 0.1; kill -9 $pid; wait $pid");
+  ASSERT_TRUE(shell.exists("a.h5.part")) << "it ended before it was killed";
+  const Outcome o = shell("head -c 7200 /dev/zero | dd of=a.h5.records conv=notrunc 2>/dev/null; $carom" + mushroom.on("a.h5"));
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(o.out, "");
+  EXPECT_NE(o.err.find("a.h5.records: a record of the trajectories"), std::string::npos) << o.err;
+  EXPECT_FALSE(shell.exists("a.h5"));
+}
+
+}  // namespace
+}  // namespace carom
