@@ -157,7 +157,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   finder.land(b.flight, b.ahead, landing, counts);
   if (is_support(landing.wall)) [[unlikely]] {
     const HitFinder::Landing there = landing;  // a copy, or the landing would live in memory
-    return enter_support(index, there);
+    return enter_support(index, there, observer);
   }
   if (b.ahead.kind == Ahead::Kind::joint) {
     for (const int h : finder.table().walls[static_cast<std::size_t>(landing.wall)].holes)
@@ -189,6 +189,20 @@ State World::Implementation::state_at(const Body& b, Time t) const {
   return s;
 }
 
+/// Does the step under way fail? There are no states within it.
+bool World::Implementation::fails_before(const Body& b, Time t) const {
+  if (b.group < 0) return false;
+  const Group& group = *groups[static_cast<std::size_t>(b.group)];
+  return !group.next().fault.empty() && group.time() < t;
+}
+
+/// Who is in such a step is lost where it begins, also if it would end later than the run.
+void World::Implementation::end_failed_steps(Time t_end, Observer& observer) {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!bodies[i].finished && fails_before(bodies[i], t_end))
+      apply_group(groups[static_cast<std::size_t>(bodies[i].group)]->bodies().front(), observer);
+}
+
 void World::Implementation::emit_samples(Time until, bool inclusive, Observer& observer) {
   for (;;) {
     double t = 0.0;
@@ -206,6 +220,7 @@ void World::Implementation::emit_samples(Time until, bool inclusive, Observer& o
       if (bodies[i].finished && bodies[i].fate != Fate::pinned) continue;
       any = true;
       if (bodies[i].state.time > Time(t)) continue;  // it is still to come
+      if (fails_before(bodies[i], t)) continue;
       observer.sample(static_cast<int>(i), t, state_at(bodies[i], t));
     }
     if (!any) return;  // nobody is left to be sampled
@@ -323,6 +338,7 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
     ++events;
   }
   if (w.sampling) w.emit_samples(t_end, true, observer);
+  if (w.integrates) w.end_failed_steps(t_end, observer);
   if (w.surface) w.watch_until(t_end, observer);
   return events;
 }

@@ -93,6 +93,7 @@ void World::Implementation::form_group(std::vector<int> members) {
     group->phase().velocity[k] = b.state.velocity;
     group->cells()[k] = b.state.cell;
     b.group = number;
+    std::erase(waiting, members[k]);
     // At a hit a particle stays where the wall is until its step ends.
     if (b.state.wall < 0) group->fold(k);
     // One entry a group: its first member's.
@@ -111,7 +112,8 @@ void World::Implementation::wait(int index) {
 /// A particle that was waiting starts, or a free one looks whether another is near.
 void World::Implementation::meet(int index, Observer& observer) {
   if (std::find(waiting.begin(), waiting.end(), index) != waiting.end()) return start_integrating(index, observer);
-  look_around(index, queue.key(index).time);
+  const Time now = queue.key(index).time;
+  look_around(index, now, observer);
 }
 
 void World::Implementation::start_integrating(int index, Observer& observer) {
@@ -129,19 +131,26 @@ void World::Implementation::start_integrating(int index, Observer& observer) {
     for (const int i : waiting)
       if (bodies[at(i)].state.time == now) members.push_back(i);
     std::sort(members.begin(), members.end());
+    form_group(members);
   } else {
-    members = {index};
+    integrate(index, now, observer);
   }
-  std::erase_if(waiting, [&](int i) { return std::find(members.begin(), members.end(), i) != members.end(); });
-  form_group(members);
+}
+
+/// A particle is integrated from now on, with all that are near.
+void World::Implementation::integrate(int index, const Time& now, Observer& observer) {
+  double free_for = 0.0;
+  const std::vector<int> members = company(index, now, free_for, observer);
+  if (!members.empty()) join(members, now);
 }
 
 void World::Implementation::predict_group(int leader) {
   Group& group = *groups[at(bodies[at(leader)].group)];
   Time until = never;
-  if (one_group)
-    for (const int i : waiting)
-      if (bodies[at(i)].state.time > group.time()) until = std::min(until, bodies[at(i)].state.time);
+  // Whoever is still to come may be near.
+  if (one_group || by_range)
+    for (const Body& b : bodies)
+      if (!b.finished && b.group < 0 && b.state.time > group.time()) until = std::min(until, b.state.time);
   group.predict(until);
   queue.update(leader, group.next_time(), static_cast<int>(EventKind::group));
 }
@@ -177,7 +186,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
   if (next.member >= 0) {
     const std::size_t member = at(next.member);
     if (is_support(next.barrier->wall)) {
-      if (leave_support(group, *next.barrier)) return;
+      if (leave_support(group, *next.barrier, observer)) return;
     } else {
       hit_in_group(group, member, *next.barrier, observer);
       if (group.bodies().empty()) return;
@@ -240,7 +249,7 @@ void World::Implementation::hit_in_group(Group& group, std::size_t member, const
 }
 
 /// A particle comes to the edge of a support from inside. True if it flies freely from here on.
-bool World::Implementation::leave_support(Group& group, const Barrier<double>& barrier) {
+bool World::Implementation::leave_support(Group& group, const Barrier<double>& barrier, Observer& observer) {
   if (group.bodies().size() > 1) return false;  // the others hold it
   const Vector x = group.phase().position.front();
   if (group.supported(x, &barrier)) return false;
@@ -263,21 +272,21 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
   finder.begin_on_wall(b.flight, barrier.wall, u, frame.point, velocity);
   take_out(group, 0);
   fly(index);
-  if (by_range) look_around(index, b.state.time);
+  if (by_range) look_around(index, b.state.time, observer);
   return true;
 }
 
 /// A free flight comes to the edge of a support.
-void World::Implementation::enter_support(int index, const HitFinder::Landing& landing) {
+void World::Implementation::enter_support(int index, const HitFinder::Landing& landing, Observer& observer) {
   Body& b = bodies[at(index)];
-  const EventQueue::Key& key = queue.key(index);
+  const Time now = queue.key(index).time;
   b.state.position = landing.at.point;
   b.state.velocity = landing.velocity;
   b.state.cell.first += landing.cell.first;
   b.state.cell.second += landing.cell.second;
-  b.state.time = key.time;
+  b.state.time = now;
   b.state.wall = -1;
-  form_group({index});
+  integrate(index, now, observer);
 }
 
 void World::Implementation::take_out_of_group(int index) {

@@ -57,6 +57,8 @@ class World::Implementation {
   void end(int index, Fate fate, Time time, Observer* observer);
   void emit_samples(Time until, bool inclusive, Observer& observer);
   State state_at(const Body& body, Time t) const;
+  bool fails_before(const Body& body, Time t) const;
+  void end_failed_steps(Time t_end, Observer& observer);
   void check_speed(const Body& body) const;
   void begin_free(Body& body);
   bool contains(geometry::Vector point);
@@ -71,9 +73,12 @@ class World::Implementation {
 
   // Interactions of finite range (world_ranges.cpp).
   double gap_between(const Body& a, geometry::Vector x, const Body& b, geometry::Vector y) const;
-  void look_around(int index, const Time& now);
+  bool gather(std::vector<int>& members, const Time& now, double& free_for, Observer& observer);
+  void join(std::vector<int> members, const Time& now);
+  std::vector<int> company(int index, const Time& now, double& free_for, Observer& observer);
+  void look_around(int index, const Time& now, Observer& observer);
   bool regroup(Group& group, Observer& observer);
-  bool split(const std::vector<int>& members);
+  bool split(const std::vector<int>& members, Observer& observer);
 
   // Integration and hand-over (world_groups.cpp).
   void add_barriers();
@@ -82,11 +87,12 @@ class World::Implementation {
   void wait(int index);
   void meet(int index, Observer& observer);
   void start_integrating(int index, Observer& observer);
+  void integrate(int index, const Time& now, Observer& observer);
   void predict_group(int leader);
   void apply_group(int leader, Observer& observer);
   void hit_in_group(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer);
-  bool leave_support(Group& group, const Barrier<double>& barrier);
-  void enter_support(int index, const HitFinder::Landing& landing);
+  bool leave_support(Group& group, const Barrier<double>& barrier, Observer& observer);
+  void enter_support(int index, const HitFinder::Landing& landing, Observer& observer);
   void take_out(Group& group, std::size_t member);
   void take_out_of_group(int index);
   void copy_states(const Group& group);

@@ -43,8 +43,7 @@ Result run(const System& system, bool everywhere, double until) {
 }
 
 LoadedSystem yukawa(const std::string& table, int count, const std::string& range, const std::string& field) {
-  return read_system(table +
-                         "[interaction]\nkind = \"yukawa\"\nstrength = 0.01\nrange = " + range +
+  return read_system(table + "[interaction]\nkind = \"yukawa\"\nstrength = 0.01\nrange = " + range +
                          "\n[field]\nB = " + field +
                          "\n[particles]\nspeed = 1\ncount = " + std::to_string(count) +
                          "\n[initial]\nkind = \"uniform\"\n[integrator]\nstep = 0.0005\n[run]\nt_max = 10\n",
@@ -86,10 +85,82 @@ TEST(Range, OnALatticeTheNearestCopyCounts) {
   }
 }
 
+/// Positions at the end, and the relative error of the energy, as those of everything in one group.
+void expect_as_in_one_group(const System& system, double until, double tolerance) {
+  const Result apart = run(system, false, until), together = run(system, true, until);
+  EXPECT_LT(std::fabs(apart.energy_error), 1e-4);
+  for (std::size_t i = 0; i < apart.end.size(); ++i) {
+    const Vector d = apart.end[i].position - together.end[i].position;
+    EXPECT_LT(std::sqrt(dot(d, d)), tolerance) << i;
+  }
+}
+
+std::string list_of(const std::string& interaction, const std::string& starts, int count) {
+  return "[interaction]\n" + interaction + "\n[particles]\ncount = " + std::to_string(count) +
+         "\nspeed = 1\n[initial]\nkind = \"list\"\nstarts = " + starts +
+         "\n[integrator]\nstep = 0.01\n[run]\nt_max = 1\n";
+}
+
+// Where a potential acts everywhere, particles that start within their range interact from the first step on.
+TEST(Range, ThoseThatStartUnderAForceInteractAtOnce) {
+  const char* const starts = "[[-0.1, 0, 0, 1], [0.1, 0, 1, 0]]";
+  for (const char* kind : {"kind = \"yukawa\"\nstrength = 1\nrange = 0.5",
+                           "kind = \"soft-sphere\"\ndiameter = 0.2\nexponent = 12\nstrength = 1",
+                           "kind = \"lennard-jones\"\ndiameter = 0.2\ndepth = 1"}) {
+    const LoadedSystem loaded =
+        read_system("[[potential]]\nkind = \"harmonic\"\nomega = 1\n" + list_of(kind, starts, 2), "trap");
+    expect_as_in_one_group(loaded.system, 1.0, 1e-12);
+  }
+}
+
+// The second is near the first, the third near the second alone; and in every order of numbers.
+TEST(Range, AChainStartsAsOneGroup) {
+  for (const char* starts : {"[[-3.7, 0, 0, 1], [0, 0, 1, 0], [0.2, 0.1, 0, 1]]",
+                             "[[0, 0, 1, 0], [-3.7, 0, 0, 1], [0.2, 0.1, 0, 1]]",
+                             "[[0.2, 0.1, 0, 1], [-3.7, 0, 0, 1], [0, 0, 1, 0]]"}) {
+    const LoadedSystem loaded =
+        read_system(list_of("kind = \"yukawa\"\nstrength = 1\nrange = 0.1", starts, 3), "chain");
+    expect_as_in_one_group(loaded.system, 1.0, 1e-12);
+  }
+}
+
+// Two that enter within a step of a group, one free and one under a force: the group's step ends then.
+TEST(Range, LateParticlesInteractAtOnce) {
+  for (const bool trap : {false, true}) {
+    const LoadedSystem loaded = read_system((trap ? "[[potential]]\nkind = \"harmonic\"\nomega = 1\n" : "") +
+                                                list_of("kind = \"yukawa\"\nstrength = 1\nrange = 0.1",
+                                                        "[[0, 0, 1, 0], [0.3, 0, 0, 1], [0, 9, 1, 0]]", 3),
+                                            "late");
+    std::vector<Vector> end;
+    for (const bool everywhere : {false, true}) {
+      Dynamics dynamics = loaded.system.dynamics;
+      dynamics.everywhere = everywhere;
+      World world(*loaded.system.table, dynamics);
+      std::vector<State> starts(3);
+      starts[0].position = {0.0, 0.0};
+      starts[1].position = {0.3, 0.0};
+      starts[2].position = {0.2, 0.1};
+      starts[2].time = Time(0.205);
+      for (std::size_t i = 0; i < 3; ++i) {
+        starts[i].velocity = {i == 0 ? 1.0 : 0.0, i == 0 ? 0.0 : 1.0};
+        world.add(loaded.system.particles[i], starts[i]);
+      }
+      Observer nobody;
+      world.run_until(1.0, nobody);
+      for (int i = 0; i < 3; ++i) end.push_back(world.state_at(i, Time(1.0)).position);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector d = end[i] - end[i + 3];
+      EXPECT_LT(std::sqrt(dot(d, d)), 1e-12) << trap << i;
+    }
+  }
+}
+
 // A particle that is injected into a group that moves.
 TEST(Range, LateParticlesJoin) {
   const LoadedSystem loaded = read_system(
-      "[table]\nshape = \"circle\"\nradius = 1\n[interaction]\nkind = \"coulomb\"\nstrength = 0.1\n[particles]\ncount = "
+      "[table]\nshape = \"circle\"\nradius = 1\n[interaction]\nkind = \"coulomb\"\nstrength = "
+      "0.1\n[particles]\ncount = "
       "3\n[integrator]\nstep = 0.001\n[run]\nt_max = 3\n",
       "late");
   const System& system = loaded.system;
