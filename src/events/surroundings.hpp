@@ -2,16 +2,21 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "carom/geometry/curve.hpp"
-#include "carom/geometry/lattice.hpp"
 #include "carom/table/table.hpp"
 #include "events/barrier.hpp"
 
 namespace carom {
 
-/// The curve, on a lattice with its copies in the cells around.
+/// The curves, numbered in their order, as barriers. On the table's lattice: all copies that a particle may meet
+/// within a step that leads no farther than longest_way(table). Throws InputError if there are too many.
+std::vector<Barrier<double>> barriers_of(std::span<const geometry::Curve>, const Table&);
+/// Those of the table's walls.
+std::vector<Barrier<double>> barriers_of(const Table&);
+/// Those of a curve that is the only wall.
 std::vector<Barrier<double>> barriers_of(const geometry::Curve&, int wall, const std::optional<geometry::Lattice>&);
 
 /// How far a step may lead where there are walls: through a bounded table a thousand times, as it would

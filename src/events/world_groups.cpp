@@ -1,6 +1,7 @@
 // Integration and hand-over: groups of particles among the events of a world.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "events/group_hit.hpp"
@@ -59,15 +60,12 @@ void World::Implementation::add_barriers() {
   }
   const std::vector<Wall>& walls = finder.table().walls;
   if (!walls.empty()) surroundings.longest_way = longest_way(table);
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    geometry::Curve curve = walls[i].curve;
-    const bool support = is_support(static_cast<int>(i));
-    if (support) curve = geometry::reversed(curve);  // what is inside it is integrated
-    for (const Barrier<double>& barrier : barriers_of(curve, static_cast<int>(i), table.lattice)) {
-      surroundings.barriers.push_back(barrier);
-      if (support) surroundings.supports.push_back(barrier);
-    }
-  }
+  std::vector<geometry::Curve> curves;
+  for (std::size_t i = 0; i < walls.size(); ++i)  // what is inside a support is integrated
+    curves.push_back(is_support(static_cast<int>(i)) ? geometry::reversed(walls[i].curve) : walls[i].curve);
+  surroundings.barriers = barriers_of(curves, table);
+  std::copy_if(surroundings.barriers.begin(), surroundings.barriers.end(), std::back_inserter(surroundings.supports),
+               [&](const Barrier<double>& barrier) { return is_support(barrier.wall); });
 }
 
 bool World::Implementation::integrated_at(Vector x) const {
