@@ -57,8 +57,7 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
 template <class Result>
 EnsembleJob<Result> job_to_go_on(const Options& options) {
   EnsembleJob<Result> job;
-  job.output = options.resume;
-  if (job.output.ends_with(".part")) job.output.resize(job.output.size() - 5);
+  job.output = archive_named(options.resume);
   job.lock = lock_archive(job.output);
   job.stored = read_ensemble<Result>(job.output);
   if (!options.output.empty() && options.output != job.output)

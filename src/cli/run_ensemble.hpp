@@ -77,7 +77,7 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
   EnsembleOptions<Result> how = how_to_run<Result>(options);
   EnsembleJob<Result> job = job_of<Result>(options);
   if (job.stored && job.stored->result.complete) {
-    remove_checkpoint_files(job.output);  // left by a process that was killed at its last step
+    remove_checkpoint(job.output);  // left by a process that was killed at its last step
     job.lock.reset();
     return report(kind, job, job.stored->result, job.stored->status);
   }

@@ -56,6 +56,7 @@ class EnsembleArchive<Result>::Implementation {
   std::uint64_t kept = 0;
   std::optional<InputError> unwritten;  // records that belong to the next checkpoint
   bool saved = false, finished = false;
+  bool old_records = false;  // of a checkpoint that is replaced
   int failures = 0;
 };
 
@@ -102,6 +103,7 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
   if (!locked.lock) locked.lock = lock_archive(file);
   refuse_existing(file, plan.force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
+  implementation_->old_records = has_records(file);
   if (!plan.per_trajectory) return;
   remove_checkpoint(file);  // its records go now
   implementation_->log.emplace(records_of(file), file);
@@ -156,7 +158,8 @@ void EnsembleArchive<Result>::save(const Result& so_far) {
   Implementation& a = *implementation_;
   try {
     a.write(so_far, "running", false);
-    if (!a.log && !a.saved) std::remove(records_of(a.target).c_str());  // of a checkpoint that had some
+    if (!a.log && a.old_records) std::remove(records_of(a.target).c_str());
+    a.old_records = false;
     a.kept = so_far.done.size();
     a.saved = true;
     a.failures = 0;
@@ -183,8 +186,9 @@ void EnsembleArchive<Result>::finish(const Result& result, const std::string& st
   }
   a.finished = true;
   a.kept = 0;
+  if (a.log) a.log->keep(false);
   a.log.reset();
-  remove_checkpoint_files(a.target);
+  remove_checkpoint(a.target);
 }
 
 template <class Result>

@@ -13,8 +13,14 @@ namespace carom {
 inline std::string checkpoint_of(const std::string& file) { return file + ".part"; }
 inline std::string records_of(const std::string& file) { return file + ".records"; }
 bool exists(const std::string& file);
-/// For whoever holds the lock of `file`: removes its checkpoint, if it has one.
-void remove_checkpoint(const std::string& file);
+/// Is it an ensemble that has not ended? Files that cannot be read are none, nor are archives that ended.
+bool is_checkpoint(const std::string& path);
+/// Has FILE.h5 a checkpoint that names FILE.records?
+bool has_records(const std::string& file);
+/// Where an ensemble of this name stands: FILE.h5.part if that is its checkpoint, else FILE.h5.
+std::string stored_in(const std::string& file);
+/// Opens an archive of this schema; throws InputError for anything else.
+hdf5::Handle open_ensemble(const std::string& name);
 
 /// /provenance of an ensemble, besides what every archive has; what is counted.
 void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -18,9 +17,7 @@ namespace carom {
 
 using hdf5::Handle;
 
-namespace {
-
-Handle open_archive(const std::string& name) {
+Handle open_ensemble(const std::string& name) {
   const Place place{name, 0, 0, ""};
   if (!exists(name)) throw InputError(place, "there is no such file");
   Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
@@ -30,6 +27,8 @@ Handle open_archive(const std::string& name) {
   return file;
 }
 
+namespace {
+
 std::string kind_in(const Handle& file, const std::string& name) {
   return hdf5::read_string_attribute(file.get(), "kind", name);
 }
@@ -37,7 +36,7 @@ std::string kind_in(const Handle& file, const std::string& name) {
 template <class Result>
 Stored<Result> read_one(const std::string& name) {
   hdf5::silence();
-  const Handle file = open_archive(name);
+  const Handle file = open_ensemble(name);
   Stored<Result> stored;
   Result& result = stored.result;
   stored.kind = kind_of(result);
@@ -127,46 +126,11 @@ std::string difference(const std::string& toml, const std::string& other_toml, c
   return difference("", a, b, but);
 }
 
-bool exists(const std::string& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
-}
-
-bool has_checkpoint(const std::string& file) {
-  const std::string checkpoint = checkpoint_of(file);
-  if (!exists(checkpoint)) return false;
-  try {
-    kind_of_ensemble(checkpoint);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-void remove_checkpoint(const std::string& file) {
-  if (has_checkpoint(file)) remove_checkpoint_files(file);
-}
-
-void remove_checkpoint_files(const std::string& file) {
-  for (const std::string& one : {checkpoint_of(file), checkpoint_of(file) + ".new", records_of(file)})
-    std::remove(one.c_str());
-}
-
-std::string kind_of_ensemble(const std::string& file) {
-  hdf5::silence();
-  const std::string checkpoint = checkpoint_of(file), name = exists(checkpoint) ? checkpoint : file;
-  const std::string kind = kind_in(open_archive(name), name);
-  if (kind != kind_of(EscapeResult()) && kind != kind_of(DiffusionResult()))
-    throw InputError(Place{name, 0, 0, ""}, "the archive does not hold an ensemble",
-                     "one written by carom escape or carom diffusion");
-  return kind;
-}
-
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file) {
-  const std::string checkpoint = checkpoint_of(file);
-  if (!exists(checkpoint)) return read_one<Result>(file);
-  Stored<Result> part = read_one<Result>(checkpoint);
+  const std::string name = stored_in(file);
+  if (name == file) return read_one<Result>(file);
+  Stored<Result> part = read_one<Result>(name);
   if (!exists(file)) return part;
   Stored<Result> whole;
   try {
@@ -229,7 +193,7 @@ void write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& 
 }
 
 std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint, const TrajectoryRanges& done) {
-  const Handle file = open_archive(checkpoint);
+  const Handle file = open_ensemble(checkpoint);
   const Handle group = open_group(file.get(), "records", checkpoint);
   std::vector<RecordLog::Piece> pieces;
   const auto column = [&](const char* name, std::uint64_t RecordLog::Piece::*field) {

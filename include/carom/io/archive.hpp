@@ -24,8 +24,10 @@ void refuse_existing(const std::string& file, bool force);
 /// Is there an ensemble of this name that has not ended?
 bool has_checkpoint(const std::string& file);
 
-/// For who knows that `file` is an ensemble's archive, and holds its lock: removes FILE.part and FILE.records.
-void remove_checkpoint_files(const std::string& file);
+/// For whoever holds the lock of `file`: removes its checkpoint, if it has one, and the records that this names.
+void remove_checkpoint(const std::string& file);
+/// The archive that a user means: FILE for the name of its checkpoint FILE.part.
+std::string archive_named(const std::string& name);
 
 class FileLock;
 /// As long as it lives, no other process writes the archive.

@@ -1,0 +1,84 @@
+// An ensemble takes and removes its own files alone, whatever else has their names.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names sorted_files(const Shell& shell) {
+  Names names = shell.files();
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+const std::string mushroom = "$carom escape mushroom --trajectories 2000 --t-max 20 --quiet --json ";
+
+// Leaves q.h5.part, and q.h5.records where they are asked for.
+void leave_a_checkpoint(const Shell& shell, const std::string& options) {
+  shell("$carom escape mushroom --trajectories 1e9 --quiet --block 4 --checkpoint 0.02 -o q.h5 " + options +
+        " & pid=$!; until [ -e q.h5.part ]; do sleep 0.02; done; sleep 0.3; kill -9 $pid; wait $pid");
+  ASSERT_TRUE(shell.exists("q.h5.part"));
+}
+
+TEST(OwnFiles, AnArchiveMayBeCalledPart) {
+  const Shell shell;
+  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o run1.part && " + mushroom + "--shard 2/2 -o b.h5").status, 0);
+  const std::string before = shell.read("run1.part");
+  const Outcome again = shell("$carom escape --resume run1.part --json");
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(json_value(again.out, "status"), "\"completed\"");
+  EXPECT_TRUE(shell.read("run1.part") == before);
+  EXPECT_EQ(shell("$carom merge --force run1 run1.part b.h5").status, 0);
+  EXPECT_TRUE(shell.read("run1.part") == before);
+  for (const std::string command : {"run stadium --t-max 3", "section ellipse-magnetic --orbits 2 --points 3"})
+    EXPECT_EQ(shell("$carom " + command + " --quiet --force -o run1").status, 0) << command;
+  EXPECT_TRUE(shell.read("run1.part") == before);
+  EXPECT_EQ(sorted_files(shell), (Names{"b.h5", "run1", "run1.part"}));
+  // It is not what run1 goes on with.
+  const Outcome none = shell("rm run1; $carom escape --resume run1");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_NE(none.err.find("run1: there is no such file"), std::string::npos) << none.err;
+}
+
+TEST(OwnFiles, AnInterruptedArchiveCalledPartGoesOn) {
+  const Shell shell;
+  const Outcome o = shell(mushroom + "-o whole.h5 && for k in 1 2 3; do " + mushroom + "--shard $k/3 -o $k.h5 || exit 9; done; "
+                          "$carom merge sum.part 1.h5 3.h5");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const Outcome end = shell("$carom escape --resume sum.part --quiet --json && $carom escape --resume whole.h5 --json > whole");
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(json_value(end.out, "digest"), json_value(shell.read("whole"), "digest"));
+  EXPECT_TRUE(shell.exists("sum.part"));
+  EXPECT_FALSE(shell.exists("sum"));
+}
+
+TEST(OwnFiles, ACheckpointIsFoundByItsOwnName) {
+  const Shell shell;
+  leave_a_checkpoint(shell, "");
+  const Outcome o = shell("$carom escape --resume q.h5.part --quiet --json --checkpoint 0.02 & pid=$!; sleep 0.5; kill -INT $pid; wait $pid");
+  EXPECT_EQ(o.status, 130) << o.err;
+  EXPECT_EQ(sorted_files(shell), Names{"q.h5"});
+  // The name of a checkpoint that is over still means its archive.
+  const Outcome again = shell("$carom escape --resume q.h5.part --seed 7");
+  EXPECT_NE(again.err.find("run.seed is 7, not 1"), std::string::npos) << again.err;
+}
+
+// A checkpoint without records says nothing about a file of that name.
+TEST(OwnFiles, RecordsThatNoCheckpointNamesStay) {
+  const Shell shell;
+  leave_a_checkpoint(shell, "");
+  shell("echo mine > q.h5.records");
+  EXPECT_EQ(shell("$carom run stadium --t-max 3 --quiet --force -o q.h5").status, 0);
+  EXPECT_EQ(sorted_files(shell), (Names{"q.h5", "q.h5.records"}));
+  EXPECT_EQ(shell.read("q.h5.records"), "mine\n");
+}
+
+}  // namespace
+}  // namespace carom
