@@ -47,6 +47,11 @@ bool begins_as_hdf5(const std::string& path) {
   return begin == signature;
 }
 
+bool is_empty(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::file_size(path, error) == 0 && !error;
+}
+
 }  // namespace
 
 bool exists(const std::string& file) {
@@ -84,6 +89,24 @@ void remove_checkpoint(const std::string& file) {
   if (running->names_records) std::remove(records_of(file).c_str());
   std::remove((checkpoint + ".new").c_str());
   std::remove(checkpoint.c_str());
+}
+
+void refuse_files_of_others(const std::string& file, bool force) {
+  const std::string checkpoint = checkpoint_of(file), records = records_of(file);
+  const std::optional<Running> running = read_running(checkpoint);
+  const auto refuse = [](const std::string& name, const std::string& problem, const char* expected) {
+    throw InputError(Place{name, 0, 0, ""}, problem, expected);
+  };
+  if (!running && exists(checkpoint)) {
+    if (begins_as_hdf5(checkpoint))
+      refuse(checkpoint, fmt::format("the checkpoint of '{}' would go here, and this is another file", file), "another name");
+    if (!force)
+      refuse(checkpoint, fmt::format("the checkpoint of '{}' would go here, and this is none", file), "another name, or --force");
+  }
+  const bool of_nobody = !(running && running->names_records) && exists(records) && !is_empty(records);
+  if (of_nobody && !force)
+    refuse(records, fmt::format("the records of '{}' would go here, and there is no checkpoint that this belongs to", file),
+           "another name, or --force");
 }
 
 std::string kind_of_ensemble(const std::string& file) {

@@ -102,6 +102,7 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
   Plan locked = plan;
   if (!locked.lock) locked.lock = lock_archive(file);
   refuse_existing(file, plan.force);
+  refuse_files_of_others(file, plan.force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
   implementation_->old_records = has_records(file);
   if (!plan.per_trajectory) return;
@@ -114,6 +115,7 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
                                          const Stored<Result>& stored, const Plan& plan) {
   Plan locked = plan;
   if (!locked.lock) locked.lock = lock_archive(file);
+  refuse_files_of_others(file, plan.force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
   Implementation& a = *implementation_;
   a.origin.before = stored.origins;

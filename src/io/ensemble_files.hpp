@@ -17,6 +17,9 @@ bool exists(const std::string& file);
 bool is_checkpoint(const std::string& path);
 /// Has FILE.h5 a checkpoint that names FILE.records?
 bool has_records(const std::string& file);
+/// Throws InputError where the checkpoint or the records of FILE.h5 would replace a file that is none: `force` replaces it,
+/// unless it is an archive of another name.
+void refuse_files_of_others(const std::string& file, bool force);
 /// Where an ensemble of this name stands: FILE.h5.part if that is its checkpoint, else FILE.h5.
 std::string stored_in(const std::string& file);
 /// Opens an archive of this schema; throws InputError for anything else.

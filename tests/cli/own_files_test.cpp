@@ -80,5 +80,62 @@ TEST(OwnFiles, RecordsThatNoCheckpointNamesStay) {
   EXPECT_EQ(shell.read("q.h5.records"), "mine\n");
 }
 
+struct Others {
+  std::string make;       ///< leaves a.h5.part or a.h5.records
+  std::string told_of;    ///< what the message names
+  bool forced;            ///< --force replaces it
+};
+
+TEST(OwnFiles, FilesOfOthersAreRefused) {
+  const std::vector<Others> all = {
+      {"echo notes > a.h5.part; echo r > a.h5.records", "a.h5.part", true},
+      {"echo r > a.h5.records", "a.h5.records", true},
+      {mushroom + "-o a.h5.part", "a.h5.part", false},
+      {"$carom run stadium --t-max 3 -o a.h5.part", "a.h5.part", false},
+  };
+  for (const Others& one : all) {
+    const Shell shell;
+    ASSERT_EQ(shell(one.make).status, 0);
+    shell("cp -r . ../before.$$; mv ../before.$$ before");
+    for (const std::string records : {"", " --per-trajectory"}) {
+      const Outcome o = shell(mushroom + "-o a.h5" + records);
+      EXPECT_EQ(o.status, 1) << one.make;
+      EXPECT_EQ(o.out, "");
+      EXPECT_EQ(o.err.find("carom: " + one.told_of + ": "), 0u) << o.err;
+      EXPECT_EQ(shell("for f in a.*; do cmp $f before/$f || exit 1; done; [ $(ls a.* | wc -l) = $(ls before | wc -l) ]").status, 0) << one.make;
+    }
+    const Outcome forced = shell(mushroom + "-o a.h5 --per-trajectory --force");
+    EXPECT_EQ(forced.status, one.forced ? 0 : 1) << one.make << "\n" << forced.err;
+    EXPECT_EQ(shell.exists("a.h5"), one.forced);
+    EXPECT_EQ(shell.exists("a.h5.part"), !one.forced);
+    EXPECT_FALSE(shell.exists("a.h5.records"));
+  }
+}
+
+// What stands beside a good archive neither hides nor stops it.
+TEST(OwnFiles, OthersBesideAnArchiveAreLeft) {
+  const Shell shell;
+  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o a.h5 && " + mushroom + "--shard 2/2 -o b.h5 && echo notes > a.h5.part && echo r > b.h5.records").status, 0);
+  const Outcome again = shell("$carom escape --resume a.h5 --json");
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(json_value(again.out, "status"), "\"completed\"");
+  EXPECT_EQ(shell("$carom escape --resume b.h5").status, 0);
+  EXPECT_EQ(shell("$carom merge sum.h5 a.h5 b.h5").status, 0);
+  EXPECT_EQ(shell.read("a.h5.part") + shell.read("b.h5.records"), "notes\nr\n");
+  // What would go on needs the name.
+  const Outcome half = shell("$carom merge half.h5 a.h5 && echo notes > half.h5.part && $carom escape --resume half.h5");
+  EXPECT_EQ(half.status, 1);
+  EXPECT_NE(half.err.find("half.h5.part: the checkpoint of 'half.h5' would go here"), std::string::npos) << half.err;
+  EXPECT_EQ(shell.read("half.h5.part"), "notes\n");
+}
+
+// A run that was killed before its first checkpoint leaves records without any, which are nobody's.
+TEST(OwnFiles, EmptyRecordsAreNobodys) {
+  const Shell shell;
+  const Outcome o = shell(": > a.h5.records; " + mushroom + "-o a.h5 --per-trajectory");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(shell.files(), Names{"a.h5"});
+}
+
 }  // namespace
 }  // namespace carom
