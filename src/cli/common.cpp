@@ -28,6 +28,9 @@ extern "C" void on_interrupt(int) {
   if (interrupted.exchange(true)) _exit(stopped);
 }
 
+// In one piece, so that lines of several processes do not mix; whether it is read is nobody's fault.
+void write_message(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
+
 Place option_place(const char* option) { return Place{"command line", 0, 0, option}; }
 
 }  // namespace
@@ -89,7 +92,7 @@ void choose_engine(const std::string& engine, System& system) {
   for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
   const std::string warning =
       check_turn(dynamics.integrator, omega, !system.table->walls.empty(), {system.name, 0, 0, "integrator"});
-  if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
+  if (!warning.empty()) write_message("warning: " + warning);
 }
 
 std::string engine_of(const System& system) {
@@ -152,6 +155,8 @@ void print(const std::string& text) {
   const bool ok = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!ok) throw InputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
+
+void warn(const std::string& text) { write_message("carom: " + text); }
 
 const std::atomic<bool>& catch_interrupts() {
   struct sigaction action {};

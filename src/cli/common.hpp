@@ -41,6 +41,8 @@ Json decisions_json(const DecisionCounts&);
 std::string decisions_text(const DecisionCounts&);
 /// Writes to standard output; an output that cannot be written is an InputError.
 void print(const std::string& text);
+/// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing else.
+void warn(const std::string& text);
 
 /// From now on Ctrl-C and SIGTERM set a flag; a second one ends the program at once.
 const std::atomic<bool>& catch_interrupts();

@@ -1,7 +1,6 @@
 // carom merge: parts of an ensemble become one archive.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <utility>
 
 #include "carom/base/error.hpp"
@@ -20,8 +19,8 @@ void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
   std::uint64_t missing = 0;
   for (const TrajectoryRange& gap : gaps) missing += gap.last - gap.first;
   if (missing > 0)
-    fmt::print(stderr, "carom: {} of {} trajectories are missing, the first of them {}\n", grouped(missing),
-               grouped(system.run.trajectories), gaps.front().first);
+    warn(fmt::format("{} of {} trajectories are missing, the first of them {}", grouped(missing),
+                     grouped(system.run.trajectories), gaps.front().first));
 }
 
 int print_sum(const Options& options, const System& system, const EscapeResult& result, const EnsembleContext& context) {
@@ -45,7 +44,7 @@ int merge_parts(const Options& options, const std::string& output, const std::ve
   write_sum(output, loaded, origin, sum, lock);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
-  for (const auto& [index, text] : sum.result.reports) fmt::print(stderr, "carom: {}\n", text);
+  for (const auto& [index, text] : sum.result.reports) warn(text);
   return print_sum(options, loaded.system, sum.result, {sum.status, output, sum.shard});
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -84,7 +83,7 @@ void say_if_ended(const StoredRun& stored) {
   const std::string how = same && fate == Fate::escaped ? "escaped"
                           : same                        ? fmt::format("ended ({})", name_of(fate))
                                                         : "ended";
-  fmt::print(stderr, "carom: the orbit has already {}: nothing to go on with\n", how);
+  warn(fmt::format("the orbit has already {}: nothing to go on with", how));
 }
 
 }  // namespace
@@ -149,7 +148,7 @@ int run(const Options& options) {
   if (archive) archive->finish(result, status);
 
   for (const ParticleEnd& particle : result.particles)
-    if (particle.progress.fate == Fate::lost) std::fprintf(stderr, "carom: %s\n", particle.report.c_str());
+    if (particle.progress.fate == Fate::lost) warn(particle.report);
   print(options.json ? run_json(system, result, status, output).text() + "\n"
                      : run_text(system, result, status, output));
   if (status == name_of(Fate::lost)) return lost;

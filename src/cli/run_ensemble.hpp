@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,8 +23,6 @@ struct EnsembleKind {
   std::function<void(const EnsembleJob<Result>&, const Result&, const std::string& status)> print;
   std::function<std::uint64_t(const Result&)> lost;
 };
-
-inline void warn(const std::string& text) { fmt::print(stderr, "carom: {}\n", text); }
 
 template <class Result>
 EnsembleOptions<Result> how_to_run(const Options& options) {

@@ -28,6 +28,21 @@ TEST(Streams, AResultThatNobodyGetsIsAnError) {
   EXPECT_NE(o.err.find("cannot write to standard output"), std::string::npos) << o.err;
 }
 
+TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
+  const Shell shell;
+  // A folder in its way costs a checkpoint or two.
+  const Outcome o = shell("$carom escape mushroom --trajectories 1e9 --quiet --json --block 4 -o a.h5 --checkpoint 0.3 2>/dev/full & pid=$!; "
+                          "until [ -e a.h5.part ] && mkdir a.h5.part.new; do sleep 0.02; done; sleep 0.5; rmdir a.h5.part.new; "
+                          "sleep 0.1; kill -INT $pid; wait $pid");
+  EXPECT_EQ(o.status, 130);
+  EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"");
+  EXPECT_EQ(shell.files().size(), 1u);
+  ASSERT_EQ(shell("$carom escape stadium --trajectories 100 --t-max 9 --shard 1/2 -o 1.h5 --quiet").status, 0);
+  const Outcome half = shell("$carom merge half.h5 1.h5 --json 2>/dev/full");
+  EXPECT_EQ(half.status, 0);
+  EXPECT_EQ(json_value(half.out, "status"), "\"incomplete\"");
+}
+
 // What is read from the disk may be anything.
 TEST(Streams, RecordsOfOtherTrajectoriesAreRefused) {
   const Shell shell;
