@@ -36,9 +36,9 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     length = std::sqrt(dot(direction, direction));
     inverse_length = 1.0 / length;
     tangent = {direction.x / length, direction.y / length};
-    // settle: x - from, the tangent (4u), s (7u of a length <= 2.83 extent) and its product (5u), the sum;
-    // parameter: the same s, its product with 1/length (4u), taken times the length again.
-    point_error = 48.0 * unit_roundoff * extent;
+    // settle: x - from (u), the normal (4u), product and sum (2u) of a length <= 2.83 extent, the last sum: 21u of the extent;
+    // parameter and point: as much along the wall, and the product with the direction (5u) and its sum.
+    point_error = 64.0 * unit_roundoff * extent;
     normal_error = 4.0 * unit_roundoff;
     normal_bound = 1.42 * normal_error;  // of a unit vector
     parameter_stretch = 1.42 * inverse_length;

@@ -103,13 +103,12 @@ INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead, cons
 
 /// The edge where the edges by which lines of a direction leave a cell begin: those along which a point goes to the left.
 /// Of two opposite edges it is one, so they follow each other.
-struct Forward {
+struct ForwardEdges {
   Real edge;
   Mask certain;
 };
-template <int edges>
-INLINE Forward forward_edges(const LaneTable& t, const View& f) {
-  constexpr int half = edges / 2;
+INLINE ForwardEdges forward_edges(const LaneTable& t, const View& f) {
+  constexpr int edges = 6, half = 3;
   Mask leaves[half];
   Real least(__builtin_huge_val());
   for (int i = 0; i < half; ++i) {
@@ -127,24 +126,28 @@ INLINE Forward forward_edges(const LaneTable& t, const View& f) {
   return {edge, least > f.sides};
 }
 
-/// Flights among cells with one disc each, in two stages. The corners between forward edges tell by which of them a line leaves
+/// Whether lines met a disc, or are still under way; else not certain.
+struct Crossed {
+  Mask meets, goes_on;
+};
+
+/// Flights among hexagons with one disc each, in two stages. The corners between forward edges tell by which of them a line leaves
 /// a cell; from cell to cell their sides, and the centre's, change by one number for each edge.
 struct Crossings {
-  static constexpr int most = 3;  ///< forward edges
-  alignas(64) double edge[LanePack::lanes], aside[LanePack::lanes];
-  double jump[most][LanePack::lanes], side[most - 1][LanePack::lanes];
+  static constexpr int edges = 6, forward = 3;
+  alignas(LanePack::alignment) double edge[LanePack::lanes], aside[LanePack::lanes];
+  double jump[forward][LanePack::lanes], side[forward - 1][LanePack::lanes];
   double known[LanePack::lanes];  ///< 1: meets the disc of its first cell; -1: goes on; 0: not certain
 };
 
-INLINE Real next_edge(const Real& edge, int edges) { return choose(edge == Real(counted[edges - 1]), Real(0.0), edge + 1.0); }
+INLINE Real next_edge(const Real& edge) { return choose(edge == Real(counted[Crossings::edges - 1]), Real(0.0), edge + 1.0); }
 
-template <int edges>
 INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int lane) {
-  constexpr int forward = edges / 2;
+  constexpr int forward = Crossings::forward;
   const LaneTable& t = f.table;
   const Line line(f);
   const Vector v = f.velocity;
-  const Forward begin = forward_edges<edges>(t, f);
+  const ForwardEdges begin = forward_edges(t, f);
   // From the home cell to this one.
   const Real across_first = fused(v.x, Real(t.lattice_y[0]), -v.y * t.lattice_x[0]);
   const Real across_second = fused(v.x, Real(t.lattice_y[1]), -v.y * t.lattice_x[1]);
@@ -155,7 +158,7 @@ INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int
     const Real x = look_up<Reach::eight>(t.beyond_x, edge), y = look_up<Reach::eight>(t.beyond_y, edge);
     store(fused(v.x, y, -v.y * x), c.jump[i] + lane);
     if (i + 1 == forward) break;
-    edge = next_edge(edge, edges);
+    edge = next_edge(edge);
     const Real px = look_up<Reach::eight>(t.edge_x, edge), py = look_up<Reach::eight>(t.edge_y, edge);
     store(fused(line.x, py, fused(line.minus_y, px, line.offset)) + so_far, c.side[i] + lane);
   }
@@ -172,9 +175,8 @@ INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int
 }
 
 /// Over some edges. The disc of a cell that was entered lies ahead, if the line cuts it.
-template <int edges>
-INLINE Real cross_edges(const View& f, const Crossings& c, CellOf& cell, int lane) {
-  constexpr int forward = edges / 2;
+INLINE Crossed cross_edges(const View& f, const Crossings& c, CellOf& cell, int lane) {
+  constexpr int forward = Crossings::forward;
   const LaneTable& t = f.table;
   Real jump[forward], side[forward - 1], crossed[forward], edges_crossed(0.0);
   for (int i = 0; i < forward; ++i) {
@@ -207,9 +209,9 @@ INLINE Real cross_edges(const View& f, const Crossings& c, CellOf& cell, int lan
   for (int i = 0; i + 1 < forward; ++i) crossed[forward - 1] = crossed[forward - 1] - crossed[i];
   Real edge = load(c.edge + lane);
   for (int i = 0; i < forward; ++i) {
-    if (i > 0) edge = next_edge(edge, edges);
+    if (i > 0) edge = next_edge(edge);
     cell.first = fused(crossed[i], look_up<Reach::eight>(t.beyond_first, edge), cell.first);
     cell.second = fused(crossed[i], look_up<Reach::eight>(t.beyond_second, edge), cell.second);
   }
-  return choose(meets, Real(1.0), choose(under_way, Real(-1.0), Real(0.0)));
+  return {meets, under_way};
 }

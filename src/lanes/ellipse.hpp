@@ -30,11 +30,7 @@ INLINE Cut cut_of_ellipse(const View& f, int i) {
   return {shrink * q.b, square, (shrink * shrink) * fused(q.b, q.b, -(q.a * q.c)), 1.0 / square};
 }
 
-/// Time of the flight to an ellipse, as a fraction.
-struct FractionOfTime {
-  Real time, unit;
-  Mask decided;
-};
+/// Time of the flight to an ellipse.
 template <class Kind>
 INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetEllipse& met, const Real& orientation,
                                       const Mask& stands) {
@@ -51,16 +47,16 @@ INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetE
           stands || met.shrink * met.shrink * discriminant > f.roots};
 }
 
-/// The landing at d, seen from the centre.
+/// The landing at a point, d seen from the centre.
 struct LandedOnEllipse {
   Vector place, gradient;
   Real square;
   Mask certain;  ///< on the wall, and not near the start of a closed one
 };
 template <class Kind>
-INLINE LandedOnEllipse land_on_ellipse(const Vector& centre, const Vector& d, const MetEllipse& met) {
+INLINE LandedOnEllipse land_on_ellipse(const Vector& point, const Vector& d, const MetEllipse& met) {
   const auto on = geometry::on_ellipse(d, met.first, met.second);
-  const Vector place = centre + geometry::lengthened(d, geometry::step_of_length(on.measure));
+  const Vector place = geometry::moved(point, geometry::step_of_length(on.measure), d);
   Mask certain = abs(on.image.y) > met.at_start;
   if constexpr (!Kind::alone) certain = certain && abs(0.75 - on.measure) < met.off;
   return {place, on.gradient, dot(on.gradient, on.gradient), certain};

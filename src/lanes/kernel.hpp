@@ -5,6 +5,7 @@
 // rest of the program.
 #pragma once
 
+#include <bit>
 #include <experimental/simd>
 #if defined(__AVX2__)
 #include <immintrin.h>
@@ -48,6 +49,15 @@ struct Choice {
   Real kappa{};
 };
 
+/// Where the sides of the joints tell the exit, they tell, too, that it is not met along the wall (docs/developer/lanes.md).
+template <class Kind>
+constexpr bool inward_is_known = Kind::turn == 0 && Kind::convex && !Kind::ellipses;
+
+/// Divisions as a stage of their own: of several pieces a flight takes so many sums that a core sees no two roots and divisions
+/// at once.
+template <class Kind>
+constexpr bool divides_apart = Kind::turn == 0 && !Kind::single;
+
 /// A number of each lane's piece.
 template <class Kind>
 INLINE Real number_of(const double* numbers, const Real& piece) {
@@ -60,12 +70,17 @@ struct Cut {
   Real along, square, discriminant, inverse;  // 1/square, nearly
 };
 
+/// The duration of a flight, a fraction.
+struct FractionOfTime {
+  Real time, unit;
+  Mask decided;
+};
 #include "lanes/ellipse.hpp"
 
 /// What is needed of that piece.
 struct Met {
   Vector point;
-  Real first, second, orientation, into, strength;
+  Real first, second, orientation, strength;
   Mask bent, stands;
   MetEllipse ellipse{};
 };
@@ -80,6 +95,7 @@ struct Where {
 #include "lanes/larmor.hpp"
 #include "lanes/straight.hpp"
 #include "lanes/cells.hpp"
+#include "lanes/parallelograms.hpp"
 #include "lanes/stages.hpp"
 #include "lanes/landing.hpp"
 
@@ -87,7 +103,8 @@ template <int which_turn, bool is_convex, bool has_segments, bool has_circles, R
           bool has_ellipses = false, bool is_alone = false, bool is_single = is_alone>
 struct Kind {
   static constexpr int turn = which_turn;
-  static constexpr bool convex = is_convex, segments = has_segments, circles = has_circles, cells = has_cells;
+  static constexpr bool convex = is_convex;  ///< or without field a table where the sides of the joints tell
+  static constexpr bool segments = has_segments, circles = has_circles, cells = has_cells;
   static constexpr bool ellipses = has_ellipses;
   static constexpr bool alone = is_alone;    ///< one closed curve about the domain, on which all particles stand
   static constexpr bool single = is_single;  ///< one piece
@@ -98,14 +115,20 @@ template <class Kind>
 void kernel(const LaneTable& table, LanePack& pack) {
   pack.calls = 0;
   Stages stages;
-  if constexpr (!(Kind::cells && Kind::single))
+  if constexpr (Kind::cells && Kind::single) {
+    if (table.edges == 4)
+      choose_parallelograms<Kind>(table, pack, stages);
+    else
+      choose_hexagons<Kind>(table, pack, stages);
+  } else {
     for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
-  else if (table.edges == 4)
-    choose_cells<Kind, 4>(table, pack, stages);
-  else
-    choose_cells<Kind, 6>(table, pack, stages);
+    if constexpr (Kind::turn == 0 && Kind::convex && !Kind::single)
+      if (table.by_signs) look_up_exits(table, stages.piece, pack.used);
+  }
   if (Kind::turn == 0 || Kind::convex)
     for (int lane = 0; lane < pack.used; lane += width) meet<Kind>(table, pack, stages, lane);
+  if constexpr (divides_apart<Kind>)
+    for (int lane = 0; lane < pack.used; lane += width) divide<Kind>(pack, stages, lane);
   if (Kind::turn != 0)
     for (int lane = 0; lane < pack.used; lane += width) time(pack, stages, lane);
   const Real end(pack.end);
@@ -133,7 +156,7 @@ Kernels kernels_of(const LaneTable& t) {
     return {over_cells, over_cells, width};
   }
   const Advance anywhere = kernel_of<turn, false>(t);
-  if (!t.convex) return {anywhere, anywhere, width};
+  if (!(turn == 0 ? t.by_line : t.convex)) return {anywhere, anywhere, width};
   const Advance on_walls = kernel_of<turn, true>(t);
   return {on_walls, anywhere, width};
 }

@@ -35,7 +35,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   constexpr bool larmor = Kind::turn != 0;
   View f = view_of<Kind>(t, pack, lane);
   if constexpr (Kind::cells) f.origin = {load(stages.start_x + lane), load(stages.start_y + lane)};
-  const Real piece = chosen<Kind>(stages, lane), known = load(stages.known + lane), duration = load(stages.duration + lane);
+  const Real piece = chosen<Kind>(stages, lane), duration = load(stages.duration + lane);
   Vector way, v = f.velocity;
   if constexpr (larmor) {
     const auto factors = geometry::flight_factors(load(stages.kappa + lane), f.omega, Real(0.5));
@@ -45,38 +45,38 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
     way = duration * f.velocity;
   }
   const Vector point = f.origin + way;
-  const Met met = met_by<Kind>(f, piece);
-  Mask decided = known > 0.0 && duration > 0.0;
+  constexpr bool bent_is_known = !larmor && Kind::convex && Kind::segments && Kind::circles;
+  Mask bent_there;
+  if constexpr (bent_is_known) bent_there = load(stages.bent, lane);
+  const Met met = met_by<Kind>(f, piece, bent_is_known ? &bent_there : nullptr);
+  Mask decided = load(stages.decided, lane);
+  if constexpr (larmor) decided = decided && duration > 0.0;
 
   // As PreparedCurve::arrive, but for the normal's sign, which reflections do not see. The flight of a Larmor circle
   // must be seen to end on the wall.
   Landed now;
   now.piece = piece;
-  Vector normal;
   Real step(0.0), off(0.0);
   const Vector d = point - met.point;
+  Vector normal = normal_of<Kind>(met, d);
   if constexpr (Kind::circles) {
-    const Real measure = dot(met.first * d, d);
-    step = geometry::step_of_length(measure);
-    now.place = met.point + geometry::lengthened(d, step);
-    normal = d;
-    if constexpr (larmor) off = (0.75 - measure) * (0.25 * t.size);
+    // As step_of_length, and step_to_line.
+    Vector weighted = normal;
+    where(met.bent, weighted.x) = met.first * normal.x;
+    where(met.bent, weighted.y) = met.first * normal.y;
+    const Real measure = dot(weighted, d);
+    step = choose(met.bent, Real(0.75), Real(0.0)) - measure;
+    if constexpr (larmor) off = choose(met.bent, step * (0.25 * t.size), measure);
+    where(met.bent, step) = step * Real(2.0 / 3.0);
+    now.place = geometry::moved(point, step, normal);
+    if constexpr (Kind::segments) where(!met.bent, step) = Real(0.0);  // reflects by strength alone, which is 2
     const Mask circle = Kind::ellipses ? met.bent && !met.ellipse.is : met.bent;
     if (t.small_circles) decided = decided && (!circle || abs(step) < geometry::longest_step);
     if (t.closed_circles) decided = decided && (!circle || abs(d.y) > sign_margin * t.size);
-  }
-  if constexpr (Kind::segments) {
-    const Vector tangent{met.first, met.second};
-    const Vector on = geometry::back_to_line(point, met.point, tangent), across = geometry::left(tangent);
-    if constexpr (larmor) off = choose(met.bent, off, cross(tangent, d));
-    if constexpr (Kind::circles) {
-      now.place = {choose(met.bent, now.place.x, on.x), choose(met.bent, now.place.y, on.y)};
-      normal = {choose(met.bent, normal.x, across.x), choose(met.bent, normal.y, across.y)};
-      where(!met.bent, step) = Real(0.0);  // reflects by strength alone, which is 2
-    } else {
-      now.place = on;
-      normal = across;
-    }
+  } else if constexpr (Kind::segments) {
+    const Real measure = dot(normal, d);
+    if constexpr (larmor) off = measure;
+    now.place = geometry::moved(point, Real(0.0) - measure, normal);
   }
   if constexpr (larmor && Kind::ellipses) where(met.ellipse.is, off) = Real(0.0);  // they have a test of their own
   if constexpr (larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
@@ -87,7 +87,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   else if constexpr (Kind::segments)
     factor = 2.0 * dot(v, normal);
   if constexpr (Kind::ellipses) {
-    const LandedOnEllipse on = land_on_ellipse<Kind>(met.point, d, met.ellipse);
+    const LandedOnEllipse on = land_on_ellipse<Kind>(point, d, met.ellipse);
     const Real own = geometry::reflection_factor(v, on.gradient, on.square, Real(1.0));
     const Mask is = met.ellipse.is;
     if constexpr (Kind::segments || Kind::circles) {
@@ -105,8 +105,9 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   const geometry::EnergyShell<Real> shell{load(pack.shell_weight + lane), load(pack.shell_rest + lane)};
   now.velocity = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, shell));
   // The reflection turns the normal component about, to rounding.
-  const Real inner = bent ? -met.into * dot(v, normal) : -t.size * dot(v, normal);
-  const Mask inward = inner > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);
+  Real outward = met.orientation * dot(v, normal);
+  if constexpr (Kind::segments) where(bent ? !met.bent : Mask(true), outward) = t.size * outward;
+  const Mask inward = inward_is_known<Kind> ? Mask(true) : outward > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);
   const auto [high, low] = later(load(pack.high + lane), load(pack.low + lane), duration);
   now.high = high;
   now.low = low;
@@ -125,7 +126,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
     add(pack.home_first, stages.cell_first);
     add(pack.home_second, stages.cell_second);
     // Those still on their way only change their cell.
-    const Mask gone = known < 0.0;
+    const Mask gone = load(stages.gone, lane);
     store(choose(gone, load(stages.cell_first + lane), Real(0.0)), pack.cell_first + lane);
     store(choose(gone, load(stages.cell_second + lane), Real(0.0)), pack.cell_second + lane);
   } else {
@@ -134,20 +135,20 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   }
 
   const Mask over = high >= end, escaped = hole >= 0.0;  // over, or there to the last digit
-  Mask calls = load(pack.active + lane) > 0.0 && !applies;
-  if constexpr (Kind::cells) calls = calls && !(known < 0.0);
+  Mask calls = load(pack.active + lane) > 0.0 && !applies, gone(false);
+  if constexpr (!Kind::convex && !larmor) gone = load(stages.gone, lane);
+  if constexpr (Kind::cells) calls = calls && !gone;
   unsigned waiting = bits_of(calls);
   if (waiting == 0) return;
   store(high, stages.high + lane);
   store(low, stages.low + lane);
-  const unsigned gone = bits_of(known < 0.0), ends = bits_of(over),
-                 certain = bits_of(decided && (escaped || over || inward) && duration < __builtin_huge_val());
+  const unsigned open = bits_of(gone), ends = bits_of(over), certain = bits_of(decided && (escaped || over || inward) && duration < __builtin_huge_val());
   for (; waiting != 0; waiting &= waiting - 1) {
     const int i = __builtin_ctz(waiting), at = lane + i;
     const unsigned bit = 1u << i;
     pack.met[pack.calls] = {Kind::single ? 0.0 : stages.piece[at], stages.high[at], stages.low[at]};
     pack.lane[pack.calls] = at;
-    pack.call[pack.calls++] = (gone & bit) != 0      ? Call::unbounded
+    pack.call[pack.calls++] = (open & bit) != 0      ? Call::unbounded
                               : (certain & bit) == 0 ? Call::undecided
                               : (ends & bit) != 0    ? Call::over
                                                      : Call::escaped;

@@ -19,7 +19,11 @@ enum class Call : unsigned char {
 struct LanePack {
   static constexpr int lanes = 64;
 
-  alignas(64) double x[lanes] = {};
+  // A load waits for a store before it whose address has the same last twelve bits. With arrays like this no stage loads what
+  // seems to be stored in the register before.
+  static constexpr int alignment = lanes * sizeof(double);
+
+  alignas(alignment) double x[lanes] = {};
   double y[lanes] = {}, vx[lanes] = {}, vy[lanes] = {};
   double high[lanes] = {}, low[lanes] = {};  ///< time
   double piece[lanes] = {};                  ///< that it stands on; -1: none
@@ -31,6 +35,7 @@ struct LanePack {
   double sides[lanes] = {};                  ///< margins of signs of the sizes size * speed …
   double roots[lanes] = {};                  ///< … and of its square;
   double order[lanes] = {};                  ///< of two times
+  double shortest[lanes] = {};               ///< flight along a circle that ends by such a sign
   double omega[lanes] = {};
   double inverse_half[lanes] = {};           ///< 1/|omega/2|
   double pace[lanes] = {};                   ///< power of two beyond speed + |omega| size

@@ -16,6 +16,8 @@ struct LaneTable {
   int loops = 0;
   int first[most] = {}, count[most] = {};  ///< loops of pieces; a closed curve is a loop of one
   bool convex = false;    ///< one loop, bent outwards or straight everywhere, and nothing in it
+  bool by_line = false;   ///< the sides of the joints tell the exit of a straight flight from a wall
+  bool by_signs = false;  ///< not convex: the sides of the joints do, by entries of `exit` (exit_by_signs.hpp)
   bool segments = false;  ///< has such pieces
   bool circles = false;
   bool closed_circles = false;
@@ -27,10 +29,9 @@ struct LaneTable {
 
   // Start of each piece.
   double joint_x[most] = {}, joint_y[most] = {};
-  // Of a segment: a point of it, and its unit tangent. Of a circle: centre, 0.75 / r^2, r^2.
+  // Of a segment: a point of it, and its unit normal out of the domain. Of a circle: centre, 0.75 / r^2, r^2.
   double point_x[most] = {}, point_y[most] = {}, first_number[most] = {}, second_number[most] = {};
   double orientation[most] = {};  ///< circle: +1 domain inside, -1 outside; segment: 0
-  double into[most] = {};         ///< the way into the domain along a circle's radius, 1 or -1; segment: `size`, its normal's is 1
   double strength[most] = {};     ///< of its reflections: PreparedCurve::strength; segment: 2
   // For Larmor circles, of a piece with joints: the unit vector from the one to the other, their distance. Of a circle:
   // its radius, and the distance of the chord from the centre in radii, positive if the centre lies on its left.
@@ -50,6 +51,16 @@ struct LaneTable {
   double edge_x[eight] = {}, edge_y[eight] = {}, edge_along_x[eight] = {}, edge_along_y[eight] = {};
   double beyond_first[eight] = {}, beyond_second[eight] = {}, beyond_x[eight] = {}, beyond_y[eight] = {};
   double lattice_x[2] = {}, lattice_y[2] = {};
+  // Where it has one disc: from there to the middle of the cell; and the size over its radius.
+  double off_centre_x = 0.0, off_centre_y = 0.0, sizes_of_radius = 0.0;
+
+  // Entries of `exit`: the piece of the start, and a bit for each joint on the right. They are sums of halves, as is the number of
+  // joints on the right: start_step times the start, from_start, and for each joint half its bit, less if it is on the left.
+  static constexpr int most_signs = 10;
+  static constexpr unsigned char unknown = most;
+  double start_step = 1.0, from_start = 0.0;
+  static constexpr int entries = 1 << 16;  ///< more than most_signs 2^most_signs: as many as there are words of 16 bits
+  unsigned char exit[entries] = {};
 
   double order_margin = 0x1p-21;  ///< of two times, in sizes over the speed
   double size = 0.0;  ///< the length by which every margin is measured: a power of two (make_lane_table.cpp)

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "events/next_hit.hpp"
+#include "lanes/exit_by_signs.hpp"
 #include "lanes/kernels.hpp"
 #include "lanes/make_lane_table.hpp"
 #include "motion/free_motion.hpp"
@@ -217,7 +218,7 @@ class LaneWorld::Implementation {
     const auto frame = w.frame(s.u);
     if (w.parameter(s.position) != s.u) s.position = frame.point;  // as World::add
     const int piece = lanes::piece_at(pieces, s.wall, s.u);
-    return std::fabs(pieces.into[piece]) * dot(frame.normal, s.velocity) > pieces.ellipses.inward[piece] * p.speed;
+    return (pieces.bent[piece] ? 1.0 : pieces.size) * dot(frame.normal, s.velocity) > pieces.ellipses.inward[piece] * p.speed;
   }
 
   /// In the open plane flights may start beyond all lengths that margins are measured by.
@@ -258,6 +259,7 @@ class LaneWorld::Implementation {
     pack.shell_rest[lane] = shell.rest;
     pack.sides[lane] = side_margin * pieces.size * p.speed;
     pack.order[lane] = pieces.order_margin * pieces.size / p.speed;
+    pack.shortest[lane] = 2.0 * pack.sides[lane] / pack.square_speed[lane];
     pack.roots[lane] = pack.sides[lane] * pieces.size * p.speed;
     if (turn != Turn::straight) {
       const double turned = std::fabs(p.omega) * pieces.size, pace = p.speed + turned;
@@ -337,6 +339,7 @@ class LaneWorld::Implementation {
   bool go_on(Lanes& lanes, int lane) {
     Trajectory& mine = lanes.trajectories[lane];
     ++effort.scalar;
+    const int entry = entry_at(mine.start);
     LastEnd last;
     last.time = mine.start.state.time;
     scalar.clear();
@@ -348,6 +351,7 @@ class LaneWorld::Implementation {
       lanes.leave(lane);
       return false;
     }
+    if (entry >= 0) learn(entry, mine.start.hits);
     mine.start.hits = scalar.hits(0);
     mine.start.state = scalar.state(0);
     if (scalar.fate(0) == Fate::capped && mine.start.hits < limit) {
@@ -361,6 +365,23 @@ class LaneWorld::Implementation {
     (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? last.time : scalar.state(0).time, mine.start.state,
              scalar.hole(0), mine.start.hits, last_wall(mine), scalar.report(0)});
     return false;
+  }
+
+  /// Where the exit of a flight is told by the sides of joints: the entry for it.
+  int entry_at(const LaneStart& start) const {
+    const State& s = start.state;
+    if (!pieces.by_signs || turn != Turn::straight || s.wall < 0) return -1;
+    const int piece = lanes::piece_at(pieces, s.wall, s.u);
+    return piece < 0 ? -1 : lanes::entry_of(pieces, piece, s.position, s.velocity, side_margin * pieces.size * start.particle.speed);
+  }
+  /// What the scalar engine has just seen: all flights of this entry leave there.
+  void learn(int entry, std::uint64_t hits_before) {
+    int piece = -1;
+    if (scalar.fate(0) == Fate::escaped)
+      for (int i = 0; i < pieces.pieces; ++i) piece = static_cast<int>(pieces.hole[i]) == scalar.hole(0) ? i : piece;
+    else if (scalar.hits(0) == hits_before + 1 && scalar.state(0).u > geometry::first_parameter)
+      piece = lanes::piece_at(pieces, scalar.state(0).wall, scalar.state(0).u);
+    if (piece >= 0) pieces.exit[entry] = static_cast<unsigned char>(piece);
   }
 
   const std::function<bool(LaneStart&)>* source = nullptr;

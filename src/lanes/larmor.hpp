@@ -215,7 +215,7 @@ INLINE Choice first_of_all_by_circle(const View& f) {
       if (bent) {
         best.add(i, leaves, quadratic_of_circle(f, point, Real(t.second_number[i]), Real(t.orientation[i]), stands), stands, t.size);
       } else {
-        best.add(i, leaves, quadratic_of_segment(f, point, {Real(t.first_number[i]), Real(t.second_number[i])}, stands), stands, 1.0);
+        best.add(i, leaves, quadratic_of_segment(f, point, {Real(-t.second_number[i]), Real(t.first_number[i])}, stands), stands, 1.0);
       }
     }
   }
@@ -252,7 +252,7 @@ INLINE Where meet_by_circle(const View& f, const Met& met) {
   }
   geometry::Quadratic<Real> quadratic;
   Real length(1.0);
-  if constexpr (Kind::segments) quadratic = quadratic_of_segment(f, met.point, {met.first, met.second}, met.stands);
+  if constexpr (Kind::segments) quadratic = quadratic_of_segment(f, met.point, {-met.second, met.first}, met.stands);
   if constexpr (Kind::circles) {
     const auto other = quadratic_of_circle(f, met.point, met.second, met.orientation, met.stands);
     if constexpr (Kind::segments) {

@@ -1,5 +1,7 @@
 #include "lanes/make_lane_table.hpp"
 
+#include "lanes/exit_by_signs.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -72,10 +74,9 @@ void add_piece(LaneTable& t, const PreparedCurve& w, int wall, const Part& part,
   const Vector point = t.bent[i] ? w.centre : w.from;
   t.point_x[i] = point.x;
   t.point_y[i] = point.y;
-  t.first_number[i] = t.bent[i] ? w.weight : w.tangent.x;
-  t.second_number[i] = t.bent[i] ? w.r2 : w.tangent.y;
+  t.first_number[i] = t.bent[i] ? w.weight : w.tangent.y;
+  t.second_number[i] = t.bent[i] ? w.r2 : -w.tangent.x;
   t.orientation[i] = t.bent[i] ? w.orientation : 0.0;
-  t.into[i] = -w.orientation;
   t.strength[i] = t.bent[i] ? w.strength : 2.0;
   if (w.kind != CurveKind::ellipse) (t.bent[i] ? t.circles : t.segments) = true;
   t.closed_circles |= w.closed && w.kind == CurveKind::circle;
@@ -101,6 +102,8 @@ void add_chord(LaneTable& t, int i, int next) {
   if (t.radius[i] > 0.0) t.chord_offset[i] = geometry::cross(chord, Vector{t.point_x[i], t.point_y[i]} - joint) / t.radius[i];
 }
 
+double part(std::int64_t n, Vector v) { return std::fabs(static_cast<double>(n)) * (std::fabs(v.x) + std::fabs(v.y)); }
+
 /// Are all walls discs that do not reach an edge of the cell? As HitFinder::find_enclosure.
 bool discs_within_cell(const Table& table) {
   if (table.lattice->edges.size() != 4 && table.lattice->edges.size() != 6) return false;
@@ -110,8 +113,10 @@ bool discs_within_cell(const Table& table) {
     for (const geometry::CellEdge& edge : table.lattice->edges) {
       const PreparedCurve e(edge.segment);
       const double gap = geometry::cross(e.tangent, w.centre - e.from) - std::sqrt(w.r2);
-      const double size = w.extent + std::fabs(e.from.x) + std::fabs(e.from.y);
-      if (!(gap > 64.0 * geometry::unit_roundoff * size)) return false;
+      const auto [first, second] = edge.beyond;
+      const double size = w.extent + std::fabs(e.from.x) + std::fabs(e.from.y) + part(first, table.lattice->first) +
+                          part(second, table.lattice->second);
+      if (!(gap > 0x1p-36 * size)) return false;  // beyond 2^-40 S: no line along an edge cuts it (docs/developer/lanes.md)
     }
   }
   return true;
@@ -131,7 +136,6 @@ void add_cell(LaneTable& t, const geometry::Lattice& lattice, double mean_flight
     t.beyond_first[t.edges] = static_cast<double>(edge.beyond.first);
     t.beyond_second[t.edges++] = static_cast<double>(edge.beyond.second);
     // Lattice vectors that are long for their cell are many to the next one: what cells sum up has their size.
-    const auto part = [](std::int64_t n, Vector v) { return std::fabs(static_cast<double>(n)) * (std::fabs(v.x) + std::fabs(v.y)); };
     t.size = std::max({t.size, 4.0 * (std::fabs(corner.x) + std::fabs(corner.y)),
                        2.0 * (part(edge.beyond.first, lattice.first) + part(edge.beyond.second, lattice.second))});
   }
@@ -143,7 +147,11 @@ void add_cell(LaneTable& t, const geometry::Lattice& lattice, double mean_flight
     perimeter += std::sqrt(dot(along, along));
   }
   const double passed = mean_flight * perimeter / (std::numbers::pi * geometry::cross(lattice.first, lattice.second));
-  t.steps = 2 + static_cast<int>(std::lround(std::clamp(passed, 0.0, 5.0)));
+  // Some more, and still more where an edge costs little (parallelograms.hpp).
+  t.steps = (t.edges == 4 ? 4 : 2) + static_cast<int>(std::lround(std::clamp(passed, 0.0, 5.0)));
+  // Opposite corners of a parallelogram; a hexagon does not ask.
+  t.off_centre_x = 0.5 * (t.edge_x[0] + t.edge_x[2]) - t.point_x[0];
+  t.off_centre_y = 0.5 * (t.edge_y[0] + t.edge_y[2]) - t.point_y[0];
   t.lattice_x[0] = lattice.first.x;
   t.lattice_y[0] = lattice.first.y;
   t.lattice_x[1] = lattice.second.x;
@@ -198,18 +206,26 @@ LaneTable make_lane_table(const HitFinder& finder) {
   t.size = t.size > 1e-30 && t.size < 1e30 ? std::ldexp(1.0, std::ilogb(t.size) + 1) : HUGE_VAL;
   // A hit is off its circle by 2^-50 of the square of the flight, which is within S, over many cells within 16 S. With r^2
   // above 2^-20 or 2^-12 S^2 no step of length is 2^-28, half of that share.
+  t.sizes_of_radius = t.size / t.radius[0];
   const double smallest = table.lattice ? 0x1p-6 : 0x1p-10;
   for (int i = 0; i < t.pieces; ++i) {
     auto& e = t.ellipses;
     e.off[i] = e.of[i] ? e.off[i] * t.size : HUGE_VAL;
     e.at_start[i] *= t.size;
     e.inward[i] = t.size * (e.of[i] ? e.inward[i] : 0x1p-36);
-    if (!t.bent[i]) t.into[i] = t.size;
     t.divided |= t.wall[i] != i;
     t.small_circles |= t.radius[i] > 0.0 && t.radius[i] < smallest * t.size;
   }
-  t.convex = is_convex(finder);
+  // A line between the joints of an arc, 2^-36 S from both, passes the circle's rim at that distance at least: under the root is
+  // more than 2^-36 S r s^2, and what it errs, 2^-44 S^2 s^2, moves a hit off the arc by 2^-45 S^2/r.
+  bool wide_arcs = true;
+  for (int i = 0; i < t.pieces; ++i) wide_arcs &= t.pieces == 1 || t.radius[i] == 0.0 || t.radius[i] > 0x1p-7 * t.size;
   t.open = table.extent == Extent::open_plane;
+  t.convex = is_convex(finder);
+  if (wide_arcs) prepare_exits(t);
+  t.by_line = wide_arcs && (t.convex || t.by_signs);
+  t.start_step = t.by_signs ? std::ldexp(1.0, t.pieces) : 1.0;
+  t.from_start = t.by_signs ? 0.5 * (t.start_step - 1.0) : 0.5 * t.pieces;
   return t;
 }
 

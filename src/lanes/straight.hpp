@@ -23,23 +23,43 @@ struct Line {
   }
 };
 
-/// A convex loop alone, from a piece of it: along the walls, to the left of which the table lies, come first the joints on the
-/// right of the flight, then its exit. So that lies as many pieces on as there are joints on the right; with none or all of them, on the
-/// piece itself, which is an arc then.
+constexpr double half_bits[LaneTable::most_signs] = {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0};
+
+/// The pieces at these entries. One by one, through memory: the units for it have nothing else to do.
+INLINE void look_up_exits(const LaneTable& t, double* pieces, int used) {
+  for (int i = 0; i < used || i % width != 0; ++i) {  // whole registers
+    unsigned short entry;
+    __builtin_memcpy(&entry, pieces + i, sizeof entry);
+    pieces[i] = counted[t.exit[entry]];
+  }
+}
+
+/// The exit of a flight from a wall, where the sides of the joints tell. Of a convex loop: along the walls, to the left of which the
+/// table lies, come first the joints on the right of the flight, then its exit. So that lies as many pieces on as there are joints on
+/// the right; with none or all of them, on the piece itself, which is an arc then. Else an entry of a table; its answer may be that it is
+/// not known yet.
 template <class Kind>
-INLINE Choice exit_of_loop(const View& f) {
+INLINE Mask exit_by_joints(const View& f, double* pieces) {
   const LaneTable& t = f.table;
-  if constexpr (Kind::single) return {Real(0.0), Mask(true), Real(0.0)};
+  if constexpr (Kind::single) return Mask(true);
   const Line line(f);
-  Real piece = f.start_piece, least(__builtin_huge_val());
-  for (int i = 0; i < t.pieces; ++i) {
+  // Of each joint a half, less on the left, more on the right.
+  Real sum = fused(f.start_piece, Real(t.start_step), Real(t.from_start)), least(__builtin_huge_val());
+  const auto ask = [&](int i, const Real& half) {
     const Real side = line.side(t.joint_x[i], t.joint_y[i]);
     least = least_size(least, side);
-    where(side < 0.0, piece) = piece + 1.0;
+    sum = sum - signed_like(half, side);
+  };
+  if (t.by_signs) {
+    for (int i = 0; i < t.pieces; ++i) ask(i, Real(half_bits[i]));
+    store(sum + 0x1p52, pieces);  // the lowest bits are the entry
+  } else {
+    for (int i = 0; i < t.pieces; ++i) ask(i, Real(0.5));
+    const Real all(t.pieces);
+    where(sum >= all, sum) = sum - all;
+    store(sum, pieces);
   }
-  const Real pieces(t.pieces);
-  where(piece >= pieces, piece) = piece - pieces;
-  return {piece, least > f.sides && f.start_piece >= 0.0, Real(0.0)};
+  return least > f.sides;
 }
 
 /// Any table: the earliest of all exits, and whether it comes certainly first and later than now.
@@ -142,31 +162,43 @@ INLINE Choice first_of_all(const View& f) {
   return best.choice();
 }
 
+/// The normal of a piece out of the domain, or of a conic's what leads from its centre; d leads from the piece's point.
+template <class Kind>
+INLINE Vector normal_of(const Met& met, const Vector& d) {
+  if constexpr (!Kind::segments) return d;
+  const Vector normal{met.first, met.second};
+  if constexpr (!Kind::circles && !Kind::ellipses) return normal;
+  return {choose(met.bent, d.x, normal.x), choose(met.bent, d.y, normal.y)};
+}
+
 /// The duration of the flight to the piece that was chosen: a fraction for either kind of wall.
 template <class Kind>
-INLINE Where meet_by_line(const View& f, const Met& met) {
+INLINE FractionOfTime meet_by_line(const View& f, const Met& met) {
   const Vector e = f.origin - met.point, v = f.velocity;
   Real time, unit;
   Mask decided(true);
-  if constexpr (Kind::circles) {
-    Real a = dot(e, e) - met.second;
-    const Real b = dot(e, v);
-    const Real discriminant = b * b - a * f.square_speed;
-    Real root = sqrt(max(discriminant, Real(0.0)));
-    where(met.stands, a) = Real(0.0);
-    where(met.stands, root) = abs(b);
-    const Real n = abs(b) + root;
-    const Mask away = Kind::convex ? b >= 0.0 : -met.orientation * b <= 0.0;
-    time = choose(away, -met.orientation * a, n);
+  if constexpr (Kind::segments || Kind::circles) {
+    // With the normal m out of the domain, which is e for a circle about it: m.v grows to the wall, and a segment is left
+    // like a circle from inside whose root is 0.
+    const Vector m = normal_of<Kind>(met, e);
+    const Real b = dot(m, v);
+    Real gap = -dot(m, e), n = abs(b);
+    Mask away(true);
+    if constexpr (Kind::circles) {
+      const Real inside = met.second - dot(m, e);
+      gap = choose(met.bent, inside, gap);
+      const Real discriminant = b * b + gap * f.square_speed;
+      where(met.stands, gap) = Real(0.0);
+      // In a convex table the line between two joints cuts the arc.
+      Real root = sqrt(Kind::convex ? discriminant : max(discriminant, Real(0.0)));
+      where(met.stands, root) = n;
+      if constexpr (Kind::segments) where(!met.bent, root) = Real(0.0);
+      n = n + root;
+      away = met.orientation * b >= 0.0;
+      if constexpr (!Kind::convex) decided = met.stands || discriminant > f.roots || !met.bent;
+    }
+    time = choose(away, met.orientation * gap, n);
     unit = choose(away, n, met.orientation * f.square_speed);
-    decided = met.stands || discriminant > f.roots;
-    if constexpr (Kind::segments) decided = decided || !met.bent;
-  }
-  if constexpr (Kind::segments) {
-    const Vector tangent{met.first, met.second};
-    const Real across = cross(tangent, e), along = cross(v, tangent);
-    time = Kind::circles ? choose(met.bent, time, across) : across;
-    unit = Kind::circles ? choose(met.bent, unit, along) : along;
   }
   if constexpr (Kind::ellipses) {
     const FractionOfTime to = time_to_ellipse<Kind>(f, e, met.ellipse, met.orientation, met.stands);
@@ -181,5 +213,5 @@ INLINE Where meet_by_line(const View& f, const Met& met) {
       decided = to.decided;
     }
   }
-  return {time / unit, decided};
+  return {time, unit, decided};
 }

@@ -4,6 +4,12 @@
 using Real = simd::native_simd<double>;
 using Mask = Real::mask_type;
 constexpr int width = static_cast<int>(Real::size());
+/// Registers side by side where one would wait for itself: as many as there is room for.
+#if defined(__AVX512F__)
+constexpr int together = 4;
+#else
+constexpr int together = 2;
+#endif
 
 INLINE Real choose(const Mask& condition, const Real& yes, const Real& no) {
   Real result = no;
@@ -14,25 +20,50 @@ using simd::where;  // where(condition, x) = value: in those lanes alone
 
 /// One bit a lane, the first one's lowest.
 INLINE unsigned bits_of(const Mask& mask) {
-  const Real signs = choose(mask, Real(-1.0), Real(1.0));
 #if defined(__AVX512F__)
-  return _mm512_movepi64_mask(_mm512_castpd_si512(static_cast<__m512d>(signs)));
-#elif defined(__AVX2__)
+  return std::bit_cast<unsigned char>(mask);
+#else
+  const Real signs = choose(mask, Real(-1.0), Real(1.0));
+#if defined(__AVX2__)
   return static_cast<unsigned>(_mm256_movemask_pd(static_cast<__m256d>(signs)));
 #else
   unsigned bits = 0;
   for (int lane = 0; lane < width; ++lane) bits |= static_cast<unsigned>(signs[static_cast<std::size_t>(lane)] < 0.0) << lane;
   return bits;
 #endif
+#endif
 }
 
-/// 0, 1, 2 …: numbers of pieces.
-alignas(64) constexpr double counted[64] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+/// 0, 1, 2 …: numbers of pieces; last a number for none that may be looked up like 0.
+constexpr double no_piece = 0x1p-60;
+alignas(64) constexpr double counted[65] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
                                             22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43,
-                                            44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63};
+                                            44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, no_piece};
 
 INLINE Real load(const double* from) { return Real(from, simd::element_aligned); }
 INLINE void store(const Real& x, double* to) { x.copy_to(to, simd::element_aligned); }
+/// Masks of all lanes between two stages: a bit a lane, or a number below 0 where it holds. (Not in bytes, which may alias anything.)
+struct Masks {
+#if defined(__AVX512F__)
+  unsigned short bits[LanePack::lanes / width];
+#else
+  alignas(64) double signs[LanePack::lanes];
+#endif
+};
+INLINE void store(const Mask& mask, Masks& to, int lane) {
+#if defined(__AVX512F__)
+  to.bits[lane / width] = std::bit_cast<unsigned char>(mask);
+#else
+  store(choose(mask, Real(-1.0), Real(1.0)), to.signs + lane);
+#endif
+}
+INLINE Mask load(const Masks& from, int lane) {
+#if defined(__AVX512F__)
+  return std::bit_cast<Mask>(static_cast<unsigned char>(from.bits[lane / width]));
+#else
+  return load(from.signs + lane) < 0.0;
+#endif
+}
 
 /// a b + c, rounded once where the instruction set can: for choices alone, never for a number that shows.
 INLINE Real fused(const Real& a, const Real& b, const Real& c) {
@@ -59,6 +90,29 @@ INLINE Real least_size(const Real& a, const Real& b) {
   return Real(_mm512_range_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), 0b1010));
 #else
   return min(abs(a), abs(b));
+#endif
+}
+
+/// A size with the sign of another number.
+INLINE Real signed_like(const Real& size, const Real& sign) {
+#if defined(__AVX512F__)
+  // One instruction of three operands, for any port.
+  const __m512i bit = _mm512_set1_epi64(static_cast<long long>(0x8000000000000000ULL));
+  return Real(_mm512_castsi512_pd(_mm512_ternarylogic_epi64(bit, _mm512_castpd_si512(static_cast<__m512d>(sign)),
+                                                            _mm512_castpd_si512(static_cast<__m512d>(size)), 0xca)));
+#else
+  return copysign(size, sign);
+#endif
+}
+
+/// x, or -x where `sign` is negative.
+INLINE Real turned_by(const Real& x, const Real& sign) {
+#if defined(__AVX512F__)
+  const __m512i bit = _mm512_set1_epi64(static_cast<long long>(0x8000000000000000ULL));
+  return Real(_mm512_castsi512_pd(_mm512_ternarylogic_epi64(_mm512_castpd_si512(static_cast<__m512d>(x)),
+                                                            _mm512_castpd_si512(static_cast<__m512d>(sign)), bit, 0x78)));
+#else
+  return x * copysign(Real(1.0), sign);
 #endif
 }
 

@@ -223,13 +223,18 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
   for (long k = 0; k < tests::cases(30, 3000) && !HasFailure(); ++k) {
     const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), angle = dice.between(0.9, 2.2);
     std::vector<tests::Vector> centres;
-    for (int i = dice.whole(1, 3); i > 0; --i)
+    for (int i = k % 3 == 0 ? 1 : dice.whole(1, 3); i > 0; --i)
       centres.push_back({size * (0.22 * i - 0.44), size * dice.between(-0.1, 0.1)});
-    const double radius = dice.coin() ? dice.between(0.02, 0.1) : dice.spread(0.004, 0.1);
+    const double radius = k % 3 == 0 ? dice.between(0.05, 0.3) : dice.coin() ? dice.between(0.02, 0.1) : dice.spread(0.004, 0.1);
     Table table;
     for (const tests::Vector& c : centres) tests::add_loop(table, {geometry::Circle{c, radius * size, false}});
     table.extent = Extent::lattice;
-    table.lattice = geometry::make_lattice({size, dice.coin() ? 0.0 : 0.1 * size}, {size * std::cos(angle), size * std::sin(angle)}, {0, 0});
+    // One disc among rectangles, some of them turned, not in their middle; or hexagons.
+    const bool rectangles = k % 3 == 0;
+    const double along = rectangles ? 0.2 * size : 0.0, stretch = dice.between(1.0, 1.6);
+    const tests::Vector first = rectangles ? tests::Vector{4 * along, dice.coin() ? 0.0 : 3 * along} : tests::Vector{size, dice.coin() ? 0.0 : 0.1 * size};
+    const tests::Vector second = rectangles ? stretch * tests::Vector{-first.y, first.x} : tests::Vector{size * std::cos(angle), size * std::sin(angle)};
+    table.lattice = geometry::make_lattice(first, second, {0, 0});
     add_holes(table, dice);
     const World world(table);
     Case all;

@@ -129,10 +129,20 @@ template <class Number>
 constexpr Number step_of_length(const Number& measure) {
   return (Number(0.75) - measure) * Number(2.0 / 3.0);
 }
+/// What is to be added, as a multiple of a unit normal, to a point on a line up to rounding; d leads to it from another one there.
+template <class Number>
+constexpr Number step_to_line(const BasicVector<Number>& d, const BasicVector<Number>& normal) {
+  return Number(0) - dot(normal, d);
+}
+/// The point x moved by `step` times a vector: how every hit is put on its wall, along a segment's normal or a conic's x - centre.
+template <class Number>
+constexpr BasicVector<Number> moved(const BasicVector<Number>& x, const Number& step, const BasicVector<Number>& way) {
+  return {x.x + step * way.x, x.y + step * way.y};
+}
 /// A vector longer by the fraction `step`.
 template <class Number>
 constexpr BasicVector<Number> lengthened(const BasicVector<Number>& d, const Number& step) {
-  return {d.x + step * d.x, d.y + step * d.y};
+  return moved(d, step, d);
 }
 /// The squared speed V that a particle keeps: weight = 0.75/V, rounded, and what is left of weight V above 3/4. Flight times
 /// are taken from V itself: were the shell's speed another one, if only by its last digit, each hit would lie
@@ -147,18 +157,6 @@ template <class Number>
 constexpr Number step_to_energy_shell(const BasicVector<Number>& v, const EnergyShell<Number>& shell) {
   const Number measure = shell.weight * v.x * v.x + shell.weight * v.y * v.y;
   return ((Number(0.75) - measure) + shell.rest) * Number(2.0 / 3.0);
-}
-/// A point x that is on a circle up to rounding brought back to it, seen from its centre: d = x - centre,
-/// `weight` = 0.75/r^2.
-template <class Number>
-constexpr BasicVector<Number> back_to_circle(const BasicVector<Number>& d, const Number& weight) {
-  return lengthened(d, step_of_length(dot(weight * d, d)));
-}
-/// The same on the line through `from` along the unit vector `tangent`.
-template <class Number>
-constexpr BasicVector<Number> back_to_line(const BasicVector<Number>& x, const BasicVector<Number>& from,
-                                           const BasicVector<Number>& tangent) {
-  return from + dot(x - from, tangent) * tangent;
 }
 
 /// A point on an ellipse up to rounding, d seen from its centre, under the axes that map the ellipse to the unit circle:

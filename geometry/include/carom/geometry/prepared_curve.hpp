@@ -99,7 +99,7 @@ struct PreparedCurve {
     const Vector d = x - centre;
     const double step = step_of_length(dot(weight * d, d));
     if (!(std::fabs(step) < longest_step)) [[unlikely]] return arrive_from_far(d, v, a);
-    const Vector on = centre + lengthened(d, step);
+    const Vector on = moved(x, step, d);
     a.point.x = on.x;
     a.point.y = on.y;
     a.normal.x = -orientation * d.x;
@@ -110,7 +110,7 @@ struct PreparedCurve {
   void arrive_from_far(Vector d, Vector v, Arrival& a) const {
     const double scale = std::sqrt(0.75 / dot(weight * d, d));
     const Vector near{scale * d.x, scale * d.y};
-    reflect_by({centre + back_to_circle(near, weight), -orientation * near, dot(off_power * near, near), off_power}, v, a);
+    reflect_by(settle_on_circle(centre + near, near), v, a);
   }
   [[gnu::always_inline]] static void reflect_by(const Frame& f, Vector v, Arrival& a) {
     set(a, f);
@@ -123,16 +123,17 @@ struct PreparedCurve {
     a.normal.y = f.normal.y;
   }
   [[gnu::always_inline]] Frame settle_on_segment(Vector x) const {
-    return {back_to_line(x, from, tangent), left(tangent), 1.0, 1.0};
+    const Vector outward = -left(tangent);
+    return {moved(x, step_to_line(x - from, outward), outward), left(tangent), 1.0, 1.0};
   }
-  [[gnu::always_inline]] Frame settle_on_circle(Vector x) const {
-    const Vector e = x - centre;
-    return {centre + back_to_circle(e, weight), -orientation * e, dot(off_power * e, e), off_power};
+  [[gnu::always_inline]] Frame settle_on_circle(Vector x) const { return settle_on_circle(x, x - centre); }
+  [[gnu::always_inline]] Frame settle_on_circle(Vector x, Vector e) const {
+    return {moved(x, step_of_length(dot(weight * e, e)), e), -orientation * e, dot(off_power * e, e), off_power};
   }
   [[gnu::always_inline]] Frame settle_on_ellipse(Vector x) const {
     const Vector e = x - centre;
     const OnEllipse<double> on = on_ellipse(e, first_axis, second_axis);
-    return {centre + lengthened(e, step_of_length(on.measure)), -orientation * on.gradient, dot(on.gradient, on.gradient), 1.0};
+    return {moved(x, step_of_length(on.measure), e), -orientation * on.gradient, dot(on.gradient, on.gradient), 1.0};
   }
 };
 

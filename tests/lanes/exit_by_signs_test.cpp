@@ -1,0 +1,97 @@
+// Where the sides of the joints tell the exit: all flights from one piece with the same joints on their right
+// leave by one piece.
+#include "lanes/exit_by_signs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "carom/events/world.hpp"
+#include "carom/geometry/curve.hpp"
+#include "events/next_hit.hpp"
+#include "lanes/make_lane_table.hpp"
+#include "random_tables.hpp"
+
+namespace carom {
+namespace {
+
+using lanes::LaneTable;
+using tests::Dice;
+using tests::Shape;
+using tests::Vector;
+
+/// The piece where the scalar engine sees a flight from a wall end; -1 if it is not one.
+int exit_of(World& world, const Table& table, const LaneTable& t, int wall, double u, Vector velocity) {
+  world.clear();
+  world.limit_hits(1);
+  Particle particle;
+  particle.speed = std::sqrt(dot(velocity, velocity));
+  State state;
+  state.wall = wall;
+  state.u = u;
+  state.position = geometry::point_at(table.walls[static_cast<std::size_t>(wall)].curve, u);
+  state.velocity = velocity;
+  world.add(particle, state);
+  Observer nobody;
+  world.run_until(1e300, nobody);
+  if (world.fate(0) != Fate::capped || !(world.state(0).u > geometry::first_parameter)) return -1;
+  return lanes::piece_at(t, world.state(0).wall, world.state(0).u);
+}
+
+TEST(ExitBySigns, IsOneForAllFlightsWithTheSameJointsOnTheRight) {
+  Dice dice(3);
+  long seen = 0, again = 0, told = 0;
+  for (long k = 0; k < tests::cases(60, 3000) && !HasFailure(); ++k) {
+    const Shape shape = k % 3 == 0 ? Shape::polygon : k % 3 == 1 ? Shape::mushroom : Shape::arcs;
+    const Table table = tests::random_table(shape, 1.0, {}, dice, 2.0);
+    const HitFinder finder(table);
+    const LaneTable t = lanes::make_lane_table(finder);
+    if (!t.by_signs) continue;
+    ++told;
+    World world(table);
+    std::map<int, int> exits;
+    for (int i = 0; i < 1500; ++i) {
+      const int wall = dice.whole(0, static_cast<int>(table.walls.size()) - 1);
+      const geometry::Curve& curve = table.walls[static_cast<std::size_t>(wall)].curve;
+      const double u = geometry::end_parameter(curve) * dice.between(0.001, 0.999);
+      const Vector velocity = dice.direction();
+      if (dot(velocity, geometry::normal_at(curve, u)) < 1e-3) continue;
+      const int entry = lanes::entry_of(t, lanes::piece_at(t, wall, u), geometry::point_at(curve, u),
+                                        velocity, 0x1p-36 * t.size);
+      const int exit = exit_of(world, table, t, wall, u, velocity);
+      if (entry < 0 || exit < 0) continue;
+      const auto [first, is_new] = exits.insert({entry, exit});
+      EXPECT_EQ(first->second, exit) << "table " << k << " entry " << entry;
+      ++seen;
+      again += !is_new;
+    }
+  }
+  EXPECT_GT(told, 10);
+  EXPECT_GT(again, seen / 2);
+}
+
+TEST(ExitBySigns, IsNotAskedForWhereAnArcBulgesIntoTheDomain) {
+  Dice dice(4);
+  for (int k = 0; k < 20; ++k) {
+    const Table table = tests::random_table(Shape::discs, 1.0, {}, dice);
+    EXPECT_FALSE(lanes::make_lane_table(HitFinder(table)).by_signs);
+  }
+}
+
+// A spike that reaches into the cap of an arc is met by flights that leave and reach that arc, too.
+TEST(ExitBySigns, IsNotAskedForWhereAJointLiesInACap) {
+  // Three quarters of the unit circle, its opening to the right; from its ends two walls to a tip far inside
+  // the disc.
+  const double s = std::sqrt(0.5);
+  for (const double tip : {-0.5, 2.0}) {
+    const Table table = tests::loop({tests::CircularArc{{s, s}, {s, -s}, -s, true},
+                                     tests::Segment{{s, -s}, {tip, 0}}, tests::Segment{{tip, 0}, {s, s}}});
+    const LaneTable t = lanes::make_lane_table(HitFinder(table));
+    EXPECT_FALSE(t.convex);
+    EXPECT_EQ(t.by_signs, tip > s);
+  }
+}
+
+}  // namespace
+}  // namespace carom
