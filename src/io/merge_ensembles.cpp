@@ -26,6 +26,10 @@ std::optional<TrajectoryRange> common(const TrajectoryRanges& a, const Trajector
   return {};
 }
 
+std::uint64_t lowest(const TrajectoryRanges& done) {
+  return done.ranges().empty() ? std::numeric_limits<std::uint64_t>::max() : done.ranges().front().first;
+}
+
 void refuse_others(const StoredEnsemble& part, const StoredEnsemble& first) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(Place{part.file, 0, 0, ""}, fmt::format("it does not match '{}': {}", first.file, what),
@@ -133,6 +137,8 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
       static_cast<Stored<Result>&>(sum) = std::move(part);
       continue;
     }
+    // Of several ways to write a number that of the lowest trajectory: the order of the parts cannot matter.
+    if (lowest(part.result.done) < lowest(sum.result.done)) sum.system_toml = part.system_toml;
     if (!sum.result.add(part.result)) throw InternalError("parts overlap");
     sum.result.threads = std::max(sum.result.threads, part.result.threads);
     if (part.result.lanes != sum.result.lanes) sum.result.lanes.reset();

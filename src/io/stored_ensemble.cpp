@@ -73,19 +73,34 @@ Stored<Result> read_one(const std::string& name) {
   return stored;
 }
 
-bool same(const io::Value& a, const io::Value& b) {
-  if (a.kind != b.kind || a.flag != b.flag || a.items.size() != b.items.size() || a.entries.size() != b.entries.size())
-    return false;
-  if (a.text != b.text) {
-    if (a.kind != io::Value::Kind::number) return false;
-    const auto x = ExactNumber(a.text, a.place).to_rational(), y = ExactNumber(b.text, b.place).to_rational();
-    if (!x || !y || x->numerator != y->numerator || x->denominator != y->denominator) return false;
+// Numbers are equal where they mean the same: 10, 1e1 and "20/2". Ensembles know irrational ones as doubles alone.
+bool same_number(const io::Value& a, const io::Value& b) {
+  try {
+    const ExactNumber first(a.text, a.place), second(b.text, b.place);
+    const auto x = first.to_rational(), y = second.to_rational();
+    if (x && y) return x->numerator == y->numerator && x->denominator == y->denominator;
+    return !x && !y && first.to_double() == second.to_double();
+  } catch (const InputError&) {
+    return false;  // a text
   }
+}
+
+bool is_name(const std::string& key) { return key == "name" || key == "wall" || key == "hole" || key == "file"; }
+
+bool same(const io::Value& a, const io::Value& b, const std::string& key) {
+  using Kind = io::Value::Kind;
+  const auto may_be_number = [&](const io::Value& value) {
+    return value.kind == Kind::number || (value.kind == Kind::text && !is_name(key));
+  };
+  if (may_be_number(a) && may_be_number(b)) return (a.kind == b.kind && a.text == b.text) || same_number(a, b);
+  if (a.kind != b.kind || a.text != b.text || a.flag != b.flag || a.items.size() != b.items.size() ||
+      a.entries.size() != b.entries.size())
+    return false;
   for (std::size_t i = 0; i < a.items.size(); ++i)
-    if (!same(a.items[i], b.items[i])) return false;
+    if (!same(a.items[i], b.items[i], key)) return false;
   for (const io::Entry& entry : a.entries) {
     const io::Value* other = b.find(entry.key);
-    if (other == nullptr || !same(entry.value, *other)) return false;
+    if (other == nullptr || !same(entry.value, *other, entry.key)) return false;
   }
   return true;
 }
@@ -108,7 +123,7 @@ std::string difference(const std::string& path, const io::Value& a, const io::Va
   };
   for (const io::Entry& entry : a.entries) {
     const io::Value* other = b.find(entry.key);
-    if (inner(entry.key) == but || (other != nullptr && same(entry.value, *other))) continue;
+    if (inner(entry.key) == but || (other != nullptr && same(entry.value, *other, entry.key))) continue;
     const bool tables = other != nullptr && entry.value.kind == io::Value::Kind::table && other->kind == entry.value.kind;
     if (!tables) return say(inner(entry.key), &entry.value, other);
     const std::string within = difference(inner(entry.key), entry.value, *other, but);
