@@ -22,6 +22,8 @@ FileLock::FileLock(const std::string& file) : path_(file + ".lock") {
 bool FileLock::take() {
   for (;;) {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    // Another user's file may be read alone, and locked even so.
+    if (descriptor_ < 0 && errno == EACCES) descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor_ < 0) return true;  // what cannot be written there will say so itself
     const bool held = ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     const bool there = is_there();

@@ -2,6 +2,7 @@
 #include "io/file_lock.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -31,6 +32,22 @@ TEST(FileLock, RefusesTheSecondAndLeavesNothing) {
   }
   EXPECT_FALSE(std::filesystem::exists(file + ".lock"));
   EXPECT_NO_THROW(lock_archive(file));
+}
+
+// Whoever may only read the lock's file, as that of another user, is refused like anybody.
+TEST(FileLock, OfAnotherUserCounts) {
+  const std::string folder = name_of_own() + "-open", file = folder + "/a";
+  std::filesystem::create_directory(folder);
+  std::filesystem::permissions(folder, std::filesystem::perms::all);
+  {
+    const ArchiveLock first = lock_archive(file);
+    ASSERT_EQ(::chmod((file + ".lock").c_str(), 0444), 0);
+    const bool root = ::geteuid() == 0;  // to whom everything is open
+    EXPECT_TRUE(!root || ::seteuid(65534) == 0);
+    EXPECT_THROW(lock_archive(file), InputError);
+    EXPECT_TRUE(!root || ::seteuid(0) == 0);
+  }
+  std::filesystem::remove_all(folder);
 }
 
 // Threads stand for processes: a lock belongs to an open file.
