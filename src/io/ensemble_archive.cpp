@@ -51,6 +51,7 @@ class EnsembleArchive<Result>::Implementation {
   std::string target;
   LoadedSystem loaded;
   Provenance origin;
+  std::vector<std::string> merged;  // into what is gone on with
   Plan plan;  // first of those that let go of files: its lock is the last
   std::optional<RecordLog> log;
   std::uint64_t kept = 0;
@@ -80,6 +81,7 @@ void EnsembleArchive<Result>::Implementation::write(const Result& result, const 
   if (result.lanes) now.isa = name_of(*result.lanes);
   file.write_head(kind_of(result), loaded, now);
   write_parts(file, result, plan.shard, loaded.system.dynamics.everywhere);
+  if (!merged.empty()) hdf5::write_attribute(file.open_group("provenance").get(), "merged", merged, target);
   write_counts(file, result, loaded.system);
   if (log && last) {
     hdf5::Columns columns = create_records(file, loaded.system);
@@ -119,6 +121,7 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
   Implementation& a = *implementation_;
   a.origin.before = stored.origins;
+  a.merged = stored.merged;
   a.plan.per_trajectory = stored.per_trajectory;
   a.plan.shard = stored.shard;
   const bool goes_on = stored.file == checkpoint_of(file);

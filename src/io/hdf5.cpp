@@ -135,6 +135,21 @@ std::string read_string_attribute(hid_t object, const char* name, const std::str
   return trimmed(std::move(text));
 }
 
+std::vector<std::string> read_string_list_attribute(hid_t object, const char* name, const std::string& file) {
+  if (H5Aexists(object, name) <= 0) return {};
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  if (!attribute) cannot_read(file, name);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  const std::size_t length = H5Tget_size(type.get());
+  if (count < 0 || length == 0 || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0) cannot_read(file, name);
+  std::string all(static_cast<std::size_t>(count) * length, '\0');
+  if (H5Aread(attribute.get(), type.get(), all.data()) < 0) cannot_read(file, name);
+  std::vector<std::string> values;
+  for (std::size_t at = 0; at < all.size(); at += length) values.push_back(trimmed(all.substr(at, length)));
+  return values;
+}
+
 std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file) {
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
   std::int64_t value = 0;

@@ -141,7 +141,7 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
     if (lowest(part.result.done) < lowest(sum.result.done)) sum.system_toml = part.system_toml;
     if (!sum.result.add(part.result)) throw InternalError("parts overlap");
     sum.result.threads = std::max(sum.result.threads, part.result.threads);
-    if (part.result.lanes != sum.result.lanes) sum.result.lanes.reset();
+    sum.result.lanes = std::max(sum.result.lanes, part.result.lanes);  // as with threads: the most of any part
   }
   sum.shard = {};
   sum.file.clear();

@@ -55,6 +55,7 @@ Stored<Result> read_one(const std::string& name) {
   stored.shard = shard_of(attribute("shard"), Place{name, 0, 0, ""});
   stored.origins = ArchiveFile::read_origins(from, name);
   stored.version = stored.origins.back().version;
+  stored.merged = hdf5::read_string_list_attribute(from, "merged", name);
   stored.per_trajectory = H5Lexists(file.get(), "trajectories", H5P_DEFAULT) > 0 ||
                           H5Lexists(file.get(), "records", H5P_DEFAULT) > 0;
   read_counts(file.get(), name, result);

@@ -8,6 +8,24 @@ namespace {
 
 const std::string stadium = "$carom escape stadium --trajectories 300 --quiet --json ";
 
+// An attribute's bytes.
+std::string provenance(const Shell& shell, const std::string& file, const char* name) {
+  const hid_t archive = H5Fopen((shell.folder() + "/" + file).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t group = H5Gopen2(archive, "provenance", H5P_DEFAULT);
+  std::string bytes;
+  if (H5Aexists(group, name) > 0) {
+    const hid_t attribute = H5Aopen(group, name, H5P_DEFAULT), type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+    bytes.resize(H5Tget_size(type) * static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    H5Aread(attribute, type, bytes.data());
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Aclose(attribute);
+  }
+  H5Gclose(group);
+  H5Fclose(archive);
+  return bytes;
+}
+
 TEST(MergedParts, MayWriteEqualNumbersDifferently) {
   const Shell shell;
   ASSERT_EQ(shell(stadium + "--t-max 10 --shard 1/3 -o 1.h5 && " + stadium + "--t-max 10.0 --shard 2/3 -o 2.h5 && " + stadium +
@@ -34,6 +52,25 @@ TEST(MergedParts, MayNotNameHolesDifferently) {
   const Outcome o = shell("$carom merge sum.h5 1.h5 2.h5");
   EXPECT_EQ(o.status, 1);
   EXPECT_NE(o.err.find("table.hole differs"), std::string::npos) << o.err;
+}
+
+TEST(MergedParts, StayNamedWhenTheSumGoesOn) {
+  const Shell shell;
+  ASSERT_EQ(shell("for k in 1 2 3; do " + stadium + "--t-max 9 --shard $k/3 -o $k.h5 || exit 9; done; "
+                  "$carom merge sum.h5 1.h5 3.h5").status, 0);
+  const std::string before = provenance(shell, "sum.h5", "merged");
+  EXPECT_NE(before.find("3.h5"), std::string::npos);
+  ASSERT_EQ(shell("$carom escape --resume sum.h5").status, 0);
+  EXPECT_EQ(provenance(shell, "sum.h5", "merged"), before);
+}
+
+// As with threads, the sum has the most of any part.
+TEST(MergedParts, OfTwoInstructionSetsHaveTheWider) {
+  const Shell shell;
+  if (shell(stadium + "--t-max 9 --shard 2/2 --isa avx2 -o 2.h5").status != 0) GTEST_SKIP() << "no AVX2";
+  ASSERT_EQ(shell(stadium + "--t-max 9 --shard 1/2 --isa baseline -o 1.h5").status, 0);
+  for (const std::string order : {"1.h5 2.h5", "2.h5 1.h5"})
+    EXPECT_EQ(json_value(shell("$carom merge sum.h5 --force --json " + order).out, "isa"), "\"avx2\"") << order;
 }
 
 }  // namespace

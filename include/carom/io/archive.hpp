@@ -104,6 +104,7 @@ struct StoredEnsemble {
   std::string engine;       ///< "events", "steps" or "auto"
   bool everywhere = false;  ///< --engine steps: integrates everything
   std::vector<Origin> origins;
+  std::vector<std::string> merged;  ///< the files that `carom merge` added
   Shard shard;
   bool per_trajectory = false;
 };
