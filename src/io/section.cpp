@@ -32,6 +32,20 @@ double as_positive(const Value& value) {
   return x;
 }
 
+namespace {
+
+// A whole number that 64 bits do not hold?
+bool is_too_large(const Value& value) {
+  try {
+    const auto number = ExactNumber(value.text, value.place).to_rational();
+    return number && number->denominator == "1" && number->numerator.size() >= 20 && number->numerator.front() != '-';
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t most) {
   const std::string expected =
       most == UINT64_MAX ? "a whole number of at least " + std::to_string(least)
@@ -41,7 +55,7 @@ std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t mo
     if (const auto count = whole_number(ExactNumber(value.text, value.place), least, most)) return *count;
   } catch (const InputError&) {  // the reason would speak of sqrt and pi
   }
-  throw InputError(value.place, "must be " + expected + ", not " + value.text);
+  throw InputError(value.place, "must be " + (most == UINT64_MAX && is_too_large(value) ? "a whole number below 2^64" : expected) + ", not " + value.text);
 }
 
 const std::string& as_text(const Value& value) {

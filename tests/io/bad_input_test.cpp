@@ -152,7 +152,7 @@ TEST(BadInput, RunsMustEndAndHaveTrajectories) {
                     {"[run]\ntrajectories = 1.5\n", ", not 1.5"},
                     {"[run]\nseed = -1\n", "run.seed: must be a whole number of at least 0, not -1"},
                     {"[run]\nseed = 18446744073709551616\n", "not valid TOML"},
-                    {"[run]\nseed = \"18446744073709551616\"\n", "run.seed: must be a whole number"},
+                    {"[run]\nseed = \"18446744073709551616\"\n", "run.seed: must be a whole number below 2^64, not 18446744073709551616"},
                     {"[run]\ncollisions = 0\n", "run.collisions: must be a whole number of at least 1"},
                     {"[run]\nsample = 0\n", "run.sample: must be positive"}});
 }
