@@ -142,7 +142,8 @@ std::vector<std::string> read_string_list_attribute(hid_t object, const char* na
   const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
   const std::size_t length = H5Tget_size(type.get());
-  if (count < 0 || length == 0 || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0) cannot_read(file, name);
+  const bool texts = H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) == 0;
+  if (count < 0 || length == 0 || !texts) cannot_read(file, name);
   std::string all(static_cast<std::size_t>(count) * length, '\0');
   if (H5Aread(attribute.get(), type.get(), all.data()) < 0) cannot_read(file, name);
   std::vector<std::string> values;
@@ -188,11 +189,15 @@ std::string read_text(hid_t parent, const char* name, const std::string& file) {
 }
 
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description description,
-                    const std::string& file) {
+                    const std::string& file, Checksum checksum) {
   const hsize_t size = rows;
   const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
   const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
   check(H5Pset_alloc_time(layout.get(), H5D_ALLOC_TIME_EARLY) >= 0, file);
+  if (checksum == Checksum::fletcher32 && rows > 0) {
+    const hsize_t chunk = std::min<hsize_t>(size, 65536);  // filters work on chunks
+    check(H5Pset_chunk(layout.get(), 1, &chunk) >= 0 && H5Pset_fletcher32(layout.get()) >= 0, file);
+  }
   Handle dataset = checked(
       H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT), H5Dclose, file);
   describe(dataset.get(), description, file);

@@ -55,7 +55,8 @@ std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t mo
     if (const auto count = whole_number(ExactNumber(value.text, value.place), least, most)) return *count;
   } catch (const InputError&) {  // the reason would speak of sqrt and pi
   }
-  throw InputError(value.place, "must be " + (most == UINT64_MAX && is_too_large(value) ? "a whole number below 2^64" : expected) + ", not " + value.text);
+  const bool too_large = most == UINT64_MAX && is_too_large(value);
+  throw InputError(value.place, "must be " + (too_large ? "a whole number below 2^64" : expected) + ", not " + value.text);
 }
 
 const std::string& as_text(const Value& value) {
