@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "forces/nearest_copy.hpp"
 #include "forces/potential.hpp"
 
 namespace carom {
@@ -70,6 +71,27 @@ double shortest_period(const geometry::Lattice& lattice) {
   return std::sqrt(square);
 }
 
+/// Supports none of which lies in another, but together they cover all. Edges that lie on one another, or within
+/// rounding, could not be told apart by a flight: what stands out of another support by less than a millionth of
+/// its radius makes that one larger instead, which is as right.
+std::vector<Support> outermost(const std::vector<Support>& all, const std::optional<geometry::Lattice>& lattice) {
+  const auto takes_in = [&](Support& large, const Support& small) {
+    Vector d = small.center - large.center;
+    if (lattice) d = nearest_copy(d, *lattice);
+    const double needed = std::sqrt(dot(d, d)) + small.radius;
+    if (needed > large.radius * (1.0 + 0x1p-20)) return false;
+    large.radius = std::max(large.radius, needed);
+    return true;
+  };
+  std::vector<Support> found;
+  for (Support s : all) {
+    if (std::any_of(found.begin(), found.end(), [&](Support& other) { return takes_in(other, s); })) continue;
+    std::erase_if(found, [&](const Support& other) { return takes_in(s, other); });
+    found.push_back(s);
+  }
+  return found;
+}
+
 /// Pairs feel their nearest copies alone: all others must be out of range.
 void check_range(const InteractionSpec& s, double range, const geometry::Lattice& lattice) {
   if (!std::isfinite(range))
@@ -121,7 +143,10 @@ std::shared_ptr<const ForceField> ForceField::build(const ForceSpec& spec, const
       if (lattice) check_range(s, field->pair_range_, *lattice);
     }
   }
-  if (field->everywhere_) field->supports_.clear();
+  if (field->everywhere_)
+    field->supports_.clear();
+  else
+    field->supports_ = outermost(field->supports_, lattice);
   return field;
 }
 

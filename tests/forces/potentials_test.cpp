@@ -200,6 +200,32 @@ TEST(LatticeSums, AreCoveredOrNot) {
   EXPECT_TRUE(on_lattice(s, square)->supports().empty());
 }
 
+// One support each for what repeats others, lies in others, or stands out by rounding; on a lattice also in copies.
+TEST(Supports, DoNotLieInOthers) {
+  PotentialSpec s = spec_of(Kind::gaussian);
+  s.width = 0.02;
+  s.centers = {{0, 0}, {0.5, 0.25}, {0, 0}, {0.5, 0.25 + 0x1p-53}};
+  ForceSpec spec;
+  spec.potentials = {s, s, s};
+  spec.potentials[1].width = 0.021;  // about the same centres, larger
+  spec.potentials[2].width = 0.005;
+  spec.potentials[2].centers = {{0.01, 0}, {0.2, 0.25}};  // inside the first, beside the second
+  const auto in_plane = ForceField::build(spec, {heavy()}, std::nullopt);
+  ASSERT_EQ(in_plane->supports().size(), 3u);
+  PotentialSpec one = s;
+  one.width = 0.021;
+  const double radius = field_of(one)->supports()[0].radius;
+  for (const Support& support : in_plane->supports())
+    EXPECT_NEAR(support.radius, support.center.x == 0.2 ? radius * 0.005 / 0.021 : radius, 1e-15);
+
+  const geometry::Lattice lattice = geometry::make_lattice({1, 0}, {0.5, 0x1.bb67ae8584caap-1}, {0, 0});
+  for (PotentialSpec& p : spec.potentials) p.lattice = true;
+  spec.potentials[0].centers = {{0, 0}, {0.5, 0x1.bb67ae8584cabp-1}, {-3, 0}};  // an ulp above a lattice point
+  spec.potentials[1].centers = {{4, 0}};
+  spec.potentials[2].centers = {{0.01, 0}};
+  EXPECT_EQ(ForceField::build(spec, {heavy()}, lattice)->supports().size(), 1u);
+}
+
 // What is left out, summed itself, at the points of the cell where most is left out: its corners.
 TEST(LatticeSums, LeaveOutLessThanTheirBound) {
   std::mt19937_64 generator(5);
