@@ -70,7 +70,7 @@ const std::vector<KeyDescription>& key_table() {
 
       {"particles", "", "count", "whole number", "1", "number of particles"},
       {"particles", "", "speed", "number or list", "1",
-       "speed; if neither it nor energy is given, the length of initial.velocity"},
+       "speed; if neither it nor energy is given, the length of initial.velocity or of those of the starts"},
       {"particles", "", "energy", "number or list", "", "energy instead of speed: kinetic, and potential where forces act; interacting particles share the sum"},
       {"particles", "", "mass", "number or list", "1", "mass"},
       {"particles", "", "charge", "number or list", "1", "charge, of either sign or 0"},
@@ -92,7 +92,7 @@ const std::vector<KeyDescription>& key_table() {
       {"initial", "line", "from", "point", "", "one end of the line of starts"},
       {"initial", "line", "to", "point", "", "its other end"},
       {"initial", "list", "starts", "list of lists", "",
-       "one [x, y, vx, vy] a trajectory; the velocity gives the direction only"},
+       "one [x, y, vx, vy] a trajectory; the velocity is the speed, too, where [particles] gives none"},
       {"initial", "file", "path", "string", "",
        "a text file with x y vx vy in each line, relative to the system file: a list kept elsewhere"},
       {"initial.grid", "", "from", "number", "", "first value of a grid {from, to, count}"},

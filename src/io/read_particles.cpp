@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "io/read.hpp"
+#include "io/starts_file.hpp"
 
 namespace carom::io {
 namespace {
@@ -207,6 +208,10 @@ std::vector<double> read_energies(Value& root, std::size_t particles) {
   return energies;
 }
 
-std::vector<Particle> read_particles(Value& root) { return Reader(root).read(); }
+std::vector<Particle> read_particles(Value& root) {
+  take_starts_from_file(*root.find("initial"));
+  take_speeds_from_starts(root);
+  return Reader(root).read();
+}
 
 }  // namespace carom::io

@@ -9,4 +9,7 @@ namespace carom::io {
 /// again without it. Anything else is left alone.
 void take_starts_from_file(Value& initial);
 
+/// Where starts are listed, and neither speed nor energy is given, the velocities' lengths are the speeds.
+void take_speeds_from_starts(Value& root);
+
 }  // namespace carom::io

@@ -49,6 +49,29 @@ TEST_F(StartsFile, ResolvedSystemsHoldTheStarts) {
   EXPECT_EQ(again.system.initial.positions, loaded.system.initial.positions);
 }
 
+// As with one start: its length is the speed unless one is set.
+TEST_F(StartsFile, VelocitiesAreSpeedsToo) {
+  EXPECT_EQ(read_with("0.25 0.5 2 0\n0.5 0.5 0 -2\n0.5 0.25 1.2 1.6\n").system.particles.at(0).speed, 2.0);
+  EXPECT_HAS(fault_of("0.25 0.5 2 0\n0.5 0.5 0 1\n"), "starts.txt, line 2, column 1");
+  const auto speeds = [](const std::string& particles, const std::string& starts) {
+    const LoadedSystem loaded =
+        read_system(square(particles + "[initial]\nkind = \"list\"\nstarts = " + starts + "\n"), "list");
+    EXPECT_EQ(read_system(loaded.resolved_toml, "again").resolved_toml, loaded.resolved_toml);
+    std::vector<double> result;
+    for (const Particle& p : loaded.system.particles) result.push_back(p.speed);
+    return result;
+  };
+  using Speeds = std::vector<double>;
+  const char* const two = "[[0.1, 0.1, 2, 0], [0.1, 0.2, 0.5, 0]]";
+  EXPECT_EQ(speeds("[particles]\ncount = 2\n", two), (Speeds{2.0, 0.5}));
+  EXPECT_EQ(speeds("[particles]\ncount = 4\n", two), (Speeds{2.0, 0.5, 2.0, 0.5}));
+  EXPECT_EQ(speeds("[particles]\nmass = [1, 2]\n", two), (Speeds{2.0, 0.5}));
+  EXPECT_EQ(speeds("[particles]\ncount = 2\nspeed = 3\n", two), (Speeds{3.0, 3.0}));
+  EXPECT_EQ(speeds("[particles]\nenergy = 2\n", two), (Speeds{2.0}));
+  EXPECT_THROW(speeds("[particles]\ncount = 3\n", two), InputError);
+  EXPECT_THROW(speeds("", two), InputError);
+}
+
 TEST_F(StartsFile, FaultsNameTheLine) {
   const std::pair<const char*, const char*> faults[] = {
       {"0.5 0.5 1 0\n0.5 0.5 1\n", "starts.txt, line 2, column 1: a start has four numbers, but the line has 3"},
