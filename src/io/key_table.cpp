@@ -66,7 +66,7 @@ const std::vector<KeyDescription>& key_table() {
 
       {"field", "", "B", "number", "0", "magnetic field; B > 0 turns a positive charge clockwise"},
       {"field", "", "larmor_radius", "number", "",
-       "radius of the Larmor circles instead of B, which is then > 0"},
+       "radius of the Larmor circles instead of B, which is then > 0; with an energy where forces act: of those where they vanish"},
 
       {"particles", "", "count", "whole number", "1", "number of particles"},
       {"particles", "", "speed", "number or list", "1",
