@@ -219,7 +219,7 @@ TEST(LaneRuns, LeaveTheOpenPlane) {
 // Cells are crossed as the scalar engine crosses them; flights over very many cells are its own.
 TEST(LaneRuns, CrossTheCellsOfLattices) {
   Dice dice(7);
-  Totals totals;
+  Totals totals, in_rectangles;
   for (long k = 0; k < tests::cases(30, 3000) && !HasFailure(); ++k) {
     const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), angle = dice.between(0.9, 2.2);
     std::vector<tests::Vector> centres;
@@ -231,9 +231,10 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
     table.extent = Extent::lattice;
     // One disc among rectangles, some of them turned, not in their middle; or hexagons.
     const bool rectangles = k % 3 == 0;
-    const double along = rectangles ? 0.2 * size : 0.0, stretch = dice.between(1.0, 1.6);
-    const tests::Vector first = rectangles ? tests::Vector{4 * along, dice.coin() ? 0.0 : 3 * along} : tests::Vector{size, dice.coin() ? 0.0 : 0.1 * size};
-    const tests::Vector second = rectangles ? stretch * tests::Vector{-first.y, first.x} : tests::Vector{size * std::cos(angle), size * std::sin(angle)};
+    const tests::Vector first{size, dice.coin() ? 0.0 : (rectangles ? 0.75 : 0.1) * size};
+    const double stretch = first.y == 0.0 ? dice.between(0.8, 1.6) : dice.whole(1, 2);  // at right angles to the last digit
+    const tests::Vector second =
+        rectangles ? stretch * tests::Vector{-first.y, first.x} : size * tests::Vector{std::cos(angle), std::sin(angle)};
     table.lattice = geometry::make_lattice(first, second, {0, 0});
     add_holes(table, dice);
     const World world(table);
@@ -242,13 +243,19 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
     if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size;
     for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, 1.0));
     if (!LaneWorld::suits(table, {all.starts[0].particle})) continue;
+    const Totals before = totals;
     compare(table, all, totals, std::to_string(k).c_str());
+    if (!rectangles) continue;
+    in_rectangles.hits += totals.hits - before.hits;
+    in_rectangles.scalar += totals.scalar - before.scalar;
   }
   EXPECT_GT(totals.hits, 100000u);
   EXPECT_GT(totals.fates[Fate::escaped], 100);
   EXPECT_GT(totals.fates[Fate::survived], 100);
   // Among small discs flights often cross more cells than lanes follow.
   EXPECT_LT(static_cast<double>(totals.scalar), 0.15 * static_cast<double>(totals.hits));
+  EXPECT_GT(in_rectangles.hits, 10000u);
+  EXPECT_LT(static_cast<double>(in_rectangles.scalar), 0.05 * static_cast<double>(in_rectangles.hits));
 }
 
 // A hole that is all of a closed wall has no end that a start could touch.
