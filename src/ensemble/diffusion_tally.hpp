@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "carom/base/digest.hpp"
 #include "carom/ensemble/diffusion.hpp"
 #include "ensemble/ensemble_run.hpp"
+#include "ensemble/first_reports.hpp"
 
 namespace carom {
 
@@ -21,6 +24,7 @@ struct DiffusingParticle {
   int last_wall = -1;
   const std::vector<double>* squares = nullptr;
   std::string report;
+  std::size_t samples = 0;  ///< of the squares, those that count
 };
 
 /// Adds whole trajectories to what a thread of the run has done.
@@ -37,7 +41,8 @@ class DiffusionTally {
     std::uint64_t hits = 0;
     const TrajectoryRange range{trajectory, trajectory + 1};
     thread_.deliver(range, [&](DiffusionResult& sum) {
-      for (const DiffusingParticle& p : particles) {
+      for (const DiffusingParticle& particle : particles) {
+        const DiffusingParticle p = held_by_numbers(particle, sum.sums.times());
         add_to(sum, trajectory, p);
         hits += p.hits;
       }
@@ -49,12 +54,23 @@ class DiffusionTally {
   }
 
  private:
+  /// Who is so far away that |r - r(0)|^4 is no number is lost there.
+  static DiffusingParticle held_by_numbers(DiffusingParticle p, const std::vector<double>& times) {
+    const std::vector<double>& squares = *p.squares;
+    const auto beyond = std::find_if(squares.begin(), squares.end(), [](double s) { return !std::isfinite(s * s); });
+    p.samples = static_cast<std::size_t>(beyond - squares.begin());
+    if (beyond == squares.end()) return p;
+    p.fate = Fate::lost;
+    p.time = times[p.samples];
+    p.report = "particle " + std::to_string(p.number) + " is lost: it is so far away that |r - r(0)|^4 is not a number";
+    return p;
+  }
   static void add_to(DiffusionResult& sum, std::uint64_t trajectory, const DiffusingParticle& p) {
     count(sum, p.fate);
-    for (std::size_t k = 0; k < p.squares->size(); ++k) sum.sums.add(trajectory, k, (*p.squares)[k]);
+    for (std::size_t k = 0; k < p.samples; ++k) sum.sums.add(trajectory, k, (*p.squares)[k]);
     sum.collisions += p.hits;
     sum.digest += trajectory_hash(p.number, static_cast<std::uint64_t>(p.fate), p.time, p.hits, p.last_wall);
-    if (p.fate == Fate::lost && sum.reports.size() < EnsembleResult::most_reports) sum.reports.emplace_back(p.number, p.report);
+    if (p.fate == Fate::lost) keep_first(sum.reports, p.number, p.report);
   }
   static void count(DiffusionResult& sum, Fate fate) {
     ++sum.trajectories;

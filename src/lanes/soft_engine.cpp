@@ -50,9 +50,7 @@ Group::Surroundings surroundings_of(const Table& table, const Dynamics& dynamics
     in.lattice = &*table.lattice;
     in.centre = centre_of_cell(*table.lattice);
   }
-  for (std::size_t i = 0; i < table.walls.size(); ++i)
-    for (const Barrier<double>& b : barriers_of(table.walls[i].curve, static_cast<int>(i), table.lattice))
-      in.barriers.push_back(b);
+  in.barriers = barriers_of(table);
   if (!table.walls.empty()) in.longest_way = longest_way(table);
   return in;
 }
@@ -166,8 +164,8 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, double t_end, std::span
   State& s = track.state;
   const Time end = next_multiple(s.time, step_);
   std::size_t sampled = 0;
-  const auto emit = [&](bool late, const Time& until) {
-    for (; sampled < times.size() && (late || Time(times[sampled]) < until); ++sampled)
+  const auto emit_while = [&](auto due) {
+    for (; sampled < times.size() && due(Time(times[sampled])); ++sampled)
       sample(sampled, group_.state_at(0, times[sampled]));
   };
   for (;;) {
@@ -178,9 +176,13 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, double t_end, std::span
     const Group::Next next = group_.predict(never);
     const Time when = group_.next_time();
     const bool over = when > Time(t_end);
-    emit(over, when);
+    if (!next.fault.empty()) {
+      // There are no states within a step that fails.
+      emit_while([&](const Time& t) { return !(t > s.time); });
+      return s.time < Time(t_end) ? this->end(track, Fate::lost, next.fault) : Outcome::over;
+    }
+    emit_while([&](const Time& t) { return over || t < when; });
     if (over) return Outcome::over;
-    if (!next.fault.empty()) return this->end(track, Fate::lost, next.fault);
     group_.advance();
     if (next.member < 0) return end_step(track);
     if (hit(track, *next.barrier)) return Outcome::ended;

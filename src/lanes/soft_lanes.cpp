@@ -57,15 +57,10 @@ class SoftLanes::Implementation {
       while (next < times.size() && (last ? Time(times[next]) <= Time(t_end) : Time(times[next]) < end)) ++next;
       const std::span<const double> due = times.subspan(from, next - from);
       if (!due.empty()) start_ = pack_;
-      // Without walls nothing can happen in a step that is not completed.
-      pack_.calls = 0;
-      if (!last || engine_.has_walls()) {
-        const double duration = std::clamp(end - now_, 0.0, std::numeric_limits<double>::max());
-        engine_.take_step(duration, pack_);
-        engine_.find_calls(duration, pack_);
-      } else {
-        std::fill(std::begin(pack_.undecided), std::end(pack_.undecided), false);
-      }
+      // The step that ends too late is taken as well: it may meet a wall in time, or fail.
+      const double duration = std::clamp(end - now_, 0.0, std::numeric_limits<double>::max());
+      engine_.take_step(duration, pack_);
+      engine_.find_calls(duration, pack_);
       for (std::size_t i = 0; i < due.size(); ++i) emit(walks.size(), first, from + i, due[i], sample);
       moved_.clear();
       for (std::size_t k = 0; k < walks.size(); ++k)
@@ -143,10 +138,8 @@ class SoftLanes::Implementation {
     for (std::size_t k = 0; k < walks.size(); ++k) {
       Walk& walk = walks[k];
       SoftTrack& track = tracks_[k];
-      // With walls the last step was tried, and is not made.
-      if (place_[k] == Place::in_lane)
-        engine_.has_walls() ? SoftEngine::read_start(pack_, static_cast<int>(k), now_, track.state)
-                            : SoftEngine::read(pack_, static_cast<int>(k), now_, track.state);
+      // The last step was tried, and is not made.
+      if (place_[k] == Place::in_lane) SoftEngine::read_start(pack_, static_cast<int>(k), now_, track.state);
       walk.state = track.state;
       walk.fate = track.fate;
       walk.ended = track.ended;

@@ -1,0 +1,160 @@
+// Steps that fail: whoever takes one is lost where it begins, and there are no states within it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/world.hpp"
+#include "carom/lanes/soft_lanes.hpp"
+#include "systems.hpp"
+
+namespace carom {
+namespace {
+
+/// Above the saddles of Hénon-Heiles: some run away, and their force overflows.
+System running_away() {
+  return make_system(R"toml(
+[particles]
+speed = 0.6
+[initial]
+kind = "rectangle"
+min = [-0.3, -0.3]
+max = [0.3, 0.3]
+[[potential]]
+kind = "henon-heiles"
+[integrator]
+step = 0.05
+[run]
+t_max = 20
+trajectories = 100
+times = { from = 0.01, to = 20, count = 200, spacing = "linear" }
+)toml");
+}
+
+/// The potential is defined in the right half of a box alone.
+System over_an_edge() {
+  return make_system(R"toml(
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[particles]
+speed = 1
+[initial]
+kind = "rectangle"
+min = [0.6, 0.1]
+max = [0.9, 0.9]
+[[potential]]
+kind = "expression"
+expression = "sqrt(x - 1/2)"
+[integrator]
+step = 0.01
+[run]
+t_max = 5
+trajectories = 100
+times = { from = 0.003, to = 4.996, count = 200, spacing = "linear" }
+)toml");
+}
+
+class Listener : public Observer {
+ public:
+  void sample(int, Time, const State& state) override { states.push_back(state); }
+  void end(const EndEvent& event) override { last = event; }
+  std::vector<State> states;
+  std::optional<EndEvent> last;
+};
+
+/// When each of the first trajectories was lost, if it was.
+std::vector<std::optional<Time>> losses(const System& system, std::uint64_t trajectories) {
+  const Sampler sampler(system);
+  World world(*system.table, system.dynamics);
+  std::vector<std::optional<Time>> all;
+  for (std::uint64_t k = 0; k < trajectories; ++k) {
+    world.clear();
+    add_start(world, sampler, k, 0);
+    Listener listener;
+    world.run_until(system.run.t_max, listener);
+    all.emplace_back();
+    if (listener.last && listener.last->fate == Fate::lost) all.back() = listener.last->time;
+  }
+  return all;
+}
+
+TEST(FailingSteps, AreNotAveraged) {
+  for (const System& system : {running_away(), over_an_edge()}) {
+    DiffusionOptions options;
+    const DiffusionResult one = run_diffusion(system, options);
+    EXPECT_GT(one.lost, 10u);
+    EXPECT_EQ(one.lost + one.survived, system.run.trajectories);
+    System as_long = system;
+    as_long.run.t_max = system.run.times.back();
+    EXPECT_EQ(one.lost, run_escape(as_long).counts.lost);
+    const auto points = DisplacementMoments(one.sums).points();
+    EXPECT_EQ(points.back().count, one.survived);
+    const auto lost = losses(system, system.run.trajectories);
+    for (const MomentPoint& point : points) {
+      std::uint64_t there = 0;
+      for (const auto& when : lost) there += !when || !(*when < Time(point.t));
+      // Whoever runs away is far away before its step fails.
+      ASSERT_LE(point.count, there) << point.t;
+      ASSERT_GE(point.count + (system.table->walls.empty() ? one.lost : 0), there) << point.t;
+      ASSERT_EQ(std::isnan(point.square.value), point.count == 0) << point.t;
+    }
+    for (const InstructionSet set : available_instruction_sets()) {
+      options.lanes = set;
+      const DiffusionResult lanes = run_diffusion(system, options);
+      EXPECT_EQ(lanes.digest, one.digest) << name_of(set);
+      EXPECT_EQ(lanes.lost, one.lost) << name_of(set);
+      const auto also = DisplacementMoments(lanes.sums).points();
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        ASSERT_EQ(also[k].count, points[k].count);
+        if (points[k].count == 0) break;
+        ASSERT_EQ(also[k].square.value, points[k].square.value);
+      }
+    }
+  }
+}
+
+// A run that ends within a step that fails.
+TEST(FailingSteps, FailInTheLastStep) {
+  for (const System& system : {running_away(), over_an_edge()}) {
+    const Sampler sampler(system);
+    const auto lost = losses(system, 60);
+    const double h = system.dynamics.integrator.step;
+    int seen = 0;
+    for (std::uint64_t k = 0; k < lost.size(); ++k) {
+      if (!lost[k] || lost[k]->value() < h) continue;
+      ++seen;
+      const double from = lost[k]->value();
+      const std::vector<double> times{from - 0.3 * h, from, from + 0.3 * h, from + 0.6 * h};
+      World world(*system.table, system.dynamics);
+      world.sample_at(times);
+      add_start(world, sampler, k, 0);
+      const SoftLanes::Walk start{world.state(0)};
+      Listener listener;
+      world.run_until(times.back(), listener);
+      ASSERT_TRUE(listener.last);
+      EXPECT_EQ(listener.last->fate, Fate::lost);
+      EXPECT_EQ(listener.last->time.value(), from);
+      EXPECT_EQ(listener.states.size(), *lost[k] < Time(from) ? 1u : 2u);
+      for (const State& s : listener.states) EXPECT_TRUE(std::isfinite(dot(s.position, s.position)));
+
+      SoftLanes lanes(*system.table, system.dynamics, InstructionSet::baseline);
+      std::vector<SoftLanes::Walk> walks{start};
+      std::size_t samples = 0;
+      lanes.run(system.particles[0], walks, times.back(), times, [&](std::size_t, std::size_t, const State&) { ++samples; },
+                {});
+      EXPECT_EQ(walks[0].fate, Fate::lost);
+      EXPECT_EQ(walks[0].ended.value(), from);
+      EXPECT_EQ(samples, listener.states.size());
+    }
+    EXPECT_GT(seen, 5);
+  }
+}
+
+}  // namespace
+}  // namespace carom
