@@ -53,22 +53,20 @@ std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t traject
     }
     if (states.size() == count) return states;
   }
-  states.clear();
-  while (states.size() < count) {
-    State next = draw_next(states);
-    for (int draw = 0; !fits(states, next); ++draw) {
-      if (draw == draws_of_one) {
-        Place place = system_.initial.place;
-        place.key = "particles.count";
-        throw InputError(place,
-                         fmt::format("no room was found for disc {} of {} beside the others", states.size(), count),
-                         "fewer or smaller discs, or kind = \"list\" with their places");
-      }
-      next = draw_next(states);
+  for (std::int64_t attempt = patience(1, trajectory); attempt > 0; --attempt) {
+    states.clear();
+    while (states.size() < count) {
+      State next = draw_next(states);
+      for (int draw = 0; draw < draws_of_one && !fits(states, next); ++draw) next = draw_next(states);
+      if (!fits(states, next)) break;
+      states.push_back(next);
     }
-    states.push_back(next);
+    if (states.size() == count) return states;
   }
-  return states;
+  Place place = system_.initial.place;
+  place.key = "particles.count";
+  throw InputError(place, fmt::format("no room was found for disc {} of {} beside the others", states.size(), count),
+                   "fewer or smaller discs, or kind = \"list\" with their places");
 }
 
 }  // namespace carom

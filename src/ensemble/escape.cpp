@@ -150,7 +150,10 @@ bool EscapeResult::add(const EscapeResult& other) {
 }
 
 EscapeResult run_escape(const System& system, const EscapeOptions& options) {
-  return run_in_crew(options, [&](Post post) { return EscapeEnsemble(system, options, post).run(); });
+  return run_in_crew(options, [&](Post post) {
+    check_start(system);
+    return EscapeEnsemble(system, options, post).run();
+  });
 }
 
 }  // namespace carom

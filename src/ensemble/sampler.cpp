@@ -21,9 +21,9 @@ using Kind = InitialCondition::Kind;
 
 // A box of which the domain fills less than about 1e-5, or a line of which 5e-4, is reported as missed: within seconds
 // even if each of the points needs exact arithmetic. A single point is drawn once.
-constexpr int most_tries = 1'000'000, most_tries_of_a_line = 30'000;
+constexpr std::int64_t most_tries = 1'000'000, most_tries_of_a_line = 30'000;
 
-int tries_in(Vector low, Vector high) {
+std::int64_t tries_in(Vector low, Vector high) {
   const bool no_width = low.x == high.x, no_height = low.y == high.y;
   return no_width && no_height ? 1 : no_width || no_height ? most_tries_of_a_line : most_tries;
 }
@@ -195,6 +195,12 @@ void Sampler::add_source(int wall, double from, double to) {
   sources_.push_back({wall, from, to, bound, before + bound * (to - from)});
 }
 
+/// Whether a start is possible is the first trajectory's to say (check_start). With its limit, one of a great many
+/// later ones would fail by chance.
+std::int64_t Sampler::patience(std::int64_t of_the_first, std::uint64_t trajectory) {
+  return trajectory == 0 ? of_the_first : 1000 * of_the_first;
+}
+
 State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) const {
   const Dynamics& dynamics = system_.dynamics;
   if (dynamics.forces && (dynamics.forces->interacts() || system_.of_discs()) && system_.particles.size() > 1)
@@ -213,11 +219,11 @@ State Sampler::draw_free(const World& world, RandomStream& random, std::uint64_t
   const std::uint64_t number = trajectory * system_.particles.size() + static_cast<std::uint64_t>(particle);
   switch (initial.kind) {
     case Kind::uniform:
-      return in_box(world, random, low_, high_, speed, "the box around the table");
+      return in_box(world, random, trajectory, low_, high_, speed, "the box around the table");
     case Kind::rectangle:
-      return in_box(world, random, initial.low, initial.high, speed, "the rectangle");
+      return in_box(world, random, trajectory, initial.low, initial.high, speed, "the rectangle");
     case Kind::line:
-      return on_line(world, random, speed);
+      return on_line(world, random, trajectory, speed);
     case Kind::point:
       return at_point(world, initial.position, initial.velocity, speed);
     case Kind::list: {
@@ -233,10 +239,10 @@ State Sampler::draw_free(const World& world, RandomStream& random, std::uint64_t
   throw InternalError("unknown kind of initial condition");
 }
 
-State Sampler::in_box(const World& world, RandomStream& random, Vector low, Vector high, double speed,
-                      const char* where) const {
-  const int most = tries_in(low, high);
-  for (int tries = 0; tries < most; ++tries) {
+State Sampler::in_box(const World& world, RandomStream& random, std::uint64_t trajectory, Vector low, Vector high,
+                      double speed, const char* where) const {
+  const std::int64_t most = low == high ? 1 : patience(tries_in(low, high), trajectory);
+  for (std::int64_t tries = 0; tries < most; ++tries) {
     const double x = low.x + random.uniform() * (high.x - low.x);
     const double y = low.y + random.uniform() * (high.y - low.y);
     State state = off_walls(*system_.table, {x, y}, {});
@@ -251,7 +257,7 @@ State Sampler::in_box(const World& world, RandomStream& random, Vector low, Vect
   throw missed_rectangle(system_.initial, where);
 }
 
-State Sampler::on_line(const World& world, RandomStream& random, double speed) const {
+State Sampler::on_line(const World& world, RandomStream& random, std::uint64_t trajectory, double speed) const {
   const InitialCondition& initial = system_.initial;
   Vector direction = initial.velocity;
   if (direction == Vector{}) {
@@ -259,8 +265,8 @@ State Sampler::on_line(const World& world, RandomStream& random, double speed) c
     direction = {turned.cos, turned.sin};
   }
   const Vector velocity = speed * unit(direction);
-  const int most = initial.from == initial.to ? 1 : most_tries_of_a_line;
-  for (int tries = 0; tries < most; ++tries) {
+  const std::int64_t most = initial.from == initial.to ? 1 : patience(most_tries_of_a_line, trajectory);
+  for (std::int64_t tries = 0; tries < most; ++tries) {
     const Vector point = initial.from + random.uniform() * (initial.to - initial.from);
     const State state = off_walls(*system_.table, point, velocity);
     if (world.contains(state.position)) return state;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "carom/base/error.hpp"
@@ -17,7 +18,7 @@ using Kind = InitialCondition::Kind;
 namespace {
 
 /// If so few of the draws lie below the energy, it is below all that matters.
-constexpr int most_draws = 100000;
+constexpr std::int64_t most_draws = 100'000;
 
 Vector with_speed(Vector velocity, double speed) {
   return (speed / std::sqrt(dot(velocity, velocity))) * velocity;
@@ -58,7 +59,8 @@ State Sampler::draw_external(const World& world, std::uint64_t trajectory, int p
   }
   const double energy = system_.energies.at(static_cast<std::size_t>(particle));
   double lowest = std::numeric_limits<double>::infinity();
-  for (int draw = 0; draw < (random_positions() ? most_draws : 1); ++draw) {
+  const std::int64_t most = random_positions() ? patience(most_draws, trajectory) : 1;
+  for (std::int64_t draw = 0; draw < most; ++draw) {
     State state = draw_free(world, random, trajectory, particle);
     Vector unused{};
     const double potential = system_.dynamics.forces->add_external(p, state.position, unused);
@@ -85,7 +87,8 @@ std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajector
   double energy = 0.0;
   for (const double e : system_.energies) energy += e;
   double lowest = std::numeric_limits<double>::infinity();
-  for (int draw = 0; draw < (random_positions() ? most_draws : 1); ++draw) {
+  const std::int64_t most = random_positions() ? patience(most_draws, trajectory) : 1;
+  for (std::int64_t draw = 0; draw < most; ++draw) {
     states.clear();
     for (std::size_t p = 0; p < count; ++p)
       states.push_back(draw_free(world, random[p], trajectory, static_cast<int>(p)));

@@ -55,9 +55,10 @@ class Sampler {
   bool random_positions() const;
   void add_holes(int hole);
   void add_source(int wall, double from, double to);
-  State in_box(const World&, RandomStream&, geometry::Vector low, geometry::Vector high, double speed,
-               const char* where) const;
-  State on_line(const World&, RandomStream&, double speed) const;
+  static std::int64_t patience(std::int64_t of_the_first, std::uint64_t trajectory);
+  State in_box(const World&, RandomStream&, std::uint64_t trajectory, geometry::Vector low, geometry::Vector high,
+               double speed, const char* where) const;
+  State on_line(const World&, RandomStream&, std::uint64_t trajectory, double speed) const;
   State at_point(const World&, geometry::Vector position, geometry::Vector velocity, double speed) const;
   State birkhoff(std::uint64_t number, double speed) const;
   /// `tangential` and `normal` give the direction against the wall, in any unit.
