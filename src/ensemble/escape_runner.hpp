@@ -52,7 +52,7 @@ class EscapeRunner {
     ends_.clear(count);
     const std::size_t first_record = records ? records->size() : 0;
     for (int particle = 0; records && particle < count; ++particle)
-      records->push_back(start_of(world_.state(particle)));
+      records->push_back(start_of(*system_.table, world_.state(particle)));
     const std::vector<double> before = energies();
     world_.run_until(system_.run.t_max, ends_, interrupted);
     if (interrupted && interrupted()) return false;
@@ -94,17 +94,6 @@ class EscapeRunner {
     for (int p = 0; p < world_.size(); ++p) all = all && (!ends_.of(p) || is(p, Fate::survived));
     for (std::size_t k = 0; k < before.size(); ++k)
       if (energies_.of_all() ? all : !is(static_cast<int>(k), Fate::lost)) tally.note_energies(before[k], after[k]);
-  }
-
-  TrajectoryRecord start_of(const State& state) const {
-    TrajectoryRecord record;
-    geometry::Vector position = state.position;
-    if (system_.table->lattice) position = position + system_.table->lattice->translation(state.cell);
-    record.x = position.x;
-    record.y = position.y;
-    record.vx = state.velocity.x;
-    record.vy = state.velocity.y;
-    return record;
   }
 
   // A particle that has not ended, or never can, survives until t_max.

@@ -11,13 +11,26 @@
 #include "carom/base/digest.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/table/hole_names.hpp"
+#include "ensemble/first_reports.hpp"
 
 namespace carom {
+
+/// Where a particle starts, in the plane: a lattice's state lies in a cell.
+inline TrajectoryRecord start_of(const Table& table, const State& state) {
+  TrajectoryRecord record;
+  geometry::Vector position = state.position;
+  if (table.lattice) position = position + table.lattice->translation(state.cell);
+  record.x = position.x;
+  record.y = position.y;
+  record.vx = state.velocity.x;
+  record.vy = state.velocity.y;
+  return record;
+}
 
 struct EscapeTally {
   SurvivalCounts counts;
   std::uint64_t digest = 0;
-  std::vector<std::pair<std::uint64_t, std::string>> reports;  // of the first
+  std::vector<std::pair<std::uint64_t, std::string>> reports;  // of the first by index
 
   explicit EscapeTally(const System& system) : counts(system.run.times, hole_names(*system.table).size()) {}
 
@@ -28,7 +41,7 @@ struct EscapeTally {
   void add(const TrajectoryRecord& end, int last_wall, const std::string& report) {
     counts.add(end.fate, end.time, end.hits, end.hole);
     digest += trajectory_hash(end.index, static_cast<std::uint64_t>(end.fate), end.time, end.hits, last_wall);
-    if (end.fate == Fate::lost && reports.size() < EnsembleResult::most_reports) reports.emplace_back(end.index, report);
+    if (end.fate == Fate::lost) keep_first(reports, end.index, report);
   }
 };
 

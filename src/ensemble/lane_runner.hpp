@@ -97,11 +97,8 @@ class LaneRunner {
 
   void note_start(const LaneStart& start) {
     TrajectoryRecord& record = record_of(start.tag);
+    record = start_of(*system_.table, start.state);
     record.index = start.tag;
-    record.x = start.state.position.x;
-    record.y = start.state.position.y;
-    record.vx = start.state.velocity.x;
-    record.vy = start.state.velocity.y;
   }
   void note_end(const LaneEnd& end) {
     TrajectoryRecord record;

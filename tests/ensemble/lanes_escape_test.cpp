@@ -73,5 +73,38 @@ TEST_P(EscapeInLanes, HasTheDigestOfTheScalarEngine) {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EscapeInLanes, testing::Values("stadium", "mushroom", "circle", "three-disc", "magnetic-square", "sinai",
                                                                "lorentz-triangular", "ellipse-magnetic"));
 
+// Starts far from the home cell are those in the plane, flown in lanes or not.
+TEST(LaneRecords, WriteStartsInThePlane) {
+  const System system = read_system(R"(
+[table]
+shape = "lorentz"
+lattice = "triangular"
+spacing = 2.2
+radius = 1
+[[table.hole]]
+wall = "disc_1"
+center = 0.5
+width = 0.3
+[initial]
+kind = "line"
+from = [20.1, 3.3]
+to = [27, 9]
+angle = 0.3
+[run]
+t_max = 30
+trajectories = 50
+)",
+                                    "far")
+                            .system;
+  const Outcome scalar = run(system, std::nullopt, 1, 512, true);
+  const Outcome lanes = run(system, InstructionSet::baseline, 1, 7, true);
+  ASSERT_EQ(lanes.records.size(), scalar.records.size());
+  for (std::size_t i = 0; i < lanes.records.size(); ++i) {
+    EXPECT_TRUE(lanes.records[i].x > 20 && lanes.records[i].x < 27.01) << lanes.records[i].x;
+    EXPECT_EQ(lanes.records[i].x, scalar.records[i].x);
+    EXPECT_EQ(lanes.records[i].y, scalar.records[i].y);
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,0 +1,62 @@
+// Which lost particles are told of: those of the lowest indices, in every way to run the ensemble.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "systems.hpp"
+
+namespace carom {
+namespace {
+
+TEST(LostReports, AreThoseOfTheLowestIndices) {
+  const System system = make_system(R"toml(
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[particles]
+speed = 1
+[initial]
+kind = "rectangle"
+min = [0.6, 0.1]
+max = [0.9, 0.9]
+[[potential]]
+kind = "expression"
+expression = "sqrt(x - 1/2)"
+[integrator]
+step = 0.01
+[run]
+t_max = 0.5
+trajectories = 400
+)toml");
+  EscapeOptions options;
+  options.threads = 1;
+  std::vector<TrajectoryRecord> records;
+  options.records = [&](const std::vector<TrajectoryRecord>& more) { records.insert(records.end(), more.begin(), more.end()); };
+  const EscapeResult one = run_escape(system, options);
+  ASSERT_GT(one.counts.lost, 20u);
+  ASSERT_LT(one.counts.lost, 400u);
+  std::vector<std::uint64_t> first;
+  for (const TrajectoryRecord& r : records)
+    if (r.fate == Fate::lost && first.size() < EnsembleResult::most_reports) first.push_back(r.index);
+  ASSERT_EQ(one.reports.size(), first.size());
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(one.reports[i].first, first[i]);
+  for (const InstructionSet set : available_instruction_sets())
+    for (const std::uint64_t block : {7u, 100u, 1000u}) {
+      EscapeOptions how;
+      how.threads = block == 100 ? 3 : 1;
+      how.block = block;
+      how.lanes = set;
+      EXPECT_EQ(run_escape(system, how).reports, one.reports) << block;
+      DiffusionOptions diffusion;
+      diffusion.threads = how.threads;
+      diffusion.block = block;
+      diffusion.lanes = set;
+      EXPECT_EQ(run_diffusion(system, diffusion).reports, one.reports) << block;
+    }
+}
+
+}  // namespace
+}  // namespace carom
