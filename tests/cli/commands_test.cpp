@@ -288,7 +288,7 @@ TEST(Escape, FliesListedStartsOnce) {
   EXPECT_EQ(json_value(point.out, "trajectories"), "1");
   EXPECT_EQ(json_value(point.out, "note"), "");
   shell("printf '[table]\nshape = \"circle\"\nradius = 2\n' > a.toml");
-  const std::string list = "$carom escape a.toml --t-max 5 --set initial.kind=list --set "
+  const std::string list = "$carom escape a.toml --t-max 5 --set particles.speed=1 --set initial.kind=list --set "
                            "'initial.starts=[[0,0,1,0],[0,0.1,1,0.5],[0.2,0,0.3,1]]' ";
   EXPECT_EQ(json_value(shell(list + "--json").out, "trajectories"), "3");
   const Outcome more = shell(list + "--trajectories 9 --json"), text = shell(list + "--trajectories 9");

@@ -85,8 +85,8 @@ TEST(Section, OfTheBoundaryIsTheStartAndEveryHit) {
 }
 
 TEST(Section, TakesAListOfStarts) {
-  const System system = with_section(std::string(ellipse) + "[initial]\nkind = \"list\"\nstarts = "
-                                                            "[[0.1, 0.2, 1, -1], [0, \"1/4\", 0, -3]]\n",
+  const System system = with_section(std::string(ellipse) + "[particles]\nspeed = 1\n[initial]\nkind = \"list\"\n"
+                                                            "starts = [[0.1, 0.2, 1, -1], [0, \"1/4\", 0, -3]]\n",
                                      "on = \"y=0\"", 10);
   const auto points = points_of(system);
   ASSERT_GT(points.size(), 8u);
