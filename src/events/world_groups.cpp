@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 
+#include "carom/base/error.hpp"
 #include "events/group_hit.hpp"
 #include "events/surroundings.hpp"
 #include "events/table_with_supports.hpp"
@@ -50,7 +50,8 @@ void World::Implementation::add_barriers() {
     by_range = !dynamics.everywhere && std::isfinite(dynamics.forces->pair_range());
     one_group = !by_range;
     if (by_range && !(dynamics.integrator.step > 0.0))
-      throw std::invalid_argument("particles that meet within a range need the length of a step");
+      throw InputError(Place{{}, 0, 0, "integrator.step"}, "particles that meet within a range need the length of a step",
+                       "a time > 0");
   }
   surroundings.forces = acts(dynamics) ? dynamics.forces.get() : nullptr;
   surroundings.plan = dynamics.integrator;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/world.hpp"
@@ -153,6 +154,21 @@ TEST(Range, LateParticlesInteractAtOnce) {
       const Vector d = end[i] - end[i + 3];
       EXPECT_LT(std::sqrt(dot(d, d)), 1e-12) << trap << i;
     }
+  }
+}
+
+// Without a time of steps there is none at which groups look around: a mistake of the user's.
+TEST(Range, NeedsTheLengthOfAStep) {
+  const LoadedSystem loaded = read_system(
+      "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[interaction]\nkind = \"yukawa\"\nstrength = 1\nrange = 0.5\n"
+      "[particles]\ncount = 2\nspeed = 1\n[initial]\nkind = \"list\"\nstarts = [[0, 0, 1, 0], [1, 0, 1, 0]]\n"
+      "[integrator]\nscheme = \"arkode\"\n[run]\nt_max = 1\n",
+      "arkode");
+  try {
+    World world(*loaded.system.table, loaded.system.dynamics);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.place().key, "integrator.step");
   }
 }
 
