@@ -3,6 +3,7 @@
 #include <cvode/cvode.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "carom/base/error.hpp"
@@ -16,8 +17,9 @@ constexpr int longest_chain = 1000;
 
 }  // namespace
 
-CvodeStepper::CvodeStepper(const ForceLaw<double>& law, std::span<const double> omega, double tolerance)
-    : problem_(law, omega, tolerance) {
+CvodeStepper::CvodeStepper(const ForceLaw<double>& law, std::span<const double> omega, double tolerance,
+                           double longest)
+    : problem_(law, omega, tolerance), longest_(longest) {
   N_VConst(0.0, problem_.state());
   memory_ = CVodeCreate(CV_ADAMS, problem_.context());
   if (memory_ == nullptr) throw InternalError("CVODE has no memory");
@@ -68,8 +70,9 @@ double CvodeStepper::step(const Phase<double>& from, double at_most, Phase<doubl
 void CvodeStepper::begin(const Phase<double>& from) {
   problem_.load(from);
   CVodeReInit(memory_, 0.0, problem_.state());
-  CVodeSetMaxStep(memory_, problem_.longest_step());
-  CVodeSetInitStep(memory_, problem_.first_step(from, 1));
+  const double longest = std::min(longest_, problem_.longest_step());
+  CVodeSetMaxStep(memory_, longest);
+  CVodeSetInitStep(memory_, std::min(longest, problem_.first_step(from, 1)));
   start_time_ = reached_ = 0.0;
   steps_ = 0;
   problem_.set_failure({});

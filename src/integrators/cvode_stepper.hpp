@@ -1,6 +1,7 @@
 // Adams' method of variable order and step: CVODE of SUNDIALS.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "integrators/ode_problem.hpp"
@@ -12,7 +13,9 @@ namespace carom {
 /// anew at order 1, so that this method is for long ways between walls. Parts of steps change nothing.
 class CvodeStepper final : public Stepper<double> {
  public:
-  CvodeStepper(const ForceLaw<double>& law, std::span<const double> omega, double tolerance);
+  /// No internal step is longer than `longest`.
+  CvodeStepper(const ForceLaw<double>& law, std::span<const double> omega, double tolerance,
+               double longest = std::numeric_limits<double>::infinity());
   CvodeStepper(const CvodeStepper&) = delete;
   CvodeStepper& operator=(const CvodeStepper&) = delete;
   ~CvodeStepper() override;
@@ -25,6 +28,7 @@ class CvodeStepper final : public Stepper<double> {
   void advance();
 
   OdeProblem problem_;
+  double longest_;
   void* memory_ = nullptr;
   void* solver_ = nullptr;
   Phase<double> start_, end_;

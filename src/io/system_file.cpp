@@ -115,13 +115,14 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   auto table = std::make_shared<Table>(build_table(*spec));
   system.particles = io::read_particles(root);
   check_scales(root, system, *table);
-  system.dynamics.forces =
-      ForceField::build(io::read_forces(root, system.particles.size()), system.particles, table->lattice);
+  const ForceSpec forces = io::read_forces(root, system.particles.size());
+  system.dynamics.forces = ForceField::build(forces, system.particles, table->lattice);
   const std::vector<double>& radii = system.dynamics.forces->disc_radii();
   for (std::size_t p = 0; p < radii.size(); ++p) system.particles[p].radius = radii[p];
   system.dynamics.integrator = io::read_integrator(root, !system.dynamics.forces->empty(), system.particles,
                                                    !table->walls.empty());
   if (!system.dynamics.forces->empty()) system.energies = io::read_energies(root, system.particles.size());
+  io::limit_step(root, system.dynamics.integrator, forces, system.particles, system.energies);
   system.initial = io::read_initial(root, *table, system.particles);
   // Where particles enter at random no trajectory repeats another.
   system.run = io::read_run(root, root.find("injection") != nullptr ? 0 : listed_trajectories(system));

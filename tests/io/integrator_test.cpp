@@ -22,6 +22,25 @@ TEST(Integrator, DefaultsAreWrittenDown) {
   EXPECT_EQ(resolved(resolved(adaptive)), resolved(adaptive));
 }
 
+// Without a step it is that in which the fastest particle goes through the narrowest bump.
+TEST(Integrator, AdaptiveSchemesDoNotStepOverBumps) {
+  const auto step = [](const std::string& potentials, const std::string& scheme, const std::string& particles) {
+    const std::string text = start + potentials + "[integrator]\nscheme = \"" + scheme + "\"\n" + particles;
+    EXPECT_EQ(resolved(resolved(text)), resolved(text));
+    return read(text).dynamics.integrator.step;
+  };
+  const std::string narrow = "[[potential]]\nkind = \"gaussian\"\nheight = 2\nwidth = 0.01\n";
+  const std::string deep = "[[potential]]\nkind = \"gaussian\"\nheight = -4\nwidth = 0.1\n";
+  const std::string fermi = "[[potential]]\nkind = \"fermi\"\nheight = 2\nradius = 0.3\nsoftness = 0.001\n";
+  const std::string slow = "[particles]\nspeed = 1\n";
+  EXPECT_DOUBLE_EQ(step(narrow, "arkode", slow), 0.01);
+  EXPECT_DOUBLE_EQ(step(narrow, "arkode", "[particles]\nenergy = 8\n"), 0.0025);
+  EXPECT_DOUBLE_EQ(step(narrow + deep, "arkode", slow), 0.01 / 3);
+  EXPECT_DOUBLE_EQ(step(narrow + fermi, "arkode", slow), 0.008);
+  EXPECT_DOUBLE_EQ(step(narrow, "cvode", slow), 0.01);
+  EXPECT_EQ(step("[[potential]]\nkind = \"harmonic\"\n", "arkode", slow), 0.0);
+}
+
 TEST(Integrator, NoForceNeedsNoStep) {
   EXPECT_EQ(read(square()).dynamics.integrator.step, 0.0);
   EXPECT_EQ(read(square("[integrator]\nscheme = \"kahan-li-8\"\n")).dynamics.integrator.scheme, "kahan-li-8");

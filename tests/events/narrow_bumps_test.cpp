@@ -1,0 +1,51 @@
+// Adaptive schemes do not step over bumps that are narrow for the way of a particle.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/energy.hpp"
+#include "carom/events/world.hpp"
+#include "carom/io/system_file.hpp"
+
+namespace carom {
+namespace {
+
+State end_of(const System& system, bool everywhere) {
+  Dynamics dynamics = system.dynamics;
+  dynamics.everywhere = everywhere;
+  World world(*system.table, dynamics);
+  world.add(system.particles[0], Sampler(system).draw(world, 1, 0));
+  Observer nobody;
+  world.run_until(12.0, nobody);
+  EXPECT_EQ(world.fate(0), Fate::survived) << world.report(0);
+  const State end = world.state_at(0, 12.0);
+  const double energy = energy_of({system.particles.data(), 1}, {&end, 1}, dynamics, *system.table).total();
+  EXPECT_NEAR(energy, 0.5, 1e-8);
+  return end;
+}
+
+TEST(NarrowBumps, AreMetByAdaptiveSchemes) {
+  for (const char* bump : {"kind = \"gaussian\"\nheight = 2\nwidth = 0.01\n",
+                           "kind = \"fermi\"\nheight = 2\nradius = 0.1\nsoftness = 0.001\n"}) {
+    const auto with = [&](const std::string& integrator) {
+      return read_system(std::string("[table]\nshape = \"rectangle\"\nwidth = 20\nheight = 10\n[[potential]]\n") + bump +
+                             "center = [15, 5]\n[particles]\nspeed = 1\n[initial]\nkind = \"point\"\n" +
+                             "position = [10, 5.002]\nvelocity = [1, 0]\n[integrator]\n" + integrator +
+                             "\n[run]\nt_max = 12\n",
+                         "narrow");
+    };
+    const State expected = end_of(with("step = 0.0005").system, false);
+    EXPECT_LT(expected.velocity.x, 0.0);  // it was turned back
+    for (const char* scheme : {"scheme = \"arkode\"", "scheme = \"cvode\""})
+      for (const bool everywhere : {false, true}) {
+        const State end = end_of(with(scheme).system, everywhere);
+        EXPECT_NEAR(end.position.x, expected.position.x, 1e-5) << bump << scheme << everywhere;
+        EXPECT_NEAR(end.position.y, expected.position.y, 1e-5) << bump << scheme << everywhere;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace carom
