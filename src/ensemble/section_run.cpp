@@ -104,8 +104,9 @@ class Follower {
     world_.clear();
     add_starts(world_, sampler_, orbit);
     recorder_.begin(orbit, world_);
-    const auto enough = [&] { return stopped() || recorder_.done(); };
-    world_.run_until(system_.run.t_max, recorder_, enough);
+    // What happens after the last point does not belong to it.
+    world_.stop_when([this] { return recorder_.done(); });
+    world_.run_until(system_.run.t_max, recorder_, stopped);
     if (stopped()) return false;
     count(orbit);
     return true;
@@ -164,6 +165,7 @@ std::uint64_t section_orbits(const System& system) {
 SectionResult run_section(const System& system, const SectionOptions& options) {
   const Stopwatch watch;
   refuse_injections(system, "sections");
+  check_start(system);
   const Sampler sampler(system);
   // Blocks wait for their turn in memory.
   const std::uint64_t each = system.section.points;

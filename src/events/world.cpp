@@ -306,6 +306,7 @@ void World::clear() {
   w.next_sample = 0;
 }
 
+void World::stop_when(std::function<bool()> enough) { implementation_->enough = std::move(enough); }
 void World::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }
 void World::sample_at(std::vector<double> times) {
   implementation_->sampling = !times.empty();
@@ -323,7 +324,9 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
   std::uint64_t events = 0;
   if (w.surface) w.begin_watching();
   if (w.unprepared) w.prepare_contacts();
+  const bool asks = static_cast<bool>(w.enough);
   while (!w.queue.empty()) {
+    if (asks && w.enough()) return events;
     const int index = w.queue.top();
     const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
     if (!(when.high < t_end) && when > Time(t_end)) break;

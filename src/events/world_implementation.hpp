@@ -2,6 +2,7 @@
 // world_groups.cpp what integration and hand-over add.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -130,6 +131,7 @@ class World::Implementation {
   double sample_interval = 0.0;
   std::uint64_t next_sample = 0;
   bool sampling = false;
+  std::function<bool()> enough;         ///< ends a run, or is empty
   const Surface* surface = nullptr;     ///< watched, or null
   std::size_t most_crossings = 0;       ///< of one flight
   std::vector<SurfaceCrossing> found;

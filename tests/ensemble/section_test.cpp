@@ -329,5 +329,24 @@ TEST(Section, ErrorsLeaveTheThreads) {
   EXPECT_THROW(run_section(system, options), InputError);
 }
 
+// Nothing that happens after the last point belongs to the section.
+TEST(Section, EndsWithTheLastPoint) {
+  for (const char* on : {"on = \"boundary\"", "on = \"x=0.1\""}) {
+    System system = with_section("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n"
+                                 "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.5\n",
+                                 std::string(on) + "\npoints = 1", 1000, 100);
+    const SectionResult result = run_section(system, {});
+    EXPECT_EQ(result.points + result.incomplete, 50u);
+    // The flight with the last point may end in the hole.
+    EXPECT_LE(result.incomplete, result.escaped);
+    EXPECT_LE(result.escaped, result.incomplete + 3);
+    EXPECT_GT(result.points, 10u);
+    if (system.section.boundary) {
+      EXPECT_EQ(result.collisions, result.points);
+    }
+    EXPECT_LT(result.collisions, 250u);
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -52,8 +52,12 @@ class World {
   /// `most`: of one flight; a pinned orbit would go on for ever.
   void watch(const Surface* surface, std::size_t most = SIZE_MAX);
 
+  /// Asked before each event and after the last, in later runs too: true ends the run there. Cheap, or it costs more than
+  /// the events; an interrupt belongs into run_until.
+  void stop_when(std::function<bool()> enough);
+
   /// Runs until `t_end` or until no particle moves any more. `interrupted`, if set, is asked
-  /// between events; true returns early. Returns the number of events applied.
+  /// now and then between events; true returns early. Returns the number of events applied.
   std::uint64_t run_until(double t_end, Observer& observer,
                           const std::function<bool()>& interrupted = {});
 
