@@ -97,16 +97,6 @@ std::vector<Barrier<double>> barriers_of(const Table& table) {
   return barriers_of(curves, table);
 }
 
-std::vector<Barrier<double>> barriers_of(const Curve& curve, int wall, const std::optional<Lattice>& lattice) {
-  Table alone;
-  alone.walls.push_back({});
-  alone.walls.back().curve = curve;
-  alone.lattice = lattice;
-  std::vector<Barrier<double>> barriers = barriers_of(alone);
-  for (Barrier<double>& barrier : barriers) barrier.wall = wall;
-  return barriers;
-}
-
 double longest_way(const Table& table) {
   double length = std::numeric_limits<double>::infinity();
   if (table.lattice) {

@@ -1,7 +1,6 @@
 // The walls that a particle may meet within a step.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,8 +15,6 @@ namespace carom {
 std::vector<Barrier<double>> barriers_of(std::span<const geometry::Curve>, const Table&);
 /// Those of the table's walls.
 std::vector<Barrier<double>> barriers_of(const Table&);
-/// Those of a curve that is the only wall.
-std::vector<Barrier<double>> barriers_of(const geometry::Curve&, int wall, const std::optional<geometry::Lattice>&);
 
 /// How far a step may lead where there are walls: through a bounded table a thousand times, as it would
 /// hit them about as often; on a lattice to the next cell.
