@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
 
 namespace carom {
@@ -36,12 +37,13 @@ Line line_through(const std::vector<double>& x, const std::vector<double>& y, co
   return {slope, mean_y - slope * mean_x};
 }
 
-// Exponent a of the best y = A t^a + c: for each a the best A and c are a line in t^a.
+// Exponent a of the best y = A t^a + c: for each a the best A and c are a line in t^a. NaN where the best lies at the
+// edge of what is searched: then this form does not describe the points.
 double exponent_beyond_offset(const std::vector<double>& log_t, const std::vector<double>& y,
                               const std::vector<double>& w) {
   std::vector<double> power(log_t.size());
   const auto misfit = [&](double a) {
-    for (std::size_t i = 0; i < power.size(); ++i) power[i] = std::exp(a * (log_t[i] - log_t.back()));
+    for (std::size_t i = 0; i < power.size(); ++i) power[i] = elementary::exp(a * (log_t[i] - log_t.back()));
     const Line line = line_through(power, y, w);
     double sum = 0;
     for (std::size_t i = 0; i < power.size(); ++i) {
@@ -57,6 +59,7 @@ double exponent_beyond_offset(const std::vector<double>& log_t, const std::vecto
     const double here = misfit(a);
     if (here < least) best = a, least = here;
   }
+  if (best == step || best + step > last) return nan;
   double low = best - step, high = best + step;
   double x = high - golden * (high - low), z = low + golden * (high - low);
   double at_x = misfit(x), at_z = misfit(z);
@@ -162,8 +165,8 @@ std::vector<MomentPoint> DisplacementMoments::points() const {
     point.middle = nan;
     point.exponent = {nan, nan};
     if (k > 0 && times_[k - 1] > 0) {
-      const double step = std::log(times_[k] / times_[k - 1]);
-      const auto exponent = [k, step](const Means& m) { return std::log(m.square[k] / m.square[k - 1]) / step; };
+      const double step = elementary::log(times_[k] / times_[k - 1]);
+      const auto exponent = [k, step](const Means& m) { return elementary::log(m.square[k] / m.square[k - 1]) / step; };
       point.middle = std::sqrt(times_[k - 1]) * std::sqrt(times_[k]);
       point.exponent.value = exponent(whole_);
       point.exponent.error = error_of(exponent, point.exponent.value);
@@ -196,7 +199,7 @@ std::optional<DiffusionFit> DisplacementMoments::fit(const TimeWindow& window) c
     if (!(square > 0)) return std::nullopt;
     inside.push_back(k);
     t.push_back(times_[k]);
-    log_t.push_back(std::log(times_[k]));
+    log_t.push_back(elementary::log(times_[k]));
     // A single trajectory has no variance: weights as of a Gaussian displacement.
     const double spread = variance > 0 ? variance : square * square;
     weight.push_back(1 / spread);
@@ -210,7 +213,7 @@ std::optional<DiffusionFit> DisplacementMoments::fit(const TimeWindow& window) c
   };
   const auto local_exponent = [&](const Means& m) {
     std::vector<double> y;
-    for (const std::size_t k : inside) y.push_back(std::log(m.square[k]));
+    for (const std::size_t k : inside) y.push_back(elementary::log(m.square[k]));
     return line_through(log_t, y, log_weight).slope;
   };
   const auto exponent = [&](const Means& m) {

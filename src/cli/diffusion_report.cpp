@@ -80,8 +80,10 @@ std::string fit_text(const DiffusionSummary& summary) {
   if (!fit) return text;
   if (std::isfinite(fit->exponent.value))
     text += fmt::format("exponent a = {}   from MSD = A t^a + c;", with_error(fit->exponent));
-  else
+  else if (fit->points < 4)
     text += "exponent a of MSD = A t^a + c needs four times in the window;";
+  else
+    text += "MSD = A t^a + c has no best exponent a between 0.05 and 4;";
   text += fmt::format(
       "  slope of ln MSD against ln t {}\n"
       "window {:.6g} <= t <= {:.6g}, {} times; errors by the jackknife over groups of trajectories\n",

@@ -72,6 +72,12 @@ class EnsembleRun {
         nothing_(std::move(nothing)),
         total_(nothing_),
         post_(post) {
+    // Particles are numbered through.
+    constexpr std::uint64_t most_particles = std::uint64_t{1} << 62;
+    const std::uint64_t each = std::max<std::uint64_t>(1, system.particles.size());
+    if (system.run.trajectories > most_particles / each)
+      throw InputError(Place{"", 0, 0, "run.trajectories"}, "more than 2^62 particles cannot be numbered",
+                       "fewer trajectories");
     if (options.before && !total_.add(*options.before)) throw InternalError("what was done overlaps itself");
     trajectories_ = total_.done.size();
     const std::uint64_t most = post_.hand ? wanted_threads() : std::min(wanted_threads(), blocks_.size());

@@ -134,5 +134,16 @@ TEST(Moments, ErrorsCountTrajectoriesNotTheirParticles) {
   }
 }
 
+// Where the best exponent is at the edge of what is searched there is none.
+TEST(Moments, HaveNoExponentAtTheEdgeOfTheSearch) {
+  const auto steep = moments_of([](double t) { return std::pow(t, 6); }).fit({2, 64});
+  ASSERT_TRUE(steep);
+  EXPECT_TRUE(std::isnan(steep->exponent.value));
+  EXPECT_NEAR(steep->local_exponent.value, 6, 1e-9);
+  const auto flat = moments_of([](double t) { return 2 - std::pow(t + 1, -3); }).fit({2, 64});
+  ASSERT_TRUE(flat);
+  EXPECT_TRUE(std::isnan(flat->exponent.value));
+}
+
 }  // namespace
 }  // namespace carom

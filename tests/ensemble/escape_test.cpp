@@ -191,5 +191,16 @@ TEST(Escape, EveryParticleIsAnEntry) {
   EXPECT_EQ(result.counts.trajectories, 120u);
 }
 
+// Particles are numbered through: beyond 2^62 of them numbers would repeat.
+TEST(Escape, RefusesMoreParticlesThanNumbers) {
+  System system = make_system(magnetic_square);
+  EscapeOptions options;
+  options.part = {0, 3};
+  system.run.trajectories = std::uint64_t{1} << 62;
+  EXPECT_EQ(run_escape(system, options).counts.trajectories, 3u);
+  system.particles.push_back(system.particles.front());
+  EXPECT_THROW(run_escape(system, options), InputError);
+}
+
 }  // namespace
 }  // namespace carom

@@ -71,7 +71,7 @@ struct DiffusionFit {
   Estimate D;         ///< quarter of the slope of MSD = 4 D t + c
   Estimate offset;    ///< c
   /// a of MSD = A t^a + c: the constant that all diffusion starts with does not count. NaN with fewer than
-  /// four points.
+  /// four points, and where the best a is not inside of what is searched, 0.05 to 4.
   Estimate exponent;
   Estimate local_exponent;  ///< slope of ln MSD against ln t; approaches `exponent` as -c/MSD
 };
