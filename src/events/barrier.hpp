@@ -28,6 +28,7 @@ struct Barrier {
   Vector low, high;      ///< a box about the piece, larger than any rounding
   int wall = -1;         ///< which wall or support it is
   geometry::Cell cell;   ///< the cell whose copy of it this is
+  Real slack{0};         ///< at least on_wall() roundings of the gap, everywhere on the piece
 
   Real gap(const Vector& x) const {
     const Vector e = x - origin;
@@ -44,11 +45,30 @@ struct Barrier {
     const Real largest = size(first.x) + size(first.y) + size(second.x) + size(second.y);
     return Real(conic ? 8 : 4) * half * largest * reach;
   }
+  /// How many roundings a particle on the wall may be from it: the search for a hit leaves it within one,
+  /// another wall of the corner moves it onto itself by two, the next cell of a lattice has it within one more.
+  static Real on_wall() { return Real(4); }
+  /// Is the particle on the piece, or beyond it, to rounding?
+  bool stands_on(const Vector& x) const {
+    const Real g = gap(x);
+    return !(g > Real(0)) && !(g < -on_wall() * rounding(x)) && covers(x);
+  }
   /// Rate of change of the gap at x for the velocity v.
   Real rate(const Vector& x, const Vector& v) const {
     if (!conic) return dot(first, v);
     const Vector e = x - origin;
     return -orientation * (dot(first, e) * dot(first, v) + dot(second, e) * dot(second, v));
+  }
+  /// Bound on what rate(x, v) errs against the exact normal by, in epsilon halves. Line: the unit normal 5,
+  /// products and sum 3. Conic: a map to y 9, twice; its rows 5, twice; the point and the centre 4 together.
+  Real rate_rounding(const Vector& x, const Vector& v) const {
+    const Real half = std::numeric_limits<Real>::epsilon() / Real(2);
+    const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
+    const Real largest = size(first.x) + size(first.y) + size(second.x) + size(second.y);
+    const Real speed = size(v.x) + size(v.y);
+    if (!conic) return Real(8) * half * largest * speed;
+    const Real reach = size(x.x) + size(x.y) + size(origin.x) + size(origin.y);
+    return Real(32) * half * (largest * reach) * (largest * speed);
   }
   /// A normal into the domain, of any length.
   Vector normal(const Vector& x) const {
@@ -122,6 +142,8 @@ Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVect
     conic(centre, axis, sqrt((along * along + across * across) / dot(axis, axis)), k, l->counterclockwise);
     ends(l->from, l->to);
   }
+  const auto larger = [&](const Real& p, const Real& q) { return size(p) < size(q) ? size(q) : size(p); };
+  b.slack = Barrier<Real>::on_wall() * b.rounding({larger(b.low.x, b.high.x), larger(b.low.y, b.high.y)});
   return b;
 }
 

@@ -6,6 +6,11 @@
 // the interval is halved by another knot of the path itself. So a path that leaves and returns within a
 // step is found, and a path that just fails to touch is told from one that touches by the gap at its
 // minimum, computed with the scheme's own partial step.
+//
+// A particle that stands on a wall to rounding and moves outwards hits it at once: several hit theirs at
+// the same time, or it is in a corner. One that falls beyond the wall without having moved outwards or
+// having come off it, both to rounding, moves along the wall. Parts of a path on which the gap changes by no
+// more than its rounding are told by their ends.
 #pragma once
 
 #include <array>
@@ -50,11 +55,16 @@ class CrossingSearch {
   explicit CrossingSearch(Path& path) : path_(path) {}
 
   /// Knot of the first crossing of `barrier` by particle `i` between two knots, or nullptr. There the
-  /// particle is on the barrier to rounding.
-  Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to) {
+  /// particle is on the barrier to rounding. A barrier that is no wall may be left without being crossed.
+  Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to, bool wall = true) {
     splits_ = 0;
-    return search(barrier, i, from, to, 0);
+    slides_ = false;
+    wall_ = wall;
+    if (wall && hits_at_once(barrier, i, from)) return &from;
+    return &from == &to ? nullptr : search(barrier, i, from, to, 0);
   }
+  /// Is what was found last motion along the wall?
+  bool slides() const { return slides_; }
   /// Was a search given up, as however short a part of the path looked too rough?
   bool gave_up() const { return gave_up_; }
 
@@ -70,19 +80,25 @@ class CrossingSearch {
     return b.rate(k.phase.position[i], k.phase.velocity[i]);
   }
 
+  bool hits_at_once(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    const auto &x = k.phase.position[i], &v = k.phase.velocity[i];
+    return b.rate(x, v) < -b.rate_rounding(x, v) && b.stands_on(x);
+  }
+
   Knot* search(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to, int depth) {
     const PathArc<Real> arc(path_, from, to, i);
     Shape shape = Shape::unknown;
     if (b.conic) {
-      shape = conic_shape(b, arc);
+      shape = conic_shape(b, arc, noise(b, i, from));
     } else {
       Bernstein<Real, 6> g;
       for (std::size_t k = 0; k < 6; ++k) g.coefficient[k] = b.gap(arc.points[k]);
-      shape = shape_of(g, arc.error);
+      shape = shape_of(g, arc.error, noise(b, i, from));
     }
     switch (shape) {
       case Shape::none: return nullptr;
-      case Shape::falling: return root(b, i, from, to);
+      case Shape::falling:
+      case Shape::level: return root(b, i, from, to);
       case Shape::convex: {
         const bool falls = rate(b, i, from) < Real(0), rises = rate(b, i, to) > Real(0);
         if (!falls) return nullptr;
@@ -110,12 +126,17 @@ class CrossingSearch {
     return search(b, i, half, to, depth + 1);
   }
 
-  enum class Shape { none, falling, convex, concave, unknown };
+  enum class Shape { none, falling, convex, concave, level, unknown };
+
+  // Each of two coefficients errs by one rounding of the gap and one of its control point, at most.
+  static Real noise(const Barrier<Real>& b, std::size_t i, const Knot& k) {
+    return Real(4) * b.rounding(k.phase.position[i]);
+  }
 
   // `error` is that of the gap; its derivatives err by what the coefficients of a polynomial that small
-  // may differ by.
+  // may differ by. Coefficients that differ by less than `noise` tell nothing.
   template <std::size_t size>
-  static Shape shape_of(const Bernstein<Real, size>& g, const Real& error) {
+  static Shape shape_of(const Bernstein<Real, size>& g, const Real& error, const Real& noise) {
     if (g.lowest() > error || g.highest() < -error) return Shape::none;
     const Bernstein<Real, size - 1> rate = g.derivative();
     const Real rate_error = Real(2 * (static_cast<int>(size) - 1)) * error;
@@ -125,10 +146,10 @@ class CrossingSearch {
     const Real bend_error = Real(2 * (static_cast<int>(size) - 2)) * rate_error;
     if (bend.lowest() > bend_error) return Shape::convex;
     if (bend.highest() < -bend_error) return Shape::concave;
-    return Shape::unknown;
+    return g.highest() - g.lowest() > noise ? Shape::unknown : Shape::level;
   }
 
-  static Shape conic_shape(const Barrier<Real>& b, const PathArc<Real>& arc) {
+  static Shape conic_shape(const Barrier<Real>& b, const PathArc<Real>& arc, const Real& noise) {
     using Vector = geometry::BasicVector<Real>;
     std::array<Vector, 6> y;
     Real size(0);
@@ -149,13 +170,24 @@ class CrossingSearch {
         sum = sum + Real(five[k] * five[m - k]) * dot(y[k], y[m - k]);
       g.coefficient[m] = b.orientation * (Real(1) - sum / Real(ten[m])) / Real(2);
     }
-    return shape_of(g, size * error + error * error);
+    return shape_of(g, size * error + error * error, noise);
+  }
+
+  // The gap falls from a point at or beyond the barrier.
+  Knot* from_the_wall(const Barrier<Real>& b, std::size_t i, Knot& from, const Knot& to) {
+    const auto beyond = [&](const Knot& k) {
+      return gap(b, i, k) < -b.on_wall() * b.rounding(k.phase.position[i]);
+    };
+    if (!wall_ || !beyond(to) || !b.stands_on(from.phase.position[i])) return nullptr;
+    slides_ = !hits_at_once(b, i, from);
+    return &from;
   }
 
   // The gap falls from `from` to `to`: its zero, if it has one there and on the piece, to the rounding
   // of the gap. Newton's steps, kept between the best knots on either side.
   Knot* root(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
-    if (!(gap(b, i, from) > Real(0)) || gap(b, i, to) > Real(0)) return nullptr;
+    if (gap(b, i, to) > Real(0)) return nullptr;
+    if (!(gap(b, i, from) > Real(0))) return from_the_wall(b, i, from, to);
     Knot *inside = &from, *outside = &to, *newest = &to;
     for (int n = 0; n < 2 * deepest; ++n) {
       const Real g = gap(b, i, *newest);
@@ -207,6 +239,8 @@ class CrossingSearch {
   Path& path_;
   int splits_ = 0;  ///< of the search under way
   bool gave_up_ = false;
+  bool wall_ = true;      ///< the barrier under way is one
+  bool slides_ = false;
 };
 
 }  // namespace carom

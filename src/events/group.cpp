@@ -114,12 +114,14 @@ const Group::Next& Group::predict(const Time& limit) {
     for (const Barrier<double>& barrier : in_.barriers) {
       if (stays_off(barrier, hull)) continue;
       near_wall_ = true;
-      StepPath<double>::Knot* found = search.first(barrier, i, path_->start(), *last);
+      const bool edge = !in_.supports.empty() && barrier.wall >= in_.supports.front().wall;
+      StepPath<double>::Knot* found = search.first(barrier, i, path_->start(), *last, !edge);
       if (!found) continue;
       last = found;
       next_.member = static_cast<int>(i);
       next_.barrier = &barrier;
       next_.duration = found->time;
+      next_.slides = search.slides();
     }
   }
   if (search.gave_up())

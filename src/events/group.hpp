@@ -39,6 +39,7 @@ class Group final : public ForceLaw<double> {
     double duration = 0.0;
     int member = -1;                           ///< -1: the end of the step
     const Barrier<double>* barrier = nullptr;
+    bool slides = false;                       ///< it cannot be told from motion along that wall
     std::string_view fault;                    ///< why there is no path that walls can be found on; "": there is
   };
 

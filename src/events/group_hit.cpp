@@ -35,13 +35,13 @@ GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group,
     inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
   }
   hit.state.velocity = after;
-  hit.inward = inward == Sign::positive;
+  hit.inward = inward == Sign::positive && !group.next().slides;
   return hit;
 }
 
 bool on_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Vector x) {
   return std::any_of(barriers.begin(), barriers.end(), [&](const Barrier<double>& b) {
-    return b.wall < walls && b.covers(x) && std::fabs(b.gap(x)) <= 4.0 * b.rounding(x);
+    return b.wall < walls && b.covers(x) && std::fabs(b.gap(x)) <= b.on_wall() * b.rounding(x);
   });
 }
 

@@ -80,7 +80,7 @@ struct StepHull {
   }
 };
 
-/// Can the path not meet the barrier from its positive side? Of lanes: a mask.
+/// Can the path not meet the barrier from its positive side, or from where it stands on it? Of lanes: a mask.
 template <class Number, class Real>
 CAROM_INLINE auto stays_off(const Barrier<Real>& b, const StepHull<Number>& hull) {
   using namespace step_hull;
@@ -98,7 +98,8 @@ CAROM_INLINE auto stays_off(const Barrier<Real>& b, const StepHull<Number>& hull
       low = smaller(low, gap);
       high = larger(high, gap);
     }
-    off = off || low > hull.margin || high < -hull.margin;
+    const Number margin = hull.margin + number(b.slack);
+    off = off || low > margin || high < -margin;
     return off;
   }
   const Vector across{number(b.second.x), number(b.second.y)};
@@ -108,7 +109,7 @@ CAROM_INLINE auto stays_off(const Barrier<Real>& b, const StepHull<Number>& hull
     y[k] = {dot(along, e), dot(across, e)};
     sum = sum + y[k];
   }
-  const Number one(1), margin = (norm(along) + norm(across)) * hull.margin;
+  const Number one(1), margin = (norm(along) + norm(across)) * hull.margin + number(b.slack);
   // Inside the conic: all points are. Outside: all lie beyond a tangent of it.
   Number farthest = dot(y[0], y[0]), lowest = dot(sum, y[0]);
   for (int k = 1; k < 4; ++k) {

@@ -1,0 +1,82 @@
+// Hits within steps that come together with something else: with another particle's, with the end of a step,
+// or with a touch.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/world.hpp"
+#include "carom/io/system_file.hpp"
+
+namespace carom {
+namespace {
+
+/// Runs the system and expects nobody to be lost; returns the hits of all.
+std::uint64_t hits_of(const std::string& text, bool everywhere = false) {
+  const LoadedSystem loaded = read_system(text, "hits");
+  Dynamics dynamics = loaded.system.dynamics;
+  dynamics.everywhere = everywhere;
+  World world(*loaded.system.table, dynamics);
+  const std::vector<State> starts = Sampler(loaded.system).draw_all(world, 0);
+  for (std::size_t i = 0; i < starts.size(); ++i) world.add(loaded.system.particles[i], starts[i]);
+  Observer nobody;
+  const double until = loaded.system.run.t_max;
+  world.run_until(until, nobody);
+  std::uint64_t hits = 0;
+  for (int i = 0; i < world.size(); ++i) {
+    EXPECT_EQ(world.fate(i), Fate::survived) << world.report(i) << "\n" << text;
+    const geometry::Vector x = world.state_at(i, Time(until)).position;
+    EXPECT_TRUE(world.contains(x)) << text;
+    hits += world.hits(i);
+  }
+  return hits;
+}
+
+const char* const charges =
+    "[interaction]\nkind = \"coulomb\"\nstrength = 0.5\n[integrator]\nstep = 0.01\n[run]\nt_max = 1.25\n";
+
+// Charges that fly symmetrically come to their walls at the same time, but for rounding.
+TEST(HitsInSteps, OfTwoAtTheSameTimeBothCount) {
+  for (int k = 0; k < 40; ++k) {
+    const std::string y = std::to_string(0.01 * k), x = std::to_string(0.5 + 0.003 * k);
+    const std::string starts = "[particles]\ncount = 2\nspeed = 1\n[initial]\nkind = \"list\"\nstarts = [[" +
+                               x + ", " + y + ", 1, 0], [-" + x + ", -" + y + ", -1, 0]]\n";
+    EXPECT_EQ(
+        hits_of("[table]\nshape = \"discs\"\ncenters = [[-2, 0], [2, 0]]\nradius = 0.5\n" + starts + charges),
+        2u);
+    hits_of("[table]\nshape = \"circle\"\nradius = 1\n" + starts + charges);
+  }
+}
+
+std::string square(const std::string& position, const std::string& velocity, const std::string& more,
+                   const std::string& step) {
+  return "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n" + more +
+         "[particles]\nspeed = 1\n[initial]\nkind = \"point\"\nposition = " + position +
+         "\nvelocity = " + velocity + "\n[integrator]\nstep = " + step + "\n[run]\nt_max = 20\n";
+}
+
+// Half a period is a whole number of steps: what is left of a step after a hit, or before it, is rounding.
+TEST(HitsInSteps, AtTheEndOfAStep) {
+  for (const char* step : {"0.01", "0.02", "0.05", "0.125"})
+    EXPECT_EQ(hits_of(square("[0.5, 0.5]", "[1, 0]", "", step), true), 20u) << step;
+  // A ball that is thrown up from the floor, under force 1: many hits of both kinds.
+  for (const char* step : {"0.01", "0.02", "0.05"})
+    for (const char* v : {"-0.8", "-0.6", "-0.4", "0", "0.2", "0.4", "0.8"})
+      hits_of(std::string("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[[potential]]\nkind = \"linear\"\n"
+                          "force = [0, -1]\n[particles]\nspeed = 1\n[initial]\nkind = \"birkhoff\"\nwall = \"bottom\"\n"
+                          "s = 0.4\nv_parallel = ") + v + "\n[integrator]\nstep = " + step + "\n[run]\nt_max = 50\n");
+}
+
+// Orbits that touch a circle nearly along it, and come off it by little more than rounding.
+TEST(HitsInSteps, OfOrbitsThatTouch) {
+  for (const char* start :
+       {"[0.999999999999, 0]\nvelocity = [0, 1.000001]", "[0.9999999, 0]\nvelocity = [0, 1]"})
+    hits_of(
+        std::string("[table]\nshape = \"circle\"\nradius = 1\n[[potential]]\nkind = \"harmonic\"\nomega = 1\n"
+                    "[initial]\nkind = \"point\"\nposition = ") +
+        start + "\n[integrator]\nstep = 0.01\n[run]\nt_max = 20\n");
+}
+
+}  // namespace
+}  // namespace carom
