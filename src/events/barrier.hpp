@@ -76,13 +76,31 @@ struct Barrier {
     const Vector e = x - origin;
     return (-orientation * dot(first, e)) * first + (-orientation * dot(second, e)) * second;
   }
-  /// Does a point on the carrier lie on the piece, ends included?
+  /// How far from the wall a particle on it may be.
+  Real reach_of_wall(const Vector& x) const {
+    const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
+    const auto norm = [&](const Vector& a) { return size(a.x) + size(a.y); };
+    // The gap of a conic changes by 1 / axis or more with the way, and a row is as long as that.
+    const Real p = norm(first), q = norm(second);
+    return on_wall() * rounding(x) / (!conic || p < q ? p : q);
+  }
+  /// Does a point on the carrier lie on the piece, ends included? A path through the end of one piece, which is
+  /// where the next begins, is found beyond either by no more than a particle on the wall is off it: both pieces
+  /// reach as far beyond their ends.
   bool covers(const Vector& x) const {
     if (closed) return true;
     const Vector chord = to - from, e = x - from;
-    if (conic) return !(side * cross(chord, e) > Real(0));
+    const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
+    const Real beyond = (size(chord.x) + size(chord.y)) * reach_of_wall(x);
+    if (conic) return !(side * cross(chord, e) > beyond);
     const Real along = dot(chord, e);
-    return !(along < Real(0)) && !(along > dot(chord, chord));
+    return !(along < -beyond) && !(along > dot(chord, chord) + beyond);
+  }
+  /// Is a point on the carrier that end of the piece, to rounding?
+  bool is_at(const Vector& end, const Vector& x) const {
+    const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
+    const Vector e = x - end;
+    return !closed && !(size(e.x) + size(e.y) > Real(2) * reach_of_wall(x));
   }
 };
 

@@ -8,6 +8,17 @@ namespace carom {
 
 using geometry::Vector;
 
+namespace {
+
+/// The corner that begins a wall: one of pi/n leaves a unique direction, which the hits on both walls come to.
+bool is_regular(const HitFinder& finder, int wall) {
+  const Wall& w = finder.table().walls[static_cast<std::size_t>(wall)];
+  if (w.next == wall) return true;
+  return w.corner > 0 || finder.exact().corner(w.previous, wall).order > 0;
+}
+
+}  // namespace
+
 GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group, std::size_t member,
                 const Barrier<double>& barrier, DecisionCounts& counts) {
   GroupHit hit;
@@ -35,7 +46,11 @@ GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group,
     inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
   }
   hit.state.velocity = after;
-  hit.inward = inward == Sign::positive && !group.next().slides;
+  const Vector& there = group.phase().position[member];
+  const bool regular = (!barrier.is_at(barrier.from, there) || is_regular(finder, barrier.wall)) &&
+                       (!barrier.is_at(barrier.to, there) ||
+                        is_regular(finder, finder.table().walls[static_cast<std::size_t>(barrier.wall)].next));
+  hit.inward = inward == Sign::positive && regular && !group.next().slides;
   return hit;
 }
 

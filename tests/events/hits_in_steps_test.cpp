@@ -78,5 +78,46 @@ TEST(HitsInSteps, OfOrbitsThatTouch) {
         start + "\n[integrator]\nstep = 0.01\n[run]\nt_max = 20\n");
 }
 
+/// Fate of a particle without force, stepped; `hits` of it.
+Fate fate_of(const std::string& text, std::uint64_t& hits) {
+  const LoadedSystem loaded = read_system(text, "corner");
+  Dynamics dynamics = loaded.system.dynamics;
+  dynamics.everywhere = true;
+  World world(*loaded.system.table, dynamics);
+  world.add(loaded.system.particles[0], Sampler(loaded.system).draw_all(world, 0)[0]);
+  Observer nobody;
+  world.run_until(loaded.system.run.t_max, nobody);
+  hits = world.hits(0);
+  EXPECT_NE(world.fate(0), Fate::lost) << world.report(0) << text;
+  return world.fate(0);
+}
+
+// No path slips between two walls: right corners turn it back, others that have no unique limit are singular.
+TEST(HitsInSteps, InCorners) {
+  std::uint64_t hits = 0;
+  for (const char* step : {"0.01", "0.02", "0.03", "0.05"}) {
+    EXPECT_EQ(fate_of(square("[0.5, 0.5]", "[1, 1]", "", step), hits), Fate::survived) << step;
+    EXPECT_EQ(hits % 2, 0u);
+    EXPECT_EQ(hits, 28u) << step;  // ways of length sqrt(2) after the first half one, two hits each
+    const std::string rest = std::string("\n[integrator]\nstep = ") + step + "\n[run]\nt_max = 2\n";
+    // The corner of an obstacle on a lattice.
+    for (const char* aim : {"[0, 0.4]\nvelocity = [0, -1]", "[0.4, 0]\nvelocity = [-1, 0]"})
+      EXPECT_EQ(fate_of(std::string("[table]\nshape = \"path\"\n[[table.loop]]\nstart = [-0.25, 0]\npieces = ["
+                                    "{line_to = [0, 0.25]}, {line_to = [0.25, 0]}, {line_to = [0, -0.25]}, {line_to = "
+                                    "[-0.25, 0]}]\n[lattice]\nvectors = [[1, 0], [0, 1]]\n[particles]\nspeed = "
+                                    "1\n[initial]\nkind = \"point\"\nposition = ") + aim + rest, hits),
+                Fate::singular)
+          << step << aim;
+    // A regular triangle has the angle pi/3: three hits turn the particle back. That of a pentagon is none.
+    for (const char* sides : {"3", "5"}) {
+      const std::string table = std::string("[table]\nshape = \"regular\"\nsides = ") + sides +
+                                "\nradius = 1\n[particles]\nspeed = 1\n[initial]\nkind = \"point\"\nposition = [0.1, "
+                                "0]\nvelocity = [1, 0]";
+      EXPECT_EQ(fate_of(table + rest, hits), *sides == '3' ? Fate::survived : Fate::singular) << sides << " " << step;
+      EXPECT_EQ(hits, *sides == '3' ? 3u : 1u) << step;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom
