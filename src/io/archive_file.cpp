@@ -152,7 +152,10 @@ void ArchiveFile::extend_head(const LoadedSystem& loaded, const Provenance& orig
 
 std::vector<Origin> ArchiveFile::read_origins(hid_t provenance, const std::string& name) {
   std::vector<Origin> parts;
-  const auto times = static_cast<std::size_t>(hdf5::read_integer_attribute(provenance, "continued", name));
+  const std::int64_t continued = hdf5::read_integer_attribute(provenance, "continued", name);
+  if (continued < 0)
+    throw InputError(Place{name, 0, 0, ""}, "'/provenance/continued' is negative", "an archive as carom wrote it");
+  const auto times = static_cast<std::size_t>(continued);
   for (std::size_t part = 1; part <= times + 1; ++part) {
     const auto text = [&](const char* what) {
       return hdf5::read_string_attribute(provenance, numbered(what, part).c_str(), name);

@@ -44,7 +44,9 @@ void append_records(hdf5::Columns&, const std::vector<TrajectoryRecord>&);
 class RecordReader {
  public:
   explicit RecordReader(const std::string& file);
-  /// False, and no records, at the end.
+  /// Those that have not been read.
+  std::size_t rows() const { return left_; }
+  /// False, and no records, at the end. Throws InputError where they are not in order of index.
   bool next(std::vector<TrajectoryRecord>&);
 
  private:
@@ -52,6 +54,7 @@ class RecordReader {
   hdf5::Handle file_;
   std::vector<hdf5::Handle> columns_;
   std::size_t row_ = 0, left_ = 0;
+  std::uint64_t last_ = 0;  ///< index of the last that was read
 };
 
 }  // namespace carom

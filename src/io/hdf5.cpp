@@ -189,11 +189,15 @@ std::string read_text(hid_t parent, const char* name, const std::string& file) {
 }
 
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description description,
-                    const std::string& file) {
+                    const std::string& file, Checksum checksum) {
   const hsize_t size = rows;
   const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
   const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
   check(H5Pset_alloc_time(layout.get(), H5D_ALLOC_TIME_EARLY) >= 0, file);
+  if (checksum == Checksum::fletcher32 && rows > 0) {
+    const hsize_t chunk = std::min<hsize_t>(size, 65536);  // filters work on chunks
+    check(H5Pset_chunk(layout.get(), 1, &chunk) >= 0 && H5Pset_fletcher32(layout.get()) >= 0, file);
+  }
   Handle dataset = checked(
       H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT), H5Dclose, file);
   describe(dataset.get(), description, file);

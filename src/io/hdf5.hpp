@@ -90,9 +90,11 @@ inline hid_t native_type<std::uint64_t>() {
 void write_text(hid_t parent, const char* name, std::string_view text, Description, const std::string& file);
 std::string read_text(hid_t parent, const char* name, const std::string& file);
 
-/// A dataset of fixed size.
+/// A dataset of fixed size. With a checksum a damaged one cannot be read; not for datasets that are read while they are
+/// written.
+enum class Checksum { none, fletcher32 };
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description,
-                    const std::string& file);
+                    const std::string& file, Checksum = Checksum::none);
 /// A dataset that grows by rows.
 Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk, Description,
                       const std::string& file);
@@ -103,7 +105,8 @@ void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, 
 template <class T>
 void write_column(hid_t parent, const char* name, std::span<const T> values, Description description,
                   const std::string& file) {
-  Handle dataset = create_fixed(parent, name, native_type<T>(), values.size(), description, file);
+  Handle dataset =
+      create_fixed(parent, name, native_type<T>(), values.size(), description, file, Checksum::fletcher32);
   check(values.empty() ||
             H5Dwrite(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
         file);

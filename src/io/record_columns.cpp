@@ -46,6 +46,9 @@ RecordReader::RecordReader(const std::string& file) : name_(file) {
   const char* names[] = {"index", "x", "y", "vx", "vy", "fate", "hole", "t", "hits"};
   for (const char* column : names) columns_.push_back(hdf5::open_column(group.get(), column, file));
   left_ = hdf5::rows_of(columns_.front().get(), file);
+  for (std::size_t i = 1; i < columns_.size(); ++i)
+    if (hdf5::rows_of(columns_[i].get(), file) != left_)
+      damaged(file, std::string("'/trajectories/index' and '/trajectories/") + names[i] + "' differ in length");
 }
 
 bool RecordReader::next(std::vector<TrajectoryRecord>& records) {
@@ -68,6 +71,12 @@ bool RecordReader::next(std::vector<TrajectoryRecord>& records) {
   column(6, std::int32_t{}, [](Record& r, std::int32_t value) { r.hole = value; });
   column(7, double{}, [](Record& r, double value) { r.time = value; });
   column(8, std::uint64_t{}, [](Record& r, std::uint64_t value) { r.hits = value; });
+  for (std::size_t i = 0; i < count; ++i) {
+    const TrajectoryRecord& r = records[i];
+    if (row_ + i > 0 && r.index <= last_) damaged(name_, "'/trajectories/index' is not in order");
+    if (r.fate < Fate{} || r.fate > Fate::lost) damaged(name_, "'/trajectories/fate' has a number that is no fate");
+    last_ = r.index;
+  }
   row_ += count;
   left_ -= count;
   return true;

@@ -3,7 +3,9 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -41,12 +43,12 @@ class Damage {
     H5Tclose(type);
   }
   void remove(const char* dataset) { EXPECT_GE(H5Ldelete(file_, dataset, H5P_DEFAULT), 0); }
-  void set_complete() {
-    const hid_t attribute = H5Aopen(file_, "complete", H5P_DEFAULT);
-    const std::int64_t one = 1;
-    EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_INT64, &one), 0);
+  void set_attribute(const char* object, const char* name, std::int64_t value) {
+    const hid_t attribute = H5Aopen_by_name(file_, object, name, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_INT64, &value), 0);
     H5Aclose(attribute);
   }
+  void set_complete() { set_attribute("/", "complete", 1); }
 
  private:
   template <class T, class Change>
@@ -103,6 +105,10 @@ TEST(Damaged, EscapeNamesTheDataset) {
       {[](Damage& d) { d.add_to_first("fates/trajectories"), d.add_to_first("fates/survived"); },
        "'/fates/trajectories' is not the number of particles that '/done' counts"},
       {[](Damage& d) { d.resize("fates/holes", 7); }, "'/fates/holes' are not the holes of '/system'"},
+      {[](Damage& d) { d.set_first("fates/holes", 5); }, "'/fates/holes' do not add up to '/fates/escaped'"},
+      {[](Damage& d) { d.set_first("fates/pinned", 201); }, "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
+      {[](Damage& d) { d.set_first("fates/collisions", 1); }, "'/fates/collisions' and '/fates/most_hits' contradict each other"},
+      {[](Damage& d) { d.set_first("fates/most_hits", 0); }, "'/fates/collisions' and '/fates/most_hits' contradict each other"},
       {[](Damage& d) { d.write_text("lost", "somewhere\n"); }, "a line of '/lost' does not begin with an index"},
       {[](Damage& d) { d.write_text("lost", "1x\tsomewhere\n"); }, "a line of '/lost' does not begin with an index"},
       {[](Damage& d) { d.remove("done"); }, "'done' is missing"},
@@ -118,7 +124,58 @@ TEST(Damaged, DiffusionNamesTheDataset) {
       {[](Damage& d) { d.resize("fates/trajectories", 0); }, "'/fates/trajectories' is not one number"},
       {[](Damage& d) { d.resize("fates/energy_change", 0); }, "'/fates/energy_change' is not one number"},
       {[](Damage& d) { d.add_to_first("fates/trajectories"); }, "'/fates/trajectories' is not the number of particles that '/done' counts"},
+      {[](Damage& d) { d.set_first("fates/survived", 3); }, "'/fates' do not add up to '/fates/trajectories'"},
+      {[](Damage& d) { d.set_first("fates/pinned", 51); }, "'/fates/pinned' is more than '/fates/survived'"},
+      {[](Damage& d) { d.set_first("msd_groups/count", 0); }, "'/msd_groups/count' and '/fates' contradict each other"},
   });
+}
+
+// The checksums of datasets: a changed byte in the sum of hashes, which nothing else would tell.
+TEST(Damaged, ABitOfTheDigestIsToldOf) {
+  const Shell shell;
+  ASSERT_EQ(shell("$carom escape stadium --trajectories 200 --t-max 20 -o a.h5").status, 0);
+  std::uint64_t digest = 0;
+  {
+    const hid_t file = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(file, "fates/digest", H5P_DEFAULT);
+    EXPECT_GE(H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &digest), 0);
+    H5Dclose(dataset);
+    H5Fclose(file);
+  }
+  std::fstream file(shell.folder() + "/a.h5", std::ios::in | std::ios::out | std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&digest), sizeof digest));
+  ASSERT_NE(at, std::string::npos);
+  file.clear();
+  file.seekp(static_cast<std::streamoff>(at));
+  file.put(static_cast<char>(bytes[at] ^ 1));
+  file.close();
+  const Outcome o = shell("$carom escape --resume a.h5");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("digest"), std::string::npos) << o.err;
+}
+
+TEST(Damaged, RecordsAreOneOfEachParticleInOrder) {
+  const Shell shell;
+  ASSERT_EQ(shell("$carom escape stadium --trajectories 200 --t-max 20 --per-trajectory --shard 1/2 -o a.h5 --quiet && "
+                  "$carom escape stadium --trajectories 200 --t-max 20 --per-trajectory --shard 2/2 -o 2.h5 --quiet").status, 0);
+  const auto message = [&](auto damage) {
+    EXPECT_EQ(shell("cp a.h5 b.h5").status, 0);
+    damage(Damage(shell.folder() + "/b.h5"));
+    const Outcome o = shell("$carom merge --force all.h5 b.h5 2.h5");
+    EXPECT_EQ(o.status, 1);
+    return o.err;
+  };
+  const auto told = [](const std::string& text, const char* what) { return text.find(what) != std::string::npos; };
+  const char* columns[] = {"index", "x", "y", "vx", "vy", "fate", "hole", "t", "hits"};
+  const std::string cut = message([&](Damage&& d) {
+    for (const char* column : columns) d.resize((std::string("trajectories/") + column).c_str(), 10);
+  });
+  EXPECT_TRUE(told(cut, "'/trajectories' has not one row a particle of '/fates'")) << cut;
+  const std::string uneven = message([](Damage&& d) { d.resize("trajectories/hits", 10); });
+  EXPECT_TRUE(told(uneven, "'/trajectories/index' and '/trajectories/hits' differ in length")) << uneven;
+  const std::string order = message([](Damage&& d) { d.set_first("trajectories/index", 7); });
+  EXPECT_TRUE(told(order, "'/trajectories/index' is not in order")) << order;
 }
 
 TEST(Damaged, APartIsNotTheWhole) {
