@@ -371,6 +371,9 @@ class LaneWorld::Implementation {
   int entry_at(const LaneStart& start) const {
     const State& s = start.state;
     if (!pieces.by_signs || turn != Turn::straight || s.wall < 0) return -1;
+    // The world flies from u where the position is another one.
+    const geometry::PreparedCurve& w = finder.curve(s.wall);
+    if (!(s.u > geometry::first_parameter && s.u < w.last() && w.parameter(s.position) == s.u)) return -1;
     const int piece = lanes::piece_at(pieces, s.wall, s.u);
     return piece < 0 ? -1 : lanes::entry_of(pieces, piece, s.position, s.velocity, side_margin * pieces.size * start.particle.speed);
   }

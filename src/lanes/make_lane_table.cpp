@@ -107,24 +107,34 @@ double part(std::int64_t n, Vector v) { return std::fabs(static_cast<double>(n))
 /// Are all walls discs that do not reach an edge of the cell? As HitFinder::find_enclosure.
 bool discs_within_cell(const Table& table) {
   if (table.lattice->edges.size() != 4 && table.lattice->edges.size() != 6) return false;
+  double size = 0.0;
+  for (const geometry::CellEdge& edge : table.lattice->edges)
+    size = std::max(size, std::fabs(edge.segment.from.x) + std::fabs(edge.segment.from.y) +
+                              part(edge.beyond.first, table.lattice->first) + part(edge.beyond.second, table.lattice->second));
   for (const Wall& wall : table.walls) {
     const PreparedCurve w(wall.curve);
     if (!w.closed || w.kind != CurveKind::circle || w.orientation > 0) return false;
     for (const geometry::CellEdge& edge : table.lattice->edges) {
       const PreparedCurve e(edge.segment);
       const double gap = geometry::cross(e.tangent, w.centre - e.from) - std::sqrt(w.r2);
-      const auto [first, second] = edge.beyond;
-      const double size = w.extent + std::fabs(e.from.x) + std::fabs(e.from.y) + part(first, table.lattice->first) +
-                          part(second, table.lattice->second);
-      if (!(gap > 0x1p-36 * size)) return false;  // beyond 2^-40 S: no line along an edge cuts it (docs/developer/lanes.md)
+      if (!(gap > 0x1p-36 * (w.extent + size))) return false;  // beyond 2^-40 S: no line along an edge cuts it (docs/developer/lanes.md)
     }
   }
   return true;
 }
 
-/// The cell of a lattice.
+/// Is an edge as short as errors are? So are two of a hexagon that is a rectangle but for rounding.
+bool is_short(const geometry::Segment& edge) {
+  const Vector along = edge.to - edge.from;
+  return std::fabs(along.x) + std::fabs(along.y) < 0x1p-42 * (std::fabs(edge.from.x) + std::fabs(edge.from.y));
+}
+
+/// The cell of a lattice. Without its short edges it is another one by less than any disc keeps from them.
 void add_cell(LaneTable& t, const geometry::Lattice& lattice, double mean_flight) {
-  for (const geometry::CellEdge& edge : lattice.edges) {
+  const std::size_t edges = lattice.edges.size(), half = edges / 2;
+  for (std::size_t i = 0; i < edges; ++i) {
+    const geometry::CellEdge& edge = lattice.edges[i];
+    if (is_short(edge.segment) || is_short(lattice.edges[(i + half) % edges].segment)) continue;
     const Vector corner = edge.segment.from;
     const Vector along = edge.segment.to - corner, beyond = lattice.translation(edge.beyond);
     t.edge_x[t.edges] = corner.x;

@@ -142,7 +142,8 @@ template <class Kind>
 INLINE void choose_parallelograms(const LaneTable& t, const LanePack& pack, Stages& stages) {
   Ways ways;
   const auto cell_of = [&](int lane) { return CellOf{load(pack.cell_first + lane), load(pack.cell_second + lane)}; };
-  for (int lane = 0; lane < pack.used; lane += width) begin_way(view_of<Kind>(t, pack, lane), cell_of(lane), ways, lane);
+  const int groups = (pack.used + together * width - 1) / (together * width);
+  for (int lane = 0; lane < groups * together * width; lane += width) begin_way(view_of<Kind>(t, pack, lane), cell_of(lane), ways, lane);
   for (int lane = 0; lane < pack.used; lane += together * width) go_on_way(t, ways, lane);
   for (int lane = 0; lane < pack.used; lane += width) {
     CellOf cell = cell_of(lane);

@@ -6,9 +6,11 @@
 
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "carom/events/world.hpp"
 #include "carom/geometry/curve.hpp"
+#include "carom/lanes/lane_world.hpp"
 #include "events/next_hit.hpp"
 #include "lanes/make_lane_table.hpp"
 #include "random_tables.hpp"
@@ -91,6 +93,42 @@ TEST(ExitBySigns, IsNotAskedForWhereAJointLiesInACap) {
     EXPECT_FALSE(t.convex);
     EXPECT_EQ(t.by_signs, tip > s);
   }
+}
+
+// A start whose position is not the one of its parameter is flown from the parameter: its exit tells nothing of the position's line.
+TEST(ExitBySigns, IsNotLearntFromAStartBesideItsPlace) {
+  const Table table = tests::mushroom(1.0, 0.3, 0.7);
+  Dice dice(5);
+  std::vector<LaneStart> starts(300);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    State& s = starts[i].state;
+    s.wall = 0;
+    s.u = i == 0 ? 0.0 : dice.between(0.01, 0.99) * geometry::end_parameter(table.walls[0].curve);
+    s.position = geometry::point_at(table.walls[0].curve, s.u);
+    if (i == 0) s.position = {0.25, -0.69};
+    const double slope = i == 0 ? 0.75 : dice.between(-2.0, 2.0);
+    s.velocity = i == 0 ? Vector{0.6, 0.8} : Vector{slope, 1.0};
+    starts[i].particle.speed = std::sqrt(dot(s.velocity, s.velocity));
+    starts[i].tag = i;
+  }
+  LaneWorld lanes(table, {starts[0].particle}, widest_instruction_set());
+  lanes.limit_hits(40);
+  std::size_t next = 0;
+  lanes.run_until(
+      1e300,
+      [&](LaneStart& start) {
+        if (next == starts.size()) return false;
+        start = starts[next++];
+        return true;
+      },
+      [&](const LaneEnd& end) {
+        World world(table);
+        world.limit_hits(40);
+        world.add(starts[end.tag].particle, starts[end.tag].state);
+        Observer nobody;
+        world.run_until(1e300, nobody);
+        EXPECT_EQ(world.state(0).position, end.state.position) << end.tag;
+      });
 }
 
 }  // namespace
