@@ -13,56 +13,17 @@
 
 namespace carom {
 
-struct CertifiedNumber::Enclosure {
-  certify::Ball ball;
-};
-
-namespace certify {
-
-const Ball& ball_of(const CertifiedNumber& number) { return number.enclosure().ball; }
-
-}  // namespace certify
-
-std::string CertifiedNumber::text(int digits) const { return value_->ball.decimals(digits); }
-double CertifiedNumber::to_double() const { return value_->ball.to_double(); }
-double CertifiedNumber::log2_error() const { return value_->ball.radius().log2(); }
-
-const char* name_of(CertifiedFate fate) {
-  switch (fate) {
-    case CertifiedFate::completed:
-      return "completed";
-    case CertifiedFate::escaped:
-      return "escaped";
-    case CertifiedFate::unbounded:
-      return "unbounded";
-    case CertifiedFate::pinned:
-      return "pinned";
-    case CertifiedFate::singular:
-      return "singular";
-    case CertifiedFate::interrupted:
-      return "interrupted";
-    case CertifiedFate::undecided:
-      break;
-  }
-  return "undecided";
-}
-
 namespace {
 
-using certify::Ball;
 using certify::BallState;
 using certify::Outcome;
 
-CertifiedNumber number(Ball ball) {
-  return CertifiedNumber(std::make_shared<const CertifiedNumber::Enclosure>(CertifiedNumber::Enclosure{std::move(ball)}));
-}
-
 void fill(CertifiedState& state, BallState s) {
-  state.t = number(std::move(s.time));
-  state.x = number(std::move(s.position.x));
-  state.y = number(std::move(s.position.y));
-  state.vx = number(std::move(s.velocity.x));
-  state.vy = number(std::move(s.velocity.y));
+  state.t = certify::number_of(std::move(s.time));
+  state.x = certify::number_of(std::move(s.position.x));
+  state.y = certify::number_of(std::move(s.position.y));
+  state.vx = certify::number_of(std::move(s.velocity.x));
+  state.vy = certify::number_of(std::move(s.velocity.y));
 }
 
 }  // namespace

@@ -7,5 +7,6 @@
 namespace carom::certify {
 
 const Ball& ball_of(const CertifiedNumber&);
+CertifiedNumber number_of(Ball);
 
 }  // namespace carom::certify

@@ -13,8 +13,6 @@ BallVector turned(const BallVector& v, const Ball& c, const Ball& s) {
   return {p - r, p + q};
 }
 
-BallVector rounded(const BallVector& v) { return {v.x.rounded(), v.y.rounded()}; }
-
 }  // namespace
 
 LineEnclosure::LineEnclosure(const Arena& arena, const LineTable& lines, const BallState& start)

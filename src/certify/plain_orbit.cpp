@@ -56,12 +56,12 @@ namespace {
 
 using namespace certify;
 
-Plain rounded(const Ball& x) {
+Plain plain(const Ball& x) {
   Plain r;
   arf_get_mpfr(r.raw(), arb_midref(x.raw()), MPFR_RNDN);
   return r;
 }
-VectorOf<Plain> rounded(const BallVector& v) { return {rounded(v.x), rounded(v.y)}; }
+VectorOf<Plain> plain(const BallVector& v) { return {plain(v.x), plain(v.y)}; }
 geometry::Vector near(const VectorOf<Plain>& v) { return {v.x.to_double(), v.y.to_double()}; }
 
 class Runner {
@@ -74,12 +74,12 @@ class Runner {
     enclosed.collisions = 1;
     const KnownTies none;
     const Attempt start(system, enclosed, none, task.bits + 64, task.bits + 64);
-    scene_ = converted<Plain>(start.scene(), [](const Ball& x) { return rounded(x); });
+    scene_ = converted<Plain>(start.scene(), [](const Ball& x) { return plain(x); });
     where_ = start.whereabouts();
-    state_.position = rounded(start.state().position);
-    state_.velocity = rounded(start.state().velocity);
+    state_.position = plain(start.state().position);
+    state_.velocity = plain(start.state().velocity);
     state_.standing = start.standing();
-    if (task.t_max) t_max_ = rounded(value_of(*task.t_max));
+    if (task.t_max) t_max_ = plain(value_of(*task.t_max));
   }
 
   PlainEnd run(const std::function<bool()>& interrupted) {

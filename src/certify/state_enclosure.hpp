@@ -46,6 +46,8 @@ class StateEnclosure {
   virtual double useful_bits() const = 0;
 };
 
+/// To the present precision.
+inline BallVector rounded(const BallVector& v) { return {v.x.rounded(), v.y.rounded()}; }
 inline BallVector middle(const BallVector& v) { return {v.x.midpoint(), v.y.midpoint()}; }
 inline Bound radius(const BallVector& v) { return v.x.radius() + v.y.radius(); }
 inline geometry::Vector near(const BallVector& v) { return {v.x.to_double(), v.y.to_double()}; }
