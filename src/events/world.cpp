@@ -10,14 +10,27 @@
 #include "events/table_with_supports.hpp"
 #include "events/world_implementation.hpp"
 #include "motion/free_motion.hpp"
+#include "table/flat_arcs.hpp"
 
 namespace carom {
 
 using geometry::Cell;
 using geometry::Vector;
 
+namespace {
+
+/// Tables from files were asked when they were built; this one may be made by hand.
+const Table& with_bent_arcs(const Table& table) {
+  for (const Wall& wall : table.walls)
+    if (const std::string fault = flat_arc(wall); !fault.empty()) throw InputError(Place{}, fault, bent_enough);
+  return table;
+}
+
+}  // namespace
+
 World::Implementation::Implementation(const Table& the_table, const Dynamics& how, DecisionOptions options)
-    : table(the_table),
+    : table(with_bent_arcs(the_table)),
+      scales(the_table),
       dynamics(how),
       with_supports(table_with_supports(the_table, how)),
       wall_count(static_cast<int>(the_table.walls.size())),
@@ -277,6 +290,8 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   // Where forces act, the speed is not a constant: it is that of the start.
   if (w.integrates) b.particle.speed = std::sqrt(dot(state.velocity, state.velocity));
   if (w.contacts) w.check_disc(b);
+  if (!w.integrates)
+    if (const std::string fault = w.scales.fault(b.particle); !fault.empty()) throw std::invalid_argument(fault);
   if (!integrated) {
     w.check_speed(b);
     if (!w.contacts || b.particle.speed > 0.0) w.begin_free(b);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/events/decision_range.hpp"
 #include "carom/events/world.hpp"
 #include "events/contacts.hpp"
 #include "events/group.hpp"
@@ -115,6 +116,7 @@ class World::Implementation {
   bool settle_on_wall(int index, double way, Observer& observer);
 
   const Table& table;             ///< the user's
+  const DecisionRange scales;     ///< of it
   Dynamics dynamics;
   /// The same with the edges of supports as walls, or as the centres of hard discs see it, if there are any.
   Table with_supports;

@@ -4,9 +4,11 @@
 #include <cstdio>
 
 #include "carom/geometry/curve_frame.hpp"
+#include "table/flat_arcs.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom {
+namespace shapes {
 namespace {
 
 using namespace geometry;
@@ -41,25 +43,28 @@ std::string shown(double x) {
 
 }  // namespace
 
-void refuse_flat_arcs(const TableSpec& spec, const Table& table) {
-  for (const Wall& wall : table.walls) {
-    const auto* circular = std::get_if<CircularArc>(&wall.curve);
-    const auto* elliptic = std::get_if<EllipticArc>(&wall.curve);
-    if (!circular && !elliptic) continue;
-    const double in_metric = elliptic ? elliptic->ratio * dot(elliptic->axis, elliptic->axis) : 1.0;
-    const Flatness found =
-        circular ? flatness(wall.curve, circular->offset, circular->counterclockwise)
-                 : flatness(wall.curve, in_metric * elliptic->offset, elliptic->counterclockwise);
-    if (found.share <= largest_share) continue;
-    const CurveFrame frame = frame_of(wall.curve);
-    const Vector chord = end_point(wall.curve) - start_point(wall.curve);
-    throw InputError(place_of_wall(spec, table, wall.name),
-                     "the arc '" + wall.name + "' is too flat: with a " +
-                         (circular ? "radius of " : "semi-axis of ") + shown(frame.major) + " over a chord of " +
-                         shown(std::sqrt(dot(chord, chord))) + ", hits would lie off it by up to " +
-                         shown(found.share) + " of its sagitta",
-                     "a straight line, or an arc bent enough for a share of 2^-16: a radius up to some 30000 chords");
-  }
+}  // namespace shapes
+
+std::string flat_arc(const Wall& wall) {
+  const auto* circular = std::get_if<geometry::CircularArc>(&wall.curve);
+  const auto* elliptic = std::get_if<geometry::EllipticArc>(&wall.curve);
+  if (!circular && !elliptic) return "";
+  const double in_metric = elliptic ? elliptic->ratio * dot(elliptic->axis, elliptic->axis) : 1.0;
+  const shapes::Flatness found =
+      circular ? shapes::flatness(wall.curve, circular->offset, circular->counterclockwise)
+               : shapes::flatness(wall.curve, in_metric * elliptic->offset, elliptic->counterclockwise);
+  if (found.share <= shapes::largest_share) return "";
+  const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
+  const geometry::Vector chord = geometry::end_point(wall.curve) - geometry::start_point(wall.curve);
+  return "the arc '" + wall.name + "' is too flat: with a " + (circular ? "radius of " : "semi-axis of ") +
+         shapes::shown(frame.major) + " over a chord of " + shapes::shown(std::sqrt(dot(chord, chord))) +
+         ", hits would lie off it by up to " + shapes::shown(found.share) + " of its sagitta";
 }
 
-}  // namespace carom::shapes
+void shapes::refuse_flat_arcs(const TableSpec& spec, const Table& table) {
+  for (const Wall& wall : table.walls)
+    if (const std::string fault = flat_arc(wall); !fault.empty())
+      throw InputError(place_of_wall(spec, table, wall.name), fault, bent_enough);
+}
+
+}  // namespace carom

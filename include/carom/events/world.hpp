@@ -23,7 +23,7 @@ namespace carom {
 /// (docs/physics/walls-in-steps.md).
 class World {
  public:
-  /// Free particles. Keeps a reference to the table, which must live as long.
+  /// Free particles. Keeps a reference to the table, which must live as long. InputError: an arc is too flat.
   explicit World(const Table& table, DecisionOptions options = {});
   World(const Table& table, const Dynamics& dynamics, DecisionOptions options = {});
   explicit World(Table&&, DecisionOptions = {}) = delete;
@@ -31,8 +31,8 @@ class World {
   World(World&&) noexcept;
 
   /// Adds a particle; returns its index. A state off the walls must lie in the domain, else
-  /// std::invalid_argument. Its velocity is kept as it is. Without forces its length must be
-  /// Particle::speed within 32 roundings (64u of its square), else std::invalid_argument.
+  /// std::invalid_argument. Its velocity is kept as it is. Without forces its length must be Particle::speed within
+  /// 32 roundings (64u of its square), and that within the table's DecisionRange, else std::invalid_argument.
   /// `hits`: how many it has made before, when a stored trajectory goes on. A state of a later time
   /// than that of the loop is injected then. Hard discs (Particle::radius > 0): no disc may overlap another,
   /// else std::invalid_argument; the velocity may be of any length, and their positions and those of
