@@ -204,7 +204,29 @@ class CrossingSearch {
       newest = &path_.at(next);
       (gap(b, i, *newest) > Real(0) ? inside : outside) = newest;
     }
-    return b.covers(inside->phase.position[i]) ? inside : nullptr;
+    if (b.covers(inside->phase.position[i])) return inside;
+    if (b.closed) return nullptr;
+    Knot* joint = at_end(b, b.from, i, *inside, from, to);
+    return joint ? joint : at_end(b, b.to, i, *inside, from, to);
+  }
+
+  // The path crosses the carrier beyond the piece. If it also passes that end of the piece, to rounding, the gap changes
+  // by no more than rounding between the two, and they cannot be told apart: nearly along a wall, that may be many
+  // roundings of the point. The wall beyond the joint may find its crossing before it, so neither would be hit. Points
+  // of the path are rounded as its start is, be they nearer to the origin.
+  Knot* at_end(const Barrier<Real>& b, const typename Barrier<Real>::Vector& end, std::size_t i, Knot& found,
+               const Knot& from, const Knot& to) {
+    const auto &x = found.phase.position[i], &start = path_.start().phase.position[i];
+    const Real near = Real(2) * b.reach_of_wall(b.rounding(x) < b.rounding(start) ? start : x);
+    Knot* there = &found;
+    for (int n = 0; n < 3; ++n) {  // the path is nearly straight, so nearly at once
+      const auto &y = there->phase.position[i], &v = there->phase.velocity[i];
+      const Real time = there->time + dot(end - y, v) / dot(v, v);
+      if (!(from.time <= time) || !(time <= to.time)) return nullptr;
+      there = &path_.at(time);
+      if (!(PathHull<Real>::norm(there->phase.position[i] - end) > near)) return there;
+    }
+    return nullptr;
   }
 
   // Where the gap's rate changes sign: regula falsi with halved weights (Illinois).

@@ -1,0 +1,126 @@
+// Paths within steps that are aimed at a joint of two walls, down to nearly along one of them: one of the two
+// turns them back, or the joint ends them, but none slips between.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "carom/events/world.hpp"
+#include "random_tables.hpp"
+#include "recorder.hpp"
+
+namespace carom {
+namespace {
+
+using geometry::Vector;
+using tests::Dice;
+using tests::Recorder;
+using tests::Shape;
+
+Vector turned(Vector v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+Vector unit(Vector v) { return (1.0 / std::sqrt(dot(v, v))) * v; }
+
+/// Along the wall at its start or at its end.
+Vector tangent(const geometry::Curve& curve, bool at_end) {
+  const double u = at_end ? geometry::end_parameter(curve) : 0.0;
+  return unit(-1.0 * left(geometry::normal_at(curve, u)));
+}
+
+enum class Kind { random, many_sides, wedge, obstacle };
+
+/// `shape`: of random tables.
+Table table_of(Kind kind, Shape shape, double size, Vector at, Dice& dice) {
+  const auto corners = [&](int n, double radius, bool clockwise) {
+    std::vector<Vector> points;
+    for (int k = 0; k < n; ++k)
+      points.push_back(at + turned({radius, 0.0}, (clockwise ? -6.283185307179586 : 6.283185307179586) * k / n));
+    return points;
+  };
+  switch (kind) {
+    case Kind::random: return tests::random_table(shape, size, shape == Shape::mushroom ? Vector{} : at, dice);
+    case Kind::many_sides: return tests::polygon(corners(dice.whole(8, 400), size, false));
+    case Kind::wedge:
+      return tests::polygon({at, at + Vector{size, 0.0}, at + Vector{size, size * dice.spread(1e-4, 0.3)}});
+    case Kind::obstacle: break;
+  }
+  Table table = tests::polygon(corners(4, size, false));
+  const std::vector<Vector> inner = corners(dice.whole(3, 60), 0.4 * size, true);
+  std::vector<geometry::Curve> sides;
+  for (std::size_t i = 0; i < inner.size(); ++i)
+    sides.push_back(geometry::Segment{inner[i], inner[(i + 1) % inner.size()]});
+  tests::add_loop(table, sides);
+  return table;
+}
+
+struct Count {
+  long flown = 0, singular = 0;
+};
+
+void aim_at_joints(Kind kind, Shape shape, const ForceSpec& forces, Dice& dice, Count& count) {
+  const Vector force = forces.potentials.empty() ? Vector{} : forces.potentials.front().force;
+  const double size = dice.spread(0.3, 5.0);
+  const Vector at = dice.coin() ? Vector{} : Vector{dice.between(-30, 30), dice.between(-30, 30)};
+  const Table table = table_of(kind, shape, size, at, dice);
+  Dynamics dynamics;
+  dynamics.everywhere = true;
+  dynamics.forces = ForceField::build(forces, {Particle{}}, std::nullopt);
+  dynamics.integrator.scheme = "velocity-verlet";
+  dynamics.integrator.step = size * dice.spread(0.01, 0.3);
+  World world(table, dynamics);
+  world.limit_hits(1000);  // in wedges and along arcs
+  for (int k = 0; k < 60; ++k) {
+    const auto b = static_cast<std::size_t>(dice.whole(0, static_cast<int>(table.walls.size()) - 1));
+    const Wall& begins = table.walls[b];
+    const Wall& ends = table.walls[static_cast<std::size_t>(begins.previous)];
+    const Vector joint = geometry::point_at(begins.curve, 0.0);
+    const double angle = dice.coin() ? dice.spread(1e-9, 0.3) : dice.spread(0.01, 0.3);
+    const Vector back = dice.coin() ? turned(-1.0 * tangent(ends.curve, true), -angle)
+                                    : turned(tangent(begins.curve, false), angle);
+    // Backwards along the parabola from the joint.
+    const double t = size * dice.spread(0.003, 0.3), speed = dice.spread(0.5, 2.0);
+    Vector start = joint + (speed * t) * back + (0.5 * t * t) * force;
+    const Vector velocity = (-speed) * back - t * force;
+    for (int n = dice.whole(0, 3); n > 0; --n) start.x = std::nextafter(start.x, dice.coin() ? 1e30 : -1e30);
+    if (!world.contains(start)) continue;
+    world.clear();
+    world.add(tests::particle(0.0, std::sqrt(dot(velocity, velocity))), tests::start(start, velocity));
+    Recorder recorder;
+    world.run_until(3.0 * t, recorder);
+    ++count.flown;
+    count.singular += world.fate(0) == Fate::singular;
+    EXPECT_NE(world.fate(0), Fate::lost) << world.report(0);
+    if (world.fate(0) == Fate::survived) {
+      EXPECT_TRUE(world.state(0).wall >= 0 || world.contains(world.state_at(0, 3.0 * t).position))
+          << "angle " << angle << ", start " << start.x << " " << start.y << ", joint " << joint.x << " " << joint.y;
+    }
+  }
+}
+
+TEST(JointsInSteps, AreWatertight) {
+  Dice dice(77);
+  ForceSpec none, pull;
+  PotentialSpec linear;
+  linear.kind = PotentialSpec::Kind::linear;
+  linear.force = {0.3, -0.7};
+  pull.potentials.push_back(linear);
+  const std::pair<Kind, Shape> tables[] = {
+      {Kind::random, Shape::polygon},  {Kind::random, Shape::arcs},          {Kind::random, Shape::stadium},
+      {Kind::random, Shape::mushroom}, {Kind::random, Shape::elliptic_arcs}, {Kind::many_sides, Shape::polygon},
+      {Kind::wedge, Shape::polygon},   {Kind::obstacle, Shape::polygon}};
+  for (const auto& [kind, shape] : tables)
+    for (const ForceSpec* forces : {&none, &pull}) {
+      Count count;
+      for (long k = 0; k < tests::cases(60, 6000); ++k) aim_at_joints(kind, shape, *forces, dice, count);
+      EXPECT_GT(count.flown, 1000);
+      // Common tangents of walls turn back nearly all.
+      if (shape == Shape::stadium) {
+        EXPECT_LT(count.singular, count.flown / 20);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace carom
