@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
 #include "carom/io/archive.hpp"
 #include "cli/commands.hpp"
 #include "cli/ensemble_job.hpp"
@@ -46,6 +47,9 @@ int main(int argc, char** argv) {
     if (options.command == "table") return table(options);
     if (options.command == "validate") return validate(options);
     return systems(options);
+  } catch (const carom::SamplingStopped&) {
+    std::fputs("carom: interrupted before a start was found\n", stderr);
+    return stopped;
   } catch (const carom::InputError& error) {
     std::fprintf(stderr, "carom: %s\n", error.what());
     return bad_input;

@@ -143,6 +143,9 @@ int splitting(const Options& options) {
   const auto last = std::find_if(points_of_p.begin(), points_of_p.end(), [](const SplitPoint& p) { return died_out(p.p); });
   const double extinction = last == points_of_p.end() ? std::numeric_limits<double>::infinity() : last->at;
   for (const std::string& report : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
+  if (result.plan.population < Extrapolated::least_population)
+    warn(fmt::format("populations of {} trajectories: errors and intervals hold from {} on", result.plan.population,
+                     Extrapolated::least_population));
   if (options.json) {
     Json json = Json::object();
     add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
@@ -162,8 +165,8 @@ int splitting(const Options& options) {
     if (std::isfinite(extinction)) json.set("note", fmt::format("{} by {} = {:.6g}", all_died_out, variable, extinction));
     json.set(by_time ? "survival" : "survival_hits", std::move(points));
     if (by_time) json.set("rate", std::move(rates));
-    if (const auto decay = decay_of(result))
-      json.set("decay", json_of(decay->rate, Json::object().set("from", decay->from).set("to", decay->to)));
+    const auto decay = decay_of(result);
+    json.set("decay", decay ? json_of(decay->rate, Json::object().set("from", decay->from).set("to", decay->to)) : Json());
     print(json.text() + "\n");
   } else {
     std::string text = fmt::format(

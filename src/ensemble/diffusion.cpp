@@ -63,8 +63,8 @@ bool DiffusionResult::add(const DiffusionResult& other) {
 DiffusionResult run_diffusion(const System& system, const DiffusionOptions& options) {
   return run_in_crew(options, [&](Post post) {
     refuse_impossible(system);
-    check_start(system);
-    const Sampler sampler(system);
+    check_start(system, options.interrupted);
+    const Sampler sampler(system, options.interrupted);
     EnsembleRun<DiffusionResult> run(system, options, nothing(system), post);
     if (options.lanes && SoftWalker::suits(system)) run.lanes = options.lanes;
     return run.run([&](auto& thread) {

@@ -45,6 +45,7 @@ std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t traject
     return states;  // the world says which overlap
   }
   for (int draw = 0; draw < draws_of_all; ++draw) {
+    stop_if_asked(draw);
     states.clear();
     while (states.size() < count) {
       State next = draw_next(states);
@@ -57,7 +58,10 @@ std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t traject
     states.clear();
     while (states.size() < count) {
       State next = draw_next(states);
-      for (int draw = 0; draw < draws_of_one && !fits(states, next); ++draw) next = draw_next(states);
+      for (int draw = 0; draw < draws_of_one && !fits(states, next); ++draw) {
+        stop_if_asked(draw);
+        next = draw_next(states);
+      }
       if (!fits(states, next)) break;
       states.push_back(next);
     }

@@ -17,6 +17,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/parts.hpp"
+#include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/system.hpp"
 #include "ensemble/block_list.hpp"
@@ -128,6 +129,7 @@ class EnsembleRun {
     const auto one = [&]() noexcept {
       try {
         work(sums_[next.fetch_add(1)]);
+      } catch (const SamplingStopped&) {  // what it delivered counts
       } catch (...) {
         fail();
       }

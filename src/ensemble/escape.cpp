@@ -25,7 +25,7 @@ class EscapeEnsemble {
   EscapeEnsemble(const System& system, const EscapeOptions& options, Post post)
       : system_(system),
         options_(options),
-        sampler_(system),
+        sampler_(system, options.interrupted),
         injector_(system),
         run_(system, options, nothing(system), post),
         order_(options.records, 16 * static_cast<std::uint64_t>(run_.threads())) {
@@ -151,7 +151,7 @@ bool EscapeResult::add(const EscapeResult& other) {
 
 EscapeResult run_escape(const System& system, const EscapeOptions& options) {
   return run_in_crew(options, [&](Post post) {
-    check_start(system);
+    check_start(system, options.interrupted);
     return EscapeEnsemble(system, options, post).run();
   });
 }

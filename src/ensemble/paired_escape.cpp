@@ -87,7 +87,7 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
   if (system.particles.size() != 1 || !system.injections.empty())
     throw InputError("pairs are of single particles");
   const Stopwatch watch;
-  const Sampler sampler(system);
+  const Sampler sampler(system, options.interrupted);
   std::vector<Pair> pairs(static_cast<std::size_t>(options.sample));
   std::uint64_t done = 0;
   // Small blocks: a long orbit takes many times as long as a short one.

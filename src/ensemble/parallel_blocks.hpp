@@ -10,6 +10,8 @@
 #include <functional>
 #include <mutex>
 
+#include "carom/ensemble/sampler.hpp"
+
 namespace carom {
 
 struct BlockPlan {
@@ -45,12 +47,15 @@ bool run_blocks(const BlockPlan& plan, const std::atomic<bool>* interrupted, Mak
   const auto work = [&]() noexcept {
     try {
       auto worker = make();
-      while (!stopped()) {
-        const std::uint64_t block = next.fetch_add(1);
-        if (block >= plan.blocks) break;
-        const std::uint64_t first = block * plan.block;
-        if (!worker.run(block, first, std::min(plan.trajectories, first + plan.block), stopped)) break;
-        finished.fetch_add(1);
+      try {
+        while (!stopped()) {
+          const std::uint64_t block = next.fetch_add(1);
+          if (block >= plan.blocks) break;
+          const std::uint64_t first = block * plan.block;
+          if (!worker.run(block, first, std::min(plan.trajectories, first + plan.block), stopped)) break;
+          finished.fetch_add(1);
+        }
+      } catch (const SamplingStopped&) {  // its block was not finished
       }
       const std::lock_guard lock(mutex);
       finish(worker);

@@ -156,27 +156,22 @@ void Population::part(Walker& walker, const Stage& stage, double shrink, RandomS
   walker = other;
 }
 
-/// Fills the population again: as many copies of each survivor as its weight asks for, by a comb with one
-/// random offset, so that the mean number of copies is exact. All copies have the same weight.
+/// Fills the population again: as many copies of each survivor as of any other, by a comb with one random offset, so that
+/// the mean number of copies is exact. All copies have the same share.
 void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double shrink,
                                 const std::function<bool()>& stopped, PopulationRun& result,
                                 std::vector<std::string>& reports) {
   walkers_.clear();
-  double all = 0.0;
-  for (const Walker& survivor : survivors_) all += survivor.weight;
   if (survivors_.empty()) return;
-  const double weight = all / static_cast<double>(plan_.population);
+  const double copies = static_cast<double>(plan_.population) / static_cast<double>(survivors_.size());
   const double offset = RandomStream(system_.run.seed, Purpose::splitting, stream, comb_stream).uniform();
-  double passed = 0.0;
   for (std::size_t i = 0; i < survivors_.size(); ++i) {
-    passed += survivors_[i].weight;
     // Rounding must not change the size of the population.
-    const double teeth =
-        i + 1 == survivors_.size() ? static_cast<double>(plan_.population) : passed / weight - offset;
+    const double teeth = i + 1 == survivors_.size() ? static_cast<double>(plan_.population)
+                                                    : static_cast<double>(i + 1) * copies - offset;
     for (int copy = 0; static_cast<double>(walkers_.size()) < teeth && walkers_.size() < plan_.population;
          ++copy) {
       Walker walker = survivors_[i];
-      walker.weight = weight;
       if (copy > 0) {
         RandomStream random(system_.run.seed, Purpose::splitting, stream, walkers_.size());
         part(walker, stage, shrink, random, stopped, result, reports);
@@ -187,12 +182,38 @@ void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double
 }
 
 /// Reports from < t <= to: what has gone later is known by now, and so is what is still there.
-void Population::report_times(double from, double to, double still_there, PopulationRun& result) const {
-  double later = still_there + gone_by_.back();
+void Population::report_times(double from, double to, std::uint64_t still_there, double for_ever,
+                              PopulationRun& result) {
+  std::uint64_t later = still_there + going_.back();
+  double of_others = for_ever + gone_by_.back();
   for (std::size_t i = reports_.size(); i-- > 0;) {
     if (reports_[i] <= from) break;
-    if (reports_[i] <= to) result.survival[i] = later;
-    later += gone_by_[i];
+    if (reports_[i] <= to) result.survival[i] = share(later) + of_others;
+    later += going_[i];
+    of_others += gone_by_[i];
+  }
+  for (std::size_t i = 0; i < going_.size(); ++i) gone_by_[i] += share(going_[i]);
+}
+
+/// Shares of those that have a continuation; all of them as long as nobody has gone.
+void Population::finish(std::size_t first_loss, PopulationRun& result) const {
+  const double followed = 1.0 - result.singular;
+  for (std::size_t i = 0; i < result.survival.size(); ++i) {
+    double& p = result.survival[i];
+    p = followed > 0.0 && i < first_loss ? 1.0 : std::min(p / followed, 1.0);
+  }
+  for (double& p : result.gone) p /= followed;
+  result.done = true;
+}
+
+void Population::start(std::uint64_t repetition) {
+  walkers_.clear();
+  world_.clear();
+  for (std::uint64_t i = 0; i < plan_.population; ++i) {
+    Walker walker;
+    walker.state = sampler_.draw(world_, repetition * plan_.population + i, 0);
+    if (walker.state.wall >= 0) walker.memory.keep(walker.state, 0);
+    walkers_.push_back(walker);
   }
 }
 
@@ -205,23 +226,22 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
   PopulationRun result;
   result.survival.assign(reports_.size(), 0.0);
   gone_by_.assign(reports_.size() + 1, 0.0);
+  share_of_stage_ = 1.0;
 
-  walkers_.clear();
-  world_.clear();
-  for (std::uint64_t i = 0; i < plan_.population; ++i) {
-    Walker walker;
-    walker.state = sampler_.draw(world_, repetition * plan_.population + i, 0);
-    walker.weight = 1.0 / static_cast<double>(plan_.population);
-    if (walker.state.wall >= 0) walker.memory.keep(walker.state, 0);
-    walkers_.push_back(walker);
+  try {
+    start(repetition);
+  } catch (const SamplingStopped&) {
+    return {};
   }
   double for_ever = 0.0, before = -1.0;
+  std::size_t first_loss = reports_.size();  // the first report by which somebody has gone
   for (std::size_t k = 0; k < stages; ++k) {
     const bool last = by_time && k == plan_.levels.size();
     const Stage stage{last ? reports_.back() : plan_.levels[k], last};
     const std::uint64_t stream = number * stages_of_population + k;
     survivors_.clear();
-    double reached = 0.0;
+    going_.assign(reports_.size() + 1, 0);
+    std::uint64_t stay = 0, ended = 0;
     for (std::size_t i = 0; i < walkers_.size(); ++i) {
       Walker& walker = walkers_[i];
       const std::uint64_t hits = walker.hits;
@@ -231,40 +251,40 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
       const double time = walker.state.time.value();
       result.digest += trajectory_hash(mix(stream) + i, static_cast<std::uint64_t>(way), time, walker.hits,
                                        walker.state.wall);
+      const auto report_of = [&] {
+        return by_time ? static_cast<std::size_t>(std::lower_bound(reports_.begin(), reports_.end(), time) - reports_.begin())
+                       : k;
+      };
       switch (way) {
         case Way::reached:
-          reached += walker.weight;
           survivors_.push_back(walker);
           break;
         case Way::for_ever:
-          for_ever += walker.weight;
+          ++stay;
           break;
         case Way::gone:
-          if (by_time)
-            gone_by_[static_cast<std::size_t>(std::lower_bound(reports_.begin(), reports_.end(), time) -
-                                              reports_.begin())] += walker.weight;
+          ++going_[report_of()];
+          first_loss = std::min(first_loss, report_of());
           break;
         case Way::ended:
-          result.singular += walker.weight;
+          ++ended;
           count_if_lost(result, reports);
           break;
       }
     }
     result.reached.push_back(survivors_.size());
+    result.singular += share(ended);
+    for_ever += share(stay);
     if (by_time)
-      report_times(before, stage.level, reached + for_ever, result);
+      report_times(before, stage.level, survivors_.size(), for_ever, result);
     else
-      result.survival[k] = reached + for_ever;
+      result.survival[k] = share(survivors_.size()) + for_ever;
     before = stage.level;
+    share_of_stage_ = share(survivors_.size());
     if (k + 1 < stages) copy_survivors(stage, stream, shrink, stopped, result, reports);
   }
-  const double followed = 1.0 - result.singular;
-  for (double& p : result.survival) p /= followed;
-  if (by_time) {
-    result.gone.assign(gone_by_.begin(), gone_by_.end() - 1);
-    for (double& p : result.gone) p /= followed;
-  }
-  result.done = true;
+  if (by_time) result.gone.assign(gone_by_.begin(), gone_by_.end() - 1);
+  finish(first_loss, result);
   return result;
 }
 

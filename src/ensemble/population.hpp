@@ -43,11 +43,10 @@ class Population {
     /// The moment `back` hits ago (0: the last one), or the oldest there is. Not of an empty memory.
     const Moment& ago(std::size_t back) const;
   };
-  /// A trajectory that is followed, with its share of the whole.
+  /// A trajectory that is followed; all of a population have the same share of the whole.
   struct Walker {
     State state;
     std::uint64_t hits = 0;
-    double weight = 0.0;
     Memory memory;
   };
   class Recorder;
@@ -58,13 +57,19 @@ class Population {
   };
   enum class Way { reached, gone, for_ever, ended };
 
+  void start(std::uint64_t repetition);
   Way fly(Walker&, const Stage&, const std::function<bool()>& stopped);
   void copy_survivors(const Stage&, std::uint64_t stream, double shrink, const std::function<bool()>& stopped,
                       PopulationRun&, std::vector<std::string>& reports);
   void part(Walker&, const Stage&, double shrink, RandomStream&, const std::function<bool()>& stopped,
             PopulationRun&, std::vector<std::string>& reports);
   void count_if_lost(PopulationRun&, std::vector<std::string>& reports) const;
-  void report_times(double from, double to, double still_there, PopulationRun&) const;
+  /// The share of so many of this stage's trajectories: whole numbers, so that all are the whole stage exactly.
+  double share(std::uint64_t number) const {
+    return share_of_stage_ * (static_cast<double>(number) / static_cast<double>(plan_.population));
+  }
+  void finish(std::size_t first_loss, PopulationRun&) const;
+  void report_times(double from, double to, std::uint64_t still_there, double for_ever, PopulationRun&);
 
   const System& system_;
   const Sampler& sampler_;
@@ -74,7 +79,9 @@ class Population {
   World world_;
   std::vector<double> kicks_;  // the largest delta, by the hits that a copy goes back
   std::vector<Walker> walkers_, survivors_;
-  std::vector<double> gone_by_;  // weight gone between reports; the last entry after all
+  double share_of_stage_ = 1.0;       // that all trajectories of the stage stand for
+  std::vector<double> gone_by_;       // share gone between reports in the stages before; the last entry after all
+  std::vector<std::uint64_t> going_;  // number gone in this stage, likewise
 };
 
 }  // namespace carom

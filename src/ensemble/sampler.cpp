@@ -11,6 +11,7 @@
 #include "carom/base/random.hpp"
 #include "carom/events/world.hpp"
 #include "carom/geometry/hull.hpp"
+#include "events/group.hpp"
 
 namespace carom {
 
@@ -101,11 +102,13 @@ std::uint64_t listed_trajectories(const System& system) {
 void fold_into_cell(const Table& table, Vector& position, geometry::Cell& cell) {
   if (!table.lattice) return;
   const geometry::Lattice& lattice = *table.lattice;
-  // First the whole number of cells from the solution of position = a first + b second, then edge by
-  // edge. Each subtraction is rounded; the folded position is the start, exactly.
+  // First the whole number of cells from the solution of position - centre = a first + b second, then edge by
+  // edge. Each subtraction is rounded; the folded position is the start, exactly. The home cell lies about its
+  // walls, be they many cells from the origin.
+  const Vector from_centre = position - centre_of_cell(lattice);
   const double area = cross(lattice.first, lattice.second);
-  const double a = std::nearbyint(cross(position, lattice.second) / area);
-  const double b = std::nearbyint(cross(lattice.first, position) / area);
+  const double a = std::nearbyint(cross(from_centre, lattice.second) / area);
+  const double b = std::nearbyint(cross(lattice.first, from_centre) / area);
   if (!(std::abs(a) < 0x1p52 && std::abs(b) < 0x1p52)) return;
   const auto move = [&](const geometry::Cell& by) {
     position = position - lattice.translation(by);
@@ -127,7 +130,11 @@ void fold_into_cell(const Table& table, Vector& position, geometry::Cell& cell) 
   }
 }
 
-Sampler::Sampler(const System& system) : system_(system) {
+Sampler::Sampler(const System& system, const std::atomic<bool>* interrupted)
+    : Sampler(system, interrupted ? [interrupted] { return interrupted->load(std::memory_order_relaxed); }
+                                  : std::function<bool()>()) {}
+
+Sampler::Sampler(const System& system, std::function<bool()> stopped) : system_(system), stopped_(std::move(stopped)) {
   const Table& table = *system.table;
   const InitialCondition& initial = system.initial;
   for (const Wall& wall : table.walls) frames_.push_back(geometry::frame_of(wall.curve));
@@ -243,6 +250,7 @@ State Sampler::in_box(const World& world, RandomStream& random, std::uint64_t tr
                       double speed, const char* where) const {
   const std::int64_t most = low == high ? 1 : patience(tries_in(low, high), trajectory);
   for (std::int64_t tries = 0; tries < most; ++tries) {
+    stop_if_asked(tries);
     const double x = low.x + random.uniform() * (high.x - low.x);
     const double y = low.y + random.uniform() * (high.y - low.y);
     State state = off_walls(*system_.table, {x, y}, {});
@@ -267,6 +275,7 @@ State Sampler::on_line(const World& world, RandomStream& random, std::uint64_t t
   const Vector velocity = speed * unit(direction);
   const std::int64_t most = initial.from == initial.to ? 1 : patience(most_tries_of_a_line, trajectory);
   for (std::int64_t tries = 0; tries < most; ++tries) {
+    stop_if_asked(tries);
     const Vector point = initial.from + random.uniform() * (initial.to - initial.from);
     const State state = off_walls(*system_.table, point, velocity);
     if (world.contains(state.position)) return state;
@@ -369,9 +378,12 @@ int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, in
   return add_state(world, sampler, sampler.draw(world, trajectory, particle), trajectory, particle);
 }
 
-void check_start(const System& system) {
+void check_start(const System& system, const std::atomic<bool>* interrupted) {
   World world(*system.table, system.dynamics);
-  add_starts(world, Sampler(system), 0);
+  try {
+    add_starts(world, Sampler(system, interrupted), 0);
+  } catch (const SamplingStopped&) {  // so does what comes next
+  }
 }
 
 State draw_initial_state(const System& system, const World& world, std::uint64_t trajectory, int particle) {

@@ -165,8 +165,8 @@ std::uint64_t section_orbits(const System& system) {
 SectionResult run_section(const System& system, const SectionOptions& options) {
   const Stopwatch watch;
   refuse_injections(system, "sections");
-  check_start(system);
-  const Sampler sampler(system);
+  check_start(system, options.interrupted);
+  const Sampler sampler(system, options.interrupted);
   // Blocks wait for their turn in memory.
   const std::uint64_t each = system.section.points;
   const BlockPlan plan(section_orbits(system), options.threads, each == 0 ? 1 : 50000 / each + 1);

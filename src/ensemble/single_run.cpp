@@ -127,7 +127,7 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   if (system.run.collisions > 0) world.limit_hits(system.run.collisions);
   if (system.run.sample > 0.0) world.sample_every(system.run.sample);
 
-  const Sampler sampler(system);
+  const Sampler sampler(system, options.interrupted);
   std::vector<int> numbers;
   if (options.resume.empty()) add_starts(world, sampler, options.trajectory);
   std::vector<Time> entries(all.size());

@@ -61,6 +61,7 @@ State Sampler::draw_external(const World& world, std::uint64_t trajectory, int p
   double lowest = std::numeric_limits<double>::infinity();
   const std::int64_t most = random_positions() ? patience(most_draws, trajectory) : 1;
   for (std::int64_t draw = 0; draw < most; ++draw) {
+    stop_if_asked(draw);
     State state = draw_free(world, random, trajectory, particle);
     Vector unused{};
     const double potential = system_.dynamics.forces->add_external(p, state.position, unused);
@@ -89,6 +90,7 @@ std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajector
   double lowest = std::numeric_limits<double>::infinity();
   const std::int64_t most = random_positions() ? patience(most_draws, trajectory) : 1;
   for (std::int64_t draw = 0; draw < most; ++draw) {
+    stop_if_asked(draw);
     states.clear();
     for (std::size_t p = 0; p < count; ++p)
       states.push_back(draw_free(world, random[p], trajectory, static_cast<int>(p)));

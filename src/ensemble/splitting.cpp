@@ -128,7 +128,7 @@ double chosen_kick(const System& system, const Sampler& sampler, const Kick& kic
 SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
                               const SplittingOptions& options) {
   check(system, plan);
-  check_start(system);
+  check_start(system, options.interrupted);
   SplittingResult result;
   result.plan = plan;
   result.at = plan.by == SplittingPlan::Level::time ? system.run.times : plan.levels;
@@ -136,7 +136,7 @@ SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
   // One population is one block: it needs no other, and its bits know no thread.
   const BlockPlan blocks(plan.repetitions * kick_sizes, options.threads, 1);
   check_memory(plan, blocks.threads);
-  const Sampler sampler(system);
+  const Sampler sampler(system, options.interrupted);
   const Kick kick(*system.table);
   const Stopwatch watch;
   if (plan.kick == 0.0) result.plan.kick = chosen_kick(system, sampler, kick, plan, result.at, options, result);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/student.hpp"
+#include "carom/analysis/survival.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/ensemble/splitting.hpp"
 
@@ -12,15 +13,16 @@ namespace carom {
 
 namespace {
 
-// Intercept of the least-squares line in delta^2 through the values at delta, delta / 2, delta / 4.
-constexpr std::array<double, kick_sizes> intercept{-1.0 / 6.0, 1.0 / 2.0, 2.0 / 3.0};
+// Intercept of the least-squares line in delta^2 through the values at delta, delta / 2, delta / 4: -a/6 + b/2 + 2c/3,
+// written so that equal values have themselves as their limit.
+double intercept(double a, double b, double c) { return c + (b - c) / 2 - (a - c) / 6; }
 
 Mean mean_of(const std::vector<double>& values) {
   const double n = static_cast<double>(values.size());
   if (values.size() < 2) return {values.empty() ? std::nan("") : values.front(), std::nan("")};
   double sum = 0.0, squares = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / n;
+  for (const double value : values) sum += value - values.front();
+  const double mean = values.front() + sum / n;  // of equal values it is their own
   for (const double value : values) squares += (value - mean) * (value - mean);
   return {mean, std::sqrt(squares / (n * (n - 1.0)))};
 }
@@ -38,22 +40,42 @@ Extrapolated extrapolated(const SplittingResult& result,
   }
   // The populations of one repetition start from the same states: their line is drawn before the mean.
   std::vector<double> limits;
-  for (std::size_t r = 0; r < common; ++r) {
-    double limit = 0.0;
-    for (std::size_t k = 0; k < kick_sizes; ++k) limit += intercept[k] * of(k, r);
-    limits.push_back(limit);
-  }
+  for (std::size_t r = 0; r < common; ++r) limits.push_back(intercept(of(0, r), of(1, r), of(2, r)));
   out.limit = mean_of(limits);
   out.repetitions = common;
   out.extrapolation = std::fabs(out.limit.value - out.at_kick.back().value);
   return out;
 }
 
+// That none of so many has gone does not say that none does. Populations at the three kicks share their starts.
+double unseen_share(const SplittingResult& result) {
+  const auto starts = static_cast<std::uint64_t>(result.runs.front().size()) * result.plan.population;
+  return wilson_interval(0, starts).high;
+}
+
+bool all_are(const Extrapolated& value, double number) {
+  return value.limit.error == 0.0 &&
+         std::all_of(value.at_kick.begin(), value.at_kick.end(),
+                     [&](const Mean& mean) { return mean.value == number && mean.error == 0.0; });
+}
+
 }  // namespace
 
 double Extrapolated::band() const {
   if (repetitions < 2) return std::nan("");
-  return student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error + extrapolation;
+  return student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error + extrapolation + unseen;
+}
+
+double Extrapolated::low() const {
+  const double v = limit.value;
+  const bool by_logarithm = least == 0.0 && v > 0.0 && limit.error > 0.0;
+  return std::max(least, by_logarithm ? v * elementary::exp(-band() / v) : v - band());
+}
+
+double Extrapolated::high() const {
+  const double v = limit.value;
+  const bool by_logarithm = least == 0.0 && v > 0.0 && limit.error > 0.0;
+  return std::min(most, by_logarithm ? v * elementary::exp(band() / v) : std::max(v, least) + band());
 }
 
 std::vector<SplitPoint> survival(const SplittingResult& result) {
@@ -67,6 +89,10 @@ std::vector<SplitPoint> survival(const SplittingResult& result) {
     point.p.most = 1.0;
     const Mean& p = point.p.limit;
     point.equivalent = p.error > 0.0 ? p.value * (1.0 - p.value) / (p.error * p.error) : 0.0;
+    if (all_are(point.p, 1.0)) {
+      point.p.unseen = unseen_share(result);
+      point.equivalent = static_cast<double>(result.runs.front().size()) * static_cast<double>(result.plan.population);
+    }
     points.push_back(point);
   }
   return points;
@@ -75,7 +101,8 @@ std::vector<SplitPoint> survival(const SplittingResult& result) {
 std::vector<SplitRate> escape_rate(const SplittingResult& result) {
   std::vector<SplitRate> points;
   if (result.plan.by != SplittingPlan::Level::time) return points;
-  double from = 0.0;
+  const std::vector<SplitPoint> shares = survival(result);
+  double from = 0.0, there = 1.0;
   for (std::size_t i = 0; i < result.at.size(); ++i) {
     const double to = result.at[i];
     if (to > from) {
@@ -86,9 +113,12 @@ std::vector<SplitRate> escape_rate(const SplittingResult& result) {
       point.value = extrapolated(
           result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].gone[i] / (to - from); });
       point.value.least = 0.0;
+      point.value.most = 1.0 / (to - from);
+      if (all_are(point.value, 0.0)) point.value.unseen = there * unseen_share(result) / (to - from);
       points.push_back(point);
     }
     from = to;
+    there = shares[i].p.limit.value;
   }
   return points;
 }

@@ -68,7 +68,7 @@ template <class Probe>
 class Follower {
  public:
   Follower(const System& system, const ValidationOptions& options, ValidationCase& c)
-      : system_(system), options_(options), sampler_(system), case_(c) {
+      : system_(system), options_(options), sampler_(system, options.interrupted), case_(c) {
     c.seed = system.run.seed;
     c.threads = options.threads > 0 ? options.threads : std::max(1, omp_get_max_threads());
 #pragma omp parallel num_threads(c.threads)
@@ -105,6 +105,7 @@ class Follower {
       case_.lost += lost;
       case_.singular += singular;
       kept_.insert(kept_.end(), probe.kept.begin(), probe.kept.end());
+    } catch (const SamplingStopped&) {  // the case is over
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!error_) error_ = std::current_exception();

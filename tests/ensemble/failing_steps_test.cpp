@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "carom/ensemble/diffusion.hpp"
@@ -35,24 +36,8 @@ times = { from = 0.01, to = 20, count = 200, spacing = "linear" }
 )toml");
 }
 
-/// The potential is defined in the right half of a box alone.
 System over_an_edge() {
-  return make_system(R"toml(
-[table]
-shape = "rectangle"
-width = 1
-height = 1
-[particles]
-speed = 1
-[initial]
-kind = "rectangle"
-min = [0.6, 0.1]
-max = [0.9, 0.9]
-[[potential]]
-kind = "expression"
-expression = "sqrt(x - 1/2)"
-[integrator]
-step = 0.01
+  return make_system(std::string(defined_in_the_right_half) + R"toml(
 [run]
 t_max = 5
 trajectories = 100

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
@@ -11,26 +13,7 @@ namespace carom {
 namespace {
 
 TEST(LostReports, AreThoseOfTheLowestIndices) {
-  const System system = make_system(R"toml(
-[table]
-shape = "rectangle"
-width = 1
-height = 1
-[particles]
-speed = 1
-[initial]
-kind = "rectangle"
-min = [0.6, 0.1]
-max = [0.9, 0.9]
-[[potential]]
-kind = "expression"
-expression = "sqrt(x - 1/2)"
-[integrator]
-step = 0.01
-[run]
-t_max = 0.5
-trajectories = 400
-)toml");
+  const System system = make_system(std::string(defined_in_the_right_half) + "[run]\nt_max = 0.5\ntrajectories = 400\n");
   EscapeOptions options;
   options.threads = 1;
   std::vector<TrajectoryRecord> records;

@@ -1,9 +1,16 @@
 // Starts that few draws find: in long ensembles none fails by chance.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
 #include "carom/base/error.hpp"
+#include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/section_run.hpp"
+#include "carom/ensemble/splitting.hpp"
 #include "carom/events/world.hpp"
 #include "systems.hpp"
 
@@ -76,6 +83,93 @@ step = 0.01
   EscapeOptions second_half;
   second_half.part = {500, 1000};
   EXPECT_THROW(run_escape(system, second_half), InputError);
+}
+
+// Of the draws one in 10^4 lies in the table, and of those hardly one below the energy: to know that there is no start takes
+// minutes, and hours where there must be one.
+const char* const hardly_any = R"(
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[particles]
+energy = 1e-9
+[initial]
+kind = "rectangle"
+min = [0, 0]
+max = [100, 100]
+[[potential]]
+kind = "harmonic"
+omega = 1
+center = [0.5, 0.5]
+[integrator]
+step = 0.01
+[run]
+t_max = 5
+trajectories = 100
+)";
+
+TEST(RareStarts, LetGoWhereTheyAreInterrupted) {
+  const System system = make_system(hardly_any);
+  const System free = make_system("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[initial]\nkind = \"rectangle\"\n"
+                            "min = [0, 0]\nmax = [10000, 10000]\n[run]\nt_max = 5\ntrajectories = 100\n");
+  std::atomic<bool> stop{false};
+  const auto interrupted = [&](const auto& run) {
+    stop = false;
+    std::thread later([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      stop = true;
+    });
+    const auto start = std::chrono::steady_clock::now();
+    run();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    later.join();
+    EXPECT_LT(seconds.count(), 5.0);
+  };
+  interrupted([&] {
+    EscapeOptions options;
+    options.interrupted = &stop;
+    const EscapeResult result = run_escape(system, options);
+    EXPECT_FALSE(result.complete);
+    EXPECT_EQ(result.counts.trajectories, 0u);
+  });
+  interrupted([&] {
+    DiffusionOptions options;
+    options.interrupted = &stop;
+    EXPECT_FALSE(run_diffusion(system, options).complete);
+  });
+  interrupted([&] {
+    SectionOptions options;
+    options.interrupted = &stop;
+    EXPECT_FALSE(run_section(system, options).complete);
+  });
+  // The first trajectory has a limit, later ones have a thousand times as long.
+  for (const System* one : {&system, &free})
+    interrupted([&] {
+      const World world(*one->table, one->dynamics);
+      EXPECT_THROW(Sampler(*one, &stop).draw(world, 1, 0), SamplingStopped);
+    });
+}
+
+TEST(RareStarts, StopAmongThreadsAfterTheFirst) {
+  std::atomic<bool> stop{false};
+  SplittingPlan plan;
+  plan.levels = {1, 2};
+  plan.population = 1'000'000;
+  plan.repetitions = 2;
+  SplittingOptions options;
+  options.interrupted = &stop;
+  const System free = make_system("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[initial]\nkind = \"rectangle\"\n"
+                            "min = [0, 0]\nmax = [100, 100]\n[run]\nt_max = 5\ntrajectories = 100\n");
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    stop = true;
+  });
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_FALSE(run_splitting(free, plan, options).complete);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  later.join();
+  EXPECT_LT(seconds.count(), 5.0);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(Section, TakesAListOfStarts) {
   for (const SectionPoint& p : points) {
     if (p.orbit == 0) continue;
     EXPECT_EQ(p.x, 0.0);
-    EXPECT_EQ(std::abs(p.vy), 1.0) << "the speed is that of [particles]";
+    EXPECT_NEAR(std::abs(p.vy), 1.0, 1e-15) << "the speed is that of [particles]";
     if (p.index == 0) {
       EXPECT_EQ(p.t, 0.25);
     }

@@ -183,8 +183,31 @@ TEST(Splitting, FirstStageIsTheEnsemble) {
 TEST(Splitting, ClosedTablesKeepEverything) {
   const System system =
       make_system("[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[run]\nt_max = 20\n");
-  const SplittingResult result = run_splitting(system, by_time({5, 10}, 100, 2));
-  for (const SplitPoint& point : survival(result)) EXPECT_NEAR(point.p.limit.value, 1.0, 1e-12);
+  const SplittingResult result = run_splitting(system, by_time({5, 10}, 97, 3));
+  constexpr double z = 1.9599639845400545;
+  for (const SplitPoint& point : survival(result)) {
+    EXPECT_EQ(point.p.limit.value, 1.0);
+    EXPECT_EQ(point.p.extrapolation, 0.0);
+    for (const Mean& mean : point.p.at_kick) EXPECT_EQ(mean.value, 1.0);
+    EXPECT_EQ(point.p.high(), 1.0);
+    // None of 291 starts has gone: Wilson's interval.
+    EXPECT_NEAR(point.p.low(), 1.0 / (1.0 + z * z / 291), 1e-9);
+    EXPECT_EQ(point.equivalent, 291.0);
+  }
+  for (const SplitRate& rate : escape_rate(result)) {
+    EXPECT_EQ(rate.value.limit.value, 0.0);
+    EXPECT_NEAR(rate.value.high(), (1.0 - 1.0 / (1.0 + z * z / 291)) / (rate.to - rate.from), 1e-9 * rate.value.high());
+  }
+}
+
+// Orbits that never hit, and those of a table without holes beside them: all are still there.
+TEST(Splitting, NobodyGoneIsExactlyOne) {
+  const System system =
+      make_system("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.1\n[run]\nt_max = 30\n");
+  for (const SplittingPlan& plan : {by_time({5, 10, 20}, 97, 2), by_hits(12, 97, 2)})
+    for (const auto& runs : run_splitting(system, plan).runs)
+      for (const PopulationRun& run : runs)
+        for (const double p : run.survival) EXPECT_EQ(p, 1.0);
 }
 
 // Around the discs of a table that is said to be closed, who leaves is lost. None goes without being counted:
@@ -313,12 +336,40 @@ TEST(Splitting, IntervalsKnowHowFewRepetitionsThereAre) {
   value.limit = {0.01, 0.01};
   value.repetitions = 2;
   value.least = 0.0;
-  EXPECT_EQ(value.low(), 0.0);
+  EXPECT_GT(value.low(), 0.0);
+  EXPECT_LT(value.low(), 1e-7);
   EXPECT_GT(value.high(), 0.13);
   for (const SplitPoint& point : points) {
     EXPECT_EQ(point.p.repetitions, 2u);
     EXPECT_GE(point.p.low(), 0.0);
     EXPECT_LE(point.p.high(), 1.0);
+  }
+}
+
+// Values of small populations are skewed: an interval about the value held it in 9 of 10 runs, or in 8.
+TEST(Splitting, IntervalsHoldTheValue) {
+  System system = three_disc();
+  SplittingPlan plan = by_hits(9, 8000, 8);
+  plan.kick = 0x1p-20;
+  const auto value = survival(run_splitting(system, plan));
+  for (const std::uint64_t population : {30u, 100u}) {
+    plan.population = population;
+    plan.repetitions = 4;
+    int three = 0, eight = 0;
+    constexpr int runs = 150;
+    for (int i = 0; i < runs; ++i) {
+      system.run.seed = 100 + static_cast<std::uint64_t>(i);
+      const auto points = survival(run_splitting(system, plan));
+      const auto holds = [&](std::size_t n) {
+        return points[n].p.low() <= value[n].p.limit.value && value[n].p.limit.value <= points[n].p.high();
+      };
+      three += holds(3);
+      eight += holds(8);
+    }
+    std::printf("population %d: %.3f and %.3f of the intervals hold the value\n", static_cast<int>(population), three / 150.0,
+                eight / 150.0);
+    EXPECT_GE(three, 0.94 * runs);
+    EXPECT_GE(eight, (population < 100 ? 0.88 : 0.94) * runs);
   }
 }
 

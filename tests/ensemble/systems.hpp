@@ -28,4 +28,23 @@ t_max = 200
 trajectories = 500
 )";
 
+/// A box with a potential that is defined in its right half alone: steps over the edge fail. Without [run].
+inline const char* defined_in_the_right_half = R"toml(
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[particles]
+speed = 1
+[initial]
+kind = "rectangle"
+min = [0.6, 0.1]
+max = [0.9, 0.9]
+[[potential]]
+kind = "expression"
+expression = "sqrt(x - 1/2)"
+[integrator]
+step = 0.01
+)toml";
+
 }  // namespace carom

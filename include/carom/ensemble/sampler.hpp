@@ -1,7 +1,10 @@
 // Initial states of trajectories, a function of (seed, trajectory, particle) alone.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <vector>
 
 #include "carom/ensemble/system.hpp"
@@ -11,6 +14,12 @@ namespace carom {
 
 class RandomStream;
 class World;
+
+/// Thrown where sampling was asked to stop before it found a start.
+class SamplingStopped : public std::exception {
+ public:
+  const char* what() const noexcept override { return "stopped before a start was found"; }
+};
 
 /// Draws initial states (docs/guide: [initial]). Only + - * / sqrt and base/elementary make a state.
 ///
@@ -30,11 +39,13 @@ class World;
 /// overlap; they cannot start on a wall.
 class Sampler {
  public:
-  explicit Sampler(const System&);  ///< refers to the system
+  /// Refers to the system. `stopped` is asked every few hundred draws, from any thread: starts may be very rare.
+  explicit Sampler(const System&, std::function<bool()> stopped = {});
+  Sampler(const System&, const std::atomic<bool>* interrupted);
   const System& system() const { return system_; }
 
   /// The state of particle `particle` of trajectory `trajectory`. `world` answers which points lie in
-  /// the domain. Throws InputError when the initial condition is impossible.
+  /// the domain. Throws InputError when the initial condition is impossible, and SamplingStopped.
   State draw(const World& world, std::uint64_t trajectory, int particle) const;
   /// The states of all particles of a trajectory.
   std::vector<State> draw_all(const World& world, std::uint64_t trajectory) const;
@@ -56,6 +67,9 @@ class Sampler {
   void add_holes(int hole);
   void add_source(int wall, double from, double to);
   static std::int64_t patience(std::int64_t of_the_first, std::uint64_t trajectory);
+  void stop_if_asked(std::int64_t tries) const {
+    if (tries % 256 == 255 && stopped_ && stopped_()) throw SamplingStopped();
+  }
   State in_box(const World&, RandomStream&, std::uint64_t trajectory, geometry::Vector low, geometry::Vector high,
                double speed, const char* where) const;
   State on_line(const World&, RandomStream&, std::uint64_t trajectory, double speed) const;
@@ -65,6 +79,7 @@ class Sampler {
   State on_wall(int wall, double u, double tangential, double normal, double speed) const;
 
   const System& system_;
+  std::function<bool()> stopped_;
   std::vector<geometry::CurveFrame> frames_;  ///< one a wall
   std::vector<Source> sources_;
   geometry::Vector low_, high_;  ///< uniform: box around the domain
@@ -77,8 +92,8 @@ void add_starts(World&, const Sampler&, std::uint64_t trajectory);
 /// How many trajectories start differently where starts are listed (point, list, birkhoff): later ones repeat them.
 /// 0 where starts are drawn.
 std::uint64_t listed_trajectories(const System&);
-/// Throws InputError if the first trajectory cannot start.
-void check_start(const System&);
+/// Throws InputError if the first trajectory cannot start. Who interrupts it is not told whether it can.
+void check_start(const System&, const std::atomic<bool>* interrupted = nullptr);
 /// One state by a sampler made on the spot.
 State draw_initial_state(const System&, const World& world, std::uint64_t trajectory, int particle);
 

@@ -44,7 +44,7 @@ struct ParticleEnd {
 struct SingleRunOptions {
   DecisionOptions decisions;
   std::vector<ParticleProgress> resume;  ///< empty: start afresh
-  std::function<bool()> interrupted;     ///< asked between events
+  std::function<bool()> interrupted;     ///< asked between events, and while starts are drawn: SamplingStopped
   std::uint64_t trajectory = 0;          ///< index: which start is drawn
   /// What the system's doubles were rounded from; null: they are what is meant.
   std::shared_ptr<const WrittenSystem> written;

@@ -86,13 +86,17 @@ struct Extrapolated {
   std::array<Mean, kick_sizes> at_kick;
   Mean limit;                   ///< error: statistical, from the repetitions
   double extrapolation = 0;     ///< |limit - value at the smallest kick|: what the limit rests on
+  double unseen = 0;            ///< where nobody has gone in any population: how many may, of as many starts (Wilson)
   std::size_t repetitions = 0;  ///< that the limit is a mean of
+  /// Populations of fewer trajectories give intervals that hold the value too seldom.
+  static constexpr std::uint64_t least_population = 100;
   double least = -std::numeric_limits<double>::infinity(), most = -least;  ///< what is possible
-  /// Half the width of the 95 % band: statistics (Student's t of as many repetitions) and extrapolation.
+  /// Half the width of the 95 % band: statistics (Student's t of as many repetitions), extrapolation and what is unseen.
   double band() const;
-  /// Ends of the band, as far as that is possible.
-  double low() const { return std::max(least, limit.value - band()); }
-  double high() const { return std::min(most, limit.value + band()); }
+  /// Ends of the 95 % interval, as far as that is possible: the band about the value, or, of what cannot be negative, about
+  /// its logarithm. Small populations mostly give too little and seldom far too much.
+  double low() const;
+  double high() const;
 };
 /// Share still there at a report time, or not gone within so many hits.
 struct SplitPoint {
