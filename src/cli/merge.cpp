@@ -41,7 +41,7 @@ int merge_parts(const Options& options, const std::string& output, const std::ve
   loaded.system.dynamics.everywhere = sum.everywhere;
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
-  write_sum(output, loaded, origin, sum, lock);
+  write_sum(output, loaded, origin, sum, lock, options.force);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
   for (const auto& [index, text] : sum.result.reports) warn(text);

@@ -59,7 +59,7 @@ class TextColumn {
     rows_ = 0;
     type_ = hdf5::checked(H5Tcopy(H5T_C_S1), H5Tclose, file_);
     hdf5::check(H5Tset_size(type_.get(), length_) >= 0, file_);
-    dataset_ = hdf5::create_growing(group_, name.c_str(), type_.get(), batch_, description_, file_);
+    dataset_ = hdf5::create_growing(group_, name.c_str(), type_.get(), batch_, description_, file_, hdf5::Checksum::fletcher32);
   }
 
   // The rows so far move to a column with room, which takes the place and the name of this one.
@@ -102,7 +102,7 @@ class CertifiedArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
                  const CertifiedTask& task)
-      : target(path), digits(task.digits), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
+      : target(path), digits(task.digits), file(ArchiveFile::create(aside_of(path), path)), rows(path, hdf5::Checksum::fletcher32) {
     file.write_head("certified", loaded, origin);
     for (const Wall& w : loaded.system.table->walls) walls.push_back(w.name);
     for (const Hole& h : loaded.system.table->holes) holes.push_back(h.name);
@@ -153,6 +153,7 @@ CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& 
                                    const Provenance& origin, const CertifiedTask& task, bool force) {
   ArchiveLock lock = lock_archive(file);
   refuse_existing(file, force);
+  refuse_aside_of_others(file, aside_of(file), force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, task);
   implementation_->lock = std::move(lock);
 }

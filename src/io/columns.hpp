@@ -13,12 +13,13 @@ namespace carom::hdf5 {
 class Columns {
  public:
   Columns() = default;
-  explicit Columns(std::string file) : file_(std::move(file)) {}
+  /// Without checksums where readers may come while rows are written.
+  explicit Columns(std::string file, Checksum checksum = Checksum::none) : file_(std::move(file)), checksum_(checksum) {}
 
   /// Adds a column; rows are pushed in the order in which columns were added.
   template <class T>
   hid_t add(hid_t group, const char* name, Description description) {
-    return take(create_growing(group, name, native_type<T>(), chunk, description, file_), native_type<T>());
+    return take(create_growing(group, name, native_type<T>(), chunk, description, file_, checksum_), native_type<T>());
   }
   /// The same for a column that is in the file already; new rows follow the old ones.
   template <class T>
@@ -73,6 +74,7 @@ class Columns {
   }
 
   std::string file_;
+  Checksum checksum_ = Checksum::none;
   std::vector<Column> columns_;
   std::size_t rows_ = 0, pending_ = 0;
 };

@@ -75,7 +75,7 @@ void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Sh
 template <class Result>
 void EnsembleArchive<Result>::Implementation::write(const Result& result, const std::string& status, bool last) {
   if (unwritten) throw *unwritten;  // what is counted and what is recorded would differ
-  ArchiveFile file = ArchiveFile::create(checkpoint_of(target) + ".new", target);
+  ArchiveFile file = ArchiveFile::create(aside_of(checkpoint_of(target)), target);
   Provenance now = origin;
   now.threads = result.threads;
   if (result.lanes) now.isa = name_of(*result.lanes);
@@ -117,6 +117,9 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
                                          const Stored<Result>& stored, const Plan& plan) {
   Plan locked = plan;
   if (!locked.lock) locked.lock = lock_archive(file);
+  const bool goes_on = stored.file == checkpoint_of(file);
+  // Killed before its first checkpoint, a run that went on with this archive leaves copies of its records.
+  if (stored.per_trajectory && !goes_on && holds_copies(records_of(file), stored)) std::remove(records_of(file).c_str());
   refuse_files_of_others(file, plan.force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
   Implementation& a = *implementation_;
@@ -124,7 +127,6 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
   a.merged = stored.merged;
   a.plan.per_trajectory = stored.per_trajectory;
   a.plan.shard = stored.shard;
-  const bool goes_on = stored.file == checkpoint_of(file);
   if (goes_on) a.kept = stored.result.done.size();
   if (!stored.per_trajectory) return;
   if (goes_on) {

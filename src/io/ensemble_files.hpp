@@ -18,8 +18,10 @@ bool is_checkpoint(const std::string& path);
 /// Has FILE.h5 a checkpoint that names FILE.records?
 bool has_records(const std::string& file);
 /// Throws InputError where the checkpoint or the records of FILE.h5 would replace a file that is none: `force` replaces it,
-/// unless it is an archive of another name.
+/// unless it is a whole archive of another name.
 void refuse_files_of_others(const std::string& file, bool force);
+/// Throws InputError where `aside`, where FILE.h5 is written first, is a file of somebody else, unless `force` replaces it.
+void refuse_aside_of_others(const std::string& file, const std::string& aside, bool force);
 /// Where an ensemble of this name stands: FILE.h5.part if that is its checkpoint, else FILE.h5.
 std::string stored_in(const std::string& file);
 /// Opens an archive of this schema; throws InputError for anything else.
@@ -31,7 +33,9 @@ void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool e
 void write_pieces(const ArchiveFile&, const std::vector<RecordLog::Piece>&);
 /// Throws InputError where they are not those of the trajectories that it counts.
 std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint, const TrajectoryRanges& done);
-/// All records of an archive to a log.
+/// Does a file hold nothing but records of the archive from its first one on, as copy_records leaves it where it is killed?
+bool holds_copies(const std::string& path, const StoredEnsemble&);
+/// All records of an archive to a log, in order of index.
 void copy_records(const StoredEnsemble&, const TrajectoryRanges& done, const System&, RecordLog&);
 
 }  // namespace carom

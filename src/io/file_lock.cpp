@@ -17,6 +17,14 @@ namespace carom {
 FileLock::FileLock(const std::string& file) : path_(file + ".lock") {
   if (!take())
     throw InputError(Place{file, 0, 0, ""}, "another process writes it", "another name, or the end of that process");
+  refuse_file_of_others(file);
+}
+
+void FileLock::refuse_file_of_others(const std::string& file) {
+  struct stat about {};
+  if (::stat(path_.c_str(), &about) != 0 || (S_ISREG(about.st_mode) && about.st_size == 0)) return;
+  if (descriptor_ >= 0) ::close(descriptor_);
+  throw InputError(Place{path_, 0, 0, ""}, "the lock of '" + file + "' would go here, and this is another file", "another name");
 }
 
 bool FileLock::take() {

@@ -8,7 +8,8 @@ namespace carom {
 /// Holds FILE.lock as long as it lives. A killed process leaves the file behind, but not the lock.
 class FileLock {
  public:
-  /// Throws InputError if another process holds it. Where the file system knows no locks, nothing is held.
+  /// Throws InputError if another process holds it, or if FILE.lock is a file of somebody else: a lock's file is empty.
+  /// Where the file system knows no locks, nothing is held.
   explicit FileLock(const std::string& file);
   FileLock(const FileLock&) = delete;
   ~FileLock();
@@ -17,6 +18,7 @@ class FileLock {
   bool take();  // false: another one holds it
   /// Is the file that is open still the one of that name?
   bool is_there() const;
+  void refuse_file_of_others(const std::string& file);
 
   std::string path_;
   int descriptor_ = -1;

@@ -205,11 +205,12 @@ Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows
 }
 
 Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk, Description description,
-                      const std::string& file) {
+                      const std::string& file, Checksum checksum) {
   const hsize_t none = 0, unlimited = H5S_UNLIMITED, rows = chunk;
   const Handle space = checked(H5Screate_simple(1, &none, &unlimited), H5Sclose, file);
   const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
   check(H5Pset_chunk(layout.get(), 1, &rows) >= 0, file);
+  if (checksum == Checksum::fletcher32) check(H5Pset_fletcher32(layout.get()) >= 0, file);
   Handle dataset = checked(
       H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT), H5Dclose, file);
   describe(dataset.get(), description, file);

@@ -97,7 +97,7 @@ Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows
                     const std::string& file, Checksum = Checksum::none);
 /// A dataset that grows by rows.
 Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk, Description,
-                      const std::string& file);
+                      const std::string& file, Checksum = Checksum::none);
 std::size_t rows_of(hid_t dataset, const std::string& file);
 void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
                  const std::string& file);

@@ -152,13 +152,15 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
 
 template <class Result>
 void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const SumOfParts<Result>& sum,
-               ArchiveLock lock) {
+               ArchiveLock lock, bool force) {
   hdf5::silence();
   if (!lock) lock = lock_archive(path);
   const System& system = loaded.system;
   std::vector<std::string> files;
   for (const EnsemblePart& part : sum.parts) files.push_back(part.file);
-  ArchiveFile file = ArchiveFile::create(checkpoint_of(path) + ".new", path);
+  const std::string aside = aside_of(checkpoint_of(path));
+  refuse_aside_of_others(path, aside, force);
+  ArchiveFile file = ArchiveFile::create(aside, path);
   file.write_head(kind_of(sum.result), loaded, origin);
   write_parts(file, sum.result, sum.shard, sum.everywhere);
   hdf5::write_attribute(file.open_group("provenance").get(), "merged", files, path);
@@ -176,8 +178,8 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
 template SumOfParts<EscapeResult> sum_of(const std::vector<std::string>&);
 template SumOfParts<DiffusionResult> sum_of(const std::vector<std::string>&);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<EscapeResult>&,
-                        ArchiveLock);
+                        ArchiveLock, bool);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<DiffusionResult>&,
-                        ArchiveLock);
+                        ArchiveLock, bool);
 
 }  // namespace carom

@@ -16,13 +16,13 @@ namespace carom {
 /// where it is; what was written after it is written again by the run that goes on.
 class RecordLog {
  public:
-  /// Trajectories first … last - 1 are the records row … row + rows - 1.
+  /// Trajectories first … last - 1 are the records row … row + rows - 1. `sum` is a hash of their bytes.
   struct Piece {
-    std::uint64_t first = 0, last = 0, row = 0, rows = 0;
+    std::uint64_t first = 0, last = 0, row = 0, rows = 0, sum = 0;
   };
 
   /// `name` is that of the archive, for messages. An existing file is emptied, or opened and cut to the
-  /// records that `pieces` hold. It is removed in the end unless kept.
+  /// records that `pieces` hold; InputError where these were changed. It is removed in the end unless kept.
   RecordLog(const std::string& path, const std::string& name);
   RecordLog(const std::string& path, const std::string& name, std::vector<Piece> pieces);
   RecordLog(const RecordLog&) = delete;
@@ -35,7 +35,8 @@ class RecordLog {
   void mark();
   /// Sees to it that what was marked is on the disk. add() may go on.
   std::vector<Piece> sync();
-  /// All that was marked, in order of index, in batches: each with the piece that it is of.
+  /// All that was marked, in order of index, in batches: each with the piece that it is of. Throws InputError behind the
+  /// last batch of a piece whose bytes are others than were written.
   void read(const std::function<void(const Piece&, const std::vector<TrajectoryRecord>&)>& batch) const;
 
   void keep(bool wanted) { kept_ = wanted; }

@@ -12,7 +12,7 @@ using hdf5::Handle;
 class SectionArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin)
-      : target(path), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
+      : target(path), file(ArchiveFile::create(aside_of(path), path)), rows(path, hdf5::Checksum::fletcher32) {
     file.write_head("section", loaded, origin);
     const System& system = loaded.system;
     const Handle group = file.group("section", "Points of the section, orbit after orbit, in order of time");
@@ -45,6 +45,7 @@ SectionArchive::SectionArchive(const std::string& file, const LoadedSystem& load
                                bool force) {
   ArchiveLock lock = lock_archive(file);
   refuse_existing(file, force);
+  refuse_aside_of_others(file, aside_of(file), force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin);
   implementation_->lock = std::move(lock);
 }

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
+#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -206,6 +208,7 @@ void write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& 
   column("last", &RecordLog::Piece::last, "One after the last");
   column("row", &RecordLog::Piece::row, "First record");
   column("rows", &RecordLog::Piece::rows, "Number of records");
+  column("sum", &RecordLog::Piece::sum, "Hash of their bytes");
 }
 
 std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint, const TrajectoryRanges& done) {
@@ -222,11 +225,27 @@ std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint, const T
   column("last", &RecordLog::Piece::last);
   column("row", &RecordLog::Piece::row);
   column("rows", &RecordLog::Piece::rows);
+  column("sum", &RecordLog::Piece::sum);
   TrajectoryRanges held;
   bool once = true;
   for (const RecordLog::Piece& piece : pieces) once = held.add(TrajectoryRange{piece.first, piece.last}) && once;
   if (!once || held != done) damaged(checkpoint, "'/records' holds others than the trajectories of '/done'");
   return pieces;
+}
+
+bool holds_copies(const std::string& path, const StoredEnsemble& stored) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return false;
+  RecordReader reader(stored.file);
+  std::vector<TrajectoryRecord> batch;
+  while (reader.next(batch)) {
+    std::vector<char> there(batch.size() * sizeof(TrajectoryRecord));
+    file.read(there.data(), static_cast<std::streamsize>(there.size()));
+    const auto count = static_cast<std::size_t>(file.gcount());
+    if (std::memcmp(there.data(), batch.data(), count) != 0) return false;
+    if (count < there.size()) return true;
+  }
+  return file.peek() == std::ifstream::traits_type::eof();
 }
 
 void copy_records(const StoredEnsemble& stored, const TrajectoryRanges& done, const System& system, RecordLog& log) {

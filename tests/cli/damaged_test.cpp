@@ -44,9 +44,10 @@ class Damage {
   }
   void remove(const char* dataset) { EXPECT_GE(H5Ldelete(file_, dataset, H5P_DEFAULT), 0); }
   void set_attribute(const char* object, const char* name, std::int64_t value) {
-    const hid_t attribute = H5Aopen_by_name(file_, object, name, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t owner = H5Oopen(file_, object, H5P_DEFAULT), attribute = H5Aopen(owner, name, H5P_DEFAULT);
     EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_INT64, &value), 0);
     H5Aclose(attribute);
+    H5Oclose(owner);
   }
   void set_complete() { set_attribute("/", "complete", 1); }
 
@@ -111,6 +112,7 @@ TEST(Damaged, EscapeNamesTheDataset) {
       {[](Damage& d) { d.set_first("fates/most_hits", 0); }, "'/fates/collisions' and '/fates/most_hits' contradict each other"},
       {[](Damage& d) { d.write_text("lost", "somewhere\n"); }, "a line of '/lost' does not begin with an index"},
       {[](Damage& d) { d.write_text("lost", "1x\tsomewhere\n"); }, "a line of '/lost' does not begin with an index"},
+      {[](Damage& d) { d.set_attribute("provenance", "continued", -1); }, "'/provenance/continued' is negative"},
       {[](Damage& d) { d.remove("done"); }, "'done' is missing"},
   });
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "kill_and_resume.hpp"
 
@@ -24,6 +25,34 @@ void leave_a_checkpoint(const Shell& shell) {
   shell("$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint 0.02 & pid=$!; "
         "until [ -e a.h5.part ]; do sleep 0.02; done; sleep 0.3; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part"));
+}
+
+// Who goes on with an archive copies its records before the first checkpoint of his own.
+TEST(EscapeResume, AfterAKillWithinTheCopyOfRecords) {
+  const Shell shell;
+  // An archive of the first trajectories, and records as such a run leaves them.
+  shell("$carom escape mushroom --trajectories 1e9 --t-max 100 --per-trajectory --threads 1 --block 100 -o a.h5 --quiet --checkpoint 0.02 & pid=$!; "
+        "until [ -e a.h5.part ]; do sleep 0.02; done; sleep 0.3; kill -9 $pid; wait $pid");
+  const std::string records = shell.read("a.h5.records");
+  ASSERT_GT(records.size(), 10000u);
+  shell("$carom escape --resume a.h5 --quiet & pid=$!; sleep 0.5; kill -TERM $pid; wait $pid");
+  ASSERT_TRUE(shell.exists("a.h5"));
+  ASSERT_FALSE(shell.exists("a.h5.records"));
+  const std::string resumed = "$carom escape --resume a.h5 --quiet & pid=$!; sleep 0.5; kill -TERM $pid; wait $pid";
+  const auto leave = [&](const std::string& bytes) {
+    std::ofstream(shell.folder() + "/a.h5.records", std::ios::binary) << bytes;
+  };
+  leave(records.substr(0, 9000));
+  EXPECT_EQ(shell(resumed).status, 130);
+  EXPECT_FALSE(shell.exists("a.h5.records"));
+  // Anything else is somebody's.
+  std::string other = records.substr(0, 9000);
+  other[5000] = static_cast<char>(other[5000] ^ 1);
+  leave(other);
+  const Outcome refused = shell(resumed);
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("a.h5.records"), std::string::npos) << refused.err;
+  EXPECT_EQ(shell.read("a.h5.records"), other);
 }
 
 TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {

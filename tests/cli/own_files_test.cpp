@@ -92,6 +92,8 @@ TEST(OwnFiles, FilesOfOthersAreRefused) {
       {"echo r > a.h5.records", "a.h5.records", true},
       {mushroom + "-o a.h5.part", "a.h5.part", false},
       {"$carom run stadium --t-max 3 -o a.h5.part", "a.h5.part", false},
+      {"echo notes > a.h5.part.new", "a.h5.part.new", true},
+      {mushroom + "-o a.h5.part.new", "a.h5.part.new", true},
   };
   for (const Others& one : all) {
     const Shell shell;
@@ -109,7 +111,81 @@ TEST(OwnFiles, FilesOfOthersAreRefused) {
     EXPECT_EQ(shell.exists("a.h5"), one.forced);
     EXPECT_EQ(shell.exists("a.h5.part"), !one.forced);
     EXPECT_FALSE(shell.exists("a.h5.records"));
+    EXPECT_FALSE(shell.exists("a.h5.part.new"));
   }
+}
+
+// Whoever writes aside looks first at what stands there.
+TEST(OwnFiles, WhatIsWrittenAsideReplacesNobodys) {
+  const Shell shell;
+  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o 1.h5 && " + mushroom + "--shard 2/2 -o 2.h5 && $carom run stadium --t-max 3 -o run.h5 --quiet").status, 0);
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {"merge a.h5 1.h5 2.h5", "a.h5.part.new"},
+      {"section stadium --orbits 2 --points 3 -o a.h5", "a.h5.new"},
+      {"run stadium --precision certified --collisions 5 -o a.h5", "a.h5.new"},
+      {"run --resume run.h5 --t-max 5 -o a.h5", "a.h5.new"}};
+  for (const auto& [command, aside] : all)
+    for (const std::string& make : {"echo notes > " + aside, "cp 1.h5 " + aside}) {
+      ASSERT_EQ(shell(make + "; cp " + aside + " before").status, 0);
+      const Outcome o = shell("$carom " + command);
+      EXPECT_EQ(o.status, 1) << command;
+      EXPECT_EQ(o.err.find("carom: " + aside + ": 'a.h5' would be written here first, and this is another file"), 0u) << o.err;
+      EXPECT_EQ(shell("cmp before " + aside).status, 0) << command;
+      EXPECT_FALSE(shell.exists("a.h5")) << command;
+      EXPECT_EQ(shell("$carom " + command + " --force").status, 0) << command;
+      EXPECT_EQ(shell("rm a.h5 before && ls").out, "1.h5\n2.h5\nrun.h5\n") << command;
+    }
+}
+
+// What a kill leaves there is no file of others: an archive in the making, cut anywhere.
+TEST(OwnFiles, WhatAKillLeftAsideIsReplaced) {
+  const Shell shell;
+  leave_a_checkpoint(shell, "");
+  for (const std::string left : {"head -c 700 q.h5.part", "head -c 3000 /dev/zero", "cat q.h5.part", "true"}) {
+    const Outcome o = shell(left + " > a.h5.part.new; " + mushroom + "-o a.h5");
+    EXPECT_EQ(o.status, 0) << left << "\n" << o.err;
+    EXPECT_FALSE(shell.exists("a.h5.part.new"));
+    EXPECT_EQ(shell("rm a.h5; " + left + " > a.h5.new; $carom section stadium --orbits 2 --points 3 -o a.h5; rm a.h5").status, 0) << left;
+  }
+  // Killed as it took the place of the checkpoint, it is whole.
+  const Outcome o = shell(mushroom + "-o whole.h5 && mv whole.h5 q.h5.part.new && $carom escape --resume q.h5 --quiet --checkpoint 0.02 "
+                          "& pid=$!; sleep 1; kill -INT $pid; wait $pid");
+  EXPECT_EQ(o.status, 130) << o.err;
+}
+
+// A checkpoint that begins as it should and cannot be read: --resume says so, --force replaces it.
+TEST(OwnFiles, ADamagedCheckpointGivesWayToForce) {
+  for (const std::string damage : {"truncate -s 700 q.h5.part", "printf xxxxxxxx | dd of=q.h5.part bs=1 seek=9 conv=notrunc 2>/dev/null"}) {
+    const Shell shell;
+    leave_a_checkpoint(shell, "");
+    shell(damage);
+    const Outcome resumed = shell("$carom escape --resume q.h5");
+    EXPECT_EQ(resumed.status, 1);
+    EXPECT_NE(resumed.err.find("q.h5.part: the file is not an archive"), std::string::npos) << resumed.err;
+    const Outcome refused = shell(mushroom + "-o q.h5");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("q.h5.part: the checkpoint of 'q.h5' would go here, and this is none"), std::string::npos) << refused.err;
+    const Outcome forced = shell(mushroom + "-o q.h5 --force");
+    EXPECT_EQ(forced.status, 0) << forced.err;
+    EXPECT_EQ(shell.files(), Names{"q.h5"});
+  }
+}
+
+TEST(OwnFiles, ALockReplacesNobodysFile) {
+  const Shell shell;
+  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o 1.h5 && echo notes > a.h5.lock && mkdir b.h5.lock").status, 0);
+  for (const std::string name : {"a.h5", "b.h5"})
+    for (const std::string command : {"escape mushroom --trajectories 20 --t-max 20 -o ", "run stadium --t-max 3 -o ",
+                                      "section stadium --orbits 2 --points 3 -o ", "merge --force "}) {
+      const Outcome o = shell("$carom " + command + name + (command.starts_with("merge") ? " 1.h5" : ""));
+      EXPECT_EQ(o.status, 1) << command;
+      EXPECT_EQ(o.err.find("carom: " + name + ".lock: the lock of '" + name + "' would go here, and this is another file"), 0u) << o.err;
+    }
+  EXPECT_EQ(sorted_files(shell), (Names{"1.h5", "a.h5.lock", "b.h5.lock"}));
+  EXPECT_EQ(shell.read("a.h5.lock"), "notes\n");
+  // One that a kill left is empty.
+  EXPECT_EQ(shell(": > c.h5.lock; " + mushroom + "-o c.h5").status, 0);
+  EXPECT_FALSE(shell.exists("c.h5.lock"));
 }
 
 // What stands beside a good archive neither hides nor stops it.

@@ -52,7 +52,7 @@ TEST(Streams, RecordsOfOtherTrajectoriesAreRefused) {
   const Outcome o = shell("head -c 7200 /dev/zero | dd of=a.h5.records conv=notrunc 2>/dev/null; $carom" + mushroom.on("a.h5"));
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");
-  EXPECT_NE(o.err.find("a.h5.records: a record of the trajectories"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("a.h5.records: the records of the trajectories"), std::string::npos) << o.err;
   EXPECT_FALSE(shell.exists("a.h5"));
 }
 

@@ -140,10 +140,11 @@ struct SumOfParts : Stored<Result> {
 /// at a time is in memory. Throws InputError where parts overlap or do not match, and says in what.
 template <class Result>
 SumOfParts<Result> sum_of(const std::vector<std::string>& files);
-/// Writes the sum as its ensemble's archive, in place of what there is of that name.
+/// Writes the sum as its ensemble's archive, in place of what there is of that name. InputError where FILE.part.new is a file
+/// of somebody else, unless `force` replaces it.
 template <class Result>
 void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const SumOfParts<Result>&,
-               ArchiveLock = nullptr);
+               ArchiveLock = nullptr, bool force = false);
 
 /// An ensemble's result. While the ensemble runs, FILE.part is its checkpoint: an archive by itself, always
 /// whole, and FILE.records holds the records of trajectories. When finished, FILE replaces them.
