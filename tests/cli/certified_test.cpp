@@ -35,7 +35,7 @@ TEST(Certified, EscapesThroughAHole) {
 TEST(Certified, EndsWhenAsked) {
   const Shell shell;
   const Outcome json = shell(
-      "timeout -s INT 1 $carom run ellipse-magnetic --set field.B=0 --collisions 1e9 --t-max 1e300 "
+      "timeout -s INT 3 $carom run ellipse-magnetic --set field.B=0 --collisions 1e9 --t-max 1e300 "
       "--precision certified --json");
   EXPECT_EQ(json_value(json.out, "status"), "\"interrupted\"") << json.err;
   EXPECT_EQ(json_value(json.out, "collisions"), "0");
