@@ -13,12 +13,6 @@ double rounded(const mpq_class& q) { return q.get_d(); }
 double rounded(const Dyadic& d) { return rounded(d.rational()); }
 Vector rounded(const DyadicVector& v) { return {rounded(v.x), rounded(v.y)}; }
 
-/// x to 51 binary digits (Veltkamp's splitting): a relative error of at most 4u.
-double shortened(double x) {
-  const double wide = 5.0 * x;
-  return wide - (wide - x);
-}
-
 }  // namespace
 
 PreparedCurve::PreparedCurve(const Curve& curve) {
@@ -49,9 +43,8 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   centre_error = 2.0 * unit_roundoff * std::max(std::fabs(centre.x), std::fabs(centre.y));
   if (kind == CurveKind::circle) {
     r2 = rounded(exact_curve.r2);
-    // Three eighths of 51 binary digits are a double.
-    strength = shortened(2.0 / r2);
-    weight = 0.375 * strength;
+    strength = 2.0 / r2;
+    weight = 0.25 * strength;
     int exponent = 0;
     const double fraction = std::frexp(r2, &exponent);
     off_power = fraction < 0.625 || fraction > 0.875 ? 0.75 : 1.0;
@@ -78,8 +71,8 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   const double size = std::max(std::fabs(a.x) + std::fabs(b.x), std::fabs(a.y) + std::fabs(b.y));
   const double row = std::max(norm_1(parametrisation.along), norm_1(parametrisation.across)), k = row * size;
   // A settled point misses the curve by the centre's error, its last sum and e = x - centre: `placed`; and
-  // along e by the rounding of its squared length, circle: 10u (r2 2u, weight 5u, two products, sum) and the factor;
-  // ellipse: each axis times e 6u 2k, squared and summed 17u 2k (3/4), times 2/3: 18u k + 3u.
+  // along e by the rounding of its squared length, circle: below 10u of the square, 5u of the length (r2 2u, weight u,
+  // products, difference); ellipse: each axis times e 5u 2k, half of the squares' sum: below 18u k + 3u.
   // X and Y of the point: its difference from the origin, row, product, sum: 4u of 2k, and u.
   // w and u below 4: 5u, an angle of 10u.
   const double placed = centre_error + u * (extent + 2.0 * size);

@@ -102,7 +102,7 @@ std::optional<OrbitError> error_after(const WrittenSystem& system, const State& 
 OrbitError error_of_start(const WrittenSystem& system, const State& start, bool first_particle) {
   OrbitError error;
   if (first_particle && system.position)
-    error.position = rounded(*system.position - exactly(start.position));
+    error.position = rounded(*system.position + translation(system, Cell{}, start.cell) - exactly(start.position));
   else if (start.wall >= 0)
     error.position =
         rounded(system.walls[static_cast<std::size_t>(start.wall)].point(start.u) - exactly(start.position));

@@ -35,7 +35,7 @@ struct Moved {
   Vector position, velocity;
 };
 inline Moved after(const Contacts::Disc& d, double duration) {
-  if (d.omega == 0.0) return {d.position + duration * d.velocity, d.velocity};
+  if (d.omega == 0.0) return {geometry::moved(d.position, duration, d.velocity), d.velocity};
   const auto [x, v] = moved(d.position, d.velocity, d.omega, duration);
   return {x, v};
 }

@@ -38,7 +38,8 @@ template <bool larmor>
   } else if (larmor) {
     q = circle_quadratic(e, stands ? dot(e, e) : w.r2, v, v2, omega, 0.5);
   } else {
-    q = {stands ? 0.0 : dot(e, e) - w.r2, dot(e, v), v2};
+    q = circle_quadratic(e, w.r2, v, v2);
+    if (stands) q.a = 0.0;
   }
   return w.orientation > 0 ? -q : q;
 }

@@ -121,8 +121,8 @@ bool HitFinder::filtered_enclosed(const Flight& f, Ahead& ahead) const {
     if (disc == f.start_piece) continue;  // a line leaves a disc for good
     const PreparedCurve& w = *data_[at(disc)].shape;
     const Vector e = origin - w.centre;
-    const Quadratic<double> q{dot(e, e) - w.r2, dot(e, v), f.square_speed};
-    const double discriminant = q.b * q.b - q.a * q.c;
+    const Quadratic<double> q = circle_quadratic(e, w.r2, v, f.square_speed);
+    const double discriminant = discriminant_of(q);
     const QuadraticError error = circle_error(scale, norm_1(e), w.centre_error, w.r2);
     const double margin = discriminant_error(q, error);
     // Outside the disc, as the particle is, the line's crossings are ahead exactly when b < 0.
@@ -140,11 +140,11 @@ bool HitFinder::filtered_enclosed(const Flight& f, Ahead& ahead) const {
     if (best < 0) return false;
     const PreparedCurve& w = *data_[at(best)].shape;
     if (w.kind == CurveKind::segment) {
-      first = {geometry::cross(w.tangent, origin - w.from), -geometry::cross(w.tangent, v)};
+      first = {geometry::fused_cross(w.tangent, origin - w.from), -geometry::fused_cross(w.tangent, v)};
     } else {
       const bool stands = best == f.start_piece;
       const Quadratic<double> q = quadratic<false>(w, origin, v, f.square_speed, 0.0, stands);
-      first = straight_time(q, stands ? std::fabs(q.b) : std::sqrt(q.b * q.b - q.a * q.c));
+      first = straight_time(q, stands ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
     }
   }
   const double duration = first.time / first.unit;

@@ -40,19 +40,19 @@ inline constexpr double least_square = 0x1p-900;
   const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
   Pair found;  // duration and kappa
   if (w.kind == geometry::CurveKind::segment) {
-    const Pair p{geometry::cross(w.tangent, origin - w.from), -geometry::cross(w.tangent, v)};
+    const Pair p{geometry::fused_cross(w.tangent, origin - w.from), -geometry::fused_cross(w.tangent, v)};
     found = p / Pair{p[1], p[0]};
   } else {
     // A conic about the domain: all signs turned.
     const bool stands = wall == f.start_piece;
     geometry::Quadratic<double> q;
     if (w.kind == geometry::CurveKind::circle) {
-      const Vector e = origin - w.centre;
-      q = {stands ? 0.0 : dot(e, e) - w.r2, dot(e, v), f.square_speed};
+      q = geometry::circle_quadratic(origin - w.centre, w.r2, v, f.square_speed);
+      if (stands) q.a = 0.0;
     } else {
       q = ellipse_quadratic(w, origin - w.centre, v, stands);
     }
-    const double n = std::fabs(q.b) + (stands ? std::fabs(q.b) : std::sqrt(q.b * q.b - q.a * q.c));
+    const double n = std::fabs(q.b) + (stands ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
     found = detail::quotients(-q.b, Pair{-q.a, n}, Pair{n, q.c});
   }
   const double duration = found[0];
@@ -111,7 +111,7 @@ inline constexpr double least_square = 0x1p-900;
     if (stands ? !(q.b > 0.0) : !far_root_certain(q, quadratic_error(w, origin, scale, false), false)) [[unlikely]]
       return false;
   }
-  const double discriminant = q.b * q.b - q.a * q.c;
+  const double discriminant = discriminant_of(q);
   const double n = std::fabs(q.b) + std::sqrt(discriminant > 0.0 ? discriminant : 0.0);
   const double kappa = detail::quotients(q.b, Pair{n, q.a}, Pair{-q.c, n})[0];
   if (!(n * n > detail::least_square) || !(std::fabs(kappa) < HUGE_VAL)) return false;

@@ -58,11 +58,11 @@ template <bool cells>
   if (stands) return disc.domain_outside ? Sign::negative : Sign::undecided;  // a line leaves a disc for good
   const Origin& origin = origins_[cells ? at(disc.offset) : 0];
   const Vector e = origin.point - Vector{disc.x, disc.y};
-  const Quadratic<double> q{dot(e, e) - disc.r2, dot(e, f.velocity), f.square_speed};
+  const Quadratic<double> q = circle_quadratic(e, disc.r2, f.velocity, f.square_speed);
   const QuadraticError error = circle_error(origin.scale, norm_1(e), disc.centre_error, disc.r2);
   // Going away: the distance from the centre grows from here on, and a disc is not entered.
   if (q.b > error.b && (disc.domain_outside || q.a > error.a)) return Sign::negative;
-  const double discriminant = q.b * q.b - q.a * q.c, margin = discriminant_error(q, error);
+  const double discriminant = discriminant_of(q), margin = discriminant_error(q, error);
   if (discriminant < -margin) return Sign::negative;
   if (!(disc.domain_outside && q.b < -error.b && q.a > error.a && discriminant > margin)) return Sign::undecided;
   if (disc.piece == first.piece) return Sign::positive;  // again, in another cell

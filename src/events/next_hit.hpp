@@ -287,13 +287,13 @@ class HitFinder {
   landing.curve = &w;
   landing.hole = -1;
   const bool larmor = f.omega != 0.0;
-  geometry::Vector way;
+  geometry::Vector end;
   if (larmor) {
     const auto factors = geometry::flight_factors(ahead.kappa, f.omega, 0.5);
-    way = geometry::displacement(factors, f.velocity);
+    end = origin + geometry::displacement(factors, f.velocity);
     landing.velocity = geometry::turned(factors, f.velocity, f.omega);
   } else {
-    way = ahead.duration * f.velocity;
+    end = geometry::moved(origin, ahead.duration, f.velocity);
     landing.velocity = f.velocity;
   }
   if (ahead.kind == Ahead::Kind::joint) {
@@ -303,7 +303,7 @@ class HitFinder {
     landing.at.u = 0.0;
     return;
   }
-  w.arrive(origin + way, landing.velocity, landing.at);
+  w.arrive(end, landing.velocity, landing.at);
   if (holed_[static_cast<std::size_t>(landing.wall)] != 0) landing.hole = hole_at(f, ahead, landing.at.u, counts);
 }
 
@@ -327,8 +327,6 @@ class HitFinder {
   const double h = 0.5 * std::fabs(omega);
   return elementary::angle(kappa, h) * (1.0 / h);  // nobody waits for this quotient
 }
-/// kappa after a duration (0 < duration < one turn).
-double kappa_after(double duration, double omega);
 
 }  // namespace carom
 

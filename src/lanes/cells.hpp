@@ -11,8 +11,8 @@ struct CellOf {
 
 /// Where the start lies, seen from there.
 INLINE Vector seen_from(const LaneTable& t, const Vector& start, const CellOf& cell) {
-  return {start.x - (cell.first * t.lattice_x[0] + cell.second * t.lattice_x[1]),
-          start.y - (cell.first * t.lattice_y[0] + cell.second * t.lattice_y[1])};
+  const Vector first{Real(t.lattice_x[0]), Real(t.lattice_y[0])}, second{Real(t.lattice_x[1]), Real(t.lattice_y[1])};
+  return geometry::less_multiples(start, cell.first, first, cell.second, second);
 }
 
 /// Cells from home; and the factor of what is as uncertain as the square of a distance.

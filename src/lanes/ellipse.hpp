@@ -37,7 +37,7 @@ INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetE
   auto q = geometry::ellipse_quadratic(e, f.velocity, met.axis, met.along, met.across);
   // On the only wall there is: no root is taken.
   if constexpr (Kind::alone) return {Real(2.0) * abs(q.b), q.c, Mask(true)};
-  const Real discriminant = q.b * q.b - q.a * q.c;
+  const Real discriminant = geometry::discriminant_of(q);
   Real root = sqrt(max(discriminant, Real(0.0)));
   where(stands, q.a) = Real(0.0);
   where(stands, root) = abs(q.b);
@@ -56,8 +56,8 @@ struct LandedOnEllipse {
 template <class Kind>
 INLINE LandedOnEllipse land_on_ellipse(const Vector& point, const Vector& d, const MetEllipse& met) {
   const auto on = geometry::on_ellipse(d, met.first, met.second);
-  const Vector place = geometry::moved(point, geometry::step_of_length(on.measure), d);
+  const Vector place = geometry::moved(point, on.step, d);
   Mask certain = abs(on.image.y) > met.at_start;
-  if constexpr (!Kind::alone) certain = certain && abs(0.75 - on.measure) < met.off;
+  if constexpr (!Kind::alone) certain = certain && abs(on.step) < met.off;
   return {place, on.gradient, dot(on.gradient, on.gradient), certain};
 }

@@ -15,6 +15,7 @@
 #include "carom/base/time.hpp"
 #include "carom/geometry/first_root.hpp"
 #include "carom/geometry/formulas.hpp"
+#include "lanes/fused_lanes.hpp"
 #include "lanes/kernels.hpp"
 #include "lanes/lane_pack.hpp"
 
@@ -51,12 +52,12 @@ struct Choice {
 
 /// Where the sides of the joints tell the exit, they tell, too, that it is not met along the wall (docs/developer/lanes.md).
 template <class Kind>
-constexpr bool inward_is_known = Kind::turn == 0 && Kind::convex && !Kind::ellipses;
+constexpr bool inward_is_known = (Kind::turn == 0 && Kind::convex && !Kind::ellipses) || Kind::sights;
 
 /// Divisions as a stage of their own: of several pieces a flight takes so many sums that a core sees no two roots and divisions
 /// at once.
 template <class Kind>
-constexpr bool divides_apart = Kind::turn == 0 && !Kind::single;
+constexpr bool divides_apart = Kind::turn == 0 && (!Kind::single || Kind::sights);
 
 /// A number of each lane's piece.
 template <class Kind>
@@ -97,10 +98,11 @@ struct Where {
 #include "lanes/cells.hpp"
 #include "lanes/parallelograms.hpp"
 #include "lanes/stages.hpp"
+#include "lanes/by_sight.hpp"
 #include "lanes/landing.hpp"
 
 template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far, bool has_cells = false,
-          bool has_ellipses = false, bool is_alone = false, bool is_single = is_alone>
+          bool has_ellipses = false, bool is_alone = false, bool is_single = is_alone, bool has_sights = false>
 struct Kind {
   static constexpr int turn = which_turn;
   static constexpr bool convex = is_convex;  ///< or without field a table where the sides of the joints tell
@@ -108,14 +110,17 @@ struct Kind {
   static constexpr bool ellipses = has_ellipses;
   static constexpr bool alone = is_alone;    ///< one closed curve about the domain, on which all particles stand
   static constexpr bool single = is_single;  ///< one piece
+  static constexpr bool sights = has_sights; ///< of a lattice, looked up (by_sight.hpp)
   static constexpr Reach reach = how_far;
 };
 
 template <class Kind>
-void kernel(const LaneTable& table, LanePack& pack) {
+void kernel(const LaneTable& __restrict table, LanePack& __restrict pack) {
   pack.calls = 0;
   Stages stages;
-  if constexpr (Kind::cells && Kind::single) {
+  if constexpr (Kind::sights) {
+    choose_by_sight<Kind>(table, pack, stages);
+  } else if constexpr (Kind::cells && Kind::single) {
     if (table.edges == 4)
       choose_parallelograms<Kind>(table, pack, stages);
     else
@@ -125,7 +130,10 @@ void kernel(const LaneTable& table, LanePack& pack) {
     if constexpr (Kind::turn == 0 && Kind::convex && !Kind::single)
       if (table.by_signs) look_up_exits(table, stages.piece, pack.used);
   }
-  if (Kind::turn == 0 || Kind::convex)
+  if constexpr (Kind::sights) {
+    for (int lane = 0; lane < pack.used; lane += width) look_from_sight<Kind>(table, pack, stages, lane);
+    for (int lane = 0; lane < pack.used; lane += width) meet_in_sight<Kind>(table, pack, stages, lane);
+  } else if (Kind::turn == 0 || Kind::convex)
     for (int lane = 0; lane < pack.used; lane += width) meet<Kind>(table, pack, stages, lane);
   if constexpr (divides_apart<Kind>)
     for (int lane = 0; lane < pack.used; lane += width) divide<Kind>(pack, stages, lane);
@@ -152,6 +160,7 @@ Kernels kernels_of(const LaneTable& t) {
   if (t.edges > 0) {
     const Advance over_cells = t.pieces > LaneTable::eight ? kernel<Kind<0, false, false, true, Reach::all, true>>
                                : t.pieces > 1              ? kernel<Kind<0, false, false, true, Reach::eight, true>>
+                               : t.sights ? kernel<Kind<0, false, false, true, Reach::eight, true, false, false, true, true>>
                                               : kernel<Kind<0, false, false, true, Reach::eight, true, false, false, true>>;
     return {over_cells, over_cells, width};
   }

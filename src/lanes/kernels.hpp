@@ -16,6 +16,8 @@ struct Kernels {
 Kernels baseline_kernels(const LaneTable&, Turn);
 Kernels avx2_kernels(const LaneTable&, Turn);
 Kernels avx512_kernels(const LaneTable&, Turn);
+/// Where products cannot be fused by an instruction: every flight is left to the scalar engine.
+Kernels no_kernels();
 /// Of tables with ellipses.
 Kernels baseline_ellipse_kernels(const LaneTable&, Turn);
 Kernels avx2_ellipse_kernels(const LaneTable&, Turn);

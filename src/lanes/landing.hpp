@@ -7,6 +7,7 @@ struct Landed {
   Real high, low, piece;
 };
 
+template <class Kind>
 INLINE void store_all(LanePack& pack, int lane, const Landed& now) {
   store(now.place.x, pack.x + lane);
   store(now.place.y, pack.y + lane);
@@ -14,17 +15,19 @@ INLINE void store_all(LanePack& pack, int lane, const Landed& now) {
   store(now.velocity.y, pack.vy + lane);
   store(now.high, pack.high + lane);
   store(now.low, pack.low + lane);
-  store(now.piece, pack.piece + lane);
+  if constexpr (!Kind::sights) store(now.piece, pack.piece + lane);
 }
 /// Where it applies. Whole stores: one through a mask takes 30 ns without AVX.
+template <class Kind>
 INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& applies) {
-  const auto keep = [&](double* to, const Real& number) { store(choose(applies, number, load(to + lane)), to + lane); };
+  const auto keep = [&](double* to, const Real& number) { store_where(applies, number, to + lane); };
   keep(pack.x, now.place.x);
   keep(pack.y, now.place.y);
   keep(pack.vx, now.velocity.x);
   keep(pack.vy, now.velocity.y);
   keep(pack.high, now.high);
   keep(pack.low, now.low);
+  if constexpr (Kind::sights) return;
   keep(pack.piece, now.piece);
   const Real born = load(pack.born + lane);
   store(choose(applies, born, born + 1.0), pack.born + lane);
@@ -36,15 +39,14 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   View f = view_of<Kind>(t, pack, lane);
   if constexpr (Kind::cells) f.origin = {load(stages.start_x + lane), load(stages.start_y + lane)};
   const Real piece = chosen<Kind>(stages, lane), duration = load(stages.duration + lane);
-  Vector way, v = f.velocity;
+  Vector point, v = f.velocity;
   if constexpr (larmor) {
     const auto factors = geometry::flight_factors(load(stages.kappa + lane), f.omega, Real(0.5));
-    way = geometry::displacement(factors, f.velocity);
+    point = f.origin + geometry::displacement(factors, f.velocity);
     v = geometry::turned(factors, f.velocity, f.omega);
   } else {
-    way = duration * f.velocity;
+    point = geometry::moved(f.origin, duration, f.velocity);
   }
-  const Vector point = f.origin + way;
   constexpr bool bent_is_known = !larmor && Kind::convex && Kind::segments && Kind::circles;
   Mask bent_there;
   if constexpr (bent_is_known) bent_there = load(stages.bent, lane);
@@ -64,19 +66,20 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
     Vector weighted = normal;
     where(met.bent, weighted.x) = met.first * normal.x;
     where(met.bent, weighted.y) = met.first * normal.y;
-    const Real measure = dot(weighted, d);
-    step = choose(met.bent, Real(0.75), Real(0.0)) - measure;
-    if constexpr (larmor) off = choose(met.bent, step * (0.25 * t.size), measure);
-    where(met.bent, step) = step * Real(2.0 / 3.0);
+    step = geometry::less_dot(choose(met.bent, Real(0.5), Real(0.0)), weighted, d);
+    if constexpr (larmor) off = choose(met.bent, step * (0.5 * t.size), step);
     now.place = geometry::moved(point, step, normal);
     if constexpr (Kind::segments) where(!met.bent, step) = Real(0.0);  // reflects by strength alone, which is 2
     const Mask circle = Kind::ellipses ? met.bent && !met.ellipse.is : met.bent;
     if (t.small_circles) decided = decided && (!circle || abs(step) < geometry::longest_step);
-    if (t.closed_circles) decided = decided && (!circle || abs(d.y) > sign_margin * t.size);
+    if constexpr (Kind::sights)
+      decided = decided && abs(d.y) > t.start_margin;
+    else if (t.closed_circles)
+      decided = decided && (!circle || abs(d.y) > t.start_margin);
   } else if constexpr (Kind::segments) {
-    const Real measure = dot(normal, d);
-    if constexpr (larmor) off = measure;
-    now.place = geometry::moved(point, Real(0.0) - measure, normal);
+    step = geometry::step_to_line(d, normal);
+    if constexpr (larmor) off = step;
+    now.place = geometry::moved(point, step, normal);
   }
   if constexpr (larmor && Kind::ellipses) where(met.ellipse.is, off) = Real(0.0);  // they have a test of their own
   if constexpr (larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
@@ -85,7 +88,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   if constexpr (Kind::circles)
     factor = geometry::reflection_factor_on_circle(v, normal, met.strength, step);
   else if constexpr (Kind::segments)
-    factor = 2.0 * dot(v, normal);
+    factor = 2.0 * geometry::fused_dot(v, normal);
   if constexpr (Kind::ellipses) {
     const LandedOnEllipse on = land_on_ellipse<Kind>(point, d, met.ellipse);
     const Real own = geometry::reflection_factor(v, on.gradient, on.square, Real(1.0));
@@ -105,40 +108,42 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   const geometry::EnergyShell<Real> shell{load(pack.shell_weight + lane), load(pack.shell_rest + lane)};
   now.velocity = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, shell));
   // The reflection turns the normal component about, to rounding.
-  Real outward = met.orientation * dot(v, normal);
+  Real outward = met.orientation * geometry::fused_dot(v, normal);
   if constexpr (Kind::segments) where(bent ? !met.bent : Mask(true), outward) = t.size * outward;
   const Mask inward = inward_is_known<Kind> ? Mask(true) : outward > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);
   const auto [high, low] = later(load(pack.high + lane), load(pack.low + lane), duration);
   now.high = high;
   now.low = low;
-  Mask applies = decided && inward && high < end;
+  Mask applies = decided && inward && high < end, gone(false);
   Real hole(-1.0);
-  if (t.divided) {
+  if (!Kind::sights && t.divided) {
     hole = look_up<Kind::reach>(t.hole, piece);
     applies = applies && hole < 0.0;
   }
   if constexpr (Kind::cells) {
-    store_some(pack, lane, now, applies);
-    const auto add = [&](double* to, const double* more) {
-      const Real before = load(to + lane);
-      store(choose(applies, before + load(more + lane), before), to + lane);
-    };
-    add(pack.home_first, stages.cell_first);
-    add(pack.home_second, stages.cell_second);
-    // Those still on their way only change their cell.
-    const Mask gone = load(stages.gone, lane);
-    store(choose(gone, load(stages.cell_first + lane), Real(0.0)), pack.cell_first + lane);
-    store(choose(gone, load(stages.cell_second + lane), Real(0.0)), pack.cell_second + lane);
+    const CellOf cell = cell_met<Kind>(stages, lane);
+    store_where(applies, load(pack.home_first + lane) + cell.first, pack.home_first + lane);
+    store_where(applies, load(pack.home_second + lane) + cell.second, pack.home_second + lane);
+    store_some<Kind>(pack, lane, now, applies);
+    if constexpr (Kind::sights) {
+      gone = mask_of(static_cast<unsigned>(stages.waiting >> lane));
+      store_where(gone, load(pack.born + lane) + 1.0, pack.born + lane);
+    } else {
+      // Those still on their way only change their cell.
+      gone = load(stages.gone, lane);
+      store(choose(gone, load(stages.cell_first + lane), Real(0.0)), pack.cell_first + lane);
+      store(choose(gone, load(stages.cell_second + lane), Real(0.0)), pack.cell_second + lane);
+    }
   } else {
-    if (!any_of(!applies)) [[likely]] return store_all(pack, lane, now);
-    store_some(pack, lane, now, applies);
+    if (!any_of(!applies)) [[likely]] return store_all<Kind>(pack, lane, now);
+    store_some<Kind>(pack, lane, now, applies);
   }
 
   const Mask over = high >= end, escaped = hole >= 0.0;  // over, or there to the last digit
-  Mask calls = load(pack.active + lane) > 0.0 && !applies, gone(false);
-  if constexpr (!Kind::convex && !larmor) gone = load(stages.gone, lane);
-  if constexpr (Kind::cells) calls = calls && !gone;
-  unsigned waiting = bits_of(calls);
+  if constexpr (!Kind::convex && !larmor && !Kind::cells) gone = load(stages.gone, lane);
+  unsigned waiting = bits_of(Kind::cells ? !(applies || gone) : !applies);
+  if (waiting == 0) return;
+  waiting &= bits_of(load(pack.active + lane) > 0.0);
   if (waiting == 0) return;
   store(high, stages.high + lane);
   store(low, stages.low + lane);
@@ -146,6 +151,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   for (; waiting != 0; waiting &= waiting - 1) {
     const int i = __builtin_ctz(waiting), at = lane + i;
     const unsigned bit = 1u << i;
+    if constexpr (Kind::sights) pack.born[at] += 1.0;
     pack.met[pack.calls] = {Kind::single ? 0.0 : stages.piece[at], stages.high[at], stages.low[at]};
     pack.lane[pack.calls] = at;
     pack.call[pack.calls++] = (open & bit) != 0      ? Call::unbounded

@@ -13,7 +13,7 @@ struct LaneEllipses {
   double stretch[most] = {};    ///< bounds the form of unit vectors
   double shrink[most] = {};     ///< its inverse, which brings the form to squared lengths: below the square of the smaller semi-axis; 0: no ellipse
   // Margins of a landing; for other pieces they are those that always hold, or hold for all.
-  double off[most] = {};        ///< of the measure from 3/4
+  double off[most] = {};        ///< of the step that brings a hit back
   double at_start[most] = {};   ///< closed curves: of the image's second coordinate from 0
   double inward[most] = {};     ///< of n.v in speeds
 };

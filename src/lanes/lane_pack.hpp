@@ -36,6 +36,7 @@ struct LanePack {
   double roots[lanes] = {};                  ///< … and of its square;
   double order[lanes] = {};                  ///< of two times
   double shortest[lanes] = {};               ///< flight along a circle that ends by such a sign
+  double directions[lanes] = {}, offsets[lanes] = {};  ///< LaneTable::directions_per_unit and offsets_per_length over its speed
   double omega[lanes] = {};
   double inverse_half[lanes] = {};           ///< 1/|omega/2|
   double pace[lanes] = {};                   ///< power of two beyond speed + |omega| size
@@ -51,6 +52,11 @@ struct LanePack {
   double hits(int i) const { return sweep - born[i]; }
 
   int used = lanes;  ///< lanes beyond are not looked at
+
+  // Where flights are looked up (discs_in_sight.hpp): one bit for each lane that goes from cell to cell instead; and where it does.
+  static constexpr int fewest_walkers = 8, longest_wait = 16;
+  unsigned long long on_way = 0;
+  LanePack* walkers = nullptr;
 
   int calls = 0;
   int lane[lanes] = {};     ///< of each call

@@ -21,6 +21,7 @@ struct LaneTable {
   bool segments = false;  ///< has such pieces
   bool circles = false;
   bool closed_circles = false;
+  double start_margin = 0.0;   ///< from the start of a closed circle's parameter
   bool small_circles = false;  ///< whose hits may be far from them, in radii (geometry::longest_step)
   bool open = false;      ///< beyond all walls lies the open plane
   bool divided = false;   ///< some wall is of several pieces
@@ -29,7 +30,7 @@ struct LaneTable {
 
   // Start of each piece.
   double joint_x[most] = {}, joint_y[most] = {};
-  // Of a segment: a point of it, and its unit normal out of the domain. Of a circle: centre, 0.75 / r^2, r^2.
+  // Of a segment: a point of it, and its unit normal out of the domain. Of a circle: centre, 1 / (2 r^2), r^2.
   double point_x[most] = {}, point_y[most] = {}, first_number[most] = {}, second_number[most] = {};
   double orientation[most] = {};  ///< circle: +1 domain inside, -1 outside; segment: 0
   double strength[most] = {};     ///< of its reflections: PreparedCurve::strength; segment: 2
@@ -45,7 +46,7 @@ struct LaneTable {
   LaneEllipses<most> ellipses;
 
   // Of a lattice: the start and the way of each edge of the cell, the cell beyond it and where that begins; the two vectors.
-  static constexpr double farthest_cell = 64.0;  ///< of a flight
+  static constexpr double farthest_cell = 120.0;  ///< of a flight
   int edges = 0;                  ///< 4 or 6
   int steps = 2;                  ///< edges that a kernel crosses
   double edge_x[eight] = {}, edge_y[eight] = {}, edge_along_x[eight] = {}, edge_along_y[eight] = {};
@@ -59,8 +60,20 @@ struct LaneTable {
   static constexpr int most_signs = 10;
   static constexpr unsigned char unknown = most;
   double start_step = 1.0, from_start = 0.0;
-  static constexpr int entries = 1 << 16;  ///< more than most_signs 2^most_signs: as many as there are words of 16 bits
+  static constexpr int entries = 1 << 16;  ///< of `sights`, too; more than most_signs 2^most_signs: as many as there are words of 16 bits
   unsigned char exit[entries] = {};
+
+  // What a flight from the disc of such a direction and offset sees (discs_in_sight.hpp): in four signed bytes the cells of the disc that
+  // it meets if it cuts it, and of the one that it meets else. Null: not known.
+  static constexpr int sight_directions = 256, sight_offsets = 64;  ///< of a quadrant; of a direction
+  static constexpr unsigned open_sight = 0;
+  static constexpr unsigned sight_of(int first, int second, int then_first, int then_second) {
+    return (static_cast<unsigned>(first) & 255u) | (static_cast<unsigned>(second) & 255u) << 8 |
+           (static_cast<unsigned>(then_first) & 255u) << 16 | (static_cast<unsigned>(then_second) & 255u) << 24;
+  }
+  const unsigned* sights = nullptr;
+  double directions_per_unit = 0.0, offsets_per_length = 0.0;  ///< of a unit vector's smaller coordinate
+  double sight_near = 0.0, sight_far = 0.0;  ///< in offsets: lines nearer to a centre certainly cut the disc, farther ones certainly pass it
 
   double order_margin = 0x1p-21;  ///< of two times, in sizes over the speed
   double size = 0.0;  ///< the length by which every margin is measured: a power of two (make_lane_table.cpp)

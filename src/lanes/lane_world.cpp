@@ -6,10 +6,11 @@
 #include <stdexcept>
 
 #include "events/next_hit.hpp"
+#include "lanes/discs_in_sight.hpp"
 #include "lanes/exit_by_signs.hpp"
 #include "lanes/kernels.hpp"
+#include "lanes/lane_start.hpp"
 #include "lanes/make_lane_table.hpp"
-#include "motion/free_motion.hpp"
 
 namespace carom {
 
@@ -18,22 +19,15 @@ using lanes::Call;
 using lanes::LanePack;
 using lanes::LaneTable;
 using lanes::Turn;
+using lanes::turn_of;
 
 namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Hits are counted in doubles.
 constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
-// Margins in units of what is asked, each 2^5 times its error or more (docs/developer/lanes.md derives both). The side of
-// a joint, of a cell's edge and what stands under a root err by 2^-44 of S = `size`, times the speed s, or S again.
-constexpr double side_margin = 0x1p-36;
-// | |c|^2 - v^2 | of a joint errs by 2^-45 g^2, g >= s + |omega| S ...
-constexpr double circle_margin = 0x1p-40;
-// ... and is |omega| d (|c| + s) <= |omega| d 2g at the distance d from the circle: beyond twice the margin of a side,
-// times |omega| S g, d is beyond that of a side.
-constexpr double near_margin = 2.0 * side_margin;
-
 lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn) {
+  if (!detail::fuses) return lanes::no_kernels();
   const bool curved = table.ellipses.any;
 #if defined(CAROM_WIDE_LANES)
   if (set == InstructionSet::avx512) return (curved ? lanes::avx512_ellipse_kernels : lanes::avx512_kernels)(table, turn);
@@ -42,12 +36,6 @@ lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn
   (void)set;
   return (curved ? lanes::baseline_ellipse_kernels : lanes::baseline_kernels)(table, turn);
 }
-
-Turn turn_of(double omega) {
-  return omega > 0.0 ? Turn::clockwise : omega < 0.0 ? Turn::counter_clockwise : Turn::straight;
-}
-/// Squares and products of four such numbers are far from the ends of the doubles' range.
-bool moderate(double x) { return x > 1e-30 && x < 1e30; }
 
 class LastEnd : public Observer {
  public:
@@ -65,8 +53,10 @@ class LaneWorld::Implementation {
         finder(the_table, options),
         pieces(lanes::make_lane_table(finder)),
         turn(turn_of(particles.at(0).omega)),
+        in_sight(lanes::discs_in_sight(pieces)),
         kernels(kernels_for(set, pieces, turn)) {
     if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
+    for (Lanes* l : {&main, &entrance}) l->pack.walkers = &walkers;
     if (!available(set)) throw std::invalid_argument("this machine does not have the instruction set");
   }
 
@@ -109,6 +99,7 @@ class LaneWorld::Implementation {
   HitFinder finder;
   LaneTable pieces;
   Turn turn;
+  std::vector<std::uint32_t> in_sight;
   lanes::Kernels kernels;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t filter = 0;
@@ -201,7 +192,7 @@ class LaneWorld::Implementation {
       }
       if (turn_of(mine.start.particle.omega) != turn) throw std::invalid_argument("a particle that turns another way");
       mine.first_hits = mine.start.hits;
-      if (can_start(mine.start.state, mine.start.particle)) {
+      if (!(mine.start.state.time > Time(main.pack.end)) && lanes::can_start(pieces, finder, mine.start)) {
         resume(lanes, lane);
         return true;
       }
@@ -209,68 +200,12 @@ class LaneWorld::Implementation {
     }
   }
 
-  /// Is the state one that lanes may start from? Not at a joint, nor along a wall.
-  bool can_start(State& s, const Particle& p) const {
-    if (s.time > Time(main.pack.end)) return false;
-    if (s.wall < 0) return within(s.position) && in_cell(s.position);
-    const geometry::PreparedCurve& w = finder.curve(s.wall);
-    if (!(s.u > geometry::first_parameter && s.u < w.last())) return false;
-    const auto frame = w.frame(s.u);
-    if (w.parameter(s.position) != s.u) s.position = frame.point;  // as World::add
-    const int piece = lanes::piece_at(pieces, s.wall, s.u);
-    return (pieces.bent[piece] ? 1.0 : pieces.size) * dot(frame.normal, s.velocity) > pieces.ellipses.inward[piece] * p.speed;
-  }
-
-  /// In the open plane flights may start beyond all lengths that margins are measured by.
-  bool within(Vector p) const { return std::fabs(p.x) <= 0.5 * pieces.size && std::fabs(p.y) <= 0.5 * pieces.size; }
-
-  /// On a lattice flights start in the cell about the origin.
-  bool in_cell(Vector p) const {
-    for (int i = 0; i < pieces.edges; ++i) {
-      const int next = i + 1 == pieces.edges ? 0 : i + 1;
-      const Vector from{pieces.edge_x[i], pieces.edge_y[i]}, along = Vector{pieces.edge_x[next], pieces.edge_y[next]} - from;
-      if (!(cross(along, p - from) > side_margin * pieces.size * pieces.size)) return false;
-    }
-    return true;
-  }
-
   /// The numbers of a lane's trajectory.
   void resume(Lanes& lanes, int lane) {
-    LanePack& pack = lanes.pack;
-    const Trajectory& mine = lanes.trajectories[lane];
-    const State& s = mine.start.state;
-    const Particle& p = mine.start.particle;
-    pack.x[lane] = s.position.x;
-    pack.y[lane] = s.position.y;
-    pack.vx[lane] = s.velocity.x;
-    pack.vy[lane] = s.velocity.y;
-    pack.high[lane] = s.time.high;
-    pack.low[lane] = s.time.low;
-    pack.piece[lane] = s.wall < 0 ? -1.0 : lanes::piece_at(pieces, s.wall, s.u);
-    pack.born[lane] = pack.sweep - static_cast<double>(mine.start.hits);
-    pack.next_cap = std::min(pack.next_cap, pack.born[lane] + pack.limit);
-    pack.home_first[lane] = static_cast<double>(s.cell.first);
-    pack.home_second[lane] = static_cast<double>(s.cell.second);
-    pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
-    pack.speed[lane] = p.speed;
-    pack.square_speed[lane] = p.speed * p.speed;
-    const geometry::EnergyShell<double> shell = energy_shell(p.speed);
-    pack.shell_weight[lane] = shell.weight;
-    pack.shell_rest[lane] = shell.rest;
-    pack.sides[lane] = side_margin * pieces.size * p.speed;
-    pack.order[lane] = pieces.order_margin * pieces.size / p.speed;
-    pack.shortest[lane] = 2.0 * pack.sides[lane] / pack.square_speed[lane];
-    pack.roots[lane] = pack.sides[lane] * pieces.size * p.speed;
-    if (turn != Turn::straight) {
-      const double turned = std::fabs(p.omega) * pieces.size, pace = p.speed + turned;
-      pack.omega[lane] = p.omega;
-      pack.inverse_half[lane] = 1.0 / (0.5 * std::fabs(p.omega));
-      // Where the table has no size to measure by, no lane decides anything.
-      pack.pace[lane] = std::isfinite(pace) ? std::ldexp(1.0, std::ilogb(pace) + 1) : HUGE_VAL;
-      pack.joint_margin[lane] = std::max(near_margin * turned, circle_margin * pace) * pace;
-    }
-    if (pack.active[lane] == 0.0) ++lanes.busy;
-    pack.active[lane] = 1.0;
+    const LaneStart& start = lanes.trajectories[lane].start;
+    lanes::put_into(lanes.pack, lane, pieces, start);
+    if (lanes.pack.active[lane] == 0.0) ++lanes.busy;
+    lanes.pack.active[lane] = 1.0;
   }
 
   /// Calls for lanes that have made all their hits.
@@ -375,7 +310,7 @@ class LaneWorld::Implementation {
     const geometry::PreparedCurve& w = finder.curve(s.wall);
     if (!(s.u > geometry::first_parameter && s.u < w.last() && w.parameter(s.position) == s.u)) return -1;
     const int piece = lanes::piece_at(pieces, s.wall, s.u);
-    return piece < 0 ? -1 : lanes::entry_of(pieces, piece, s.position, s.velocity, side_margin * pieces.size * start.particle.speed);
+    return piece < 0 ? -1 : lanes::entry_of(pieces, piece, s.position, s.velocity, lanes::side_margin * pieces.size * start.particle.speed);
   }
   /// What the scalar engine has just seen: all flights of this entry leave there.
   void learn(int entry, std::uint64_t hits_before) {
@@ -393,14 +328,15 @@ class LaneWorld::Implementation {
   bool stopped = false;
   Lanes main;
   Lanes entrance;   ///< used where particles are not born on walls and `on_walls` cannot fly them
+  LanePack walkers;
   int waiting = 0;  ///< the next lane of the entrance that may wait
   bool exhausted = false;
 };
 
 bool LaneWorld::suits(const Table& table, const std::vector<Particle>& particles) {
   for (const Particle& p : particles)
-    if (turn_of(p.omega) != turn_of(particles[0].omega) || p.radius != 0.0 || !moderate(p.speed) ||
-        (p.omega != 0.0 && !moderate(std::fabs(p.omega))))
+    if (turn_of(p.omega) != turn_of(particles[0].omega) || p.radius != 0.0 || !lanes::moderate(p.speed) ||
+        (p.omega != 0.0 && !lanes::moderate(std::fabs(p.omega))))
       return false;
   const bool straight = !particles.empty() && turn_of(particles[0].omega) == Turn::straight;
   return !particles.empty() && lanes::fits(table) && (straight || !table.lattice);

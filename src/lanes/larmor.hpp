@@ -100,7 +100,7 @@ struct Fraction {
 /// The rising root of the quadratic of a segment or circle, whose sizes are powers of two.
 INLINE Fraction rising_root(const View& f, const geometry::Quadratic<Real>& quadratic, const Mask& stands, const Real& length) {
   const auto& [a, b, c] = quadratic;
-  const Real discriminant = b * b - a * c;
+  const Real discriminant = geometry::discriminant_of(quadratic);
   const Real n = abs(b) + sqrt(max(discriminant, Real(0.0)));
   const Mask falls = b <= 0.0;
   const Real size = length * f.pace;

@@ -55,7 +55,7 @@ void add_ellipse(LaneTable& t, const PreparedCurve& w, int i) {
   // The form of the velocity, by which a time is divided, may be less than a circle's by the square of the axes' ratio.
   t.order_margin = std::max(t.order_margin, 0x1p-21 * (row * largest) * (row * largest));
   // In units of the table's size, which is not complete yet.
-  all.off[i] = 0.75 * 0x1p-38 / largest;
+  all.off[i] = 0x1p-39 / largest;
   all.at_start[i] = t.closed[i] ? 0x1p-36 * row : 0.0;
   all.inward[i] = 0x1p-36 * row * row;
   t.size = std::max({t.size, 4.0 * (largest + size(w.centre)), 0x1p40 * w.normal_bound / (row * row)});
@@ -230,6 +230,7 @@ LaneTable make_lane_table(const HitFinder& finder) {
   // more than 2^-36 S r s^2, and what it errs, 2^-44 S^2 s^2, moves a hit off the arc by 2^-45 S^2/r.
   bool wide_arcs = true;
   for (int i = 0; i < t.pieces; ++i) wide_arcs &= t.pieces == 1 || t.radius[i] == 0.0 || t.radius[i] > 0x1p-7 * t.size;
+  t.start_margin = 0x1p-36 * t.size;
   t.open = table.extent == Extent::open_plane;
   t.convex = is_convex(finder);
   if (wide_arcs) prepare_exits(t);

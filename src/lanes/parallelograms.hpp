@@ -96,11 +96,14 @@ INLINE void go(int steps, Registers&&... registers) {
   for (int step = 0; step < steps; ++step) (registers.go(), ...);
   (registers.keep(), ...);
 }
-INLINE void go_on_way(const LaneTable& t, Ways& ways, int lane) {
-  if constexpr (together == 4)
-    go(t.steps, OnWay(ways, lane), OnWay(ways, lane + width), OnWay(ways, lane + 2 * width), OnWay(ways, lane + 3 * width));
-  else
+INLINE int registers_of(int lanes) { return lanes <= width ? 1 : lanes <= 2 * width ? 2 : together; }
+INLINE void go_on_way(const LaneTable& t, Ways& ways, int lane, int registers) {
+  if (registers == 1)
+    go(t.steps, OnWay(ways, lane));
+  else if (registers == 2)
     go(t.steps, OnWay(ways, lane), OnWay(ways, lane + width));
+  else
+    go(t.steps, OnWay(ways, lane), OnWay(ways, lane + width), OnWay(ways, lane + 2 * width), OnWay(ways, lane + 3 * width));
 }
 
 INLINE Crossed end_way(const LaneTable& t, const Ways& ways, CellOf& cell, int lane) {

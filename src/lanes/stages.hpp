@@ -12,6 +12,9 @@ struct Stages {
   double cell_first[LanePack::lanes], cell_second[LanePack::lanes];
   double start_x[LanePack::lanes], start_y[LanePack::lanes];  ///< of the flight, seen from that cell
   double high[LanePack::lanes], low[LanePack::lanes];  ///< time there, of those that wait for an answer
+  // Of flights that are looked up (by_sight.hpp): the cells of their discs; and a bit for each that still walks, or that is the scalar engine's.
+  alignas(64) unsigned cell[LanePack::lanes];
+  unsigned long long waiting, undecided;
   Masks decided, gone, bent;  ///< gone: certainly no wall follows (in this cell)
 };
 
@@ -95,9 +98,16 @@ template <class Kind>
 INLINE void divide(const LanePack& pack, Stages& stages, const Real& time, const Real& unit, const Mask& decided, int lane) {
   const Real duration = time / unit;
   // A flight along an arc that is long enough ends as steeply as the sign of its reflection asks for.
-  const Real least = inward_is_known<Kind> ? load(pack.shortest + lane) : Real(0.0);
+  const Real least = inward_is_known<Kind> && !Kind::sights ? load(pack.shortest + lane) : Real(0.0);
   store(duration, stages.duration + lane);
   store(decided && duration > least, stages.decided, lane);
+}
+
+/// The cell where a flight ends, counted from the one it began in.
+template <class Kind>
+INLINE CellOf cell_met(const Stages& stages, int lane) {
+  if constexpr (Kind::sights) return {signed_byte<0>(stages.cell + lane), signed_byte<1>(stages.cell + lane)};
+  return {load(stages.cell_first + lane), load(stages.cell_second + lane)};
 }
 
 template <class Kind>
@@ -142,9 +152,11 @@ template <class Kind>
 INLINE void choose_parallelograms(const LaneTable& t, const LanePack& pack, Stages& stages) {
   Ways ways;
   const auto cell_of = [&](int lane) { return CellOf{load(pack.cell_first + lane), load(pack.cell_second + lane)}; };
-  const int groups = (pack.used + together * width - 1) / (together * width);
-  for (int lane = 0; lane < groups * together * width; lane += width) begin_way(view_of<Kind>(t, pack, lane), cell_of(lane), ways, lane);
-  for (int lane = 0; lane < pack.used; lane += together * width) go_on_way(t, ways, lane);
+  for (int lane = 0; lane < pack.used; lane += together * width) {
+    const int group = lane + registers_of(pack.used - lane) * width;
+    for (int each = lane; each < group; each += width) begin_way(view_of<Kind>(t, pack, each), cell_of(each), ways, each);
+  }
+  for (int lane = 0; lane < pack.used; lane += together * width) go_on_way(t, ways, lane, registers_of(pack.used - lane));
   for (int lane = 0; lane < pack.used; lane += width) {
     CellOf cell = cell_of(lane);
     const Crossed crossed = end_way(t, ways, cell, lane);

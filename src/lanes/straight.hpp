@@ -10,12 +10,12 @@ struct Line {
   const View& f;
   Real x, minus_y, offset;  ///< of the velocity, and -(v x origin)
   INLINE explicit Line(const View& view)
-      : f(view), x(f.velocity.x), minus_y(-f.velocity.y), offset(-cross(f.velocity, f.origin)) {}
+      : f(view), x(f.velocity.x), minus_y(-f.velocity.y), offset(-geometry::fused_cross(f.velocity, f.origin)) {}
   /// v x (point - origin).
   INLINE Real side(double px, double py) const { return fused(x, Real(py), fused(minus_y, Real(px), offset)); }
   /// v . (point - origin).
   INLINE Real ahead(double px, double py) const {
-    return fused(x, Real(px), fused(f.velocity.y, Real(py), -dot(f.velocity, f.origin)));
+    return fused(x, Real(px), fused(f.velocity.y, Real(py), -geometry::fused_dot(f.velocity, f.origin)));
   }
   /// (A - origin) x (B - origin), the ends of a piece with joints.
   INLINE Real cross_of_ends(const LaneTable& t, int i) const {
@@ -181,20 +181,23 @@ INLINE FractionOfTime meet_by_line(const View& f, const Met& met) {
     // With the normal m out of the domain, which is e for a circle about it: m.v grows to the wall, and a segment is left
     // like a circle from inside whose root is 0.
     const Vector m = normal_of<Kind>(met, e);
-    const Real b = dot(m, v);
-    Real gap = -dot(m, e), n = abs(b);
+    const Real b = geometry::fused_dot(m, v);
+    // r^2 - e.e of a circle, -m.e of a segment.
+    Real within(0.0);
+    if constexpr (Kind::circles) where(met.bent, within) = met.second;
+    Real gap = geometry::less_dot(within, m, e), n = abs(b);
     Mask away(true);
     if constexpr (Kind::circles) {
-      const Real inside = met.second - dot(m, e);
-      gap = choose(met.bent, inside, gap);
-      const Real discriminant = b * b + gap * f.square_speed;
+      const Real discriminant = fused_product(gap, f.square_speed, b * b);
       where(met.stands, gap) = Real(0.0);
       // In a convex table the line between two joints cuts the arc.
-      Real root = sqrt(Kind::convex ? discriminant : max(discriminant, Real(0.0)));
+      Real root = sqrt(Kind::convex || Kind::sights ? discriminant : max(discriminant, Real(0.0)));
       where(met.stands, root) = n;
       if constexpr (Kind::segments) where(!met.bent, root) = Real(0.0);
       n = n + root;
       away = met.orientation * b >= 0.0;
+      // Discs of a lattice that were chosen are cut and lie ahead.
+      if constexpr (Kind::sights) return {-gap, n, Mask(true)};
       if constexpr (!Kind::convex) decided = met.stands || discriminant > f.roots || !met.bent;
     }
     time = choose(away, met.orientation * gap, n);

@@ -9,8 +9,8 @@ namespace carom {
 using geometry::Vector;
 
 geometry::EnergyShell<double> energy_shell(double speed) {
-  const double square = speed * speed, weight = 0.75 / square;
-  return {weight, std::fma(weight, square, -0.75)};
+  const double square = speed * speed, weight = 0.5 / square;
+  return {weight, std::fma(weight, square, -0.5)};
 }
 
 Vector reflected_at_corner(Vector v, Vector before, Vector after, int n) {
@@ -24,7 +24,7 @@ Vector reflected_at_corner(Vector v, Vector before, Vector after, int n) {
 }
 
 std::pair<Vector, Vector> moved(Vector x, Vector v, double omega, double duration) {
-  if (omega == 0.0) return {x + duration * v, v};
+  if (omega == 0.0) return {geometry::moved(x, duration, v), v};
   // The chord has length |v| sin(h t)/h along the velocity at half time, h = omega/2.
   const double h = 0.5 * omega;
   const auto [s, c] = elementary::sincos(h * duration);

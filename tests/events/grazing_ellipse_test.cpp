@@ -22,7 +22,7 @@ class Distance : public Observer {
   void hit(const HitEvent& e) override {
     const auto on = geometry::on_ellipse(e.position - curve_.centre, curve_.first_axis, curve_.second_axis);
     const double slope = std::sqrt(dot(on.gradient, on.gradient));
-    largest = std::max(largest, std::fabs(on.measure / 0.75 - 1.0) / (2.0 * slope * size_));
+    largest = std::max(largest, std::fabs(on.step) / (slope * size_));
   }
   double largest = 0.0;
 

@@ -64,7 +64,8 @@ TEST(Bounds, CircleAndDerivedNumbers) {
     const auto value = circle_quadratic(s.exact_start - q.centre, dot(q.a, q.a), quad(s.velocity),
                                         dot(quad(s.velocity), quad(s.velocity)), Quad(s.omega), Quad(0.5));
     const Vector e = s.start - w.centre;
-    const auto rounded = circle_quadratic(e, w.r2, s.velocity, s.square, s.omega, 0.5);
+    const auto rounded = s.omega == 0.0 ? circle_quadratic(e, w.r2, s.velocity, s.square)
+                                        : circle_quadratic(e, w.r2, s.velocity, s.square, s.omega, 0.5);
     const QuadraticError bound = circle_error(s.scale, norm_1(e), w.centre_error, w.r2);
     r.add("circle a", value.a, rounded.a, bound.a);
     r.add("circle b", value.b, rounded.b, bound.b);
@@ -72,6 +73,20 @@ TEST(Bounds, CircleAndDerivedNumbers) {
     r.add("circle discriminant", value.b * value.b - value.a * value.c, rising_root(rounded).discriminant,
           discriminant_error(rounded, bound));
   });
+}
+
+// Near the centre of a circle nothing but the roundings of r^2 is left, and all of them count.
+TEST(Bounds, CircleSeenFromNearItsCentre) {
+  Ratios r;
+  Dice dice(11);
+  for (long i = cases(200000, 20000000); i > 0; --i) {
+    const double radius = dice.between(1.0, 1.0005), r2 = PreparedCurve(Circle{{0, 0}, radius, false}).r2;
+    const Vector e = dice.spread(0x1p-28, 0x1p-25) * dice.direction();
+    const FlightScale still{};
+    const Quad exact = dot(quad(e), quad(e)) - Quad(radius) * Quad(radius);
+    r.add("circle a near the centre", exact, circle_quadratic(e, r2, Vector{1, 0}, 1.0).a, circle_error(still, norm_1(e), 0.0, r2).a);
+  }
+  r.expect();
 }
 
 TEST(Bounds, DiscriminantAndKappa) {
@@ -116,14 +131,12 @@ TEST(Bounds, EllipseWithoutField) {
     const QuadVector e = s.exact_start - q.centre, v = quad(s.velocity);
     const Quad r2 = q.metric(q.a, q.a);
     const Vector f = s.start - w.centre;
-    const Vector em{dot(w.first_direction, f), dot(w.second_direction, f)};
-    const Vector vm{dot(w.first_direction, s.velocity), dot(w.second_direction, s.velocity)};
-    const double m = w.first_weight, n = w.second_weight;
+    const auto rounded = geometry::ellipse_quadratic(f, s.velocity, w.first_direction, w.first_weight, w.second_weight);
     const QuadraticError bound = ellipse_error(s.scale, norm_1(f), w.centre_error,
                                                std::max(norm_1(w.first_axis), norm_1(w.second_axis)));
-    r.add("ellipse a", q.metric(e, e) / r2 - Quad(1), m * (em.x * em.x) + n * (em.y * em.y) - 1.0, bound.a);
-    r.add("ellipse b", q.metric(e, v) / r2, m * (em.x * vm.x) + n * (em.y * vm.y), bound.b);
-    r.add("ellipse c", q.metric(v, v) / r2, m * (vm.x * vm.x) + n * (vm.y * vm.y), bound.c);
+    r.add("ellipse a", q.metric(e, e) / r2 - Quad(1), rounded.a, bound.a);
+    r.add("ellipse b", q.metric(e, v) / r2, rounded.b, bound.b);
+    r.add("ellipse c", q.metric(v, v) / r2, rounded.c, bound.c);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -112,7 +113,8 @@ class Bench {
     if (s.omega == 0.0) {
       free.point = from + (0.5 * a.duration) * s.velocity;
     } else {
-      const double kappa = kappa_after(0.5 * a.duration, s.omega);
+      const double h = 0.5 * s.omega, angle = 0.5 * a.duration * h;
+      const double kappa = h * std::cos(angle) / std::sin(angle);
       free.point = from + geometry::displacement(kappa, s.velocity, s.omega, 0.5);
       free.velocity = geometry::turned(geometry::flight_factors(kappa, s.omega, 0.5), s.velocity, s.omega);
     }

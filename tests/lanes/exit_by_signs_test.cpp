@@ -13,6 +13,7 @@
 #include "carom/lanes/lane_world.hpp"
 #include "events/next_hit.hpp"
 #include "lanes/make_lane_table.hpp"
+#include "lanes/one_by_one.hpp"
 #include "random_tables.hpp"
 
 namespace carom {
@@ -113,15 +114,7 @@ TEST(ExitBySigns, IsNotLearntFromAStartBesideItsPlace) {
   }
   LaneWorld lanes(table, {starts[0].particle}, widest_instruction_set());
   lanes.limit_hits(40);
-  std::size_t next = 0;
-  lanes.run_until(
-      1e300,
-      [&](LaneStart& start) {
-        if (next == starts.size()) return false;
-        start = starts[next++];
-        return true;
-      },
-      [&](const LaneEnd& end) {
+  lanes.run_until(1e300, tests::one_by_one(starts), [&](const LaneEnd& end) {
         World world(table);
         world.limit_hits(40);
         world.add(starts[end.tag].particle, starts[end.tag].state);

@@ -239,7 +239,7 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
     add_holes(table, dice);
     const World world(table);
     Case all;
-    all.limit = static_cast<std::uint64_t>(dice.whole(1, 100));
+    all.limit = static_cast<std::uint64_t>(dice.whole(1, rectangles ? 1000 : 100));
     if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size;
     for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, 1.0));
     if (!LaneWorld::suits(table, {all.starts[0].particle})) continue;

@@ -63,7 +63,7 @@ inline QuadraticError line_error(const FlightScale& f, double e1) {
 inline QuadraticError circle_error(const FlightScale& f, double e1, double centre_error, double r2) {
   const double u = unit_roundoff;
   const double eta = f.delta + centre_error + 1.01 * u * e1;
-  const double a = 2.01 * e1 * eta + 2.01 * eta * eta + u * (3.1 * e1 * e1 + 3.1 * r2);
+  const double a = 2.01 * e1 * eta + 2.01 * eta * eta + u * (3.1 * e1 * e1 + 4.1 * r2);
   const double b = f.speed_1 * (eta + 2.1 * u * e1);
   const double n = 0.25 * f.omega * f.omega;
   const double c = n * (a + 4.1 * u * (e1 * e1 + r2)) + f.omega * f.speed_1 * (eta + 5.1 * u * e1) +
@@ -91,7 +91,7 @@ struct Root {
 };
 inline Root rising_root(const Quadratic<double>& q) {
   Root r;
-  r.discriminant = q.b * q.b - q.a * q.c;
+  r.discriminant = discriminant_of(q);
   r.root = r.discriminant > 0.0 ? std::sqrt(r.discriminant) : 0.0;
   r.kappa = q.b <= 0.0 ? (r.root - q.b) / q.a : -q.c / (q.b + r.root);
   return r;

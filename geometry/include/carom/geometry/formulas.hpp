@@ -10,12 +10,36 @@
 // particle leaves the domain where F falls in time, that is where dF/dkappa > 0.
 //
 // A formula here never chooses: it maps numbers to numbers by + - * / and sqrt. Error bounds are in
-// filter.hpp; docs/physics/exactness.md derives both.
+// filter.hpp; docs/physics/exactness.md derives both. Products are fused with a sum where straight flights and landings take
+// them: those round less than their bounds allow for. (carom/base/fused_product.hpp)
 #pragma once
 
+#include "carom/base/fused_product.hpp"
 #include "carom/geometry/vector.hpp"
 
 namespace carom::geometry {
+
+/// a . b and a x b, the second product and the sum rounded at once. So a x a need not be 0, nor a x b = -(b x a).
+template <class Number>
+constexpr Number fused_dot(const BasicVector<Number>& a, const BasicVector<Number>& b) {
+  return fused_product(a.y, b.y, a.x * b.x);
+}
+template <class Number>
+constexpr Number fused_cross(const BasicVector<Number>& a, const BasicVector<Number>& b) {
+  return fused_product(a.x, b.y, -(a.y * b.x));
+}
+/// c - a . b: where that is small nothing but the first product and c less that product are rounded.
+template <class Number>
+constexpr Number less_dot(const Number& c, const BasicVector<Number>& a, const BasicVector<Number>& b) {
+  return fused_product(-a.y, b.y, fused_product(-a.x, b.x, c));
+}
+
+/// The point x less n a + m b: a start seen from another cell of a lattice. Rounded twice: by u(|x| + |m b|) and u of the result.
+template <class Number>
+constexpr BasicVector<Number> less_multiples(const BasicVector<Number>& x, const Number& n, const BasicVector<Number>& a,
+                                             const Number& m, const BasicVector<Number>& b) {
+  return {fused_product(-n, a.x, fused_product(-m, b.x, x.x)), fused_product(-n, a.y, fused_product(-m, b.y, x.y))};
+}
 
 /// a kappa^2 + 2 b kappa + c.
 template <class Number>
@@ -23,6 +47,11 @@ struct Quadratic {
   Number a{}, b{}, c{};
   friend constexpr Quadratic operator-(const Quadratic& q) { return {-q.a, -q.b, -q.c}; }
 };
+/// b^2 - a c.
+template <class Number>
+constexpr Number discriminant_of(const Quadratic<Number>& q) {
+  return fused_product(-q.a, q.c, q.b * q.b);
+}
 
 /// Twice the oriented distance, up to the factor |v|, of the point P + d from the flight: positive on
 /// its left, negative on its right. Larmor circle: its sign times that of omega is positive outside
@@ -46,9 +75,9 @@ template <class Number>
 constexpr Quadratic<Number> line_quadratic(const BasicVector<Number>& e, const BasicVector<Number>& d,
                                            const BasicVector<Number>& v, const Number& omega,
                                            const Number& half) {
-  const Number a = cross(d, e);
+  const Number a = fused_cross(d, e);
   const Number h = half * omega;
-  return {a, half * cross(d, v), a * (h * h) - h * dot(d, v)};
+  return {a, half * fused_cross(d, v), a * (h * h) - h * dot(d, v)};
 }
 
 /// Flight against the circle of squared radius r2 about C, domain outside; e = P - C, v2 = |v|^2.
@@ -61,6 +90,13 @@ constexpr Quadratic<Number> circle_quadratic(const BasicVector<Number>& e, const
   return {a, dot(e, v), a * (h * h) + omega * cross(e, v) + v2};
 }
 
+/// The same without field.
+template <class Number>
+constexpr Quadratic<Number> circle_quadratic(const BasicVector<Number>& e, const Number& r2,
+                                             const BasicVector<Number>& v, const Number& v2) {
+  return {-less_dot(r2, e, e), fused_dot(e, v), v2};
+}
+
 /// Flight without field against an ellipse about C, domain outside, by the form that is 1 on it; e = P - C, `axis` a unit
 /// vector along one of its axes. The weights (squares of the inverse semi-axes) come after the products: a rounded
 /// factor on each coordinate would bias every flight the same way.
@@ -68,9 +104,9 @@ template <class Number>
 constexpr Quadratic<Number> ellipse_quadratic(const BasicVector<Number>& e, const BasicVector<Number>& v,
                                               const BasicVector<Number>& axis, const Number& along, const Number& across) {
   const BasicVector<Number> other = left(axis);
-  const BasicVector<Number> em{dot(axis, e), dot(other, e)}, vm{dot(axis, v), dot(other, v)};
-  return {along * (em.x * em.x) + across * (em.y * em.y) - Number(1), along * (em.x * vm.x) + across * (em.y * vm.y),
-          along * (vm.x * vm.x) + across * (vm.y * vm.y)};
+  const BasicVector<Number> em{fused_dot(axis, e), fused_dot(other, e)}, vm{fused_dot(axis, v), fused_dot(other, v)};
+  return {fused_product(across, em.y * em.y, fused_product(along, em.x * em.x, Number(-1))),
+          fused_product(across, em.y * vm.y, along * (em.x * vm.x)), fused_product(across, vm.y * vm.y, along * (vm.x * vm.x))};
 }
 
 /// Coefficients of kappa^0 … kappa^4.
@@ -122,70 +158,70 @@ constexpr BasicVector<Number> displacement(const Number& kappa, const BasicVecto
   return displacement(flight_factors(kappa, omega, half), v);
 }
 
-/// One Newton step of 1/sqrt for a length whose square is `measure`, where it should be 3/4: what is to be added, as a
-/// fraction of it. In the middle of a binade doubles are evenly spaced, so the step has no bias (about 1 they
-/// are not, and angular momentum or energy would drift).
+/// One Newton step of 1/sqrt: what is to be added to d, as a fraction of it, where weight d.d should be 1/2. The first product
+/// is taken from 1/2, where doubles below it are evenly spaced, and what is left of it by the second one is rounded as a small number:
+/// so the step has no bias. (Squares rounded about a power of two have one, and angular momentum or energy would drift.)
 template <class Number>
-constexpr Number step_of_length(const Number& measure) {
-  return (Number(0.75) - measure) * Number(2.0 / 3.0);
+constexpr Number step_of_length(const BasicVector<Number>& weighted, const BasicVector<Number>& d) {
+  return less_dot(Number(0.5), weighted, d);
 }
 /// What is to be added, as a multiple of a unit normal, to a point on a line up to rounding; d leads to it from another one there.
 template <class Number>
 constexpr Number step_to_line(const BasicVector<Number>& d, const BasicVector<Number>& normal) {
-  return Number(0) - dot(normal, d);
+  return less_dot(Number(0), normal, d);
 }
-/// The point x moved by `step` times a vector: how every hit is put on its wall, along a segment's normal or a conic's x - centre.
+/// The point x moved by `step` times a vector: a flight of that duration; and how every hit is put on its wall, along a segment's
+/// normal or a conic's x - centre.
 template <class Number>
 constexpr BasicVector<Number> moved(const BasicVector<Number>& x, const Number& step, const BasicVector<Number>& way) {
-  return {x.x + step * way.x, x.y + step * way.y};
+  return {fused_product(step, way.x, x.x), fused_product(step, way.y, x.y)};
 }
 /// A vector longer by the fraction `step`.
 template <class Number>
 constexpr BasicVector<Number> lengthened(const BasicVector<Number>& d, const Number& step) {
   return moved(d, step, d);
 }
-/// The squared speed V that a particle keeps: weight = 0.75/V, rounded, and what is left of weight V above 3/4. Flight times
+/// The squared speed V that a particle keeps: weight = 1/(2V), rounded, and what is left of weight V above 1/2. Flight times
 /// are taken from V itself: were the shell's speed another one, if only by its last digit, each hit would lie
 /// beyond its wall by as much, and angular momentum would drift.
 template <class Number>
 struct EnergyShell {
-  Number weight{0.75}, rest{};
+  Number weight{0.5}, rest{};
 };
 /// The step for which the velocity v has the right speed. It is taken from the velocity before a reflection, so that no
 /// hit waits for it; what one reflection errs, the next one mends.
 template <class Number>
 constexpr Number step_to_energy_shell(const BasicVector<Number>& v, const EnergyShell<Number>& shell) {
-  const Number measure = shell.weight * v.x * v.x + shell.weight * v.y * v.y;
-  return ((Number(0.75) - measure) + shell.rest) * Number(2.0 / 3.0);
+  return step_of_length(shell.weight * v, v) + shell.rest;
 }
 
 /// A point on an ellipse up to rounding, d seen from its centre, under the axes that map the ellipse to the unit circle:
-/// its image, the gradient of half the form there, and what step_of_length brings it back by.
+/// its image, the gradient of half the form there, and the step that brings it back.
 template <class Number>
 struct OnEllipse {
   BasicVector<Number> image, gradient;
-  Number measure{};
+  Number step{};
 };
 template <class Number>
 constexpr OnEllipse<Number> on_ellipse(const BasicVector<Number>& d, const BasicVector<Number>& first,
                                        const BasicVector<Number>& second) {
-  const Number p = dot(first, d), q = dot(second, d);
-  return {{p, q}, {p * first.x + q * second.x, p * first.y + q * second.y}, Number(0.75) * p * p + Number(0.75) * q * q};
+  const BasicVector<Number> image{fused_dot(first, d), fused_dot(second, d)};
+  return {image, moved(image.x * first, image.y, second), step_of_length(Number(0.5) * image, image)};
 }
 
 /// 2 (v.n)/|n|^2 for n2 = k |n|^2: how much of the normal n a reflection takes from v.
 template <class Number>
 constexpr Number reflection_factor(const BasicVector<Number>& v, const BasicVector<Number>& n, const Number& n2,
                                    const Number& k) {
-  return Number(2) * k * dot(v, n) / n2;
+  return Number(2) * k * fused_dot(v, n) / n2;
 }
-/// The same for a circle, n = d of back_to_circle and `step` its step_of_length, without a division: 2/|d|^2 is
+/// The same for a circle, n = d from its centre and `step` its step_of_length, without a division: 2/|d|^2 is
 /// `strength` (1 + 2 step) but for the square of 2 step, where strength is 2/r^2 of the r of its weight to the last digit.
 template <class Number>
 constexpr Number reflection_factor_on_circle(const BasicVector<Number>& v, const BasicVector<Number>& d, const Number& strength,
                                              const Number& step) {
-  const Number factor = strength * dot(v, d);
-  return factor + (step + step) * factor;
+  const Number factor = strength * fused_dot(v, d);
+  return fused_product(step + step, factor, factor);
 }
 /// Up to this step: the square of its double is below the last digit. Beyond lie hits on circles much smaller than the
 /// distances that particles come from.
@@ -194,7 +230,7 @@ inline constexpr double longest_step = 0x1p-28;
 template <class Number>
 constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n,
                                         const Number& factor, const Number& step) {
-  return lengthened(BasicVector<Number>{v.x - factor * n.x, v.y - factor * n.y}, step);
+  return lengthened(moved(v, -factor, n), step);
 }
 template <class Number>
 constexpr BasicVector<Number> reflected(const BasicVector<Number>& v, const BasicVector<Number>& n,

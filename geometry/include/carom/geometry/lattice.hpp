@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "carom/geometry/curve.hpp"
+#include "carom/geometry/formulas.hpp"
 #include "carom/geometry/vector.hpp"
 
 namespace carom::geometry {
@@ -31,6 +32,10 @@ struct Lattice {
   Vector translation(const Cell& c) const {
     return {static_cast<double>(c.first) * first.x + static_cast<double>(c.second) * second.x,
             static_cast<double>(c.first) * first.y + static_cast<double>(c.second) * second.y};
+  }
+  /// The point x as it is seen from the cell c.
+  Vector seen_from(const Cell& c, const Vector& x) const {
+    return less_multiples(x, static_cast<double>(c.first), first, static_cast<double>(c.second), second);
   }
   double cell_area() const { return cross(first, second) < 0 ? -cross(first, second) : cross(first, second); }
 };

@@ -29,8 +29,8 @@ struct PreparedCurve {
   // Circle and ellipse.
   Vector centre;
   double r2 = 0.0;            ///< circle: squared radius
-  double weight = 0.0;        ///< circle: 0.75 / r2 …
-  double strength = 0.0;      ///< … and exactly 8/3 of it
+  double weight = 0.0;        ///< circle: 1 / (2 r2) …
+  double strength = 0.0;      ///< … and four times as much
   double off_power = 1.0;     ///< circle: 1 or 0.75, such that off_power r2 is not near a power of two
   double parameter_stretch = 0.0;  ///< bounds |du| / |dx|_1
   double centre_error = 0.0;  ///< of `centre`
@@ -75,7 +75,7 @@ struct PreparedCurve {
   [[gnu::always_inline]] void arrive(Vector x, Vector v, Arrival& a) const {
     if (kind == CurveKind::segment) {
       set(a, settle_on_segment(x));
-      a.factor = 2.0 * dot(v, a.normal);  // of a unit vector
+      a.factor = 2.0 * fused_dot(v, a.normal);  // of a unit vector
       a.u = segment_parameter(parametrisation, a.point, first_parameter);
     } else {
       if (kind == CurveKind::circle)
@@ -97,7 +97,7 @@ struct PreparedCurve {
  private:
   [[gnu::always_inline]] void arrive_on_circle(Vector x, Vector v, Arrival& a) const {
     const Vector d = x - centre;
-    const double step = step_of_length(dot(weight * d, d));
+    const double step = step_of_length(weight * d, d);
     if (!(std::fabs(step) < longest_step)) [[unlikely]] return arrive_from_far(d, v, a);
     const Vector on = moved(x, step, d);
     a.point.x = on.x;
@@ -108,7 +108,7 @@ struct PreparedCurve {
   }
   /// On a circle much smaller than the distance that was flown rounding leaves the point farther off than one step mends.
   void arrive_from_far(Vector d, Vector v, Arrival& a) const {
-    const double scale = std::sqrt(0.75 / dot(weight * d, d));
+    const double scale = std::sqrt(0.5 / dot(weight * d, d));
     const Vector near{scale * d.x, scale * d.y};
     reflect_by(settle_on_circle(centre + near, near), v, a);
   }
@@ -128,12 +128,12 @@ struct PreparedCurve {
   }
   [[gnu::always_inline]] Frame settle_on_circle(Vector x) const { return settle_on_circle(x, x - centre); }
   [[gnu::always_inline]] Frame settle_on_circle(Vector x, Vector e) const {
-    return {moved(x, step_of_length(dot(weight * e, e)), e), -orientation * e, dot(off_power * e, e), off_power};
+    return {moved(x, step_of_length(weight * e, e), e), -orientation * e, dot(off_power * e, e), off_power};
   }
   [[gnu::always_inline]] Frame settle_on_ellipse(Vector x) const {
     const Vector e = x - centre;
     const OnEllipse<double> on = on_ellipse(e, first_axis, second_axis);
-    return {moved(x, step_of_length(on.measure), e), -orientation * on.gradient, dot(on.gradient, on.gradient), 1.0};
+    return {moved(x, on.step, e), -orientation * on.gradient, dot(on.gradient, on.gradient), 1.0};
   }
 };
 
