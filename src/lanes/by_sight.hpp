@@ -3,17 +3,15 @@
 
 /// A number whose lowest sixteen bits are the entry; any bits for a lane that does not begin on a disc. Each quadrant about an axis has as
 /// many directions, by the coordinate along the other axis.
-INLINE Real entry_of_sights(const LaneTable& t, const LanePack& pack, int lane) {
+INLINE Real entry_of_sights(const LanePack& pack, int lane) {
   constexpr double quadrant = LaneTable::sight_directions, offsets = LaneTable::sight_offsets;
   const Vector way{load(pack.vx + lane), load(pack.vy + lane)};
-  const Real dx = t.point_x[0] - load(pack.x + lane), dy = t.point_y[0] - load(pack.y + lane);
-  const Real aside = fused(way.x, dy, -way.y * dx);
   const Mask steep = abs(way.x) < abs(way.y);
   const Real small = choose(steep, way.x, way.y), big = choose(steep, way.y, way.x);
   Real middle = choose(steep, Real(2.5 * quadrant), Real(0.5 * quadrant));
   where(big < 0.0, middle) = middle + quadrant;
   const Real direction = rounded(fused(small, load(pack.directions + lane), middle));
-  return fused(direction, Real(offsets), fused(aside, load(pack.offsets + lane), Real(0x1p52 + 0.5 * offsets)));
+  return fused(direction, Real(offsets), fused(load(pack.aside + lane), load(pack.offsets + lane), Real(0x1p52 + 0.5 * offsets)));
 }
 
 /// Copies what the walk over cells needs of a lane.
@@ -32,16 +30,16 @@ INLINE void copy_walker(const LanePack& from, int lane, LanePack& to, int place)
   copy(&LanePack::cell_second);
 }
 
-/// Those for whom the table is open, or who are on their way already, go from cell to cell, side by side.
+/// Those who begin off the discs go from cell to cell, side by side, to their first one.
 template <class Kind>
 [[gnu::noinline]] void walk(const LaneTable& t, LanePack& pack, Stages& stages) {
   LanePack& few = *pack.walkers;
   int lanes[LanePack::lanes];
   few.used = 0;
-  for (unsigned long long waiting = stages.waiting; waiting != 0; waiting &= waiting - 1) {
-    const int lane = __builtin_ctzll(waiting);
+  for (unsigned long long walking = pack.walking; walking != 0; walking &= walking - 1) {
+    const int lane = __builtin_ctzll(walking);
     if (lane >= pack.used || pack.active[lane] == 0.0) {
-      pack.on_way &= ~(1ULL << lane);
+      pack.walking &= ~(1ULL << lane);
       continue;
     }
     lanes[few.used] = lane;
@@ -54,7 +52,7 @@ template <class Kind>
   else
     choose_hexagons<Kind>(t, few, walked);
   // Who found a disc, who goes on, and who needs the scalar engine, also because lattice vectors that are not the shortest count cells
-  // beyond a byte: without branches, for no core guesses them.
+  // beyond a byte.
   unsigned long long found = 0, goes_on = 0;
   for (int place = 0; place < few.used; place += width) {
     found |= static_cast<unsigned long long>(bits_of(load(walked.decided, place))) << place;
@@ -62,26 +60,26 @@ template <class Kind>
   }
   for (int place = 0; place < few.used; ++place) {
     const int lane = lanes[place];
+    if ((goes_on >> place & 1U) != 0) {
+      pack.cell_first[lane] = walked.cell_first[place];
+      pack.cell_second[lane] = walked.cell_second[place];
+      continue;
+    }
     const int first = static_cast<int>(walked.cell_first[place]), second = static_cast<int>(walked.cell_second[place]);
-    const auto is_byte = [](int n) -> unsigned long long { return static_cast<unsigned>(n + 127) < 255u; };
-    const unsigned long long fits = is_byte(first) & is_byte(second);
-    const unsigned long long on = (goes_on >> place & 1U) << lane, ends = (~((found >> place & fits) | goes_on >> place) & 1U) << lane;
-    const unsigned long long bit = 1ULL << lane;
-    stages.cell[lane] = LaneTable::sight_of(first, second, first, second);
-    stages.waiting = (stages.waiting & ~bit) | on;
-    stages.undecided |= ends;
-    pack.on_way = (pack.on_way & ~bit) | on;
-    const double still = counted[goes_on >> place & 1U];
-    pack.cell_first[lane] = still * walked.cell_first[place];
-    pack.cell_second[lane] = still * walked.cell_second[place];
+    const auto is_byte = [](int n) { return static_cast<unsigned>(n + 127) < 255u; };
+    const bool meets = (found >> place & 1U) != 0 && is_byte(first) && is_byte(second);
+    stages.cell[lane] = meets ? LaneTable::sight_of(first, second, first, second) : LaneTable::no_sight;
+    pack.aside_home[lane] = pack.vx[lane] * (t.point_y[0] - pack.y[lane]) - pack.vy[lane] * (t.point_x[0] - pack.x[lane]);
+    pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
     pack.piece[lane] = 0.0;
+    pack.walking &= ~(1ULL << lane);
   }
 }
 
-/// The cell of the disc that each lane meets.
+/// What each lane sees: the cells of two discs.
 template <class Kind>
 INLINE void choose_by_sight(const LaneTable& t, LanePack& pack, Stages& stages) {
-  for (int lane = 0; lane < pack.used; lane += width) store(entry_of_sights(t, pack, lane), stages.piece + lane);
+  for (int lane = 0; lane < pack.used; lane += width) store(entry_of_sights(pack, lane), stages.piece + lane);
   const int end = (pack.used + width - 1) / width * width;
 #pragma GCC unroll 8
   for (int i = 0; i < end; ++i) {
@@ -91,29 +89,44 @@ INLINE void choose_by_sight(const LaneTable& t, LanePack& pack, Stages& stages) 
     asm("" : "+r"(seen));  // one by one: put together in registers they take twice as long
     stages.cell[i] = seen;
   }
-  stages.waiting = equal(stages.cell, end, LaneTable::open_sight) | pack.on_way;
-  stages.undecided = 0;
-  // A walk takes as long for a whole register as for one lane.
-  if (__builtin_popcountll(stages.waiting) >= LanePack::fewest_walkers ||
-      (stages.waiting != 0 && static_cast<long long>(pack.sweep) % LanePack::longest_wait == 0))
+  if (pack.walking == 0) [[likely]] return;
+  // A walk takes as long for a whole register as for one lane. Who waits stays where he is, far from any disc.
+  if (__builtin_popcountll(pack.walking) >= LanePack::fewest_walkers || static_cast<long long>(pack.sweep) % LanePack::longest_wait == 0)
     walk<Kind>(t, pack, stages);
+  for (unsigned long long walking = pack.walking; walking != 0; walking &= walking - 1) stages.cell[__builtin_ctzll(walking)] = 0;
 }
 
-/// Where each flight begins, seen from the cell of the disc that the table names, or of the one behind it if it passes that.
+/// Sides of the lattice's vectors as flights see them.
+struct Across {
+  Real first, second;
+  INLINE Across(const LaneTable& t, const Vector& v)
+      : first(fused(v.x, Real(t.lattice_y[0]), -v.y * t.lattice_x[0])), second(fused(v.x, Real(t.lattice_y[1]), -v.y * t.lattice_x[1])) {}
+  INLINE Real aside(const CellOf& cell, const Real& home) const { return fused(cell.first, first, fused(cell.second, second, home)); }
+};
+
+INLINE void pass_in_sight(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
+  const Across across(t, {load(pack.vx + lane), load(pack.vy + lane)});
+  const Words seen = sum_of_bytes(load(stages.cell + lane), load(pack.way + lane));
+  const Real aside = across.aside({signed_byte<0>(seen), signed_byte<1>(seen)}, load(pack.aside_home + lane));
+  store(second_where(abs(aside) > load(pack.passed + lane), seen), stages.cell + lane);
+}
 template <class Kind>
-INLINE void look_from_sight(const LaneTable& t, const LanePack& pack, Stages& stages, int lane) {
-  const View f = view_of<Kind>(t, pack, lane);
-  unsigned* cell = stages.cell + lane;
-  // Both without a branch: few registers need the second, but a core that guesses wrong loses all that it has begun.
-  const Vector start = seen_from(t, f.origin, {signed_byte<0>(cell), signed_byte<1>(cell)});
-  const Vector then = seen_from(t, f.origin, {signed_byte<2>(cell), signed_byte<3>(cell)});
-  const Real aside = abs(cross(f.velocity, start - Vector{Real(t.point_x[0]), Real(t.point_y[0])})) * load(pack.offsets + lane);
-  const Mask passes = aside > t.sight_far;
-  take_second(passes, cell);
-  store(choose(passes, then.x, start.x), stages.start_x + lane);
-  store(choose(passes, then.y, start.y), stages.start_y + lane);
-  const Mask waits = mask_of(static_cast<unsigned>((stages.waiting | stages.undecided) >> lane));
-  store((passes || aside < t.sight_near) && !waits, stages.decided, lane);
+INLINE void look_from_sight(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
+  const Vector origin{load(pack.x + lane), load(pack.y + lane)}, v{load(pack.vx + lane), load(pack.vy + lane)};
+  const Across across(t, v);
+  const Words seen = load(stages.cell + lane);
+  const CellOf cell{signed_byte<0>(seen), signed_byte<1>(seen)};
+  const Real aside = across.aside(cell, load(pack.aside_home + lane));
+  const Real way = way_of(cell), size = abs(aside);
+  const Mask certain = way <= Real(LaneTable::farthest_cell), goes_on = certain && size > load(pack.passed + lane);
+  const Real within = choose(way <= Real(LaneTable::near_cell), load(pack.cut + lane), load(pack.cut_far + lane));
+  store(aside, pack.aside + lane);
+  store(goes_on, stages.gone, lane);
+  store(certain && size < within, stages.decided, lane);
+  store(twice_where(goes_on, seen), pack.way + lane);
+  const Vector start = seen_from(t, origin, cell);
+  store(start.x, stages.start_x + lane);
+  store(start.y, stages.start_y + lane);
 }
 template <class Kind>
 INLINE void meet_in_sight(const LaneTable& t, const LanePack& pack, Stages& stages, int lane) {

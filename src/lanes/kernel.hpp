@@ -7,7 +7,7 @@
 
 #include <bit>
 #include <experimental/simd>
-#if defined(__AVX2__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -26,6 +26,7 @@ namespace {
 
 namespace simd = std::experimental;
 #include "lanes/wide.hpp"
+#include "lanes/words.hpp"
 using Vector = geometry::BasicVector<Real>;
 
 // A sign is certain if the number is beyond this share of its largest size: far more than what rounding does
@@ -131,6 +132,7 @@ void kernel(const LaneTable& __restrict table, LanePack& __restrict pack) {
       if (table.by_signs) look_up_exits(table, stages.piece, pack.used);
   }
   if constexpr (Kind::sights) {
+    for (int lane = 0; lane < pack.used; lane += width) pass_in_sight(table, pack, stages, lane);
     for (int lane = 0; lane < pack.used; lane += width) look_from_sight<Kind>(table, pack, stages, lane);
     for (int lane = 0; lane < pack.used; lane += width) meet_in_sight<Kind>(table, pack, stages, lane);
   } else if (Kind::turn == 0 || Kind::convex)

@@ -121,18 +121,21 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
     applies = applies && hole < 0.0;
   }
   if constexpr (Kind::cells) {
-    const CellOf cell = cell_met<Kind>(stages, lane);
-    store_where(applies, load(pack.home_first + lane) + cell.first, pack.home_first + lane);
-    store_where(applies, load(pack.home_second + lane) + cell.second, pack.home_second + lane);
     store_some<Kind>(pack, lane, now, applies);
+    gone = load(stages.gone, lane);
     if constexpr (Kind::sights) {
-      gone = mask_of(static_cast<unsigned>(stages.waiting >> lane));
+      add_cells(only_where(applies, load(stages.cell + lane)), pack.cells + 2 * lane);
+      const Real short_of = -geometry::fused_cross(now.velocity, normal), aside = fused(step, short_of, short_of);
+      store_where(applies, aside, pack.aside + lane);
+      store_where(applies, aside, pack.aside_home + lane);
       store_where(gone, load(pack.born + lane) + 1.0, pack.born + lane);
     } else {
+      const CellOf cell{load(stages.cell_first + lane), load(stages.cell_second + lane)};
+      store_where(applies, load(pack.home_first + lane) + cell.first, pack.home_first + lane);
+      store_where(applies, load(pack.home_second + lane) + cell.second, pack.home_second + lane);
       // Those still on their way only change their cell.
-      gone = load(stages.gone, lane);
-      store(choose(gone, load(stages.cell_first + lane), Real(0.0)), pack.cell_first + lane);
-      store(choose(gone, load(stages.cell_second + lane), Real(0.0)), pack.cell_second + lane);
+      store(choose(gone, cell.first, Real(0.0)), pack.cell_first + lane);
+      store(choose(gone, cell.second, Real(0.0)), pack.cell_second + lane);
     }
   } else {
     if (!any_of(!applies)) [[likely]] return store_all<Kind>(pack, lane, now);

@@ -36,7 +36,13 @@ struct LanePack {
   double roots[lanes] = {};                  ///< … and of its square;
   double order[lanes] = {};                  ///< of two times
   double shortest[lanes] = {};               ///< flight along a circle that ends by such a sign
-  double directions[lanes] = {}, offsets[lanes] = {};  ///< LaneTable::directions_per_unit and offsets_per_length over its speed
+  // Of flights that are looked up (discs_in_sight.hpp): LaneTable::directions_per_unit and offsets_per_length over the speed; cut_within,
+  // cut_within_far and passed_beyond times it; the side v x (centre - start) of the disc it stands on, and of the one it passes now; and the cell of that one,
+  // counted from home, twice, in four signed bytes.
+  double directions[lanes] = {}, offsets[lanes] = {}, cut[lanes] = {}, cut_far[lanes] = {}, passed[lanes] = {};
+  double aside_home[lanes] = {}, aside[lanes] = {};
+  alignas(64) unsigned way[lanes] = {};
+  int cells[2 * lanes] = {};  ///< of hits, since home_first and home_second were written
   double omega[lanes] = {};
   double inverse_half[lanes] = {};           ///< 1/|omega/2|
   double pace[lanes] = {};                   ///< power of two beyond speed + |omega| size
@@ -53,9 +59,9 @@ struct LanePack {
 
   int used = lanes;  ///< lanes beyond are not looked at
 
-  // Where flights are looked up (discs_in_sight.hpp): one bit for each lane that goes from cell to cell instead; and where it does.
+  // A bit for each lane that began off the discs and goes from cell to cell to its first one (by_sight.hpp); and where it does.
   static constexpr int fewest_walkers = 8, longest_wait = 16;
-  unsigned long long on_way = 0;
+  unsigned long long walking = 0;
   LanePack* walkers = nullptr;
 
   int calls = 0;

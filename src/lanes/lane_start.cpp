@@ -36,6 +36,9 @@ void put_particle(LanePack& pack, int lane, const LaneTable& t, const Particle& 
   pack.speed[lane] = p.speed;
   pack.directions[lane] = t.directions_per_unit / p.speed;
   pack.offsets[lane] = t.offsets_per_length / p.speed;
+  pack.cut[lane] = t.cut_within * p.speed;
+  pack.cut_far[lane] = t.cut_within_far * p.speed;
+  pack.passed[lane] = t.passed_beyond * p.speed;
   pack.square_speed[lane] = p.speed * p.speed;
   const geometry::EnergyShell<double> shell = energy_shell(p.speed);
   pack.shell_weight[lane] = shell.weight;
@@ -80,8 +83,13 @@ void put_into(LanePack& pack, int lane, const LaneTable& t, const LaneStart& sta
   pack.home_first[lane] = static_cast<double>(s.cell.first);
   pack.home_second[lane] = static_cast<double>(s.cell.second);
   pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
+  // Who begins off the discs passes none of them: what the table says for him is not looked at.
+  pack.aside_home[lane] = s.wall < 0 ? HUGE_VAL : cross(s.velocity, Vector{t.point_x[0], t.point_y[0]} - s.position);
+  pack.aside[lane] = pack.aside_home[lane];
+  pack.way[lane] = 0;
+  pack.cells[2 * lane] = pack.cells[2 * lane + 1] = 0;
   const unsigned long long bit = 1ULL << lane;
-  pack.on_way = s.wall < 0 ? pack.on_way | bit : pack.on_way & ~bit;
+  pack.walking = s.wall < 0 ? pack.walking | bit : pack.walking & ~bit;
   put_particle(pack, lane, t, start.particle);
 }
 

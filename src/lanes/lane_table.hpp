@@ -46,7 +46,7 @@ struct LaneTable {
   LaneEllipses<most> ellipses;
 
   // Of a lattice: the start and the way of each edge of the cell, the cell beyond it and where that begins; the two vectors.
-  static constexpr double farthest_cell = 120.0;  ///< of a flight
+  static constexpr double near_cell = 16.0, farthest_cell = 120.0;  ///< of a flight
   int edges = 0;                  ///< 4 or 6
   int steps = 2;                  ///< edges that a kernel crosses
   double edge_x[eight] = {}, edge_y[eight] = {}, edge_along_x[eight] = {}, edge_along_y[eight] = {};
@@ -63,17 +63,19 @@ struct LaneTable {
   static constexpr int entries = 1 << 16;  ///< of `sights`, too; more than most_signs 2^most_signs: as many as there are words of 16 bits
   unsigned char exit[entries] = {};
 
-  // What a flight from the disc of such a direction and offset sees (discs_in_sight.hpp): in four signed bytes the cells of the disc that
-  // it meets if it cuts it, and of the one that it meets else. Null: not known.
-  static constexpr int sight_directions = 256, sight_offsets = 64;  ///< of a quadrant; of a direction
-  static constexpr unsigned open_sight = 0;
+  // What a flight of such a direction sees that stands on a disc, or passes it, with its centre so far aside (discs_in_sight.hpp): in four
+  // signed bytes, counted from there, the cells of the disc that it meets if it cuts it, and of the one that it then meets or passes.
+  // Null: not known.
+  static constexpr int sight_directions = 128, sight_offsets = 64;  ///< of a quadrant; of a direction
   static constexpr unsigned sight_of(int first, int second, int then_first, int then_second) {
     return (static_cast<unsigned>(first) & 255u) | (static_cast<unsigned>(second) & 255u) << 8 |
            (static_cast<unsigned>(then_first) & 255u) << 16 | (static_cast<unsigned>(then_second) & 255u) << 24;
   }
+  static constexpr unsigned no_sight = 0x7f7f7f7fu;  ///< beyond farthest_cell
   const unsigned* sights = nullptr;
   double directions_per_unit = 0.0, offsets_per_length = 0.0;  ///< of a unit vector's smaller coordinate
-  double sight_near = 0.0, sight_far = 0.0;  ///< in offsets: lines nearer to a centre certainly cut the disc, farther ones certainly pass it
+  // Lines nearer to a centre certainly cut the disc, up to near_cell or beyond it; farther ones certainly pass it.
+  double cut_within = 0.0, cut_within_far = 0.0, passed_beyond = 0.0;
 
   double order_margin = 0x1p-21;  ///< of two times, in sizes over the speed
   double size = 0.0;  ///< the length by which every margin is measured: a power of two (make_lane_table.cpp)

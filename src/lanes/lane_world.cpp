@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "events/next_hit.hpp"
 #include "lanes/discs_in_sight.hpp"
@@ -26,6 +27,9 @@ namespace {
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Hits are counted in doubles.
 constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
+// After so many the cells of hits, a signed byte each, are taken out of 32 bits.
+constexpr std::uint64_t most_sweeps = std::uint64_t{1} << 23;
+
 lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn) {
   if (!detail::fuses) return lanes::no_kernels();
   const bool curved = table.ellipses.any;
@@ -78,6 +82,7 @@ class LaneWorld::Implementation {
     for (int lane = 0; lane < LanePack::lanes; ++lane) fill(lane);
     for (std::uint64_t sweep = 1; main.busy > 0; ++sweep) {
       if (stopped || (sweep % 64 == 0 && asked_to_stop())) return;
+      if (sweep % most_sweeps == 0) main.add_cells();
       kernels.on_walls(pieces, main.pack);
       cap(main);
       effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
@@ -126,6 +131,13 @@ class LaneWorld::Implementation {
     void clear() {
       busy = 0;
       for (double& active : pack.active) active = 0.0;
+    }
+    /// To the cells of their homes: those of hits are counted in 32 bits.
+    void add_cells() {
+      for (int lane = 0; lane < LanePack::lanes; ++lane) {
+        pack.home_first[lane] += std::exchange(pack.cells[2 * lane], 0);
+        pack.home_second[lane] += std::exchange(pack.cells[2 * lane + 1], 0);
+      }
     }
     void leave(int lane) {
       if (pack.active[lane] != 0.0) --busy;
@@ -239,7 +251,8 @@ class LaneWorld::Implementation {
     s.position = {pack.x[lane], pack.y[lane]};
     s.velocity = {pack.vx[lane], pack.vy[lane]};
     s.time = {pack.high[lane], pack.low[lane]};
-    s.cell = {static_cast<std::int64_t>(pack.home_first[lane]), static_cast<std::int64_t>(pack.home_second[lane])};
+    s.cell = {static_cast<std::int64_t>(pack.home_first[lane]) + pack.cells[2 * lane],
+              static_cast<std::int64_t>(pack.home_second[lane]) + pack.cells[2 * lane + 1]};
     s.u = finder.curve(s.wall).parameter(s.position);
   }
 

@@ -12,9 +12,7 @@ struct Stages {
   double cell_first[LanePack::lanes], cell_second[LanePack::lanes];
   double start_x[LanePack::lanes], start_y[LanePack::lanes];  ///< of the flight, seen from that cell
   double high[LanePack::lanes], low[LanePack::lanes];  ///< time there, of those that wait for an answer
-  // Of flights that are looked up (by_sight.hpp): the cells of their discs; and a bit for each that still walks, or that is the scalar engine's.
-  alignas(64) unsigned cell[LanePack::lanes];
-  unsigned long long waiting, undecided;
+  alignas(64) unsigned cell[LanePack::lanes];  ///< of flights that are looked up (by_sight.hpp): bytes, as in LaneTable::sights
   Masks decided, gone, bent;  ///< gone: certainly no wall follows (in this cell)
 };
 
@@ -101,13 +99,6 @@ INLINE void divide(const LanePack& pack, Stages& stages, const Real& time, const
   const Real least = inward_is_known<Kind> && !Kind::sights ? load(pack.shortest + lane) : Real(0.0);
   store(duration, stages.duration + lane);
   store(decided && duration > least, stages.decided, lane);
-}
-
-/// The cell where a flight ends, counted from the one it began in.
-template <class Kind>
-INLINE CellOf cell_met(const Stages& stages, int lane) {
-  if constexpr (Kind::sights) return {signed_byte<0>(stages.cell + lane), signed_byte<1>(stages.cell + lane)};
-  return {load(stages.cell_first + lane), load(stages.cell_second + lane)};
 }
 
 template <class Kind>

@@ -34,56 +34,8 @@ INLINE unsigned bits_of(const Mask& mask) {
 #endif
 }
 
-INLINE Mask mask_of(unsigned bits) {
-#if defined(__AVX512F__)
-  return std::bit_cast<Mask>(static_cast<unsigned char>(bits));
-#elif defined(__AVX2__)
-  const __m256i each = _mm256_setr_epi64x(1, 2, 4, 8);
-  const __m256i set = _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), each), each);
-  return Real(_mm256_and_pd(_mm256_castsi256_pd(set), _mm256_set1_pd(-1.0))) < 0.0;
-#else
-  return Real([&](auto i) { return (bits >> i & 1u) != 0u ? -1.0 : 1.0; }) < 0.0;
-#endif
-}
-
 /// The nearest whole numbers, below 2^51.
 INLINE Real rounded(const Real& x) { return (x + 0x1.8p52) - 0x1.8p52; }
-
-/// A byte of each lane's word, with its sign.
-template <int byte>
-INLINE Real signed_byte(const unsigned* words) {
-#if defined(__AVX512F__)
-  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(words));
-  return Real(_mm512_cvtepi32_pd(_mm256_srai_epi32(_mm256_slli_epi32(all, 24 - 8 * byte), 24)));
-#elif defined(__AVX2__)
-  const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(words));
-  return Real(_mm256_cvtepi32_pd(_mm_srai_epi32(_mm_slli_epi32(all, 24 - 8 * byte), 24)));
-#else
-  return Real([&](auto i) { return static_cast<double>(static_cast<signed char>(words[i] >> (8 * byte))); });
-#endif
-}
-/// The words of these lanes by their upper halves.
-INLINE void take_second(const Mask& lanes, unsigned* words) {
-#if defined(__AVX512F__)
-  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(words));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(words), _mm256_mask_srli_epi32(all, std::bit_cast<__mmask8>(lanes), all, 16));
-#else
-  const unsigned bits = bits_of(lanes);
-  for (int i = 0; i < width; ++i) words[i] >>= (bits >> i & 1u) * 16u;
-#endif
-}
-/// Which words are equal to another one: a bit each. `count` is a number of whole registers; words up to the next sixteen are there.
-INLINE unsigned long long equal(const unsigned* words, int count, unsigned word) {
-  unsigned long long bits = 0;
-#if defined(__AVX512F__)
-  for (int i = 0; i < count; i += 16)
-    bits |= static_cast<unsigned long long>(_mm512_cmpeq_epi32_mask(_mm512_loadu_si512(words + i), _mm512_set1_epi32(static_cast<int>(word)))) << i;
-  return count < 64 ? bits & ((1ULL << count) - 1) : bits;
-#else
-  for (int i = 0; i < count; ++i) bits |= static_cast<unsigned long long>(words[i] == word) << i;
-  return bits;
-#endif
-}
 
 /// 0, 1, 2 …: numbers of pieces; last a number for none that may be looked up like 0.
 constexpr double no_piece = 0x1p-60;
