@@ -104,12 +104,14 @@ struct Across {
   INLINE Real aside(const CellOf& cell, const Real& home) const { return fused(cell.first, first, fused(cell.second, second, home)); }
 };
 
+/// Who passes the first disc takes the second one. Without a branch: few do, but a core that guesses wrong loses all that it has begun.
 INLINE void pass_in_sight(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   const Across across(t, {load(pack.vx + lane), load(pack.vy + lane)});
   const Words seen = sum_of_bytes(load(stages.cell + lane), load(pack.way + lane));
   const Real aside = across.aside({signed_byte<0>(seen), signed_byte<1>(seen)}, load(pack.aside_home + lane));
   store(second_where(abs(aside) > load(pack.passed + lane), seen), stages.cell + lane);
 }
+/// Where each flight begins, seen from the cell of that disc: it meets it, or passes it, too, and goes on from there in the next sweep.
 template <class Kind>
 INLINE void look_from_sight(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   const Vector origin{load(pack.x + lane), load(pack.y + lane)}, v{load(pack.vx + lane), load(pack.vy + lane)};
