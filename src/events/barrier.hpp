@@ -24,6 +24,7 @@ struct Barrier {
   Real orientation{1};   ///< conic: +1 domain inside, -1 outside
   bool closed = false;   ///< every point of the carrier belongs to the piece
   Vector from, to;       ///< ends of the piece, if it has any
+  Real reach_from{0}, reach_to{0};  ///< there, reach_of_wall of the walls that meet it
   Real side{1};          ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
   Vector low, high;      ///< a box about the piece, larger than any rounding
   int wall = -1;         ///< which wall or support it is
@@ -51,7 +52,19 @@ struct Barrier {
   /// Is the particle on the piece, or beyond it, to rounding?
   bool stands_on(const Vector& x) const {
     const Real g = gap(x);
-    return !(g > Real(0)) && !(g < -on_wall() * rounding(x)) && covers(x);
+    return !(g > Real(0)) && !(g < -off_wall(x)) && covers(x);
+  }
+  /// How far below 0 the gap of a particle may be that is on this wall, or at a joint on the one that it meets there.
+  Real off_wall(const Vector& x) const {
+    Real most = on_wall() * rounding(x);
+    if (closed) return most;
+    const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
+    const Real stretch = size(first.x) + size(first.y) + size(second.x) + size(second.y);
+    for (const End end : {End::from, End::to}) {
+      const Real other = stretch * (end == End::from ? reach_from : reach_to);
+      if (most < other && is_at(end, x)) most = other;
+    }
+    return most;
   }
   /// Rate of change of the gap at x for the velocity v.
   Real rate(const Vector& x, const Vector& v) const {
@@ -96,11 +109,18 @@ struct Barrier {
     const Real along = dot(chord, e);
     return !(along < -beyond) && !(along > dot(chord, chord) + beyond);
   }
+  /// One of the ends: its point, and how far from it particles may be that are on this wall, or on the one that it meets there.
+  enum class End { from, to };
+  const Vector& point(End end) const { return end == End::from ? from : to; }
+  Real reach_of_joint(End end, const Real& reach) const {
+    const Real& other = end == End::from ? reach_from : reach_to;
+    return Real(2) * (reach < other ? other : reach);
+  }
   /// Is a point on the carrier that end of the piece, to rounding?
-  bool is_at(const Vector& end, const Vector& x) const {
+  bool is_at(End end, const Vector& x) const {
     const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
-    const Vector e = x - end;
-    return !closed && !(size(e.x) + size(e.y) > Real(2) * reach_of_wall(x));
+    const Vector e = x - point(end);
+    return !closed && !(size(e.x) + size(e.y) > reach_of_joint(end, reach_of_wall(x)));
   }
 };
 

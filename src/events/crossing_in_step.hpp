@@ -173,12 +173,12 @@ class CrossingSearch {
     return shape_of(g, size * error + error * error, noise);
   }
 
-  // The gap falls from a point at or beyond the barrier.
+  // The gap falls from a point at or beyond the barrier. Where walls meet smoothly that may be the highest point of a path along
+  // both, just before this one begins.
   Knot* from_the_wall(const Barrier<Real>& b, std::size_t i, Knot& from, const Knot& to) {
-    const auto beyond = [&](const Knot& k) {
-      return gap(b, i, k) < -b.on_wall() * b.rounding(k.phase.position[i]);
-    };
-    if (!wall_ || !beyond(to) || !b.stands_on(from.phase.position[i])) return nullptr;
+    const auto beyond = [&](const Knot& k) { return gap(b, i, k) < -b.off_wall(k.phase.position[i]); };
+    if (!wall_ || !beyond(to) || beyond(from)) return nullptr;
+    if (!b.covers(from.phase.position[i])) return at_either_end(b, i, from, from, to);
     slides_ = !hits_at_once(b, i, from);
     return &from;
   }
@@ -205,19 +205,22 @@ class CrossingSearch {
       (gap(b, i, *newest) > Real(0) ? inside : outside) = newest;
     }
     if (b.covers(inside->phase.position[i])) return inside;
-    if (b.closed) return nullptr;
-    Knot* joint = at_end(b, b.from, i, *inside, from, to);
-    return joint ? joint : at_end(b, b.to, i, *inside, from, to);
+    return at_either_end(b, i, *inside, from, to);
   }
 
   // The path crosses the carrier beyond the piece. If it also passes that end of the piece, to rounding, the gap changes
   // by no more than rounding between the two, and they cannot be told apart: nearly along a wall, that may be many
   // roundings of the point. The wall beyond the joint may find its crossing before it, so neither would be hit. Points
   // of the path are rounded as its start is, be they nearer to the origin.
-  Knot* at_end(const Barrier<Real>& b, const typename Barrier<Real>::Vector& end, std::size_t i, Knot& found,
-               const Knot& from, const Knot& to) {
-    const auto &x = found.phase.position[i], &start = path_.start().phase.position[i];
-    const Real near = Real(2) * b.reach_of_wall(b.rounding(x) < b.rounding(start) ? start : x);
+  Knot* at_either_end(const Barrier<Real>& b, std::size_t i, Knot& found, const Knot& from, const Knot& to) {
+    if (b.closed) return nullptr;
+    Knot* joint = at_end(b, Barrier<Real>::End::from, i, found, from, to);
+    return joint ? joint : at_end(b, Barrier<Real>::End::to, i, found, from, to);
+  }
+  Knot* at_end(const Barrier<Real>& b, typename Barrier<Real>::End which, std::size_t i, Knot& found, const Knot& from,
+               const Knot& to) {
+    const auto &x = found.phase.position[i], &start = path_.start().phase.position[i], &end = b.point(which);
+    const Real near = b.reach_of_joint(which, b.reach_of_wall(b.rounding(x) < b.rounding(start) ? start : x));
     Knot* there = &found;
     for (int n = 0; n < 3; ++n) {  // the path is nearly straight, so nearly at once
       const auto &y = there->phase.position[i], &v = there->phase.velocity[i];

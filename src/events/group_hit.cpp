@@ -47,8 +47,9 @@ GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group,
   }
   hit.state.velocity = after;
   const Vector& there = group.phase().position[member];
-  const bool regular = (!barrier.is_at(barrier.from, there) || is_regular(finder, barrier.wall)) &&
-                       (!barrier.is_at(barrier.to, there) ||
+  using End = Barrier<double>::End;
+  const bool regular = (!barrier.is_at(End::from, there) || is_regular(finder, barrier.wall)) &&
+                       (!barrier.is_at(End::to, there) ||
                         is_regular(finder, finder.table().walls[static_cast<std::size_t>(barrier.wall)].next));
   hit.inward = inward == Sign::positive && regular && !group.next().slides;
   return hit;

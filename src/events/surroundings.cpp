@@ -76,8 +76,15 @@ std::vector<Barrier<double>> barriers_of(std::span<const Curve> curves, const Ta
   std::vector<Barrier<double>> barriers;
   const auto add = [&](std::size_t i, const Cell& cell, Vector shift) {
     barriers.push_back(barrier_of<double>(curves[i], shift));
-    barriers.back().wall = static_cast<int>(i);
-    barriers.back().cell = cell;
+    Barrier<double>& b = barriers.back();
+    b.wall = static_cast<int>(i);
+    b.cell = cell;
+    if (b.closed || i >= table.walls.size()) return;
+    const auto reach = [&](int neighbour, Vector joint) {
+      return barrier_of<double>(curves[static_cast<std::size_t>(neighbour)], shift).reach_of_wall(joint);
+    };
+    b.reach_from = reach(table.walls[i].previous, b.from);
+    b.reach_to = reach(table.walls[i].next, b.to);
   };
   const std::vector<Box> boxes = table.lattice ? ways_of_steps(table) : std::vector<Box>{};
   for (std::size_t i = 0; i < curves.size(); ++i) {

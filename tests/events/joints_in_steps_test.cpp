@@ -122,5 +122,38 @@ TEST(JointsInSteps, AreWatertight) {
     }
 }
 
+// The tip of a wedge lies at the origin, where numbers are fine, and so is the wall along the axis; the other one is off by
+// what its far end is rounded to. A particle that comes along that one may stand beyond the first.
+TEST(JointsInSteps, AreAsWideAsTheWallThatIsRoundedMore) {
+  struct Case {
+    Vector far, start, velocity;
+    double step;
+  };
+  for (const Case& c : {Case{{0x1.2367a579cd57dp-1, 0x1.32d796cf4d5ccp-3},
+                             {0x1.cf326f386c14bp-4, 0x1.e6a184b701affp-6},
+                             {-0x1.6ca3c784fa02fp-1, -0x1.7f1666d81638p-3},
+                             0x1.9bdc3eb5ea17ap-8},
+                        Case{{0x1.12a1cadaae971p+1, 0x1.dfc7448726692p-3},
+                             {0x1.733b0cd68ebccp-2, 0x1.44445c06dd7adp-5},
+                             {-0x1.156323489d827p+0, -0x1.e49753a71a4ddp-4},
+                             0x1.561bb6645da05p-4},
+                        Case{{0x1.019101232b1e4p+2, 0x1.7930350c5d7e3p-1},
+                             {0x1.1723dd53f7b83p+0, 0x1.984c66cae1afep-3},
+                             {-0x1.8f69c26643036p+0, -0x1.241c671ad8203p-2},
+                             0x1.64c43b519262fp-3}}) {
+    Dynamics dynamics;
+    dynamics.everywhere = true;
+    dynamics.forces = ForceField::build({}, {Particle{}}, std::nullopt);
+    dynamics.integrator.scheme = "velocity-verlet";
+    dynamics.integrator.step = c.step;
+    const Table table = tests::polygon({{0, 0}, {c.far.x, 0}, c.far});
+    World world(table, dynamics);
+    world.add(tests::particle(0.0, std::sqrt(dot(c.velocity, c.velocity))), tests::start(c.start, c.velocity));
+    Recorder recorder;
+    world.run_until(1.0, recorder);
+    EXPECT_EQ(world.fate(0), Fate::singular) << world.report(0);
+  }
+}
+
 }  // namespace
 }  // namespace carom
