@@ -140,7 +140,6 @@ class Sights {
     met_.clear();
     passed_.clear();
     bool ordered = true;
-    const bool may_stand = f.offsets.low < radius_ + margin_ && f.offsets.high > -radius_ - margin_;
     double end = HUGE_VAL;  // behind a disc that all cut
     for (const Disc* each : among) {
       const Disc& disc = *each;
@@ -155,10 +154,10 @@ class Sights {
       near.push_back(each);
       const bool is_ahead = ahead.low > margin_;
       if (may_cut) {
-        // Who passes a disc has cut none before it: what he cuts lies ahead.
-        ordered = ordered && (is_ahead || !may_stand);
+        // It may be the disc that the flight began on.
+        ordered = ordered && is_ahead;
         met_.push_back(candidate);
-        if (surely_cut(candidate)) end = std::min(end, ahead.high + margin_);
+        if (is_ahead && surely_cut(candidate)) end = std::min(end, ahead.high + margin_);
       } else if (is_ahead && in_reach(candidate)) {
         passed_.push_back(candidate);
       }
