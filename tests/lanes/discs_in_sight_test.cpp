@@ -105,7 +105,7 @@ ByTable by_table(const LaneTable& t, Vector velocity, double aside) {
 
 TEST(DiscsInSight, AreThoseThatFlightsMeet) {
   Dice dice(17);
-  long tables = 0, one = 0, two = 0, several = 0, unknown = 0;
+  long tables = 0, one = 0, two = 0, several = 0, unknown = 0, in_thin = 0;
   for (long k = 0; k < tests::cases(12, 400); ++k) {
     const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), angle = dice.between(0.9, 2.2);
     // Thin cells, too: discs that nearly touch in rows far apart.
@@ -134,7 +134,7 @@ TEST(DiscsInSight, AreThoseThatFlightsMeet) {
       const ByTable found = by_table(t, velocity, aside);
       ASSERT_TRUE(found.ends) << k << ": " << velocity.x << " " << velocity.y << " " << aside;
       if (!found.known) {
-        ++unknown;
+        ++(thin ? in_thin : unknown);
         continue;
       }
       ++(found.asked > 1 ? several : found.two > 0 ? two : one);
@@ -145,8 +145,11 @@ TEST(DiscsInSight, AreThoseThatFlightsMeet) {
   EXPECT_GT(one, 1000);
   EXPECT_GT(two, 1000);
   EXPECT_GT(several, 300);
-  EXPECT_LT(unknown, (one + two) / 30);
-  std::printf("%ld tables: %ld flights see one disc, %ld two, %ld ask again, %ld are left\n", tables, one, two, several, unknown);
+  EXPECT_LT(unknown, (one + two) / 1000);
+  // Beside a disc that is passed may lie the one that the flight began on.
+  EXPECT_LT(in_thin, (one + two) / 15);
+  std::printf("%ld tables: %ld flights see one disc, %ld two, %ld ask again; left are %ld, and %ld in thin cells\n", tables, one, two, several,
+              unknown, in_thin);
 }
 
 // Discs of one row are passed one after the other: none may name the disc that the flight began on, nor each other.
