@@ -1,12 +1,14 @@
 #include "cli/common.hpp"
 
 #include <fmt/format.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -24,8 +26,20 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+// Of CLOCK_MONOTONIC, when the first signal came; 0: none came.
+std::atomic<std::int64_t> first_signal{0};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+// timeout and mpirun send a signal to the process and then to its group: the second one, at once, is not that of someone who
+// does not want to wait.
 extern "C" void on_interrupt(int) {
-  if (interrupted.exchange(true)) _exit(stopped);
+  constexpr std::int64_t patience = 500'000'000;  // ns
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  const std::int64_t now = std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+  std::int64_t first = 0;
+  if (!first_signal.compare_exchange_strong(first, now) && now - first > patience) _exit(stopped);
+  interrupted = true;
 }
 
 // In one piece, so that lines of several processes do not mix; whether it is read is nobody's fault.
