@@ -208,15 +208,16 @@ class CrossingSearch {
     return at_either_end(b, i, *inside, from, to);
   }
 
-  // The path crosses the carrier beyond the piece. If it also passes that end of the piece, to rounding, the gap changes
-  // by no more than rounding between the two, and they cannot be told apart: nearly along a wall, that may be many
-  // roundings of the point. The wall beyond the joint may find its crossing before it, so neither would be hit. Points
-  // of the path are rounded as its start is, be they nearer to the origin.
   Knot* at_either_end(const Barrier<Real>& b, std::size_t i, Knot& found, const Knot& from, const Knot& to) {
     if (b.closed) return nullptr;
     Knot* joint = at_end(b, Barrier<Real>::End::from, i, found, from, to);
     return joint ? joint : at_end(b, Barrier<Real>::End::to, i, found, from, to);
   }
+
+  // The path crosses the carrier beyond the piece. If it also passes that end of the piece, to rounding, the gap changes
+  // by no more than rounding between the two, and they cannot be told apart: nearly along a wall, that may be many
+  // roundings of the point. The wall beyond the joint may find its crossing before it, so neither would be hit. Points
+  // of the path are rounded as its start is, be they nearer to the origin.
   Knot* at_end(const Barrier<Real>& b, typename Barrier<Real>::End which, std::size_t i, Knot& found, const Knot& from,
                const Knot& to) {
     const auto &x = found.phase.position[i], &start = path_.start().phase.position[i], &end = b.point(which);

@@ -10,8 +10,9 @@
 
 namespace carom {
 
-/// The curves, numbered in their order, as barriers: those of the table's walls, and others behind them. On the table's lattice: all copies that a particle may meet
-/// within a step that leads no farther than longest_way(table). Throws InputError if there are too many.
+/// The curves, numbered in their order, as barriers: those of the table's walls, and others behind them. On the table's
+/// lattice: all copies that a particle may meet within a step that leads no farther than longest_way(table). Throws
+/// InputError if there are too many.
 std::vector<Barrier<double>> barriers_of(std::span<const geometry::Curve>, const Table&);
 /// Those of the table's walls.
 std::vector<Barrier<double>> barriers_of(const Table&);

@@ -36,9 +36,9 @@ struct LanePack {
   double roots[lanes] = {};                  ///< … and of its square;
   double order[lanes] = {};                  ///< of two times
   double shortest[lanes] = {};               ///< flight along a circle that ends by such a sign
-  // Of flights that are looked up (discs_in_sight.hpp): LaneTable::directions_per_unit and offsets_per_length over the speed; cut_within,
-  // cut_within_far and passed_beyond times it; the side v x (centre - start) of the disc it stands on, and of the one it passes now; and the cell of that one,
-  // counted from home, twice, in four signed bytes.
+  // Of flights that are looked up (discs_in_sight.hpp): LaneTable::directions_per_unit and offsets_per_length over the speed;
+  // cut_within, cut_within_far and passed_beyond times it; the side v x (centre - start) of the disc it began on, and of the one
+  // it passes now; and the cell of that one, counted from home, twice, in four signed bytes.
   double directions[lanes] = {}, offsets[lanes] = {}, cut[lanes] = {}, cut_far[lanes] = {}, passed[lanes] = {};
   double aside_home[lanes] = {}, aside[lanes] = {};
   alignas(64) unsigned way[lanes] = {};
