@@ -116,7 +116,7 @@ TEST(RunArchive, SaysThatThereIsNothingToGoOnWith) {
 TEST(RunArchive, SurvivesCtrlC) {
   const Shell shell;
   const Outcome o = shell(
-      "$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; sleep 0.5; "
+      "$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; until_there a.h5; sleep 0.2; "
       "kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"");
@@ -132,7 +132,7 @@ TEST(RunArchive, SurvivesCtrlC) {
 
 TEST(RunArchive, CanBeReadWhileItGrowsAndAfterAKill) {
   const Shell shell;
-  shell("$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; sleep 0.5; kill -9 $pid; wait $pid");
+  shell("$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; until_there a.h5; sleep 0.5; kill -9 $pid; wait $pid");
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
   const hid_t file = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
@@ -255,8 +255,8 @@ TEST(EscapeArchive, RowsAreTheTrajectoriesThatWereCounted) {
 TEST(EscapeArchive, SurvivesCtrlC) {
   const Shell shell;
   const Outcome o = shell(
-      "$carom escape sinai --trajectories 1e12 --per-trajectory -o a.h5 --json & pid=$!; "
-      "sleep 0.5; kill -INT $pid; wait $pid");
+      "$carom escape sinai --trajectories 1e12 --per-trajectory -o a.h5 --json --checkpoint 0.05 & pid=$!; "
+      "until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   EXPECT_TRUE(is_json_object(o.out));
   const Contents a = open_archive(shell.folder() + "/a.h5");

@@ -77,7 +77,7 @@ TEST(Checksums, ABitOfASectionOrCertifiedOrbitIsToldOf) {
 TEST(Checksums, ABitOfTheRecordsOfACheckpointIsToldOfAtOnce) {
   const Shell shell;
   shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint 0.02 & pid=$!; "
-        "until [ -s a.h5.records ]; do sleep 0.02; done; sleep 0.3; kill -9 $pid; wait $pid");
+        "until_there a.h5.records; until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part"));
   // Bytes 8 to 15 of the first record: where the trajectory started.
   double x = 0;
@@ -90,7 +90,7 @@ TEST(Checksums, ABitOfTheRecordsOfACheckpointIsToldOfAtOnce) {
   EXPECT_NE(o.err.find("a.h5.records: the records of the trajectories "), std::string::npos) << o.err;
   EXPECT_TRUE(shell.exists("a.h5.part") && shell.exists("a.h5.records") && !shell.exists("a.h5"));
   // Mended, they go on.
-  const Outcome again = shell("cp kept a.h5.records; $carom escape --resume a.h5 --quiet & pid=$!; sleep 1; kill -INT $pid; wait $pid");
+  const Outcome again = shell("cp kept a.h5.records; $carom escape --resume a.h5 --quiet --checkpoint 0.05 & pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(again.status, 130) << again.err;
 }
 

@@ -8,8 +8,8 @@
 namespace carom {
 namespace {
 
-const Ensemble lorentz{"diffusion", "lorentz-triangular --trajectories 8000 --t-max 100"};
-const Ensemble soft{"diffusion", "soft-lorentz --trajectories 700 --t-max 10"};
+const Ensemble lorentz{"diffusion", "lorentz-triangular --trajectories 8000 --t-max 400"};
+const Ensemble soft{"diffusion", "soft-lorentz --trajectories 700 --t-max 40"};
 
 // Five kills; fifty with CAROM_SOAK.
 int kills(int few) { return std::getenv("CAROM_SOAK") ? 25 : few; }
@@ -23,7 +23,7 @@ TEST(DiffusionResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk(lore
 TEST(DiffusionResume, RefusesWhatDiffers) {
   const Shell shell;
   shell("$carom diffusion lorentz-triangular --trajectories 1e8 -o a.h5 --quiet --checkpoint 0.02 & pid=$!; "
-        "until [ -e a.h5.part ]; do sleep 0.02; done; sleep 0.2; kill -9 $pid; wait $pid");
+        "until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part"));
   const std::pair<const char*, const char*> cases[] = {
       {"diffusion --resume a.h5 --seed 2", "run.seed is 2, not 1"},

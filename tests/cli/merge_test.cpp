@@ -147,8 +147,7 @@ TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
   const std::string run = "$carom escape stadium --trajectories 3e6 --t-max 60 --quiet --json --threads 1";
   ASSERT_EQ(shell(run + " -o whole.h5").status, 0);
   const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint 0.05 & pid=$!; "
-                               "while ! [ -e a.h5.part ]; do sleep 0.02; done; sleep 0.15; "
-                               "kill -9 $(pgrep -P $pid | tail -1); wait $pid");
+                               "until_saved a.h5; kill -9 $(pgrep -P $pid | tail -1); wait $pid");
   EXPECT_NE(killed.status, 0);
   EXPECT_TRUE(shell.exists("a.h5.part"));
   EXPECT_EQ(open_archive(shell.folder() + "/a.h5.part").complete, 0);
@@ -168,12 +167,15 @@ Outcome with_limit(const Shell& shell, int rank, const std::string& limit, const
 TEST(Ranks, AllEndWhenTheFirstHasNoDiskAndSayWhy) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
-  const std::string run = "$carom escape stadium --trajectories 1e9 --t-max 60 --quiet --threads 1 --per-trajectory --checkpoint 0.05";
-  // No room for the first checkpoint; later, none for the records.
-  const Outcome first = with_limit(shell, 0, "-f 1", run + " -o a.h5");
+  const std::string run = "$carom escape stadium --trajectories 1e9 --t-max 60 --quiet --threads 1 --per-trajectory --checkpoint 0.05 ";
+  // No room for the first checkpoint; later, none for more records than there are.
+  const Outcome first = with_limit(shell, 0, "-f 1", run + "-o a.h5");
   EXPECT_EQ(first.status, 1) << first.err;
   EXPECT_NE(first.err.find("cannot write 'a.h5': File too large"), std::string::npos) << first.err;
-  const Outcome later = with_limit(shell, 0, "-f 8000", run + " -o b.h5");
+  shell(run + "-o b.h5 & pid=$!; until_saved b.h5; kill -9 $pid; wait $pid");
+  ASSERT_GT(shell.read("b.h5.records").size(), 0u);
+  const std::string room = std::to_string(shell.read("b.h5.records").size() / 1024 + 100);
+  const Outcome later = with_limit(shell, 0, "-f " + room, "$carom escape --resume b.h5 --quiet --threads 1 --checkpoint 0.05");
   EXPECT_EQ(later.status, 1) << later.err;
   EXPECT_NE(later.err.find("carom: cannot write 'b.h5': File too large"), std::string::npos) << later.err;
   EXPECT_NE(later.err.find("carom escape --resume b.h5"), std::string::npos) << later.err;

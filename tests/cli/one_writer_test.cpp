@@ -16,10 +16,10 @@ std::vector<std::string> sorted_files(const Shell& shell) {
   return names;
 }
 
-// Starts `command`, waits for its checkpoint q.h5.part, does `meanwhile` and kills it.
+// Starts `command`, waits for a checkpoint q.h5.part with trajectories in it, does `meanwhile` and kills it.
 Outcome while_it_runs(const Shell& shell, const std::string& command, const std::string& meanwhile) {
   return shell("$carom " + command + " --quiet -o q.h5 >log 2>&1 & pid=$!; "
-               "until [ -e q.h5.part ]; do kill -0 $pid || exit 99; sleep 0.02; done; sleep 0.2; " + meanwhile +
+               "until_saved q.h5 || exit 99; " + meanwhile +
                "\nstatus=$?; kill -9 $pid; wait $pid 2>/dev/null; rm log; exit $status");
 }
 
@@ -36,10 +36,8 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
     EXPECT_EQ(o.status, 1) << other;
     EXPECT_NE(o.err.find("q.h5: another process writes it"), std::string::npos) << other << "\n" << o.err;
     EXPECT_TRUE(shell.exists("q.h5.part") && shell.exists("q.h5.records")) << other;
-    // Interrupted after its first checkpoint: on a busy machine it may be long until it listens. In the background `timeout` may
-    // interrupt twice, which ends it at once.
-    const Outcome on = shell("first=$(stat -c %i q.h5.part); timeout --foreground 20 $carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; "
-                             "while kill -0 $pid && [ $(stat -c %i q.h5.part) = $first ]; do sleep 0.02; done; kill -INT $pid; wait $pid");
+    // Interrupted after its first checkpoint: on a busy machine it may be long until it listens.
+    const Outcome on = shell("$carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
     EXPECT_EQ(on.status, 130) << other << "\n" << on.err;
     EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"})) << other;
     shell("rm -f q.h5*");
@@ -48,7 +46,7 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
 
 TEST(OneWriter, OfTwoRunsTheSecondIsRefused) {
   const Shell shell;
-  const Outcome o = shell("$carom run stadium --set 'table.hole=[]' --collisions 1e9 -o r.h5 --quiet & pid=$!; until [ -e r.h5 ]; do sleep 0.02; done; "
+  const Outcome o = shell("$carom run stadium --set 'table.hole=[]' --collisions 1e9 -o r.h5 --quiet & pid=$!; until_there r.h5; "
                           "$carom run stadium --t-max 3 --force -o r.h5; status=$?; kill -INT $pid; wait $pid; exit $status");
   EXPECT_EQ(o.status, 1);
   EXPECT_NE(o.err.find("r.h5: another process writes it"), std::string::npos) << o.err;

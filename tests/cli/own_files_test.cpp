@@ -23,7 +23,7 @@ const std::string mushroom = "$carom escape mushroom --trajectories 2000 --t-max
 // Leaves q.h5.part, and q.h5.records where they are asked for.
 void leave_a_checkpoint(const Shell& shell, const std::string& options) {
   shell("$carom escape mushroom --trajectories 1e9 --quiet --block 4 --checkpoint 0.02 -o q.h5 " + options +
-        " & pid=$!; until [ -e q.h5.part ]; do sleep 0.02; done; sleep 0.3; kill -9 $pid; wait $pid");
+        " & pid=$!; until_saved q.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("q.h5.part"));
 }
 
@@ -62,7 +62,7 @@ TEST(OwnFiles, AnInterruptedArchiveCalledPartGoesOn) {
 TEST(OwnFiles, ACheckpointIsFoundByItsOwnName) {
   const Shell shell;
   leave_a_checkpoint(shell, "");
-  const Outcome o = shell("$carom escape --resume q.h5.part --quiet --json --checkpoint 0.02 & pid=$!; sleep 0.5; kill -INT $pid; wait $pid");
+  const Outcome o = shell("$carom escape --resume q.h5.part --quiet --json --checkpoint 0.02 & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
   EXPECT_EQ(sorted_files(shell), Names{"q.h5"});
   // The name of a checkpoint that is over still means its archive.
@@ -149,7 +149,7 @@ TEST(OwnFiles, WhatAKillLeftAsideIsReplaced) {
   }
   // Killed as it took the place of the checkpoint, it is whole.
   const Outcome o = shell(mushroom + "-o whole.h5 && mv whole.h5 q.h5.part.new && $carom escape --resume q.h5 --quiet --checkpoint 0.02 "
-                          "& pid=$!; sleep 1; kill -INT $pid; wait $pid");
+                          "& pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
 }
 

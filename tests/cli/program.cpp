@@ -24,9 +24,23 @@ Shell::~Shell() {
   fs::remove_all(folder_, ignored);
 }
 
+namespace {
+
+// The first checkpoint of a run anew holds nothing; one that takes the place of another does.
+const char* const functions = R"sh(
+until_there() { until [ -s "$1" ]; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done; }
+until_saved() {
+  until_there "$1.part" || return 1
+  found=$(stat -c %y "$1.part")
+  while [ "$(stat -c %y "$1.part" 2>/dev/null)" = "$found" ]; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done
+}
+)sh";
+
+}  // namespace
+
 Outcome Shell::operator()(const std::string& command) const {
-  const std::string script =
-      "cd '" + folder_ + "'; carom='" CAROM_PROGRAM "'; {\n" + command + "\n} >.out 2>.err </dev/null";
+  const std::string script = std::string(functions) + "cd '" + folder_ + "'; carom='" CAROM_PROGRAM "'; {\n" + command +
+                             "\n} >.out 2>.err </dev/null";
   const int raw = std::system(script.c_str());
   Outcome outcome;
   outcome.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);

@@ -16,7 +16,8 @@ class Shell {
  public:
   Shell();
   ~Shell();
-  /// `command` is a shell line in which $carom is the program.
+  /// `command` is a shell line in which $carom is the program. While $pid runs in the background, `until_there FILE`
+  /// waits for a file with something in it, `until_saved FILE` for a checkpoint of FILE with trajectories in it.
   Outcome operator()(const std::string& command) const;
   bool exists(const std::string& file) const;
   std::string read(const std::string& file) const;

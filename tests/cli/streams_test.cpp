@@ -6,14 +6,13 @@
 namespace carom {
 namespace {
 
-const Ensemble mushroom{"escape", "mushroom --trajectories 1.5e5 --t-max 400"};
+const Ensemble mushroom{"escape", "mushroom --trajectories 1.5e5 --t-max 4000"};
 
 // Without a standard error, the records would be the file that messages go into.
 TEST(Streams, ThatAreClosedAreNoFilesOfTheRun) {
   const Shell shell;
   const Undisturbed whole(shell, mushroom, " --per-trajectory");
-  const Outcome o = shell("( ulimit -f 5000; $carom" + mushroom.anew(" --per-trajectory") +
-                          " -o a.h5 --checkpoint 0.02 >&- 2>&- )");
+  const Outcome o = shell(no_more_records("$carom" + mushroom.anew(" --per-trajectory") + " -o a.h5 --checkpoint 0.02 >&- 2>&-"));
   EXPECT_EQ(o.status, 1);
   ASSERT_TRUE(shell.exists("a.h5.part"));
   const Outcome end = shell("$carom" + mushroom.on("a.h5"));
@@ -32,7 +31,7 @@ TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
   const Shell shell;
   // A folder in its way costs a checkpoint or two.
   const Outcome o = shell("$carom escape mushroom --trajectories 1e9 --quiet --json --block 4 -o a.h5 --checkpoint 0.3 2>/dev/full & pid=$!; "
-                          "until [ -e a.h5.part ] && mkdir a.h5.part.new; do sleep 0.02; done; sleep 0.5; rmdir a.h5.part.new; "
+                          "until_saved a.h5; until mkdir a.h5.part.new; do sleep 0.02; done; sleep 0.5; rmdir a.h5.part.new; "
                           "sleep 0.1; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"");
@@ -47,7 +46,7 @@ TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
 TEST(Streams, RecordsOfOtherTrajectoriesAreRefused) {
   const Shell shell;
   shell("$carom" + mushroom.anew(" --per-trajectory --block 64") + " -o a.h5 --checkpoint 0.02 & pid=$!; "
-        "until [ -e a.h5.part ] && [ $(stat -c %s a.h5.records) -gt 100000 ]; do sleep 0.01; done; sleep 0.1; kill -9 $pid; wait $pid");
+        "until_there a.h5.records; until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part")) << "it ended before it was killed";
   const Outcome o = shell("head -c 7200 /dev/zero | dd of=a.h5.records conv=notrunc 2>/dev/null; $carom" + mushroom.on("a.h5"));
   EXPECT_EQ(o.status, 1);
