@@ -95,6 +95,7 @@ int run(const Options& options) {
   SingleRunOptions how;
   if (!options.trajectory.empty()) how.trajectory = whole_number(options.trajectory, "--trajectory", 0);
 
+  const std::atomic<bool>& interrupted = catch_interrupts();  // before there is an archive
   LoadedSystem loaded;
   std::unique_ptr<RunArchive> archive;
   std::string output = options.output;
@@ -123,7 +124,6 @@ int run(const Options& options) {
   }
   const System& system = loaded.system;
   if (estimates_trust(system)) how.written = written_system(loaded);
-  const std::atomic<bool>& interrupted = catch_interrupts();
 
   Counting counting(archive.get());
   SingleRunResult result;

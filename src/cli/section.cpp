@@ -125,6 +125,7 @@ int section(const Options& options) {
   check_engine(options);
   SectionOptions how;
   how.threads = threads_of(options);
+  how.interrupted = &catch_interrupts();  // before there is an archive
   LoadedSystem loaded = load_section(options);
   choose_engine(options.engine, loaded.system);
   const System& system = loaded.system;
@@ -138,7 +139,6 @@ int section(const Options& options) {
     if (archive) archive->append(points);
     add(lines, points);
   };
-  how.interrupted = &catch_interrupts();
   SectionResult result;
   {
     Progress progress(!options.quiet);
