@@ -5,6 +5,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "ensemble/lane_walker.hpp"
 #include "ensemble/soft_walker.hpp"
 
 namespace carom {
@@ -66,10 +67,16 @@ DiffusionResult run_diffusion(const System& system, const DiffusionOptions& opti
     check_start(system, options.interrupted);
     const Sampler sampler(system, options.interrupted);
     EnsembleRun<DiffusionResult> run(system, options, nothing(system), post);
-    if (options.lanes && SoftWalker::suits(system)) run.lanes = options.lanes;
+    const bool free = LaneWalker::suits(system);
+    if (options.lanes && (free || SoftWalker::suits(system))) run.lanes = options.lanes;
     return run.run([&](auto& thread) {
       const DiffusionTally tally(thread);
-      if (run.lanes)
+      std::uint64_t number = 0;
+      if (run.lanes && free)
+        LaneWalker(system, sampler, *run.lanes, options.decisions, tally).run([&](TrajectoryRange& block) {
+          return thread.claim(block, number);
+        });
+      else if (run.lanes)
         run_blocks_of(thread, SoftWalker(system, sampler, *run.lanes, options.decisions, tally));
       else
         run_blocks_of(thread, DiffusionWalker(system, sampler, options.decisions, tally));

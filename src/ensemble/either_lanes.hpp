@@ -15,8 +15,12 @@ namespace carom {
 class EitherLanes {
  public:
   /// Of free particles, all of them from the start on, or of particles that feel forces everywhere; none interact.
-  static bool suits(const System& system) {
-    return system.injections.empty() && !system.of_discs() && (suits_free(system) || suits_soft(system));
+  static bool suits(const System& system) { return suits_free(system) || suits_soft(system); }
+  /// The first of these.
+  static bool suits_free(const System& system) {
+    const Dynamics& d = system.dynamics;
+    return are_apart(system) && !d.everywhere && (!d.forces || d.forces->empty()) &&
+           LaneWorld::suits(*system.table, system.particles);
   }
 
   EitherLanes(const System& system, InstructionSet set, DecisionOptions options) {
@@ -35,13 +39,10 @@ class EitherLanes {
   const LaneEffort& effort() const { return free_ ? free_->effort() : soft_->effort(); }
 
  private:
-  static bool suits_free(const System& system) {
-    const Dynamics& d = system.dynamics;
-    return !d.everywhere && (!d.forces || d.forces->empty()) && LaneWorld::suits(*system.table, system.particles);
-  }
   static bool suits_soft(const System& system) {
-    return SoftWorld::suits(*system.table, system.dynamics, system.particles);
+    return are_apart(system) && SoftWorld::suits(*system.table, system.dynamics, system.particles);
   }
+  static bool are_apart(const System& system) { return system.injections.empty() && !system.of_discs(); }
 
   std::unique_ptr<LaneWorld> free_;
   std::unique_ptr<SoftWorld> soft_;

@@ -190,16 +190,7 @@ State World::Implementation::state_at(const Body& b, Time t) const {
     const auto member = std::find(members.begin(), members.end(), static_cast<int>(&b - bodies.data()));
     return group.state_at(static_cast<std::size_t>(member - members.begin()), t);
   }
-  State s = b.state;
-  const double duration = t - b.state.time;
-  s.time = t;
-  if (duration > 0.0) {
-    const auto [position, velocity] = moved(b.state.position, b.state.velocity, b.particle.omega, duration);
-    s.position = position;
-    s.velocity = velocity;
-    s.wall = -1;
-  }
-  return s;
+  return flown(b.state, b.particle.omega, t);
 }
 
 /// Does the step under way fail? There are no states within it.

@@ -141,8 +141,7 @@ void kernel(const LaneTable& __restrict table, LanePack& __restrict pack) {
     for (int lane = 0; lane < pack.used; lane += width) divide<Kind>(pack, stages, lane);
   if (Kind::turn != 0)
     for (int lane = 0; lane < pack.used; lane += width) time(pack, stages, lane);
-  const Real end(pack.end);
-  for (int lane = 0; lane < pack.used; lane += width) land<Kind>(table, pack, stages, end, lane);
+  for (int lane = 0; lane < pack.used; lane += width) land<Kind>(table, pack, stages, lane);
   pack.sweep += 1.0;
 }
 

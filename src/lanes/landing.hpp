@@ -34,7 +34,7 @@ INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& 
 }
 
 template <class Kind>
-INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real& end, int lane) {
+INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   constexpr bool larmor = Kind::turn != 0;
   View f = view_of<Kind>(t, pack, lane);
   if constexpr (Kind::cells) f.origin = {load(stages.start_x + lane), load(stages.start_y + lane)};
@@ -114,7 +114,8 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
   const auto [high, low] = later(load(pack.high + lane), load(pack.low + lane), duration);
   now.high = high;
   now.low = low;
-  Mask applies = decided && inward && high < end, gone(false);
+  const Real until = load(pack.until + lane);
+  Mask applies = decided && inward && high < until, gone(false);
   Real hole(-1.0);
   if (!Kind::sights && t.divided) {
     hole = look_up<Kind::reach>(t.hole, piece);
@@ -142,7 +143,7 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, const Real&
     store_some<Kind>(pack, lane, now, applies);
   }
 
-  const Mask over = high >= end, escaped = hole >= 0.0;  // over, or there to the last digit
+  const Mask over = high >= until, escaped = hole >= 0.0;  // over, or there to the last digit
   if constexpr (!Kind::convex && !larmor && !Kind::cells) gone = load(stages.gone, lane);
   unsigned waiting = bits_of(Kind::cells ? !(applies || gone) : !applies);
   if (waiting == 0) return;

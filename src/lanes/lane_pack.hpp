@@ -10,7 +10,7 @@ namespace carom::lanes {
 enum class Call : unsigned char {
   none,
   undecided,  ///< a decision that the scalar engine must take; nothing has changed
-  over,       ///< the next hit comes after the end of the run; nothing has changed
+  over,       ///< the next hit, at the time in `met`, comes after `until`; nothing has changed but which disc was looked for
   escaped,    ///< `met` holds hole and time; nothing has changed
   unbounded,  ///< no wall follows; nothing has changed
   capped      ///< its last hit is made
@@ -48,6 +48,7 @@ struct LanePack {
   double pace[lanes] = {};                   ///< power of two beyond speed + |omega| size
   double joint_margin[lanes] = {};           ///< of |c|^2 - v^2 (larmor.hpp)
   double active[lanes] = {};                 ///< 1, or 0 for a lane without a trajectory
+  double until[lanes] = {};                  ///< the end of the run, or the next report time
 
   double end = 0.0;    ///< of the run
   double limit = 0.0;  ///< of hits

@@ -21,6 +21,12 @@ inline bool moderate(double x) { return x > 1e-30 && x < 1e30; }
 /// the position on its wall where it is another one, as World::add does.
 bool can_start(const LaneTable&, const HitFinder&, LaneStart&);
 
+/// A flight among discs in sight that was left begins anew.
+inline void look_again(LanePack& pack, int lane) {
+  pack.aside[lane] = pack.aside_home[lane];
+  pack.way[lane] = 0;
+}
+
 /// All numbers of a lane but whether it is active.
 void put_into(LanePack&, int lane, const LaneTable&, const LaneStart&);
 

@@ -12,6 +12,7 @@
 #include "lanes/kernels.hpp"
 #include "lanes/lane_start.hpp"
 #include "lanes/make_lane_table.hpp"
+#include "motion/free_motion.hpp"
 
 namespace carom {
 
@@ -41,10 +42,13 @@ lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn
   return (curved ? lanes::baseline_ellipse_kernels : lanes::baseline_kernels)(table, turn);
 }
 
-class LastEnd : public Observer {
+/// Of one particle: when it ended, and its states at report times.
+class OneEvent : public Observer {
  public:
   void end(const EndEvent& event) override { time = event.time; }
+  void sample(int, Time, const State& state) override { states.push_back(state); }
   Time time;
+  std::vector<State> states;
 };
 
 }  // namespace
@@ -107,6 +111,8 @@ class LaneWorld::Implementation {
   std::vector<std::uint32_t> in_sight;
   lanes::Kernels kernels;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
+  std::vector<double> times;  ///< to report at
+  Sampled sampled;
   std::uint64_t filter = 0;
   LaneEffort effort;
 
@@ -122,6 +128,7 @@ class LaneWorld::Implementation {
   struct Trajectory {
     LaneStart start;              ///< or where the scalar engine left it
     std::uint64_t first_hits = 0; ///< when it began
+    std::size_t reported = 0;     ///< times
   };
   struct Lanes {
     LanePack pack;
@@ -188,6 +195,11 @@ class LaneWorld::Implementation {
     cap(entrance);
     effort.steps += LanePack::lanes;
     effort.idle += static_cast<std::uint64_t>(LanePack::lanes - entrance.busy);
+    for (int lane = 0; lane < LanePack::lanes; ++lane) {
+      Trajectory& mine = entrance.trajectories[lane];
+      const bool has_hit = entrance.pack.active[lane] != 0.0 && entrance.pack.hits(lane) != static_cast<double>(mine.start.hits);
+      if (has_hit) report(mine, mine.start.state, {entrance.pack.high[lane], entrance.pack.low[lane]});
+    }
     const int calls = entrance.pack.calls;
     for (int i = 0; i < calls; ++i) answer(entrance, i);
     for (int lane = 0; lane < LanePack::lanes; ++lane)
@@ -204,6 +216,7 @@ class LaneWorld::Implementation {
       }
       if (turn_of(mine.start.particle.omega) != turn) throw std::invalid_argument("a particle that turns another way");
       mine.first_hits = mine.start.hits;
+      mine.reported = 0;
       if (!(mine.start.state.time > Time(main.pack.end)) && lanes::can_start(pieces, finder, mine.start)) {
         resume(lanes, lane);
         return true;
@@ -216,8 +229,33 @@ class LaneWorld::Implementation {
   void resume(Lanes& lanes, int lane) {
     const LaneStart& start = lanes.trajectories[lane].start;
     lanes::put_into(lanes.pack, lane, pieces, start);
+    lanes.pack.until[lane] = until(lanes, lane);
     if (lanes.pack.active[lane] == 0.0) ++lanes.busy;
     lanes.pack.active[lane] = 1.0;
+  }
+
+  /// When a lane is to be looked at. First flights are looked at once they are made.
+  double until(const Lanes& lanes, int lane) const {
+    const std::size_t next = lanes.trajectories[lane].reported;
+    return &lanes == &main && next < times.size() ? std::min(times[next], lanes.pack.end) : lanes.pack.end;
+  }
+  /// Reports a trajectory that flies on from its last event, at times before `t` or, if that counts, at it.
+  void report(Trajectory& mine, const State& last, Time t, bool counts = false) {
+    for (; mine.reported < times.size(); ++mine.reported) {
+      const Time next = times[mine.reported];
+      if (counts ? next > t : !(next < t)) return;
+      sampled(mine.start.tag, mine.reported, flown(last, mine.start.particle.omega, next));
+    }
+  }
+  /// A lane's last event, but for its wall.
+  static State last_event(const LanePack& pack, int lane) {
+    State s;
+    s.position = {pack.x[lane], pack.y[lane]};
+    s.velocity = {pack.vx[lane], pack.vy[lane]};
+    s.time = {pack.high[lane], pack.low[lane]};
+    s.cell = {static_cast<std::int64_t>(pack.home_first[lane]) + pack.cells[2 * lane],
+              static_cast<std::int64_t>(pack.home_second[lane]) + pack.cells[2 * lane + 1]};
+    return s;
   }
 
   /// Calls for lanes that have made all their hits.
@@ -247,12 +285,8 @@ class LaneWorld::Implementation {
     if (hits == mine.start.hits) return;
     State& s = mine.start.state;
     mine.start.hits = hits;
+    s = last_event(pack, lane);
     s.wall = static_cast<int>(pieces.wall[static_cast<int>(pack.piece[lane])]);
-    s.position = {pack.x[lane], pack.y[lane]};
-    s.velocity = {pack.vx[lane], pack.vy[lane]};
-    s.time = {pack.high[lane], pack.low[lane]};
-    s.cell = {static_cast<std::int64_t>(pack.home_first[lane]) + pack.cells[2 * lane],
-              static_cast<std::int64_t>(pack.home_second[lane]) + pack.cells[2 * lane + 1]};
     s.u = finder.curve(s.wall).parameter(s.position);
   }
 
@@ -261,11 +295,24 @@ class LaneWorld::Implementation {
     const int lane = lanes.pack.lane[number];
     const Call call = lanes.pack.call[number];
     const LanePack::Met met = lanes.pack.met[number];
+    const Time there{met.high, met.low}, last(lanes.pack.end);
+    const bool survives = call == Call::over && there > last;
+    Trajectory& mine = lanes.trajectories[lane];
+    if ((call == Call::over || call == Call::escaped) && mine.reported < times.size()) {
+      const std::size_t before = mine.reported;
+      report(mine, last_event(lanes.pack, lane), survives ? last : there, survives);
+      lanes.pack.until[lane] = until(lanes, lane);
+      if (call == Call::over && !survives && mine.reported > before) {
+        if (lanes.pack.hits(lane) == static_cast<double>(mine.start.hits))
+          resume(lanes, lane);  // on a lattice, who began off the discs must find the first one again
+        else
+          lanes::look_again(lanes.pack, lane);
+        return true;
+      }
+    }
     take_out(lanes, lane);
-    // A hit at the very end of the run: the scalar engine knows.
-    const bool at_the_end = call == Call::over && met.high == lanes.pack.end && !(met.low > 0.0);
-    if (call == Call::undecided || at_the_end) return go_on(lanes, lane);
-    const Trajectory& mine = lanes.trajectories[lane];
+    // A hit at the very time that was waited for: the scalar engine knows.
+    if (call == Call::undecided || (call == Call::over && !survives)) return go_on(lanes, lane);
     const State& s = mine.start.state;
     ++filter;
     LaneEnd end{mine.start.tag, Fate::survived, s.time, s, -1, mine.start.hits, last_wall(mine), {}};
@@ -288,17 +335,19 @@ class LaneWorld::Implementation {
     Trajectory& mine = lanes.trajectories[lane];
     ++effort.scalar;
     const int entry = entry_at(mine.start);
-    LastEnd last;
-    last.time = mine.start.state.time;
+    OneEvent event;
+    event.time = mine.start.state.time;
+    if (!times.empty()) scalar.sample_at({times.begin() + static_cast<std::ptrdiff_t>(mine.reported), times.end()});
     scalar.clear();
     scalar.limit_hits(std::min(limit, mine.start.hits + 1));
     scalar.add(mine.start.particle, mine.start.state, mine.start.hits);
     // A flight may be long by itself: it is asked on the way.
-    scalar.run_until(lanes.pack.end, last, [this] { return asked_to_stop(); });
+    scalar.run_until(lanes.pack.end, event, [this] { return asked_to_stop(); });
     if (stopped) {
       lanes.leave(lane);
       return false;
     }
+    for (const State& state : event.states) sampled(mine.start.tag, mine.reported++, state);
     if (entry >= 0) learn(entry, mine.start.hits);
     mine.start.hits = scalar.hits(0);
     mine.start.state = scalar.state(0);
@@ -310,7 +359,7 @@ class LaneWorld::Implementation {
       return go_on(lanes, lane);  // from a joint
     }
     lanes.leave(lane);
-    (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? last.time : scalar.state(0).time, mine.start.state,
+    (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? event.time : scalar.state(0).time, mine.start.state,
              scalar.hole(0), mine.start.hits, last_wall(mine), scalar.report(0)});
     return false;
   }
@@ -360,6 +409,10 @@ LaneWorld::LaneWorld(const Table& table, const std::vector<Particle>& particles,
 LaneWorld::~LaneWorld() = default;
 
 void LaneWorld::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }
+void LaneWorld::sample_at(std::vector<double> times, Sampled sampled) {
+  implementation_->times = std::move(times);
+  implementation_->sampled = std::move(sampled);
+}
 void LaneWorld::run_until(double t_end, const std::function<bool(LaneStart&)>& next,
                           const std::function<void(const LaneEnd&)>& ended, const std::function<bool()>& interrupted) {
   implementation_->run_until(t_end, next, ended, interrupted);

@@ -1,6 +1,7 @@
 #include "motion/free_motion.hpp"
 
 #include <cmath>
+#include <tuple>
 
 #include "carom/base/elementary.hpp"
 
@@ -32,6 +33,17 @@ std::pair<Vector, Vector> moved(Vector x, Vector v, double omega, double duratio
   const Vector middle = c * v + s * j;
   const Vector turned = (c * c - s * s) * v + (2.0 * s * c) * j;
   return {x + (s / h) * middle, turned};
+}
+
+State flown(const State& last, double omega, Time t) {
+  State now = last;
+  const double duration = t - last.time;
+  now.time = t;
+  if (duration > 0.0) {
+    std::tie(now.position, now.velocity) = moved(last.position, last.velocity, omega, duration);
+    now.wall = -1;
+  }
+  return now;
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 
 #include "carom/geometry/formulas.hpp"
 #include "carom/geometry/vector.hpp"
+#include "carom/motion/state.hpp"
 
 namespace carom {
 
@@ -19,5 +20,8 @@ geometry::Vector reflected_at_corner(geometry::Vector v, geometry::Vector before
 /// Position and velocity after `duration` >= 0 of a straight or Larmor flight.
 std::pair<geometry::Vector, geometry::Vector> moved(geometry::Vector position, geometry::Vector velocity,
                                                     double omega, double duration);
+
+/// A particle's state on its flight from its last event, at a time that is not before that.
+State flown(const State& last, double omega, Time t);
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // Lanes against the scalar engine: every orbit, bit for bit, on every instruction set of this machine.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -21,6 +22,13 @@ struct Case {
   std::vector<LaneStart> starts;
   double t_end = std::numeric_limits<double>::max();
   std::uint64_t limit = 300;
+  std::vector<double> times;  ///< to report at
+};
+
+/// An end, and what was reported before.
+struct Flown {
+  LaneEnd end;
+  std::vector<State> reports;
 };
 
 /// A start on a wall, or in the domain.
@@ -51,20 +59,45 @@ LaneStart random_start(const Table& table, const World& world, Dice& dice, doubl
 
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
 
-class LastEnd : public Observer {
+class Listener : public Observer {
  public:
+  void hit(const HitEvent& event) override {
+    if (hit_times) hit_times->push_back(event.time.high);
+  }
   void end(const EndEvent& event) override { time = event.time; }
+  void sample(int, Time, const State& state) override { reports.push_back(state); }
   Time time;
+  std::vector<State> reports;
+  std::vector<double>* hit_times = nullptr;
 };
 
-LaneEnd by_world(World& world, const LaneStart& start, const Case& all) {
-  LastEnd last;
+Flown by_world(World& world, const LaneStart& start, const Case& all, std::vector<double>* hit_times = nullptr) {
+  Listener listener;
+  listener.hit_times = hit_times;
+  world.sample_at(all.times);
   world.clear();
   world.limit_hits(all.limit);
   world.add(start.particle, start.state, start.hits);
-  world.run_until(all.t_end, last);
-  return {start.tag, world.fate(0), world.finished(0) ? last.time : world.state(0).time, world.state(0),
-          world.hole(0), world.hits(0), world.last_wall(0), {}};
+  world.run_until(all.t_end, listener);
+  return {{start.tag, world.fate(0), world.finished(0) ? listener.time : world.state(0).time, world.state(0),
+           world.hole(0), world.hits(0), world.last_wall(0), {}},
+          listener.reports};
+}
+
+/// Report times: any, those of hits, and the end of the run.
+void add_times(Case& all, const Table& table, Dice& dice) {
+  World world(table);
+  std::vector<double> hits;
+  for (int i = 0; i < 5; ++i) by_world(world, all.starts[static_cast<std::size_t>(i)], all, &hits);
+  if (hits.empty()) return;
+  const double last = std::min(*std::max_element(hits.begin(), hits.end()), all.t_end);
+  for (int n = dice.whole(1, 40); n > 0; --n)
+    all.times.push_back(dice.coin() ? hits[static_cast<std::size_t>(dice.whole(0, static_cast<int>(hits.size()) - 1))]
+                                    : 1.2 * last * dice.between(0.0, 1.0));
+  if (dice.coin()) all.times.push_back(0.0);
+  if (dice.coin() && all.t_end < 1e300) all.times.push_back(all.t_end);
+  std::sort(all.times.begin(), all.times.end());
+  all.times.erase(std::unique(all.times.begin(), all.times.end()), all.times.end());
 }
 
 void expect_same(const LaneEnd& a, const LaneEnd& b) {
@@ -83,19 +116,34 @@ void expect_same(const LaneEnd& a, const LaneEnd& b) {
   EXPECT_EQ(bits(a.state.velocity.y), bits(b.state.velocity.y));
 }
 
+void expect_same(const std::vector<State>& a, const std::vector<State>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const bool same = bits(a[k].time.high) == bits(b[k].time.high) && bits(a[k].position.x) == bits(b[k].position.x) &&
+                      bits(a[k].position.y) == bits(b[k].position.y) && bits(a[k].velocity.x) == bits(b[k].velocity.x) &&
+                      bits(a[k].velocity.y) == bits(b[k].velocity.y) && a[k].cell == b[k].cell;
+    ASSERT_TRUE(same) << "report " << k << " at " << b[k].time.high;
+  }
+}
+
 struct Totals {
-  std::uint64_t hits = 0, scalar = 0;
+  std::uint64_t hits = 0, scalar = 0, reports = 0;
   std::map<Fate, int> fates;
 };
 
 void compare(const Table& table, Case& all, Totals& totals, const char* what) {
   World world(table);
   for (std::size_t i = 0; i < all.starts.size(); ++i) all.starts[i].tag = i;
-  std::vector<LaneEnd> expected;
+  std::vector<Flown> expected;
   for (const LaneStart& start : all.starts) expected.push_back(by_world(world, start, all));
   for (const InstructionSet set : available_instruction_sets()) {
     LaneWorld lanes(table, {all.starts[0].particle}, set);
     lanes.limit_hits(all.limit);
+    std::vector<std::vector<State>> reports(all.starts.size());
+    lanes.sample_at(all.times, [&](std::uint64_t tag, std::size_t number, const State& state) {
+      EXPECT_EQ(bits(all.times[number]), bits(state.time.high));
+      reports[tag].push_back(state);
+    });
     std::size_t next = 0, ended = 0;
     lanes.run_until(
         all.t_end,
@@ -108,7 +156,10 @@ void compare(const Table& table, Case& all, Totals& totals, const char* what) {
           ++ended;
           ++totals.fates[end.fate];
           SCOPED_TRACE(std::string(what) + " " + name_of(set) + " start " + std::to_string(end.tag));
-          if (!testing::Test::HasFailure()) expect_same(end, expected[end.tag]);
+          if (testing::Test::HasFailure()) return;
+          expect_same(end, expected[end.tag].end);
+          expect_same(reports[end.tag], expected[end.tag].reports);
+          totals.reports += reports[end.tag].size();
         });
     EXPECT_EQ(ended, all.starts.size()) << what;
     totals.hits += lanes.effort().hits;
@@ -153,12 +204,14 @@ Totals compare_on_tables(Shape shape, int turn, long tables) {
     const double omega = turn * dice.spread(0.01, 10.0) * speed / size;
     if (dice.coin()) all.t_end = dice.spread(1.0, 1000.0) * size / speed;
     for (int i = 0; i < 150; ++i) all.starts.push_back(random_start(table, world, dice, size, speed, omega));
+    if (dice.coin()) add_times(all, table, dice);
     EXPECT_TRUE(LaneWorld::suits(table, {all.starts[0].particle}));
     compare(table, all, totals, std::to_string(k).c_str());
   }
   EXPECT_GT(totals.fates[Fate::capped], 100);
   EXPECT_GT(totals.fates[Fate::survived], 100);
   EXPECT_GT(totals.fates[Fate::escaped], 100);
+  EXPECT_GT(totals.reports, 1000u);
   EXPECT_EQ(totals.fates[Fate::lost], 0);
   testing::Test::RecordProperty("hits", std::to_string(totals.hits));
   testing::Test::RecordProperty("scalar", std::to_string(totals.scalar));
@@ -198,6 +251,7 @@ TEST(LaneRuns, LeaveTheOpenPlane) {
   const World world(table);
   Case all;
   for (int i = 0; i < 2000; ++i) all.starts.push_back(random_start(table, world, dice, 3.0, 1.0));
+  add_times(all, table, dice);
   Totals totals;
   compare(table, all, totals, "three discs");
   EXPECT_GT(totals.fates[Fate::unbounded], 1000);
@@ -248,6 +302,7 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
     if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size;
     for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, 1.0));
     if (!LaneWorld::suits(table, {all.starts[0].particle})) continue;
+    if (dice.coin()) add_times(all, table, dice);
     const Totals before = totals;
     compare(table, all, totals, std::to_string(k).c_str());
     if (!rectangles) continue;
@@ -360,7 +415,7 @@ TEST(LaneRuns, GoOnFromWhereTheyWereStopped) {
         [&](const LaneEnd& e) { starts[e.tag].state = e.state, starts[e.tag].hits = e.hits; });
   }
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    const LaneEnd whole = by_world(by_steps, all.starts[i], all);
+    const LaneEnd whole = by_world(by_steps, all.starts[i], all).end;
     EXPECT_EQ(bits(whole.state.position.x), bits(starts[i].state.position.x));
     EXPECT_EQ(bits(whole.state.velocity.y), bits(starts[i].state.velocity.y));
     EXPECT_EQ(starts[i].hits, 50u);

@@ -45,7 +45,7 @@ struct DiffusionResult : EnsembleResult {
 };
 
 using DiffusionJournal = EnsembleJournal<DiffusionResult>;
-/// `lanes`: those that independent particles under forces are stepped in.
+/// `lanes`: those that independent particles fly or are stepped in.
 using DiffusionOptions = EnsembleOptions<DiffusionResult>;
 
 /// Runs trajectories until the last report time and sums their displacements in the plane: whole cells

@@ -1,6 +1,7 @@
 // Many independent trajectories of free particles at once, in the lanes of SIMD registers.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -48,6 +49,10 @@ class LaneWorld {
   ~LaneWorld();
 
   void limit_hits(std::uint64_t hits);
+  /// A trajectory's state (not its wall) at the time of that number.
+  using Sampled = std::function<void(std::uint64_t tag, std::size_t number, const State&)>;
+  /// Increasing times; `sampled` is told of each trajectory what World's observer would be, in order and before its end.
+  void sample_at(std::vector<double> times, Sampled sampled);
   /// Follows all trajectories that `next` gives (until it returns false) to their end or until `t_end`; `ended`
   /// receives each, in no particular order. `interrupted`, if set, is asked now and then; true
   /// returns early, and those under way are forgotten.
