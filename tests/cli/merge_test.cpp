@@ -1,9 +1,10 @@
-// Shards, ranks, threads, instruction sets, blocks, interruptions: one digest and equal datasets.
+// Shards that are merged, and ranks that fail.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "archive_contents.hpp"
+#include "processes.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -86,75 +87,26 @@ TEST(Merge, HoldsOnePartAtATime) {
   EXPECT_EQ(json_value(merged.out, "status"), "\"completed\"");
 }
 
-bool has_mpi() { return std::system("mpirun --version >/dev/null 2>&1") == 0; }
-std::string ranks(int n) {
-  return n == 0 ? "" : "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe --bind-to none -n " +
-                           std::to_string(n) + " ";
-}
-
-// `command` with its system and options; of the combinations every so many are run, all with CAROM_SOAK.
-void expect_one_result(const std::string& command, const std::string& options, int every_alone, int every_with_ranks) {
-  const Shell shell;
-  const std::string run_it = "$carom " + command + " " + options + " --quiet --json ";
-  ASSERT_EQ(shell(run_it + "-o whole.h5").status, 0);
-  const auto whole = datasets(shell, "whole.h5");
-  std::string isas;
-  for (const char* isa : {"baseline", "avx2", "avx512"})
-    if (shell(run_it + "--trajectories 1 -o probe.h5 --force --isa " + isa).status == 0) isas += std::string(" ") + isa;
-  ASSERT_NE(isas, "");
-  const bool all = std::getenv("CAROM_SOAK") != nullptr;
-  int number = 0;
-  for (const int processes : {0, 2, 4}) {
-    if (processes > 0 && !has_mpi()) continue;
-    for (const int threads : {1, 2})
-      for (const std::string block : {"7", "1024"})
-        for (const std::string isa : {"baseline", "avx2", "avx512"}) {
-          if (isas.find(isa) == std::string::npos) continue;
-          if (++number % (processes > 0 ? every_with_ranks : every_alone) != 1 && !all) continue;
-          const std::string run = ranks(processes) + run_it + "--threads " + std::to_string(threads) + " --block " + block + " --isa " + isa;
-          SCOPED_TRACE(run);
-          const Outcome one = shell("rm -f *.h5.* one.h5; " + run + " -o one.h5");
-          EXPECT_EQ(one.status, 0) << run << one.err;
-          expect_same_datasets(shell.folder() + "/one.h5", whole);
-          const Outcome parts = shell("rm -f ?.h5 all.h5; for k in 1 2 3; do " + run +
-                                      " --shard $k/3 -o $k.h5 || exit 9; done; $carom merge all.h5 3.h5 1.h5 2.h5");
-          EXPECT_EQ(parts.status, 0) << run << parts.err;
-          expect_same_datasets(shell.folder() + "/all.h5", whole);
-          const Outcome stopped = shell("rm -f r.h5*; " + run + " -o r.h5 --checkpoint 0.01 & pid=$!; sleep 0.1; "
-                                        "kill -INT $pid; wait $pid; if [ -e r.h5 ] || [ -e r.h5.part ]; then " +
-                                        ranks(processes) + "$carom " + command + " --resume r.h5 --threads 2; else " + run + " -o r.h5; fi");
-          EXPECT_EQ(stopped.status, 0) << run << stopped.err;
-          expect_same_datasets(shell.folder() + "/r.h5", whole);
-        }
-  }
-}
-
-TEST(SameBits, OnAnyThreadsRanksLanesBlocksPartsAndAfterKills) {
-  expect_one_result("escape", "stadium --set run.trajectories=6000 --t-max 60 --per-trajectory", 3, 12);
-}
-
-TEST(SameBits, OnAnyThreadsOfDiffusion) {
-  expect_one_result("diffusion", "lorentz-triangular --set run.trajectories=3000 --t-max 40", 6, 24);
-}
-
-TEST(SameBits, OnAnyThreadsOfDiffusionUnderForces) {
-  expect_one_result("diffusion", "soft-lorentz --set run.trajectories=300 --t-max 5", 6, 24);
-}
-
+// Twenty-five times with CAROM_SOAK.
 TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
   const std::string run = "$carom escape stadium --trajectories 3e6 --t-max 60 --quiet --json --threads 1";
   ASSERT_EQ(shell(run + " -o whole.h5").status, 0);
-  const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint 0.05 & pid=$!; "
-                               "until_saved a.h5; kill -9 $(pgrep -P $pid | tail -1); wait $pid");
-  EXPECT_NE(killed.status, 0);
-  EXPECT_TRUE(shell.exists("a.h5.part"));
-  EXPECT_EQ(open_archive(shell.folder() + "/a.h5.part").complete, 0);
-  const Outcome end = shell(ranks(2) + "$carom escape --resume a.h5 --json");
-  EXPECT_EQ(end.status, 0) << end.err;
-  EXPECT_EQ(json_value(end.out, "ranks"), "2");
-  expect_same_datasets(shell.folder() + "/a.h5", datasets(shell, "whole.h5"));
+  const auto whole = datasets(shell, "whole.h5");
+  for (int kill = 0; kill < (std::getenv("CAROM_SOAK") ? 25 : 1); ++kill) {
+    const std::string victim = kill % 2 == 0 ? "tail -1" : "head -1", wait = std::to_string(0.02 * kill);
+    const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint 0.05 & pid=$!; until_saved a.h5; sleep " + wait +
+                                 "; kill -9 $(pgrep -P $pid | " + victim + "); wait $pid");
+    EXPECT_NE(killed.status, 0);
+    EXPECT_TRUE(shell.exists("a.h5.part"));
+    EXPECT_EQ(open_archive(shell.folder() + "/a.h5.part").complete, 0);
+    const Outcome end = shell(ranks(2) + "$carom escape --resume a.h5 --json");
+    EXPECT_EQ(end.status, 0) << end.err;
+    EXPECT_EQ(json_value(end.out, "ranks"), "2");
+    expect_same_datasets(shell.folder() + "/a.h5", whole);
+    shell("rm a.h5");
+  }
 }
 
 // `limit` of the shell for one rank alone: the others must not wait for it for ever.
