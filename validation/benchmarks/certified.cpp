@@ -1,20 +1,21 @@
 // CPU time of certified orbits with 20 digits from several directions, all attempts counted, beside plain MPFR of a somewhat
 // higher precision, without guarantee, from the same starts. The last hits of both must agree, and the mean flight of the
 // orbits of a table must be what geometry says.
+#include <fmt/format.h>
+
 #include <carom/carom.hpp>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "measuring.hpp"
+#include "table.hpp"
+
+namespace carom::bench {
 
 namespace {
-
-using carom::bench::cpu_seconds;
 
 struct Row {
   const char* name;
@@ -31,16 +32,16 @@ const Row rows[] = {
     {"magnetic square", "rectangle", {{"width", "1"}, {"height", "1"}}, true, "4000/2030", "0.3", "0.2"},
 };
 
-carom::ExactNumber written(const std::string& text) { return {text, carom::Place{}}; }
+ExactNumber written(const std::string& text) { return {text, Place{}}; }
 
-carom::ExactSystem system_of(const Row& row) {
-  carom::TableSpec spec;
+ExactSystem system_of(const Row& row) {
+  TableSpec spec;
   spec.shape = row.shape;
   spec.torus = row.torus;
   for (const auto& [key, text] : row.numbers) spec.numbers[key] = written(text);
-  carom::ExactSystem system;
-  system.spec = std::make_shared<const carom::TableSpec>(spec);
-  system.table = std::make_shared<const carom::Table>(carom::build_table(spec));
+  ExactSystem system;
+  system.spec = std::make_shared<const TableSpec>(spec);
+  system.table = std::make_shared<const Table>(build_table(spec));
   system.omega = written(row.omega);
   system.start.position = {written(row.x), written(row.y)};
   return system;
@@ -52,53 +53,53 @@ bool agree(const std::string& right, const std::string& hoped) {
   return std::fabs(a - b) <= 1e-12 * (1.0 + std::fabs(a));
 }
 
-bool measure_row(const Row& row, std::uint64_t hits, int starts) {
-  carom::ExactSystem system = system_of(row);
+constexpr std::uint64_t hits = 1000;
+constexpr int starts = 10;
+
+void measure_row(Report& report, const Row& row) {
+  ExactSystem system = system_of(row);
   double sum = 0.0, longest = 0.0, plain = 0.0, stretched = 0.0, bits = 0.0, flown = 0.0;
   int attempts = 0;
   bool same = true;
   for (int i = 0; i < starts; ++i) {
     system.start.direction = {written("1"), written(fmt::format("7/10 + {}/{}", i, 3 * starts + 1))};
     const double start = cpu_seconds();
-    carom::CertifiedOrbit orbit = carom::certified_orbit(system, hits, 20);
-    const carom::CertifiedEnd end = orbit.finish();
+    CertifiedOrbit orbit = certified_orbit(system, hits, 20);
+    const CertifiedEnd end = orbit.finish();
     const double seconds = cpu_seconds() - start;
     sum += seconds;
     longest = std::max(longest, seconds);
     attempts += orbit.effort().attempts;
     bits += static_cast<double>(orbit.effort().bits);
     stretched += orbit.effort().tangent_bits;
-    carom::PlainTask task;
+    PlainTask task;
     task.collisions = hits;
     task.bits = orbit.effort().bits + orbit.effort().bits / 16 + 64;  // its roundings do feed each other
     const double before = cpu_seconds();
-    const carom::PlainEnd hoped = carom::plain_orbit(system, task);
+    const PlainEnd hoped = plain_orbit(system, task);
     plain += cpu_seconds() - before;
-    same = same && end.fate == carom::CertifiedFate::completed && end.wall == hoped.wall && end.cell == hoped.cell &&
+    same = same && end.fate == CertifiedFate::completed && end.wall == hoped.wall && end.cell == hoped.cell &&
            agree(end.x.text(20), hoped.x) && agree(end.vy.text(20), hoped.vy);
     flown += end.t.to_double();
   }
   const double all = static_cast<double>(starts) * static_cast<double>(hits);
-  const double mean = flown / all, expected = carom::measure(*system.table).mean_flight;
+  const double mean = flown / all, geometry_mean = measure(*system.table).mean_flight;
   // Chords of hyperbolic tables vary by about their mean and forget each other within a few hits.
   const bool geometric = row.omega[0] == '0';
-  const bool right = !geometric || std::fabs(mean / expected - 1.0) < 6.0 / std::sqrt(all);
-  fmt::print("{:18} {:9.2f} {:9.2f} {:8.2f} {:8.0f} {:7.3f} {:6.2f}  {:.4f}{}  ends {}\n", row.name, 1e3 * sum / starts, 1e3 * longest,
-             static_cast<double>(attempts) / starts, bits / starts, stretched / all, sum / plain, mean,
-             !geometric ? "" : right ? " right" : " WRONG", same ? "agree" : "DIFFER");
-  return same && right;
+  const bool right = !geometric || std::fabs(mean / geometry_mean - 1.0) < 6.0 / std::sqrt(all);
+  const double each = sum / starts * 1e9;
+  report.add({fmt::format("certified {}, {} hits", row.name, hits), "balls", each, each / chain(), "plain MPFR", plain / sum,
+              fmt::format("last digits {}, mean flight {:.4f}{}; longest {:.1f} ms, {:.2f} attempts, {:.0f} bits, {:.3f} of them lost a hit",
+                          same ? "agree" : "DIFFER", mean, geometric ? fmt::format(" of {:.4f}", geometry_mean) : "", 1e3 * longest,
+                          static_cast<double>(attempts) / starts, bits / starts, stretched / all),
+              same && right});
 }
 
 }  // namespace
 
-/// Arguments: hits, orbits.
-int main(int argc, char** argv) {
-  const std::uint64_t hits = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000;
-  const int starts = argc > 2 ? std::atoi(argv[2]) : 20;
-  fmt::print("certified orbits of {} hits, 20 digits, {} starts: CPU ms (mean, longest), attempts, bits, of these lost a hit, ratio to "
-             "plain MPFR; mean flight\n",
-             hits, starts);
-  bool good = true;
-  for (const Row& row : rows) good &= measure_row(row, hits, starts);
-  return good ? 0 : 1;
+void certified_orbits(Report& report) {
+  for (const Row& row : rows)
+    if (report.wants(fmt::format("certified {}", row.name))) measure_row(report, row);
 }
+
+}  // namespace carom::bench

@@ -1,18 +1,17 @@
 // Hard discs on a torus: contacts a second, what is conserved, and the compressibility factor against the
-// virial series. Every timing comes with its physical check.
-//
-//   hard_discs [discs across] [packing fraction] [contacts in millions] [seed]
+// virial series.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <ctime>
 #include <vector>
 
 #include "carom/base/random.hpp"
 #include "carom/events/world.hpp"
+#include "measuring.hpp"
+#include "table.hpp"
 
-using namespace carom;
+namespace carom::bench {
+
 using geometry::Vector;
 
 namespace {
@@ -48,13 +47,11 @@ double of_discs(double eta, int count) {
   return virial_series(eta) - second / first / (2.0 * count);
 }
 
-}  // namespace
+constexpr int across = 10;
+constexpr double eta = 0.3, millions = 1.0;
+constexpr std::uint64_t seed = 1;
 
-int main(int argc, char** argv) {
-  const int across = argc > 1 ? std::atoi(argv[1]) : 10;
-  const double eta = argc > 2 ? std::atof(argv[2]) : 0.3;
-  const double millions = argc > 3 ? std::atof(argv[3]) : 1.0;
-  const auto seed = static_cast<std::uint64_t>(argc > 4 ? std::atoi(argv[4]) : 1);
+void measure_discs(Report& report) {
   const int count = across * across;
   const double side = across;
   const double radius = std::sqrt(eta / pi);
@@ -96,39 +93,41 @@ int main(int argc, char** argv) {
     for (int i = 0; i < count; ++i) p = p + world.state(i).velocity;
     return std::sqrt(dot(p, p));
   };
-  const double start = energy(), momentum_start = momentum(), speed = std::sqrt(2.0 * start / count);
+  const double start = energy(), speed = std::sqrt(2.0 * start / count);
   Virial warm, seen;
   double t = 30.0 / speed;  // forgets the square order
   world.run_until(t, warm);
 
   // Blocks of equal time: N kT (Z - 1) = sum sigma |J| / (2 t), and E = (N - 1) kT as the momentum is zero.
   std::vector<double> z;
-  double worst = 0.0, seconds = 0.0, sum_t = 0, sum_e = 0, sum_tt = 0, sum_te = 0;
+  double worst = 0.0, seconds = 0.0;
   const double block = 20.0 / speed;
   long events = 0;
   while (static_cast<double>(seen.contacts) < millions * 1e6) {
     const double before = seen.sum;
-    const std::clock_t begin = std::clock();
+    const double begin = cpu_seconds();
     events += static_cast<long>(world.run_until(t += block, seen));
-    seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    seconds += cpu_seconds() - begin;
     z.push_back(1.0 + (seen.sum - before) / (2.0 * start * block) * (count - 1.0) / count);
     const double error = energy() / start - 1.0;
     worst = std::max(worst, std::fabs(error));
-    sum_t += t, sum_e += error, sum_tt += t * t, sum_te += t * error;
   }
   const double n = static_cast<double>(z.size());
   double average = 0.0, square = 0.0;
   for (const double x : z) average += x / n;
   for (const double x : z) square += (x - average) * (x - average);
-  const double slope = (n * sum_te - sum_t * sum_e) / (n * sum_tt - sum_t * sum_t);
-  fmt::print("N {} eta {} contacts {} events {}: {:.0f} contacts/s, {:.0f} events/s\n", count, eta,
-             seen.contacts, events, static_cast<double>(seen.contacts) / seconds,
-             static_cast<double>(events) / seconds);
-  fmt::print(
-      "energy: largest relative error {:.2e}, slope times length {:.2e}; momentum {:.2e} -> {:.2e} (N v = "
-      "{:.1f})\n",
-      worst, slope * n * block, momentum_start, momentum(), count * speed);
-  fmt::print("Z = {:.5f} +- {:.5f} ({} blocks); {} discs by the virial series: {:.5f}, without end {:.5f}\n",
-             average, std::sqrt(square / (n * (n - 1.0))), z.size(), count, of_discs(eta, count),
-             virial_series(eta));
+  const double each = seconds / static_cast<double>(seen.contacts) * 1e9, error = std::sqrt(square / (n * (n - 1.0)));
+  const double expected = of_discs(eta, count);
+  report.add({fmt::format("{} hard discs, a contact", count), "scalar", each, each / chain(), "", 0.0,
+              fmt::format("Z {:.5f}({:.5f}) of {:.5f}, energy within {:.0e}, momentum {:.0e}; {:.2f} events a contact", average, error, expected,
+                          worst, momentum() / (count * speed), static_cast<double>(events) / static_cast<double>(seen.contacts)),
+              std::fabs(average - expected) < 4.0 * error && worst < 1e-12});
 }
+
+}  // namespace
+
+void contacts_of_hard_discs(Report& report) {
+  if (report.wants("100 hard discs")) measure_discs(report);
+}
+
+}  // namespace carom::bench

@@ -1,12 +1,12 @@
 // CPU time of one step of a particle under forces, in lanes of every instruction set of this machine, beside the
 // scalar engine and a chain of dependent square roots and divisions in the same run. All ends must be the same
 // bits on every row, and the energy must be what the scheme promises.
+#include <fmt/format.h>
+
 #include <bit>
 #include <carom/carom.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,10 +14,11 @@
 #include "carom/events/energy.hpp"
 #include "carom/lanes/soft_lanes.hpp"
 #include "measuring.hpp"
+#include "table.hpp"
+
+namespace carom::bench {
 
 namespace {
-
-using carom::State;
 
 struct Row {
   const char* name;
@@ -41,9 +42,9 @@ constexpr Row rows[] = {
      "radius = 0.3\nsoftness = 0.05\nheight = 0.3\nlattice = true\n[particles]\nenergy = 0.5\n[integrator]\nstep = 0.05\n"},
 };
 
-carom::System system_of(const Row& row) {
-  if (!row.text) return carom::load_system(row.name).system;
-  return carom::read_system(std::string(row.text) + "[initial]\nkind = \"uniform\"\n[run]\nt_max = 1\n", row.name).system;
+System system_of(const Row& row) {
+  if (!row.text) return load_system(row.name).system;
+  return read_system(std::string(row.text) + "[initial]\nkind = \"uniform\"\n[run]\nt_max = 1\n", row.name).system;
 }
 
 std::uint64_t digest_of(const std::vector<State>& ends) {
@@ -57,24 +58,25 @@ std::uint64_t digest_of(const std::vector<State>& ends) {
   return hash;
 }
 
-double energy_of(const carom::System& system, const State& state) {
+double energy_of(const System& system, const State& state) {
   return carom::energy_of(system.particles, std::span(&state, 1), system.dynamics, *system.table).total();
 }
 
-bool measure_row(const Row& row, std::uint64_t steps, int times) {
+void measure_row(Report& report, const Row& row) {
   constexpr std::size_t trajectories = 256;
-  const carom::System system = system_of(row);
+  constexpr std::uint64_t steps = 1000;
+  const System system = system_of(row);
   const double t_end = system.dynamics.integrator.step * static_cast<double>(steps);
   const double done = static_cast<double>(steps) * static_cast<double>(trajectories);
-  carom::World world(*system.table, system.dynamics);
-  const carom::Sampler sampler(system);
+  World world(*system.table, system.dynamics);
+  const Sampler sampler(system);
   std::vector<State> starts, ends(trajectories);
   for (std::uint64_t i = 0; i < trajectories; ++i) starts.push_back(sampler.draw(world, i, 0));
 
-  carom::bench::Best scalar;
+  Best scalar;
   std::uint64_t hits = 0;
   scalar.repeat(2, [&] {
-    carom::Observer nobody;
+    Observer nobody;
     hits = 0;
     for (std::size_t i = 0; i < trajectories; ++i) {
       world.clear();
@@ -89,37 +91,30 @@ bool measure_row(const Row& row, std::uint64_t steps, int times) {
   double change = 0.0;
   for (std::size_t i = 0; i < trajectories; ++i)
     change = std::fmax(change, std::fabs(energy_of(system, ends[i]) - energy_of(system, starts[i])));
-  std::printf("%-24s scalar %7.1f (%6.2f)", row.name, scalar.each, scalar.ratio);
-  bool same = true;
-  for (const carom::InstructionSet set : carom::available_instruction_sets()) {
-    carom::SoftLanes lanes(*system.table, system.dynamics, set);
-    carom::bench::Best best;
-    best.repeat(times, [&] {
-      std::vector<carom::SoftLanes::Walk> walks;
+  const bool right = change < row.energy;
+  for (const InstructionSet set : available_instruction_sets()) {
+    SoftLanes lanes(*system.table, system.dynamics, set);
+    Best best;
+    best.repeat(5, [&] {
+      std::vector<SoftLanes::Walk> walks;
       for (const State& start : starts) walks.push_back({start});
       lanes.run(system.particles[0], walks, t_end, {}, [](std::size_t, std::size_t, const State&) {});
       for (std::size_t i = 0; i < trajectories; ++i) ends[i] = walks[i].state;
       return done;
     });
-    same = same && digest_of(ends) == expected;
-    std::printf("  %s %6.1f (%5.2f; %4.2f of scalar)", carom::name_of(set), best.each, best.ratio,
-                best.ratio / scalar.ratio);
+    const bool same = digest_of(ends) == expected;
+    report.add({std::string(row.name) + ", a step", name_of(set), best.each, best.ratio, "scalar", scalar.each / best.each,
+                fmt::format("ends {}, energy within {:.1e}{}", same ? "equal" : "DIFFER", change,
+                            hits > 0 ? fmt::format("; {:.1f} steps a hit", done / static_cast<double>(hits)) : ""),
+                same && right});
   }
-  const bool right = change < row.energy;
-  if (hits > 0) std::printf("  %.1f steps a hit", done / static_cast<double>(hits));
-  std::printf("  energy within %.1e %s  bits %s\n", change, right ? "right" : "WRONG", same ? "equal" : "DIFFER");
-  return same && right;
 }
 
 }  // namespace
 
-/// Arguments: steps of each particle, repetitions, a name's beginning.
-int main(int argc, char** argv) {
-  const std::uint64_t steps = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000;
-  const int times = argc > 2 ? std::atoi(argv[2]) : 5;
-  std::printf("CPU ns a step under forces, best of %d (in links of 1 + 1/sqrt x)\n", times);
-  bool good = true;
+void steps_under_forces(Report& report) {
   for (const Row& row : rows)
-    if (argc < 4 || std::string(row.name).starts_with(argv[3])) good &= measure_row(row, steps, times);
-  return good ? 0 : 1;
+    if (report.wants(row.name)) measure_row(report, row);
 }
+
+}  // namespace carom::bench

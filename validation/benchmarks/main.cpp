@@ -1,0 +1,50 @@
+// ./dev bench [NAME…]: the rows whose names begin with one of these, or all.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "measuring.hpp"
+#include "table.hpp"
+
+namespace carom::bench {
+
+Report::Report(std::vector<std::string> wanted) {
+  for (std::string& name : wanted) wanted_.push_back({std::move(name)});
+  fmt::print("CPU time, the least of several runs; a link: 1 + 1/sqrt(x), {:.2f} ns here\n\n", chain());
+  fmt::print("{:<38} {:<10} {:>10} {:>8}  {:<21} {:>8}  {}\n", "what", "path", "ns", "links", "against", "times", "check");
+}
+
+bool Report::wants(std::string_view what) {
+  bool any = wanted_.empty();
+  for (Name& name : wanted_)
+    if (what.starts_with(name.begin)) any = name.found = true;
+  return any;
+}
+
+void Report::add(const Line& line) {
+  wrong_ = wrong_ || !line.right;
+  const std::string against = line.against.empty() ? fmt::format("{:<30}", "") : fmt::format("{:<21} {:>8.3g}", line.against, line.ratio);
+  fmt::print("{:<38} {:<10} {:>10.4g} {:>8.3g}  {}  {}{}\n", line.what, line.path, line.each, line.links, against, line.check,
+             line.right ? "" : "  WRONG");
+  std::fflush(stdout);
+}
+
+bool Report::failed() const {
+  for (const Name& name : wanted_)
+    if (!name.found) fmt::print(stderr, "bench: no row begins with '{}'\n", name.begin);
+  return wrong_ || std::any_of(wanted_.begin(), wanted_.end(), [](const Name& name) { return !name.found; });
+}
+
+}  // namespace carom::bench
+
+int main(int argc, char** argv) {
+  using namespace carom::bench;
+  Report report(std::vector<std::string>(argv + 1, argv + argc));
+  for (const auto& rows : {straight_and_larmor_flights, flights_in_lanes, steps_under_forces, contacts_of_hard_discs, certified_orbits,
+                           whole_ensembles})
+    rows(report);
+  return report.failed() ? 1 : 0;
+}
