@@ -68,6 +68,9 @@ TEST(SplittingCommand, RefusesWhatItCannotDo) {
                                      {"--splitting 1,2 --kick 2", "kick"},
                                      {"--splitting 1,2 --lookback 9", "lookback"},
                                      {"--splitting 1,2 -o a.h5", "--output"},
+                                     {"--splitting 1,2 --trajectories 100", "--population"},
+                                     {"--splitting 1,2 --isa baseline", "--isa"},
+                                     {"--splitting hits:1,2 --times 1,2", "--times"},
                                      {"--kick 0.1", "--kick"},
                                      {"--population 100", "--population"},
                                      {"--digits 10", "--digits"}}) {
