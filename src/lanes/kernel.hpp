@@ -135,7 +135,7 @@ void kernel(const LaneTable& __restrict table, LanePack& __restrict pack) {
     for (int lane = 0; lane < pack.used; lane += width) pass_in_sight(table, pack, stages, lane);
     for (int lane = 0; lane < pack.used; lane += width) look_from_sight<Kind>(table, pack, stages, lane);
     for (int lane = 0; lane < pack.used; lane += width) meet_in_sight<Kind>(table, pack, stages, lane);
-  } else if (Kind::turn == 0 || Kind::convex)
+  } else if (Kind::turn == 0 || Kind::convex || Kind::cells)
     for (int lane = 0; lane < pack.used; lane += width) meet<Kind>(table, pack, stages, lane);
   if constexpr (divides_apart<Kind>)
     for (int lane = 0; lane < pack.used; lane += width) divide<Kind>(pack, stages, lane);
@@ -158,6 +158,10 @@ Advance kernel_of(const LaneTable& t) {
 }
 template <int turn>
 Kernels kernels_of(const LaneTable& t) {
+  if (t.edges > 0 && turn != 0) {
+    const Advance among_copies = kernel<Kind<turn, false, false, true, Reach::all, true>>;
+    return {among_copies, among_copies, width};
+  }
   if (t.edges > 0) {
     const Advance over_cells = t.pieces > LaneTable::eight ? kernel<Kind<0, false, false, true, Reach::all, true>>
                                : t.pieces > 1              ? kernel<Kind<0, false, false, true, Reach::eight, true>>

@@ -13,6 +13,7 @@ struct LaneTable {
   static constexpr int eight = 8, fewest = 16;  ///< numbers that may be read of each array
 
   int pieces = 0;
+  int own = 0;  ///< the first of them: without the copies below
   int loops = 0;
   int first[most] = {}, count[most] = {};  ///< loops of pieces; a closed curve is a loop of one
   bool convex = false;    ///< one loop, bent outwards or straight everywhere, and nothing in it
@@ -52,6 +53,9 @@ struct LaneTable {
   double edge_x[eight] = {}, edge_y[eight] = {}, edge_along_x[eight] = {}, edge_along_y[eight] = {};
   double beyond_first[eight] = {}, beyond_second[eight] = {}, beyond_x[eight] = {}, beyond_y[eight] = {};
   double lattice_x[2] = {}, lattice_y[2] = {};
+  // Larmor circles on a lattice: the pieces of all cells that they may come to, of which the first `own` are the cell's. The piece
+  // that each is a copy of, and its cell; the walls of copies are none.
+  double copy_of[most] = {}, copy_first[most] = {}, copy_second[most] = {};
   // Where it has one disc: from there to the middle of the cell; and the size over its radius.
   double off_centre_x = 0.0, off_centre_y = 0.0, sizes_of_radius = 0.0;
 

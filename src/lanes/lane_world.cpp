@@ -42,6 +42,13 @@ lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn
   return (curved ? lanes::baseline_ellipse_kernels : lanes::baseline_kernels)(table, turn);
 }
 
+/// Flights get no farther than the diameter of their circle from where they began; straight ones as far as you like.
+double reach_of(const std::vector<Particle>& particles) {
+  double reach = 0.0;
+  for (const Particle& p : particles) reach = std::max(reach, p.omega == 0.0 ? HUGE_VAL : 2.0 * p.speed / std::fabs(p.omega));
+  return reach;
+}
+
 /// Of one particle: when it ended, and its states at report times.
 class OneEvent : public Observer {
  public:
@@ -59,7 +66,7 @@ class LaneWorld::Implementation {
       : table(the_table),
         scalar(the_table, options),
         finder(the_table, options),
-        pieces(lanes::make_lane_table(finder)),
+        pieces(lanes::make_lane_table(finder, reach_of(particles))),
         turn(turn_of(particles.at(0).omega)),
         in_sight(lanes::discs_in_sight(pieces)),
         kernels(kernels_for(set, pieces, turn)) {
@@ -400,8 +407,7 @@ bool LaneWorld::suits(const Table& table, const std::vector<Particle>& particles
     if (turn_of(p.omega) != turn_of(particles[0].omega) || p.radius != 0.0 || !lanes::moderate(p.speed) ||
         (p.omega != 0.0 && !lanes::moderate(std::fabs(p.omega))))
       return false;
-  const bool straight = !particles.empty() && turn_of(particles[0].omega) == Turn::straight;
-  return !particles.empty() && lanes::fits(table) && (straight || !table.lattice);
+  return !particles.empty() && lanes::fits(table, reach_of(particles));
 }
 
 LaneWorld::LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)

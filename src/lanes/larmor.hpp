@@ -96,20 +96,24 @@ INLINE Choice exit_of_loop_by_circle(const View& f) {
 struct Fraction {
   Real p, q;
   Mask decided;
+  Real root;  ///< of the discriminant
 };
 /// The rising root of the quadratic of a segment or circle, whose sizes are powers of two.
 INLINE Fraction rising_root(const View& f, const geometry::Quadratic<Real>& quadratic, const Mask& stands, const Real& length) {
   const auto& [a, b, c] = quadratic;
   const Real discriminant = geometry::discriminant_of(quadratic);
-  const Real n = abs(b) + sqrt(max(discriminant, Real(0.0)));
+  const Real root = sqrt(max(discriminant, Real(0.0)));
+  const Real n = abs(b) + root;
   const Mask falls = b <= 0.0;
   const Real size = length * f.pace;
   const Mask decided = (stands && b > sign_margin * size) || (!stands && discriminant > (sign_margin * size) * size &&
                                                                (!falls || abs(a) > (sign_margin * f.table.size) * length));
-  return {choose(falls, n, -c), choose(falls, a, n), decided};
+  return {choose(falls, n, -c), choose(falls, a, n), decided, root};
 }
 
-/// Any table: the earliest of all exits.
+/// Any table: the earliest of all exits. `finely`: each fraction is known as well as its own root, for tables that are far larger than
+/// the flights there.
+template <bool finely>
 class EarliestOnCircle {
  public:
   explicit EarliestOnCircle(const View& f) : f_(f), decided_(true), piece_(-1.0), p_(-1.0), q_(0.0) {}
@@ -125,10 +129,22 @@ class EarliestOnCircle {
     where(r.q < 0.0, scale) = -scale;
     const Real p = r.p * scale, q = r.q * scale;
     const Real gap = fused(p, q_, -(p_ * q));
-    doubt(leaves && piece_ >= 0.0 && abs(gap) <= (0x1p-20 * f_.table.size) * f_.pace);
+    Real unsure = (0x1p-20 * f_.table.size) * f_.pace, off_p, off_q;
+    if constexpr (finely) {
+      const Mask falls = quadratic.b <= 0.0;
+      const Real of_root = (0x1p-41 * length) * f_.pace / r.root, least(0x1p-43);
+      off_p = f_.pace * choose(falls, of_root, least);
+      off_q = f_.table.size * choose(falls, least, of_root);
+      unsure = fused(abs(q_), off_p, fused(abs(p_), off_q, fused(abs(q), off_p_, abs(p) * off_q_)));
+    }
+    doubt(leaves && piece_ >= 0.0 && abs(gap) <= unsure);
     const Mask better = leaves && gap > 0.0;
     where(better, p_) = p;
     where(better, q_) = q;
+    if constexpr (finely) {
+      where(better, off_p_) = off_p;
+      where(better, off_q_) = off_q;
+    }
     where(better, piece_) = Real(counted[i]);
     of_root_ = of_root_ && !better;
   }
@@ -151,6 +167,7 @@ class EarliestOnCircle {
   const View& f_;
   Mask decided_;
   Real piece_, p_, q_;
+  Real off_p_{0.0}, off_q_{0.0};  ///< what they err by at most
   Real kappa_{0.0};
   Mask of_root_{false};
 };
@@ -173,7 +190,7 @@ template <int turn, class Kind>
 INLINE Choice first_of_all_by_circle(const View& f) {
   const LaneTable& t = f.table;
   const CircleView z = circle_of<turn>(f);
-  EarliestOnCircle best(f);
+  EarliestOnCircle<Kind::cells> best(f);
   Real least(__builtin_huge_val());
   ExitThroughEllipse exit;
   for (int loop = 0; loop < t.loops; ++loop) {

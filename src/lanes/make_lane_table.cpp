@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace carom::lanes {
 
@@ -168,6 +169,83 @@ void add_cell(LaneTable& t, const geometry::Lattice& lattice, double mean_flight
   t.lattice_y[1] = lattice.second.y;
 }
 
+/// Of the lattice's cell: its middle, and the distance of its farthest corner.
+std::pair<Vector, double> middle_of_cell(const geometry::Lattice& lattice) {
+  Vector middle{};
+  for (const geometry::CellEdge& edge : lattice.edges) middle = middle + (1.0 / static_cast<double>(lattice.edges.size())) * edge.segment.from;
+  double farthest = 0.0;
+  for (const geometry::CellEdge& edge : lattice.edges) farthest = std::max(farthest, dot(edge.segment.from - middle, edge.segment.from - middle));
+  return {middle, std::sqrt(farthest)};
+}
+
+/// The cells whose discs flights from the home cell may meet that get no farther than `reach` from where they began, the home cell first;
+/// none where these are too many. One cell more does no harm, so lengths are taken with some room.
+std::vector<geometry::Cell> cells_within(const Table& table, double reach) {
+  const geometry::Lattice& lattice = *table.lattice;
+  const auto [middle, corner] = middle_of_cell(lattice);
+  double most = 0.0;
+  for (const Wall& wall : table.walls) {
+    const PreparedCurve w(wall.curve);
+    most = std::max(most, 2.0 * corner + reach + std::sqrt(w.r2));
+  }
+  most *= 1.0 + 0x1p-20;
+  // A cell k vectors away lies k times the height of the cell on their side away at least.
+  const double area = lattice.cell_area();
+  const auto farthest = [&](Vector other) { return std::floor(most * std::sqrt(dot(other, other)) * (1.0 + 0x1p-20) / area); };
+  const double first = farthest(lattice.second), second = farthest(lattice.first);
+  if (!((2.0 * first + 1.0) * (2.0 * second + 1.0) < 1e5)) return {};
+  std::vector<geometry::Cell> cells{{}};
+  for (auto i = -static_cast<std::int64_t>(first); i <= static_cast<std::int64_t>(first); ++i)
+    for (auto j = -static_cast<std::int64_t>(second); j <= static_cast<std::int64_t>(second); ++j) {
+      const geometry::Cell cell{i, j};
+      const Vector way = lattice.translation(cell);
+      const bool near = std::any_of(table.walls.begin(), table.walls.end(), [&](const Wall& wall) {
+        const PreparedCurve w(wall.curve);
+        const Vector d = w.centre + way - middle;
+        return std::sqrt(dot(d, d)) < (reach + std::sqrt(w.r2) + corner) * (1.0 + 0x1p-20);
+      });
+      if (near && (i != 0 || j != 0)) cells.push_back(cell);
+    }
+  return cells;
+}
+
+/// The pieces of those cells. Their centres and joints are rounded by less than those of `size` count with.
+void add_copies(LaneTable& t, const geometry::Lattice& lattice, const std::vector<geometry::Cell>& cells) {
+  const int loops = t.loops;
+  for (int i = 0; i < t.own; ++i) t.copy_of[i] = i;
+  for (const geometry::Cell& cell : cells) {
+    if (cell == geometry::Cell{}) continue;
+    const Vector way = lattice.translation(cell);
+    for (int loop = 0; loop < loops; ++loop) {
+      t.first[t.loops] = t.pieces;
+      t.count[t.loops++] = t.count[loop];
+      for (int from = t.first[loop]; from < t.first[loop] + t.count[loop]; ++from) {
+        const int i = t.pieces++;
+        for (double* const numbers : {t.first_number, t.second_number, t.orientation, t.strength, t.chord_x, t.chord_y, t.length, t.radius,
+                                      t.chord_offset, t.along_x, t.back_y, t.hole, t.from})
+          numbers[i] = numbers[from];
+        t.bent[i] = t.bent[from];
+        t.closed[i] = t.closed[from];
+        t.joint_x[i] = t.joint_x[from] + way.x;
+        t.joint_y[i] = t.joint_y[from] + way.y;
+        t.point_x[i] = t.point_x[from] + way.x;
+        t.point_y[i] = t.point_y[from] + way.y;
+        t.wall[i] = -2.0;
+        t.copy_of[i] = from;
+        t.copy_first[i] = static_cast<double>(cell.first);
+        t.copy_second[i] = static_cast<double>(cell.second);
+        t.size = std::max(t.size, 4.0 * (t.radius[i] + std::fabs(t.point_x[i]) + std::fabs(t.point_y[i])));
+      }
+    }
+  }
+}
+
+std::size_t pieces_of(const Table& table) {
+  std::size_t pieces = 0;
+  for (std::size_t i = 0; i < table.walls.size(); ++i) pieces += parts_of(table, static_cast<int>(i)).size();
+  return pieces;
+}
+
 /// One loop of walls that turns to the left everywhere, and nothing in it: as HitFinder::find_enclosure.
 bool is_convex(const HitFinder& finder) {
   const Table& table = finder.table();
@@ -185,15 +263,17 @@ bool is_convex(const HitFinder& finder) {
 
 }  // namespace
 
-bool fits(const Table& table) {
-  std::size_t pieces = 0;
-  for (std::size_t i = 0; i < table.walls.size(); ++i) {
-    pieces += parts_of(table, static_cast<int>(i)).size();
-  }
-  return pieces > 0 && pieces <= LaneTable::most && !table.crossing && (!table.lattice || discs_within_cell(table));
+bool fits(const Table& table, double reach) {
+  const std::size_t pieces = pieces_of(table);
+  if (!(pieces > 0 && pieces <= LaneTable::most) || table.crossing) return false;
+  if (!table.lattice) return true;
+  if (!discs_within_cell(table)) return false;
+  if (reach == HUGE_VAL) return true;
+  const std::size_t cells = cells_within(table, reach).size();
+  return cells > 0 && cells * pieces <= LaneTable::most;
 }
 
-LaneTable make_lane_table(const HitFinder& finder) {
+LaneTable make_lane_table(const HitFinder& finder, double reach) {
   const Table& table = finder.table();
   LaneTable t;
   std::vector<bool> done(table.walls.size(), false);
@@ -211,14 +291,16 @@ LaneTable make_lane_table(const HitFinder& finder) {
     const int first = t.first[loop];
     for (int i = first; i < t.pieces && !t.closed[first]; ++i) add_chord(t, i, i + 1 < t.pieces ? i + 1 : first);
   }
+  t.own = t.pieces;
   if (table.lattice) add_cell(t, *table.lattice, measure(table).mean_flight);
+  if (table.lattice && reach < HUGE_VAL) add_copies(t, *table.lattice, cells_within(table, reach));
   // A power of two. Lanes decide nothing where products of sizes might leave the range of doubles.
   t.size = t.size > 1e-30 && t.size < 1e30 ? std::ldexp(1.0, std::ilogb(t.size) + 1) : HUGE_VAL;
   // A hit is off its circle by 2^-50 of the square of the flight, which is within S, over many cells within 16 S. With r^2
   // above 2^-20 or 2^-12 S^2 no step of length is 2^-28, half of that share.
   t.sizes_of_radius = t.size / t.radius[0];
   const double smallest = table.lattice ? 0x1p-6 : 0x1p-10;
-  for (int i = 0; i < t.pieces; ++i) {
+  for (int i = 0; i < t.own; ++i) {
     auto& e = t.ellipses;
     e.off[i] = e.of[i] ? e.off[i] * t.size : HUGE_VAL;
     e.at_start[i] *= t.size;

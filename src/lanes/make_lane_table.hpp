@@ -1,6 +1,7 @@
 // Makes a table ready for lanes.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "carom/table/table.hpp"
@@ -9,9 +10,10 @@
 
 namespace carom::lanes {
 
-/// Can the pieces of this table be held by a LaneTable?
-bool fits(const Table&);
-LaneTable make_lane_table(const HitFinder& finder);
+/// Can the pieces of this table be held by a LaneTable? `reach`: how far flights get from where they began. On a lattice, where that
+/// is finite, so must those of all cells that they may come to.
+bool fits(const Table&, double reach = HUGE_VAL);
+LaneTable make_lane_table(const HitFinder& finder, double reach = HUGE_VAL);
 /// The piece on which the point u of a wall lies.
 int piece_at(const LaneTable&, int wall, double u);
 

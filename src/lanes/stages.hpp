@@ -39,7 +39,16 @@ INLINE void choose_piece(const LaneTable& t, LanePack& pack, Stages& stages, int
   View f = view_of<Kind>(t, pack, lane);
   Choice choice;
   Mask decided, gone(false);
-  if constexpr (Kind::cells) {
+  if constexpr (Kind::cells && larmor) {
+    // Among the pieces of all cells that the circle may come to.
+    choice = first_of_all_by_circle<Kind::turn, Kind>(f);
+    const Real copy = max(choice.piece, Real(0.0));
+    store(look_up<Kind::reach>(t.copy_of, copy), stages.piece + lane);
+    store(look_up<Kind::reach>(t.copy_first, copy), stages.cell_first + lane);
+    store(look_up<Kind::reach>(t.copy_second, copy), stages.cell_second + lane);
+    store(gone, stages.gone, lane);
+    return store(choice.decided, stages.decided, lane);
+  } else if constexpr (Kind::cells) {
     CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
     choice = first_in_cells<Kind>(f, cell);
     gone = choice.piece < 0.0;

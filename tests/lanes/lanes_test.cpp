@@ -318,6 +318,38 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
   EXPECT_LT(static_cast<double>(in_rectangles.scalar), 0.05 * static_cast<double>(in_rectangles.hits));
 }
 
+// Larmor circles among the discs of all cells that they may come to.
+TEST(LaneRuns, TurnAmongTheDiscsOfLattices) {
+  Dice dice(8);
+  Totals totals;
+  int tables = 0;
+  for (long k = 0; k < tests::cases(40, 4000) && !HasFailure(); ++k) {
+    const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), angle = dice.between(0.9, 2.2), speed = dice.coin() ? 1.0 : dice.spread(1e-3, 1e3);
+    Table table;
+    for (int i = dice.whole(1, 2); i > 0; --i)
+      tests::add_loop(table, {geometry::Circle{{size * (0.3 * i - 0.45), size * dice.between(-0.1, 0.1)}, size * dice.between(0.02, 0.14), false}});
+    table.extent = Extent::lattice;
+    table.lattice = geometry::make_lattice({size, 0.0}, size * dice.between(1.0, 1.5) * tests::Vector{std::cos(angle), std::sin(angle)}, {0, 0});
+    if (dice.coin()) add_holes(table, dice);
+    const World world(table);
+    Case all;
+    all.limit = static_cast<std::uint64_t>(dice.whole(1, 300));
+    if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size / speed;
+    const double radius = size * dice.spread(0.05, 2.0);
+    for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, speed, dice.sign() * speed / radius));
+    for (LaneStart& start : all.starts) start.particle.omega = std::copysign(start.particle.omega, all.starts[0].particle.omega);
+    if (!LaneWorld::suits(table, {all.starts[0].particle})) continue;
+    ++tables;
+    if (dice.coin()) add_times(all, table, dice);
+    compare(table, all, totals, std::to_string(k).c_str());
+  }
+  EXPECT_GT(tables, 10);
+  EXPECT_GT(totals.hits, 50000u);
+  EXPECT_GT(totals.reports, 1000u);
+  for (const Fate fate : {Fate::escaped, Fate::survived, Fate::capped, Fate::pinned}) EXPECT_GT(totals.fates[fate], 100) << name_of(fate);
+  EXPECT_LT(static_cast<double>(totals.scalar) - totals.fates[Fate::pinned], 0.01 * static_cast<double>(totals.hits));
+}
+
 // A hole that is all of a closed wall has no end that a start could touch.
 TEST(LaneRuns, LeaveThroughAWallThatIsAllHole) {
   Dice dice(9);

@@ -35,6 +35,7 @@ constexpr Row rows[] = {
     {"mushroom", "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n"},
     {"sinai torus", "[table]\nshape = \"sinai\"\nside = 1\nradius = \"1/4\"\ntorus = true\n"},
     {"lorentz triangular", "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 1\nradius = 0.45\n"},
+    {"magnetic lorentz square", "[table]\nshape = \"lorentz\"\nlattice = \"square\"\nspacing = 1\nradius = 0.4\n[field]\nlarmor_radius = 0.6\n", -1},
     {"ellipse", "[table]\nshape = \"ellipse\"\na = 2\nb = 1\n"},
     {"elliptic stadium", ELLIPTIC_STADIUM},
     {"magnetic square", "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n", -1},

@@ -39,8 +39,8 @@ struct LaneEnd {
 class LaneWorld {
  public:
   /// Can lanes fly such particles on that table? Straight flights, or Larmor circles that all turn the same way,
-  /// between segments, circles and ellipses: at most 64 pieces. On a lattice straight flights alone, among discs that
-  /// lie inside the cell.
+  /// between segments, circles and ellipses: at most 64 pieces. On a lattice among discs that
+  /// lie inside the cell; Larmor circles there that come to at most 64 pieces.
   static bool suits(const Table&, const std::vector<Particle>&);
 
   /// `particles` suit, and every start is one of them. Keeps a reference to the table, which must live as long.
