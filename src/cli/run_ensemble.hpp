@@ -107,6 +107,7 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
     throw;
   }
   archive.reset();  // whatever becomes of the report
+  if (options.isa != "auto" && !result.lanes) warn("--isa changed nothing: these particles fly one after the other, in no lanes");
   job.lock.reset();
   if (!result.complete) say_how_to_go_on(result.done.size());
   return report(kind, job, result, result.complete ? "completed" : "interrupted");

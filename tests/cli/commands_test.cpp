@@ -310,5 +310,14 @@ TEST(Escape, RefusesStartsThatCannotBeWithoutTrying) {
   }
 }
 
+// Asked for by hand, lanes that nothing flies in are told of.
+TEST(Commands, SayWhereNothingFliesInLanes) {
+  const Shell shell;
+  const char* const told = "carom: --isa changed nothing: these particles fly one after the other, in no lanes\n";
+  EXPECT_EQ(shell("$carom escape lorentz-random --trajectories 5 --t-max 2 --isa baseline --quiet").err, told);
+  EXPECT_EQ(shell("$carom escape lorentz-random --trajectories 5 --t-max 2 --quiet").err, "");
+  EXPECT_EQ(shell("$carom escape stadium --trajectories 5 --t-max 2 --isa baseline --quiet").err, "");
+}
+
 }  // namespace
 }  // namespace carom
