@@ -43,6 +43,18 @@ std::string trimmed(std::string text) {
   return text;
 }
 
+// CRC-32 as zlib has it, so that others can compute it.
+std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t sum = 0xffffffffu;
+  for (const char byte : bytes) {
+    sum ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1) ^ ((sum & 1u) != 0 ? 0xedb88320u : 0u);
+  }
+  return ~sum;
+}
+
+constexpr const char* text_checksum = "crc32";
+
 [[noreturn]] void cannot_read(const std::string& file, const char* what) {
   throw InputError(Place{file, 0, 0, ""}, fmt::format("'{}' is missing or not readable", what),
                    "an archive that carom wrote");
@@ -173,6 +185,7 @@ void write_text(hid_t parent, const char* name, std::string_view text, Descripti
       checked(H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
               H5Dclose, file);
   describe(dataset.get(), description, file);
+  write_attribute(dataset.get(), text_checksum, std::int64_t{crc32(text)}, file);
   const std::string padded(text.empty() ? std::string(1, '\0') : std::string(text));
   check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) >= 0, file);
   check(dataset.close(), file);
@@ -185,7 +198,12 @@ std::string read_text(hid_t parent, const char* name, const std::string& file) {
   std::string text(H5Tget_size(type.get()), '\0');
   if (H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     cannot_read(file, name);
-  return trimmed(std::move(text));
+  text = trimmed(std::move(text));
+  const bool has_checksum = H5Aexists(dataset.get(), text_checksum) > 0;  // texts of earlier builds have none
+  if (has_checksum && read_integer_attribute(dataset.get(), text_checksum, file) != std::int64_t{crc32(text)})
+    throw InputError(Place{file, 0, 0, ""}, fmt::format("the text '{}' was changed: its checksum is another", name),
+                     "an archive as carom wrote it");
+  return text;
 }
 
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description description,

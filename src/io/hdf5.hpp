@@ -86,7 +86,8 @@ inline hid_t native_type<std::uint64_t>() {
   return H5T_NATIVE_UINT64;
 }
 
-/// A text as a scalar dataset.
+/// A text as a scalar dataset, with its checksum in the attribute `crc32`: no filter works on scalars. Reading throws
+/// InputError where the text is another one.
 void write_text(hid_t parent, const char* name, std::string_view text, Description, const std::string& file);
 std::string read_text(hid_t parent, const char* name, const std::string& file);
 

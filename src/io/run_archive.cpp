@@ -210,7 +210,7 @@ void RunArchive::Implementation::create_state(std::size_t particles) {
   for (const StateField& field : state_fields) {
     const hid_t type = field.real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
     const Handle dataset =
-        hdf5::create_fixed(group.get(), field.name, type, particles, field.description, file.name());
+        hdf5::create_fixed(group.get(), field.name, type, particles, field.description, file.name(), hdf5::Checksum::fletcher32);
     if (std::string_view(field.name) == "fate")
       hdf5::write_attribute(dataset.get(), "names", fate_names(), file.name());
   }
