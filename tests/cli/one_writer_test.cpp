@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,32 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
     EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"})) << other;
     shell("rm -f q.h5*");
   }
+}
+
+// What stands beside the archive is the live run's, by its own name, too.
+TEST(OneWriter, NobodyTakesTheFilesOfALiveRun) {
+  const Shell shell;
+  ASSERT_EQ(shell("for k in 2 3; do $carom escape stadium --trajectories 100 --t-max 9 --shard $k/3 -o s$k.h5 --quiet || exit 9; done").status, 0);
+  std::string others;
+  for (const std::string name : {"q.h5.part", "q.h5.part.new", "q.h5.records", "q.h5.new"})
+    for (const std::string& command :
+         {"merge " + name + " s2.h5 s3.h5", "section ellipse-magnetic --orbits 2 --points 3 -o " + name, "run stadium --t-max 3 -o " + name,
+          "run siam-photon --precision certified --digits 20 -o " + name, "escape stadium --trajectories 10 -o " + name,
+          "diffusion lorentz-triangular --trajectories 10 --t-max 3 -o " + name})
+      others += "timeout 20 $carom " + command + " --force; echo status $? >&2\n";
+  others += "timeout 20 $carom escape stadium --trajectories 10 -o q.h5.lock --force; echo status $? >&2\n";
+  const Outcome o = while_it_runs(shell, endless, others);
+  std::istringstream lines(o.err);
+  int refused = 0;
+  for (std::string line, status; std::getline(lines, line) && std::getline(lines, status); ++refused) {
+    EXPECT_EQ(status, "status 1") << line;
+    const bool of_lock = line.find("carom: q.h5.lock: this is the name of the lock of 'q.h5'") == 0;
+    EXPECT_TRUE(of_lock || line.find(": another process writes it, for it is a file of 'q.h5'") != std::string::npos) << line;
+  }
+  EXPECT_EQ(refused, 25) << o.err;
+  const Outcome on = shell("$carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
+  EXPECT_EQ(on.status, 130) << on.err;
+  EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"}));
 }
 
 TEST(OneWriter, OfTwoRunsTheSecondIsRefused) {

@@ -34,6 +34,32 @@ TEST(FileLock, RefusesTheSecondAndLeavesNothing) {
   EXPECT_NO_THROW(lock_archive(file));
 }
 
+// Whoever writes what stands beside an archive keeps others from it, and is kept from it by them.
+TEST(FileLock, OfAnArchiveIsThatOfTheFilesBesideIt) {
+  const std::string file = name_of_own();
+  const std::vector<std::string> beside = {".part", ".part.new", ".records", ".new", ".part.part"};
+  for (const std::string& mark : beside) {
+    {
+      const ArchiveLock first = lock_archive(file);
+      EXPECT_THROW(lock_archive(file + mark), InputError) << mark;
+    }
+    {
+      const ArchiveLock first = lock_archive(file + mark);
+      EXPECT_THROW(lock_archive(file), InputError) << mark;
+      EXPECT_NO_THROW(lock_archive(file + "2" + mark)) << mark;
+    }
+    EXPECT_NO_THROW(lock_archive(file)) << mark;
+  }
+  EXPECT_THROW(lock_archive(file + ".lock"), InputError);
+  // Two beside the same archive, which is free again only after both.
+  ArchiveLock part = lock_archive(file + ".part"), records = lock_archive(file + ".records");
+  part.reset();
+  EXPECT_THROW(lock_archive(file), InputError);
+  records.reset();
+  for (const std::string mark : {"", ".part", ".records", ".lock"}) EXPECT_FALSE(std::filesystem::exists(file + mark + ".lock"));
+  EXPECT_NO_THROW(lock_archive(file));
+}
+
 // Whoever may only read the lock's file, as that of another user, is refused like anybody.
 TEST(FileLock, OfAnotherUserCounts) {
   const std::string folder = name_of_own() + "-open", file = folder + "/a";
@@ -57,7 +83,7 @@ TEST(FileLock, IsHeldByOneWhileTheOthersLetGo) {
   const auto work = [&] {
     for (int i = 0; i < 3000; ++i) {
       try {
-        const FileLock lock(file);
+        const FileLock lock(i % 3 == 0 ? file + ".part" : file);  // alone, or beside it and alone there
         const int now = ++inside;
         if (now > most) most = now;
         ++held;
