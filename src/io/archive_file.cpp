@@ -13,6 +13,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom_version.hpp"
+#include "io/ensemble_files.hpp"
 
 namespace carom {
 
@@ -62,10 +63,8 @@ void write_origin(hid_t provenance, std::size_t part, const Origin& origin, cons
 void prepare_archives() { hdf5::prepare(); }
 
 void refuse_existing(const std::string& file, bool force) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(Place{file, 0, 0, ""}, "the output is a directory", "the name of a file");
-  if (!force && std::filesystem::exists(file, ignored))
+  refuse_no_file(file);
+  if (!force && exists(file))
     throw InputError(Place{file, 0, 0, ""}, "the output file exists already", "another name, or --force");
   if (!force && has_checkpoint(file))
     throw InputError(Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",

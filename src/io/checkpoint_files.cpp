@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "io/ensemble_files.hpp"
@@ -46,9 +47,9 @@ bool is_empty(const std::string& path) {
 
 Found look_at(const std::string& path) {
   using What = Found::What;
-  std::error_code ignored;
+  if (is_no_file(path)) return {What::other};
   if (!exists(path) || is_empty(path)) return {};
-  if (!std::filesystem::is_regular_file(path, ignored) || !may_be_hdf5(path)) return {What::other};
+  if (!may_be_hdf5(path)) return {What::other};
   hdf5::silence();
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file) return {What::damaged};
@@ -90,6 +91,18 @@ bool exists(const std::string& file) {
   return std::filesystem::exists(file, ignored);
 }
 
+bool is_no_file(const std::string& path) {
+  std::error_code ignored;
+  return exists(path) && !std::filesystem::is_regular_file(path, ignored);
+}
+
+void refuse_no_file(const std::string& file) {
+  if (!is_no_file(file)) return;
+  std::error_code ignored;
+  const bool folder = std::filesystem::is_directory(file, ignored);
+  throw InputError(Place{file, 0, 0, ""}, folder ? "the output is a directory" : "the output is a device or a pipe", "the name of a file");
+}
+
 bool is_checkpoint(const std::string& path) { return read_running(path).has_value(); }
 bool has_checkpoint(const std::string& file) { return is_checkpoint(checkpoint_of(file)); }
 
@@ -123,12 +136,15 @@ void remove_checkpoint(const std::string& file) {
 }
 
 void refuse_aside_of_others(const std::string& file, const std::string& aside, bool force) {
-  if (force || !exists(aside) || is_empty(aside) || is_left_over(aside, checkpoint_of(file))) return;
-  refuse(aside, fmt::format("'{}' would be written here first, and this is another file", file), true);
+  const bool no_file = is_no_file(aside);
+  if (!no_file && (force || !exists(aside) || is_empty(aside) || is_left_over(aside, checkpoint_of(file)))) return;
+  refuse(aside, fmt::format("'{}' would be written here first, and this is {}", file, no_file ? "no file" : "another file"), !no_file);
 }
 
 void refuse_files_of_others(const std::string& file, bool force) {
   const std::string checkpoint = checkpoint_of(file), records = records_of(file);
+  for (const auto& [path, what] : {std::pair(checkpoint, "checkpoint"), std::pair(records, "records")})
+    if (is_no_file(path)) refuse(path, fmt::format("the {} of '{}' would go here, and this is no file", what, file), false);
   const Found found = look_at(checkpoint);
   const bool running = found.what == Found::What::unfinished && is_ensemble(found.kind);
   if (!running && exists(checkpoint)) {

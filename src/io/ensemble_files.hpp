@@ -17,10 +17,15 @@ bool exists(const std::string& file);
 bool is_checkpoint(const std::string& path);
 /// Has FILE.h5 a checkpoint that names FILE.records?
 bool has_records(const std::string& file);
+/// Is there something of this name that is no file: a device, a pipe, a folder? Nothing replaces it, and nothing reads it.
+bool is_no_file(const std::string& path);
+/// Throws InputError where `file`, which is to be written, is no file.
+void refuse_no_file(const std::string& file);
 /// Throws InputError where the checkpoint or the records of FILE.h5 would replace a file that is none: `force` replaces it,
-/// unless it is a whole archive of another name.
+/// unless it is a whole archive of another name, or no file at all.
 void refuse_files_of_others(const std::string& file, bool force);
 /// Throws InputError where `aside`, where FILE.h5 is written first, is a file of somebody else, unless `force` replaces it.
+/// What is no file is always refused.
 void refuse_aside_of_others(const std::string& file, const std::string& aside, bool force);
 /// Where an ensemble of this name stands: FILE.h5.part if that is its checkpoint, else FILE.h5.
 std::string stored_in(const std::string& file);

@@ -98,6 +98,10 @@ FileLock::~FileLock() {
   ::close(descriptor_);
 }
 
-ArchiveLock lock_archive(const std::string& file) { return std::make_shared<FileLock>(file); }
+// Before there is anything beside it.
+ArchiveLock lock_archive(const std::string& file) {
+  refuse_no_file(file);
+  return std::make_shared<FileLock>(file);
+}
 
 }  // namespace carom

@@ -356,9 +356,9 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
 
 StoredRun read_run(const std::string& name) {
   const Place place{name, 0, 0, ""};
-  std::error_code error;
-  if (!std::filesystem::exists(name, error)) throw InputError(place, "there is no such file");
-  const Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!exists(name)) throw InputError(place, "there is no such file");
+  Handle file;  // a pipe would be waited for
+  if (!is_no_file(name)) file = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file)
     throw InputError(place, "the file is not an archive, or its run was killed or is still going on",
                      "the archive of a finished or interrupted run");

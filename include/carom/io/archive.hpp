@@ -19,7 +19,7 @@ namespace carom {
 /// Once, before anything else happens in the program.
 void prepare_archives();
 
-/// Throws InputError where `file` exists and `force` is not set.
+/// Throws InputError where `file` exists and `force` is not set, and where it is no file: a folder, a device, a pipe.
 void refuse_existing(const std::string& file, bool force);
 /// Is there an ensemble of this name that has not ended?
 bool has_checkpoint(const std::string& file);
@@ -32,7 +32,8 @@ std::string archive_named(const std::string& name);
 class FileLock;
 /// As long as it lives, no other process writes the archive.
 using ArchiveLock = std::shared_ptr<FileLock>;
-/// Throws InputError where another process writes it. Archives take their lock themselves, unless they are given one
+/// Throws InputError where another process writes it or the archive beside which it stands (FILE.part of FILE), and where it
+/// is no file. Archives take their lock themselves, unless they are given one
 /// that was taken before something was read.
 ArchiveLock lock_archive(const std::string& file);
 

@@ -1,0 +1,88 @@
+// Outputs that are no files, or links to files elsewhere.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names sorted_files(const Shell& shell) {
+  Names names = shell.files();
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// All that write an archive; 1.h5, 2.h5 and run.h5 are there.
+const Names writers = {"escape stadium --trajectories 10 --quiet -o ",
+                       "escape stadium --trajectories 10 --per-trajectory --quiet -o ",
+                       "diffusion lorentz-triangular --trajectories 10 --t-max 3 --quiet -o ",
+                       "merge 1.h5 2.h5 -o ",
+                       "section stadium --orbits 2 --points 3 --quiet -o ",
+                       "run stadium --t-max 3 --quiet -o ",
+                       "run --resume run.h5 --t-max 5 --quiet -o ",
+                       "run stadium --precision certified --collisions 5 -o ",
+                       "table stadium -o "};
+
+void make_inputs(const Shell& shell) {
+  ASSERT_EQ(shell("for k in 1 2; do $carom escape stadium --trajectories 10 --shard $k/2 --quiet -o $k.h5 || exit 9; done; "
+                  "$carom run stadium --t-max 3 -o run.h5 --quiet").status, 0);
+}
+
+struct Special {
+  const char *make, *is;
+};
+
+// With --force, too, and before there is anything beside them.
+void expect_refused(const Shell& shell, const Special& special, const std::string& message) {
+  for (const std::string& writer : writers)
+    for (const std::string force : {"", " --force"}) {
+      const Outcome o = shell("timeout 20 $carom " + writer + "out.svg" + force + "; status=$?; test " + special.is + " out.svg || exit 99; exit $status");
+      EXPECT_EQ(o.status, 1) << writer << force;
+      EXPECT_EQ(o.out, "") << writer;
+      EXPECT_EQ(o.err.find("carom: out.svg: " + message), 0u) << writer << force << "\n" << o.err;
+      EXPECT_EQ(sorted_files(shell), (Names{"1.h5", "2.h5", "out.svg", "run.h5"})) << writer;
+    }
+}
+
+TEST(NoFiles, PipesAndFoldersAreNoOutputs) {
+  const Shell shell;
+  make_inputs(shell);
+  ASSERT_EQ(shell("mkfifo out.svg").status, 0);
+  expect_refused(shell, {"mkfifo out.svg", "-p"}, "the output is a device or a pipe");
+  for (const std::string command : {"escape --resume out.svg", "run --resume out.svg", "merge sum.h5 out.svg"}) {
+    const Outcome o = shell("timeout 20 $carom " + command);
+    EXPECT_EQ(o.status, 1) << command;
+    EXPECT_EQ(o.err.find("carom: out.svg: "), 0u) << o.err;
+  }
+  ASSERT_EQ(shell("rm out.svg && mkdir out.svg").status, 0);
+  expect_refused(shell, {"mkdir out.svg", "-d"}, "the output is a directory");
+}
+
+TEST(NoFiles, DevicesAreNoOutputs) {
+  const Shell shell;
+  make_inputs(shell);
+  if (shell("mknod out.svg c 1 3").status != 0) GTEST_SKIP() << "no right to make a device";
+  expect_refused(shell, {"mknod", "-c"}, "the output is a device or a pipe");
+}
+
+// Nor are they what an ensemble writes beside its archive.
+TEST(NoFiles, PipesBesideAnArchiveStay) {
+  for (const std::string name : {"a.h5.part", "a.h5.records", "a.h5.part.new", "a.h5.new", "a.h5.lock"}) {
+    const Shell shell;
+    ASSERT_EQ(shell("mkfifo " + name).status, 0);
+    const std::string writer = name == "a.h5.new" ? "section stadium --orbits 2 --points 3" : "escape stadium --trajectories 10 --per-trajectory";
+    const Outcome o = shell("timeout 20 $carom " + writer + " --force --quiet -o a.h5; status=$?; test -p " + name + " || exit 99; exit $status");
+    EXPECT_EQ(o.status, 1) << name;
+    EXPECT_EQ(o.err.find("carom: " + name + ": "), 0u) << o.err;
+    EXPECT_EQ(shell.files(), Names{name});
+  }
+}
+
+}  // namespace
+}  // namespace carom
