@@ -128,6 +128,11 @@ std::string repeated_starts(const System& system) {
                      grouped(all), grouped(listed), listed == 1 ? "" : "s");
 }
 
+void follow_links(Options& options) {
+  for (std::string* name : {&options.output, &options.resume}) *name = followed(*name);
+  for (std::string& name : options.files) name = followed(name);
+}
+
 Provenance provenance_of(const Options& options, const System& system, int threads) {
   return {options.line, engine_of(system), "baseline", threads, {}};
 }

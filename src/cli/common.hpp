@@ -30,6 +30,8 @@ std::string engine_of(const System&);
 const char* why_lost(const System&);
 /// A doubt about an ensemble's errors: "" unless its trajectories repeat the starts that are listed.
 std::string repeated_starts(const System&);
+/// From here on archives and drawings have the names of the files, whatever links lead to them.
+void follow_links(Options&);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.

@@ -12,6 +12,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/io/archive.hpp"
 #include "cli/commands.hpp"
+#include "cli/common.hpp"
 #include "cli/ensemble_job.hpp"
 #include "cli/mpi_ranks.hpp"
 
@@ -35,9 +36,10 @@ int main(int argc, char** argv) {
     if (silent && (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr))) return bad_input;
     std::signal(SIGPIPE, SIG_IGN);  // whoever does not read on is told of as an error of the write
     carom::prepare_archives();
-    const Parsed parsed = parse(argc, argv);
+    Parsed parsed = parse(argc, argv);
     if (parsed.exit) return *parsed.exit;
     const Options& options = parsed.options;
+    follow_links(parsed.options);
     if (silent && !is_plain_ensemble(options)) return done;
     if (options.command == "escape") return escape(options);
     if (options.command == "merge") return merge(options);

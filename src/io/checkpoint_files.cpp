@@ -106,6 +106,20 @@ void refuse_no_file(const std::string& file) {
 bool is_checkpoint(const std::string& path) { return read_running(path).has_value(); }
 bool has_checkpoint(const std::string& file) { return is_checkpoint(checkpoint_of(file)); }
 
+std::string followed(const std::string& name) {
+  constexpr int most = 40;  // as the system has it
+  std::filesystem::path path = name;
+  std::error_code error;
+  // Devices keep their names: what links to pipes and closed files hold is none.
+  for (int links = 0; std::filesystem::is_symlink(path, error) && !is_no_file(path.string()); ++links) {
+    if (links == most) throw InputError(Place{name, 0, 0, ""}, "it is a link that leads to no file", "the name of a file");
+    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / target;
+  }
+  return path.string();
+}
+
 std::string archive_named(const std::string& name) {
   const std::string mark = checkpoint_of("");
   if (!name.ends_with(mark)) return name;

@@ -84,5 +84,52 @@ TEST(NoFiles, PipesBesideAnArchiveStay) {
   }
 }
 
+const std::string link_and_file = "test -L out.svg && test -f real/a.svg && test ! -L real/a.svg && test $(ls -A real | wc -l) = 1";
+
+TEST(Links, AreFollowedToTheFile) {
+  const Shell shell;
+  make_inputs(shell);
+  ASSERT_EQ(shell("mkdir real; ln -s real/a.svg out.svg").status, 0);
+  for (const std::string& writer : writers) {
+    // The file is not there, and then it is.
+    const Outcome anew = shell("rm -f real/a.svg; $carom " + writer + "out.svg");
+    EXPECT_EQ(anew.status, 0) << writer << "\n" << anew.err;
+    EXPECT_EQ(shell(link_and_file).status, 0) << writer;
+    const Outcome refused = shell("$carom " + writer + "out.svg");
+    EXPECT_EQ(refused.err.find("carom: real/a.svg: the output file exists already"), 0u) << writer << "\n" << refused.err;
+    EXPECT_EQ(shell("$carom " + writer + "out.svg --force").status, 0) << writer;
+    EXPECT_EQ(shell(link_and_file).status, 0) << writer;
+    EXPECT_EQ(sorted_files(shell), (Names{"1.h5", "2.h5", "out.svg", "real", "run.h5"})) << writer;
+  }
+}
+
+TEST(Links, CheckpointsStandBesideTheFile) {
+  const Shell shell;
+  const std::string go_on = " --quiet --block 4 --checkpoint 0.02 & pid=$!; until_saved real/a.svg; ";
+  const std::string look = "kill -9 $pid; wait $pid; ls -I '*.new' real";
+  ASSERT_EQ(shell("mkdir real; ln -s $PWD/real/a.svg real/link; mv real/link .; ln -s link out.svg").status, 0);
+  const Outcome first = shell("ulimit -t 60; $carom escape mushroom --trajectories 1e9 --per-trajectory -o out.svg" + go_on + look);
+  EXPECT_EQ(first.out, "a.svg.lock\na.svg.part\na.svg.records\n") << first.err;
+  const Outcome again = shell("ulimit -t 60; $carom escape --resume out.svg" + go_on + "timeout 20 $carom escape --resume real/a.svg; kill -INT $pid; wait $pid");
+  EXPECT_EQ(again.status, 130) << again.err;
+  EXPECT_NE(again.err.find("another process writes it"), std::string::npos) << again.err;
+  EXPECT_EQ(shell(link_and_file).status, 0);
+  EXPECT_EQ(sorted_files(shell), (Names{"link", "out.svg", "real"}));
+}
+
+TEST(Links, ThatLeadRoundAreRefused) {
+  const Shell shell;
+  const Outcome o = shell("ln -s b.h5 a.h5; ln -s a.h5 b.h5; $carom run stadium --t-max 3 -o a.h5");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(o.err.find("carom: a.h5: it is a link that leads to no file"), 0u) << o.err;
+}
+
+// Resumed in place, a run has its copy beside the file.
+TEST(Links, ARunGoesOnBehindALink) {
+  const Shell shell;
+  ASSERT_EQ(shell("mkdir real; ln -s real/a.svg out.svg; $carom run mushroom --t-max 3 -o out.svg && $carom run --resume out.svg --t-max 5").status, 0);
+  EXPECT_EQ(shell(link_and_file).status, 0);
+}
+
 }  // namespace
 }  // namespace carom

@@ -26,6 +26,9 @@ bool has_checkpoint(const std::string& file);
 
 /// For whoever holds the lock of `file`: removes its checkpoint, if it has one, and the records that this names.
 void remove_checkpoint(const std::string& file);
+/// The file behind a name: symbolic links are followed, to a file that is not there yet, too, so that what stands beside an
+/// archive stands beside the file and not beside the link. Throws InputError where links lead round.
+std::string followed(const std::string& name);
 /// The archive that a user means: FILE for the name of its checkpoint FILE.part.
 std::string archive_named(const std::string& name);
 
