@@ -34,10 +34,9 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   LoadedSystem loaded = options.system.empty()
                             ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
                             : load_system(options.system, overrides_of(options));
-  // The name says more than the first key that differs.
   const std::string differs = difference(stored.system_toml, loaded.resolved_toml, "run.window");
   if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
-    refuse(fmt::format("the system is {}, not {}", options.system, stored.system_name));
+    refuse(fmt::format("the system is {}, not {}: {}", options.system, stored.system_name, differs));
   if (!differs.empty()) refuse(differs);
   System& system = loaded.system;
   system.name = stored.system_name;
@@ -122,7 +121,7 @@ double seconds_between_checkpoints(const std::string& text) {
   const double seconds = ExactNumber(text, place_of("--checkpoint")).to_double();
   if (!(seconds > 0.0 && seconds < 1e9))
     throw InputError(place_of("--checkpoint"), fmt::format("'{}' is not a time between checkpoints", text),
-                     "seconds, more than 0");
+                     "seconds, more than 0 and less than 1e9");
   return seconds;
 }
 

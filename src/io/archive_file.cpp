@@ -89,8 +89,13 @@ ArchiveFile::~ArchiveFile() {
 ArchiveFile ArchiveFile::create(const std::string& path, const std::string& name) {
   const Handle access = latest_format(name);
   errno = 0;
-  Handle file =
-      hdf5::checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, name);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+  if (!file) {
+    const int error = errno;
+    if (is_empty(path)) std::remove(path.c_str());  // it was begun, and there was no room
+    errno = error;
+  }
+  hdf5::check(bool(file), name);
   return ArchiveFile(std::move(file), path, name);
 }
 

@@ -40,11 +40,6 @@ bool may_be_hdf5(const std::string& path) {
   return begin == signature || begin == std::array<char, 8>{};
 }
 
-bool is_empty(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::file_size(path, error) == 0 && !error;
-}
-
 Found look_at(const std::string& path) {
   using What = Found::What;
   if (is_no_file(path)) return {What::other};
@@ -89,6 +84,11 @@ bool is_left_over(const std::string& aside, const std::string& checkpoint) {
 bool exists(const std::string& file) {
   std::error_code ignored;
   return std::filesystem::exists(file, ignored);
+}
+
+bool is_empty(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::file_size(path, error) == 0 && !error;
 }
 
 bool is_no_file(const std::string& path) {

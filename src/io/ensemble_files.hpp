@@ -17,6 +17,7 @@ bool exists(const std::string& file);
 bool is_checkpoint(const std::string& path);
 /// Has FILE.h5 a checkpoint that names FILE.records?
 bool has_records(const std::string& file);
+bool is_empty(const std::string& file);
 /// Is there something of this name that is no file: a device, a pipe, a folder? Nothing replaces it, and nothing reads it.
 bool is_no_file(const std::string& path);
 /// Throws InputError where `file`, which is to be written, is no file.

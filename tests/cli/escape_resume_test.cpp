@@ -64,12 +64,13 @@ TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
       {"--resume a.h5 --t-max 7", "run.t_max is 7, not"},
       {"--resume a.h5 --trajectories 100", "run.trajectories is 100, not 1e9"},
       {"--resume a.h5 --set table.stem_width=0.9", "table.stem_width is 0.9, not"},
-      {"stadium --resume a.h5", "the system is stadium, not mushroom"},
+      {"stadium --resume a.h5", "the system is stadium, not mushroom: title is 'Stadium"},
       {"mushroom --resume a.h5", "run.trajectories is"},
       {"--resume a.h5 --engine steps", "--engine is steps, not auto"},
       {"--resume a.h5 --per-trajectory", "--per-trajectory"},
       {"--resume a.h5 --shard 1/2", "--shard is 1/2, not 1/1"},
       {"--resume b.h5", "there is no such file"},
+      {"--resume a.h5 --checkpoint 1e9", "seconds, more than 0 and less than 1e9"},
       {"--resume a.h5 -o b.h5", "--output"},
       {"--resume a.h5 --splitting 1,2", "--resume"},
   };
@@ -92,6 +93,19 @@ TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
   shell("$carom run stadium --t-max 3 -o run.h5; echo none > none.h5");
   EXPECT_NE(shell("$carom escape --resume run.h5").err.find("escape"), std::string::npos);
   EXPECT_NE(shell("$carom escape --resume none.h5").err.find("not an archive"), std::string::npos);
+}
+
+// Of a system file the contents count, and not the name.
+TEST(EscapeResume, TheFileOfTheSystemMayBeRenamed) {
+  const Shell shell;
+  ASSERT_EQ(shell("$carom systems stadium > m.toml; for k in 1 2; do $carom escape ./m.toml --trajectories 100 --shard $k/2 --quiet -o $k.h5 || exit 9; done; "
+                  "mv m.toml n.toml; sed 's/^radius.*/radius = 2/' n.toml > other.toml; ! cmp n.toml other.toml >/dev/null && $carom merge half.h5 1.h5").status, 0);
+  const Outcome other = shell("$carom escape ./other.toml --trajectories 100 --resume half.h5");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.err.find("the system is ./other.toml, not ./m.toml: table.radius is 2, not 1"), std::string::npos) << other.err;
+  const Outcome same = shell("$carom escape ./n.toml --trajectories 100 --resume half.h5 --quiet --json");
+  EXPECT_EQ(same.status, 0) << same.err;
+  EXPECT_EQ(json_value(same.out, "status"), "\"completed\"");
 }
 
 TEST(EscapeResume, NamesTheRecordsThatAreMissing) {

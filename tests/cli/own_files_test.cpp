@@ -213,5 +213,24 @@ TEST(OwnFiles, EmptyRecordsAreNobodys) {
   EXPECT_EQ(shell.files(), Names{"a.h5"});
 }
 
+// What was begun where there is no room goes.
+TEST(OwnFiles, AFullDiskLeavesNothing) {
+  const Shell shell;
+  ASSERT_EQ(shell(mushroom + "-o 1.h5 --shard 1/2 && $carom run stadium --t-max 3 -o run.h5 --quiet").status, 0);
+  if (shell("mkdir small && mount -t tmpfs -o size=64k carom-test small").status != 0) GTEST_SKIP() << "no right to mount a small disk";
+  shell("head -c 200k /dev/zero 2>/dev/null > small/filler");
+  for (const std::string command :
+       {"escape mushroom --trajectories 10", "escape mushroom --trajectories 10 --per-trajectory", "diffusion lorentz-triangular --trajectories 10",
+        "merge 1.h5", "section stadium --orbits 2 --points 3", "run stadium --t-max 3", "run --resume run.h5 --t-max 5",
+        "run stadium --precision certified --collisions 5"}) {
+    const Outcome o = shell("$carom " + command + " -o small/a.h5");
+    EXPECT_EQ(o.status, 1) << command;
+    EXPECT_EQ(o.err.find("carom: cannot write 'small/a.h5"), 0u) << command << "\n" << o.err;
+    EXPECT_NE(o.err.find("No space left on device"), std::string::npos) << command << "\n" << o.err;
+    EXPECT_EQ(shell("ls small").out, "filler\n") << command;
+  }
+  shell("umount small");
+}
+
 }  // namespace
 }  // namespace carom
