@@ -7,6 +7,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
+#include "ensemble/arithmetic.hpp"
 #include "io/archive_file.hpp"
 #include "io/ensemble_columns.hpp"
 #include "io/ensemble_files.hpp"
@@ -61,10 +62,12 @@ class EnsembleArchive<Result>::Implementation {
   int failures = 0;
 };
 
-void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Shard& shard, bool everywhere) {
+void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Shard& shard, bool everywhere,
+                 const std::string& arithmetic) {
   const Handle provenance = file.open_group("provenance");
   hdf5::write_attribute(provenance.get(), "shard", text_of(shard), file.name());
   hdf5::write_attribute(provenance.get(), "everywhere", std::int64_t{everywhere}, file.name());
+  if (!arithmetic.empty()) hdf5::write_attribute(provenance.get(), arithmetic_key, std::string_view(arithmetic), file.name());
   hdf5::write_attribute(provenance.get(), "seconds", result.seconds, file.name());
   hdf5::write_attribute(provenance.get(), "cpu_seconds", result.cpu_seconds, file.name());
   file.add_decisions(result.decisions);
@@ -80,7 +83,7 @@ void EnsembleArchive<Result>::Implementation::write(const Result& result, const 
   now.threads = result.threads;
   if (result.lanes) now.isa = name_of(*result.lanes);
   file.write_head(kind_of(result), loaded, now);
-  write_parts(file, result, plan.shard, loaded.system.dynamics.everywhere);
+  write_parts(file, result, plan.shard, loaded.system.dynamics.everywhere, arithmetic_fingerprint());
   if (!merged.empty()) hdf5::write_attribute(file.open_group("provenance").get(), "merged", merged, target);
   write_counts(file, result, loaded.system);
   if (log && last) {

@@ -33,8 +33,11 @@ std::string stored_in(const std::string& file);
 /// Opens an archive of this schema; throws InputError for anything else.
 hdf5::Handle open_ensemble(const std::string& name);
 
-/// /provenance of an ensemble, besides what every archive has; what is counted.
-void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere);
+/// /provenance of an ensemble, besides what every archive has; what is counted. `arithmetic`: of those who computed it, or "".
+void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere, const std::string& arithmetic);
+inline constexpr const char* arithmetic_key = "arithmetic";
+/// Can builds with the same digits have written both? Those of earlier builds say nothing.
+inline bool same_arithmetic(const std::string& a, const std::string& b) { return a.empty() || b.empty() || a == b; }
 /// Where the records of a checkpoint stand.
 void write_pieces(const ArchiveFile&, const std::vector<RecordLog::Piece>&);
 /// Throws InputError where they are not those of the trajectories that it counts.

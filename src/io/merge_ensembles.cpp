@@ -128,8 +128,8 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
                          fmt::format("trajectories {} to {} are in '{}', too", both->first, both->last - 1, other.file),
                          "parts that do not overlap");
     sum.parts.push_back({part.file, part.result.done});
+    refuse_other_version(part);
     if (first) {
-      refuse_other_version(part);
       system = read_system(part.system_toml, part.file + ": /system").system;
     }
     check_stored(part, system);
@@ -140,6 +140,7 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
     // Of several ways to write a number that of the lowest trajectory: the order of the parts cannot matter.
     if (lowest(part.result.done) < lowest(sum.result.done)) sum.system_toml = part.system_toml;
     if (!sum.result.add(part.result)) throw InternalError("parts overlap");
+    if (sum.arithmetic.empty()) sum.arithmetic = part.arithmetic;
     sum.result.threads = std::max(sum.result.threads, part.result.threads);
     sum.result.lanes = std::max(sum.result.lanes, part.result.lanes);  // as with threads: the most of any part
   }
@@ -162,7 +163,7 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   refuse_aside_of_others(path, aside, force);
   ArchiveFile file = ArchiveFile::create(aside, path);
   file.write_head(kind_of(sum.result), loaded, origin);
-  write_parts(file, sum.result, sum.shard, sum.everywhere);
+  write_parts(file, sum.result, sum.shard, sum.everywhere, sum.arithmetic);
   hdf5::write_attribute(file.open_group("provenance").get(), "merged", files, path);
   write_counts(file, sum.result, system);
   if (sum.per_trajectory) {

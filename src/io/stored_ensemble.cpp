@@ -11,6 +11,7 @@
 #include "carom/base/whole_number.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom_version.hpp"
+#include "ensemble/arithmetic.hpp"
 #include "io/ensemble_columns.hpp"
 #include "io/ensemble_files.hpp"
 #include "io/value.hpp"
@@ -55,6 +56,7 @@ Stored<Result> read_one(const std::string& name) {
   stored.system_name = attribute("system");
   stored.engine = attribute("engine");
   stored.everywhere = hdf5::read_integer_attribute(from, "everywhere", name) == 1;
+  if (H5Aexists(from, arithmetic_key) > 0) stored.arithmetic = attribute(arithmetic_key);
   stored.shard = shard_of(attribute("shard"), Place{name, 0, 0, ""});
   stored.origins = ArchiveFile::read_origins(from, name);
   stored.version = stored.origins.back().version;
@@ -159,7 +161,7 @@ Stored<Result> read_ensemble(const std::string& file) {
   }
   const bool one_ensemble = difference(whole.system_toml, part.system_toml).empty() && whole.shard == part.shard &&
                             whole.version == part.version && whole.engine == part.engine &&
-                            whole.everywhere == part.everywhere && whole.per_trajectory == part.per_trajectory;
+                            whole.everywhere == part.everywhere && same_arithmetic(whole.arithmetic, part.arithmetic) && whole.per_trajectory == part.per_trajectory;
   return one_ensemble && whole.result.done.size() >= part.result.done.size() ? whole : part;
 }
 
@@ -193,9 +195,12 @@ Shard shard_of(const std::string& text, const Place& place) {
 }
 
 void refuse_other_version(const StoredEnsemble& stored) {
-  if (stored.version == version) return;
-  throw InputError(Place{stored.file, 0, 0, "version"}, fmt::format("version {} wrote it", stored.version),
-                   fmt::format("version {}, which this is", version));
+  if (stored.version != version)
+    throw InputError(Place{stored.file, 0, 0, "version"}, fmt::format("version {} wrote it", stored.version),
+                     fmt::format("version {}, which this is", version));
+  if (!same_arithmetic(stored.arithmetic, arithmetic_fingerprint()))
+    throw InputError(Place{stored.file, 0, 0, arithmetic_key}, "another arithmetic wrote it: the digits of its orbits are others",
+                     "the build of carom that wrote it, or a run anew");
 }
 
 void write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& pieces) {

@@ -107,6 +107,7 @@ struct StoredEnsemble {
   std::string kind, version, system_name, system_toml, status;
   std::string engine;       ///< "events", "steps" or "auto"
   bool everywhere = false;  ///< --engine steps: integrates everything
+  std::string arithmetic;   ///< fingerprint of the digits that the build computes which wrote it; "": it says none
   std::vector<Origin> origins;
   std::vector<std::string> merged;  ///< the files that `carom merge` added
   Shard shard;
@@ -126,7 +127,7 @@ Stored<Result> read_ensemble(const std::string& file);
 /// Throws InputError where it cannot be what this system gave: it was damaged or changed.
 template <class Result>
 void check_stored(const Stored<Result>&, const System&);
-/// Throws InputError where another version of the program wrote it.
+/// Throws InputError where another version of the program wrote it, or a build that computes other digits.
 void refuse_other_version(const StoredEnsemble&);
 /// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none. `but` is a key that may.
 std::string difference(const std::string& toml, const std::string& other_toml, const std::string& but = {});
