@@ -1,6 +1,7 @@
 // Trajectories of a diffusion run of free particles, in lanes from hit to hit.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -30,6 +31,9 @@ class LaneWalker {
       p.squares.push_back(square_of_displacement(system_, p.start, state));
     });
   }
+
+  LaneWalker(const LaneWalker&) = delete;  // its lanes know where it is
+  LaneWalker& operator=(const LaneWalker&) = delete;
 
   /// Runs the blocks that `next` gives, one after the other without a pause, until it gives none or the run is stopped.
   void run(const std::function<bool(TrajectoryRange&)>& next) {
@@ -77,12 +81,13 @@ class LaneWalker {
     open.trajectory = trajectory;
     open.left = each();
     const std::vector<State> starts = sampler_.draw_all(world_, trajectory);
+    const bool on_walls = std::any_of(starts.begin(), starts.end(), [](const State& s) { return s.wall >= 0; });
+    if (on_walls) {  // a world puts them there, and refuses what cannot be
+      world_.clear();
+      add_starts(world_, sampler_, trajectory);
+    }
     for (std::size_t p = 0; p < each(); ++p) {
-      open.members[p].start = starts[p];
-      if (starts[p].wall >= 0) {  // a world puts it on its wall
-        world_.clear();
-        open.members[p].start = world_.state(world_.add(system_.particles[p], starts[p]));
-      }
+      open.members[p].start = on_walls ? world_.state(static_cast<int>(p)) : starts[p];
       open.members[p].squares.clear();
     }
   }

@@ -84,18 +84,21 @@ Flown by_world(World& world, const LaneStart& start, const Case& all, std::vecto
           listener.reports};
 }
 
-/// Report times: any, those of hits, and the end of the run.
+/// Report times: any, those of hits, and the end of the run, which may be that of a hit, too. Some start later than others.
 void add_times(Case& all, const Table& table, Dice& dice) {
   World world(table);
   std::vector<double> hits;
   for (int i = 0; i < 5; ++i) by_world(world, all.starts[static_cast<std::size_t>(i)], all, &hits);
   if (hits.empty()) return;
+  if (dice.coin()) all.t_end = hits[static_cast<std::size_t>(dice.whole(0, std::min(4, static_cast<int>(hits.size()) - 1)))];
   const double last = std::min(*std::max_element(hits.begin(), hits.end()), all.t_end);
   for (int n = dice.whole(1, 40); n > 0; --n)
     all.times.push_back(dice.coin() ? hits[static_cast<std::size_t>(dice.whole(0, static_cast<int>(hits.size()) - 1))]
                                     : 1.2 * last * dice.between(0.0, 1.0));
   if (dice.coin()) all.times.push_back(0.0);
   if (dice.coin() && all.t_end < 1e300) all.times.push_back(all.t_end);
+  if (dice.coin())
+    for (std::size_t i = 0; i < all.starts.size(); i += 7) all.starts[i].state.time = Time(last * dice.between(0.0, 0.5));
   std::sort(all.times.begin(), all.times.end());
   all.times.erase(std::unique(all.times.begin(), all.times.end()), all.times.end());
 }
@@ -378,6 +381,23 @@ TEST(LaneRuns, LeaveThroughAWallThatIsAllHole) {
     EXPECT_EQ(totals.fates.size(), 1u);
     EXPECT_GT(totals.fates[Fate::escaped], 0);
   }
+}
+
+// A particle that meets no wall is the scalar engine's: it does not keep the report times of a run before.
+TEST(LaneRuns, ReportWhatIsAskedOfThisRun) {
+  const Table table = tests::disc(1.0);
+  LaneStart pinned;
+  pinned.state.velocity = {1, 0};
+  pinned.particle.omega = 10.0;
+  LaneWorld lanes(table, {pinned.particle}, widest_instruction_set());
+  int reports = 0;
+  const auto count = [&](std::uint64_t, std::size_t, const State&) { ++reports; };
+  for (const std::vector<double>& times : {std::vector<double>{1.0, 2.0, 9.0}, {}, {3.0}}) {
+    lanes.sample_at(times, times.empty() ? LaneWorld::Sampled() : count);
+    bool given = false;
+    lanes.run_until(5.0, [&](LaneStart& start) { return start = pinned, !std::exchange(given, true); }, [](const LaneEnd&) {});
+  }
+  EXPECT_EQ(reports, 3);
 }
 
 // In a free corridor of a lattice, a flight as long as the run: the question comes up inside it.
