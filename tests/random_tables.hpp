@@ -1,6 +1,7 @@
 // Random tables and flights for tests of decisions.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -125,6 +126,38 @@ inline Table random_table(Shape shape, double size, Vector at, Dice& dice, doubl
       return t;
     }
   }
+}
+
+/// A table whose outer wall, or an obstacle in a disc, is an ellipse, and the same with the ellipse cut into 2 to 6 arcs. `exactly`:
+/// into two arcs of exactly one ellipse; else each, through rounded joints, is of one of its own.
+struct CutEllipse {
+  Table whole, cut;
+};
+inline CutEllipse cut_ellipse(double size, bool obstacle, bool exactly, double thinnest, Dice& dice) {
+  constexpr double turn = 6.283185307179586;
+  const int count = exactly ? 2 : dice.whole(2, 6);
+  const Vector centre = exactly ? Vector{} : size * dice.between(0.0, 0.2) * dice.direction(), major = size * dice.direction();
+  const double ratio = dice.spread(thinnest, 1.0), first = dice.between(0.0, turn);
+  const auto point = [&](double angle) { return centre + std::cos(angle) * major + (ratio * std::sin(angle)) * left(major); };
+  std::vector<double> angles;
+  for (int i = 0; i < count; ++i) angles.push_back(first + turn / count * (i + dice.between(-0.3, 0.3)));
+  angles.push_back(angles[0] + turn);
+  std::vector<Vector> joints;
+  for (int i = 0; i < count; ++i) joints.push_back(point(angles[static_cast<std::size_t>(i)]));
+  if (exactly) joints[1] = -joints[0];
+  joints.push_back(joints[0]);
+  std::vector<Curve> arcs;
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i)
+    arcs.push_back(exactly ? EllipticArc{joints[i], joints[i + 1], major, ratio, 0.0, true}
+                           : geometry::elliptic_arc_through(joints[i], point(0.5 * (angles[i] + angles[i + 1])), joints[i + 1], major, ratio));
+  if (!obstacle) return {loop({Ellipse{centre, major, ratio, true}}), loop(arcs)};
+  std::reverse(arcs.begin(), arcs.end());
+  for (Curve& arc : arcs) arc = geometry::reversed(arc);
+  CutEllipse tables{loop({Circle{{0, 0}, 2.0 * size, true}}), {}};
+  tables.cut = tables.whole;
+  add_loop(tables.whole, {Ellipse{centre, major, ratio, false}});
+  add_loop(tables.cut, arcs);
+  return tables;
 }
 
 }  // namespace carom::tests

@@ -106,19 +106,22 @@ struct Part {
   bool outer;     // kappa = sigma K / t, else sigma K t
   double sigma;
   double scale;
+  double passed;  // nobody asks for t below
   double kappa(double t) const { return outer ? sigma * (scale / t) : sigma * (scale * t); }
 };
 
 /// Reports the roots of p on (0, 1) mapped to [from, to] of the part, in the order of falling kappa.
 bool isolate(const Bernstein& p, int degree, double from, double to, const Part& part, bool ascending, int depth,
              RisingRoots& out, int most) {
-  if (out.count >= most) return true;
+  if (out.count >= most || to <= part.passed) return true;
+  // An end among what nobody asks for need not be certain: until it is cut off.
+  const bool cut = from < part.passed && sign_of(p.b[0], p.e[0]) == 2;
   int low = 0, high = 0, last = 2;
   bool open = false;
   for (int i = 0; i <= degree; ++i) {
     const int s = sign_of(p.b[i], p.e[i]);
     if (s == 2) {
-      if (i == 0 || i == degree) return false;
+      if ((i == 0 && !cut) || i == degree) return false;
       open = true;
       continue;
     }
@@ -135,9 +138,9 @@ bool isolate(const Bernstein& p, int degree, double from, double to, const Part&
       const int before = sign_of(p.b[i - 1], p.e[i - 1]), after = sign_of(p.b[i + 1], p.e[i + 1]);
       if (before == 2 || after == 2 || before == after) high = degree;
     }
-    if (high == 0) return true;
+    if (high == 0 && !cut) return true;
   }
-  if (low == 1 && high == 1) {
+  if (low == 1 && high == 1 && !cut) {
     const bool rises_with_t = p.b[0] < 0.0;
     const bool kappa_grows = (part.sigma > 0) != part.outer;
     if (rises_with_t != kappa_grows) return true;  // falls along kappa
@@ -171,7 +174,8 @@ bool isolate(const Bernstein& p, int degree, double from, double to, const Part&
          isolate(first, degree, from, middle, part, ascending, depth - 1, out, most);
 }
 
-RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most) {
+RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most,
+                           double farthest) {
   RisingRoots out;
   // kappa = K x: coefficients and errors of the polynomial in x.
   double c[5], e[5];
@@ -192,7 +196,9 @@ RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, 
     }
     // Falling kappa: t grows in [K, inf) and in [-K, 0], falls in the others.
     const bool ascending = part == 0 || part == 2;
-    if (!isolate(bernstein(m, n, degree), degree, 0.0, 1.0, {outer, sigma, scale}, ascending, 40, out, most)) {
+    const Bernstein p = bernstein(m, n, degree);
+    const double passed = outer && sign_of(p.b[0], p.e[0]) == 2 ? scale / farthest : 0.0;
+    if (!isolate(p, degree, 0.0, 1.0, {outer, sigma, scale, passed}, ascending, 40, out, most)) {
       out.decided = false;
       return out;
     }
@@ -244,20 +250,23 @@ double likely_root(const Quartic<double>& f, int degree) {
   return degree == 3 ? largest_root(f.q[3], f.q[2], f.q[1], f.q[0], RoughCubeRoot{}) : first_rising_root(f, RoughCubeRoot{});
 }
 
-RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most) {
-  const double likely = likely_root(f, degree);
+RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most,
+                         double farthest) {
+  const double likely = likely_root(f, f.q[4] == 0.0 ? 3 : degree);
   RisingRoots out;
   if (degree == 3 && most == 1 && is_largest(f, error, likely, out.roots[0])) {
     out.count = 1;
     return out;
   }
-  out = isolated_roots(f, error, degree, scale, most);
-  for (int i = 0; i < out.count; ++i) {
-    CertifiedRoot& r = out.roots[i];
-    const double away = std::fabs(likely - r.kappa);
-    if (!(away <= 0x1p24 * r.error)) continue;
-    r.kappa = likely;
-    r.error += away;
+  out = isolated_roots(f, error, degree, scale, most, farthest);
+  // Of roots that err much more than one may lie about it.
+  const auto away = [&](int i) { return std::fabs(likely - out.roots[i].kappa); };
+  int nearest = 0;
+  for (int i = 1; i < out.count; ++i)
+    if (away(i) < away(nearest)) nearest = i;
+  if (out.count > 0 && away(nearest) <= 0x1p24 * out.roots[nearest].error) {
+    out.roots[nearest].error += away(nearest);
+    out.roots[nearest].kappa = likely;
   }
   return out;
 }

@@ -28,6 +28,21 @@ inline Bounded side_of_chord(const geometry::PreparedCurve& w, geometry::Vector 
   return {-w.orientation * cross(chord, e), norm_1(chord) * (error + s.inflation * rounding)};
 }
 
+/// On which side of that chord does the flight begin? Positive beyond it, off the arc.
+inline Bounded start_beyond_chord(const geometry::PreparedCurve& w, geometry::Vector origin, const geometry::FlightScale& s) {
+  const geometry::Vector chord = w.to - w.from, e = origin - w.from;
+  // e: delta and u; chord u, product u, difference u.
+  const double rounding = 4.1 * geometry::unit_roundoff * norm_1(e);
+  return {w.orientation * cross(chord, e), s.inflation * norm_1(chord) * (s.delta + rounding)};
+}
+
+/// From this |kappa| on flights that begin beyond the chord end there, too: they are |v|/|kappa| long at most. Infinite: it is not
+/// certain that they begin there.
+inline double kappa_beyond_chord(const geometry::PreparedCurve& w, geometry::Vector origin, const geometry::FlightScale& s) {
+  const Bounded start = start_beyond_chord(w, origin, s);
+  return start.sign() == Sign::positive ? 1.01 * norm_1(w.to - w.from) * s.speed_1 / (start.value - start.bound) : HUGE_VAL;
+}
+
 /// Without field: the foot of an arc's centre on the flight, times |v|^2: positive if it lies beyond the chord
 /// of the joints, off the arc.
 [[gnu::always_inline]] inline Bounded foot_beyond_chord(const geometry::PreparedCurve& w, geometry::Vector origin,

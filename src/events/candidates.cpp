@@ -59,8 +59,8 @@ bool ends_on_ellipse(const PreparedCurve& w, Vector e, Vector v, double omega, d
 
 }  // namespace
 
-Sign HitFinder::quartic_candidate(const Flight& f, int piece, bool stands, double inflation,
-                                  Candidate& c) const {
+Sign HitFinder::quartic_candidate(const Flight& f, int piece, double inflation, Candidate& c) const {
+  const bool stands = stands_on_ellipse(f, piece);
   const PieceData& p = data_[at(piece)];
   const PreparedCurve& w = curves_[at(p.curve)];
   FlightScale s = origins_[at(p.offset)].scale;
@@ -71,12 +71,23 @@ Sign HitFinder::quartic_candidate(const Flight& f, int piece, bool stands, doubl
   const Vector vm{dot(w.first_axis, f.velocity), dot(w.second_axis, f.velocity)};
   const Vector jm{dot(w.first_axis, j), dot(w.second_axis, j)};
   const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
-  Quartic<double> q = ellipse_quartic(em, stands ? dot(em, em) : 1.0, vm, jm, f.omega, 0.5);
+  QuarticError error = quartic_error(s, norm_1(e), w.centre_error, row, stands);
+  // An arc's ellipse on which the start lies to rounding: from there, the square of its image for 1. Who is beyond the arc's chord
+  // makes no flight to a larger |kappa| that ends on it.
+  const double off = std::fabs(dot(em, em) - 1.0);
+  const bool beside = !w.closed && !stands && off <= error.q[4];
+  Quartic<double> q = ellipse_quartic(em, stands || beside ? dot(em, em) : 1.0, vm, jm, f.omega, 0.5);
   if (w.orientation > 0)
     for (double& x : q.q) x = -x;
+  if (beside) {
+    const double n = 0.251 * f.omega * f.omega;
+    error.q[4] += off;
+    error.q[2] += 2.0 * n * off;
+    error.q[0] += n * n * off;
+  }
   const RisingRoots found =
-      rising_roots(q, quartic_error(s, norm_1(e), w.centre_error, row, stands), stands ? 3 : 4,
-                   std::max(0.5 * s.omega, row * s.speed_1), w.closed ? 1 : 4);
+      rising_roots(q, error, stands ? 3 : 4, std::max(0.5 * s.omega, row * s.speed_1), w.closed ? 1 : 4,
+                   beside ? kappa_beyond_chord(w, origin, s) : HUGE_VAL);
   for (int i = 0; i < found.count; ++i) {
     c.root.kappa = found.roots[i].kappa;
     c.kappa_error = found.roots[i].error;
@@ -108,12 +119,11 @@ Sign HitFinder::crossed_twice(const Flight& f, int piece) const {
 
 double HitFinder::kappa_error_of(const Flight& f, int piece) const {
   if (!cells_) look_from(f);
-  const bool stands = stands_on(f, piece);
   Candidate c;
   if (is_quartic(f, piece))
-    return quartic_candidate(f, piece, stands, options_.filter_inflation, c) == Sign::positive ? c.kappa_error
+    return quartic_candidate(f, piece, options_.filter_inflation, c) == Sign::positive ? c.kappa_error
                                                                                                : HUGE_VAL;
-  c = candidate(f, piece, stands);
+  c = candidate(f, piece, stands_on(f, piece));
   return kappa_error(c.quadratic, c.error, c.root);
 }
 

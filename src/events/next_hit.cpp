@@ -139,7 +139,7 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
     if (larmor && w.kind == CurveKind::ellipse) {
       if (!cells) look_from(f);
       Candidate c;
-      const Sign leaves = quartic_candidate(f, piece, stands, options_.filter_inflation, c);
+      const Sign leaves = quartic_candidate(f, piece, options_.filter_inflation, c);
       if (leaves == Sign::undecided) return false;
       if (leaves != Sign::positive) continue;
       kappa = c.root.kappa;
@@ -214,7 +214,7 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
   // Bounds are allowed to change where a quartic's root is looked for, not the number that is found.
   if (larmor && best >= 0 && options_.filter_inflation != 1.0 && is_quartic(f, best)) {
     Candidate c;
-    if (quartic_candidate(f, best, best == start, 1.0, c) != Sign::positive) return false;
+    if (quartic_candidate(f, best, 1.0, c) != Sign::positive) return false;
     best_kappa = c.root.kappa;
   }
   ahead.piece = best;
@@ -254,7 +254,7 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
     ahead.kappa = dot(d, f.velocity) / dot(d, d);
   } else if (is_quartic(f, ahead.piece)) {
     Candidate c;
-    const bool same = quartic_candidate(f, ahead.piece, stands_on(f, ahead.piece), 1.0, c) == Sign::positive;
+    const bool same = quartic_candidate(f, ahead.piece, 1.0, c) == Sign::positive;
     ahead.kappa = same ? c.root.kappa : first.kappa;
   } else {
     const Candidate c = candidate(f, ahead.piece, stands_on(f, ahead.piece));

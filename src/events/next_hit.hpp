@@ -114,6 +114,8 @@ class HitFinder {
   const geometry::PreparedCurve& curve(int wall) const { return curves_[static_cast<std::size_t>(wall)]; }
   const Table& table() const { return table_; }
   const geometry::ExactBoundary& exact() const { return *exact_; }
+  /// The first of the walls that are arcs of one ellipse with this one, or -1: the wall is no such arc.
+  int ellipse_of(int wall) const { return data_[static_cast<std::size_t>(wall)].ellipse; }
   int wall_of(int piece) const { return data_[static_cast<std::size_t>(piece)].wall; }
   /// Unit normal at the end of a wall.
   geometry::Vector normal_at_end(int wall) const { return end_normals_[static_cast<std::size_t>(wall)]; }
@@ -128,6 +130,7 @@ class HitFinder {
     bool edge = false;
     bool closed = false;
     geometry::CurveKind kind = geometry::CurveKind::segment;
+    int ellipse = -1;    ///< arcs of one: the first of its walls
   };
   /// The start of a flight seen from its cell, displaced by one offset.
   struct Origin {
@@ -148,6 +151,7 @@ class HitFinder {
     geometry::Cell offset;
     std::vector<int> loops;
   };
+  void find_ellipses();
   void add_walls(geometry::Cell offset, bool complement, const std::vector<int>& loops);
   std::vector<Images> images() const;
   int edge_crossed_at_start(const Flight& flight) const;
@@ -166,8 +170,7 @@ class HitFinder {
   void look_at_cells(const Flight& flight) const;
   Candidate candidate(const Flight& flight, int piece, bool stands_on_it) const;
   /// Larmor circle against an ellipse: its first exit through the piece, if any.
-  Sign quartic_candidate(const Flight& flight, int piece, bool stands_on_it, double inflation,
-                         Candidate& c) const;
+  Sign quartic_candidate(const Flight& flight, int piece, double inflation, Candidate& c) const;
   Sign on_part(const Flight& flight, int piece, const Candidate& c, double inflation) const;
   bool is_quartic(const Flight& flight, int piece) const {
     return flight.omega != 0.0 &&
@@ -176,6 +179,16 @@ class HitFinder {
   }
   bool stands_on(const Flight& flight, int piece) const {
     return piece == flight.start_piece || piece == flight.start_previous;
+  }
+  /// On the ellipse that the piece is an arc of?
+  bool stands_on_ellipse(const Flight& flight, int piece) const {
+    const PieceData& p = data_[static_cast<std::size_t>(piece)];
+    const auto begins_on = [&](int start) {
+      if (start < 0) return false;
+      const PieceData& s = data_[static_cast<std::size_t>(start)];
+      return start == piece || (p.ellipse >= 0 && s.ellipse == p.ellipse && s.offset == p.offset);
+    };
+    return begins_on(flight.start_piece) || begins_on(flight.start_previous);
   }
   template <bool larmor, bool cells>
   bool filtered(const Flight& flight, Ahead& ahead) const {

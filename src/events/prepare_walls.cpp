@@ -1,6 +1,9 @@
 // Makes a table ready for flights: pieces, images of walls that reach into the cell, cell edges.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/geometry/hull.hpp"
@@ -54,6 +57,7 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
   const Vector none{0.0, 0.0};
   exact_ = std::make_unique<ExactBoundary>(pieces_, table.lattice ? table.lattice->first : none,
                                            table.lattice ? table.lattice->second : none);
+  find_ellipses();
   for (const PreparedCurve& c : curves_)
     reach_ = std::max(reach_, 1.01 * (std::fabs(c.from.x) + std::fabs(c.from.y)));
   for (PieceData& p : data_) p.shape = &curves_[at(p.curve)];  // curves_ is complete
@@ -64,6 +68,21 @@ HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bo
 }
 
 HitFinder::~HitFinder() = default;
+
+/// Which elliptic arcs are of one ellipse: who stands on one stands on the ellipse of all.
+void HitFinder::find_ellipses() {
+  std::map<std::array<double, 7>, std::vector<int>> alike;  // by numbers, rounded: the first arc of each ellipse
+  for (int i = 0; i < static_cast<int>(table_.walls.size()); ++i) {
+    const PreparedCurve& w = curves_[at(i)];
+    if (w.kind != CurveKind::ellipse || w.closed) continue;
+    std::vector<int>& others = alike[{w.orientation, w.centre.x, w.centre.y, w.first_axis.x, w.first_axis.y, w.second_axis.x, w.second_axis.y}];
+    const auto same = std::find_if(others.begin(), others.end(), [&](int other) { return exact_->same_ellipse(other, i); });
+    data_[at(i)].ellipse = same == others.end() ? i : *same;
+    if (same == others.end()) others.push_back(i);
+  }
+  for (PieceData& p : data_)
+    if (p.wall >= 0) p.ellipse = data_[at(p.wall)].ellipse;
+}
 
 /// Pieces of the walls displaced by an offset; all of them in their own cell, where piece and wall have one
 /// number, else the loops that `loops` names.

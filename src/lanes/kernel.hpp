@@ -67,6 +67,12 @@ INLINE Real number_of(const double* numbers, const Real& piece) {
   return look_up<Kind::reach>(numbers, piece);
 }
 
+/// Of what is it asked whether a flight stands on it? Larmor circles among ellipses ask it of the curve.
+template <class Kind>
+INLINE const double* wall_numbers(const LaneTable& t) {
+  return Kind::turn != 0 && Kind::ellipses ? t.ellipses.curve : t.wall;
+}
+
 /// Where a line meets a conic: at (-along ± root of `discriminant`) / square.
 struct Cut {
   Real along, square, discriminant, inverse;  // 1/square, nearly

@@ -7,6 +7,7 @@ template <int most>
 struct LaneEllipses {
   bool any = false;
   bool of[most] = {};  ///< is the piece one, or an arc of one?
+  double curve[most] = {};  ///< the wall, or the first one that is an arc of exactly the same ellipse
   // As in geometry::PreparedCurve: a unit vector along one axis, the weights of both; rows of the map to the unit circle.
   double axis_x[most] = {}, axis_y[most] = {}, along[most] = {}, across[most] = {};
   double first_x[most] = {}, first_y[most] = {}, second_x[most] = {}, second_y[most] = {};

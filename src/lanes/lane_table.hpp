@@ -25,7 +25,7 @@ struct LaneTable {
   double start_margin = 0.0;   ///< from the start of a closed circle's parameter
   bool small_circles = false;  ///< whose hits may be far from them, in radii (geometry::longest_step)
   bool open = false;      ///< beyond all walls lies the open plane
-  bool divided = false;   ///< some wall is of several pieces
+  bool divided = false;   ///< some wall, or ellipse of arcs, is of several pieces
   bool bent[most] = {};   ///< a circle, an ellipse or an arc of one
   bool closed[most] = {};
 

@@ -189,6 +189,7 @@ INLINE geometry::Quadratic<Real> quadratic_of_circle(const View& f, const Vector
 template <int turn, class Kind>
 INLINE Choice first_of_all_by_circle(const View& f) {
   const LaneTable& t = f.table;
+  const double* const wall = wall_numbers<Kind>(t);
   const CircleView z = circle_of<turn>(f);
   EarliestOnCircle<Kind::cells> best(f);
   Real least(__builtin_huge_val());
@@ -200,12 +201,12 @@ INLINE Choice first_of_all_by_circle(const View& f) {
     if (!closed) a = start = joint_at(f, z, first, least);
     for (int i = first; i <= last; ++i) {
       const Real piece(counted[i]);
-      const Mask stands = f.start_wall == Real(t.wall[i]), own = f.start_piece == piece;
+      const Mask stands = f.start_wall == Real(wall[i]), own = f.start_piece == piece;
       if constexpr (Kind::ellipses) {
         if (t.ellipses.of[i]) {
-          if (i == first || t.wall[i] != t.wall[i - 1]) exit.begin(best, f, i, stands);
+          if (i == first || wall[i] != wall[i - 1]) exit.begin(best, f, i, stands);
           exit.add(best, f, i);
-          if (i == last || t.wall[i] != t.wall[i + 1]) exit.end(best);
+          if (i == last || wall[i] != wall[i + 1]) exit.end(best);
           if (!closed && i != last) a = joint_at(f, z, i + 1, least);
           continue;
         }

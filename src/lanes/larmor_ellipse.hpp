@@ -113,7 +113,7 @@ INLINE EllipseInField ellipse_in_field(const LaneTable& t, int i) {
           {Real(all.second_x[i]), Real(all.second_y[i])}, Real(t.orientation[i]), Real(all.stretch[i])};
 }
 
-/// The exit through the pieces of an elliptic wall, one piece after the other.
+/// The exit through pieces that are of one ellipse, one piece after the other.
 class ExitThroughEllipse {
  public:
   template <class Earliest>

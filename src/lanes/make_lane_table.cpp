@@ -285,7 +285,12 @@ LaneTable make_lane_table(const HitFinder& finder, double reach) {
       done[at(wall)] = true;
       const std::vector<Part> parts = parts_of(table, wall);
       t.divided |= parts.size() > 1 || parts[0].hole >= 0;
-      for (const Part& part : parts) add_piece(t, finder.curve(wall), wall, part, parts.size() == 1);
+      const int ellipse = finder.ellipse_of(wall), curve = ellipse < 0 ? wall : ellipse;
+      t.divided |= curve != wall;
+      for (const Part& part : parts) {
+        t.ellipses.curve[t.pieces] = curve;
+        add_piece(t, finder.curve(wall), wall, part, parts.size() == 1);
+      }
     }
     t.count[loop] = t.pieces - t.first[loop];
     const int first = t.first[loop];

@@ -29,7 +29,7 @@ INLINE View view_of(const LaneTable& t, const LanePack& pack, int lane) {
     f.joint_margin = load(pack.joint_margin + lane);
   }
   f.start_wall = f.start_piece;
-  if (t.divided) where(f.start_piece >= 0.0, f.start_wall) = look_up<Kind::reach>(t.wall, max(f.start_piece, Real(0.0)));
+  if (t.divided) where(f.start_piece >= 0.0, f.start_wall) = look_up<Kind::reach>(wall_numbers<Kind>(t), max(f.start_piece, Real(0.0)));
   return f;
 }
 

@@ -73,6 +73,14 @@ TEST(EventBounds, SideOfTheChord) {
   });
 }
 
+TEST(EventBounds, StartBeyondTheChord) {
+  sweep("side of the chord at the start (kappa_beyond_chord)", random_elliptic_arc, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
+    const QuadCurve& q = scene.exact;
+    const Bounded side = start_beyond_chord(scene.rounded, s.start, s.scale);
+    r.add("start beyond the chord", Quad(scene.rounded.orientation) * cross(q.to - q.from, s.exact_start - q.from), side.value, side.bound);
+  });
+}
+
 TEST(EventBounds, FootBeyondTheChord) {
   sweep("foot of an arc's centre (foot_off_arc)", random_arc,
         [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {

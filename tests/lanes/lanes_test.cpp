@@ -248,6 +248,28 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Lanes,
                                          Shape::annulus, Shape::ellipse, Shape::elliptic_arcs),
                          name_of_shape);
 
+// Arcs of exactly one ellipse are one curve to them; other arcs of nearly one are for the scalar engine.
+TEST(LaneRuns, FlyAmongArcsOfOneEllipse) {
+  for (const bool exactly : {true, false}) {
+    Dice dice(exactly ? 23 : 24);
+    Totals totals;
+    for (long k = 0; k < tests::cases(exactly ? 60 : 30, 6000) && !HasFailure(); ++k) {
+      const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), thinnest = exactly || dice.coin() ? 0.1 : 1e-3;
+      Table table = tests::cut_ellipse(size, dice.coin(), exactly, thinnest, dice).cut;
+      if (dice.coin()) add_holes(table, dice);
+      const World world(table);
+      Case all;
+      const double omega = k % 8 == 0 ? 0.0 : dice.sign() * dice.spread(0.02, 5.0) / size;
+      for (int i = 0; i < 50; ++i) all.starts.push_back(random_start(table, world, dice, size, 1.0, omega));
+      compare(table, all, totals, std::to_string(k).c_str());
+    }
+    EXPECT_GT(totals.hits, 50'000u);
+    EXPECT_EQ(totals.fates[Fate::lost], 0);
+    if (!exactly) break;
+    EXPECT_LT(static_cast<double>(totals.scalar), 0.03 * static_cast<double>(totals.hits));
+  }
+}
+
 TEST(LaneRuns, LeaveTheOpenPlane) {
   Dice dice(5);
   const Table table = tests::discs({{-1.3, 0}, {1.3, 0}, {0, 2.2}});

@@ -48,6 +48,9 @@ class ExactBoundary {
   };
   Corner corner(int previous, int next) const;
 
+  /// Are both pieces, wherever they are displaced to, of one ellipse, given by the same axis and ratio?
+  bool same_ellipse(int first, int second) const;
+
   struct Data;
   const Data& data() const { return *data_; }
 

@@ -1,6 +1,8 @@
 // Real roots of a quartic or cubic with inexact coefficients: a Larmor circle against an ellipse.
 #pragma once
 
+#include <cmath>
+
 #include "carom/geometry/filter.hpp"
 
 namespace carom::geometry {
@@ -27,8 +29,10 @@ struct QuarticError {
 /// whole real line. It is cut into [K, inf), [0, K], [-K, 0], (-inf, -K] with the given scale K > 0 and
 /// isolated by Descartes' rule in Bernstein form, with every coefficient's error carried along, so that
 /// no root is missed and none invented: docs/physics/exactness.md. At most `most` roots are returned.
+/// `farthest`: where the leading coefficient's error hides its sign, roots beyond this |kappa| are not asked for; some of
+/// them may be missing then, or be among those returned.
 RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale,
-                         int most = 4);
+                         int most = 4, double farthest = HUGE_VAL);
 
 /// The root that the first exit most likely is (first_root.hpp). Of the roots found, the one about it is given this
 /// number, whoever asks, and however it was isolated: lanes have it from the same operations.
