@@ -55,13 +55,17 @@ class CrossingSearch {
   explicit CrossingSearch(Path& path) : path_(path) {}
 
   /// Knot of the first crossing of `barrier` by particle `i` between two knots, or nullptr. There the
-  /// particle is on the barrier to rounding. A barrier that is no wall may be left without being crossed.
-  Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to, bool wall = true) {
-    splits_ = 0;
-    slides_ = false;
-    wall_ = wall;
-    if (wall && hits_at_once(barrier, i, from)) return &from;
+  /// particle is on the barrier to rounding.
+  Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to) {
+    begin(true, nullptr);
+    if (hits_at_once(barrier, i, from)) return &from;
     return &from == &to ? nullptr : search(barrier, i, from, to, 0);
+  }
+  /// Likewise of a barrier that is no wall: who starts beyond it has left it. If the particle is on it at `from` and goes
+  /// on (`passes`), it has, too: it crosses again once it was inside by more than rounding.
+  Knot* first_exit(const Barrier<Real>& edge, std::size_t i, Knot& from, Knot& to, bool passes) {
+    begin(false, passes ? &from : nullptr);
+    return &from == &to ? nullptr : search(edge, i, from, to, 0);
   }
   /// Is what was found last motion along the wall?
   bool slides() const { return slides_; }
@@ -75,9 +79,22 @@ class CrossingSearch {
   // Half a step, halved this often, is less than rounding of its ends.
   static constexpr int deepest = std::numeric_limits<Real>::digits + 10;
 
+  void begin(bool wall, const Knot* passed) {
+    splits_ = 0;
+    slides_ = false;
+    wall_ = wall;
+    passed_ = passed;
+  }
+
   Real gap(const Barrier<Real>& b, std::size_t i, const Knot& k) const { return b.gap(k.phase.position[i]); }
   Real rate(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
     return b.rate(k.phase.position[i], k.phase.velocity[i]);
+  }
+
+  // Can the path leave the barrier from here?
+  bool inside(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    if (!passed_) return gap(b, i, k) > Real(0);
+    return &k != passed_ && gap(b, i, k) > b.on_wall() * b.rounding(k.phase.position[i]);
   }
 
   bool hits_at_once(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
@@ -109,7 +126,7 @@ class CrossingSearch {
       case Shape::concave: {
         const bool rises = rate(b, i, from) > Real(0), falls = rate(b, i, to) < Real(0);
         if (!falls) return nullptr;
-        if (!rises || gap(b, i, from) > Real(0)) return root(b, i, from, to);
+        if (!rises || inside(b, i, from)) return root(b, i, from, to);
         Knot& highest = extremum(b, i, from, to);
         return root(b, i, highest, to);
       }
@@ -187,7 +204,7 @@ class CrossingSearch {
   // of the gap. Newton's steps, kept between the best knots on either side.
   Knot* root(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
     if (gap(b, i, to) > Real(0)) return nullptr;
-    if (!(gap(b, i, from) > Real(0))) return from_the_wall(b, i, from, to);
+    if (!inside(b, i, from)) return from_the_wall(b, i, from, to);
     Knot *inside = &from, *outside = &to, *newest = &to;
     for (int n = 0; n < 2 * deepest; ++n) {
       const Real g = gap(b, i, *newest);
@@ -247,8 +264,7 @@ class CrossingSearch {
       const Real r = rate(b, i, middle);
       if (r == Real(0)) return middle;
       // A minimum already beyond the barrier, or a maximum before it, says all that is asked.
-      const Real g = gap(b, i, middle);
-      if (convex ? !(g > Real(0)) : g > Real(0)) return middle;
+      if (convex ? !(gap(b, i, middle) > Real(0)) : inside(b, i, middle)) return middle;
       if ((r < Real(0)) == convex) {
         low = &middle;
         at_low = r;
@@ -267,6 +283,7 @@ class CrossingSearch {
   bool gave_up_ = false;
   bool wall_ = true;      ///< the barrier under way is one
   bool slides_ = false;
+  const Knot* passed_ = nullptr;  ///< where the particle has just crossed the barrier and went on
 };
 
 }  // namespace carom

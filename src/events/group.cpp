@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "carom/integrators/make_stepper.hpp"
+#include "events/surroundings.hpp"
 
 namespace carom {
 
@@ -60,6 +61,7 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   if (!std::equal(particles.begin(), particles.end(), particles_.begin(), particles_.end(), alike)) stepper_.reset();
   bodies_ = std::move(bodies);
   particles_ = std::move(particles);
+  passed_ = nullptr;
   cells_.assign(bodies_.size(), Cell{});
   phase_.position.resize(bodies_.size());
   phase_.velocity.resize(bodies_.size());
@@ -115,7 +117,8 @@ const Group::Next& Group::predict(const Time& limit) {
       if (stays_off(barrier, hull)) continue;
       near_wall_ = true;
       const bool edge = !in_.supports.empty() && barrier.wall >= in_.supports.front().wall;
-      StepPath<double>::Knot* found = search.first(barrier, i, path_->start(), *last, !edge);
+      StepPath<double>::Knot* found =
+          edge ? first_exit(search, barrier, *last) : search.first(barrier, i, path_->start(), *last);
       if (!found) continue;
       last = found;
       next_.member = static_cast<int>(i);
@@ -124,12 +127,24 @@ const Group::Next& Group::predict(const Time& limit) {
       next_.slides = search.slides();
     }
   }
+  passed_ = nullptr;
   if (search.gave_up())
     next_.fault =
         "the path of this step is too rough to find walls on it; the step is too long, or a potential has a pole";
   else if (next_.member >= 0)
     next_.fault = fault_at(last->phase);
   return next_;
+}
+
+/// Where the lone member flies on freely from the edge. Nothing happens at an edge while others or another support hold
+/// it: a step that were cut there would be cut on the way out and not on the way back.
+StepPath<double>::Knot* Group::first_exit(CrossingSearch<double>& search, const Barrier<double>& edge,
+                                          StepPath<double>::Knot& to) {
+  if (bodies_.size() > 1) return nullptr;
+  StepPath<double>::Knot* found = search.first_exit(edge, 0, path_->start(), to, &edge == passed_);
+  while (found && supported(found->phase.position.front(), &edge))
+    found = search.first_exit(edge, 0, *found, to, true);
+  return found;
 }
 
 /// Exact decisions are for numbers, and their squares must not overflow.
@@ -185,10 +200,7 @@ void Group::fold(std::size_t member) {
 }
 
 bool Group::supported(Vector x, const Barrier<double>* except) const {
-  return std::any_of(in_.supports.begin(), in_.supports.end(), [&](const Barrier<double>& b) {
-    const bool same = except && b.wall == except->wall && b.cell == except->cell;
-    return !same && b.gap(x) > 0.0;
-  });
+  return in_some_support(in_.supports, x, except);
 }
 
 }  // namespace carom

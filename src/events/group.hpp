@@ -77,8 +77,10 @@ class Group final : public ForceLaw<double> {
   void fold(std::size_t member);
   /// Did the last step come near a wall?
   bool near_wall() const { return near_wall_; }
-  /// Is the point inside a support other than `except`?
+  /// Does a support other than `except` hold the point?
   bool supported(geometry::Vector x, const Barrier<double>* except) const;
+  /// The lone member has come to that edge and does not leave there: until it was inside again, it has crossed it.
+  void pass(const Barrier<double>& edge) { passed_ = &edge; }
 
  private:
   void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
@@ -89,6 +91,8 @@ class Group final : public ForceLaw<double> {
   void end_drift();
   geometry::Vector outstanding_kick(const Phase<double>& phase, std::size_t member, const Time& time) const;
   void kick(Phase<double>& phase, std::size_t first, std::size_t end);
+  StepPath<double>::Knot* first_exit(CrossingSearch<double>& search, const Barrier<double>& edge,
+                                     StepPath<double>::Knot& to);
   std::string_view fault_at(const Phase<double>& phase) const;
 
   const Surroundings& in_;
@@ -100,6 +104,7 @@ class Group final : public ForceLaw<double> {
   Time time_;
   Next next_;
   bool near_wall_ = false;
+  const Barrier<double>* passed_ = nullptr;  ///< an edge that the next step starts on
   bool whole_step_ = false;  ///< the path under way ends at path_end_
   Time path_end_;            ///< of the step; of the drift with walls = "split"
   /// walls = "split": kicks at once, drifts that see the walls and nothing else.

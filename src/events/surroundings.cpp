@@ -104,6 +104,13 @@ std::vector<Barrier<double>> barriers_of(const Table& table) {
   return barriers_of(curves, table);
 }
 
+bool in_some_support(std::span<const Barrier<double>> supports, Vector x, const Barrier<double>* except) {
+  return std::any_of(supports.begin(), supports.end(), [&](const Barrier<double>& b) {
+    const bool same = except && b.wall == except->wall && b.cell == except->cell;
+    return !same && b.gap(x) > -b.slack;
+  });
+}
+
 double longest_way(const Table& table) {
   double length = std::numeric_limits<double>::infinity();
   if (table.lattice) {

@@ -17,6 +17,10 @@ std::vector<Barrier<double>> barriers_of(std::span<const geometry::Curve>, const
 /// Those of the table's walls.
 std::vector<Barrier<double>> barriers_of(const Table&);
 
+/// Is the point inside one of the supports, or on its edge to rounding, where a flight would not know its side?
+/// `except` is not asked.
+bool in_some_support(std::span<const Barrier<double>> supports, geometry::Vector, const Barrier<double>* except);
+
 /// How far a step may lead where there are walls: through a bounded table a thousand times, as it would
 /// hit them about as often; on a lattice to the next cell.
 double longest_way(const Table&);

@@ -70,9 +70,7 @@ void World::Implementation::add_barriers() {
 }
 
 bool World::Implementation::integrated_at(Vector x) const {
-  if (acts_everywhere(dynamics)) return true;
-  return std::any_of(surroundings.supports.begin(), surroundings.supports.end(),
-                     [&](const Barrier<double>& b) { return b.gap(x) > 0.0; });
+  return acts_everywhere(dynamics) || in_some_support(surroundings.supports, x, nullptr);
 }
 
 void World::Implementation::form_group(std::vector<int> members) {
@@ -186,6 +184,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     const std::size_t member = at(next.member);
     if (is_support(next.barrier->wall)) {
       if (leave_support(group, *next.barrier, observer)) return;
+      group.pass(*next.barrier);
     } else {
       hit_in_group(group, member, *next.barrier, observer);
       if (group.bodies().empty()) return;
@@ -202,7 +201,10 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     }
     if (group.bodies().empty()) return;
   }
-  if (by_range && next.member < 0 && group.between_steps() && regroup(group, observer)) return;
+  if (next.member < 0 && group.between_steps()) {
+    if (by_range && regroup(group, observer)) return;
+    if (leave_between_supports(group, observer)) return;
+  }
   predict_group(group.bodies().front());
 }
 
@@ -249,9 +251,7 @@ void World::Implementation::hit_in_group(Group& group, std::size_t member, const
 
 /// A particle comes to the edge of a support from inside. True if it flies freely from here on.
 bool World::Implementation::leave_support(Group& group, const Barrier<double>& barrier, Observer& observer) {
-  if (group.bodies().size() > 1) return false;  // the others hold it
   const Vector x = group.phase().position.front();
-  if (group.supported(x, &barrier)) return false;
   Body& b = bodies[at(group.bodies().front())];
   const geometry::PreparedCurve& curve = finder.curve(barrier.wall);
   Cell cell = group.cells().front();
@@ -259,6 +259,8 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
   cell.second += barrier.cell.second;
   const Vector own = table.lattice ? x - table.lattice->translation(barrier.cell) : x;
   const geometry::PreparedCurve::Frame frame = curve.settle(own);
+  const Vector settled = table.lattice ? frame.point + table.lattice->translation(barrier.cell) : frame.point;
+  if (group.supported(settled, &barrier)) return false;
   const double u = curve.parameter(frame.point);
   const Vector velocity = group.phase().velocity.front();
   if (finder.inward(barrier.wall, u, velocity, frame.normal, counts) != Sign::positive) return false;
@@ -273,6 +275,27 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
   fly(index);
   if (by_range) look_around(index, b.state.time, observer);
   return true;
+}
+
+/// A lone particle that ends a step outside of all supports has crossed an edge where it could not leave: along it to
+/// rounding, or where it meets another edge or a wall. True if it flies freely from here on.
+bool World::Implementation::leave_between_supports(Group& group, Observer& observer) {
+  if (group.bodies().size() > 1 || surroundings.supports.empty()) return false;
+  const int index = group.bodies().front();
+  const Vector x = bodies[at(index)].state.position;
+  if (integrated_at(x) || !contains(x)) return false;
+  take_out(group, 0);
+  set_free(index);
+  if (by_range) look_around(index, bodies[at(index)].state.time, observer);
+  return true;
+}
+
+/// From its state on, which is inside the table and under no force.
+void World::Implementation::set_free(int index) {
+  Body& b = bodies[at(index)];
+  b.particle.speed = std::sqrt(dot(b.state.velocity, b.state.velocity));
+  begin_free(b);
+  fly(index);
 }
 
 /// A free flight comes to the edge of a support.

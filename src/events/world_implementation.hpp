@@ -94,6 +94,8 @@ class World::Implementation {
   void apply_group(int leader, Observer& observer);
   void hit_in_group(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer);
   bool leave_support(Group& group, const Barrier<double>& barrier, Observer& observer);
+  bool leave_between_supports(Group& group, Observer& observer);
+  void set_free(int index);
   void enter_support(int index, const HitFinder::Landing& landing, Observer& observer);
   void take_out(Group& group, std::size_t member);
   void take_out_of_group(int index);

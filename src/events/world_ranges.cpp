@@ -161,9 +161,7 @@ bool World::Implementation::split(const std::vector<int>& members, Observer& obs
       form_group(together);
       continue;
     }
-    b.particle.speed = speed_of(b.state);
-    begin_free(b);
-    fly(together.front());
+    set_free(together.front());
     freed.push_back(together.front());
   }
   for (const int i : freed)

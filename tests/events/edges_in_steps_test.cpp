@@ -1,0 +1,160 @@
+// Edges of supports where they meet others.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/energy.hpp"
+#include "carom/events/world.hpp"
+#include "carom/io/system_file.hpp"
+#include "random_tables.hpp"
+#include "recorder.hpp"
+
+namespace carom::tests {
+namespace {
+
+Dynamics bumps(const PotentialSpec& bump, const char* scheme, double step) {
+  ForceSpec spec;
+  spec.potentials.push_back(bump);
+  Dynamics d;
+  d.forces = ForceField::build(spec, {Particle{}}, std::nullopt);
+  d.integrator.scheme = scheme;
+  d.integrator.step = step;
+  return d;
+}
+
+double energy(const State& s, const Dynamics& d, const Table& table) {
+  const Particle p;
+  return energy_of({&p, 1}, {&s, 1}, d, table).total();
+}
+
+// Does the run come to its end, within so many times 256 events?
+bool ends(World& world, double until, long most = 400) {
+  Observer nobody;
+  long asked = 0;
+  world.run_until(until, nobody, [&] { return ++asked > most; });
+  return asked <= most;
+}
+
+Table square() { return polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}); }
+
+PotentialSpec three_bumps() {
+  PotentialSpec bump;
+  bump.kind = PotentialSpec::Kind::fermi;
+  bump.height = 0.1;
+  bump.radius = 0.1;
+  bump.softness = 0.005;
+  bump.centers = {{0, 0}, {0.25, 0.1}, {0.1, 0.3}};
+  return bump;
+}
+
+// At t = 14.2467 this particle crosses the edge of one support within another, where the gap rounds to more than 0.
+TEST(EdgesInSteps, AnEdgeThatIsHeldEndsNoStep) {
+  const Table table = square();
+  const Dynamics dynamics = bumps(three_bumps(), "velocity-verlet", 0.0045240182404161907);
+  const State at = start({0.88510033188189552, 0.20096750684441766}, {-0.55691887986372834, -0.062057780626760657});
+  World world(table, dynamics);
+  world.add(particle(0.0, std::sqrt(dot(at.velocity, at.velocity))), at);
+  ASSERT_TRUE(ends(world, 20.0));
+  EXPECT_EQ(world.fate(0), Fate::survived);
+  EXPECT_NEAR(energy(world.state_at(0, 20.0), dynamics, table), energy(at, dynamics, table), 1e-4);
+}
+
+TEST(EdgesInSteps, CopiesOnALatticeHoldEachOther) {
+  SystemOverrides how;
+  how.set = {{"potential[0].softness", "0.0105"}, {"integrator.step", "0.02"}};
+  const System system = load_system("soft-lorentz", how).system;
+  ASSERT_FALSE(system.dynamics.forces->everywhere());
+  for (const std::uint64_t trajectory : {3u, 7u, 9u}) {
+    World world(*system.table, system.dynamics);
+    world.add(system.particles[0], Sampler(system).draw(world, trajectory, 0));
+    EXPECT_TRUE(ends(world, 2000.0, 2000)) << trajectory;
+  }
+}
+
+// Where two edges cross a particle may leave one support and enter the other at once. Orbits are aimed there by going
+// backwards: the other bump acts, so the energy is kept as where everything is integrated, and so is the orbit.
+TEST(EdgesInSteps, WhereTwoEdgesCrossNoBumpIsMissed) {
+  Dice dice(7);
+  Table plane;
+  plane.extent = Extent::open_plane;
+  for (long n = cases(1000, 50000); n > 0; --n) {
+    PotentialSpec bump;
+    bump.kind = PotentialSpec::Kind::gaussian;
+    bump.height = dice.spread(0.01, 0.2) * dice.sign();
+    bump.width = dice.spread(0.01, 0.05);
+    bump.centers = {{dice.between(-0.5, 0.5), dice.between(-0.5, 0.5)}};
+    const double radius = std::sqrt(2.0 * 36.85) * bump.width;
+    bump.centers.push_back(bump.centers[0] + radius * dice.between(0.3, 1.9) * dice.direction());
+    const Dynamics dynamics = bumps(bump, "", 0.3 * bump.width);
+    Dynamics everywhere = dynamics;
+    everywhere.everywhere = true;
+    const std::vector<Support> supports = dynamics.forces->supports();
+    ASSERT_EQ(supports.size(), 2u);
+    const Vector between = supports[1].center - supports[0].center;
+    const double square = dot(between, between);
+    const double across = std::sqrt(supports[0].radius * supports[0].radius / square - 0.25);
+    const Vector crossing = supports[0].center + 0.5 * between + (across * dice.sign()) * left(between);
+    const double time = dice.spread(0.003, 0.5);
+    World back(plane, everywhere), world(plane, dynamics), stepped(plane, everywhere);
+    back.add(particle(), start(crossing, dice.direction()));
+    Observer nobody;
+    back.run_until(time, nobody);
+    const State there = back.state_at(0, time);
+    const State at = start(there.position, -there.velocity);
+    State end[2];
+    for (World* w : {&world, &stepped}) {
+      w->add(particle(0.0, std::sqrt(dot(at.velocity, at.velocity))), at);
+      ASSERT_TRUE(ends(*w, 1.5)) << n;
+      end[w == &stepped] = w->state_at(0, 1.5);
+    }
+    const Vector apart = end[0].position - end[1].position;
+    EXPECT_LT(std::sqrt(dot(apart, apart)), 1e-6) << n;
+    EXPECT_NEAR(energy(end[0], dynamics, plane), energy(end[1], dynamics, plane), 1e-8) << n;
+  }
+}
+
+// Random bumps, some of them over walls, with and without field: every run ends, nobody is lost, and the energy changes
+// as it does where everything is integrated.
+TEST(EdgesInSteps, OrbitsAmongOverlappingBumps) {
+  Dice dice(5);
+  const Table table = square();
+  long flown = 0;
+  for (long n = cases(40, 2000); n > 0; --n) {
+    PotentialSpec bump;
+    const bool fermi = dice.coin();
+    bump.kind = fermi ? PotentialSpec::Kind::fermi : PotentialSpec::Kind::gaussian;
+    bump.height = dice.spread(0.01, 0.2) * dice.sign();
+    bump.radius = dice.between(0.02, 0.15);
+    bump.softness = dice.spread(0.002, 0.01);
+    bump.width = dice.spread(0.01, 0.05);
+    for (int k = dice.whole(2, 5); k > 0; --k) bump.centers.push_back({dice.between(-0.9, 0.9), dice.between(-0.9, 0.9)});
+    const double length = fermi ? bump.softness : bump.width;
+    const Dynamics dynamics = bumps(bump, "", length * dice.between(0.2, 0.5));
+    Dynamics everywhere = dynamics;
+    everywhere.everywhere = true;
+    World world(table, dynamics), stepped(table, everywhere);
+    const double omega = dice.coin() ? 0.0 : dice.between(-2.0, 2.0);
+    for (int k = 0; k < 5; ++k) {
+      const State at = start({dice.between(-1, 1), dice.between(-1, 1)}, dice.spread(0.5, 1.5) * dice.direction());
+      double change[2];
+      for (World* w : {&world, &stepped}) {
+        w->clear();
+        w->add(particle(omega, std::sqrt(dot(at.velocity, at.velocity))), at);
+        ASSERT_TRUE(ends(*w, 20.0)) << n;
+        EXPECT_TRUE(w->fate(0) == Fate::survived || w->fate(0) == Fate::pinned) << w->report(0);
+        change[w == &stepped] =
+            std::fabs(energy(w->state_at(0, 20.0), dynamics, table) - energy(at, dynamics, table));
+      }
+      EXPECT_LT(change[0], 1e-6 + 30.0 * change[1]);
+      ++flown;
+    }
+  }
+  EXPECT_GT(flown, 100);
+}
+
+}  // namespace
+}  // namespace carom::tests
