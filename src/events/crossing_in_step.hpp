@@ -97,6 +97,11 @@ class CrossingSearch {
     return &k != passed_ && gap(b, i, k) > b.on_wall() * b.rounding(k.phase.position[i]);
   }
 
+  /// Is it certainly on the outer side?
+  bool beyond(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    return gap(b, i, k) < -b.off_wall(k.phase.position[i]);
+  }
+
   bool hits_at_once(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
     const auto &x = k.phase.position[i], &v = k.phase.velocity[i];
     return b.rate(x, v) < -b.rate_rounding(x, v) && b.stands_on(x);
@@ -113,24 +118,30 @@ class CrossingSearch {
       shape = shape_of(g, arc.error, noise(b, i, from));
     }
     switch (shape) {
-      case Shape::none: return nullptr;
+      case Shape::none: break;
       case Shape::falling:
       case Shape::level: return root(b, i, from, to);
       case Shape::convex: {
         const bool falls = rate(b, i, from) < Real(0), rises = rate(b, i, to) > Real(0);
-        if (!falls) return nullptr;
+        if (!falls) break;
         if (!rises) return root(b, i, from, to);
         Knot& lowest = extremum(b, i, from, to);
-        return root(b, i, from, lowest);
+        return gap(b, i, lowest) > Real(0) ? root(b, i, lowest, to) : root(b, i, from, lowest);
       }
       case Shape::concave: {
         const bool rises = rate(b, i, from) > Real(0), falls = rate(b, i, to) < Real(0);
-        if (!falls) return nullptr;
+        if (!falls) break;
         if (!rises || inside(b, i, from)) return root(b, i, from, to);
         Knot& highest = extremum(b, i, from, to);
         return root(b, i, highest, to);
       }
       case Shape::unknown: break;
+    }
+    // A scheme's velocity is not quite the derivative of its positions. Where these lead from the inner side to
+    // certainly beyond, there is a crossing, however the velocities at the ends point.
+    if (shape != Shape::unknown) {
+      if (!wall_ || beyond(b, i, from) || !beyond(b, i, to)) return nullptr;
+      if (gap(b, i, from) > Real(0)) return root(b, i, from, to);
     }
     const Real middle = from.time + (to.time - from.time) / Real(2);
     if (depth == deepest || !(from.time < middle) || !(middle < to.time)) return root(b, i, from, to);
@@ -193,8 +204,7 @@ class CrossingSearch {
   // The gap falls from a point at or beyond the barrier. Where walls meet smoothly that may be the highest point of a path along
   // both, just before this one begins.
   Knot* from_the_wall(const Barrier<Real>& b, std::size_t i, Knot& from, const Knot& to) {
-    const auto beyond = [&](const Knot& k) { return gap(b, i, k) < -b.off_wall(k.phase.position[i]); };
-    if (!wall_ || !beyond(to) || beyond(from)) return nullptr;
+    if (!wall_ || !beyond(b, i, to) || beyond(b, i, from)) return nullptr;
     if (!b.covers(from.phase.position[i])) return at_either_end(b, i, from, from, to);
     slides_ = !hits_at_once(b, i, from);
     return &from;
