@@ -13,6 +13,7 @@
 // more than its rounding are told by their ends.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -59,23 +60,24 @@ class CrossingSearch {
   Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to) {
     begin(true, nullptr);
     if (hits_at_once(barrier, i, from)) return &from;
-    return &from == &to ? nullptr : search(barrier, i, from, to, 0);
+    return crossing(barrier, i, from, to);
   }
   /// Likewise of a barrier that is no wall: who starts beyond it has left it. If the particle is on it at `from` and goes
   /// on (`passes`), it has, too: it crosses again once it was inside by more than rounding.
   Knot* first_exit(const Barrier<Real>& edge, std::size_t i, Knot& from, Knot& to, bool passes) {
     begin(false, passes ? &from : nullptr);
-    return &from == &to ? nullptr : search(edge, i, from, to, 0);
+    return crossing(edge, i, from, to);
   }
   /// Is what was found last motion along the wall?
   bool slides() const { return slides_; }
-  /// Was a search given up, as however short a part of the path looked too rough?
+  /// Was a search given up, as short parts of the path looked too rough?
   bool gave_up() const { return gave_up_; }
 
  private:
   // Smooth paths need a few, those that graze some tens. Near a pole of a potential every part would be
-  // halved down to rounding.
-  static constexpr int most_splits = 2000;
+  // halved down to rounding. All parts may be halved depth_for_all times.
+  static constexpr int depth_for_all = 10;
+  static constexpr int most_splits = 2 << depth_for_all;
   // Half a step, halved this often, is less than rounding of its ends.
   static constexpr int deepest = std::numeric_limits<Real>::digits + 10;
 
@@ -84,6 +86,18 @@ class CrossingSearch {
     slides_ = false;
     wall_ = wall;
     passed_ = passed;
+    last_depth_ = deepest;
+  }
+
+  Knot* crossing(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
+    if (&from == &to) return nullptr;
+    Knot* found = search(b, i, from, to, 0);
+    if (splits_ <= most_splits) return found;
+    // Velocities that are not quite the derivative of the positions leave paths nearly along a wall unclear however
+    // short their parts are. So only what they err by across it counts, and parts of a thousandth are told by the
+    // positions at their ends.
+    last_depth_ = depth_for_all;
+    return search(b, i, from, to, 0);
   }
 
   Real gap(const Barrier<Real>& b, std::size_t i, const Knot& k) const { return b.gap(k.phase.position[i]); }
@@ -115,7 +129,7 @@ class CrossingSearch {
     } else {
       Bernstein<Real, 6> g;
       for (std::size_t k = 0; k < 6; ++k) g.coefficient[k] = b.gap(arc.points[k]);
-      shape = shape_of(g, arc.error, noise(b, i, from));
+      shape = shape_of(g, only_across() ? arc.error_along(b.first) : arc.error, noise(b, i, from));
     }
     switch (shape) {
       case Shape::none: break;
@@ -144,11 +158,13 @@ class CrossingSearch {
       if (gap(b, i, from) > Real(0)) return root(b, i, from, to);
     }
     const Real middle = from.time + (to.time - from.time) / Real(2);
-    if (depth == deepest || !(from.time < middle) || !(middle < to.time)) return root(b, i, from, to);
-    if (++splits_ > most_splits) {
-      gave_up_ = true;
-      return nullptr;
+    const bool last = depth >= last_depth_;
+    if (last || !(from.time < middle) || !(middle < to.time)) {
+      Knot* found = root(b, i, from, to);
+      if (!found && only_across() && arc.is_rough()) gave_up_ = true;
+      return found;
     }
+    if (!only_across() && ++splits_ > most_splits) return nullptr;
     Knot& half = path_.at(middle);
     if (Knot* found = search(b, i, from, half, depth + 1)) return found;
     return search(b, i, half, to, depth + 1);
@@ -177,27 +193,33 @@ class CrossingSearch {
     return g.highest() - g.lowest() > noise ? Shape::unknown : Shape::level;
   }
 
-  static Shape conic_shape(const Barrier<Real>& b, const PathArc<Real>& arc, const Real& noise) {
+  Shape conic_shape(const Barrier<Real>& b, const PathArc<Real>& arc, const Real& noise) const {
     using Vector = geometry::BasicVector<Real>;
-    std::array<Vector, 6> y;
+    const auto seen = [&](const Vector& e) { return Vector{dot(b.first, e), dot(b.second, e)}; };
+    std::array<Vector, 6> y, d{};  // the quintic's points, and what they differ by from the cubic's
     Real size(0);
     for (std::size_t k = 0; k < 6; ++k) {
-      const Vector e = arc.points[k] - b.origin;
-      y[k] = {dot(b.first, e), dot(b.second, e)};
+      y[k] = seen(arc.points[k] - b.origin);
       const Real n = PathHull<Real>::norm(y[k]);
       size = size < n ? n : size;
     }
-    const Real stretch = PathHull<Real>::norm(b.first) + PathHull<Real>::norm(b.second);
-    const Real error = stretch * arc.error;  // of y
+    for (std::size_t k = 0; k < 2; ++k) d[2 + k] = seen(arc.difference[k]);
     static constexpr std::array<int, 6> five = {1, 5, 10, 10, 5, 1};
     static constexpr std::array<int, 11> ten = {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1};
-    Bernstein<Real, 11> g;
+    Bernstein<Real, 11> g, differs;
     for (std::size_t m = 0; m <= 10; ++m) {
-      Real sum(0);
-      for (std::size_t k = m > 5 ? m - 5 : 0; k <= 5 && k <= m; ++k)
-        sum = sum + Real(five[k] * five[m - k]) * dot(y[k], y[m - k]);
+      Real sum(0), change(0);
+      for (std::size_t k = m > 5 ? m - 5 : 0; k <= 5 && k <= m; ++k) {
+        const Real weight(five[k] * five[m - k]);
+        sum = sum + weight * dot(y[k], y[m - k]);
+        change = change + weight * dot(d[k], Real(2) * y[m - k] - d[m - k]);
+      }
       g.coefficient[m] = b.orientation * (Real(1) - sum / Real(ten[m])) / Real(2);
+      differs.coefficient[m] = change / Real(2 * ten[m]);
     }
+    if (only_across()) return shape_of(g, std::max(differs.highest(), -differs.lowest()), noise);
+    const Real stretch = PathHull<Real>::norm(b.first) + PathHull<Real>::norm(b.second);
+    const Real error = stretch * arc.error;  // of y
     return shape_of(g, size * error + error * error, noise);
   }
 
@@ -288,8 +310,12 @@ class CrossingSearch {
     return (gap(b, i, *low) > gap(b, i, *high)) == convex ? *high : *low;
   }
 
+  /// Is this the search after one that ran out of splits?
+  bool only_across() const { return last_depth_ < deepest; }
+
   Path& path_;
   int splits_ = 0;  ///< of the search under way
+  int last_depth_ = deepest;
   bool gave_up_ = false;
   bool wall_ = true;      ///< the barrier under way is one
   bool slides_ = false;

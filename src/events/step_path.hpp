@@ -110,31 +110,40 @@ struct PathHull : StepHull<Real> {
   static Real norm(const Vector& a) { return step_hull::norm(a); }
 };
 
-/// One particle's path between two knots as a Bezier curve of degree 5, with the largest distance
-/// (in the 1-norm) of its control points from those of the cubic.
+/// One particle's path between two knots as a Bezier curve of degree 5, and how far its control points are from
+/// those of the cubic without the accelerations, raised to that degree.
 template <class Real>
 struct PathArc {
   using Vector = geometry::BasicVector<Real>;
   std::array<Vector, 6> points;
-  Real error{};
-  Real duration{};
+  std::array<Vector, 2> difference;  ///< of points 2 and 3; the others agree
+  Real error{};                      ///< the larger of them, in the 1-norm
 
   PathArc(const StepPath<Real>& path, typename StepPath<Real>::Knot& a, typename StepPath<Real>::Knot& b,
-          std::size_t i)
-      : duration(b.time - a.time) {
-    const Real h = duration;
+          std::size_t i) {
+    const Real h = b.time - a.time;
     const Vector &x0 = a.phase.position[i], &x1 = b.phase.position[i];
     const Vector v0 = h * a.phase.velocity[i], v1 = h * b.phase.velocity[i];
     const Vector a0 = (h * h) * path.acceleration(a, i), a1 = (h * h) * path.acceleration(b, i);
     const Real fifth = Real(1) / Real(5), twentieth = Real(1) / Real(20);
     points = {x0, x0 + fifth * v0, x0 + (Real(2) * fifth) * v0 + twentieth * a0,
               x1 - (Real(2) * fifth) * v1 + twentieth * a1, x1 - fifth * v1, x1};
-    // Points 2 and 3 of the cubic raised to degree 5; the others agree.
     const Real tenth = Real(1) / Real(10), third = Real(1) / Real(3);
     const Vector c1 = x0 + third * v0, c2 = x1 - third * v1;
+    difference = {points[2] - tenth * (x0 + Real(6) * c1 + Real(3) * c2),
+                  points[3] - tenth * (x1 + Real(6) * c2 + Real(3) * c1)};
+    error = std::max(PathHull<Real>::norm(difference[0]), PathHull<Real>::norm(difference[1]));
+  }
+  /// The larger of them along a unit vector.
+  Real error_along(const Vector& unit) const {
+    const Real low = dot(unit, difference[0]), high = dot(unit, difference[1]);
+    return std::max(std::max(low, -low), std::max(high, -high));
+  }
+  /// Is the error more than the way, straight and as the velocities at its ends lead?
+  bool is_rough() const {
     const auto norm = &PathHull<Real>::norm;
-    error = std::max(norm(points[2] - tenth * (x0 + Real(6) * c1 + Real(3) * c2)),
-                     norm(points[3] - tenth * (x1 + Real(6) * c2 + Real(3) * c1)));
+    const Real led = norm(points[1] - points[0]) + norm(points[5] - points[4]);  // a fifth of it
+    return error > norm(points[5] - points[0]) + Real(5) * led;
   }
 };
 

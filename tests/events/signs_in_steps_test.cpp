@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "carom/events/world.hpp"
 #include "random_tables.hpp"
@@ -54,6 +55,26 @@ TEST(SignsInSteps, OfPositionsDecideWherePathsGraze) {
       const double speed = dice.spread(1e-3, 0.1), y = dice.between(-0.2, 0.4), force = 0.7 * (1.0 + 2.0 * y);
       const double way = speed * speed / (2.0 * force) * (1.0 + dice.sign() * dice.spread(1e-4, 0.3));
       hits_of(world, {-0.7 + way, y}, {-speed, dice.between(-0.4, 0.4)}, 3.0 * speed / force);
+    }
+  }
+}
+
+// Nearly along a wall, parts of a path stay unclear however short they are: then the positions at their ends decide.
+TEST(SignsInSteps, OfPositionsDecideNearlyAlongAWall) {
+  const Table table = tests::polygon({{-0.7, 0}, {0.6, 0}, {0.6, 0.8}, {-0.7, 0.8}});
+  {
+    World world(table, stepped("velocity-verlet", 0.01, PotentialSpec::Kind::harmonic));
+    EXPECT_EQ(hits_of(world, {-0.071081201562877894, 2.2832078435004426e-09},
+                      {0.50686264114538115, -3.2121610352691017e-09}, 3.0),
+              1u);
+  }
+  for (const auto& [scheme, step] : {std::pair{"velocity-verlet", 0.1}, {"forest-ruth-4", 0.1}}) {
+    for (const PotentialSpec::Kind kind : {PotentialSpec::Kind::harmonic, PotentialSpec::Kind::henon_heiles}) {
+      World world(table, stepped(scheme, step, kind));
+      Dice dice(5);
+      for (long k = 0; k < tests::cases(100, 2000); ++k)
+        hits_of(world, {dice.between(-0.7, 0.6), dice.spread(1e-9, 1e-2)},
+                {dice.sign() * dice.between(0.2, 1.0), -dice.spread(1e-9, 1e-2)}, 20.0);
     }
   }
 }
