@@ -61,6 +61,14 @@ bool on_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Vecto
   });
 }
 
+bool meets_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Vector from, Vector to) {
+  return std::any_of(barriers.begin(), barriers.end(), [&](const Barrier<double>& b) {
+    if (b.wall >= walls || !(b.covers(from) || b.covers(to))) return false;
+    const double first = b.gap(from), last = b.gap(to);
+    return !(std::min(first, last) > b.slack) && !(std::max(first, last) < -b.slack);
+  });
+}
+
 std::string describe(const Particle& p, const State& s, Fate fate) {
   char text[400];
   std::snprintf(text, sizeof text, "%s: wall %d, u %a, x %a, y %a, vx %a, vy %a, omega %a, t %.17g", name_of(fate),

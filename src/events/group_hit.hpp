@@ -26,6 +26,8 @@ GroupHit hit_of(const HitFinder& finder, const Table&, const Group&, std::size_t
 
 /// Is the point on one of the first `walls` walls, to rounding?
 bool on_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vector);
+/// Does the short way between two points touch one of them, to rounding?
+bool meets_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vector, geometry::Vector);
 inline constexpr std::string_view slipped_through =
     ": it has left the table within this step and no wall was found; the step is too long";
 

@@ -146,6 +146,10 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
     observer.hit(event);
     return end(index, Fate::capped, now, &observer);
   }
+  if (!surroundings.supports.empty() && integrated_at(b.state.position)) [[unlikely]] {
+    observer.hit(event);
+    return integrate(index, now, observer);  // an edge meets the wall there, and the flight would be beyond it
+  }
   predict(index, b);  // first, while its numbers are at hand
   observer.hit(event);
 }

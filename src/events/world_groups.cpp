@@ -193,11 +193,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     // Near a wall the search had to decide: nobody may have slipped through.
     for (std::size_t k = group.bodies().size(); k-- > 0;) {
       const Vector x = group.phase().position[k];
-      if (on_some_wall(surroundings.barriers, wall_count, x) || contains(x)) continue;
-      const int body = group.bodies()[k];
-      end(body, Fate::lost, group.time(), &observer);
-      bodies[at(body)].report += slipped_through;
-      take_out(group, k);
+      if (!on_some_wall(surroundings.barriers, wall_count, x) && !contains(x)) lose_outside(group, k, observer);
     }
     if (group.bodies().empty()) return;
   }
@@ -206,6 +202,13 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
     if (leave_between_supports(group, observer)) return;
   }
   predict_group(group.bodies().front());
+}
+
+void World::Implementation::lose_outside(Group& group, std::size_t member, Observer& observer) {
+  const int body = group.bodies()[member];
+  end(body, Fate::lost, group.time(), &observer);
+  bodies[at(body)].report += slipped_through;
+  take_out(group, member);
 }
 
 /// A particle of a group is at a wall: it leaves through a hole or is reflected.
@@ -249,7 +252,7 @@ void World::Implementation::hit_in_group(Group& group, std::size_t member, const
   }
 }
 
-/// A particle comes to the edge of a support from inside. True if it flies freely from here on.
+/// A particle comes to the edge of a support from inside. True if it is not in the group any more.
 bool World::Implementation::leave_support(Group& group, const Barrier<double>& barrier, Observer& observer) {
   const Vector x = group.phase().position.front();
   Body& b = bodies[at(group.bodies().front())];
@@ -260,10 +263,15 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
   const Vector own = table.lattice ? x - table.lattice->translation(barrier.cell) : x;
   const geometry::PreparedCurve::Frame frame = curve.settle(own);
   const Vector settled = table.lattice ? frame.point + table.lattice->translation(barrier.cell) : frame.point;
-  if (group.supported(settled, &barrier)) return false;
+  // Where a wall meets the edge it comes first: beyond it, or on it, there is no flight.
+  if (group.supported(settled, &barrier) || meets_some_wall(surroundings.barriers, wall_count, x, settled)) return false;
   const double u = curve.parameter(frame.point);
   const Vector velocity = group.phase().velocity.front();
   if (finder.inward(barrier.wall, u, velocity, frame.normal, counts) != Sign::positive) return false;
+  if (table.extent == Extent::bounded && !contains(settled)) {
+    lose_outside(group, 0, observer);
+    return true;
+  }
   const int index = group.bodies().front();
   b.state = {-1, 0.0, frame.point, velocity, cell, group.time()};
   b.particle.speed = std::sqrt(dot(velocity, velocity));
@@ -278,12 +286,17 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
 }
 
 /// A lone particle that ends a step outside of all supports has crossed an edge where it could not leave: along it to
-/// rounding, or where it meets another edge or a wall. True if it flies freely from here on.
+/// rounding, or where it meets another edge or a wall. True if it is not in the group any more.
 bool World::Implementation::leave_between_supports(Group& group, Observer& observer) {
   if (group.bodies().size() > 1 || surroundings.supports.empty()) return false;
   const int index = group.bodies().front();
   const Vector x = bodies[at(index)].state.position;
-  if (integrated_at(x) || !contains(x)) return false;
+  if (integrated_at(x) || on_some_wall(surroundings.barriers, wall_count, x)) return false;
+  if (!contains(x)) {
+    if (table.extent != Extent::bounded) return false;
+    lose_outside(group, 0, observer);
+    return true;
+  }
   take_out(group, 0);
   set_free(index);
   if (by_range) look_around(index, bodies[at(index)].state.time, observer);

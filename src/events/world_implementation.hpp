@@ -93,6 +93,7 @@ class World::Implementation {
   void predict_group(int leader);
   void apply_group(int leader, Observer& observer);
   void hit_in_group(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer);
+  void lose_outside(Group& group, std::size_t member, Observer& observer);
   bool leave_support(Group& group, const Barrier<double>& barrier, Observer& observer);
   bool leave_between_supports(Group& group, Observer& observer);
   void set_free(int index);

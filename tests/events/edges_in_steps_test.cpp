@@ -117,6 +117,69 @@ TEST(EdgesInSteps, WhereTwoEdgesCrossNoBumpIsMissed) {
   }
 }
 
+// Where an edge meets a wall, or a corner, the wall comes first. Orbits are aimed there to a few ulps, from inside the
+// support by going backwards and from outside along a line: all do what they do where everything is integrated, but at corners.
+TEST(EdgesInSteps, WhereAnEdgeMeetsAWallTheWallComesFirst) {
+  Dice dice(11);
+  long hits = 0;
+  for (long n = cases(3000, 100000); n > 0; --n) {
+    PotentialSpec bump;
+    bump.kind = PotentialSpec::Kind::gaussian;
+    bump.height = dice.spread(0.01, 0.2) * dice.sign();
+    bump.width = dice.spread(0.005, 0.03);
+    const double radius = std::sqrt(2.0 * 36.85) * bump.width;
+    const double tilt = dice.coin() ? 0.0 : dice.between(-0.3, 0.3), bend = dice.between(0.8, 10.0);
+    const int kind = dice.whole(0, 2);
+    const Vector left_end{-1, -tilt}, right_end{1, tilt}, corner{dice.between(-0.5, 0.5), dice.between(-0.2, 0.2)};
+    const Table table = kind == 0 ? polygon({left_end, right_end, {1, 1.5}, {-1, 1.5}})
+                        : kind == 1
+                            ? loop({CircularArc{left_end, right_end, bend, true}, Segment{right_end, {1, 1.5}},
+                                    Segment{{1, 1.5}, {-1, 1.5}}, Segment{{-1, 1.5}, left_end}})
+                            : polygon({left_end, corner, right_end, {1, 1.5}, {-1, 1.5}});
+    const geometry::Curve& wall = table.walls[0].curve;
+    const double u = geometry::end_parameter(wall) * (kind == 2 ? 1.0 : dice.between(0.3, 0.7));
+    const Vector meeting = geometry::point_at(wall, u), normal = geometry::normal_at(wall, u);
+    const Vector up = (1.0 / std::sqrt(dot(normal, normal))) * normal;
+    const double lean = dice.between(-1.2, 1.2);
+    const Vector to_centre = std::cos(lean) * up + std::sin(lean) * left(up);
+    bump.centers = {meeting + radius * to_centre};
+    const Dynamics dynamics = bumps(bump, "", 0.3 * bump.width);
+    Dynamics everywhere = dynamics;
+    everywhere.everywhere = true;
+    Table plane;
+    plane.extent = Extent::open_plane;
+    World back(plane, everywhere), world(table, dynamics), stepped(table, everywhere);
+    const double turn = dice.between(-1.4, 1.4);
+    back.add(particle(), start(meeting, std::cos(turn) * up + std::sin(turn) * left(up)));
+    Observer nobody;
+    const double time = dice.spread(0.003, 0.3);
+    back.run_until(time, nobody);
+    const State there = back.state_at(0, time);
+    State at = start(there.position, -there.velocity);
+    for (int k = dice.whole(0, 4); k > 0; --k) {
+      double& x = dice.coin() ? at.position.x : at.position.y;
+      x = std::nextafter(x, dice.coin() ? 9.0 : -9.0);
+    }
+    if (!world.contains(at.position)) continue;
+    Recorder seen[2];
+    for (World* w : {&world, &stepped}) {
+      w->add(particle(0.0, std::sqrt(dot(at.velocity, at.velocity))), at);
+      w->run_until(2.0 * time, seen[w == &stepped]);
+    }
+    ASSERT_NE(world.fate(0), Fate::lost) << n << world.report(0);
+    const bool goes_on = world.fate(0) == Fate::survived;
+    EXPECT_TRUE(!goes_on || world.contains(world.state_at(0, 2.0 * time).position)) << n;
+    if (kind == 2) continue;  // an exact flight tells who just passes the corner
+    ASSERT_EQ(world.fate(0), stepped.fate(0)) << n << world.report(0) << stepped.report(0);
+    ASSERT_EQ(seen[0].hits.size(), seen[1].hits.size()) << n;
+    hits += static_cast<long>(seen[0].hits.size());
+    if (!goes_on) continue;
+    const Vector apart = world.state_at(0, 2.0 * time).position - stepped.state_at(0, 2.0 * time).position;
+    EXPECT_LT(std::sqrt(dot(apart, apart)), 1e-6) << n;
+  }
+  EXPECT_GT(hits, 1000);
+}
+
 // Random bumps, some of them over walls, with and without field: every run ends, nobody is lost, and the energy changes
 // as it does where everything is integrated.
 TEST(EdgesInSteps, OrbitsAmongOverlappingBumps) {
