@@ -178,12 +178,12 @@ class CrossingSearch {
   }
 
   // `error` is that of the gap; its derivatives err by what the coefficients of a polynomial that small
-  // may differ by. Coefficients that differ by less than `noise` tell nothing.
+  // may differ by. Coefficients that differ by less than `noise` tell nothing, nor do those within it of the wall.
   template <std::size_t size>
   static Shape shape_of(const Bernstein<Real, size>& g, const Real& error, const Real& noise) {
-    if (g.lowest() > error || g.highest() < -error) return Shape::none;
+    if (g.lowest() > error || g.highest() < -(error + noise)) return Shape::none;
     const Bernstein<Real, size - 1> rate = g.derivative();
-    const Real rate_error = Real(2 * (static_cast<int>(size) - 1)) * error;
+    const Real rate_error = Real(static_cast<int>(size) - 1) * (Real(2) * error + noise);
     if (rate.lowest() > rate_error) return Shape::none;
     if (rate.highest() < -rate_error) return Shape::falling;
     const Bernstein<Real, size - 2> bend = rate.derivative();
