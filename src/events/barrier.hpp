@@ -25,6 +25,7 @@ struct Barrier {
   bool closed = false;   ///< every point of the carrier belongs to the piece
   Vector from, to;       ///< ends of the piece, if it has any
   Real reach_from{0}, reach_to{0};  ///< there, reach_of_wall of the walls that meet it
+  Real zone_from{0}, zone_to{0};    ///< how far from there a particle on those may be beyond this wall
   Real side{1};          ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
   Vector low, high;      ///< a box about the piece, larger than any rounding
   int wall = -1;         ///< which wall or support it is
@@ -52,19 +53,22 @@ struct Barrier {
   /// Is the particle on the piece, or beyond it, to rounding?
   bool stands_on(const Vector& x) const {
     const Real g = gap(x);
-    return !(g > Real(0)) && !(g < -off_wall(x)) && covers(x);
+    return !(g > Real(0)) && !(g < -off_wall(x)) && (covers(x) || is_at(End::from, x) || is_at(End::to, x));
   }
   /// How far below 0 the gap of a particle may be that is on this wall, or at a joint on the one that it meets there.
   Real off_wall(const Vector& x) const {
     Real most = on_wall() * rounding(x);
     if (closed) return most;
-    const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
-    const Real stretch = size(first.x) + size(first.y) + size(second.x) + size(second.y);
     for (const End end : {End::from, End::to}) {
-      const Real other = stretch * (end == End::from ? reach_from : reach_to);
-      if (most < other && is_at(end, x)) most = other;
+      const Real other = stretch() * (end == End::from ? reach_from : reach_to);
+      if (most < other && (is_at(end, x) || is_within(end == End::from ? zone_from : zone_to, end, x))) most = other;
     }
     return most;
+  }
+  /// The gap changes by no more than this times the way.
+  Real stretch() const {
+    const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
+    return size(first.x) + size(first.y) + size(second.x) + size(second.y);
   }
   /// Rate of change of the gap at x for the velocity v.
   Real rate(const Vector& x, const Vector& v) const {
@@ -118,11 +122,44 @@ struct Barrier {
   }
   /// Is a point on the carrier that end of the piece, to rounding?
   bool is_at(End end, const Vector& x) const {
+    return is_within(reach_of_joint(end, reach_of_wall(x)), end, x);
+  }
+  bool is_within(const Real& distance, End end, const Vector& x) const {
     const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
     const Vector e = x - point(end);
-    return !closed && !(size(e.x) + size(e.y) > reach_of_joint(end, reach_of_wall(x)));
+    return !closed && !(size(e.x) + size(e.y) > distance);
   }
+  /// Its end meets another wall.
+  void meet(End end, const Barrier& other);
 };
+
+// A particle on the other wall is within its reach R of it. Along that wall, a way s from the joint, the two are apart
+// by s sin(angle) - k s^2 / 2, or more, k being the sum of their curvatures: so the particle is beyond this wall where s is
+// less than the smaller root of R = s sin(angle) - k s^2 / 2, and nowhere by more than R.
+template <class Real>
+void Barrier<Real>::meet(End end, const Barrier& other) {
+  using std::sqrt;
+  const auto length = [](const Vector& a) { return sqrt(dot(a, a)); };
+  const Vector joint = point(end), own = normal(joint), others = other.normal(joint);
+  const Real reach = other.reach_of_wall(joint), lengths = length(own) * length(others);
+  (end == End::from ? reach_from : reach_to) = reach;
+  if (slack < stretch() * reach) slack = stretch() * reach;
+  const Real turn = end == End::from ? cross(others, own) : cross(own, others);
+  const Real turn_error = rate_rounding(joint, others) + other.rate_rounding(joint, own);
+  // The reach grows along the other wall as the size of its points does, whose 1-norm is less than twice the way.
+  const auto norm = [](const Vector& a) { return (a.x < Real(0) ? -a.x : a.x) + (a.y < Real(0) ? -a.y : a.y); };
+  const Real size = norm(joint) + norm(other.origin);
+  const Real sine = (turn - turn_error) / lengths - (size > Real(0) ? Real(2) * reach / size : Real(0));
+  const auto curvature = [&](const Barrier& b, const Vector& n) {
+    return b.conic ? (dot(b.first, b.first) + dot(b.second, b.second)) / length(n) : Real(0);
+  };
+  const Real square = sine * sine - Real(2) * (curvature(*this, own) + curvature(other, others)) * reach;
+  Real& zone = end == End::from ? zone_from : zone_to;
+  if (sine > Real(0) && square > Real(0))
+    zone = Real(4) * reach / (sine + sqrt(square));  // twice the way
+  else if (dot(own, others) < Real(0) && !(turn < -turn_error))
+    zone = std::numeric_limits<Real>::infinity();  // a cusp, or too sharp to be told from one
+}
 
 /// The barrier of a curve displaced by `shift`. Its numbers are those of the curve, computed in Real.
 template <class Real>

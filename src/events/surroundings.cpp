@@ -80,11 +80,9 @@ std::vector<Barrier<double>> barriers_of(std::span<const Curve> curves, const Ta
     b.wall = static_cast<int>(i);
     b.cell = cell;
     if (b.closed || i >= table.walls.size()) return;
-    const auto reach = [&](int neighbour, Vector joint) {
-      return barrier_of<double>(curves[static_cast<std::size_t>(neighbour)], shift).reach_of_wall(joint);
-    };
-    b.reach_from = reach(table.walls[i].previous, b.from);
-    b.reach_to = reach(table.walls[i].next, b.to);
+    const auto neighbour = [&](int wall) { return barrier_of<double>(curves[static_cast<std::size_t>(wall)], shift); };
+    b.meet(Barrier<double>::End::from, neighbour(table.walls[i].previous));
+    b.meet(Barrier<double>::End::to, neighbour(table.walls[i].next));
   };
   const std::vector<Box> boxes = table.lattice ? ways_of_steps(table) : std::vector<Box>{};
   for (std::size_t i = 0; i < curves.size(); ++i) {
