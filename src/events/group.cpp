@@ -108,17 +108,16 @@ const Group::Next& Group::predict(const Time& limit) {
   whole_step_ = !(next_.duration < rest);
   next_.fault = fault_at(path_->end().phase);
   if (!next_.fault.empty()) return next_;
-  near_wall_ = false;
+  bool near_wall = false;
   CrossingSearch<double> search(*path_);
   StepPath<double>::Knot* last = &path_->end();
   for (std::size_t i = 0; i < bodies_.size() && !in_.barriers.empty(); ++i) {
     const PathHull<double> hull(path_->start(), path_->end(), i);
     for (const Barrier<double>& barrier : in_.barriers) {
       if (stays_off(barrier, hull)) continue;
-      near_wall_ = true;
-      const bool edge = !in_.supports.empty() && barrier.wall >= in_.supports.front().wall;
+      near_wall = true;
       StepPath<double>::Knot* found =
-          edge ? first_exit(search, barrier, *last) : search.first(barrier, i, path_->start(), *last);
+          is_edge(barrier) ? first_exit(search, barrier, *last) : search.first(barrier, i, path_->start(), *last);
       if (!found) continue;
       last = found;
       next_.member = static_cast<int>(i);
@@ -133,6 +132,8 @@ const Group::Next& Group::predict(const Time& limit) {
         "the path of this step is too rough to find walls on it; the step is too long, or a potential has a pole";
   else if (next_.member >= 0)
     next_.fault = fault_at(last->phase);
+  // Near a wall the search had to decide: nobody may have slipped through.
+  if (near_wall && next_.fault.empty()) watch(last->phase);
   return next_;
 }
 
@@ -145,6 +146,17 @@ StepPath<double>::Knot* Group::first_exit(CrossingSearch<double>& search, const 
   while (found && supported(found->phase.position.front(), &edge))
     found = search.first_exit(edge, 0, *found, to, true);
   return found;
+}
+
+void Group::watch(const Phase<double>& end) {
+  if (!in_.inside) return;
+  const int on_a_wall = next_.member >= 0 && !is_edge(*next_.barrier) ? next_.member : -1;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (static_cast<int>(i) == on_a_wall || in_.inside(end.position[i])) continue;
+    next_.outside = static_cast<int>(i);
+    next_.fault = "it has left the table within this step and no wall was found; the step is too long";
+    return;
+  }
 }
 
 /// Exact decisions are for numbers, and their squares must not overflow.

@@ -1,6 +1,7 @@
 // Particles that are integrated together: one that a potential acts on, or several that interact.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -33,6 +34,7 @@ class Group final : public ForceLaw<double> {
     std::vector<Barrier<double>> barriers;     ///< walls and edges of supports, with their copies
     std::vector<Barrier<double>> supports;     ///< the latter alone: their inside is positive
     double longest_way = std::numeric_limits<double>::infinity();  ///< most that walls allow in one step
+    std::function<bool(geometry::Vector)> inside;  ///< of a bounded table, or on its wall to rounding; empty: of another
   };
   /// What comes first.
   struct Next {
@@ -41,6 +43,7 @@ class Group final : public ForceLaw<double> {
     const Barrier<double>* barrier = nullptr;
     bool slides = false;                       ///< it cannot be told from motion along that wall
     std::string_view fault;                    ///< why there is no path that walls can be found on; "": there is
+    int outside = -1;                          ///< then: this member alone has left the table; -1: it is the fault of all
   };
 
   explicit Group(const Surroundings& in) : in_(in) {}
@@ -75,8 +78,6 @@ class Group final : public ForceLaw<double> {
   void remove(std::size_t member);
   /// Puts a member back into the lattice's cell.
   void fold(std::size_t member);
-  /// Did the last step come near a wall?
-  bool near_wall() const { return near_wall_; }
   /// Does a support other than `except` hold the point?
   bool supported(geometry::Vector x, const Barrier<double>* except) const;
   /// The lone member has come to that edge and does not leave there: until it was inside again, it has crossed it.
@@ -94,6 +95,8 @@ class Group final : public ForceLaw<double> {
   StepPath<double>::Knot* first_exit(CrossingSearch<double>& search, const Barrier<double>& edge,
                                      StepPath<double>::Knot& to);
   std::string_view fault_at(const Phase<double>& phase) const;
+  bool is_edge(const Barrier<double>& b) const { return !in_.supports.empty() && b.wall >= in_.supports.front().wall; }
+  void watch(const Phase<double>& end);
 
   const Surroundings& in_;
   std::vector<int> bodies_;
@@ -103,7 +106,6 @@ class Group final : public ForceLaw<double> {
   Phase<double> phase_;
   Time time_;
   Next next_;
-  bool near_wall_ = false;
   const Barrier<double>* passed_ = nullptr;  ///< an edge that the next step starts on
   bool whole_step_ = false;  ///< the path under way ends at path_end_
   Time path_end_;            ///< of the step; of the drift with walls = "split"

@@ -1,9 +1,8 @@
-// What happens to a member of a group at a wall, and who has slipped through one.
+// What happens to a member of a group at a wall.
 #pragma once
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "carom/events/decisions.hpp"
@@ -28,8 +27,6 @@ GroupHit hit_of(const HitFinder& finder, const Table&, const Group&, std::size_t
 bool on_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vector);
 /// Does the short way between two points touch one of them, to rounding?
 bool meets_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vector, geometry::Vector);
-inline constexpr std::string_view slipped_through =
-    ": it has left the table within this step and no wall was found; the step is too long";
 
 /// For reports of particles that are lost, or singular.
 std::string describe(const Particle&, const State&, Fate);

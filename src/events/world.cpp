@@ -204,11 +204,16 @@ bool World::Implementation::fails_before(const Body& b, Time t) const {
   return !group.next().fault.empty() && group.time() < t;
 }
 
-/// Who is in such a step is lost where it begins, also if it would end later than the run.
-void World::Implementation::end_failed_steps(Time t_end, Observer& observer) {
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!bodies[i].finished && fails_before(bodies[i], t_end))
-      apply_group(groups[static_cast<std::size_t>(bodies[i].group)]->bodies().front(), observer);
+/// Who is in such a step is lost where it begins, also if it would end later than the run. True if others go on from there.
+bool World::Implementation::end_failed_steps(Time t_end, Observer& observer) {
+  bool others = false;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].finished || !fails_before(bodies[i], t_end)) continue;
+    const Group& group = *groups[static_cast<std::size_t>(bodies[i].group)];
+    apply_group(group.bodies().front(), observer);
+    others = others || !group.bodies().empty();
+  }
+  return others;
 }
 
 void World::Implementation::emit_samples(Time until, bool inclusive, Observer& observer) {
@@ -335,23 +340,24 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
   if (w.surface) w.begin_watching();
   if (w.unprepared) w.prepare_contacts();
   const bool asks = static_cast<bool>(w.enough);
-  while (!w.queue.empty()) {
-    if (asks && w.enough()) return events;
-    const int index = w.queue.top();
-    const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
-    if (!(when.high < t_end) && when > Time(t_end)) break;
-    // Asking may cost more than an event.
-    if (interrupted && events % 256 == 0 && interrupted()) return events;
-    if (w.sampling) w.emit_samples(when, false, observer);
-    if (w.contacts) [[unlikely]]
-      w.apply_disc(index, observer);
-    else
-      w.apply(index, when, observer);
-    if (w.surface) w.watch_event(index, when, observer);
-    ++events;
-  }
-  if (w.sampling) w.emit_samples(t_end, true, observer);
-  if (w.integrates) w.end_failed_steps(t_end, observer);
+  do {
+    while (!w.queue.empty()) {
+      if (asks && w.enough()) return events;
+      const int index = w.queue.top();
+      const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
+      if (!(when.high < t_end) && when > Time(t_end)) break;
+      // Asking may cost more than an event.
+      if (interrupted && events % 256 == 0 && interrupted()) return events;
+      if (w.sampling) w.emit_samples(when, false, observer);
+      if (w.contacts) [[unlikely]]
+        w.apply_disc(index, observer);
+      else
+        w.apply(index, when, observer);
+      if (w.surface) w.watch_event(index, when, observer);
+      ++events;
+    }
+    if (w.sampling) w.emit_samples(t_end, true, observer);
+  } while (w.integrates && w.end_failed_steps(t_end, observer));
   if (w.surface) w.watch_until(t_end, observer);
   return events;
 }

@@ -67,6 +67,10 @@ void World::Implementation::add_barriers() {
   surroundings.barriers = barriers_of(curves, table);
   std::copy_if(surroundings.barriers.begin(), surroundings.barriers.end(), std::back_inserter(surroundings.supports),
                [&](const Barrier<double>& barrier) { return is_support(barrier.wall); });
+  if (table.extent == Extent::bounded)
+    surroundings.inside = [this](Vector x) {
+      return on_some_wall(surroundings.barriers, wall_count, x) || contains(x);
+    };
 }
 
 bool World::Implementation::integrated_at(Vector x) const {
@@ -120,8 +124,8 @@ void World::Implementation::start_integrating(int index, Observer& observer) {
     const auto first = std::find_if(bodies.begin(), bodies.end(), [](const Body& b) { return b.group >= 0; });
     if (first != bodies.end()) {
       Group& group = *groups[at(first->group)];
-      // The step under way was cut to end now.
-      if (group.time() < now) apply_group(group.bodies().front(), observer);
+      // The step under way was cut to end now; without those who left the table in it, it is another one.
+      while (!group.bodies().empty() && group.time() < now) apply_group(group.bodies().front(), observer);
       members = group.bodies();
       while (!group.bodies().empty()) take_out(group, group.bodies().size() - 1);
     }
@@ -166,13 +170,13 @@ void World::Implementation::copy_states(const Group& group) {
 void World::Implementation::apply_group(int leader, Observer& observer) {
   Group& group = *groups[at(bodies[at(leader)].group)];
   const Group::Next next = group.next();
+  if (next.outside >= 0) {
+    lose(group, at(next.outside), next.fault, observer);
+    if (!group.bodies().empty()) predict_group(group.bodies().front());
+    return;
+  }
   if (!next.fault.empty()) {
-    while (!group.bodies().empty()) {
-      const int body = group.bodies().front();
-      end(body, Fate::lost, group.time(), &observer);
-      bodies[at(body)].report.append(": ").append(next.fault);
-      take_out(group, 0);
-    }
+    while (!group.bodies().empty()) lose(group, 0, next.fault, observer);
     return;
   }
   if (surface) watch_group(group, group.next_time(), observer);
@@ -189,13 +193,6 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
       hit_in_group(group, member, *next.barrier, observer);
       if (group.bodies().empty()) return;
     }
-  } else if (group.near_wall() && table.extent == Extent::bounded) {
-    // Near a wall the search had to decide: nobody may have slipped through.
-    for (std::size_t k = group.bodies().size(); k-- > 0;) {
-      const Vector x = group.phase().position[k];
-      if (!on_some_wall(surroundings.barriers, wall_count, x) && !contains(x)) lose_outside(group, k, observer);
-    }
-    if (group.bodies().empty()) return;
   }
   if (next.member < 0 && group.between_steps()) {
     if (by_range && regroup(group, observer)) return;
@@ -204,10 +201,11 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
   predict_group(group.bodies().front());
 }
 
-void World::Implementation::lose_outside(Group& group, std::size_t member, Observer& observer) {
+/// Where the step under way begins.
+void World::Implementation::lose(Group& group, std::size_t member, std::string_view why, Observer& observer) {
   const int body = group.bodies()[member];
   end(body, Fate::lost, group.time(), &observer);
-  bodies[at(body)].report += slipped_through;
+  bodies[at(body)].report.append(": ").append(why);
   take_out(group, member);
 }
 
@@ -252,7 +250,7 @@ void World::Implementation::hit_in_group(Group& group, std::size_t member, const
   }
 }
 
-/// A particle comes to the edge of a support from inside. True if it is not in the group any more.
+/// A particle comes to the edge of a support from inside. True if it flies freely from here on.
 bool World::Implementation::leave_support(Group& group, const Barrier<double>& barrier, Observer& observer) {
   const Vector x = group.phase().position.front();
   Body& b = bodies[at(group.bodies().front())];
@@ -268,10 +266,6 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
   const double u = curve.parameter(frame.point);
   const Vector velocity = group.phase().velocity.front();
   if (finder.inward(barrier.wall, u, velocity, frame.normal, counts) != Sign::positive) return false;
-  if (table.extent == Extent::bounded && !contains(settled)) {
-    lose_outside(group, 0, observer);
-    return true;
-  }
   const int index = group.bodies().front();
   b.state = {-1, 0.0, frame.point, velocity, cell, group.time()};
   b.particle.speed = std::sqrt(dot(velocity, velocity));
@@ -286,17 +280,12 @@ bool World::Implementation::leave_support(Group& group, const Barrier<double>& b
 }
 
 /// A lone particle that ends a step outside of all supports has crossed an edge where it could not leave: along it to
-/// rounding, or where it meets another edge or a wall. True if it is not in the group any more.
+/// rounding, or where it meets another edge or a wall. True if it flies freely from here on.
 bool World::Implementation::leave_between_supports(Group& group, Observer& observer) {
   if (group.bodies().size() > 1 || surroundings.supports.empty()) return false;
   const int index = group.bodies().front();
   const Vector x = bodies[at(index)].state.position;
-  if (integrated_at(x) || on_some_wall(surroundings.barriers, wall_count, x)) return false;
-  if (!contains(x)) {
-    if (table.extent != Extent::bounded) return false;
-    lose_outside(group, 0, observer);
-    return true;
-  }
+  if (integrated_at(x) || !contains(x)) return false;
   take_out(group, 0);
   set_free(index);
   if (by_range) look_around(index, bodies[at(index)].state.time, observer);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "carom/events/decision_range.hpp"
@@ -60,7 +61,7 @@ class World::Implementation {
   void emit_samples(Time until, bool inclusive, Observer& observer);
   State state_at(const Body& body, Time t) const;
   bool fails_before(const Body& body, Time t) const;
-  void end_failed_steps(Time t_end, Observer& observer);
+  bool end_failed_steps(Time t_end, Observer& observer);
   void check_speed(const Body& body) const;
   void begin_free(Body& body);
   bool contains(geometry::Vector point);
@@ -93,7 +94,7 @@ class World::Implementation {
   void predict_group(int leader);
   void apply_group(int leader, Observer& observer);
   void hit_in_group(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer);
-  void lose_outside(Group& group, std::size_t member, Observer& observer);
+  void lose(Group& group, std::size_t member, std::string_view why, Observer& observer);
   bool leave_support(Group& group, const Barrier<double>& barrier, Observer& observer);
   bool leave_between_supports(Group& group, Observer& observer);
   void set_free(int index);

@@ -16,6 +16,8 @@
 namespace carom {
 namespace {
 
+using geometry::Vector;
+
 /// Above the saddles of Hénon-Heiles: some run away, and their force overflows.
 System running_away() {
   return make_system(R"toml(
@@ -45,6 +47,32 @@ times = { from = 0.003, to = 4.996, count = 200, spacing = "linear" }
 )toml");
 }
 
+/// Steps that jump over narrow bumps beside the walls: some end outside of them.
+System slipping_through() {
+  return make_system(R"toml(
+[table]
+shape = "rectangle"
+width = 1
+height = 1
+[[potential]]
+kind = "harmonic"
+omega = 0.1
+[[potential]]
+kind = "gaussian"
+height = 5
+width = 0.02
+centers = [[0.05, 0.05], [0.25, 0.03], [0.5, 0.02], [0.75, 0.05], [0.95, 0.04], [0.04, 0.5], [0.96, 0.5], [0.3, 0.97], [0.7, 0.95]]
+[particles]
+energy = 1
+[integrator]
+step = 0.15
+[run]
+t_max = 20
+trajectories = 100
+times = { from = 0.01, to = 20, count = 40, spacing = "linear" }
+)toml");
+}
+
 class Listener : public Observer {
  public:
   void sample(int, Time, const State& state) override { states.push_back(state); }
@@ -70,7 +98,7 @@ std::vector<std::optional<Time>> losses(const System& system, std::uint64_t traj
 }
 
 TEST(FailingSteps, AreNotAveraged) {
-  for (const System& system : {running_away(), over_an_edge()}) {
+  for (const System& system : {running_away(), over_an_edge(), slipping_through()}) {
     DiffusionOptions options;
     const DiffusionResult one = run_diffusion(system, options);
     EXPECT_GT(one.lost, 10u);
@@ -106,7 +134,7 @@ TEST(FailingSteps, AreNotAveraged) {
 
 // A run that ends within a step that fails.
 TEST(FailingSteps, FailInTheLastStep) {
-  for (const System& system : {running_away(), over_an_edge()}) {
+  for (const System& system : {running_away(), over_an_edge(), slipping_through()}) {
     const Sampler sampler(system);
     const auto lost = losses(system, 60);
     const double h = system.dynamics.integrator.step;
@@ -127,6 +155,10 @@ TEST(FailingSteps, FailInTheLastStep) {
       EXPECT_EQ(listener.last->time.value(), from);
       EXPECT_EQ(listener.states.size(), *lost[k] < Time(from) ? 1u : 2u);
       for (const State& s : listener.states) EXPECT_TRUE(std::isfinite(dot(s.position, s.position)));
+      // The step before it ended inside the table, or on its wall.
+      const Vector last = listener.states.back().position;
+      EXPECT_TRUE(listener.states.size() < 2 || world.contains(last) || world.contains(last + 1e-9 * (Vector{0.5, 0.5} - last)))
+          << k;
 
       SoftLanes lanes(*system.table, system.dynamics, InstructionSet::baseline);
       std::vector<SoftLanes::Walk> walks{start};
