@@ -26,6 +26,7 @@ struct Barrier {
   Vector from, to;       ///< ends of the piece, if it has any
   Real reach_from{0}, reach_to{0};  ///< there, reach_of_wall of the walls that meet it
   Real zone_from{0}, zone_to{0};    ///< how far from there a particle on those may be beyond this wall
+  Real thin_from{0}, thin_to{0};    ///< how far from there both sides of a needle are one to rounding
   Real side{1};          ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
   Vector low, high;      ///< a box about the piece, larger than any rounding
   int wall = -1;         ///< which wall or support it is
@@ -129,36 +130,54 @@ struct Barrier {
     const Vector e = x - point(end);
     return !closed && !(size(e.x) + size(e.y) > distance);
   }
+  /// Is the point, which is on the wall, where a needle is too thin to tell its sides apart?
+  bool is_thin(const Vector& x) const {
+    return (thin_from > Real(0) && is_within(thin_from, End::from, x)) ||
+           (thin_to > Real(0) && is_within(thin_to, End::to, x));
+  }
   /// Its end meets another wall.
   void meet(End end, const Barrier& other);
 };
 
 // A particle on the other wall is within its reach R of it. Along that wall, a way s from the joint, the two are apart
 // by s sin(angle) - k s^2 / 2, or more, k being the sum of their curvatures: so the particle is beyond this wall where s is
-// less than the smaller root of R = s sin(angle) - k s^2 / 2, and nowhere by more than R.
+// less than the smaller root of R = s sin(angle) - k s^2 / 2, and nowhere by more than R. Likewise a needle between the
+// two is thinner than the reaches of both together.
 template <class Real>
 void Barrier<Real>::meet(End end, const Barrier& other) {
   using std::sqrt;
   const auto length = [](const Vector& a) { return sqrt(dot(a, a)); };
+  const bool begins = end == End::from;
   const Vector joint = point(end), own = normal(joint), others = other.normal(joint);
   const Real reach = other.reach_of_wall(joint), lengths = length(own) * length(others);
-  (end == End::from ? reach_from : reach_to) = reach;
+  (begins ? reach_from : reach_to) = reach;
   if (slack < stretch() * reach) slack = stretch() * reach;
-  const Real turn = end == End::from ? cross(others, own) : cross(own, others);
+  const Real turn = begins ? cross(others, own) : cross(own, others);
   const Real turn_error = rate_rounding(joint, others) + other.rate_rounding(joint, own);
-  // The reach grows along the other wall as the size of its points does, whose 1-norm is less than twice the way.
-  const auto norm = [](const Vector& a) { return (a.x < Real(0) ? -a.x : a.x) + (a.y < Real(0) ? -a.y : a.y); };
-  const Real size = norm(joint) + norm(other.origin);
-  const Real sine = (turn - turn_error) / lengths - (size > Real(0) ? Real(2) * reach / size : Real(0));
   const auto curvature = [&](const Barrier& b, const Vector& n) {
     return b.conic ? (dot(b.first, b.first) + dot(b.second, b.second)) / length(n) : Real(0);
   };
-  const Real square = sine * sine - Real(2) * (curvature(*this, own) + curvature(other, others)) * reach;
-  Real& zone = end == End::from ? zone_from : zone_to;
-  if (sine > Real(0) && square > Real(0))
-    zone = Real(4) * reach / (sine + sqrt(square));  // twice the way
-  else if (dot(own, others) < Real(0) && !(turn < -turn_error))
+  const Real curvatures = curvature(*this, own) + curvature(other, others);
+  // A reach grows along the walls as the size of their points does, whose 1-norm is less than twice the way.
+  const auto norm = [](const Vector& a) { return (a.x < Real(0) ? -a.x : a.x) + (a.y < Real(0) ? -a.y : a.y); };
+  const auto grows = [&](const Barrier& b, const Real& at_joint) {
+    const Real size = norm(joint) + norm(b.origin);
+    return size > Real(0) ? Real(2) * at_joint / size : Real(0);
+  };
+  // Twice the way to where the walls are `apart`, or 0 if they need not come to be. The 1-norm is less than that.
+  const auto way = [&](const Real& sine, const Real& apart) {
+    const Real square = sine * sine - Real(2) * curvatures * apart;
+    return sine > Real(0) && square > Real(0) ? Real(4) * apart / (sine + sqrt(square)) : Real(0);
+  };
+  const bool sharp = dot(own, others) < Real(0);
+  Real& zone = begins ? zone_from : zone_to;
+  zone = way((turn - turn_error) / lengths - grows(other, reach), reach);
+  if (sharp && !(zone > Real(0)) && !(turn < -turn_error))
     zone = std::numeric_limits<Real>::infinity();  // a cusp, or too sharp to be told from one
+  const Real here = reach_of_wall(joint);
+  if (sharp)
+    (begins ? thin_from : thin_to) =
+        way((-turn - turn_error) / lengths - grows(other, reach) - grows(*this, here), reach + here);
 }
 
 /// The barrier of a curve displaced by `shift`. Its numbers are those of the curve, computed in Real.

@@ -51,7 +51,7 @@ GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group,
   const bool regular = (!barrier.is_at(End::from, there) || is_regular(finder, barrier.wall)) &&
                        (!barrier.is_at(End::to, there) ||
                         is_regular(finder, finder.table().walls[static_cast<std::size_t>(barrier.wall)].next));
-  hit.inward = inward == Sign::positive && regular && !group.next().slides;
+  hit.inward = inward == Sign::positive && regular && !barrier.is_thin(there) && !group.next().slides;
   return hit;
 }
 

@@ -145,6 +145,32 @@ TEST(JointsInSteps, AreWatertightFarAway) {
   }
 }
 
+// Near its tip a needle is so thin that who stands on one side stands on the other, too: it went through, or to and fro.
+TEST(JointsInSteps, OfNeedlesAreSingular) {
+  for (const double width : {1e-4, 1e-6}) {
+    Table table = tests::polygon({{-4, -4}, {4, -4}, {4, 4}, {-4, 4}});
+    tests::add_loop(table, {geometry::Segment{{0.3, 0.2}, {1.3, 0.2}}, geometry::Segment{{1.3, 0.2}, {1.3, 0.2 - width}},
+                            geometry::Segment{{1.3, 0.2 - width}, {0.3, 0.2}}});
+    Dynamics dynamics;
+    dynamics.everywhere = true;
+    dynamics.forces = ForceField::build({}, {Particle{}}, std::nullopt);
+    dynamics.integrator.scheme = "velocity-verlet";
+    dynamics.integrator.step = 0.1;
+    World world(table, dynamics);
+    world.limit_hits(100);
+    for (const double along : {0.6, -0.6})
+      for (const double thickness : {1e-18, 1e-16, 1e-15, 3e-15, 1e-13}) {
+        const Vector velocity{along, -0.8};
+        world.clear();
+        world.add(tests::particle(0.0, 1.0), tests::start(Vector{0.3 + thickness / width, 0.2} - 0.25 * velocity, velocity));
+        Recorder recorder;
+        world.run_until(0.5, recorder);
+        EXPECT_EQ(world.fate(0), thickness < 1e-14 ? Fate::singular : Fate::survived) << width << " " << thickness;
+        EXPECT_LE(recorder.hits.size(), 1u);
+      }
+  }
+}
+
 // The tip of a wedge lies at the origin, where numbers are fine, and so is the wall along the axis; the other one is off by
 // what its far end is rounded to. A particle that comes along that one may stand beyond the first.
 TEST(JointsInSteps, AreAsWideAsTheWallThatIsRoundedMore) {
