@@ -139,11 +139,12 @@ struct PathArc {
     const Real low = dot(unit, difference[0]), high = dot(unit, difference[1]);
     return std::max(std::max(low, -low), std::max(high, -high));
   }
-  /// Is the error more than the way, straight and as the velocities at its ends lead?
+  /// Does the path's derivative err by more than the way, straight or as the velocities at its ends lead? Control points
+  /// that err by `error` make that of degree 5 err by ten times as much.
   bool is_rough() const {
     const auto norm = &PathHull<Real>::norm;
-    const Real led = norm(points[1] - points[0]) + norm(points[5] - points[4]);  // a fifth of it
-    return error > norm(points[5] - points[0]) + Real(5) * led;
+    const Real led = Real(5) * std::max(norm(points[1] - points[0]), norm(points[5] - points[4]));
+    return Real(10) * error > std::max(led, norm(points[5] - points[0]));
   }
 };
 
