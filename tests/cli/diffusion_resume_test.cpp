@@ -8,7 +8,7 @@
 namespace carom {
 namespace {
 
-const Ensemble lorentz{"diffusion", "lorentz-triangular --trajectories 8000 --t-max 400"};
+const Ensemble lorentz{"diffusion", "lorentz-triangular --trajectories 8000 --t-max 2e4"};
 const Ensemble soft{"diffusion", "soft-lorentz --trajectories 700 --t-max 40"};
 
 // Five kills; fifty with CAROM_SOAK.
