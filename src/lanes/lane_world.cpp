@@ -223,7 +223,8 @@ class LaneWorld::Implementation {
       }
       if (turn_of(mine.start.particle.omega) != turn) throw std::invalid_argument("a particle that turns another way");
       mine.first_hits = mine.start.hits;
-      mine.reported = static_cast<std::size_t>(std::find_if(times.begin(), times.end(), [&](double t) { return !(Time(t) < mine.start.state.time); }) - times.begin());
+      mine.reported = 0;
+      while (mine.reported < times.size() && Time(times[mine.reported]) < mine.start.state.time) ++mine.reported;
       if (!(mine.start.state.time > Time(main.pack.end)) && lanes::can_start(pieces, finder, mine.start)) {
         resume(lanes, lane);
         return true;
