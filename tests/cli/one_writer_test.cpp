@@ -1,7 +1,6 @@
 // Who writes an archive is alone with it, and what is over leaves nothing behind.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -10,12 +9,6 @@
 
 namespace carom {
 namespace {
-
-std::vector<std::string> sorted_files(const Shell& shell) {
-  std::vector<std::string> names = shell.files();
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 // Starts `command`, waits for a checkpoint q.h5.part with trajectories in it, does `meanwhile` and kills it.
 Outcome while_it_runs(const Shell& shell, const std::string& command, const std::string& meanwhile) {
@@ -40,7 +33,7 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
     // Interrupted after its first checkpoint: on a busy machine it may be long until it listens.
     const Outcome on = shell("$carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
     EXPECT_EQ(on.status, 130) << other << "\n" << on.err;
-    EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"})) << other;
+    EXPECT_EQ(shell.files(), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"})) << other;
     shell("rm -f q.h5*");
   }
 }
@@ -68,7 +61,7 @@ TEST(OneWriter, NobodyTakesTheFilesOfALiveRun) {
   EXPECT_EQ(refused, 25) << o.err;
   const Outcome on = shell("$carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(on.status, 130) << on.err;
-  EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"}));
+  EXPECT_EQ(shell.files(), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"}));
 }
 
 TEST(OneWriter, OfTwoRunsTheSecondIsRefused) {
@@ -77,7 +70,7 @@ TEST(OneWriter, OfTwoRunsTheSecondIsRefused) {
                           "$carom run stadium --t-max 3 --force -o r.h5; status=$?; kill -INT $pid; wait $pid; exit $status");
   EXPECT_EQ(o.status, 1);
   EXPECT_NE(o.err.find("r.h5: another process writes it"), std::string::npos) << o.err;
-  EXPECT_EQ(sorted_files(shell), std::vector<std::string>{"r.h5"});
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"r.h5"});
 }
 
 // Others write aside under a name that is no checkpoint's: killed, they leave it as it was.
@@ -91,14 +84,14 @@ TEST(OneWriter, AKilledSectionLeavesTheCheckpoint) {
   // To its end it takes the name, as --force says.
   const Outcome end = shell("$carom section ellipse-magnetic --orbits 2 --points 3 --force --quiet -o q.h5");
   EXPECT_EQ(end.status, 0) << end.err;
-  EXPECT_EQ(sorted_files(shell), std::vector<std::string>{"q.h5"});
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"q.h5"});
 }
 
 TEST(OneWriter, ASecondStartRefusesWhatTheFirstHasMade) {
   const Shell shell;
   const Outcome o = shell("for i in 1 2 3 4 5 6; do $carom escape stadium --trajectories 2000 --t-max 20 --quiet --seed $i -o a.h5 >/dev/null && echo $i >> won & done; wait");
   EXPECT_EQ(shell.read("won").size(), 2u) << shell.read("won") << o.err;
-  EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"a.h5", "won"}));
+  EXPECT_EQ(shell.files(), (std::vector<std::string>{"a.h5", "won"}));
 }
 
 TEST(OneWriter, AClosedPipeLeavesTheArchiveAlone) {
@@ -106,7 +99,7 @@ TEST(OneWriter, AClosedPipeLeavesTheArchiveAlone) {
   const Outcome o = shell("( $carom escape magnetic-square --trajectories 3e4 --per-trajectory --quiet -o g.h5; echo $? > status ) | true");
   EXPECT_EQ(shell.read("status"), "1\n");
   EXPECT_NE(o.err.find("cannot write to standard output: Broken pipe"), std::string::npos) << o.err;
-  EXPECT_EQ(sorted_files(shell), (std::vector<std::string>{"g.h5", "status"}));
+  EXPECT_EQ(shell.files(), (std::vector<std::string>{"g.h5", "status"}));
   EXPECT_EQ(open_archive(shell.folder() + "/g.h5").complete, 1);
 }
 
@@ -117,7 +110,7 @@ TEST(OneWriter, WhatIsCompleteIsCleanedUp) {
   ASSERT_EQ(shell("cp q.h5.part left && $carom escape --resume q.h5 --quiet && mv left q.h5.part").status, 0);
   const Outcome o = shell("$carom escape --resume q.h5 --quiet");
   EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(sorted_files(shell), std::vector<std::string>{"q.h5"});
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"q.h5"});
 }
 
 TEST(OneWriter, ForceWithoutRecordsLeavesNoOldOnes) {
@@ -126,7 +119,7 @@ TEST(OneWriter, ForceWithoutRecordsLeavesNoOldOnes) {
   ASSERT_TRUE(shell.exists("q.h5.records"));
   const Outcome o = shell("$carom escape mushroom --trajectories 100 --t-max 40 --force --quiet -o q.h5");
   EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(sorted_files(shell), std::vector<std::string>{"q.h5"});
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"q.h5"});
 }
 
 }  // namespace

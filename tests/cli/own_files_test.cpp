@@ -1,7 +1,6 @@
 // An ensemble takes and removes its own files alone, whatever else has their names.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,12 +10,6 @@ namespace carom {
 namespace {
 
 using Names = std::vector<std::string>;
-
-Names sorted_files(const Shell& shell) {
-  Names names = shell.files();
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 const std::string mushroom = "$carom escape mushroom --trajectories 2000 --t-max 20 --quiet --json ";
 
@@ -40,7 +33,7 @@ TEST(OwnFiles, AnArchiveMayBeCalledPart) {
   for (const std::string command : {"run stadium --t-max 3", "section ellipse-magnetic --orbits 2 --points 3"})
     EXPECT_EQ(shell("$carom " + command + " --quiet --force -o run1").status, 0) << command;
   EXPECT_TRUE(shell.read("run1.part") == before);
-  EXPECT_EQ(sorted_files(shell), (Names{"b.h5", "run1", "run1.part"}));
+  EXPECT_EQ(shell.files(), (Names{"b.h5", "run1", "run1.part"}));
   // It is not what run1 goes on with.
   const Outcome none = shell("rm run1; $carom escape --resume run1");
   EXPECT_EQ(none.status, 1);
@@ -64,7 +57,7 @@ TEST(OwnFiles, ACheckpointIsFoundByItsOwnName) {
   leave_a_checkpoint(shell, "");
   const Outcome o = shell("$carom escape --resume q.h5.part --quiet --json --checkpoint 0.02 & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
-  EXPECT_EQ(sorted_files(shell), Names{"q.h5"});
+  EXPECT_EQ(shell.files(), Names{"q.h5"});
   // The name of a checkpoint that is over still means its archive.
   const Outcome again = shell("$carom escape --resume q.h5.part --seed 7");
   EXPECT_NE(again.err.find("run.seed is 7, not 1"), std::string::npos) << again.err;
@@ -76,7 +69,7 @@ TEST(OwnFiles, RecordsThatNoCheckpointNamesStay) {
   leave_a_checkpoint(shell, "");
   shell("echo mine > q.h5.records");
   EXPECT_EQ(shell("$carom run stadium --t-max 3 --quiet --force -o q.h5").status, 0);
-  EXPECT_EQ(sorted_files(shell), (Names{"q.h5", "q.h5.records"}));
+  EXPECT_EQ(shell.files(), (Names{"q.h5", "q.h5.records"}));
   EXPECT_EQ(shell.read("q.h5.records"), "mine\n");
 }
 
@@ -181,7 +174,7 @@ TEST(OwnFiles, ALockReplacesNobodysFile) {
       EXPECT_EQ(o.status, 1) << command;
       EXPECT_EQ(o.err.find("carom: " + name + ".lock: the lock of '" + name + "' would go here, and this is another file"), 0u) << o.err;
     }
-  EXPECT_EQ(sorted_files(shell), (Names{"1.h5", "a.h5.lock", "b.h5.lock"}));
+  EXPECT_EQ(shell.files(), (Names{"1.h5", "a.h5.lock", "b.h5.lock"}));
   EXPECT_EQ(shell.read("a.h5.lock"), "notes\n");
   // One that a kill left is empty.
   EXPECT_EQ(shell(": > c.h5.lock; " + mushroom + "-o c.h5").status, 0);

@@ -2,6 +2,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
@@ -64,6 +65,7 @@ std::vector<std::string> Shell::files() const {
     const std::string name = entry.path().filename().string();
     if (name != ".out" && name != ".err") names.push_back(name);
   }
+  std::sort(names.begin(), names.end());
   return names;
 }
 

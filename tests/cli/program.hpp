@@ -21,7 +21,7 @@ class Shell {
   Outcome operator()(const std::string& command) const;
   bool exists(const std::string& file) const;
   std::string read(const std::string& file) const;
-  /// Names of all files of the folder but the captured output.
+  /// Names of all files of the folder but the captured output, sorted.
   std::vector<std::string> files() const;
   const std::string& folder() const { return folder_; }
 

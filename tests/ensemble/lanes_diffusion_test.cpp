@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "carom/ensemble/diffusion.hpp"
@@ -11,12 +10,6 @@
 
 namespace carom {
 namespace {
-
-System builtin(const std::string& name) {
-  for (const BuiltinSystem& b : builtin_systems())
-    if (name == b.name) return read_system(std::string(b.toml), name).system;
-  throw std::runtime_error("no such system");
-}
 
 DiffusionResult run(const System& system, std::optional<InstructionSet> lanes, int threads, std::uint64_t block) {
   DiffusionOptions how;
@@ -63,7 +56,7 @@ void expect_same_in_lanes(const System& system) {
 class DiffusionInLanes : public testing::TestWithParam<const char*> {};
 
 TEST_P(DiffusionInLanes, HasTheSumsOfTheScalarEngine) {
-  System system = builtin(GetParam());
+  System system = load_system(GetParam()).system;
   system.run.trajectories = 500;
   system.run.t_max = 60.0;
   system.run.times = {0.0, 0.25, 1.0, 2.5, 7.0, 20.0, 20.5, 21.0, 60.0};
@@ -95,7 +88,7 @@ times = [0, 1, 2.5, 17, 30]
 )", "several").system;
   ASSERT_EQ(several.particles.size(), 3u);
   expect_same_in_lanes(several);
-  System pinned = builtin("magnetic-square");
+  System pinned = load_system("magnetic-square").system;
   for (Particle& p : pinned.particles) p.omega *= 20.0;
   pinned.run.trajectories = 500;
   pinned.run.times = {0.0, 3.0, 40.0};
@@ -105,7 +98,7 @@ times = [0, 1, 2.5, 17, 30]
 
 // What is stopped holds whole trajectories, and goes on to the same sums.
 TEST(LaneDiffusion, GoesOnWhereItWasStopped) {
-  System system = builtin("lorentz-triangular");
+  System system = load_system("lorentz-triangular").system;
   system.run.trajectories = 3000;
   const DiffusionResult whole = run(system, std::nullopt, 1, 512);
   std::atomic<bool> stop{false};
