@@ -117,12 +117,19 @@ void refuse_parts_of_others(const Options& options) {
   if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be parted", only);
 }
 
-double seconds_between_checkpoints(const std::string& text) {
-  const double seconds = ExactNumber(text, place_of("--checkpoint")).to_double();
-  if (!(seconds > 0.0 && seconds < 1e9))
-    throw InputError(place_of("--checkpoint"), fmt::format("'{}' is not a time between checkpoints", text),
-                     "seconds, more than 0 and less than 1e9");
-  return seconds;
+CheckpointInterval checkpoint_interval(const std::string& text) {
+  const char* const option = "--checkpoint";
+  const std::string in_blocks = "blocks:";
+  CheckpointInterval interval;
+  if (text.starts_with(in_blocks)) {
+    interval.blocks = whole_number(text.substr(in_blocks.size()), option, 1);
+    return interval;
+  }
+  interval.seconds = ExactNumber(text, place_of(option)).to_double();
+  if (!(interval.seconds > 0.0 && interval.seconds < 1e9))
+    throw InputError(place_of(option), fmt::format("'{}' is not a time between checkpoints", text),
+                     "seconds, more than 0 and less than 1e9, or blocks:N");
+  return interval;
 }
 
 }  // namespace carom::cli

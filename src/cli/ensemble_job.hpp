@@ -40,6 +40,11 @@ std::optional<LoadedSystem> called_job(Ranks&);
 /// Only adds up trajectories: such ensembles can be parted, continued and shared between processes.
 bool is_plain_ensemble(const Options&);
 void refuse_parts_of_others(const Options&);
-double seconds_between_checkpoints(const std::string& text);
+/// Checkpoints are so many seconds apart, or so many blocks.
+struct CheckpointInterval {
+  double seconds = 10;
+  std::uint64_t blocks = 0;  ///< 0: seconds count
+};
+CheckpointInterval checkpoint_interval(const std::string& text);
 
 }  // namespace carom::cli

@@ -30,7 +30,11 @@ EnsembleOptions<Result> how_to_run(const Options& options) {
   how.threads = threads_of(options);
   how.lanes = instruction_set_of(options);
   if (!options.block.empty()) how.block = whole_number(options.block, "--block", 1);
-  if (!options.checkpoint.empty()) how.save_every = seconds_between_checkpoints(options.checkpoint);
+  if (!options.checkpoint.empty()) {
+    const CheckpointInterval interval = checkpoint_interval(options.checkpoint);
+    how.save_every = interval.seconds;
+    how.save_every_blocks = interval.blocks;
+  }
   how.interrupted = &catch_interrupts();
   return how;
 }

@@ -97,7 +97,7 @@ void Foreman::fail(const std::string& error) {
 
 void Foreman::serve() {
   BytesOut out = message(Kind::plan);
-  out << plan_.records << plan_.seconds;
+  out << plan_.records << plan_.seconds << plan_.trajectories;
   tell_others(ranks_, out);
   while (left_ > 0) {
     if (ended_ || calls_.stopped())
@@ -152,7 +152,7 @@ Hand::Hand(Ranks& ranks) : ranks_(ranks) {
     in >> kind;
     if (kind == Kind::stop) throw InputError("the first process of this run could not begin");
     if (kind != Kind::plan) continue;
-    in >> plan_.records >> plan_.seconds;
+    in >> plan_.records >> plan_.seconds >> plan_.trajectories;
     return;
   }
 }

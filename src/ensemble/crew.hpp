@@ -36,7 +36,8 @@ std::optional<CrewJob> called_by(Ranks&);
 /// How the others are to work.
 struct CrewPlan {
   bool records = false;
-  double seconds = 10;  ///< between parts
+  double seconds = 10;             ///< between parts
+  std::uint64_t trajectories = 0;  ///< if not 0: a part is told soon where it holds as many
 };
 
 /// Rank 0 before there is a foreman: if it goes no further, the others are told to go.

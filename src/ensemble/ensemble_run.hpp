@@ -10,6 +10,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -49,9 +50,12 @@ class EnsembleRun {
     /// Trajectories that are done: `part` adds them to the sum, including `done`.
     template <class Part>
     void deliver(TrajectoryRange range, Part part, std::vector<TrajectoryRecord>&& records = {}) {
-      const std::lock_guard lock(mutex_);
-      part(sum_);
-      run_.keep(range, std::move(records));
+      {
+        const std::lock_guard lock(mutex_);
+        part(sum_);
+        run_.keep(range, std::move(records));
+      }
+      run_.came_in(range.last - range.first);
     }
     void report(std::uint64_t trajectories, std::uint64_t hits) {
       if (run_.options_.progress) run_.report_progress(trajectories, hits);
@@ -72,7 +76,8 @@ class EnsembleRun {
         blocks_(gaps(), block_size()),
         nothing_(std::move(nothing)),
         total_(nothing_),
-        post_(post) {
+        post_(post),
+        save_after_(trajectories_between_saves()) {
     // Particles are numbered through.
     constexpr std::uint64_t most_particles = std::uint64_t{1} << 62;
     const std::uint64_t each = std::max<std::uint64_t>(1, system.particles.size());
@@ -94,7 +99,8 @@ class EnsembleRun {
     if (post_.hand) return run_as_hand(work);
     if (options_.journal) options_.journal->save(snapshot());  // a run that cannot be saved is not begun
     {
-      const Periodic saver(options_.save_every, [this] { save(); });
+      std::optional<Periodic> saver;
+      if (!saves_by_count()) saver.emplace(options_.save_every, [this] { save(); });
       if (options_.ranks && options_.ranks->size() > 1) lead();
       work_in_threads(work);
       try {
@@ -140,7 +146,7 @@ class EnsembleRun {
 
   // As rank 0 of several.
   void lead() {
-    const CrewPlan plan{wants_records(), options_.save_every};
+    const CrewPlan plan{wants_records(), options_.save_every, save_after_};
     foreman_.emplace(*options_.ranks, plan,
                      Foreman::Calls{[this](std::uint64_t share) { return give(share); }, blocks_.block(),
                                     [this](BytesIn& in) { take(in); }, [this] { return stopped(); },
@@ -162,17 +168,21 @@ class EnsembleRun {
     read_bytes(in, sum);
     read_bytes(in, records);
     if (options_.progress) report_progress(sum.done.size(), collisions_of(sum));
-    const std::lock_guard lock(total_mutex_);
-    if (!total_.add(sum)) throw InternalError("two ranks did the same trajectories");
-    const std::lock_guard turn(records_mutex_);
-    for (RecordBlock& block : records)
-      if (options_.journal) options_.journal->block(block.range, std::move(block.records));
+    {
+      const std::lock_guard lock(total_mutex_);
+      if (!total_.add(sum)) throw InternalError("two ranks did the same trajectories");
+      const std::lock_guard turn(records_mutex_);
+      for (RecordBlock& block : records)
+        if (options_.journal) options_.journal->block(block.range, std::move(block.records));
+    }
+    came_in(sum.done.size());
   }
 
   // As any other rank.
   Result run_as_hand(const Work& work) {
     // 16 MB of records are told soon.
     const auto heavy = [this] {
+      if (saves_by_count() && unsaved_.load() >= save_after_) return true;
       const std::lock_guard lock(records_mutex_);
       return waiting_records_ * sizeof(TrajectoryRecord) > (std::size_t{16} << 20);
     };
@@ -193,6 +203,7 @@ class EnsembleRun {
   void write_done_since(BytesOut& out) {
     std::vector<RecordBlock> records;
     collect([&] {
+      unsaved_ = 0;
       records = std::exchange(waiting_, {});
       waiting_records_ = 0;
     });
@@ -246,6 +257,21 @@ class EnsembleRun {
     result.complete = result.done.missing_from(part_).empty();
     return result;
   }
+  // Checkpoints that are so many trajectories apart are written by whoever brings the last of them.
+  std::uint64_t trajectories_between_saves() const {
+    if (post_.hand) return post_.hand->plan().trajectories;
+    const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / blocks_.block();
+    return options_.journal ? blocks_.block() * std::min(options_.save_every_blocks, most) : 0;
+  }
+  bool saves_by_count() const { return save_after_ > 0; }
+  void came_in(std::uint64_t trajectories) {
+    if (!saves_by_count()) return;
+    if (unsaved_.fetch_add(trajectories) + trajectories < save_after_ || post_.hand) return;
+    const std::unique_lock turn(saving_mutex_, std::try_to_lock);
+    if (!turn) return;
+    unsaved_ = 0;
+    save();
+  }
   void save() noexcept {
     // Counts may be ahead of records that could not be written.
     if (failed_.load() || (foreman_ && foreman_->ended())) return;
@@ -293,10 +319,10 @@ class EnsembleRun {
   const Stopwatch watch_;
   const Result nothing_;
   int threads_ = 1;
-  std::atomic<std::uint64_t> next_block_{0}, trajectories_{0}, hits_{0};
+  std::atomic<std::uint64_t> next_block_{0}, trajectories_{0}, hits_{0}, unsaved_{0};
   std::atomic<bool> failed_{false};
   // Taken in this order: the total, the threads' own, records.
-  std::mutex total_mutex_, records_mutex_, error_mutex_, progress_mutex_;
+  std::mutex total_mutex_, records_mutex_, error_mutex_, progress_mutex_, saving_mutex_;
   Result total_;
   std::deque<Thread> sums_;
   std::exception_ptr error_;
@@ -304,6 +330,7 @@ class EnsembleRun {
   std::size_t waiting_records_ = 0;
   double told_cpu_seconds_ = 0.0;
   Post post_;
+  const std::uint64_t save_after_;  ///< trajectories; 0: checkpoints are some time apart
   std::optional<Foreman> foreman_;  // last: its thread uses what stands above
 };
 

@@ -60,7 +60,7 @@ TEST(DiffusionResume, TakesAnotherWindow) {
   EXPECT_EQ(json_value(shell("$carom diffusion " + ensemble + " --resume a.h5").out, "window"), json_value(whole.out, "window"));
   // On the way, too: the archive is that of the first command.
   const auto contents = datasets(shell, "a.h5");
-  shell("$carom diffusion " + ensemble + " --window 5,50 -o b.h5 --checkpoint 0.02 & pid=$!; sleep 0.1; kill -INT $pid; wait $pid; "
+  shell("$carom diffusion " + ensemble + " --window 5,50 -o b.h5 --checkpoint blocks:1 & pid=$!; until_there b.h5.part; kill -INT $pid; wait $pid; "
         "$carom diffusion --resume b.h5 --window 20,40");
   expect_same_datasets(shell.folder() + "/b.h5", contents);
 }

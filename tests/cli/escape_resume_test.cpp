@@ -70,7 +70,8 @@ TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
       {"--resume a.h5 --per-trajectory", "--per-trajectory"},
       {"--resume a.h5 --shard 1/2", "--shard is 1/2, not 1/1"},
       {"--resume b.h5", "there is no such file"},
-      {"--resume a.h5 --checkpoint 1e9", "seconds, more than 0 and less than 1e9"},
+      {"--resume a.h5 --checkpoint 1e9", "seconds, more than 0 and less than 1e9, or blocks:N"},
+      {"--resume a.h5 --checkpoint blocks:0", "--checkpoint"},
       {"--resume a.h5 -o b.h5", "--output"},
       {"--resume a.h5 --splitting 1,2", "--resume"},
   };
@@ -174,9 +175,8 @@ TEST(EscapeResume, OverAFileOfAnotherKind) {
     const Shell shell;
     const Undisturbed whole(shell, mushroom, " --per-trajectory");
     ASSERT_EQ(shell(file).status, 0);
-    shell("$carom" + mushroom.anew(" --per-trajectory --force --block 4 --checkpoint 0.02") + " -o a.h5 & pid=$!; "
-          "until_saved a.h5; kill -9 $pid; wait $pid");
-    ASSERT_TRUE(shell.exists("a.h5.part")) << "it ended before it was killed";
+    ASSERT_EQ(shell(until_records_are_full(mushroom) + " --force").status, 1);
+    ASSERT_TRUE(shell.exists("a.h5") && shell.exists("a.h5.part"));
     const Outcome o = shell("$carom" + mushroom.on("a.h5"));
     EXPECT_EQ(o.status, 0) << file << "\n" << o.err;
     expect_same_datasets(shell.folder() + "/a.h5", whole.contents);
@@ -187,7 +187,7 @@ TEST(EscapeResume, OverAFileOfAnotherKind) {
 TEST(EscapeResume, AfterAFullDisk) {
   const Shell shell;
   const Undisturbed whole(shell, mushroom, " --per-trajectory");
-  const Outcome o = shell(no_more_records("$carom" + mushroom.anew(" --per-trajectory") + " -o a.h5 --checkpoint 0.02"));
+  const Outcome o = shell(until_records_are_full(mushroom));
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");
   EXPECT_NE(o.err.find("cannot write 'a.h5': File too large"), std::string::npos) << o.err;

@@ -12,7 +12,7 @@ const Ensemble mushroom{"escape", "mushroom --trajectories 1.5e5 --t-max 4000"};
 TEST(Streams, ThatAreClosedAreNoFilesOfTheRun) {
   const Shell shell;
   const Undisturbed whole(shell, mushroom, " --per-trajectory");
-  const Outcome o = shell(no_more_records("$carom" + mushroom.anew(" --per-trajectory") + " -o a.h5 --checkpoint 0.02 >&- 2>&-"));
+  const Outcome o = shell(until_records_are_full(mushroom) + " >&- 2>&-");
   EXPECT_EQ(o.status, 1);
   ASSERT_TRUE(shell.exists("a.h5.part"));
   const Outcome end = shell("$carom" + mushroom.on("a.h5"));
@@ -45,9 +45,8 @@ TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
 // What is read from the disk may be anything.
 TEST(Streams, RecordsOfOtherTrajectoriesAreRefused) {
   const Shell shell;
-  shell("$carom" + mushroom.anew(" --per-trajectory --block 64") + " -o a.h5 --checkpoint 0.02 & pid=$!; "
-        "until_there a.h5.records; until_saved a.h5; kill -9 $pid; wait $pid");
-  ASSERT_TRUE(shell.exists("a.h5.part")) << "it ended before it was killed";
+  ASSERT_EQ(shell(until_records_are_full(mushroom)).status, 1);
+  ASSERT_TRUE(shell.exists("a.h5.part"));
   const Outcome o = shell("head -c 7200 /dev/zero | dd of=a.h5.records conv=notrunc 2>/dev/null; $carom" + mushroom.on("a.h5"));
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");

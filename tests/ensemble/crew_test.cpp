@@ -97,7 +97,7 @@ TEST(Crew, HandsOverEveryRecordAndSavesOnTheWay) {
   options.journal = &alone;
   run_escape(make_system(magnetic_square), options);
   options.journal = &shared;
-  options.save_every = 0.005;
+  options.save_every_blocks = 20;
   options.threads = 1;
   options.block = 5;
   run_crew(3, options, 2);

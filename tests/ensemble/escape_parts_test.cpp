@@ -98,6 +98,28 @@ TEST(EscapeInParts, GoesOnFromEverySavedState) {
   }
 }
 
+TEST(EscapeInParts, SavesAfterSoManyBlocks) {
+  const System system = stadium();
+  for (const int threads : {1, 3}) {
+    Memory memory;
+    EscapeOptions options;
+    options.threads = threads;
+    options.block = 10;
+    options.journal = &memory;
+    options.save_every = 1e-6;  // does not count
+    options.save_every_blocks = 50;
+    const EscapeResult result = run_escape(system, options);
+    ASSERT_GE(memory.states.size(), 2u);
+    for (std::size_t i = 0; i < memory.states.size(); ++i) {
+      const std::uint64_t done = memory.states[i].done.size();
+      EXPECT_GE(done, 500 * i);
+      EXPECT_TRUE(threads > 1 || done == 500 * i) << done;
+    }
+    EXPECT_EQ(result.done.size(), 3000u);
+    EXPECT_TRUE(threads > 1 || memory.states.size() == 7) << memory.states.size();
+  }
+}
+
 // For rates: the hits of earlier parts took no time of this one.
 TEST(EscapeInParts, TellsItsOwnHits) {
   const System system = stadium();

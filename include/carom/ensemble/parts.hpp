@@ -77,9 +77,9 @@ struct EnsembleOptions {
   TrajectoryRange part{0, std::numeric_limits<std::uint64_t>::max()};
   /// What was done before, and is not done again: the result holds it too.
   const Result* before = nullptr;
-  EnsembleJournal<Result>* journal =
-      nullptr;  ///< is asked to save first of all, and then every so many seconds
-  double save_every = 10;
+  EnsembleJournal<Result>* journal = nullptr;  ///< is asked to save first of all, and then now and then
+  double save_every = 10;               ///< seconds
+  std::uint64_t save_every_blocks = 0;  ///< if not 0: whenever that many have come in, whatever the time
   /// Processes that share the ensemble: each runs it. Rank 0 has the result; part, before, journal and
   /// progress are its own. The others need the system, and their result is empty. Whatever fails, all of them
   /// end.
