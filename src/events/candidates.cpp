@@ -79,6 +79,8 @@ Sign HitFinder::quartic_candidate(const Flight& f, int piece, double inflation, 
   Quartic<double> q = ellipse_quartic(em, stands || beside ? dot(em, em) : 1.0, vm, jm, f.omega, 0.5);
   if (w.orientation > 0)
     for (double& x : q.q) x = -x;
+  // In the quartic that square stands as it is, times 2 n and times n^2, n = omega^2 / 4; .251 for a quarter is more than
+  // what is rounded here.
   if (beside) {
     const double n = 0.251 * f.omega * f.omega;
     error.q[4] += off;
