@@ -255,7 +255,7 @@ TEST(EscapeArchive, RowsAreTheTrajectoriesThatWereCounted) {
 TEST(EscapeArchive, SurvivesCtrlC) {
   const Shell shell;
   const Outcome o = shell(
-      "$carom escape sinai --trajectories 1e12 --per-trajectory -o a.h5 --json --checkpoint 0.05 & pid=$!; "
+      "$carom escape sinai --trajectories 1e12 --per-trajectory -o a.h5 --json --checkpoint blocks:1 & pid=$!; "
       "until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   EXPECT_TRUE(is_json_object(o.out));

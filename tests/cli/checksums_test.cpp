@@ -73,7 +73,7 @@ void expect_changed(const Outcome& o, const std::string& file, const char* text)
 // Two systems would be added up as one.
 TEST(Checksums, AChangedSystemOfACheckpointIsRefused) {
   const Shell shell;
-  shell("$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint 0.02 & pid=$!; "
+  shell("$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
   const std::string checkpoint = shell.folder() + "/a.h5.part";
   change_text(checkpoint, "stem_width = 1", "stem_width = 2");
@@ -82,7 +82,7 @@ TEST(Checksums, AChangedSystemOfACheckpointIsRefused) {
   EXPECT_TRUE(shell.exists("a.h5.part") && !shell.exists("a.h5") && !shell.exists("sum.h5"));
   // As it was, it goes on; so does one of an earlier build, which has no checksum.
   change_text(checkpoint, "stem_width = 2", "stem_width = 1");
-  const std::string go_on = "$carom escape --resume a.h5 --quiet --checkpoint 0.05 & pid=$!; until_saved a.h5; kill -9 $pid; wait $pid";
+  const std::string go_on = "$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -9 $pid; wait $pid";
   EXPECT_EQ(shell(go_on).status, 137);
   remove_checksum(checkpoint, "system");
   EXPECT_EQ(shell(go_on).status, 137);
@@ -155,7 +155,7 @@ TEST(Checksums, ABitOfASectionOrCertifiedOrbitIsToldOf) {
 // Before anything is computed: what goes on from damaged records would be thrown away in the end.
 TEST(Checksums, ABitOfTheRecordsOfACheckpointIsToldOfAtOnce) {
   const Shell shell;
-  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint 0.02 & pid=$!; "
+  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
         "until_there a.h5.records; until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part"));
   // Bytes 8 to 15 of the first record: where the trajectory started.
@@ -169,7 +169,7 @@ TEST(Checksums, ABitOfTheRecordsOfACheckpointIsToldOfAtOnce) {
   EXPECT_NE(o.err.find("a.h5.records: the records of the trajectories "), std::string::npos) << o.err;
   EXPECT_TRUE(shell.exists("a.h5.part") && shell.exists("a.h5.records") && !shell.exists("a.h5"));
   // Mended, they go on.
-  const Outcome again = shell("cp kept a.h5.records; $carom escape --resume a.h5 --quiet --checkpoint 0.05 & pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
+  const Outcome again = shell("cp kept a.h5.records; $carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(again.status, 130) << again.err;
 }
 

@@ -192,7 +192,7 @@ TEST(Damaged, APartIsNotTheWhole) {
 
 TEST(Damaged, RecordsOfOthersAreRefused) {
   const Shell shell;
-  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint 0.02 & pid=$!; "
+  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part"));
   Damage(shell.folder() + "/a.h5.part").resize("records/rows", 0);

@@ -22,7 +22,7 @@ TEST(DiffusionResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk(lore
 
 TEST(DiffusionResume, RefusesWhatDiffers) {
   const Shell shell;
-  shell("$carom diffusion lorentz-triangular --trajectories 1e8 -o a.h5 --quiet --checkpoint 0.02 & pid=$!; "
+  shell("$carom diffusion lorentz-triangular --trajectories 1e8 -o a.h5 --quiet --checkpoint blocks:1 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part"));
   const std::pair<const char*, const char*> cases[] = {

@@ -22,7 +22,7 @@ TEST(EscapeResume, AfterKillsHoldsEveryRecord) {
 
 // A killed run's, with something in it.
 void leave_a_checkpoint(const Shell& shell) {
-  shell("$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint 0.02 & pid=$!; "
+  shell("$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part"));
 }
@@ -31,14 +31,14 @@ void leave_a_checkpoint(const Shell& shell) {
 TEST(EscapeResume, AfterAKillWithinTheCopyOfRecords) {
   const Shell shell;
   // An archive of the first trajectories, and records as such a run leaves them.
-  shell("$carom escape mushroom --trajectories 1e9 --t-max 100 --per-trajectory --threads 1 --block 100 -o a.h5 --quiet --checkpoint 0.02 & pid=$!; "
+  shell("$carom escape mushroom --trajectories 1e9 --t-max 100 --per-trajectory --threads 1 --block 100 -o a.h5 --quiet --checkpoint blocks:100 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
   const std::string records = shell.read("a.h5.records");
   ASSERT_GT(records.size(), 10000u);
-  shell("$carom escape --resume a.h5 --quiet --checkpoint 0.05 & pid=$!; until_saved a.h5; kill -TERM $pid; wait $pid");
+  shell("$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -TERM $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5"));
   ASSERT_FALSE(shell.exists("a.h5.records"));
-  const std::string resumed = "$carom escape --resume a.h5 --quiet --checkpoint 0.05 & pid=$!; until_saved a.h5; kill -TERM $pid; wait $pid";
+  const std::string resumed = "$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -TERM $pid; wait $pid";
   const auto leave = [&](const std::string& bytes) {
     std::ofstream(shell.folder() + "/a.h5.records", std::ios::binary) << bytes;
   };
@@ -87,7 +87,7 @@ TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
   EXPECT_NE(anew.err.find("--resume a.h5"), std::string::npos) << anew.err;
   EXPECT_EQ(shell.read("a.h5.part"), before);
   // What is the same in another spelling is the same.
-  const Outcome same = shell("$carom escape mushroom --resume a.h5 --trajectories 1000000000 --quiet --json --checkpoint 0.05 & pid=$!; "
+  const Outcome same = shell("$carom escape mushroom --resume a.h5 --trajectories 1000000000 --quiet --json --checkpoint blocks:20 & pid=$!; "
                              "until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(same.status, 130) << same.err;
   EXPECT_NE(same.err.find("carom escape --resume a.h5"), std::string::npos) << same.err;
@@ -111,7 +111,7 @@ TEST(EscapeResume, TheFileOfTheSystemMayBeRenamed) {
 
 TEST(EscapeResume, NamesTheRecordsThatAreMissing) {
   const Shell shell;
-  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint 0.02 & pid=$!; "
+  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
   const std::string records = shell.read("a.h5.records");
   ASSERT_NE(records, "");

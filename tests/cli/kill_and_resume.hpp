@@ -128,7 +128,7 @@ inline void fill_the_disk(const Ensemble& ensemble, const std::string& options, 
   Outcome full;
   for (int i = 0;; ++i) {
     ASSERT_LT(i, tries);
-    full = shell("$carom" + ensemble.anew(options) + " -o small/b.h5 --threads 1 --block 4 --checkpoint 0.02 & pid=$!; "
+    full = shell("$carom" + ensemble.anew(options) + " -o small/b.h5 --threads 1 --block 4 --checkpoint blocks:100 & pid=$!; "
                  "until_saved small/b.h5; " + filler + "wait $pid");
     if (full.status != 0) break;
     shell("rm small/*");

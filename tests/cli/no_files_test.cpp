@@ -98,7 +98,7 @@ TEST(Links, AreFollowedToTheFile) {
 
 TEST(Links, CheckpointsStandBesideTheFile) {
   const Shell shell;
-  const std::string go_on = " --quiet --block 4 --checkpoint 0.02 & pid=$!; until_saved real/a.svg; ";
+  const std::string go_on = " --quiet --block 4 --checkpoint blocks:2000 & pid=$!; until_saved real/a.svg; ";
   const std::string look = "kill -9 $pid; wait $pid; ls -I '*.new' real";
   ASSERT_EQ(shell("mkdir real; ln -s $PWD/real/a.svg real/link; mv real/link .; ln -s link out.svg").status, 0);
   const Outcome first = shell("ulimit -t 60; $carom escape mushroom --trajectories 1e9 --per-trajectory -o out.svg" + go_on + look);

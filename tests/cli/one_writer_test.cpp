@@ -17,7 +17,7 @@ Outcome while_it_runs(const Shell& shell, const std::string& command, const std:
                "\nstatus=$?; kill -9 $pid; wait $pid 2>/dev/null; rm log; exit $status");
 }
 
-const std::string endless = "escape mushroom --trajectories 1e9 --t-max 400 --per-trajectory --block 4 --checkpoint 0.05";
+const std::string endless = "escape mushroom --trajectories 1e9 --t-max 400 --per-trajectory --block 4 --checkpoint blocks:2000";
 
 TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
   const Shell shell;
@@ -31,7 +31,7 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
     EXPECT_NE(o.err.find("q.h5: another process writes it"), std::string::npos) << other << "\n" << o.err;
     EXPECT_TRUE(shell.exists("q.h5.part") && shell.exists("q.h5.records")) << other;
     // Interrupted after its first checkpoint: on a busy machine it may be long until it listens.
-    const Outcome on = shell("$carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
+    const Outcome on = shell("$carom escape --resume q.h5 --checkpoint blocks:20 --quiet & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
     EXPECT_EQ(on.status, 130) << other << "\n" << on.err;
     EXPECT_EQ(shell.files(), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"})) << other;
     shell("rm -f q.h5*");
@@ -59,7 +59,7 @@ TEST(OneWriter, NobodyTakesTheFilesOfALiveRun) {
     EXPECT_TRUE(of_lock || line.find(": another process writes it, for it is a file of 'q.h5'") != std::string::npos) << line;
   }
   EXPECT_EQ(refused, 25) << o.err;
-  const Outcome on = shell("$carom escape --resume q.h5 --checkpoint 0.05 --quiet & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
+  const Outcome on = shell("$carom escape --resume q.h5 --checkpoint blocks:20 --quiet & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(on.status, 130) << on.err;
   EXPECT_EQ(shell.files(), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"}));
 }
@@ -105,7 +105,7 @@ TEST(OneWriter, AClosedPipeLeavesTheArchiveAlone) {
 
 TEST(OneWriter, WhatIsCompleteIsCleanedUp) {
   const Shell shell;
-  while_it_runs(shell, "escape mushroom --trajectories 1e6 --t-max 400 --per-trajectory --block 4 --checkpoint 0.05", "true");
+  while_it_runs(shell, "escape mushroom --trajectories 1e6 --t-max 400 --per-trajectory --block 4 --checkpoint blocks:2000", "true");
   // As if it had been killed between its last steps: of the checkpoint the records go first.
   ASSERT_EQ(shell("cp q.h5.part left && $carom escape --resume q.h5 --quiet && mv left q.h5.part").status, 0);
   const Outcome o = shell("$carom escape --resume q.h5 --quiet");

@@ -15,7 +15,7 @@ const std::string mushroom = "$carom escape mushroom --trajectories 2000 --t-max
 
 // Leaves q.h5.part, and q.h5.records where they are asked for.
 void leave_a_checkpoint(const Shell& shell, const std::string& options) {
-  shell("$carom escape mushroom --trajectories 1e9 --quiet --block 4 --checkpoint 0.02 -o q.h5 " + options +
+  shell("$carom escape mushroom --trajectories 1e9 --quiet --block 4 --checkpoint blocks:2000 -o q.h5 " + options +
         " & pid=$!; until_saved q.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("q.h5.part"));
 }
@@ -55,7 +55,7 @@ TEST(OwnFiles, AnInterruptedArchiveCalledPartGoesOn) {
 TEST(OwnFiles, ACheckpointIsFoundByItsOwnName) {
   const Shell shell;
   leave_a_checkpoint(shell, "");
-  const Outcome o = shell("$carom escape --resume q.h5.part --quiet --json --checkpoint 0.02 & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
+  const Outcome o = shell("$carom escape --resume q.h5.part --quiet --json --checkpoint blocks:20 & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
   EXPECT_EQ(shell.files(), Names{"q.h5"});
   // The name of a checkpoint that is over still means its archive.
@@ -141,7 +141,7 @@ TEST(OwnFiles, WhatAKillLeftAsideIsReplaced) {
     EXPECT_EQ(shell("rm a.h5; " + left + " > a.h5.new; $carom section stadium --orbits 2 --points 3 -o a.h5; rm a.h5").status, 0) << left;
   }
   // Killed as it took the place of the checkpoint, it is whole.
-  const Outcome o = shell(mushroom + "-o whole.h5 && mv whole.h5 q.h5.part.new && $carom escape --resume q.h5 --quiet --checkpoint 0.02 "
+  const Outcome o = shell(mushroom + "-o whole.h5 && mv whole.h5 q.h5.part.new && $carom escape --resume q.h5 --quiet --checkpoint blocks:20 "
                           "& pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
 }
