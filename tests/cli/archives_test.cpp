@@ -132,7 +132,8 @@ TEST(RunArchive, SurvivesCtrlC) {
 
 TEST(RunArchive, CanBeReadWhileItGrowsAndAfterAKill) {
   const Shell shell;
-  shell("$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; until_there a.h5; sleep 0.5; kill -9 $pid; wait $pid");
+  shell("$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; "
+        "until [ $(stat -c %s a.h5) -gt 2000000 ]; do kill -0 $pid || break; sleep 0.01; done; kill -9 $pid; wait $pid");
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
   const hid_t file = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);

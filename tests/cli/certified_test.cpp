@@ -35,8 +35,8 @@ TEST(Certified, EscapesThroughAHole) {
 TEST(Certified, EndsWhenAsked) {
   const Shell shell;
   const Outcome json = shell(
-      "timeout -s INT 3 $carom run ellipse-magnetic --set field.B=0 --collisions 1e9 --t-max 1e300 "
-      "--precision certified --json");
+      "$carom run ellipse-magnetic --set field.B=0 --collisions 1e9 --t-max 1e300 --precision certified --json & pid=$!; "
+      "until_listening; sleep 1; kill -INT $pid; wait $pid");
   EXPECT_EQ(json_value(json.out, "status"), "\"interrupted\"") << json.err;
   EXPECT_EQ(json_value(json.out, "collisions"), "0");
   const Outcome far = shell("$carom run stadium --set table.hole=[] --collisions 1e8 --t-max 1e300 --precision certified");

@@ -97,10 +97,10 @@ inline void kill_and_resume(const Ensemble& ensemble, const std::string& options
   EXPECT_EQ(json_value(again.out, "seconds"), json_value(end.out, "seconds"));
 }
 
-// Ends with an error, whatever the machine does meanwhile: a.h5.part holds some of the trajectories, a.h5.records their
-// records, which may not grow beyond 3 MB. No checkpoint is as large.
-inline std::string until_records_are_full(const Ensemble& ensemble) {
-  return "prlimit --fsize=3000000 $carom" + ensemble.anew(" --per-trajectory --threads 1 --block 100 --checkpoint blocks:20") + " -o a.h5";
+// Ends with an error, whatever the machine does meanwhile: the checkpoint holds some of the trajectories, and their
+// records may not grow beyond 3 MB. No checkpoint is as large.
+inline std::string until_records_are_full(const Ensemble& ensemble, const std::string& file = "a.h5") {
+  return "prlimit --fsize=3000000 $carom" + ensemble.anew(" --per-trajectory --threads 1 --block 100 --checkpoint blocks:20") + " -o " + file;
 }
 
 // `size`: of the disk, in kB. On a busy machine the program may end before its disk is full, or give up before there is

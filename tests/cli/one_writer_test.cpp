@@ -96,7 +96,8 @@ TEST(OneWriter, ASecondStartRefusesWhatTheFirstHasMade) {
 
 TEST(OneWriter, AClosedPipeLeavesTheArchiveAlone) {
   const Shell shell;
-  const Outcome o = shell("( $carom escape magnetic-square --trajectories 3e4 --per-trajectory --quiet -o g.h5; echo $? > status ) | true");
+  const Outcome o = shell("mkfifo pipe; true < pipe & exec 7> pipe; wait $!; rm pipe; "
+                          "$carom escape magnetic-square --trajectories 3e4 --per-trajectory --quiet -o g.h5 >&7; echo $? > status");
   EXPECT_EQ(shell.read("status"), "1\n");
   EXPECT_NE(o.err.find("cannot write to standard output: Broken pipe"), std::string::npos) << o.err;
   EXPECT_EQ(shell.files(), (std::vector<std::string>{"g.h5", "status"}));
@@ -105,7 +106,7 @@ TEST(OneWriter, AClosedPipeLeavesTheArchiveAlone) {
 
 TEST(OneWriter, WhatIsCompleteIsCleanedUp) {
   const Shell shell;
-  while_it_runs(shell, "escape mushroom --trajectories 1e6 --t-max 400 --per-trajectory --block 4 --checkpoint blocks:2000", "true");
+  shell(until_records_are_full({"escape", "mushroom --trajectories 1e6 --t-max 400"}, "q.h5"));
   // As if it had been killed between its last steps: of the checkpoint the records go first.
   ASSERT_EQ(shell("cp q.h5.part left && $carom escape --resume q.h5 --quiet && mv left q.h5.part").status, 0);
   const Outcome o = shell("$carom escape --resume q.h5 --quiet");

@@ -141,8 +141,8 @@ TEST(OwnFiles, WhatAKillLeftAsideIsReplaced) {
     EXPECT_EQ(shell("rm a.h5; " + left + " > a.h5.new; $carom section stadium --orbits 2 --points 3 -o a.h5; rm a.h5").status, 0) << left;
   }
   // Killed as it took the place of the checkpoint, it is whole.
-  const Outcome o = shell(mushroom + "-o whole.h5 && mv whole.h5 q.h5.part.new && $carom escape --resume q.h5 --quiet --checkpoint blocks:20 "
-                          "& pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
+  ASSERT_EQ(shell(mushroom + "-o whole.h5 && mv whole.h5 q.h5.part.new").status, 0);
+  const Outcome o = shell("$carom escape --resume q.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved q.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
 }
 

@@ -14,20 +14,9 @@ namespace carom {
 
 namespace fs = std::filesystem;
 
-Shell::Shell() {
-  std::string name = (fs::temp_directory_path() / "carom-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-  folder_ = name;
-}
-
-Shell::~Shell() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
 namespace {
 
-// The first checkpoint of a run anew holds nothing; one that takes the place of another does.
+// The first checkpoint of a run anew holds nothing. Signal 15 is bit 14 of those that are caught.
 const char* const functions = R"sh(
 until_there() { until [ -s "$1" ]; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done; }
 until_saved() {
@@ -35,12 +24,15 @@ until_saved() {
   found=$(stat -c %y "$1.part")
   while [ "$(stat -c %y "$1.part" 2>/dev/null)" = "$found" ]; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done
 }
+until_listening() {
+  until grep -qs '^SigCgt:.*[4-7c-f]...$' /proc/$pid/status; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done
+}
 )sh";
 
 }  // namespace
 
 Outcome Shell::operator()(const std::string& command) const {
-  const std::string script = std::string(functions) + "cd '" + folder_ + "'; carom='" CAROM_PROGRAM "'; {\n" + command +
+  const std::string script = std::string(functions) + "cd '" + folder() + "'; carom='" CAROM_PROGRAM "'; {\n" + command +
                              "\n} >.out 2>.err </dev/null";
   const int raw = std::system(script.c_str());
   Outcome outcome;
@@ -50,10 +42,10 @@ Outcome Shell::operator()(const std::string& command) const {
   return outcome;
 }
 
-bool Shell::exists(const std::string& file) const { return fs::exists(fs::path(folder_) / file); }
+bool Shell::exists(const std::string& file) const { return fs::exists(folder_.path() / file); }
 
 std::string Shell::read(const std::string& file) const {
-  std::ifstream in(fs::path(folder_) / file);
+  std::ifstream in(folder_.path() / file);
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
@@ -61,7 +53,7 @@ std::string Shell::read(const std::string& file) const {
 
 std::vector<std::string> Shell::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
     const std::string name = entry.path().filename().string();
     if (name != ".out" && name != ".err") names.push_back(name);
   }

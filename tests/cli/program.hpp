@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "scratch_folder.hpp"
+
 namespace carom {
 
 struct Outcome {
@@ -14,19 +16,18 @@ struct Outcome {
 /// Through the shell, in a folder of this test's own: "carom" stands for the program.
 class Shell {
  public:
-  Shell();
-  ~Shell();
   /// `command` is a shell line in which $carom is the program. While $pid runs in the background, `until_there FILE`
-  /// waits for a file with something in it, `until_saved FILE` for a checkpoint of FILE with trajectories in it.
+  /// waits for a file with something in it, `until_saved FILE` for the second checkpoint of FILE, in which there are
+  /// trajectories if checkpoints are blocks apart, `until_listening` until SIGTERM is no longer the end of it.
   Outcome operator()(const std::string& command) const;
   bool exists(const std::string& file) const;
   std::string read(const std::string& file) const;
   /// Names of all files of the folder but the captured output, sorted.
   std::vector<std::string> files() const;
-  const std::string& folder() const { return folder_; }
+  std::string folder() const { return folder_.path().string(); }
 
  private:
-  std::string folder_;
+  ScratchFolder folder_;
 };
 
 /// Is the text exactly one JSON object (and white space)?

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <map>
 #include <thread>
 #include <vector>
@@ -29,13 +30,21 @@ class Records : public EscapeJournal {
   int saves = 0;
 };
 
-/// Each rank has a system of its own, as processes have. `slow`: a rank that starts late. Where one fails, none of
-/// the others ends as if nothing had happened.
-EscapeResult run_crew(const std::vector<System>& systems, EscapeOptions options, int slow = -1) {
+/// What the ranks but the first do before they begin.
+using Before = std::function<void(int rank)>;
+Before late(int slow) {
+  return [slow](int rank) {
+    if (rank == slow) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  };
+}
+
+/// Each rank has a system of its own, as processes have. Where one fails, none of the others ends as if nothing had
+/// happened.
+EscapeResult run_crew(const std::vector<System>& systems, EscapeOptions options, const Before& before = late(-1)) {
   const int size = static_cast<int>(systems.size());
   ThreadCrew crew(size);
-  crew.start_hands([&systems, slow, threads = options.threads](Ranks& ranks) {
-    if (ranks.rank() == slow) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  crew.start_hands([&systems, &before, threads = options.threads](Ranks& ranks) {
+    before(ranks.rank());
     EscapeOptions mine;
     mine.threads = threads;
     mine.ranks = &ranks;
@@ -56,8 +65,8 @@ EscapeResult run_crew(const std::vector<System>& systems, EscapeOptions options,
   if (error) std::rethrow_exception(error);
   return result;
 }
-EscapeResult run_crew(int size, const EscapeOptions& options, int slow = -1, const System& system = make_system(magnetic_square)) {
-  return run_crew(std::vector<System>(static_cast<std::size_t>(size), system), options, slow);
+EscapeResult run_crew(int size, const EscapeOptions& options, const Before& before = late(-1), const System& system = make_system(magnetic_square)) {
+  return run_crew(std::vector<System>(static_cast<std::size_t>(size), system), options, before);
 }
 
 void expect_equal(const EscapeResult& a, const EscapeResult& b) {
@@ -88,7 +97,7 @@ TEST(Crew, OfAnySizeHasTheSameResult) {
 TEST(Crew, DoesNotWaitForASlowRank) {
   EscapeOptions options;
   options.threads = 1;
-  expect_equal(run_crew(3, options, 2), run_escape(make_system(magnetic_square)));
+  expect_equal(run_crew(3, options, late(2)), run_escape(make_system(magnetic_square)));
 }
 
 TEST(Crew, HandsOverEveryRecordAndSavesOnTheWay) {
@@ -100,7 +109,7 @@ TEST(Crew, HandsOverEveryRecordAndSavesOnTheWay) {
   options.save_every_blocks = 20;
   options.threads = 1;
   options.block = 5;
-  run_crew(3, options, 2);
+  run_crew(3, options, late(2));
   ASSERT_EQ(shared.all.size(), alone.all.size());
   for (const auto& [index, r] : alone.all) {
     const TrajectoryRecord& s = shared.all.at(index);
@@ -117,7 +126,10 @@ TEST(Crew, GoesOnAfterAnInterruption) {
   options.threads = 1;
   options.interrupted = &stop;
   options.progress = [&](std::uint64_t done, std::uint64_t) { stop = stop || done > 100; };
-  const EscapeResult part = run_crew(3, options);
+  // Two that are fast might do all of it while the first begins.
+  const EscapeResult part = run_crew(3, options, [&](int) {
+    while (!stop) std::this_thread::yield();
+  });
   EXPECT_FALSE(part.complete);
   EscapeOptions rest;
   rest.before = &part;
@@ -141,7 +153,7 @@ TEST(Crew, EndsWhenTheFirstRankFails) {
     options.threads = 1;
     options.journal = &full;
     options.save_every = 0.01;
-    EXPECT_THROW(run_crew(3, options, -1, system), InputError);
+    EXPECT_THROW(run_crew(3, options, late(-1), system), InputError);
   }
 }
 

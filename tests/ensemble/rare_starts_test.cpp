@@ -124,7 +124,7 @@ TEST(RareStarts, LetGoWhereTheyAreInterrupted) {
     run();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     later.join();
-    EXPECT_LT(seconds.count(), 5.0);
+    EXPECT_LT(seconds.count(), 60.0);
   };
   interrupted([&] {
     EscapeOptions options;
@@ -169,7 +169,7 @@ TEST(RareStarts, StopAmongThreadsAfterTheFirst) {
   EXPECT_FALSE(run_splitting(free, plan, options).complete);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   later.join();
-  EXPECT_LT(seconds.count(), 5.0);
+  EXPECT_LT(seconds.count(), 60.0);
 }
 
 }  // namespace

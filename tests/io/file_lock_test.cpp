@@ -2,6 +2,7 @@
 #include "io/file_lock.hpp"
 
 #include <gtest/gtest.h>
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,16 +16,14 @@
 
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
+#include "scratch_folder.hpp"
 
 namespace carom {
 namespace {
 
-std::string name_of_own() {
-  return (std::filesystem::temp_directory_path() / ("carom-lock-" + std::to_string(::getpid()))).string();
-}
-
 TEST(FileLock, RefusesTheSecondAndLeavesNothing) {
-  const std::string file = name_of_own();
+  const ScratchFolder folder;
+  const std::string file = folder.file("a");
   {
     const ArchiveLock first = lock_archive(file);
     EXPECT_THROW(lock_archive(file), InputError);
@@ -36,7 +35,8 @@ TEST(FileLock, RefusesTheSecondAndLeavesNothing) {
 
 // Whoever writes what stands beside an archive keeps others from it, and is kept from it by them.
 TEST(FileLock, OfAnArchiveIsThatOfTheFilesBesideIt) {
-  const std::string file = name_of_own();
+  const ScratchFolder folder;
+  const std::string file = folder.file("a");
   const std::vector<std::string> beside = {".part", ".part.new", ".records", ".new", ".part.part"};
   for (const std::string& mark : beside) {
     {
@@ -62,23 +62,25 @@ TEST(FileLock, OfAnArchiveIsThatOfTheFilesBesideIt) {
 
 // Whoever may only read the lock's file, as that of another user, is refused like anybody.
 TEST(FileLock, OfAnotherUserCounts) {
-  const std::string folder = name_of_own() + "-open", file = folder + "/a";
-  std::filesystem::create_directory(folder);
-  std::filesystem::permissions(folder, std::filesystem::perms::all);
-  {
-    const ArchiveLock first = lock_archive(file);
-    ASSERT_EQ(::chmod((file + ".lock").c_str(), 0444), 0);
-    const bool root = ::geteuid() == 0;  // to whom everything is open
-    EXPECT_TRUE(!root || ::seteuid(65534) == 0);
+  const ScratchFolder folder;
+  const std::string file = folder.file("a");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  const ArchiveLock first = lock_archive(file);
+  ASSERT_EQ(::chmod((file + ".lock").c_str(), 0444), 0);
+  const bool root = ::geteuid() == 0;  // to whom everything is open
+  if (root && ::seteuid(65534) != 0) GTEST_SKIP() << "no right to be another user";
+  const bool reached = ::faccessat(AT_FDCWD, folder.path().c_str(), W_OK | X_OK, AT_EACCESS) == 0;
+  if (reached) {
     EXPECT_THROW(lock_archive(file), InputError);
-    EXPECT_TRUE(!root || ::seteuid(0) == 0);
   }
-  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(!root || ::seteuid(0) == 0);
+  if (!reached) GTEST_SKIP() << "another user does not reach the folder of temporary files";
 }
 
 // Threads stand for processes: a lock belongs to an open file.
 TEST(FileLock, IsHeldByOneWhileTheOthersLetGo) {
-  const std::string file = name_of_own();
+  const ScratchFolder folder;
+  const std::string file = folder.file("a");
   std::atomic<int> inside{0}, most{0}, held{0};
   const auto work = [&] {
     for (int i = 0; i < 3000; ++i) {

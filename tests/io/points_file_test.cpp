@@ -3,6 +3,7 @@
 #include <fstream>
 #include <tuple>
 
+#include "scratch_folder.hpp"
 #include "system_text.hpp"
 
 namespace carom::tests {
@@ -14,13 +15,10 @@ using geometry::Vector;
 
 class PointsFile : public testing::Test {
  protected:
-  PointsFile() { std::filesystem::create_directory(folder_); }
-  ~PointsFile() override { std::filesystem::remove_all(folder_); }
-
   LoadedSystem read_with(const std::string& points, const std::string& table) const {
-    std::ofstream(folder_ / "points.csv") << points;
+    std::ofstream(folder_.file("points.csv")) << points;
     return read_system("[table]\npath = \"points.csv\"\n" + table + "[initial]\nkind = \"line\"\nfrom = [-9, -9]\nto = [-8, -9]\nangle = 0\n",
-                       (folder_ / "a.toml").string());
+                       folder_.file("a.toml"));
   }
   std::string fault_of(const std::string& points, const std::string& table) const {
     try {
@@ -31,9 +29,7 @@ class PointsFile : public testing::Test {
     return "no fault";
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      ("carom-points-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  const ScratchFolder folder_;
 };
 
 TEST_F(PointsFile, HoldsDiscs) {
@@ -52,7 +48,7 @@ TEST_F(PointsFile, HoldsCorners) {
 
 TEST_F(PointsFile, ResolvedSystemsHoldThePoints) {
   const LoadedSystem loaded = read_with("0 0 1/3\n1 1 +0.5e0\n2 2 .25\n", "shape = \"discs\"\n");
-  std::filesystem::remove(folder_ / "points.csv");
+  std::filesystem::remove(folder_.file("points.csv"));
   const LoadedSystem again = read_system(loaded.resolved_toml, "again.toml");
   EXPECT_EQ(again.resolved_toml, loaded.resolved_toml);
   for (std::size_t k = 0; k < 3; ++k)

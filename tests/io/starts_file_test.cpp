@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "scratch_folder.hpp"
 #include "system_text.hpp"
 
 namespace carom::tests {
@@ -9,12 +10,9 @@ namespace {
 
 class StartsFile : public testing::Test {
  protected:
-  StartsFile() { std::filesystem::create_directory(folder_); }
-  ~StartsFile() override { std::filesystem::remove_all(folder_); }
-
   LoadedSystem read_with(const std::string& starts) const {
-    std::ofstream(folder_ / "starts.txt") << starts;
-    return read_system(square("[initial]\nkind = \"file\"\npath = \"starts.txt\"\n"), (folder_ / "a.toml").string());
+    std::ofstream(folder_.file("starts.txt")) << starts;
+    return read_system(square("[initial]\nkind = \"file\"\npath = \"starts.txt\"\n"), folder_.file("a.toml"));
   }
   std::string fault_of(const std::string& starts) const {
     try {
@@ -25,9 +23,7 @@ class StartsFile : public testing::Test {
     return "no fault";
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      ("carom-starts-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  const ScratchFolder folder_;
 };
 
 TEST_F(StartsFile, IsTheListItHolds) {
@@ -43,7 +39,7 @@ TEST_F(StartsFile, IsTheListItHolds) {
 
 TEST_F(StartsFile, ResolvedSystemsHoldTheStarts) {
   const LoadedSystem loaded = read_with("0.25 1/3 1 0\n");
-  std::filesystem::remove(folder_ / "starts.txt");
+  std::filesystem::remove(folder_.file("starts.txt"));
   const LoadedSystem again = read_system(loaded.resolved_toml, "again.toml");
   EXPECT_EQ(again.resolved_toml, loaded.resolved_toml);
   EXPECT_EQ(again.system.initial.positions, loaded.system.initial.positions);
