@@ -91,7 +91,7 @@ constexpr const char* all_died_out = "all populations died out";
 
 Json json_of(const Extrapolated& value, Json json, bool known = true) {
   if (!known) {
-    for (const char* key : {"value", "stderr", "extrapolation", "low", "high", "at_kicks"}) json.set(key, Json());
+    for (const char* key : {"value", "stderr", "extrapolation", "kick_error", "low", "high", "at_kicks"}) json.set(key, Json());
     return json;
   }
   Json kicks = Json::array();
@@ -100,6 +100,7 @@ Json json_of(const Extrapolated& value, Json json, bool known = true) {
   return json.set("value", value.limit.value)
       .set("stderr", value.limit.error)
       .set("extrapolation", value.extrapolation)
+      .set("kick_error", value.kick_error)
       .set("low", value.low())
       .set("high", value.high())
       .set("at_kicks", std::move(kicks));
@@ -146,6 +147,13 @@ int splitting(const Options& options) {
   if (result.plan.population < Extrapolated::least_population)
     warn(fmt::format("populations of {} trajectories: errors and intervals hold from {} on", result.plan.population,
                      Extrapolated::least_population));
+  const std::size_t repetitions = result.runs.back().size();
+  const Mean cost = cost_of_kicks(result, result.at.size() - 1);
+  if (is_certain(cost, repetitions))
+    warn(fmt::format("kicked copies do not stay as long as others: by {} = {:.6g} p is off by {:.2g}({:.1g}) % for that, and by as much "
+                     "again for what is not seen. The intervals hold it; smaller kicks (--kick {:.3g}) or independent trajectories have "
+                     "less of it",
+                     variable, result.at.back(), 100.0 * cost.value, 100.0 * cost.error, result.plan.kick / 16));
   if (options.json) {
     Json json = Json::object();
     add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
@@ -153,6 +161,7 @@ int splitting(const Options& options) {
     json.set("levels", by_time ? "time" : "hits");
     json.set("population", result.plan.population).set("repetitions", result.runs.front().size());
     json.set("kick", result.plan.kick).set("lookback", result.plan.lookback).set("rejected", rejected);
+    json.set("kick_cost", Json::object().set("value", cost.value).set("stderr", cost.error));
     json.set("lost", result.lost).set("collisions", result.collisions);
     json.set("digest", fmt::format("{:016x}", result.digest));
     Json points = Json::array(), rates = Json::array();

@@ -172,6 +172,7 @@ void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double
     for (int copy = 0; static_cast<double>(walkers_.size()) < teeth && walkers_.size() < plan_.population;
          ++copy) {
       Walker walker = survivors_[i];
+      walker.kicked = copy > 0;
       if (copy > 0) {
         RandomStream random(system_.run.seed, Purpose::splitting, stream, walkers_.size());
         part(walker, stage, shrink, random, stopped, result, reports);
@@ -239,6 +240,7 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
     const bool last = by_time && k == plan_.levels.size();
     const Stage stage{last ? reports_.back() : plan_.levels[k], last};
     const std::uint64_t stream = number * stages_of_population + k;
+    CopiesOfStage& copies = result.copies.emplace_back();
     survivors_.clear();
     going_.assign(reports_.size() + 1, 0);
     std::uint64_t stay = 0, ended = 0;
@@ -251,6 +253,11 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
       const double time = walker.state.time.value();
       result.digest += trajectory_hash(mix(stream) + i, static_cast<std::uint64_t>(way), time, walker.hits,
                                        walker.state.wall);
+      if (way != Way::ended) {
+        Staying& like = walker.kicked ? copies.kicked : copies.first;
+        ++like.followed;
+        if (way != Way::gone) ++like.stayed;
+      }
       const auto report_of = [&] {
         return by_time ? static_cast<std::size_t>(std::lower_bound(reports_.begin(), reports_.end(), time) - reports_.begin())
                        : k;

@@ -48,6 +48,7 @@ class Population {
     State state;
     std::uint64_t hits = 0;
     Memory memory;
+    bool kicked = false;  ///< no first copy
   };
   class Recorder;
   /// Where a stage of a population ends.

@@ -61,8 +61,11 @@ void check_memory(const SplittingPlan& plan, int threads) {
                        (threads == 1 ? " thread" : " threads"));
 }
 
-// What the threads of one run share.
+// Populations that are wanted, those that there are, and what else the threads share.
 struct Shared {
+  Shared(std::uint64_t repetitions, std::size_t kicks) : runs(kicks, std::vector<PopulationRun>(repetitions)) {}
+  std::uint64_t first = 0;                       // repetition
+  std::vector<std::vector<PopulationRun>> runs;  // by kick and repetition
   std::mutex mutex;
   DecisionCounts decisions;
   std::vector<std::string> reports;
@@ -72,20 +75,20 @@ struct Shared {
 // One thread's populations.
 class Worker {
  public:
-  Worker(Population population, const SplittingOptions& options, SplittingResult& result, Shared& shared)
-      : population_(std::move(population)), options_(options), result_(result), shared_(shared) {}
+  Worker(Population population, const SplittingOptions& options, Shared& shared)
+      : population_(std::move(population)), options_(options), shared_(shared) {}
 
   bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+    const std::size_t kicks = shared_.runs.size();
     for (std::uint64_t i = first; i < end; ++i) {
       // Every kick of a repetition starts from the same states, so neighbours in order share the work fairly.
-      PopulationRun one = population_.run(i / kick_sizes, i % kick_sizes, stopped, reports_);
+      PopulationRun one = population_.run(shared_.first + i / kicks, i % kicks, stopped, reports_);
       if (!one.done) return false;
       const std::lock_guard lock(shared_.mutex);
       ++shared_.done;
       shared_.hits += one.collisions;
-      result_.runs[i % kick_sizes][i / kick_sizes] = std::move(one);
-      if (options_.progress)
-        options_.progress(shared_.done, result_.plan.repetitions * kick_sizes, shared_.hits);
+      shared_.runs[i % kicks][i / kicks] = std::move(one);
+      if (options_.progress) options_.progress(shared_.done, kicks * shared_.runs.front().size(), shared_.hits);
     }
     return true;
   }
@@ -98,27 +101,52 @@ class Worker {
  private:
   Population population_;
   const SplittingOptions& options_;
-  SplittingResult& result_;
   Shared& shared_;
   std::vector<std::string> reports_;
 };
 
-/// The kick of a plan that leaves it open (docs/physics/rare-events.md). One of these populations costs
-/// little beside those that follow. What it loses counts.
-double chosen_kick(const System& system, const Sampler& sampler, const Kick& kick, SplittingPlan plan,
-                   const std::vector<double>& at, const SplittingOptions& options, SplittingResult& result) {
-  const std::uint64_t starts = plan.repetitions * plan.population;
-  plan.population = std::min<std::uint64_t>(plan.population, 1000);
-  // The first repetition of this size behind all starts: its random numbers are no other's.
-  const std::uint64_t unused = (starts + plan.population - 1) / plan.population;
-  const auto stopped = [&] { return options.interrupted && options.interrupted->load(); };
-  for (plan.kick = SplittingPlan::largest_choice; plan.kick > 0x1p-40 && !stopped(); plan.kick /= 2) {
-    const PopulationRun one =
-        Population(system, sampler, kick, plan, at, options.decisions).run(unused, 0, stopped, result.reports);
-    result.lost += one.lost;
-    if (one.tried == 0) return SplittingPlan::largest_choice;  // nothing is copied, or nearly
-    const auto kept = static_cast<double>(one.tried - one.parted);
-    if (kept <= SplittingPlan::most_kept * static_cast<double>(one.tried)) break;
+// What all populations of a run have in common.
+struct Setting {
+  const System& system;
+  const Sampler& sampler;
+  const Kick& kick;
+  const std::vector<double>& at;
+};
+
+/// False: it was stopped on the way.
+bool follow(const Setting& s, const SplittingPlan& plan, const BlockPlan& blocks, const SplittingOptions& options,
+            Shared& shared) {
+  return run_blocks(
+      blocks, options.interrupted,
+      [&] { return Worker(Population(s.system, s.sampler, s.kick, plan, s.at, options.decisions), options, shared); },
+      [](Worker& worker) { worker.finish(); });
+}
+
+/// The kick of a plan that leaves it open (docs/physics/rare-events.md), by small populations. What they lose counts.
+double chosen_kick(const Setting& setting, SplittingPlan plan, SplittingOptions options, SplittingResult& result) {
+  constexpr double least = 0x1p-40;
+  constexpr std::uint64_t judges = 16;
+  const std::uint64_t starts = plan.repetitions * plan.population, population = plan.population;
+  options.progress = nullptr;
+  const auto follow_some = [&](std::uint64_t repetitions, std::uint64_t largest) {
+    plan.population = std::min(population, largest);
+    Shared shared(repetitions, 1);
+    // The first repetition of this size behind all starts: its random numbers are no other's.
+    shared.first = (starts + plan.population - 1) / plan.population;
+    const bool all = follow(setting, plan, BlockPlan(repetitions, options.threads, 1), options, shared);
+    result.reports.insert(result.reports.end(), shared.reports.begin(), shared.reports.end());
+    for (const PopulationRun& one : shared.runs.front()) result.lost += one.lost;
+    return all ? shared.runs.front() : std::vector<PopulationRun>();
+  };
+  for (plan.kick = SplittingPlan::largest_choice; plan.kick > least; plan.kick /= 2) {
+    const std::vector<PopulationRun> one = follow_some(1, 1000);
+    if (one.empty() || one.front().tried == 0) return SplittingPlan::largest_choice;  // nothing is copied, or nearly
+    const auto tried = static_cast<double>(one.front().tried), parted = static_cast<double>(one.front().parted);
+    if (tried - parted <= SplittingPlan::most_kept * tried) break;
+  }
+  for (; plan.kick > least; plan.kick /= 4) {
+    const std::vector<PopulationRun> some = follow_some(judges, 4000);
+    if (some.empty() || !is_likely(cost_of_kicks(some, plan.levels.size() + 1), judges)) break;
   }
   return plan.kick;
 }
@@ -132,23 +160,18 @@ SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
   SplittingResult result;
   result.plan = plan;
   result.at = plan.by == SplittingPlan::Level::time ? system.run.times : plan.levels;
-  for (auto& runs : result.runs) runs.resize(plan.repetitions);
   // One population is one block: it needs no other, and its bits know no thread.
   const BlockPlan blocks(plan.repetitions * kick_sizes, options.threads, 1);
   check_memory(plan, blocks.threads);
   const Sampler sampler(system, options.interrupted);
   const Kick kick(*system.table);
   const Stopwatch watch;
-  if (plan.kick == 0.0) result.plan.kick = chosen_kick(system, sampler, kick, plan, result.at, options, result);
-  Shared shared;
+  const Setting setting{system, sampler, kick, result.at};
+  if (plan.kick == 0.0) result.plan.kick = chosen_kick(setting, plan, options, result);
+  Shared shared(plan.repetitions, kick_sizes);
   shared.reports = std::move(result.reports);
-  result.complete = run_blocks(
-      blocks, options.interrupted,
-      [&] {
-        return Worker(Population(system, sampler, kick, result.plan, result.at, options.decisions), options, result,
-                      shared);
-      },
-      [](Worker& worker) { worker.finish(); });
+  result.complete = follow(setting, result.plan, blocks, options, shared);
+  std::move(shared.runs.begin(), shared.runs.end(), result.runs.begin());
   result.threads = blocks.threads;
   result.decisions = shared.decisions;
   std::sort(shared.reports.begin(), shared.reports.end());

@@ -61,9 +61,66 @@ bool all_are(const Extrapolated& value, double number) {
 
 }  // namespace
 
+Mean cost_of_kicks(const std::vector<PopulationRun>& runs, std::size_t stages) {
+  std::vector<double> costs(runs.size(), 0.0);
+  for (std::size_t k = 0; k < stages; ++k) {
+    double followed = 0.0, stayed = 0.0;
+    for (const PopulationRun& run : runs)
+      if (k < run.copies.size()) {
+        followed += static_cast<double>(run.copies[k].first.followed + run.copies[k].kicked.followed);
+        stayed += static_cast<double>(run.copies[k].first.stayed + run.copies[k].kicked.stayed);
+      }
+    // Divided by what all of them say: by a population's own share it would be off where few stay.
+    for (std::size_t r = 0; r < runs.size() && stayed > 0.0; ++r) {
+      if (!(k < runs[r].copies.size())) continue;
+      const auto share = [](const Staying& s) { return static_cast<double>(s.stayed) / static_cast<double>(s.followed); };
+      const CopiesOfStage& copies = runs[r].copies[k];
+      if (copies.first.followed == 0 || copies.kicked.followed == 0) continue;
+      const double of_all = static_cast<double>(copies.kicked.followed) /
+                            static_cast<double>(copies.first.followed + copies.kicked.followed);
+      costs[r] += of_all * (share(copies.kicked) - share(copies.first)) / (stayed / followed);
+    }
+  }
+  return mean_of(costs);
+}
+
+Mean cost_of_kicks(const SplittingResult& result, std::size_t report) {
+  const bool by_time = result.plan.by == SplittingPlan::Level::time;
+  const std::vector<double>& levels = result.plan.levels;
+  // Stage k begins at level k - 1.
+  std::size_t stages = report + 1;
+  if (by_time)
+    stages = static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), result.at[report]) - levels.begin()) + 1;
+  return cost_of_kicks(result.runs.back(), stages);
+}
+
+namespace {
+
+bool exceeds(const Mean& cost, std::size_t repetitions, double quantile) {
+  return repetitions >= 2 && std::fabs(cost.value) > student_quantile(quantile, static_cast<double>(repetitions - 1)) * cost.error;
+}
+
+}  // namespace
+
+bool is_likely(const Mean& cost, std::size_t repetitions) { return exceeds(cost, repetitions, 0.975); }
+
+bool is_certain(const Mean& cost, std::size_t repetitions) { return exceeds(cost, repetitions, 0.999); }
+
+namespace {
+
+// What is certain of the difference between the kicks' cost by two reports; the first may be the start. The copies of a stage
+// tell of those alone that are gone before the next one: of half, where that was measured.
+double kick_error(const SplittingResult& result, std::size_t from, std::size_t to) {
+  const Mean cost = cost_of_kicks(result, to);
+  if (!is_certain(cost, result.runs.back().size())) return 0.0;
+  return 2.0 * std::fabs(cost.value - (from < to ? cost_of_kicks(result, from).value : 0.0));
+}
+
+}  // namespace
+
 double Extrapolated::band() const {
   if (repetitions < 2) return std::nan("");
-  return student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error + extrapolation + unseen;
+  return student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error + extrapolation + kick_error + unseen;
 }
 
 double Extrapolated::low() const {
@@ -87,6 +144,7 @@ std::vector<SplitPoint> survival(const SplittingResult& result) {
         extrapolated(result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
     point.p.least = 0.0;
     point.p.most = 1.0;
+    point.p.kick_error = kick_error(result, i, i) * point.p.limit.value;
     const Mean& p = point.p.limit;
     point.equivalent = p.error > 0.0 ? p.value * (1.0 - p.value) / (p.error * p.error) : 0.0;
     if (all_are(point.p, 1.0)) {
@@ -114,6 +172,7 @@ std::vector<SplitRate> escape_rate(const SplittingResult& result) {
           result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].gone[i] / (to - from); });
       point.value.least = 0.0;
       point.value.most = 1.0 / (to - from);
+      point.value.kick_error = kick_error(result, i, i) * point.value.limit.value;
       if (all_are(point.value, 0.0)) point.value.unseen = there * unseen_share(result) / (to - from);
       points.push_back(point);
     }
@@ -136,6 +195,7 @@ Extrapolated decay_rate(const SplittingResult& result, std::size_t first, std::s
     const double mean_a = a.at_kick[k].value, mean_b = b.at_kick[k].value;
     return (elementary::log(mean_a / mean_b) + run.survival[first] / mean_a - run.survival[last] / mean_b) / width;
   });
+  out.kick_error = kick_error(result, first, last) / width;
   return out;
 }
 

@@ -13,7 +13,7 @@ TEST(SplittingCommand, PrintsItsKeysAndOneDigest) {
   const Outcome one = shell(command + " --threads 1"), two = shell(command + " --threads 2");
   EXPECT_EQ(one.status, 0) << one.err;
   EXPECT_TRUE(is_json_object(one.out));
-  for (const char* key : {"version", "seconds", "levels", "population", "repetitions", "kick", "lookback", "rejected",
+  for (const char* key : {"version", "seconds", "levels", "population", "repetitions", "kick", "lookback", "rejected", "kick_cost",
                           "lost", "collisions", "digest", "survival_hits", "decay"})
     EXPECT_NE(json_value(one.out, key), "") << key;
   for (const char* key : {"digest", "kick", "survival_hits", "decay"})

@@ -27,8 +27,9 @@ struct SplittingPlan {
   std::vector<double> levels;        ///< increasing; whole numbers for hits
   std::uint64_t population = 20000;  ///< trajectories of each population
   std::uint64_t repetitions = 16;    ///< independent populations for each size of the kick; at least 2
-  /// The largest delta; half and a quarter of it are taken, too. 0: the largest power of 1/2 up to
-  /// largest_choice at which at most most_kept of the kicked copies of a small population keep their way.
+  /// The largest delta; half and a quarter of it are taken, too. 0: the largest power of 1/2 up to largest_choice
+  /// at which at most most_kept of the kicked copies of a small population keep their way; a quarter of it, and so
+  /// on, until kicked copies stay as long as others (cost_of_kicks), as far as small populations tell.
   double kick = 0.0;
   static constexpr double largest_choice = 0x1p-9, most_kept = 0.3;
   /// Hits by which a copy goes back; at most most_lookback. Where the start is fewer hits away it goes there,
@@ -48,12 +49,22 @@ struct SplittingOptions {
 
 inline constexpr std::size_t kick_sizes = 3;  ///< delta, delta / 2, delta / 4
 
+/// Trajectories that were followed through a stage, and those of them that stayed to its end.
+struct Staying {
+  std::uint64_t followed = 0, stayed = 0;
+};
+/// The first copies of survivors, which go on as they are, and the others.
+struct CopiesOfStage {
+  Staying first, kicked;
+};
+
 /// What one population gives, at each reported time or number of hits.
 struct PopulationRun {
   bool done = false;
   std::vector<double> survival;        ///< share not gone by then
   std::vector<double> gone;            ///< share gone since the report before; by time only
   std::vector<std::uint64_t> reached;  ///< walkers that reached each level
+  std::vector<CopiesOfStage> copies;   ///< of each stage; none are kicked before the first
   double singular = 0.0;               ///< share that ended without a continuation; taken out of the others
   std::uint64_t collisions = 0, lost = 0, digest = 0;
   std::uint64_t tried = 0,
@@ -86,12 +97,14 @@ struct Extrapolated {
   std::array<Mean, kick_sizes> at_kick;
   Mean limit;                   ///< error: statistical, from the repetitions
   double extrapolation = 0;     ///< |limit - value at the smallest kick|: what the limit rests on
+  double kick_error = 0;        ///< where kicked copies certainly go sooner or later than others: twice what that makes
   double unseen = 0;            ///< where nobody has gone in any population: how many may, of as many starts (Wilson)
   std::size_t repetitions = 0;  ///< that the limit is a mean of
   /// Populations of fewer trajectories give intervals that hold the value too seldom.
   static constexpr std::uint64_t least_population = 100;
   double least = -std::numeric_limits<double>::infinity(), most = -least;  ///< what is possible
-  /// Half the width of the 95 % band: statistics (Student's t of as many repetitions), extrapolation and what is unseen.
+  /// Half the width of the 95 % band: statistics (Student's t of as many repetitions), extrapolation, the kicks' error
+  /// and what is unseen.
   double band() const;
   /// Ends of the 95 % interval, as far as that is possible: the band about the value, or, of what cannot be negative, about
   /// its logarithm. Small populations mostly give too little and seldom far too much.
@@ -110,6 +123,16 @@ struct SplitRate {
   double t = 0.0, from = 0.0, to = 0.0;
   Extrapolated value;
 };
+/// Kicked copies should stay as long as the first ones, which go on as they are. As they do not, survival at a report is
+/// wrong by this share of it at the smallest kick, as far as the stage after each kick tells; the error is that of the mean
+/// over repetitions.
+Mean cost_of_kicks(const SplittingResult&, std::size_t report);
+/// The same of populations at any one kick, through so many stages.
+Mean cost_of_kicks(const std::vector<PopulationRun>&, std::size_t stages);
+/// Is that more than chance? Chance alone is likely with 5 % and certain with 0.2 %.
+bool is_likely(const Mean& cost, std::size_t repetitions);
+bool is_certain(const Mean& cost, std::size_t repetitions);
+
 /// Survival at each report.
 std::vector<SplitPoint> survival(const SplittingResult&);
 /// Escapes per unit time between report times; none by hits.
