@@ -75,7 +75,7 @@ TEST(DiffusionInParts, GoesOnFromEverySavedState) {
     options.threads = 3;
     options.block = 7;
     options.journal = &memory;
-    options.save_every = 1e-5;  // as often as can be
+    options.save_every_blocks = 3;
     expect_equal(run_diffusion(system, options), whole);
     ASSERT_GT(memory.states.size(), 1u);
     EXPECT_EQ(memory.states.front().done.size(), 0u);

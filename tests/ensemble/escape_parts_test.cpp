@@ -81,7 +81,7 @@ TEST(EscapeInParts, GoesOnFromEverySavedState) {
     options.threads = 3;
     options.block = 7;
     options.journal = &memory;
-    options.save_every = 0.002;
+    options.save_every_blocks = 20;
     expect_equal(run_escape(system, options), whole);
     ASSERT_FALSE(memory.states.empty());
     EXPECT_EQ(memory.states.front().done.size(), 0u) << "the first state is kept before the first block";
