@@ -169,6 +169,14 @@ std::string decisions_text(const DecisionCounts& decisions) {
   return fmt::format("decisions beyond double precision: {:.2g} %", 100.0 * exact_share(decisions));
 }
 
+std::string lanes_text(const std::string& none, std::optional<InstructionSet> lanes, const LaneEffort& effort) {
+  if (!none.empty()) return fmt::format("lanes: none: {}\n", none);
+  const char* const set = name_of(lanes.value_or(InstructionSet::baseline));
+  if (effort.steps == 0) return fmt::format("lanes: {}\n", set);
+  return fmt::format("lanes: {}, {:.1f} % busy, {:.2g} % of events left to the scalar engine\n", set, 100.0 * effort.busy(),
+                     100.0 * effort.left());
+}
+
 void print(const std::string& text) {
   errno = 0;
   const bool ok = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;

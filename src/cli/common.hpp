@@ -3,12 +3,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/io/archive.hpp"
 #include "carom/lanes/instruction_set.hpp"
+#include "carom/lanes/lane_effort.hpp"
 #include "cli/options.hpp"
 #include "io/json.hpp"
 
@@ -41,6 +43,8 @@ void add_common_keys(Json& json, const System& system, int threads, double secon
 Json decisions_json(const DecisionCounts&);
 /// "decisions beyond double precision: 0.0001 %".
 std::string decisions_text(const DecisionCounts&);
+/// "lanes: " and what becomes of them: `none`, why nothing flies in lanes, or if that is "" the instruction set and how busy they were.
+std::string lanes_text(const std::string& none, std::optional<InstructionSet> lanes, const LaneEffort& effort = {});
 /// Writes to standard output; an output that cannot be written is an InputError.
 void print(const std::string& text);
 /// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing else.

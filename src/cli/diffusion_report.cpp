@@ -125,6 +125,7 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   if (engine_of(system) != "events") json.set("energy_change", result.energy_change);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
+  if (const std::string none = no_lanes_for_diffusion(system); !none.empty()) json.set("no_lanes", none);
   Json msd = Json::array(), fourth = Json::array(), local = Json::array(), corridors = Json::array();
   for (const MomentPoint& p : summary.points) {
     msd.push(Json::object().set("t", p.t).set("value", p.square.value).set("stderr", p.square.error));
@@ -184,6 +185,7 @@ std::string diffusion_text(const System& system, const DiffusionResult& result, 
                       result.threads == 1 ? "" : "s",
                       with_prefix(static_cast<double>(result.collisions) / std::max(result.seconds, 1e-9)),
                       decisions_text(result.decisions), result.digest);
+  text += lanes_text(no_lanes_for_diffusion(system), result.lanes);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

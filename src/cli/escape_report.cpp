@@ -73,7 +73,9 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   if (engine_of(system) != "events") json.set("energy_change", counts.energy_change);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
-  if (result.effort.steps > 0)
+  if (const std::string none = no_lanes_for_escape(system); !none.empty())
+    json.set("lanes", Json()).set("no_lanes", none);
+  else if (result.effort.steps > 0)
     json.set("lanes", Json::object()
                           .set("hits", result.effort.hits)
                           .set("left", result.effort.scalar)
@@ -125,9 +127,7 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
   if (counts.collisions > 0)
     text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
   text += fmt::format("\n{}   digest {:016x}\n", decisions_text(result.decisions), result.digest);
-  if (result.effort.steps > 0)
-    text += fmt::format("lanes: {:.1f} % busy, {:.2g} % of events left to the scalar engine\n", 100.0 * result.effort.busy(),
-                        100.0 * result.effort.left());
+  text += lanes_text(no_lanes_for_escape(system), result.lanes, result.effort);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

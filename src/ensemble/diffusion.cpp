@@ -61,14 +61,19 @@ bool DiffusionResult::add(const DiffusionResult& other) {
   return true;
 }
 
+// Under forces a pack is of one kind of particles after the other, so these may differ.
+std::string no_lanes_for_diffusion(const System& system) {
+  return EitherLanes::is_free(system) ? EitherLanes::hindrance(system) : SoftLanes::hindrance(*system.table, system.dynamics);
+}
+
 DiffusionResult run_diffusion(const System& system, const DiffusionOptions& options) {
   return run_in_crew(options, [&](Post post) {
     refuse_impossible(system);
     check_start(system, options.interrupted);
     const Sampler sampler(system, options.interrupted);
     EnsembleRun<DiffusionResult> run(system, options, nothing(system), post);
-    const bool free = LaneWalker::suits(system);
-    if (options.lanes && (free || SoftWalker::suits(system))) run.lanes = options.lanes;
+    const bool free = EitherLanes::is_free(system);
+    if (options.lanes && no_lanes_for_diffusion(system).empty()) run.lanes = options.lanes;
     return run.run([&](auto& thread) {
       const DiffusionTally tally(thread);
       std::uint64_t number = 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "carom/ensemble/system.hpp"
 #include "carom/lanes/lane_world.hpp"
@@ -14,17 +15,21 @@ namespace carom {
 /// Either of two engines with the same calls.
 class EitherLanes {
  public:
-  /// Of free particles, all of them from the start on, or of particles that feel forces everywhere; none interact.
-  static bool suits(const System& system) { return suits_free(system) || suits_soft(system); }
-  /// The first of these.
-  static bool suits_free(const System& system) {
+  /// What keeps an ensemble out of both, as a phrase; "" where nothing does. They fly free particles, all of them from the start
+  /// on, and particles that feel forces everywhere; none interact.
+  static std::string hindrance(const System& system) {
+    if (!system.injections.empty()) return "particles enter later ([[injection]])";
+    if (is_free(system)) return LaneWorld::hindrance(*system.table, system.particles);
+    return SoftWorld::hindrance(*system.table, system.dynamics, system.particles);
+  }
+  /// Where nothing acts the first of these flies, else the second.
+  static bool is_free(const System& system) {
     const Dynamics& d = system.dynamics;
-    return are_apart(system) && !d.everywhere && (!d.forces || d.forces->empty()) &&
-           LaneWorld::suits(*system.table, system.particles);
+    return !d.everywhere && (!d.forces || d.forces->empty()) && !system.of_discs();
   }
 
   EitherLanes(const System& system, InstructionSet set, DecisionOptions options) {
-    if (suits_free(system))
+    if (is_free(system))
       free_ = std::make_unique<LaneWorld>(*system.table, system.particles, set, options);
     else
       soft_ = std::make_unique<SoftWorld>(*system.table, system.dynamics, system.particles.at(0), set, options);
@@ -39,11 +44,6 @@ class EitherLanes {
   const LaneEffort& effort() const { return free_ ? free_->effort() : soft_->effort(); }
 
  private:
-  static bool suits_soft(const System& system) {
-    return are_apart(system) && SoftWorld::suits(*system.table, system.dynamics, system.particles);
-  }
-  static bool are_apart(const System& system) { return system.injections.empty() && !system.of_discs(); }
-
   std::unique_ptr<LaneWorld> free_;
   std::unique_ptr<SoftWorld> soft_;
 };

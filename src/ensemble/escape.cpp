@@ -29,7 +29,7 @@ class EscapeEnsemble {
         injector_(system),
         run_(system, options, nothing(system), post),
         order_(options.records, 16 * static_cast<std::uint64_t>(run_.threads())) {
-    if (options.lanes && LaneRunner::suits(system)) run_.lanes = options.lanes;
+    if (options.lanes && no_lanes_for_escape(system).empty()) run_.lanes = options.lanes;
   }
 
   EscapeResult run() {
@@ -148,6 +148,8 @@ bool EscapeResult::add(const EscapeResult& other) {
   effort += other.effort;
   return true;
 }
+
+std::string no_lanes_for_escape(const System& system) { return EitherLanes::hindrance(system); }
 
 EscapeResult run_escape(const System& system, const EscapeOptions& options) {
   return run_in_crew(options, [&](Post post) {

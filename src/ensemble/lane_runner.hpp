@@ -16,8 +16,6 @@ namespace carom {
 /// One thread's lanes.
 class LaneRunner {
  public:
-  static bool suits(const System& system) { return EitherLanes::suits(system); }
-
   struct Block {
     std::uint64_t first = 0, end = 0;  ///< trajectories
   };

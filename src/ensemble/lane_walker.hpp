@@ -16,8 +16,6 @@ namespace carom {
 
 class LaneWalker {
  public:
-  static bool suits(const System& system) { return EitherLanes::suits_free(system); }
-
   LaneWalker(const System& system, const Sampler& sampler, InstructionSet set, DecisionOptions decisions,
              DiffusionTally tally)
       : system_(system),

@@ -12,8 +12,6 @@ namespace carom {
 
 class SoftWalker {
  public:
-  static bool suits(const System& system) { return SoftLanes::suits(*system.table, system.dynamics); }
-
   SoftWalker(const System& system, const Sampler& sampler, InstructionSet set, DecisionOptions decisions,
              DiffusionTally tally)
       : system_(system),

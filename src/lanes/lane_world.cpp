@@ -404,12 +404,15 @@ class LaneWorld::Implementation {
   bool exhausted = false;
 };
 
-bool LaneWorld::suits(const Table& table, const std::vector<Particle>& particles) {
-  for (const Particle& p : particles)
-    if (turn_of(p.omega) != turn_of(particles[0].omega) || p.radius != 0.0 || !lanes::moderate(p.speed) ||
-        (p.omega != 0.0 && !lanes::moderate(std::fabs(p.omega))))
-      return false;
-  return !particles.empty() && lanes::fits(table, reach_of(particles));
+std::string LaneWorld::hindrance(const Table& table, const std::vector<Particle>& particles) {
+  if (particles.empty()) return "there are no particles";
+  for (const Particle& p : particles) {
+    if (p.radius != 0.0) return "particles are discs";
+    if (turn_of(p.omega) != turn_of(particles[0].omega)) return "particles do not all turn the same way";
+    if (!lanes::moderate(p.speed) || (p.omega != 0.0 && !lanes::moderate(std::fabs(p.omega))))
+      return "a speed or cyclotron frequency that is not between 1e-30 and 1e30";
+  }
+  return lanes::misfit(table, reach_of(particles));
 }
 
 LaneWorld::LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)

@@ -263,14 +263,17 @@ bool is_convex(const HitFinder& finder) {
 
 }  // namespace
 
-bool fits(const Table& table, double reach) {
+std::string misfit(const Table& table, double reach) {
+  static_assert(LaneTable::most == 64);  // as the texts say
   const std::size_t pieces = pieces_of(table);
-  if (!(pieces > 0 && pieces <= LaneTable::most) || table.crossing) return false;
-  if (!table.lattice) return true;
-  if (!discs_within_cell(table)) return false;
-  if (reach == HUGE_VAL) return true;
+  if (pieces == 0) return "there are no walls";
+  if (pieces > LaneTable::most) return "more than 64 walls, the parts between holes counted";
+  if (table.crossing) return "walls cross";
+  if (!table.lattice) return {};
+  if (!discs_within_cell(table)) return "walls on a lattice that are no discs inside its cell";
+  if (reach == HUGE_VAL) return {};
   const std::size_t cells = cells_within(table, reach).size();
-  return cells > 0 && cells * pieces <= LaneTable::most;
+  return cells > 0 && cells * pieces <= LaneTable::most ? "" : "Larmor circles that may come to more than 64 walls of the lattice";
 }
 
 LaneTable make_lane_table(const HitFinder& finder, double reach) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "carom/table/table.hpp"
@@ -10,9 +11,9 @@
 
 namespace carom::lanes {
 
-/// Can the pieces of this table be held by a LaneTable? `reach`: how far flights get from where they began. On a lattice, where that
-/// is finite, so must those of all cells that they may come to.
-bool fits(const Table&, double reach = HUGE_VAL);
+/// Why the pieces of this table cannot be held by a LaneTable, "" where they can. `reach`: how far flights get from where they began. On
+/// a lattice, where that is finite, so must those of all cells that they may come to.
+std::string misfit(const Table&, double reach = HUGE_VAL);
 LaneTable make_lane_table(const HitFinder& finder, double reach = HUGE_VAL);
 /// The piece on which the point u of a wall lies.
 int piece_at(const LaneTable&, int wall, double u);

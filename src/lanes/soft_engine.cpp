@@ -57,15 +57,19 @@ Group::Surroundings surroundings_of(const Table& table, const Dynamics& dynamics
 
 }  // namespace
 
-bool can_step(const Table& table, const Dynamics& dynamics) {
+std::string unknown_to_steps(const Table& table, const Dynamics& dynamics) {
   const IntegratorPlan& plan = dynamics.integrator;
-  if (!dynamics.forces || !dynamics.forces->external() || dynamics.forces->interacts()) return false;
-  if (!dynamics.forces->disc_radii().empty() || !(dynamics.everywhere || dynamics.forces->everywhere()))
-    return false;
-  if (dynamics.forces->potentials().size() > SoftForces::most) return false;
-  if (table.lattice && table.lattice->edges.size() > SoftForces::most_edges) return false;
-  if (is_adaptive(plan.scheme) || plan.split_walls || !(plan.step > 0.0)) return false;
-  return find_scheme(plan.scheme).form != Scheme::Form::spreiter_walter;
+  const ForceField* const forces = dynamics.forces.get();
+  if (forces && !forces->disc_radii().empty()) return "particles are discs";
+  if (forces && forces->interacts()) return "particles interact";
+  if (!forces || !forces->external()) return "steps without a force";
+  if (!(dynamics.everywhere || forces->everywhere())) return "forces that act in parts of the plane only";
+  if (forces->potentials().size() > SoftForces::most) return "more than " + std::to_string(SoftForces::most) + " potentials";
+  if (table.lattice && table.lattice->edges.size() > SoftForces::most_edges) return "a lattice cell of many edges";
+  if (is_adaptive(plan.scheme) || !(plan.step > 0.0)) return "a scheme without a fixed step";
+  if (plan.split_walls) return "walls = \"split\"";
+  if (find_scheme(plan.scheme).form == Scheme::Form::spreiter_walter) return "the scheme " + plan.scheme;
+  return {};
 }
 
 SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options)

@@ -23,8 +23,8 @@
 
 namespace carom::lanes {
 
-/// Do steps in lanes know all that acts there?
-bool can_step(const Table&, const Dynamics&);
+/// What acts there that steps in lanes do not know, as a phrase; "" where they know all.
+std::string unknown_to_steps(const Table&, const Dynamics&);
 
 /// A trajectory on its way, where lanes do not know more than its phase.
 struct SoftTrack {

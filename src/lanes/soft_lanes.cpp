@@ -157,9 +157,7 @@ class SoftLanes::Implementation {
   std::vector<int> moved_;  ///< lanes that hold another point than their last step left there
 };
 
-bool SoftLanes::suits(const Table& table, const Dynamics& dynamics) {
-  return lanes::can_step(table, dynamics);
-}
+std::string SoftLanes::hindrance(const Table& table, const Dynamics& dynamics) { return lanes::unknown_to_steps(table, dynamics); }
 
 SoftLanes::SoftLanes(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options)
     : implementation_(std::make_unique<Implementation>(table, dynamics, set, options)) {}

@@ -217,9 +217,12 @@ class SoftWorld::Implementation {
   std::vector<int> moved_;  ///< lanes that hold another point than their last step left there
 };
 
-bool SoftWorld::suits(const Table& table, const Dynamics& dynamics, const std::vector<Particle>& particles) {
-  return !particles.empty() && lanes::can_step(table, dynamics) &&
-         std::all_of(particles.begin(), particles.end(), [&](const Particle& p) { return alike(p, particles[0]); });
+std::string SoftWorld::hindrance(const Table& table, const Dynamics& dynamics, const std::vector<Particle>& particles) {
+  if (particles.empty()) return "there are no particles";
+  const std::string unknown = lanes::unknown_to_steps(table, dynamics);
+  if (!unknown.empty()) return unknown;
+  const bool all = std::all_of(particles.begin(), particles.end(), [&](const Particle& p) { return alike(p, particles[0]); });
+  return all ? "" : "particles of different mass or charge";
 }
 
 SoftWorld::SoftWorld(const Table& table, const Dynamics& dynamics, const Particle& kind, InstructionSet set,

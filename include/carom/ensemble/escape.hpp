@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "carom/analysis/survival.hpp"
@@ -28,6 +29,9 @@ struct EscapeOptions : EnsembleOptions<EscapeResult> {
   /// If set, receives each block's records in increasing order of index (one thread at a time). Not with `ranks`.
   std::function<void(const std::vector<TrajectoryRecord>&)> records;
 };
+
+/// Why its particles fly one after the other, as a phrase; "" where they fly in lanes.
+std::string no_lanes_for_escape(const System&);
 
 /// Runs the ensemble, or the part that is asked for. Where a trajectory has several
 /// particles, each of them is an entry of its own in every count; one

@@ -41,7 +41,9 @@ class LaneWorld {
   /// Can lanes fly such particles on that table? Straight flights, or Larmor circles that all turn the same way,
   /// between segments, circles and ellipses: at most 64 pieces. On a lattice among discs that
   /// lie inside the cell; Larmor circles there that come to at most 64 pieces.
-  static bool suits(const Table&, const std::vector<Particle>&);
+  static bool suits(const Table& table, const std::vector<Particle>& particles) { return hindrance(table, particles).empty(); }
+  /// What keeps them out of lanes, as a phrase ("more than 64 walls…"); "" where nothing does.
+  static std::string hindrance(const Table&, const std::vector<Particle>&);
 
   /// `particles` suit, and every start is one of them. Keeps a reference to the table, which must live as long.
   LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options = {});

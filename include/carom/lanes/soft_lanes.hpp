@@ -23,7 +23,9 @@ class SoftLanes {
  public:
   /// Can such particles be stepped so? Where forces act everywhere, and nothing but forces, a magnetic
   /// field and walls: no interaction, a fixed step, walls = "reflect".
-  static bool suits(const Table&, const Dynamics&);
+  static bool suits(const Table& table, const Dynamics& dynamics) { return hindrance(table, dynamics).empty(); }
+  /// What keeps them out of lanes, as a phrase; "" where nothing does.
+  static std::string hindrance(const Table&, const Dynamics&);
 
   /// Keeps references to both, which must live as long.
   SoftLanes(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options = {});

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "carom/events/dynamics.hpp"
@@ -17,7 +18,11 @@ class SoftWorld {
  public:
   /// Can such particles be stepped so? Where forces act everywhere, and nothing but forces, a magnetic field and
   /// walls: no interaction, a fixed step, walls = "reflect". The particles are accelerated alike.
-  static bool suits(const Table&, const Dynamics&, const std::vector<Particle>&);
+  static bool suits(const Table& table, const Dynamics& dynamics, const std::vector<Particle>& particles) {
+    return hindrance(table, dynamics, particles).empty();
+  }
+  /// What keeps them out of lanes, as a phrase; "" where nothing does.
+  static std::string hindrance(const Table&, const Dynamics&, const std::vector<Particle>&);
 
   /// Keeps references to table and dynamics, which must live as long.
   SoftWorld(const Table&, const Dynamics&, const Particle&, InstructionSet, DecisionOptions = {});
