@@ -42,6 +42,9 @@ extern "C" void on_interrupt(int) {
   interrupted = true;
 }
 
+// The soft limit of CPU time is told of again every second until the hard one: none of these is meant to be the second signal.
+extern "C" void on_limit(int) { interrupted = true; }
+
 // In one piece, so that lines of several processes do not mix; whether it is read is nobody's fault.
 void write_message(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
 
@@ -192,6 +195,11 @@ const std::atomic<bool>& catch_interrupts() {
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before {};
+  const bool no_hangup = sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;  // nohup
+  if (!no_hangup) sigaction(SIGHUP, &action, nullptr);
+  action.sa_handler = on_limit;
+  sigaction(SIGXCPU, &action, nullptr);
   return interrupted;
 }
 

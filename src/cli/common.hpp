@@ -50,7 +50,8 @@ void print(const std::string& text);
 /// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing else.
 void warn(const std::string& text);
 
-/// From now on Ctrl-C and SIGTERM set a flag; a second one ends the program at once.
+/// From now on Ctrl-C, SIGTERM and SIGHUP (unless it was ignored) set a flag; a second one ends the program at once. So does SIGXCPU,
+/// however often it comes.
 const std::atomic<bool>& catch_interrupts();
 
 /// "9 012 345".
