@@ -125,9 +125,13 @@ CheckpointInterval checkpoint_interval(const std::string& text) {
     interval.blocks = whole_number(text.substr(in_blocks.size()), option, 1);
     return interval;
   }
-  interval.seconds = ExactNumber(text, place_of(option)).to_double();
+  try {
+    interval.seconds = ExactNumber(text, place_of(option)).to_double();
+  } catch (const InputError&) {
+    interval.seconds = 0;  // no number: the message below names both forms
+  }
   if (!(interval.seconds > 0.0 && interval.seconds < 1e9))
-    throw InputError(place_of(option), fmt::format("'{}' is not a time between checkpoints", text),
+    throw InputError(place_of(option), fmt::format("'{}' is neither a time between checkpoints nor blocks:N", text),
                      "seconds, more than 0 and less than 1e9, or blocks:N");
   return interval;
 }

@@ -99,7 +99,7 @@ class Command {
   /// Of ensembles that can be continued, parted and shared.
   Command& parts() {
     text("--resume", options_.resume, "FILE.h5", "Go on with a stored ensemble; SYSTEM may be left out");
-    text("--checkpoint", options_.checkpoint, "SECONDS", "Time between checkpoints of an archive (default 10), or blocks:N");
+    text("--checkpoint", options_.checkpoint, "SECONDS|blocks:N", "Time, or number of blocks, between checkpoints of an archive (default 10 s)");
     text("--shard", options_.shard, "K/N", "Only part K (from 1) of N parts of the trajectories");
     text("--block", options_.block, "N", "Trajectories a block (default 1024); the result does not depend on it");
     return *this;
