@@ -40,6 +40,7 @@ class Command {
       : app_(app.add_subcommand(name, text)), options_(options) {
     app_->footer(details);
     app_->add_flag("--json", options_.json, "Print one JSON object and nothing else");
+    app_->add_flag("--quiet", options_.quiet, "No progress on standard error");
   }
 
   Command& text(const char* name, std::string& value, const char* type, const char* help) {
@@ -83,7 +84,6 @@ class Command {
     SystemOverrides& o = options_.overrides;
     settings();
     flag("--force", options_.force, "Replace an output file that exists");
-    flag("--quiet", options_.quiet, "No progress on standard error");
     text("--seed", o.seed, "N", "Seed of the random numbers");
     text("--threads", options_.threads, "N", "Threads (default: all)");
     text("--t-max", o.t_max, "T", "Last time");
@@ -220,7 +220,6 @@ void define(CLI::App& app, Options& o) {
           "Exit status 3 if a case fails.")
       .flag("--soak", o.soak, "The long runs: 10^9 hits a closed table, 10^7 a mean flight")
       .text("--scale", o.scale, "X", "Multiplies the trajectories of each case (default 1)")
-      .flag("--quiet", o.quiet, "No progress on standard error")
       .text("--threads", o.threads, "N", "Threads (default: all)");
 }
 

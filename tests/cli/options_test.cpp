@@ -19,5 +19,15 @@ TEST(OptionNames, ACheckpointIsATimeOrSoManyBlocks) {
   }
 }
 
+TEST(OptionNames, EveryCommandMayBeQuiet) {
+  const Shell shell;
+  EXPECT_EQ(shell("$carom systems --quiet").status, 0);
+  const Outcome o = shell("$carom escape mushroom --trajectories 10 --t-max 1 --quiet -o part.h5 && $carom merge all.h5 part.h5 --quiet");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  for (const char* command : {"escape", "run", "diffusion", "section", "merge", "table", "systems", "validate"})
+    EXPECT_NE(shell(std::string("$carom ") + command + " --help").out.find("--quiet"), std::string::npos) << command;
+}
+
 }  // namespace
 }  // namespace carom
