@@ -18,6 +18,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "carom_version.hpp"
+#include "cli/ensemble_job.hpp"
 
 namespace carom::cli {
 
@@ -70,23 +71,34 @@ int threads_of(const Options& options) {
   return static_cast<int>(threads);
 }
 
+namespace {
+
+[[noreturn]] void refuse_name(const char* option, const std::string& value, const char* problem, const std::string& expected,
+                              const std::string& nearest = {}) {
+  throw InputError(option_place(option), fmt::format("'{}' {}", value, problem), expected, nearest);
+}
+
+}  // namespace
+
+void check_instruction_set(const Options& options) {
+  if (options.isa == "auto") return;
+  std::vector<std::string> here{"auto"};
+  for (const InstructionSet set : available_instruction_sets()) here.emplace_back(name_of(set));
+  if (std::find(here.begin(), here.end(), options.isa) == here.end())
+    refuse_name("--isa", options.isa, "is not an instruction set of this machine", fmt::format("{}", fmt::join(here, ", ")),
+                nearest_name(options.isa, here));
+  // Of plain ensembles some fly in lanes: they say so when they have flown.
+  if (is_plain_ensemble(options)) return;
+  warn(fmt::format("--isa changed nothing: carom {}{} uses no lanes", options.command,
+                   options.certify_sample.empty() ? "" : " --certify-sample"));
+}
+
 void check_engine(const Options& options) {
-  const auto refuse = [](const char* option, const std::string& value, const char* problem,
-                         const char* expected, const std::string& nearest = {}) {
-    throw InputError(option_place(option), fmt::format("'{}' {}", value, problem), expected, nearest);
-  };
   if (options.engine != "auto" && options.engine != "events" && options.engine != "steps")
-    refuse("--engine", options.engine, "is not an engine", "auto, events or steps",
-           nearest_name(options.engine, {"auto", "events", "steps"}));
-  if (options.isa != "auto") {
-    std::vector<std::string> here{"auto"};
-    for (const InstructionSet set : available_instruction_sets()) here.emplace_back(name_of(set));
-    if (std::find(here.begin(), here.end(), options.isa) == here.end())
-      refuse("--isa", options.isa, "is not an instruction set of this machine",
-             fmt::format("{}", fmt::join(here, ", ")).c_str(), nearest_name(options.isa, here));
-  }
-  if (options.precision != "double")
-    refuse("--precision", options.precision, "is not in this version", "double");
+    refuse_name("--engine", options.engine, "is not an engine", "auto, events or steps",
+                nearest_name(options.engine, {"auto", "events", "steps"}));
+  check_instruction_set(options);
+  if (options.precision != "double") refuse_name("--precision", options.precision, "is not in this version", "double");
 }
 
 InstructionSet instruction_set_of(const Options& options) {

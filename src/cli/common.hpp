@@ -22,6 +22,8 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
 int threads_of(const Options&);
 /// Throws InputError for engines, instruction sets and precisions this version does not have.
 void check_engine(const Options&);
+/// Of these --isa alone; a command that uses no lanes says so.
+void check_instruction_set(const Options&);
 /// What --isa asks for: the widest of this machine, or the one named.
 InstructionSet instruction_set_of(const Options&);
 /// Sets what --engine asks for: "auto", "events" (refused where forces act) or "steps".

@@ -89,7 +89,10 @@ void say_if_ended(const StoredRun& stored) {
 }  // namespace
 
 int run(const Options& options) {
-  if (options.precision != "double" || !options.digits.empty()) return run_in_balls(options);
+  if (options.precision != "double" || !options.digits.empty()) {
+    check_instruction_set(options);
+    return run_in_balls(options);
+  }
   check_engine(options);
   threads_of(options);  // one trajectory takes one thread; a wrong number is an error all the same
   SingleRunOptions how;

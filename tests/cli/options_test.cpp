@@ -29,5 +29,20 @@ TEST(OptionNames, EveryCommandMayBeQuiet) {
     EXPECT_NE(shell(std::string("$carom ") + command + " --help").out.find("--quiet"), std::string::npos) << command;
 }
 
+// Where it has no effect, that is told; the names are checked even so.
+TEST(OptionNames, InstructionSetsOfCommandsWithoutLanes) {
+  const Shell shell;
+  const char* const commands[] = {"run stadium --t-max 3", "run stadium --t-max 3 --precision certified", "run stadium --t-max 3 --precision 100",
+                                  "table stadium", "section ellipse-magnetic --orbits 2 --points 5"};
+  for (const std::string command : commands) {
+    const Outcome o = shell("$carom " + command + " --isa baseline");
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(o.err, "carom: --isa changed nothing: carom " + command.substr(0, command.find(' ')) + " uses no lanes\n");
+    EXPECT_EQ(shell("$carom " + command + " --isa mmx").status, 1) << command;
+  }
+  const Outcome sample = shell("$carom escape stadium --t-max 3 --certify-sample 5 --isa baseline");
+  EXPECT_NE(sample.err.find("carom escape --certify-sample uses no lanes"), std::string::npos) << sample.err;
+}
+
 }  // namespace
 }  // namespace carom
