@@ -37,8 +37,8 @@ void refuse_options_without_a_use(const Options& options) {
   }
   if (!options.splitting.empty()) {
     refuse_beside(options.certify_sample, "--certify-sample", "--splitting");
-    refuse_beside(options.overrides.trajectories, "--trajectories", "--splitting, which has --population,");
-    refuse_beside(options.isa == "auto" ? "" : options.isa, "--isa", "--splitting, which uses no lanes,");
+    refuse_beside(options.overrides.trajectories, "--trajectories", "--splitting, which has --population");
+    refuse_beside(options.isa == "auto" ? "" : options.isa, "--isa", "--splitting, which uses no lanes");
     if (options.splitting.starts_with("hits:")) refuse_beside(options.overrides.times, "--times", "levels of hits");
   }
   if (options.certify_sample.empty()) refuse(options.digits, "--digits", "--certify-sample");

@@ -44,5 +44,15 @@ TEST(OptionNames, InstructionSetsOfCommandsWithoutLanes) {
   EXPECT_NE(sample.err.find("carom escape --certify-sample uses no lanes"), std::string::npos) << sample.err;
 }
 
+TEST(OptionNames, OfSplittingAreNamedInASentence) {
+  const Shell shell;
+  for (const char* option : {"--trajectories 100", "--isa baseline"}) {
+    const Outcome o = shell(std::string("$carom escape three-disc --splitting 1,2 ") + option);
+    EXPECT_EQ(o.status, 1);
+    EXPECT_NE(o.err.find("it means nothing beside --splitting, which "), std::string::npos) << o.err;
+    EXPECT_EQ(o.err.find(", ("), std::string::npos) << o.err;
+  }
+}
+
 }  // namespace
 }  // namespace carom
