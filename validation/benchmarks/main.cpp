@@ -1,23 +1,30 @@
-// ./dev bench [NAME…]: the rows whose names begin with one of these, or all.
+// ./dev bench [NAME…]: the rows whose names begin with one of these, or all. --help lists them.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "measuring.hpp"
 #include "table.hpp"
 
 namespace carom::bench {
 
-Report::Report(std::vector<std::string> wanted) {
+Report::Report(Aim aim, std::vector<std::string> wanted) : aim_(aim) {
+  if (aim_ == Aim::list) return;
   for (std::string& name : wanted) wanted_.push_back({std::move(name)});
   fmt::print("CPU time, the least of several runs; a link: 1 + 1/sqrt(x), {:.2f} ns here\n\n", chain());
   fmt::print("{:<38} {:<10} {:>10} {:>8}  {:<21} {:>8}  {}\n", "what", "path", "ns", "links", "against", "times", "check");
 }
 
 bool Report::wants(std::string_view what) {
+  if (aim_ == Aim::list) {
+    if (listed_.emplace(what).second) fmt::print("  {}\n", what);
+    return false;
+  }
   bool any = wanted_.empty();
   for (Name& name : wanted_)
     if (what.starts_with(name.begin)) any = name.found = true;
@@ -42,7 +49,10 @@ bool Report::failed() const {
 
 int main(int argc, char** argv) {
   using namespace carom::bench;
-  Report report(std::vector<std::string>(argv + 1, argv + argc));
+  const std::vector<std::string> names(argv + 1, argv + argc);
+  const bool help = std::any_of(names.begin(), names.end(), [](const std::string& name) { return name == "--help" || name == "-h"; });
+  if (help) fmt::print("bench [NAME...]: measures the rows whose names begin so, or all of\n");
+  Report report = help ? Report(Report::Aim::list) : Report(Report::Aim::measure, names);
   for (const auto& rows : {straight_and_larmor_flights, flights_in_lanes, steps_under_forces, contacts_of_hard_discs, certified_orbits,
                            whole_ensembles})
     rows(report);

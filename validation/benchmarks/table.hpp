@@ -1,6 +1,8 @@
 // The one table of ./dev bench: what each thing costs, beside a second path in the same run and a physical check.
 #pragma once
 
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +23,9 @@ struct Line {
 /// Prints lines as they come.
 class Report {
  public:
-  /// `wanted`: beginnings of names; none: all.
-  explicit Report(std::vector<std::string> wanted);
+  enum class Aim { measure, list };
+  /// `wanted`: beginnings of names; none: all. To list is to want nothing and to print the name of each row once.
+  explicit Report(Aim aim, std::vector<std::string> wanted = {});
   bool wants(std::string_view what);
   void add(const Line& line);
   /// Was a row wrong, or a wanted name no row's?
@@ -33,7 +36,9 @@ class Report {
     std::string begin;
     bool found = false;
   };
+  Aim aim_;
   std::vector<Name> wanted_;
+  std::set<std::string, std::less<>> listed_;
   bool wrong_ = false;
 };
 
