@@ -148,6 +148,13 @@ void follow_links(Options& options) {
   for (std::string& name : options.files) name = followed(name);
 }
 
+ArchiveLock lock_output(const std::string& file) {
+  ArchiveLock lock = lock_archive(file);
+  if (const std::string weakness = weakness_of(lock); !weakness.empty())
+    warn(fmt::format("no other process is kept from writing '{}': its file system gives no locks ({})", file, weakness));
+  return lock;
+}
+
 Provenance provenance_of(const Options& options, const System& system, int threads) {
   return {options.line, engine_of(system), "baseline", threads, {}};
 }

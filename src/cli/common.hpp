@@ -36,6 +36,8 @@ const char* why_lost(const System&);
 std::string repeated_starts(const System&);
 /// From here on archives and drawings have the names of the files, whatever links lead to them.
 void follow_links(Options&);
+/// lock_archive; where others are not kept away, a warning says so.
+ArchiveLock lock_output(const std::string& file);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.

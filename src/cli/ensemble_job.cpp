@@ -57,7 +57,7 @@ template <class Result>
 EnsembleJob<Result> job_to_go_on(const Options& options) {
   EnsembleJob<Result> job;
   job.output = archive_named(options.resume);
-  job.lock = lock_archive(job.output);
+  job.lock = lock_output(job.output);
   job.stored = read_ensemble<Result>(job.output);
   if (!options.output.empty() && options.output != job.output)
     throw InputError(place_of("--output"), "an ensemble goes on in the same archive", "no -o beside --resume");
@@ -75,7 +75,7 @@ EnsembleJob<Result> job_of(const Options& options) {
   if (!options.resume.empty()) return job_to_go_on<Result>(options);
   EnsembleJob<Result> job;
   job.output = options.output;
-  if (!job.output.empty()) job.lock = lock_archive(job.output);
+  if (!job.output.empty()) job.lock = lock_output(job.output);
   job.shard = shard_of(options);
   job.loaded = load_system(options.system, overrides_of(options));
   choose_engine(options.engine, job.loaded.system);

@@ -59,7 +59,7 @@ int merge(const Options& options) {
   }
   if (files.empty())
     throw InputError(Place{"command line", 0, 0, "merge"}, "there is nothing to merge", "OUT.h5 PART.h5 PART.h5 …");
-  ArchiveLock lock = lock_archive(output);
+  ArchiveLock lock = lock_output(output);
   refuse_existing(output, options.force);
   if (kind_of_ensemble(files.front()) == kind_of(DiffusionResult()))
     return merge_parts<DiffusionResult>(options, output, files, std::move(lock));

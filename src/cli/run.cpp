@@ -107,10 +107,10 @@ int run(const Options& options) {
     choose_engine(options.engine, loaded.system);
     check_start(loaded.system);  // a start that is impossible must not cost an old archive
     if (!output.empty()) archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1), options.force,
-                                                      how.trajectory);
+                                                      how.trajectory, lock_output(output));
   } else {
     if (output.empty()) output = options.resume;
-    const ArchiveLock lock = lock_archive(output);
+    const ArchiveLock lock = lock_output(output);
     const StoredRun stored = read_run(options.resume);
     loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
     loaded.system.name = stored.system_name;

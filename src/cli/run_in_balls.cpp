@@ -99,7 +99,7 @@ int run_in_balls(const Options& options) {
   std::unique_ptr<CertifiedArchive> archive;
   if (!options.output.empty())
     archive = std::make_unique<CertifiedArchive>(
-        options.output, loaded, provenance_of(options, loaded.system, 1), task, options.force);
+        options.output, loaded, provenance_of(options, loaded.system, 1), task, options.force, lock_output(options.output));
   follow(orbit, options, task, archive.get());
   const CertifiedEnd& end = orbit.end_state();
   const bool interrupted = end.fate == CertifiedFate::interrupted;

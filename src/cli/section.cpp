@@ -133,7 +133,7 @@ int section(const Options& options) {
   std::unique_ptr<SectionArchive> archive;
   if (!options.output.empty())
     archive = std::make_unique<SectionArchive>(options.output, loaded, provenance_of(options, system, how.threads),
-                                               options.force);
+                                               options.force, lock_output(options.output));
   std::vector<OrbitLine> lines;
   how.points = [&](const std::vector<SectionPoint>& points) {
     if (archive) archive->append(points);

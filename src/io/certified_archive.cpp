@@ -150,8 +150,8 @@ class CertifiedArchive::Implementation {
 };
 
 CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& loaded,
-                                   const Provenance& origin, const CertifiedTask& task, bool force) {
-  ArchiveLock lock = lock_archive(file);
+                                   const Provenance& origin, const CertifiedTask& task, bool force, ArchiveLock lock) {
+  if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
   refuse_aside_of_others(file, aside_of(file), force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, task);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
@@ -17,6 +18,14 @@ namespace carom {
 namespace {
 
 std::string lock_of(const std::string& file) { return file + ".lock"; }
+
+// 0 or the error. A signal in between is none.
+int lock(int descriptor, int operation) {
+  for (;;) {
+    if (::flock(descriptor, operation) == 0) return 0;
+    if (errno != EINTR) return errno;
+  }
+}
 
 // Without the mark at its end; "" for a name that has none, and for one that is nothing else.
 std::string without(const std::string& mark, const std::string& file) {
@@ -75,9 +84,12 @@ bool FileLock::take() {
     if (descriptor_ < 0 && errno == EACCES) descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor_ < 0) return true;  // what cannot be written there will say so itself
     const int operation = kind_ == Kind::alone ? LOCK_EX : LOCK_SH;
-    const bool held = ::flock(descriptor_, operation | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    const bool there = is_there();
-    if (there && !held) return true;
+    const int error = lock(descriptor_, operation | LOCK_NB);
+    const bool held = error == EWOULDBLOCK, there = is_there();
+    if (there && !held) {
+      if (error != 0) weakness_ = std::strerror(error);  // ENOLCK, EOPNOTSUPP, ENOSYS …: it cannot be known who else writes
+      return true;
+    }
     ::close(descriptor_);
     descriptor_ = -1;
     if (there) return false;
@@ -93,7 +105,7 @@ bool FileLock::is_there() const {
 // Of those who write beside an archive the last one removes the file: nobody else holds it then.
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
-  const bool shared = kind_ == Kind::beside && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const bool shared = kind_ == Kind::beside && lock(descriptor_, LOCK_EX | LOCK_NB) == EWOULDBLOCK;
   if (!shared && is_there() && !is_file_of_others()) ::unlink(path_.c_str());
   ::close(descriptor_);
 }
@@ -103,5 +115,7 @@ ArchiveLock lock_archive(const std::string& file) {
   refuse_no_file(file);
   return std::make_shared<FileLock>(file);
 }
+
+std::string weakness_of(const ArchiveLock& lock) { return lock ? lock->weakness() : std::string(); }
 
 }  // namespace carom

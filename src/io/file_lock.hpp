@@ -13,10 +13,12 @@ namespace carom {
 class FileLock {
  public:
   /// Throws InputError if another process holds it, if FILE.lock is a file of somebody else (a lock's file is empty), and if
-  /// FILE itself has the name of a lock. Where the file system knows no locks, nothing is held.
+  /// FILE itself has the name of a lock. Where the file system gives no locks, nothing is held: see weakness().
   explicit FileLock(const std::string& file);
   FileLock(const FileLock&) = delete;
   ~FileLock();
+  /// Why nobody else is kept away, as the system says it; "" where they are.
+  const std::string& weakness() const { return weakness_; }
 
  private:
   enum class Kind { alone, beside };
@@ -29,6 +31,7 @@ class FileLock {
   std::string path_;
   Kind kind_;
   int descriptor_ = -1;
+  std::string weakness_;
   std::vector<std::unique_ptr<FileLock>> owners_;  ///< of the archives beside which FILE stands
 };
 

@@ -268,8 +268,8 @@ RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
 RunArchive::~RunArchive() = default;
 
 std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
-                                               const Provenance& origin, bool force, std::uint64_t trajectory) {
-  ArchiveLock lock = lock_archive(file);
+                                               const Provenance& origin, bool force, std::uint64_t trajectory, ArchiveLock lock) {
+  if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
   auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), file, loaded);
   made->lock = std::move(lock);

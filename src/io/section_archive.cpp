@@ -42,8 +42,8 @@ class SectionArchive::Implementation {
 };
 
 SectionArchive::SectionArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
-                               bool force) {
-  ArchiveLock lock = lock_archive(file);
+                               bool force, ArchiveLock lock) {
+  if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
   refuse_aside_of_others(file, aside_of(file), force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin);

@@ -39,6 +39,8 @@ using ArchiveLock = std::shared_ptr<FileLock>;
 /// is no file. Archives take their lock themselves, unless they are given one
 /// that was taken before something was read.
 ArchiveLock lock_archive(const std::string& file);
+/// Why it keeps nobody away ("No locks available"): the file system gives none. "" where it does.
+std::string weakness_of(const ArchiveLock&);
 
 /// What made a part of a result.
 struct Origin {
@@ -59,7 +61,7 @@ struct Provenance {
 class RunArchive : public Observer {
  public:
   static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&, const Provenance&,
-                                            bool force, std::uint64_t trajectory = 0);
+                                            bool force, std::uint64_t trajectory = 0, ArchiveLock = nullptr);
   /// Goes on with the run stored in `source`: works on a copy TARGET.new, which becomes `target`
   /// (often the source itself) when finished.
   static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
@@ -188,7 +190,7 @@ extern template class EnsembleArchive<DiffusionResult>;
 /// The points of a section, orbit after orbit; written aside (FILE.new), and renamed when finished.
 class SectionArchive {
  public:
-  SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force);
+  SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force, ArchiveLock = nullptr);
   SectionArchive(const SectionArchive&) = delete;
   ~SectionArchive();
 

@@ -12,7 +12,8 @@ namespace carom {
 /// Written beside its name (FILE.h5.part) and renamed when finished; removed when it is not.
 class CertifiedArchive {
  public:
-  CertifiedArchive(const std::string& file, const LoadedSystem&, const Provenance&, const CertifiedTask&, bool force);
+  CertifiedArchive(const std::string& file, const LoadedSystem&, const Provenance&, const CertifiedTask&, bool force,
+                   ArchiveLock = nullptr);
   ~CertifiedArchive();
 
   void hit(const CertifiedHit&);
