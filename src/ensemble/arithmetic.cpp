@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,6 +13,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/world.hpp"
+#include "ensemble/particle_hash.hpp"
 
 namespace carom {
 
@@ -64,28 +65,25 @@ std::vector<System> systems() {
   return all;
 }
 
-std::uint64_t hash(std::uint64_t sum, const State& state) {
-  const auto real = [&](double value) { sum = mix(sum ^ std::bit_cast<std::uint64_t>(value)); };
-  for (const std::int64_t number : {std::int64_t{state.wall}, state.cell.first, state.cell.second})
-    sum = mix(sum ^ static_cast<std::uint64_t>(number));
-  for (const double value : {state.u, state.position.x, state.position.y, state.velocity.x, state.velocity.y}) real(value);
-  real(state.time.high);
-  real(state.time.low);
-  return sum;
-}
-
 std::uint64_t computed() {
   constexpr std::uint64_t trajectories = 2;
   std::uint64_t sum = 0;
   Observer nobody;
   for (const System& system : systems()) {
+    const ParticleHash share(system);
     const Sampler sampler(system);
     World world(*system.table, system.dynamics);
     for (std::uint64_t trajectory = 0; trajectory < trajectories; ++trajectory) {
       world.clear();
       add_starts(world, sampler, trajectory);
       world.run_until(system.run.t_max, nobody);
-      for (int particle = 0; particle < world.size(); ++particle) sum = hash(mix(sum ^ world.hits(particle)), world.state(particle));
+      for (int particle = 0; particle < world.size(); ++particle) {
+        const State& end = world.state(particle);
+        sum = mix(mix(sum ^ static_cast<std::uint64_t>(std::int64_t{end.wall}), end.u), end);
+        // As an ensemble's digest would hold it, with a sample: builds that make these in another way do not add up, either.
+        sum = mix(sum ^ share(trajectory, world.fate(particle), system.run.t_max, world.hits(particle), world.last_wall(particle),
+                              end, std::span(&end.position.x, 1)));
+      }
     }
   }
   return sum;

@@ -75,7 +75,7 @@ DiffusionResult run_diffusion(const System& system, const DiffusionOptions& opti
     const bool free = EitherLanes::is_free(system);
     if (options.lanes && no_lanes_for_diffusion(system).empty()) run.lanes = options.lanes;
     return run.run([&](auto& thread) {
-      const DiffusionTally tally(thread);
+      const DiffusionTally tally(thread, system);
       std::uint64_t number = 0;
       if (run.lanes && free)
         LaneWalker(system, sampler, *run.lanes, options.decisions, tally).run([&](TrajectoryRange& block) {

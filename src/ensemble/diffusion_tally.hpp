@@ -5,23 +5,26 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "carom/base/digest.hpp"
 #include "carom/ensemble/diffusion.hpp"
 #include "ensemble/ensemble_run.hpp"
 #include "ensemble/first_reports.hpp"
+#include "ensemble/particle_hash.hpp"
 
 namespace carom {
 
-/// A particle of a trajectory: its number, how and when it ended, and |r - r(0)|^2 at the report times it reached.
+/// A particle of a trajectory: its number, how and when it ended, its state after the last event, and |r - r(0)|^2 at the report
+/// times it reached.
 struct DiffusingParticle {
   std::uint64_t number = 0;
   Fate fate = Fate::survived;
   double time = 0.0;
   std::uint64_t hits = 0;
   int last_wall = -1;
+  State state;
   const std::vector<double>* squares = nullptr;
   std::string report;
   std::size_t samples = 0;  ///< of the squares, those that count
@@ -31,7 +34,7 @@ struct DiffusingParticle {
 class DiffusionTally {
  public:
   using Thread = EnsembleRun<DiffusionResult>::Thread;
-  explicit DiffusionTally(Thread& thread) : thread_(thread) {}
+  DiffusionTally(Thread& thread, const System& system) : thread_(thread), hash_(system) {}
 
   bool stopped() const { return thread_.stopped(); }
 
@@ -65,11 +68,11 @@ class DiffusionTally {
     p.report = "particle " + std::to_string(p.number) + " is lost: it is so far away that |r - r(0)|^4 is not a number";
     return p;
   }
-  static void add_to(DiffusionResult& sum, std::uint64_t trajectory, const DiffusingParticle& p) {
+  void add_to(DiffusionResult& sum, std::uint64_t trajectory, const DiffusingParticle& p) const {
     count(sum, p.fate);
     for (std::size_t k = 0; k < p.samples; ++k) sum.sums.add(trajectory, k, (*p.squares)[k]);
     sum.collisions += p.hits;
-    sum.digest += trajectory_hash(p.number, static_cast<std::uint64_t>(p.fate), p.time, p.hits, p.last_wall);
+    sum.digest += hash_(p.number, p.fate, p.time, p.hits, p.last_wall, p.state, std::span(*p.squares).first(p.samples));
     if (p.fate == Fate::lost) keep_first(sum.reports, p.number, p.report);
   }
   static void count(DiffusionResult& sum, Fate fate) {
@@ -86,6 +89,7 @@ class DiffusionTally {
   }
 
   Thread& thread_;
+  ParticleHash hash_;
 };
 
 }  // namespace carom

@@ -95,7 +95,7 @@ class DiffusionWalker : public Observer {
     for (int p = 0; p < world_.size(); ++p) {
       const End& end = ends_[index(p)];
       const std::uint64_t number = trajectory * system_.particles.size() + static_cast<std::uint64_t>(p);
-      all.push_back({number, end.fate, end.time, world_.hits(p), world_.last_wall(p), &squares_[index(p)],
+      all.push_back({number, end.fate, end.time, world_.hits(p), world_.last_wall(p), world_.state(p), &squares_[index(p)],
                      end.fate == Fate::lost ? world_.report(p) : std::string()});
     }
     return all;

@@ -62,7 +62,7 @@ class EscapeRunner {
       const std::uint64_t index = particle_index(system_, trajectory, static_cast<std::uint64_t>(particle));
       TrajectoryRecord end = end_of(particle);
       end.index = index;
-      tally.add(end, world_.last_wall(particle), world_.report(particle));
+      tally.add(end, world_.last_wall(particle), world_.state(particle), world_.report(particle));
       if (!records) continue;
       TrajectoryRecord& record = (*records)[first_record + static_cast<std::size_t>(particle)];
       record.index = index;

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "carom/base/digest.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/table/hole_names.hpp"
 #include "ensemble/first_reports.hpp"
+#include "ensemble/particle_hash.hpp"
 
 namespace carom {
 
@@ -32,17 +32,21 @@ struct EscapeTally {
   std::uint64_t digest = 0;
   std::vector<std::pair<std::uint64_t, std::string>> reports;  // of the first by index
 
-  explicit EscapeTally(const System& system) : counts(system.run.times, hole_names(*system.table).size()) {}
+  explicit EscapeTally(const System& system)
+      : counts(system.run.times, hole_names(*system.table).size()), hash_(system) {}
 
   void note_energies(double before, double after) {
     counts.energy_change = std::max(counts.energy_change, std::fabs(after - before));
   }
-  /// The end of one particle; record.time is t_max for survivors.
-  void add(const TrajectoryRecord& end, int last_wall, const std::string& report) {
+  /// The end of one particle; record.time is t_max for survivors, `state` that after its last event.
+  void add(const TrajectoryRecord& end, int last_wall, const State& state, const std::string& report) {
     counts.add(end.fate, end.time, end.hits, end.hole);
-    digest += trajectory_hash(end.index, static_cast<std::uint64_t>(end.fate), end.time, end.hits, last_wall);
+    digest += hash_(end.index, end.fate, end.time, end.hits, last_wall, state);
     if (end.fate == Fate::lost) keep_first(reports, end.index, report);
   }
+
+ private:
+  ParticleHash hash_;
 };
 
 }  // namespace carom

@@ -108,7 +108,7 @@ class LaneRunner {
     const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
     record.time = to_the_end ? system_.run.t_max : end.time.value();
     EscapeTally& tally = block_of(end.tag)->second.done.tally;
-    tally.add(record, end.last_wall, end.report);
+    tally.add(record, end.last_wall, end.state, end.report);
     if (energies_.of_each() && end.fate != Fate::lost) {
       const Particle& particle = system_.particles[end.tag % system_.particles.size()];
       tally.note_energies(energy_of(end.tag), energies_.energy(particle, end.state));

@@ -1,7 +1,6 @@
 #include "carom/ensemble/section_run.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 #include <utility>
 
@@ -47,8 +46,7 @@ struct Tally {
 };
 
 std::uint64_t hash_of(std::uint64_t so_far, const SectionPoint& p) {
-  for (const double x : {p.t, p.s, p.v_parallel, p.x, p.y, p.vx, p.vy})
-    so_far = mix(so_far ^ std::bit_cast<std::uint64_t>(x));
+  for (const double x : {p.t, p.s, p.v_parallel, p.x, p.y, p.vx, p.vy}) so_far = mix(so_far, x);
   return mix(so_far ^ static_cast<std::uint64_t>(std::int64_t{p.wall} * 4 + p.direction));
 }
 

@@ -54,7 +54,7 @@ class SoftWalker {
       for (std::size_t p = 0; p < particles; ++p) {
         SoftLanes::Walk& walk = ends_[k][p];
         const double time = walk.fate == Fate::survived ? t_end : walk.ended.value();
-        all.push_back({(first + k) * particles + p, walk.fate, time, walk.hits, walk.last_wall,
+        all.push_back({(first + k) * particles + p, walk.fate, time, walk.hits, walk.last_wall, walk.state,
                        &squares_[k * particles + p], {}});
         if (walk.fate == Fate::lost) all.back().report = std::move(walk.report);
       }

@@ -129,7 +129,7 @@ void write_counts(const ArchiveFile& file, const DiffusionResult& result, const 
   };
   for (const Number& number : numbers) write(number.name, result.*number.value, {"1", number.text});
   write(energy_change, result.energy_change, {"energy", "With forces: the largest change of a trajectory's energy"});
-  write(digest, result.digest, {"1", "Sum of a hash of each trajectory: equal digests, equal bits"});
+  write(digest, result.digest, {"1", "Sum of a hash of each trajectory's end: other ends, another digest"});
 }
 
 void read_counts(hid_t file, const std::string& name, DiffusionResult& result) {

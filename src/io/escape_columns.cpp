@@ -79,7 +79,7 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
   if (system.dynamics.forces && !system.dynamics.forces->empty())
     hdf5::write_column(group.get(), "energy_change", std::span<const double>(&counts.energy_change, 1),
                        {"energy", "The largest change of a particle's energy"}, target);
-  number("digest", result.digest, "Sum of a hash of each trajectory: equal digests, equal bits");
+  number("digest", result.digest, "Sum of a hash of each trajectory's end: other ends, another digest");
   if (!holes.empty()) {
     const Handle dataset =
         hdf5::create_fixed(group.get(), "holes", H5T_NATIVE_UINT64, holes.size(),

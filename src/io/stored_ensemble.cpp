@@ -199,7 +199,7 @@ void refuse_other_version(const StoredEnsemble& stored) {
     throw InputError(Place{stored.file, 0, 0, "version"}, fmt::format("version {} wrote it", stored.version),
                      fmt::format("version {}, which this is", version));
   if (!same_arithmetic(stored.arithmetic, arithmetic_fingerprint()))
-    throw InputError(Place{stored.file, 0, 0, arithmetic_key}, "another arithmetic wrote it: the digits of its orbits are others",
+    throw InputError(Place{stored.file, 0, 0, arithmetic_key}, "another arithmetic wrote it: the digits of its orbits, or of its digest, are others",
                      "the build of carom that wrote it, or a run anew");
 }
 

@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-const char* systems[] = {"magnetic-square", "stadium", "ellipse-magnetic", "sinai", "lorentz-triangular", "mushroom"};
+const char* systems[] = {"magnetic-square", "stadium", "ellipse-magnetic", "sinai", "lorentz-triangular", "mushroom", "soft-lorentz"};
 
 std::string ensemble(const std::string& system) {
   return " escape " + system + " --trajectories 1e4 --t-max 40 --json --quiet";
@@ -31,8 +31,10 @@ TEST(SameBits, WithoutFusedMultiplyAdd) {
 
 TEST(SameBits, AnotherSeedIsAnotherDigest) {
   const Shell shell;
-  const Outcome one = shell("$carom" + ensemble("stadium")), two = shell("$carom" + ensemble("stadium") + " --seed 2");
-  EXPECT_NE(json_value(one.out, "digest"), json_value(two.out, "digest"));
+  for (const char* system : {"stadium", "soft-lorentz"}) {
+    const Outcome one = shell("$carom" + ensemble(system)), two = shell("$carom" + ensemble(system) + " --seed 2");
+    EXPECT_NE(json_value(one.out, "digest"), json_value(two.out, "digest")) << system;
+  }
 }
 
 // CAROM_OTHER_PROGRAM: the program built by another compiler (tests/other_compiler.sh makes one).

@@ -1,4 +1,4 @@
-// The digest of an ensemble: equal digests mean the same trajectories bit for bit.
+// What digests of ensembles are made of.
 #pragma once
 
 #include <bit>
@@ -14,12 +14,16 @@ constexpr std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// One trajectory's share; a digest is the sum of these modulo 2^64 in any order.
+/// A hash so far, and the bits of one more number.
+constexpr std::uint64_t mix(std::uint64_t so_far, double value) { return mix(so_far ^ std::bit_cast<std::uint64_t>(value)); }
+
+/// One trajectory's share, as far as its end and its hits tell it from others; a digest is the sum of such shares modulo 2^64
+/// in any order.
 constexpr std::uint64_t trajectory_hash(std::uint64_t index, std::uint64_t fate, double end_time,
                                         std::uint64_t hits, std::int64_t last_wall) {
   std::uint64_t h = mix(index);
   h = mix(h ^ fate);
-  h = mix(h ^ std::bit_cast<std::uint64_t>(end_time));
+  h = mix(h, end_time);
   h = mix(h ^ hits);
   return mix(h ^ static_cast<std::uint64_t>(last_wall));
 }

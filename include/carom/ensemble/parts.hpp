@@ -34,7 +34,7 @@ struct TrajectoryRecord {
 struct EnsembleResult {
   static constexpr std::size_t most_reports = 5;
 
-  std::uint64_t digest = 0;
+  std::uint64_t digest = 0;  ///< sum modulo 2^64 of a hash of each particle's end; see docs/guide/commands.md
   TrajectoryRanges done;  ///< trajectories that are counted
   DecisionCounts decisions;
   bool complete = true;  ///< false when interrupted
