@@ -163,6 +163,9 @@ std::uint64_t section_orbits(const System& system) {
 SectionResult run_section(const System& system, const SectionOptions& options) {
   const Stopwatch watch;
   refuse_injections(system, "sections");
+  if (system.section.boundary && system.table->walls.empty())
+    throw InputError(Place{{}, 0, 0, "section.on"}, "there are no walls where the section could be taken",
+                     "line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, x=c, y=c, vx=c or vy=c");
   check_start(system, options.interrupted);
   const Sampler sampler(system, options.interrupted);
   // Blocks wait for their turn in memory.

@@ -64,6 +64,16 @@ TEST(Section, ComesFromTheFileToo) {
 }
 
 // On one wall the points may never come: there is a last time, wherever the wall is named.
+// Such orbits would look for their first point for ever.
+TEST(Section, NeedsWallsOrASurface) {
+  const Shell shell;
+  const Outcome o = shell("timeout 20 $carom section soft-lorentz --orbits 2 --points 3 -o a.h5"), line = shell("$carom section soft-lorentz --on vx=0 --orbits 2 --points 3");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_NE(o.err.find("section.on: there are no walls where the section could be taken (expected line:"), std::string::npos) << o.err;
+  EXPECT_TRUE(shell.files().empty());
+  EXPECT_EQ(line.status, 0) << line.err;
+}
+
 TEST(Section, OnAWallEndsWhereverTheWallIsNamed) {
   const Shell shell;
   const std::string vertical =

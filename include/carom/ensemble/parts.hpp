@@ -61,7 +61,8 @@ class EnsembleJournal {
   /// What came until now belongs to the next save(). Never during block().
   virtual void mark() {}
   /// Keeps `so_far`: all up to the last mark(), and what was there before. From a thread of its own, or
-  /// from one that brings blocks (save_every_blocks), while others come in; one call at a time. May throw: then the run ends with that error.
+  /// from one that brings blocks (save_every_blocks), while others come in; one call at a time. May throw: then
+  /// the run ends with that error.
   virtual void save(const Result& so_far) = 0;
 };
 
