@@ -41,7 +41,7 @@ bool WallTouch::on(std::size_t i, Vector point) const {
 
 bool WallTouch::on_wall(Vector point) const {
   if (grid_) {
-    for (const int wall : grid_->pieces(grid_->cell_at(point)))
+    for (const int wall : grid_->pieces_at(point))
       if (on(static_cast<std::size_t>(wall), point)) return true;
     return false;
   }

@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "carom/events/world.hpp"
+#include "carom/geometry/hull.hpp"
 #include "events/locator.hpp"
 #include "events/next_hit.hpp"
+#include "events/wall_grid.hpp"
 #include "random_tables.hpp"
 #include "events/recorder.hpp"
 
@@ -64,6 +66,39 @@ Table star(int sides, double least) {
     corners.push_back({r * std::cos(angle), r * std::sin(angle)});
   }
   return polygon(corners);
+}
+
+Table regular(int sides) {
+  std::vector<Vector> corners;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 6.283185307179586 / sides * (i + 0.3);
+    corners.push_back({std::cos(angle), std::sin(angle)});
+  }
+  return polygon(corners);
+}
+
+/// A body with thin teeth, each a fifth as wide as their distance.
+Table comb(int teeth) {
+  std::vector<Vector> corners{{0, 0}, {1, 0}, {1, 0.5}};
+  for (int i = teeth - 1; i >= 0; --i) {
+    const double left = (i + 0.4) / teeth, right = (i + 0.6) / teeth;
+    for (const Vector& corner : {Vector{right, 0.5}, Vector{right, 1}, Vector{left, 1}, Vector{left, 0.5}})
+      corners.push_back(corner);
+  }
+  corners.push_back({0, 0.5});
+  return polygon(corners);
+}
+
+/// Discs near the middle of a box, in a square of side 1.
+Table discs_in_a_box(int count, double radius, double side) {
+  Table table = rectangle(side, side);
+  Dice dice(13);
+  for (const Curve& disc : random_discs(count, radius, {1, 0}, {0, 1}, false, dice)) {
+    Circle moved = std::get<Circle>(disc);
+    moved.centre = moved.centre + Vector{0.5 * side, 0.5 * side};
+    add_loop(table, {moved});
+  }
+  return table;
 }
 
 /// One obstacle of each kind after the other on a square array, clockwise.
@@ -205,6 +240,84 @@ TEST(Grid, TellsOfPolygonsWhatTheLoopTells) {
   fly_everywhere(star(300, 0.95), {-1, -1}, {1, 1}, cases(6000, 400000));
   fly_everywhere(star(200, 0.05), {-1, -1}, {1, 1}, cases(6000, 400000));
 }
+// Most of these is empty: flights leap over it.
+TEST(Grid, TellsOfPolygonsOfManySidesWhatTheLoopTells) {
+  fly_everywhere(regular(150), {-1, -1}, {1, 1}, cases(4000, 200000));
+  fly_everywhere(regular(3000), {-1, -1}, {1, 1}, cases(2000, 100000));
+  fly_everywhere(star(3000, 0.9), {-1, -1}, {1, 1}, cases(2000, 100000));
+  fly_everywhere(star(1000, 0.2), {-1, -1}, {1, 1}, cases(2000, 100000));
+}
+TEST(Grid, TellsOfAThinCombWhatTheLoopTells) { fly_everywhere(comb(100), {0, 0}, {1, 1}, cases(4000, 200000)); }
+TEST(Grid, TellsOfDiscsInALargeBoxWhatTheLoopTells) {
+  for (const double side : {4.0, 20.0, 100.0})
+    fly_everywhere(discs_in_a_box(150, 0.04, side), {0, 0}, {side, side}, cases(3000, 150000));
+}
+
+WallGrid grid_of(const Table& table) {
+  std::vector<geometry::Piece> pieces;
+  for (const Wall& wall : table.walls) pieces.push_back({wall.curve, {}, wall.next, false});
+  return {pieces, {}, {},
+          geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); })};
+}
+
+// A clearing that is one cell too wide would lose walls.
+TEST(Grid, KnowsHowFarItsCellsAreFromWalls) {
+  int widest = 0;
+  for (const Table& table : {regular(100), regular(10000), star(200, 0.05), comb(30), discs_in_a_box(150, 0.04, 100)}) {
+    const WallGrid grid = grid_of(table);
+    std::vector<std::pair<int, int>> occupied;
+    for (int k = 0; k < grid.rows(); ++k)
+      for (int i = 0; i < grid.columns(); ++i)
+        if (!grid.is_empty(i, k)) occupied.push_back({i, k});
+    Dice dice(17);
+    for (int n = 0; n < 3000; ++n) {
+      const int i = dice.whole(0, grid.columns() - 1), k = dice.whole(0, grid.rows() - 1);
+      int away = grid.columns() + grid.rows();
+      for (const auto& [column, row] : occupied)
+        away = std::min(away, std::max(std::abs(column - i), std::abs(row - k)));
+      ASSERT_LE(grid.clearance(i, k), away);
+      ASSERT_EQ(grid.clearance(i, k) == 0, away == 0);
+      ASSERT_GT(grid.clearance(i, k), away - 32);  // two blocks
+      widest = std::max(widest, away);
+    }
+  }
+  EXPECT_GT(widest, 64);  // blocks of cells are empty
+}
+
+// Whatever the start's error: all points that the flight may come to are of cells that were visited.
+TEST(Grid, VisitsTheCellsOfAllPointsNearAFlight) {
+  for (const Table& table : {regular(3000), star(300, 0.05), comb(30), discs_in_a_box(150, 0.04, 20)}) {
+    const WallGrid grid = grid_of(table);
+    const geometry::Box box =
+        geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
+    const double size = box.high.x - box.low.x;
+    Dice dice(19);
+    for (long n = 0; n < cases(4000, 200000); ++n) {
+      const Vector start{dice.between(box.low.x, box.high.x), dice.between(box.low.y, box.high.y)}, v = dice.direction();
+      const double delta = size * (dice.coin() ? 1e-12 : dice.spread(1e-4, 1e-1));
+      const double omega = dice.coin() ? 0.0 : dice.sign() / (size * dice.spread(1e-2, 1e2));
+      std::vector<char> visited(table.walls.size(), 0);
+      const auto visit = [&](int cell) {
+        for (const int piece : grid.pieces(cell)) visited[static_cast<std::size_t>(piece)] = 1;
+      };
+      const auto passed = [](double) { return false; };
+      if (omega == 0.0)
+        grid.along_line(start, delta, v, visit, passed);
+      else
+        grid.along_circle(start, delta, v, omega, 1.0, visit, passed);
+      const Vector shift{0.99 * delta * dice.sign(), 0.99 * delta * dice.sign()};
+      const double way = omega == 0.0 ? 1.5 * size : std::min(6.3 / std::fabs(omega), 1.5 * size);
+      for (int k = 0; k < 200; ++k) {
+        const double t = way * dice.unit(), h = 0.5 * std::fabs(omega);
+        const Vector d = omega == 0.0 ? Vector{t * v.x, t * v.y} : geometry::displacement(h / std::tan(h * t), v, omega, 0.5);
+        const Vector x = start + shift + d;
+        if (x.x < box.low.x || x.x > box.high.x || x.y < box.low.y || x.y > box.high.y) continue;
+        for (const int piece : grid.pieces_at(x)) ASSERT_TRUE(visited[static_cast<std::size_t>(piece)]);
+      }
+    }
+  }
+}
+
 TEST(Grid, TellsOfEveryKindOfWallWhatTheLoopTells) {
   fly_everywhere(many_kinds(7, true), {0, 0}, {7, 7}, cases(4000, 200000));
   fly_everywhere(many_kinds(6, false), {0, 0}, {6, 6}, cases(4000, 200000));

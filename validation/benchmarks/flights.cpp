@@ -35,7 +35,7 @@ struct Row {
   Level (*stepped)(double, double) = nullptr;  // null: no time-stepper
   Obstacles (*loop)() = nullptr;               // null: no loop over obstacles
   double loop_flight = 0.0;                    // mean flight of its one orbit; 0: that of the table
-  const char* fewer = nullptr;                 // a row before: the same gas, of fewer discs
+  const char* fewer = nullptr;                 // a row before: the same gas or polygon, of fewer walls
 };
 
 constexpr std::uint64_t trajectories = 200;  // of 1000 hits
@@ -48,7 +48,7 @@ struct MeanFlight {
   double error() const { return std::sqrt((squares / n - mean() * mean()) / (n - 1.0)); }
 };
 
-/// Of others of the same gas: what more discs cost.
+/// Of others of the same kind: what more walls cost.
 using Costs = std::map<std::string, double>;
 
 void measure_row(Report& report, const Row& row, Costs& costs) {
@@ -117,6 +117,8 @@ const Row rows[] = {
     {"random lorentz 10", "[table]\nshape = \"random-discs\"\nside = \"sqrt(102.4)\"\nradius = 1\ncount = 10\n", 0},
     {"random lorentz 100000",
      "[table]\nshape = \"random-discs\"\nside = \"sqrt(1024000)\"\nradius = 1\ncount = 100000\n", 0, nullptr, nullptr, 0.0, "random lorentz 10"},
+    {"regular 100", "[table]\nshape = \"regular\"\nsides = 100\nradius = 1\n", 0},
+    {"regular 10000", "[table]\nshape = \"regular\"\nsides = 10000\nradius = 1\n", 0, nullptr, nullptr, 0.0, "regular 100"},
     {"ellipse", "[table]\nshape = \"ellipse\"\na = 1\nb = 0.75\n", 0, ellipse},
     {"magnetic square",
      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n", 1 / 0.5075,
