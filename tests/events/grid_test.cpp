@@ -77,6 +77,19 @@ Table regular(int sides) {
   return polygon(corners);
 }
 
+/// A regular polygon as an obstacle, from whose neighbours flights come, too.
+Table regular_on_lattice(int sides) {
+  Table table;
+  std::vector<Curve> walls;
+  const auto corner = [&](int i) {
+    const double angle = 6.283185307179586 / sides * (i % sides + 0.3);
+    return Vector{0.5 + 0.53 * std::cos(angle), 0.5 - 0.53 * std::sin(angle)};
+  };
+  for (int i = 0; i < sides; ++i) walls.push_back(Segment{corner(i), corner(i + 1)});
+  add_loop(table, walls);
+  return on_lattice(table, {1.1, 0}, {0.5, 1});
+}
+
 /// A body with thin teeth, each a fifth as wide as their distance.
 Table comb(int teeth) {
   std::vector<Vector> corners{{0, 0}, {1, 0}, {1, 0.5}};
@@ -246,6 +259,7 @@ TEST(Grid, TellsOfPolygonsOfManySidesWhatTheLoopTells) {
   fly_everywhere(regular(3000), {-1, -1}, {1, 1}, cases(2000, 100000));
   fly_everywhere(star(3000, 0.9), {-1, -1}, {1, 1}, cases(2000, 100000));
   fly_everywhere(star(1000, 0.2), {-1, -1}, {1, 1}, cases(2000, 100000));
+  fly_everywhere(regular_on_lattice(500), {0, 0}, {1, 1}, cases(2000, 100000));
 }
 TEST(Grid, TellsOfAThinCombWhatTheLoopTells) { fly_everywhere(comb(100), {0, 0}, {1, 1}, cases(4000, 200000)); }
 TEST(Grid, TellsOfDiscsInALargeBoxWhatTheLoopTells) {
