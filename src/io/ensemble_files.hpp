@@ -36,8 +36,6 @@ hdf5::Handle open_ensemble(const std::string& name);
 /// /provenance of an ensemble, besides what every archive has; what is counted. `arithmetic`: of those who computed it, or "".
 void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere, const std::string& arithmetic);
 inline constexpr const char* arithmetic_key = "arithmetic";
-/// Can builds with the same digits have written both? Those of earlier builds say nothing.
-inline bool same_arithmetic(const std::string& a, const std::string& b) { return a.empty() || b.empty() || a == b; }
 /// Where the records of a checkpoint stand.
 void write_pieces(const ArchiveFile&, const std::vector<RecordLog::Piece>&);
 /// Throws InputError where they are not those of the trajectories that it counts.

@@ -161,7 +161,7 @@ Stored<Result> read_ensemble(const std::string& file) {
   }
   const bool one_ensemble = difference(whole.system_toml, part.system_toml).empty() && whole.shard == part.shard &&
                             whole.version == part.version && whole.engine == part.engine &&
-                            whole.everywhere == part.everywhere && same_arithmetic(whole.arithmetic, part.arithmetic) && whole.per_trajectory == part.per_trajectory;
+                            whole.everywhere == part.everywhere && whole.arithmetic == part.arithmetic && whole.per_trajectory == part.per_trajectory;
   return one_ensemble && whole.result.done.size() >= part.result.done.size() ? whole : part;
 }
 
@@ -198,7 +198,7 @@ void refuse_other_version(const StoredEnsemble& stored) {
   if (stored.version != version)
     throw InputError(Place{stored.file, 0, 0, "version"}, fmt::format("version {} wrote it", stored.version),
                      fmt::format("version {}, which this is", version));
-  if (!same_arithmetic(stored.arithmetic, arithmetic_fingerprint()))
+  if (stored.arithmetic != arithmetic_fingerprint())
     throw InputError(Place{stored.file, 0, 0, arithmetic_key}, "another arithmetic wrote it: the digits of its orbits, or of its digest, are others",
                      "the build of carom that wrote it, or a run anew");
 }
