@@ -90,6 +90,7 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole) {
       ++singular;
       return;
     case Fate::lost:
+    case Fate::unresolved:
       ++lost;
       return;
     case Fate::escaped:

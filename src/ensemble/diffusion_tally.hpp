@@ -84,7 +84,8 @@ class DiffusionTally {
       case Fate::escaped: ++sum.escaped; break;
       case Fate::singular: ++sum.singular; break;
       case Fate::unbounded: ++sum.unbounded; break;
-      case Fate::lost: ++sum.lost; break;
+      case Fate::lost:
+      case Fate::unresolved: ++sum.lost; break;
     }
   }
 

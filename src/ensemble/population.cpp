@@ -119,6 +119,7 @@ Population::Way Population::fly(Walker& walker, const Stage& stage, const std::f
       return Way::gone;
     case Fate::singular:
     case Fate::lost:
+    case Fate::unresolved:
       return Way::ended;
   }
   return Way::ended;

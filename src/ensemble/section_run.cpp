@@ -135,6 +135,7 @@ class Follower {
         case Fate::singular: ++r.singular; break;
         case Fate::unbounded: ++r.unbounded; break;
         case Fate::lost:
+        case Fate::unresolved:
           ++r.lost;
           if (tally.reports.size() < most_reports)
             tally.reports.emplace_back(orbit * particles + p, world_.report(body));

@@ -91,7 +91,7 @@ void World::Implementation::end(int index, Fate fate, Time time, Observer* obser
   b.fate = fate;
   b.finished = true;
   queue.remove(index);
-  if (fate == Fate::lost || fate == Fate::singular)
+  if (fate == Fate::lost || fate == Fate::singular || fate == Fate::unresolved)
     b.report = describe(b.particle, b.state, fate);
   if (observer) observer->end({index, fate, time, b.state, b.hole, b.hits});
 }

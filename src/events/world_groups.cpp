@@ -204,7 +204,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
 /// Where the step under way begins.
 void World::Implementation::lose(Group& group, std::size_t member, std::string_view why, Observer& observer) {
   const int body = group.bodies()[member];
-  end(body, Fate::lost, group.time(), &observer);
+  end(body, Fate::unresolved, group.time(), &observer);
   bodies[at(body)].report.append(": ").append(why);
   take_out(group, member);
 }

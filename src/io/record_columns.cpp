@@ -23,7 +23,7 @@ hdf5::Columns create_records(const ArchiveFile& file, const System& system) {
   trajectories.add<double>(to, "vy", {"length/time", "Velocity at the start"});
   const hid_t fate = trajectories.add<std::int32_t>(to, "fate", {"1", "Index into the attribute `names`"});
   std::vector<std::string> names;
-  for (int i = 0; i <= static_cast<int>(Fate::lost); ++i) names.push_back(name_of(static_cast<Fate>(i)));
+  for (int i = 0; i <= static_cast<int>(last_fate); ++i) names.push_back(name_of(static_cast<Fate>(i)));
   hdf5::write_attribute(fate, "names", names, target);
   const hid_t hole = trajectories.add<std::int32_t>(
       to, "hole", {"1", "Index into the attribute `names`, -1: did not escape"});
@@ -74,7 +74,7 @@ bool RecordReader::next(std::vector<TrajectoryRecord>& records) {
   for (std::size_t i = 0; i < count; ++i) {
     const TrajectoryRecord& r = records[i];
     if (row_ + i > 0 && r.index <= last_) damaged(name_, "'/trajectories/index' is not in order");
-    if (r.fate < Fate{} || r.fate > Fate::lost) damaged(name_, "'/trajectories/fate' has a number that is no fate");
+    if (r.fate < Fate{} || r.fate > last_fate) damaged(name_, "'/trajectories/fate' has a number that is no fate");
     last_ = r.index;
   }
   row_ += count;

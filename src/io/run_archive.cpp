@@ -110,7 +110,7 @@ const std::pair<const char*, Description> energy_fields[] = {
 
 std::vector<std::string> fate_names() {
   std::vector<std::string> names;
-  for (int i = 0; i <= static_cast<int>(Fate::lost); ++i) names.push_back(name_of(static_cast<Fate>(i)));
+  for (int i = 0; i <= static_cast<int>(last_fate); ++i) names.push_back(name_of(static_cast<Fate>(i)));
   return names;
 }
 

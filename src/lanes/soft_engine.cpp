@@ -184,7 +184,7 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, double t_end, std::span
     if (!next.fault.empty()) {
       // There are no states within a step that fails.
       emit_while([&](const Time& t) { return !(t > s.time); });
-      return s.time < Time(t_end) ? this->end(track, Fate::lost, next.fault) : Outcome::over;
+      return s.time < Time(t_end) ? this->end(track, Fate::unresolved, next.fault) : Outcome::over;
     }
     emit_while([&](const Time& t) { return over || t < when; });
     if (over) return Outcome::over;
@@ -232,7 +232,7 @@ SoftEngine::Outcome SoftEngine::end(SoftTrack& track, Fate fate, std::string_vie
   track.finished = true;
   track.fate = fate;
   track.ended = track.state.time;
-  if (fate == Fate::lost || fate == Fate::singular) track.report = describe(particle_, track.state, fate);
+  if (fate == Fate::lost || fate == Fate::singular || fate == Fate::unresolved) track.report = describe(particle_, track.state, fate);
   if (!fault.empty()) track.report.append(": ").append(fault);
   return Outcome::ended;
 }

@@ -11,6 +11,7 @@ const char* name_of(Fate fate) {
     case Fate::singular: return "singular";
     case Fate::unbounded: return "unbounded";
     case Fate::lost: return "lost";
+    case Fate::unresolved: return "unresolved";
   }
   return "lost";
 }

@@ -38,8 +38,10 @@ enum class Fate : unsigned char {
   escaped,    ///< left through a hole
   singular,   ///< its exact path ends at a corner without a continuation, or runs along a wall
   unbounded,  ///< no wall follows any more: gone since its last hit
-  lost        ///< an internal error
+  lost,       ///< an internal error
+  unresolved  ///< its integration could not follow: forces or walls that a step does not resolve
 };
+inline constexpr Fate last_fate = Fate::unresolved;
 const char* name_of(Fate);
 
 }  // namespace carom
