@@ -67,6 +67,7 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   phase_.velocity.resize(bodies_.size());
   if (splits_) splits_->under_way = splits_->in_drift = false;
   make_stepper();
+  find_maps();
 }
 
 void Group::make_stepper() {
@@ -107,6 +108,7 @@ const Group::Next& Group::predict(const Time& limit) {
   next_.duration = path_->begin(from, rest);
   whole_step_ = !(next_.duration < rest);
   next_.fault = fault_at(path_->end().phase);
+  if (next_.fault.empty() && !splits_) next_.fault = check_resolution();
   if (!next_.fault.empty()) return next_;
   bool near_wall = false;
   CrossingSearch<double> search(*path_);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "events/barrier.hpp"
 #include "events/crossing_in_step.hpp"
 #include "events/step_path.hpp"
+#include "forces/resolution.hpp"
 #include "integrators/stages.hpp"
 
 namespace carom {
@@ -34,6 +36,7 @@ class Group final : public ForceLaw<double> {
     std::vector<Barrier<double>> barriers;     ///< walls and edges of supports, with their copies
     std::vector<Barrier<double>> supports;     ///< the latter alone: their inside is positive
     double longest_way = std::numeric_limits<double>::infinity();  ///< most that walls allow in one step
+    std::shared_ptr<ForceMaps> maps;         ///< bounds of external forces; null: any step will do
     std::function<bool(geometry::Vector)> inside;  ///< of a bounded table, or on its wall to rounding; empty: of another
   };
   /// What comes first.
@@ -84,6 +87,11 @@ class Group final : public ForceLaw<double> {
   void pass(const Barrier<double>& edge) { passed_ = &edge; }
 
  private:
+  void find_maps();
+  bool resolves(const Phase<double>& from, const Phase<double>* to, double time) const;
+  bool resolves_pairs(const Phase<double>& from, double time) const;
+  double longest_resolved(const Phase<double>& from, double asked) const;
+  std::string_view check_resolution();
   void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
   void make_stepper();
   Time step_end(const Time& limit) const;
@@ -123,6 +131,10 @@ class Group final : public ForceLaw<double> {
   std::unique_ptr<Splits> splits_;  ///< null: walls = "reflect"
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
+  std::vector<ForceMap*> maps_;  ///< one a member
+  Phase<double> checked_;        ///< a step has ended there and resolved what lies about it
+  double checked_for_ = 0.0;     ///< complex times up to that
+  std::string fault_text_;
 };
 
 /// The instant k * step.

@@ -55,6 +55,7 @@ void World::Implementation::add_barriers() {
   }
   surroundings.forces = acts(dynamics) ? dynamics.forces.get() : nullptr;
   surroundings.plan = dynamics.integrator;
+  if (surroundings.forces) surroundings.maps = std::make_shared<ForceMaps>(*surroundings.forces);
   if (table.lattice) {
     surroundings.lattice = &*table.lattice;
     surroundings.centre = centre_of_cell(*table.lattice);

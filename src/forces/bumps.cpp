@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "carom/base/elementary.hpp"
+#include "forces/central_bounds.hpp"
 
 namespace carom {
 
@@ -26,7 +27,8 @@ double total(const Lanes& s) { return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] +
 /// Centres in columns, filled up to a multiple of eight with bumps of weight 0.
 struct Centers {
   std::vector<double> x, y, weight;
-  explicit Centers(const std::vector<Vector>& points) {
+  std::size_t count;  ///< without the filling
+  explicit Centers(const std::vector<Vector>& points) : count(points.size()) {
     for (const Vector& p : points) {
       x.push_back(p.x);
       y.push_back(p.y);
@@ -70,6 +72,12 @@ class FermiBumps final : public Potential {
 
   double add_force(const Particle&, Vector x, Vector& force) const override {
     return add_bumps(*this, centers_, x, height_, height_ * inverse_, force);
+  }
+  ForceBound bound(const Particle&, const Neighbourhood& n) const override {
+    ForceBound sum;
+    for (std::size_t i = 0; i < centers_.count; ++i)
+      sum += central::fermi(height_, radius_, softness_, central::distances(n, {centers_.x[i], centers_.y[i]}));
+    return sum;
   }
   double reach() const override { return radius_ + tail_exponent * softness_; }
   double tail() const override { return tail_share * std::fabs(height_); }
@@ -127,6 +135,12 @@ class GaussianBumps final : public Potential {
 
   double add_force(const Particle&, Vector x, Vector& force) const override {
     return add_bumps(*this, centers_, x, height_, height_ * inverse_square_, force);
+  }
+  ForceBound bound(const Particle&, const Neighbourhood& n) const override {
+    ForceBound sum;
+    for (std::size_t i = 0; i < centers_.count; ++i)
+      sum.force += central::gaussian(height_, width_, central::distances(n, {centers_.x[i], centers_.y[i]}));
+    return sum;
   }
   double reach() const override { return std::sqrt(2.0 * tail_exponent) * width_; }
   double tail() const override { return tail_share * std::fabs(height_); }

@@ -26,6 +26,16 @@ double ForceField::add_pair(const Particle& a, const Particle& b, Vector separat
   return interaction_ ? interaction_->add_force(a, b, separation, force) : 0.0;
 }
 
+ForceBound ForceField::external_bound(const Particle& p, const Neighbourhood& n) const {
+  ForceBound sum;
+  for (const auto& potential : potentials_) sum += potential->bound(p, n);
+  return sum;
+}
+
+ForceBound ForceField::pair_bound(const Particle& a, const Particle& b, double distance, double rho) const {
+  return interaction_ ? interaction_->bound(a, b, distance, rho) : ForceBound{};
+}
+
 void ForceField::add_pairs(std::span<const Particle> particles, std::span<const Vector> x,
                            const geometry::Lattice* lattice, std::span<Vector> force) const {
   if (interaction_) interaction_->add_forces(particles, x, lattice, force);

@@ -4,7 +4,9 @@
 
 #include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
+#include "forces/central_bounds.hpp"
 #include "forces/coulomb_pairs.hpp"
+#include "forces/formula_bound.hpp"
 #include "forces/nearest_copy.hpp"
 #include "forces/potential.hpp"
 
@@ -25,12 +27,22 @@ double whole_power(double x, int n) {
   return result;
 }
 
-/// `law` gives W and -W'/r at a squared distance, for unit charges where `charged`.
-template <class Law>
+/// `law` gives W and -W'/r at a squared distance, for unit charges where `charged`; `bound` bounds the force.
+template <class Law, class Bound>
 class Central final : public Interaction {
  public:
-  Central(Law law, bool charged, double reach, double tail, std::optional<double> coulomb_strength)
-      : law_(std::move(law)), charged_(charged), reach_(reach), tail_(tail), coulomb_strength_(coulomb_strength) {}
+  Central(Law law, Bound bound, bool charged, double reach, double tail, std::optional<double> coulomb_strength)
+      : law_(std::move(law)),
+        bound_(std::move(bound)),
+        charged_(charged),
+        reach_(reach),
+        tail_(tail),
+        coulomb_strength_(coulomb_strength) {}
+  ForceBound bound(const Particle& a, const Particle& b, double distance, double rho) const override {
+    const ForceBound unit = bound_(central::Distances{distance, distance, rho});
+    const double charges = charged_ ? std::fabs(a.charge * b.charge) : 1.0;
+    return charges == 0.0 ? ForceBound{} : ForceBound{charges * unit.force, charges * unit.jump};
+  }
   double add_force(const Particle& a, const Particle& b, Vector separation, Vector& force) const override {
     const auto [w, over_r] = law_(dot(separation, separation));
     const double charges = charged_ ? a.charge * b.charge : 1.0;
@@ -58,15 +70,17 @@ class Central final : public Interaction {
 
  private:
   Law law_;
+  Bound bound_;
   bool charged_;
   double reach_, tail_;
   std::optional<double> coulomb_strength_;  ///< of a Coulomb law, whose sums have a loop of their own
 };
 
-template <class Law>
-std::unique_ptr<const Interaction> central(Law law, bool charged, double reach, double tail,
-                                           std::optional<double> coulomb_strength = {}) {
-  return std::make_unique<Central<Law>>(std::move(law), charged, reach, tail, coulomb_strength);
+template <class Law, class Bound>
+std::unique_ptr<const Interaction> central_law(Law law, Bound bound, bool charged, double reach, double tail,
+                                               std::optional<double> coulomb_strength = {}) {
+  return std::make_unique<Central<Law, Bound>>(std::move(law), std::move(bound), charged, reach, tail,
+                                               coulomb_strength);
 }
 
 constexpr double everywhere = std::numeric_limits<double>::infinity();
@@ -80,46 +94,65 @@ struct Pair {
 std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
   switch (s.kind) {
     case Kind::coulomb:
-      return central(
+      return central_law(
           [k = s.strength](double r2) {
             const double inverse = 1.0 / std::sqrt(r2), w = k * inverse;
             return Pair{w, w * (inverse * inverse)};
           },
+          [k = s.strength](const central::Distances& d) { return ForceBound{central::falling(k, 2.0, d), 0.0}; },
           true, everywhere, 0.0, s.strength);
     case Kind::yukawa:
       // Beyond r the potential is below its value at the range times exp(-(r/range - 1)).
-      return central(
+      return central_law(
           [k = s.strength, range = s.range](double r2) {
             const double r = std::sqrt(r2), inverse = 1.0 / r;
             const double w = k * inverse * elementary::exp(-r / range);
             return Pair{w, w * (inverse + 1.0 / range) * inverse};
           },
+          [k = s.strength, range = s.range](const central::Distances& d) {
+            const double r = d.near - d.rho;
+            if (!(r > 0.0)) return ForceBound{central::none, 0.0};
+            const double ratio = std::sqrt((d.near + d.rho) / r);  // of |p|/|sqrt(p q)|
+            return ForceBound{std::fabs(k) * ratio * elementary::exp(-r / range) * (1.0 / r + 1.0 / range) / r, 0.0};
+          },
           true, (tail_exponent + 1.0) * s.range, tail_share * std::fabs(s.strength) / s.range);
     case Kind::lennard_jones:
       // (d/r)^6 = tail_share / 4 at r = d (4e16)^(1/6) < 585 d.
-      return central(
+      return central_law(
           [e = s.depth, d2 = s.diameter * s.diameter](double r2) {
             const double inverse = 1.0 / r2, s2 = d2 * inverse, s6 = s2 * s2 * s2;
             return Pair{4.0 * e * s6 * (s6 - 1.0), 24.0 * e * s6 * (2.0 * s6 - 1.0) * inverse};
           },
+          [e = s.depth, diameter = s.diameter](const central::Distances& d) {
+            const double r = d.near - d.rho;
+            if (!(r > 0.0)) return ForceBound{central::none, 0.0};
+            const double s6 = whole_power(diameter / r, 6);
+            return ForceBound{24.0 * std::fabs(e) * s6 * (2.0 * s6 + 1.0) / r, 0.0};
+          },
           false, 585.0 * s.diameter, tail_share * std::fabs(s.depth));
     case Kind::soft_sphere:
-      return central(
+      return central_law(
           [k = s.strength, d = s.diameter, n = s.exponent](double r2) {
             const double inverse = 1.0 / r2;
             const double w = n % 2 == 0 ? k * whole_power(d * d * inverse, n / 2)
                                         : k * whole_power(d * std::sqrt(inverse), n);
             return Pair{w, n * w * inverse};
           },
+          [k = s.strength, diameter = s.diameter, n = s.exponent](const central::Distances& d) {
+            const double r = d.near - d.rho;
+            if (!(r > 0.0)) return ForceBound{central::none, 0.0};
+            return ForceBound{std::fabs(k) * n * whole_power(diameter / r, n) / r, 0.0};
+          },
           false, s.diameter * elementary::exp(tail_exponent / s.exponent), tail_share * std::fabs(s.strength));
     case Kind::expression:
-      return central(
+      return central_law(
           [v = s.expression](double r2) {
             const double r = std::sqrt(r2), at[] = {r};
             double slope[1];
             const double w = v->value_and_gradient(at, slope);
             return Pair{w, (w - w) - slope[0] / r};  // no value, no force
           },
+          [v = s.expression](const central::Distances& d) { return bound_of(*v, d.near, d.rho); },
           false, everywhere, 0.0);
     case Kind::hard_discs: break;
   }

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "carom/base/elementary.hpp"
+#include "forces/central_bounds.hpp"
 
 namespace carom {
 
@@ -120,7 +121,7 @@ class LatticeBumps final : public Potential {
  public:
   LatticeBumps(const BumpShape& shape, double height, const std::vector<Vector>& centers,
                const geometry::Lattice& lattice, double reach)
-      : table_(shape, centers, lattice, reach), sums_at_(widest()) {
+      : shape_(shape), centers_(centers), lattice_(lattice), table_(shape, centers, lattice, reach), sums_at_(widest()) {
     const bool fermi = shape.kind == BumpShape::Kind::fermi;
     reach_ =
         fermi ? shape.radius + tail_exponent * shape.softness : std::sqrt(2.0 * tail_exponent) * shape.width;
@@ -133,11 +134,31 @@ class LatticeBumps final : public Potential {
     force.y += field_.height * sums.y;
     return field_.height * sums.value;
   }
+  /// Copies that a complex displacement leaves below tail_share are left out, as in the sum itself.
+  ForceBound bound(const Particle&, const Neighbourhood& n) const override {
+    constexpr double most = 4096.0;
+    const Vector middle = 0.5 * (n.low + n.high), half = n.high - middle;
+    const auto seen =
+        seen_from_copies(middle, centers_, lattice_, reach_ + 3.0 * n.rho + std::sqrt(dot(half, half)), most);
+    if (!seen) return {central::none, 0.0};
+    ForceBound sum;
+    for (const Vector& d : *seen) {
+      const central::Distances from = central::distances({d - half, d + half, n.rho}, {});
+      if (shape_.kind == BumpShape::Kind::fermi)
+        sum += central::fermi(field_.height, shape_.radius, shape_.softness, from);
+      else
+        sum.force += central::gaussian(field_.height, shape_.width, from);
+    }
+    return sum;
+  }
   double reach() const override { return reach_; }
   double tail() const override { return tail_share * std::fabs(field_.height); }
   const LatticeField* lattice_field() const override { return &field_; }
 
  private:
+  BumpShape shape_;
+  std::vector<Vector> centers_;
+  geometry::Lattice lattice_;
   LatticeTable table_;
   LatticeField field_;
   double reach_ = 0.0;

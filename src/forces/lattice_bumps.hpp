@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "carom/geometry/lattice.hpp"
@@ -32,6 +33,12 @@ class LatticeTable {
   std::size_t copies_ = 0;
   std::vector<Line> lines_;
 };
+
+/// The point as seen from each copy, on the lattice, of the centres that is nearer than `reach`; nothing where these
+/// are more than `most`.
+std::optional<std::vector<geometry::Vector>> seen_from_copies(geometry::Vector point,
+                                                              const std::vector<geometry::Vector>& centers,
+                                                              const geometry::Lattice&, double reach, double most);
 
 std::unique_ptr<const Potential> make_lattice_bumps(const BumpShape&, double height,
                                                     const std::vector<geometry::Vector>& centers,

@@ -153,6 +153,15 @@ Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& cent
 
 }  // namespace
 
+std::optional<std::vector<Vector>> seen_from_copies(Vector point, const std::vector<Vector>& centers,
+                                                    const geometry::Lattice& lattice, double reach, double most) {
+  constexpr double square_about_disc = 4.0;
+  if (!(square_about_disc * reach * reach / lattice.cell_area() * static_cast<double>(centers.size()) <= most)) return {};
+  std::vector<Vector> seen;
+  for (const Copy& copy : copies_about(point, centers, shortest(lattice), reach, 0)) seen.push_back(copy.d);
+  return seen;
+}
+
 LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& centers,
                            const geometry::Lattice& lattice, double reach) {
   const Basis basis = shortest(lattice);

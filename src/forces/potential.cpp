@@ -1,11 +1,14 @@
 // The potentials that need no sum over many centres.
 #include "forces/potential.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
 #include "forces/bumps.hpp"
+#include "forces/central_bounds.hpp"
+#include "forces/formula_bound.hpp"
 #include "forces/lattice_bumps.hpp"
 
 namespace carom {
@@ -24,12 +27,17 @@ double whole_power(double x, int n) {
 
 double square(const Vector& a) { return dot(a, a); }
 
-/// A potential of one place, repeated at each centre.
-template <class Formula>
+/// A potential of one place, repeated at each centre. `Bound`: of its force near a place, as seen from the centre.
+template <class Formula, class Bound>
 class AtCenters final : public Potential {
  public:
-  AtCenters(Formula formula, std::vector<Vector> centers)
-      : formula_(std::move(formula)), centers_(std::move(centers)) {}
+  AtCenters(Formula formula, Bound bound, std::vector<Vector> centers)
+      : formula_(std::move(formula)), bound_(std::move(bound)), centers_(std::move(centers)) {}
+  ForceBound bound(const Particle& p, const Neighbourhood& n) const override {
+    ForceBound sum;
+    for (const Vector& c : centers_) sum += bound_(p, Neighbourhood{n.low - c, n.high - c, n.rho});
+    return sum;
+  }
   double add_force(const Particle& p, Vector x, Vector& force) const override {
     double value = 0.0;
     for (const Vector& c : centers_) value += formula_(p, x - c, force);
@@ -49,13 +57,16 @@ class AtCenters final : public Potential {
 
  private:
   Formula formula_;
+  Bound bound_;
   std::vector<Vector> centers_;
 };
 
-template <class Formula>
-std::unique_ptr<const Potential> at_centers(Formula formula, const PotentialSpec& spec) {
-  return std::make_unique<AtCenters<Formula>>(std::move(formula), spec.centers);
+template <class Formula, class Bound>
+std::unique_ptr<const Potential> at_centers(Formula formula, Bound bound, const PotentialSpec& spec) {
+  return std::make_unique<AtCenters<Formula, Bound>>(std::move(formula), std::move(bound), spec.centers);
 }
+
+central::Distances from_origin(const Neighbourhood& n) { return central::distances(n, {}); }
 
 /// More bumps than that overlap in a point only where the potential is flat.
 constexpr double most_copies = 1e5;
@@ -102,6 +113,9 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             force = force - f;
             return 0.5 * dot(f, d);
           },
+          [most = std::max(s.omega_x * s.omega_x, s.omega_y * s.omega_y)](const Particle& p, const Neighbourhood& n) {
+            return ForceBound{central::rising(p.mass * most, 1.0, from_origin(n)), 0.0};
+          },
           s);
     case Kind::quartic:
       return at_centers(
@@ -109,6 +123,9 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             const double r2 = square(d);
             force = force - (4.0 * k * r2) * d;
             return k * r2 * r2;
+          },
+          [k = s.strength](const Particle&, const Neighbourhood& n) {
+            return ForceBound{central::rising(4.0 * k, 3.0, from_origin(n)), 0.0};
           },
           s);
     case Kind::power:
@@ -123,6 +140,14 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             force = force - (k * n * lower) * d;
             return k * lower * r2;
           },
+          [k = s.strength, n = s.exponent](const Particle&, const Neighbourhood& about) {
+            const central::Distances d = from_origin(about);
+            if (n < 1.0) return ForceBound{central::falling(k * n, 1.0 - n, d), 0.0};
+            const double force = central::rising(k * n, n - 1.0, d);
+            const bool analytic = d.rho < d.near || 0.5 * n == std::floor(0.5 * n);
+            if (analytic || n >= 2.0) return ForceBound{force, 0.0};  // a force without a jump
+            return ForceBound{force, 2.0 * force};
+          },
           s);
     case Kind::coulomb:
       return at_centers(
@@ -131,6 +156,9 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             const double value = p.charge * charge * inverse;
             force = force + (value * inverse * inverse) * d;
             return value;
+          },
+          [charge = s.charge](const Particle& p, const Neighbourhood& n) {
+            return ForceBound{central::falling(p.charge * charge, 2.0, from_origin(n)), 0.0};
           },
           s);
     case Kind::henon_heiles:
@@ -141,6 +169,10 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             force.y -= d.y + (x2 - y2);
             return 0.5 * (x2 + y2) + d.y * (x2 - y2 / 3.0);
           },
+          [](const Particle&, const Neighbourhood& n) {
+            const central::Distances d = from_origin(n);
+            return ForceBound{central::rising(1.0, 1.0, d) * (1.0 + d.far + d.rho), 0.0};  // p + i q^2
+          },
           s);
     case Kind::linear:
       return at_centers(
@@ -148,12 +180,18 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             force = force + f;
             return -dot(f, d);
           },
+          [size = std::sqrt(square(s.force))](const Particle&, const Neighbourhood&) {
+            return ForceBound{size, 0.0};
+          },
           s);
     case Kind::soft_circle:
       return at_centers(
           [s](const Particle&, Vector d, Vector& force) {
             const double r = std::sqrt(square(d));
             return soft_wall(s, r, r > 0.0 ? (1.0 / r) * d : Vector{}, force);
+          },
+          [s](const Particle&, const Neighbourhood& n) {
+            return central::fermi(s.height, s.radius, s.softness, from_origin(n));
           },
           s);
     case Kind::soft_stadium:
@@ -166,6 +204,16 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             const Vector e{beyond, d.y};
             const double r = std::sqrt(square(e));
             return soft_wall(s, r, r > 0.0 ? (1.0 / r) * e : Vector{}, force);
+          },
+          [s](const Particle&, const Neighbourhood& n) {
+            // Distances from the segment between the caps' centres.
+            const double out_x = std::max({n.low.x - s.half_length, -n.high.x - s.half_length, 0.0});
+            const double out_y = std::max({n.low.y, -n.high.y, 0.0});
+            const double far_x = std::max({n.high.x - s.half_length, -n.low.x - s.half_length, 0.0});
+            const double far_y = std::max(n.high.y, -n.low.y);
+            const central::Distances d{std::sqrt(out_x * out_x + out_y * out_y),
+                                       std::sqrt(far_x * far_x + far_y * far_y), n.rho};
+            return central::fermi(s.height, s.radius, s.softness, d);
           },
           s);
     case Kind::expression:
@@ -180,6 +228,7 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             force.y -= gradient[1] + none;
             return value;
           },
+          [v = s.expression](const Particle&, const Neighbourhood& n) { return bound_of(*v, n); },
           s);
   }
   return nullptr;

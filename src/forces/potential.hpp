@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "carom/forces/force_field.hpp"
+#include "forces/force_bound.hpp"
 
 namespace carom {
 
@@ -31,6 +32,8 @@ class Potential {
       force_y[i] = force.y;
     }
   }
+  /// How large the force can be near a place.
+  virtual ForceBound bound(const Particle&, const Neighbourhood&) const = 0;
   /// Distance from a centre beyond which |V| is below `tail`; infinity if there is none.
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
@@ -47,6 +50,8 @@ class Interaction {
   /// The same for all pairs at once.
   virtual void add_forces(std::span<const Particle>, std::span<const geometry::Vector> x, const geometry::Lattice*,
                           std::span<geometry::Vector> force) const = 0;
+  /// How large the force of a pair can be whose separation is displaced by at most `rho` from one of that length.
+  virtual ForceBound bound(const Particle& a, const Particle& b, double distance, double rho) const = 0;
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
 };

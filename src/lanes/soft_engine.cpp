@@ -46,6 +46,7 @@ Group::Surroundings surroundings_of(const Table& table, const Dynamics& dynamics
   Group::Surroundings in;
   in.forces = dynamics.forces.get();
   in.plan = dynamics.integrator;
+  in.maps = std::make_shared<ForceMaps>(*dynamics.forces);
   if (table.lattice) {
     in.lattice = &*table.lattice;
     in.centre = centre_of_cell(*table.lattice);
@@ -105,6 +106,7 @@ void SoftEngine::set_kind(const Particle& kind) {
   forces_.unit_mass = kind.mass == 1.0;
   forces_.inverse_mass = 1.0 / kind.mass;
   group_.assign({0}, {kind});
+  map_ = &surroundings_.maps->of(kind);
 }
 
 void SoftEngine::put(State& s, SoftPack& pack, int lane) const {
@@ -114,6 +116,29 @@ void SoftEngine::put(State& s, SoftPack& pack, int lane) const {
   pack.y[lane] = s.position.y;
   pack.vx[lane] = s.velocity.x;
   pack.vy[lane] = s.velocity.y;
+  pack.resolved[lane] = false;
+}
+
+/// As Group::check_resolution. What lanes do not know to be resolved the scalar engine judges.
+void SoftEngine::find_calls(double duration, SoftPack& pack) {
+  kernel_.find_calls(forces_, duration / 3.0, pack);
+  const double time = duration / resolution::steps_a_radius;
+  for (int lane = 0; lane < pack.count; ++lane) {
+    if (pack.undecided[lane]) continue;
+    const bool from_start = pack.resolved[lane] || resolves(pack, lane, time, true);
+    pack.resolved[lane] = from_start && resolves(pack, lane, time, false);
+    if (pack.resolved[lane]) continue;
+    pack.undecided[lane] = true;
+    if (std::find(pack.lane, pack.lane + pack.calls, lane) == pack.lane + pack.calls) pack.lane[pack.calls++] = lane;
+  }
+}
+
+/// Are the forces about the start, or the end, of a lane's step resolved?
+bool SoftEngine::resolves(const SoftPack& pack, int lane, double time, bool start) {
+  const Vector from{pack.from_x[lane], pack.from_y[lane]}, to{pack.x[lane], pack.y[lane]};
+  const Vector way = to - from;
+  const Vector velocity = start ? Vector{pack.from_vx[lane], pack.from_vy[lane]} : Vector{pack.vx[lane], pack.vy[lane]};
+  return map_->resolves(start ? from : to, std::sqrt(dot(velocity, velocity)), 0.5 * std::sqrt(dot(way, way)), time);
 }
 
 /// As SplittingStepper.

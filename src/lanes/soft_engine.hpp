@@ -54,7 +54,7 @@ class SoftEngine {
   /// A step of that length.
   void take_step(double duration, SoftPack& pack);
   /// Fills in who calls after a step of that length.
-  void find_calls(double duration, SoftPack& pack) const { kernel_.find_calls(forces_, duration / 3.0, pack); }
+  void find_calls(double duration, SoftPack& pack);
   /// Accelerations of these lanes, if the pack's are fresh.
   void refresh(SoftPack& pack, std::span<const int> which);
   /// Takes over the lane's phase after its step, or at the start of it; the cell stays.
@@ -74,6 +74,7 @@ class SoftEngine {
   const DecisionCounts& decisions() const { return counts_; }
 
  private:
+  bool resolves(const SoftPack& pack, int lane, double time, bool start);
   static void add_other(const SoftForces&, int potential, SoftPack&);
   Outcome end_step(SoftTrack& track);
   bool hit(SoftTrack& track, const Barrier<double>& barrier);
@@ -86,6 +87,7 @@ class SoftEngine {
   std::vector<Stage<double>> stages_;
   Group::Surroundings surroundings_;
   SoftKernel kernel_;
+  ForceMap* map_ = nullptr;  ///< of the kind that is flown
   SoftForces forces_;
   Particle particle_;
   std::vector<SoftStage> made_;  ///< the stages of the latest step

@@ -24,6 +24,7 @@ struct SoftPack {
   int calls = 0;
   int lane[lanes] = {};
   bool undecided[lanes] = {};  ///< by lane
+  bool resolved[lanes] = {};   ///< its last step ended here and resolves the forces about it
 };
 
 /// A motion of a step: the numbers of integrators/stages.hpp for the step's length.

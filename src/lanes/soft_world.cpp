@@ -185,6 +185,7 @@ class SoftWorld::Implementation {
       if (used_ <= lane) break;
       const int last = --used_;
       for (double* q : {pack_.x, pack_.y, pack_.vx, pack_.vy, pack_.ax, pack_.ay}) q[lane] = q[last];
+      pack_.resolved[lane] = pack_.resolved[last];
       starts_[lane] = starts_[last];
       tracks_[lane] = std::move(tracks_[last]);
       last_step_[lane] = last_step_[last];
@@ -194,6 +195,7 @@ class SoftWorld::Implementation {
         if (moved == last) moved = lane;
     }
     pack_.count = (used_ + 7) / 8 * 8;
+    for (int lane = used_; lane < pack_.count; ++lane) pack_.resolved[lane] = pack_.resolved[0];
     for (int lane = used_; lane < pack_.count; ++lane)
       for (double* q : {pack_.x, pack_.y, pack_.vx, pack_.vy, pack_.ax, pack_.ay}) q[lane] = q[0];
   }

@@ -22,6 +22,8 @@ struct Support {
 
 class Potential;
 class Interaction;
+struct ForceBound;
+struct Neighbourhood;
 
 /// External potentials, superposed, and the interaction of pairs. Immutable: threads share it.
 class ForceField {
@@ -44,6 +46,11 @@ class ForceField {
   /// Adds the forces of all pairs. On a lattice a pair feels its nearest copies.
   void add_pairs(std::span<const Particle> particles, std::span<const geometry::Vector> x,
                  const geometry::Lattice* lattice, std::span<geometry::Vector> force) const;
+
+  /// How large the external force can be near a place, and that of a pair whose separation is displaced by at most
+  /// `rho` from one of that length: docs/physics/resolution.md.
+  ForceBound external_bound(const Particle&, const Neighbourhood&) const;
+  ForceBound pair_bound(const Particle& a, const Particle& b, double distance, double rho) const;
 
   const std::vector<std::unique_ptr<const Potential>>& potentials() const { return potentials_; }
   /// Does some external potential reach everywhere?

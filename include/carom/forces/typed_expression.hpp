@@ -37,6 +37,7 @@ class TypedExpression {
   double value_and_gradient(std::span<const double> at, std::span<double> gradient) const;
 
   struct Formula;  ///< the operations, one after the other
+  const Formula& formula() const { return *formula_; }
 
  private:
   explicit TypedExpression(std::shared_ptr<const Formula> formula) : formula_(std::move(formula)) {}

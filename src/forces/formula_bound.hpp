@@ -1,0 +1,14 @@
+// How large the force of a typed formula can be near a place: its exact derivatives over complex boxes.
+#pragma once
+
+#include "carom/forces/typed_expression.hpp"
+#include "forces/force_bound.hpp"
+
+namespace carom {
+
+/// Of -grad V, V a formula of x and y.
+ForceBound bound_of(const TypedExpression&, const Neighbourhood&);
+/// Of the force of a pair, W a formula of the distance r.
+ForceBound bound_of(const TypedExpression&, double distance, double rho);
+
+}  // namespace carom
