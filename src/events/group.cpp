@@ -210,7 +210,12 @@ void Group::remove(std::size_t member) {
 }
 
 void Group::fold(std::size_t member) {
-  if (in_.lattice) fold_towards_centre(*in_.lattice, in_.centre, phase_.position[member], cells_[member]);
+  if (!in_.lattice) return;
+  Vector& x = phase_.position[member];
+  // The forces have the lattice's period: what is known of them about a point holds for its copies.
+  const bool checked = member < checked_.position.size() && checked_.position[member] == x;
+  fold_towards_centre(*in_.lattice, in_.centre, x, cells_[member]);
+  if (checked) checked_.position[member] = x;
 }
 
 bool Group::supported(Vector x, const Barrier<double>* except) const {

@@ -88,10 +88,11 @@ class Group final : public ForceLaw<double> {
 
  private:
   void find_maps();
-  bool resolves(const Phase<double>& from, const Phase<double>* to, double time) const;
-  bool resolves_pairs(const Phase<double>& from, double time) const;
+  bool resolves(const Phase<double>& from, const Phase<double>* to, const resolution::Span&, bool ahead) const;
+  bool resolves_pairs(const Phase<double>& from, const resolution::Span&, bool ahead) const;
   double longest_resolved(const Phase<double>& from, double asked) const;
   std::string_view check_resolution();
+  std::string_view describe_unresolved(const Phase<double>& at, double step, double radius);
   void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
   void make_stepper();
   Time step_end(const Time& limit) const;
@@ -132,8 +133,10 @@ class Group final : public ForceLaw<double> {
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
   std::vector<ForceMap*> maps_;  ///< one a member
-  Phase<double> checked_;        ///< a step has ended there and resolved what lies about it
-  double checked_for_ = 0.0;     ///< complex times up to that
+  double largest_omega_ = 0.0;   ///< in size
+  resolution::Checks checks_;
+  resolution::Chain chain_;
+  Phase<double> checked_;        ///< a step has ended there and resolved what lies about it; empty: none has
   std::string fault_text_;
 };
 

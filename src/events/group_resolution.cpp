@@ -20,33 +20,36 @@ double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 void Group::find_maps() {
   maps_.clear();
   if (in_.maps == nullptr) return;
-  for (const Particle& p : particles_) maps_.push_back(&in_.maps->of(p));
+  largest_omega_ = 0.0;
+  for (const Particle& p : particles_) {
+    maps_.push_back(&in_.maps->of(p));
+    largest_omega_ = std::max(largest_omega_, std::fabs(p.omega));
+  }
+  checked_.position.clear();
 }
 
-/// Is the motion from there analytic for complex times up to `time`? `to`: where a step has led from it, a hint.
-bool Group::resolves(const Phase<double>& from, const Phase<double>* to, double time) const {
-  if (maps_.empty() || !(time > 0.0)) return true;
-  if (in_.forces->interacts() && bodies_.size() > 1) return resolves_pairs(from, time);
+/// Is the motion from there analytic over the span? `to`: where a step has led from it, a hint. `ahead`: with the margin
+/// of resolution::Checks.
+bool Group::resolves(const Phase<double>& from, const Phase<double>* to, const resolution::Span& span, bool ahead) const {
+  if (in_.forces->interacts() && bodies_.size() > 1) return resolves_pairs(from, span, ahead);
   for (std::size_t i = 0; i < maps_.size(); ++i) {
-    const double speed = length(from.velocity[i]);
-    double way = speed * time;
+    Vector way{};
     if (to) {
-      way = 0.5 * length(to->position[i] - from.position[i]);
+      way = 0.5 * (to->position[i] - from.position[i]);
     } else {
-      Vector force{};
-      in_.forces->add_external(particles_[i], from.position[i], force);
-      way += 0.5 * length(force) / particles_[i].mass * time * time;
+      in_.forces->add_external(particles_[i], from.position[i], way);
+      way = (0.5 / particles_[i].mass * span.time * span.time) * way;
     }
-    if (!maps_[i]->resolves(from.position[i], speed, way, time)) return false;
+    if (!maps_[i]->resolves(from.position[i], dot(from.velocity[i], from.velocity[i]), dot(way, way), span)) return false;
   }
   return true;
 }
 
 /// Where particles interact, every one is displaced while the others are.
-bool Group::resolves_pairs(const Phase<double>& from, double time) const {
+bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& span, bool ahead) const {
   const ForceField& forces = *in_.forces;
   const std::size_t n = maps_.size();
-  std::vector<double> rho(n, 0.0), acceleration(n), jump(n);
+  std::vector<double> rho(n, 0.0), acceleration(n), jump(n), speed(n);
   const auto bound = [&] {
     for (std::size_t i = 0; i < n; ++i) {
       const ForceBound external = forces.external() ? maps_[i]->about(from.position[i], rho[i]) : ForceBound{};
@@ -65,16 +68,16 @@ bool Group::resolves_pairs(const Phase<double>& from, double time) const {
       }
   };
   bound();  // of the forces at the real positions
-  std::vector<double> growth(n), speed(n);
+  const double share = ahead ? 0.5 : 1.0;
   for (std::size_t i = 0; i < n; ++i) {
-    growth[i] = resolution::growth(particles_[i].omega, time);
     speed[i] = length(from.velocity[i]);
-    rho[i] = 2.0 * growth[i] * time * (speed[i] + 0.5 * acceleration[i] * time);
+    rho[i] = 2.0 / share * span.growth * span.time * (speed[i] + 0.5 * acceleration[i] * span.time);
   }
   bound();
   for (std::size_t i = 0; i < n; ++i) {
-    if (!resolution::stays(speed[i], acceleration[i], time, growth[i], rho[i])) return false;
-    if (jump[i] > 0.0 && !(jump[i] * resolution::steps_a_radius * time <= resolution::kick_share * speed[i]))
+    if (!resolution::stays(speed[i], acceleration[i], span, share * rho[i])) return false;
+    if (jump[i] > 0.0 &&
+        !(!ahead && jump[i] * resolution::steps_a_radius * span.time <= resolution::kick_share * speed[i]))
       return false;
   }
   return true;
@@ -84,7 +87,7 @@ bool Group::resolves_pairs(const Phase<double>& from, double time) const {
 double Group::longest_resolved(const Phase<double>& from, double asked) const {
   constexpr int most_halvings = 60;
   for (int k = 0; k < most_halvings; ++k, asked *= 0.5)
-    if (resolves(from, nullptr, asked)) return asked;
+    if (resolves(from, nullptr, resolution::span_of(asked, largest_omega_), false)) return asked;
   return 0.0;
 }
 
@@ -92,31 +95,50 @@ double Group::longest_resolved(const Phase<double>& from, double asked) const {
 std::string_view Group::check_resolution() {
   if (maps_.empty()) return {};
   const Phase<double>&from = path_->start().phase, &to = path_->end().phase;
+  const double step = path_->end().time;
+  if (!(step > 0.0)) return {};
   // Adaptive schemes ask for the longest step before they take it.
-  const bool adaptive = is_adaptive(in_.plan.scheme);
-  const double time = adaptive ? path_->end().time : path_->end().time / resolution::steps_a_radius;
-  const bool known = checked_for_ == time && checked_.position == from.position && checked_.velocity == from.velocity;
-  const bool from_start = known || resolves(from, adaptive ? nullptr : &to, time);
-  if (from_start && (adaptive || resolves(to, &from, time))) {
-    checked_ = to;
-    checked_for_ = time;
-    return {};
+  if (is_adaptive(in_.plan.scheme)) {
+    const resolution::Span span = resolution::span_of(step, largest_omega_);
+    return resolves(from, nullptr, span, false) ? std::string_view() : describe_unresolved(from, step, step);
   }
-  checked_for_ = 0.0;
-  const Phase<double>& at = from_start ? to : from;
-  const double shorter = path_->end().time / time * longest_resolved(at, time);
-  std::size_t member = 0;  // the one that is to blame, where particles do not interact
-  while (member + 1 < maps_.size() && maps_[member]->resolves(at.position[member], length(at.velocity[member]),
-                                                              length(at.velocity[member]) * time, time))
+  if (!checks_.made_for(step, largest_omega_)) {
+    checks_ = resolution::Checks(step, largest_omega_);
+    checked_.position.clear();
+  }
+  const resolution::Span& half = checks_.half_a_step();
+  const bool goes_on = checked_.position == from.position && checked_.velocity == from.velocity;
+  if (!goes_on) {
+    chain_ = {};
+    if (!resolves(from, &to, half, false)) return describe_unresolved(from, step, half.time);
+  }
+  const auto at_end = [&](const resolution::Span& span, bool ahead) { return resolves(to, &from, span, ahead); };
+  const bool alone = !in_.forces->interacts() || bodies_.size() == 1;
+  if (!(alone ? at_end(half, false) : checks_.at_end(chain_, at_end))) {
+    checked_.position.clear();
+    return describe_unresolved(to, step, half.time);
+  }
+  checked_ = to;
+  return {};
+}
+
+std::string_view Group::describe_unresolved(const Phase<double>& at, double step, double radius) {
+  const double shorter = step / radius * longest_resolved(at, radius);
+  // The member that is to blame, where particles do not interact.
+  std::size_t member = 0;
+  const resolution::Span span = resolution::span_of(radius, largest_omega_);
+  while (member + 1 < maps_.size()) {
+    if (!maps_[member]->resolves(at.position[member], dot(at.velocity[member], at.velocity[member]), 0.0, span)) break;
     ++member;
+  }
+  const Vector x = at.position[member];
   char text[200];
   if (shorter > 0.0)
     std::snprintf(text, sizeof text,
-                  "a step of %.3g does not resolve the forces near (%.6g, %.6g); there it may be %.3g at most",
-                  path_->end().time, at.position[member].x, at.position[member].y, shorter);
+                  "a step of %.3g does not resolve the forces near (%.6g, %.6g); there it may be %.3g at most", step, x.x,
+                  x.y, shorter);
   else
-    std::snprintf(text, sizeof text, "no step resolves the forces near (%.6g, %.6g), where they have no bound",
-                  at.position[member].x, at.position[member].y);
+    std::snprintf(text, sizeof text, "no step resolves the forces near (%.6g, %.6g), where they have no bound", x.x, x.y);
   fault_text_ = text;
   return fault_text_;
 }

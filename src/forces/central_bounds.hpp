@@ -72,8 +72,9 @@ inline ForceBound fermi(double height, double radius, double softness, const Dis
             0.0};
   }
   const double reach = d.far + d.rho;  // both branches of the root
+  const double ratio = std::sqrt(3.0);  // as above at most, so that a larger neighbourhood never has a smaller bound
   const double tip = elementary::exp(-radius / softness);
-  return {steepest * logistic_slope(-radius / softness, -radius / softness, reach / softness),
+  return {steepest * ratio * logistic_slope(-radius / softness, -radius / softness, reach / softness),
           2.0 * steepest * tip / ((1.0 + tip) * (1.0 + tip))};
 }
 

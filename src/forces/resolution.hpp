@@ -5,9 +5,11 @@
 // What a scheme's few stages see of such a motion is all there is to it; a narrower force would make T shorter.
 #pragma once
 
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "carom/forces/force_field.hpp"
@@ -22,41 +24,133 @@ inline constexpr double steps_a_radius = 2.0;
 /// Where pieces of a force meet, a step may change the velocity by this share of itself through the difference.
 inline constexpr double kick_share = 0.25;
 
-/// What a magnetic field multiplies displacements with.
-double growth(double omega, double time);
-/// Does the motion stay within rho?
-inline bool stays(double speed, double acceleration, double time, double growth, double rho) {
-  return growth * time * (speed + 0.5 * acceleration * time) <= rho;
+/// Complex times up to `time`, and what a magnetic field multiplies displacements with by then.
+struct Span {
+  double time = 0.0, growth = 1.0;
+  double over_time = 0.0;  ///< 1/(growth time)
+};
+Span span_of(double time, double omega);
+
+/// Does a motion stay within rho?
+inline bool stays(double speed, double acceleration, const Span& span, double rho) {
+  return span.growth * span.time * (speed + 0.5 * acceleration * span.time) <= rho;
 }
+
+/// What is known of the steps that follow each other without an event.
+struct Chain {
+  int known = 0;  ///< ends of steps to come that are known to be resolved
+  int level = 0;  ///< which of Checks::spans made it known
+  int wait = 0;   ///< ends of steps until a longer span is tried again
+};
+
+/// Checks at the ends of steps of one length. A motion that is analytic for longer complex times than a step asks for is so
+/// at the ends of the next steps, too; these are then not asked for. docs/physics/resolution.md shows that each of them
+/// would be found resolved, so that this saves time and changes no answer.
+class Checks {
+ public:
+  Checks() = default;
+  Checks(double step, double omega) : step_(step), omega_(omega) {
+    for (int k = 0; k < levels; ++k) spans_[k] = span_of((0.5 + ahead[k]) * step, omega);
+  }
+  bool made_for(double step, double omega) const { return step_ == step && omega_ == omega; }
+  const Span& half_a_step() const { return spans_[0]; }
+
+  /// `resolves(span, ahead)` asks for a span, with a margin if it is to hold for steps ahead.
+  template <class Resolves>
+  bool at_end(Chain& chain, const Resolves& resolves) const {
+    if (chain.known > 0) {
+      --chain.known;
+      return true;
+    }
+    if (chain.wait == 0) {
+      const int first = chain.level + 1 < levels ? chain.level + 1 : levels - 1;
+      for (int k = first; k > 0; --k)
+        if (resolves(spans_[k], true)) {
+          chain.level = k;
+          chain.known = ahead[k];
+          return true;
+        }
+      chain.level = 0;
+      chain.wait = ends_between_trials;
+    } else {
+      --chain.wait;
+    }
+    return resolves(spans_[0], false);
+  }
+
+ private:
+  static constexpr int levels = 3, ends_between_trials = 16;
+  static constexpr int ahead[levels] = {0, 3, 12};
+  double step_ = 0.0, omega_ = 0.0;
+  Span spans_[levels];
+};
 
 }  // namespace resolution
 
-/// Bounds of the external force on one kind of particle, on a grid for each power of two, computed where they are
-/// asked for. The answers depend on the arguments alone.
+/// Bounds of the external force on one kind of particle, over the meshes of grids and displacements of two meshes:
+/// computed where they are asked for, and kept for a while. The answers depend on the arguments alone.
 class ForceMap {
  public:
   /// Refers to `forces`.
-  ForceMap(const ForceField& forces, const Particle& kind) : forces_(forces), kind_(kind) {}
+  ForceMap(const ForceField& forces, const Particle& kind);
   const Particle& kind() const { return kind_; }
 
-  /// Is the motion from x analytic for complex times up to `time`? `way`: about as far as it leads, a hint.
-  bool resolves(geometry::Vector x, double speed, double way, double time);
+  /// Is the motion from x analytic over the span? `square_way`: of about how far it leads, a hint.
+  bool resolves(geometry::Vector x, double square_speed, double square_way, const resolution::Span& span) {
+    const int coarsest = exponent_for(square_speed, square_way, span);
+    if (coarsest != no_exponent && stays(x, square_speed, coarsest, span)) [[likely]] return true;
+    return resolves_closely(x, square_speed, coarsest, span);
+  }
   /// Bounds of the acceleration within displacements of rho or a little more, a power of two.
   ForceBound about(geometry::Vector x, double rho);
 
  private:
+  static constexpr int no_exponent = std::numeric_limits<int>::min();
+  /// Of an acceleration, over the mesh that the key tells.
   struct Entry {
-    std::uint64_t key = 0;  ///< 0: empty
-    ForceBound bound;
+    std::uint64_t key = 0;  ///< 0: none
+    float force = 0.0f, jump = 0.0f;
   };
-  ForceBound compute(int exponent, double i, double j) const;
-  ForceBound at(geometry::Vector x, int exponent);
-  void grow();
 
+  static double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
+  /// The coarsest meshes to try, 2^exponent: 4 to 32 times as large as the way.
+  static int exponent_for(double square_speed, double square_way, const resolution::Span& span) {
+    const double by_speed = square_speed * (span.time * span.time);
+    const double square = span.growth * span.growth * (square_way > by_speed ? square_way : by_speed);
+    if (!(square > 0x1p-1000 && square < 0x1p1000)) return no_exponent;
+    const int e = (static_cast<int>(std::bit_cast<std::uint64_t>(square) >> 52) - 1021) / 2 + 2;
+    constexpr int coarseness = 3, far_below = 1200;  // a multiple of three
+    return (e + far_below + coarseness - 1) / coarseness * coarseness - far_below;
+  }
+  bool stays(geometry::Vector x, double square_speed, int exponent, const resolution::Span& span) {
+    const double over = power_of_two(-exponent);
+    const Entry& e = entry(exponent, x.x * over, x.y * over);
+    const double most = power_of_two(exponent + 1) * span.over_time - 0.5 * static_cast<double>(e.force) * span.time;
+    if (!(most >= 0.0 && square_speed <= most * most)) return false;
+    if (e.jump == 0.0f) [[likely]] return true;
+    const double kick = static_cast<double>(e.jump) * resolution::steps_a_radius * span.time / resolution::kick_share;
+    return square_speed >= kick * kick;
+  }
+  /// Of the mesh about the whole numbers nearest to i and j.
+  const Entry& entry(int exponent, double i, double j) {
+    constexpr double most = 0x1p25, whole = 0x1.8p52;  // adding it leaves a whole number in the lowest bits
+    if (!(i < most && i > -most && j < most && j > -most)) return compute(beyond_, 0, exponent, std::floor(i), std::floor(j));
+    const double rounded_i = i + whole, rounded_j = j + whole;
+    const std::uint64_t a = std::bit_cast<std::uint64_t>(rounded_i), b = std::bit_cast<std::uint64_t>(rounded_j);
+    const std::uint64_t key = static_cast<std::uint64_t>(exponent + 2048) << 52 | (a & 0x3ffffff) << 26 | (b & 0x3ffffff);
+    // Neighbours lie side by side in squares of 32 times 32.
+    const std::size_t slot = (a & 31) + 32 * (b & 31) + 1024 * static_cast<std::size_t>(exponent + 2048);
+    Entry& kept = entries_[slot & (kept_entries - 1)];
+    return kept.key == key ? kept : compute(kept, key, exponent, rounded_i - whole, rounded_j - whole);
+  }
+  const Entry& compute(Entry&, std::uint64_t key, int exponent, double i, double j) const;
+  bool resolves_closely(geometry::Vector x, double square_speed, int coarsest, const resolution::Span&);
+
+  static constexpr std::size_t kept_entries = 8192;
   const ForceField& forces_;
   Particle kind_;
-  std::vector<Entry> entries_;  ///< a power of two of them, at most half of which are in use
-  std::size_t used_ = 0;
+  std::vector<Entry> entries_;
+  Entry beyond_;  ///< of a mesh whose key does not fit
 };
 
 /// One map a kind of particle.

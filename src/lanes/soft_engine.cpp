@@ -107,6 +107,7 @@ void SoftEngine::set_kind(const Particle& kind) {
   forces_.inverse_mass = 1.0 / kind.mass;
   group_.assign({0}, {kind});
   map_ = &surroundings_.maps->of(kind);
+  span_ = {};
 }
 
 void SoftEngine::put(State& s, SoftPack& pack, int lane) const {
@@ -116,29 +117,24 @@ void SoftEngine::put(State& s, SoftPack& pack, int lane) const {
   pack.y[lane] = s.position.y;
   pack.vx[lane] = s.velocity.x;
   pack.vy[lane] = s.velocity.y;
-  pack.resolved[lane] = false;
 }
 
 /// As Group::check_resolution. What lanes do not know to be resolved the scalar engine judges.
 void SoftEngine::find_calls(double duration, SoftPack& pack) {
   kernel_.find_calls(forces_, duration / 3.0, pack);
-  const double time = duration / resolution::steps_a_radius;
+  if (span_.time != duration / resolution::steps_a_radius)
+    span_ = resolution::span_of(duration / resolution::steps_a_radius, particle_.omega);
   for (int lane = 0; lane < pack.count; ++lane) {
     if (pack.undecided[lane]) continue;
-    const bool from_start = pack.resolved[lane] || resolves(pack, lane, time, true);
-    pack.resolved[lane] = from_start && resolves(pack, lane, time, false);
-    if (pack.resolved[lane]) continue;
+    const Vector from{pack.from_x[lane], pack.from_y[lane]}, to{pack.x[lane], pack.y[lane]};
+    const Vector before{pack.from_vx[lane], pack.from_vy[lane]}, after{pack.vx[lane], pack.vy[lane]};
+    const Vector way = 0.5 * (to - from);
+    const bool from_start = pack.resolved[lane] || map_->resolves(from, dot(before, before), dot(way, way), span_);
+    pack.resolved[lane] = from_start && map_->resolves(to, dot(after, after), dot(way, way), span_);
+    if (pack.resolved[lane]) [[likely]] continue;
     pack.undecided[lane] = true;
     if (std::find(pack.lane, pack.lane + pack.calls, lane) == pack.lane + pack.calls) pack.lane[pack.calls++] = lane;
   }
-}
-
-/// Are the forces about the start, or the end, of a lane's step resolved?
-bool SoftEngine::resolves(const SoftPack& pack, int lane, double time, bool start) {
-  const Vector from{pack.from_x[lane], pack.from_y[lane]}, to{pack.x[lane], pack.y[lane]};
-  const Vector way = to - from;
-  const Vector velocity = start ? Vector{pack.from_vx[lane], pack.from_vy[lane]} : Vector{pack.vx[lane], pack.vy[lane]};
-  return map_->resolves(start ? from : to, std::sqrt(dot(velocity, velocity)), 0.5 * std::sqrt(dot(way, way)), time);
 }
 
 /// As SplittingStepper.

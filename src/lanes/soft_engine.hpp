@@ -18,6 +18,7 @@
 #include "events/group.hpp"
 #include "events/locator.hpp"
 #include "events/next_hit.hpp"
+#include "forces/resolution.hpp"
 #include "integrators/stages.hpp"
 #include "lanes/soft_pack.hpp"
 
@@ -74,7 +75,6 @@ class SoftEngine {
   const DecisionCounts& decisions() const { return counts_; }
 
  private:
-  bool resolves(const SoftPack& pack, int lane, double time, bool start);
   static void add_other(const SoftForces&, int potential, SoftPack&);
   Outcome end_step(SoftTrack& track);
   bool hit(SoftTrack& track, const Barrier<double>& barrier);
@@ -87,6 +87,7 @@ class SoftEngine {
   std::vector<Stage<double>> stages_;
   Group::Surroundings surroundings_;
   SoftKernel kernel_;
+  resolution::Span span_;    ///< of the latest step, about each of its ends
   ForceMap* map_ = nullptr;  ///< of the kind that is flown
   SoftForces forces_;
   Particle particle_;

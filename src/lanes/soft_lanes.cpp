@@ -86,6 +86,7 @@ class SoftLanes::Implementation {
       // Lanes that are left over repeat the first.
       State s = walks[at(lane) < walks.size() ? at(lane) : 0].state;
       place_[lane] = s.wall < 0 ? Place::in_lane : Place::on_wall;
+      pack_.resolved[lane] = false;
       if (s.wall < 0) engine_.put(s, pack_, lane);
       tracks_[lane] = SoftTrack();
       tracks_[lane].state = s;
@@ -115,6 +116,7 @@ class SoftLanes::Implementation {
     switch (engine_.follow(track, t_end, times, sample)) {
       case Outcome::at_step_end:
         place_[k] = Place::in_lane;
+        pack_.resolved[lane] = false;
         engine_.put(track.state, pack_, lane);
         moved_.push_back(lane);
         break;

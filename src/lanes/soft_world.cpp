@@ -112,6 +112,7 @@ class SoftWorld::Implementation {
 
   /// Goes on in its lane from the track's state after that many steps.
   bool resume(int lane, double steps) {
+    pack_.resolved[lane] = false;
     engine.put(tracks_[lane].state, pack_, lane);
     last_step_[lane] = next_ + (whole_ - static_cast<std::uint64_t>(steps));
     soonest_ = std::min(soonest_, last_step_[lane]);
