@@ -18,7 +18,7 @@ ForceMap::ForceMap(const ForceField& forces, const Particle& kind)
 
 const ForceMap::Entry& ForceMap::compute(Entry& kept, std::uint64_t key, int exponent, double i, double j) const {
   const double mesh = power_of_two(exponent);
-  const Vector low{(i - 0.5) * mesh, (j - 0.5) * mesh};
+  const Vector low{i * mesh, j * mesh};
   const ForceBound bound = forces_.external_bound(kind_, {low, low + Vector{mesh, mesh}, 2.0 * mesh});
   const auto up = [&](double x) { return static_cast<float>(x / kind_.mass * (1.0 + 0x1p-20)); };
   kept = {key, up(bound.force), up(bound.jump)};
@@ -46,6 +46,43 @@ ForceBound ForceMap::about(Vector x, double rho) {
   const double over = power_of_two(-e);
   const Entry& found = entry(e, x.x * over, x.y * over);
   return {static_cast<double>(found.force), static_cast<double>(found.jump)};
+}
+
+bool ForceMap::resolves_everywhere(Vector low, Vector high, double energy, const std::function<bool(Vector)>& inside,
+                                   const resolution::Span& span) {
+  const double side = std::max(high.x - low.x, high.y - low.y);
+  if (!(side > 0x1p-900 && side < 0x1p900)) return true;
+  const int e = static_cast<int>(std::bit_cast<std::uint64_t>(side) >> 52) - 1022;
+  const double over = power_of_two(-e);
+  int patience = 200000;  // meshes; a force that needs more is too narrow for this step
+  for (double i = std::floor(low.x * over); i <= std::floor(high.x * over); i += 1.0)
+    for (double j = std::floor(low.y * over); j <= std::floor(high.y * over); j += 1.0)
+      if (!resolves_mesh(e, i, j, energy, inside, span, patience)) return false;
+  return true;
+}
+
+bool ForceMap::resolves_mesh(int exponent, double i, double j, double energy, const std::function<bool(Vector)>& inside,
+                             const resolution::Span& span, int& patience) {
+  if (--patience < 0) return false;
+  const double mesh = power_of_two(exponent);
+  double kinetic = -1.0;
+  bool domain = false;
+  for (const double p : {0.5, 0.0, 1.0})
+    for (const double q : {0.5, 0.0, 1.0}) {
+      const Vector x{(i + p) * mesh, (j + q) * mesh};
+      domain = domain || inside(x);
+      Vector unused{};
+      kinetic = std::max(kinetic, energy - forces_.add_external(kind_, x, unused));
+    }
+  if (!domain || !(kinetic >= 0.0)) return true;
+  const double square_speed = 2.0 * kinetic / kind_.mass;
+  if (stays({(i + 0.5) * mesh, (j + 0.5) * mesh}, square_speed, exponent, span)) return true;
+  const double least = span.growth * span.time * std::sqrt(square_speed);
+  if (!(2.0 * mesh > least) || exponent < -900) return false;
+  for (const double p : {0.0, 1.0})
+    for (const double q : {0.0, 1.0})
+      if (!resolves_mesh(exponent - 1, 2.0 * i + p, 2.0 * j + q, energy, inside, span, patience)) return false;
+  return true;
 }
 
 ForceMap& ForceMaps::of(const Particle& kind) {

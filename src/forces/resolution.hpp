@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -103,6 +104,10 @@ class ForceMap {
   }
   /// Bounds of the acceleration within displacements of rho or a little more, a power of two.
   ForceBound about(geometry::Vector x, double rho);
+  /// Is every motion of that total energy which starts in the box, where `inside` holds, analytic over the span? Energies
+  /// are looked at in nine points of each mesh: for choosing a step, which is checked again when it is taken.
+  bool resolves_everywhere(geometry::Vector low, geometry::Vector high, double energy,
+                           const std::function<bool(geometry::Vector)>& inside, const resolution::Span&);
 
  private:
   static constexpr int no_exponent = std::numeric_limits<int>::min();
@@ -131,11 +136,11 @@ class ForceMap {
     const double kick = static_cast<double>(e.jump) * resolution::steps_a_radius * span.time / resolution::kick_share;
     return square_speed >= kick * kick;
   }
-  /// Of the mesh about the whole numbers nearest to i and j.
+  /// Of the mesh from the whole numbers below i and j on; a whole one may belong to either mesh.
   const Entry& entry(int exponent, double i, double j) {
     constexpr double most = 0x1p25, whole = 0x1.8p52;  // adding it leaves a whole number in the lowest bits
     if (!(i < most && i > -most && j < most && j > -most)) return compute(beyond_, 0, exponent, std::floor(i), std::floor(j));
-    const double rounded_i = i + whole, rounded_j = j + whole;
+    const double rounded_i = (i - 0.5) + whole, rounded_j = (j - 0.5) + whole;
     const std::uint64_t a = std::bit_cast<std::uint64_t>(rounded_i), b = std::bit_cast<std::uint64_t>(rounded_j);
     const std::uint64_t key = static_cast<std::uint64_t>(exponent + 2048) << 52 | (a & 0x3ffffff) << 26 | (b & 0x3ffffff);
     // Neighbours lie side by side in squares of 32 times 32.
@@ -144,6 +149,8 @@ class ForceMap {
     return kept.key == key ? kept : compute(kept, key, exponent, rounded_i - whole, rounded_j - whole);
   }
   const Entry& compute(Entry&, std::uint64_t key, int exponent, double i, double j) const;
+  bool resolves_mesh(int exponent, double i, double j, double energy, const std::function<bool(geometry::Vector)>& inside,
+                     const resolution::Span&, int& patience);
   bool resolves_closely(geometry::Vector x, double square_speed, int coarsest, const resolution::Span&);
 
   static constexpr std::size_t kept_entries = 8192;

@@ -13,6 +13,7 @@ namespace carom {
 std::unique_ptr<Stepper<double>> make_stepper(const IntegratorPlan& plan, const ForceLaw<double>& law,
                                               std::span<const double> omega) {
   check_plan(plan);
+  check_step(plan);
   const double tolerance = plan.tolerance > 0.0 ? plan.tolerance : default_tolerance;
   if (plan.scheme == "arkode") return std::make_unique<ArkodeStepper>(law, omega, tolerance);
   const double longest = plan.step > 0.0 ? plan.step : std::numeric_limits<double>::infinity();

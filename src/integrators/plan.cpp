@@ -53,11 +53,13 @@ void check_plan(const IntegratorPlan& plan, const Place& place) {
                      "the scheme '" + std::string(scheme.name) + "' has fixed steps and takes no tolerance",
                      "step; or one of the adaptive schemes, arkode or cvode");
   }
-  if (plan.step == 0.0) {
-    throw InputError(
-        key(place, "step"), "the scheme '" + std::string(scheme.name) + "' needs a step",
-        "a time > 0, about 1/50 of the shortest period; or scheme = \"arkode\" with a tolerance");
-  }
+}
+
+void check_step(const IntegratorPlan& plan, const Place& place) {
+  if (is_adaptive(plan.scheme) || plan.step > 0.0) return;
+  throw InputError(
+      key(place, "step"), "the scheme '" + std::string(find_scheme(plan.scheme).name) + "' needs a step",
+      "a time > 0, about 1/50 of the shortest period; or scheme = \"arkode\" with a tolerance");
 }
 
 std::string check_turn(const IntegratorPlan& plan, double largest_omega, bool walls, const Place& place) {

@@ -33,10 +33,6 @@ std::vector<double> read_energies(Value& root, std::size_t particles);
 ForceSpec read_forces(Value& root, std::size_t particles);
 /// [integrator]. Where `forces` act it is checked whether the plan can be carried out.
 IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Particle>& particles, bool walls);
-/// Without a step, adaptive schemes make none longer than a bump is wide: from where a force is nothing the error control sees
-/// none, and the next step would lead over the bump.
-void limit_step(Value& root, IntegratorPlan&, const ForceSpec&, const std::vector<Particle>& particles,
-                const std::vector<double>& energies);
 /// [section]; the names of walls are those of the table.
 SectionPlan read_section(Value& root, const Table& table);
 

@@ -1,53 +1,20 @@
 // [integrator].
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "carom/integrators/scheme.hpp"
 #include "io/read.hpp"
 
 namespace carom::io {
-namespace {
-
-/// Within which length a bump's force rises and falls: a Fermi function's does within a few softnesses of its edge.
-double scale_of(const PotentialSpec& potential) {
-  using Kind = PotentialSpec::Kind;
-  if (potential.kind == Kind::gaussian) return potential.width;
-  if (potential.kind == Kind::fermi) return 8.0 * potential.softness;
-  return std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
-
-void limit_step(Value& root, IntegratorPlan& plan, const ForceSpec& forces, const std::vector<Particle>& particles,
-                const std::vector<double>& energies) {
-  if (!is_adaptive(plan.scheme) || plan.step > 0.0) return;
-  double scale = std::numeric_limits<double>::infinity(), depth = 0.0;
-  for (const PotentialSpec& potential : forces.potentials) {
-    scale = std::min(scale, scale_of(potential));
-    if (std::isfinite(scale_of(potential))) depth += std::max(-potential.height, 0.0);
-  }
-  double fastest = 0.0;
-  for (std::size_t k = 0; k < particles.size(); ++k) {
-    const Particle& p = particles[k];
-    double square = p.speed * p.speed;
-    if (k < energies.size()) square = std::max(square, 2.0 * energies[k] / p.mass);
-    fastest = std::max(fastest, std::sqrt(square + 2.0 * depth / p.mass));
-  }
-  if (!std::isfinite(scale) || !(fastest > 0.0)) return;
-  plan.step = scale / fastest;
-  Section section(*root.find("integrator"), "integrator");
-  section.fill("step", number_value(fmt::format("{}", plan.step), section.place_of("step")));
-}
 
 IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Particle>& particles, bool walls) {
   IntegratorPlan plan;
   Value* value = root.find("integrator");
   if (value == nullptr) {
-    if (forces) check_plan(plan, {root.place.file, 0, 0, "integrator"});  // says what is missing
-    return plan;
+    if (!forces) return plan;
+    io::Value empty;
+    empty.place = {root.place.file, 0, 0, "integrator"};
+    value = &root.set("integrator", empty);
   }
   Section section(*value, "integrator");
   section.check_keys();

@@ -1,5 +1,7 @@
 #include "carom/io/system_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -122,16 +124,21 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   system.dynamics.integrator = io::read_integrator(root, !system.dynamics.forces->empty(), system.particles,
                                                    !table->walls.empty());
   if (!system.dynamics.forces->empty()) system.energies = io::read_energies(root, system.particles.size());
-  io::limit_step(root, system.dynamics.integrator, forces, system.particles, system.energies);
   system.initial = io::read_initial(root, *table, system.particles);
   // Where particles enter at random no trajectory repeats another.
   system.run = io::read_run(root, root.find("injection") != nullptr ? 0 : listed_trajectories(system));
-  check_number_of_steps(root, system);
   system.injections = io::read_injections(root, *table, system.particles, system.run.t_max);
   if (!system.dynamics.forces->empty()) refuse_injections(system, "a system with forces");
   if (!radii.empty()) refuse_injections(system, "a system of hard discs");
   system.section = io::read_section(root, *table);
   system.table = std::move(table);
+  if (needs_step(system)) {
+    loaded.chosen_step = choose_step(system);
+    system.dynamics.integrator.step = loaded.chosen_step->step;
+    io::Section section(*root.find("integrator"), "integrator");
+    section.fill("step", io::number_value(fmt::format("{}", loaded.chosen_step->step), section.place_of("step")));
+  }
+  check_number_of_steps(root, system);
   loaded.exact = io::read_exact(root);
   loaded.exact.spec = std::move(spec);
   loaded.exact.table = system.table;

@@ -20,9 +20,11 @@ struct IntegratorPlan {
 inline constexpr double default_tolerance = 1e-12;  ///< of an adaptive scheme
 inline constexpr double least_tolerance = 1e-15;    ///< below, rounding is all the error control sees
 
-/// An InputError at that place if the plan cannot be carried out: unknown scheme, a fixed-step scheme
-/// without step, a tolerance for one.
+/// An InputError at that place if the plan cannot be carried out: unknown scheme, a tolerance for a fixed-step one.
 void check_plan(const IntegratorPlan& plan, const Place& place = {});
+
+/// An InputError if a fixed-step scheme has no step.
+void check_step(const IntegratorPlan& plan, const Place& place = {});
 
 /// An InputError if walls = "split" does not go with the scheme: it takes drifts that all go forward.
 void check_split_walls(const IntegratorPlan& plan, const Place& place = {});

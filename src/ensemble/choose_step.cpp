@@ -1,0 +1,158 @@
+#include "carom/ensemble/choose_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/energy.hpp"
+#include "carom/events/world.hpp"
+#include "carom/geometry/hull.hpp"
+#include "carom/integrators/scheme.hpp"
+#include "forces/resolution.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+
+namespace {
+
+constexpr double wanted_energy_error = 1e-10;
+constexpr int most_pilots = 16, steps_of_a_pilot = 100, looks = 10;
+/// Evaluations of pair forces that all pilots of one step may cost.
+constexpr double affordable = 2e7;
+/// A step so much shorter than the longest one that is resolved is the shortest that is tried.
+constexpr double shortest = 1e-3;
+
+/// 1, 2, 5, 10, ...: number 3 k is 10^k, exactly as it is read from a file.
+double step_number(int n) {
+  const int k = n >= 0 ? n / 3 : -((2 - n) / 3);
+  static constexpr const char* digits[] = {"1", "2", "5"};
+  return std::stod(std::string(digits[n - 3 * k]) + "e" + std::to_string(k));
+}
+
+class Pilots {
+ public:
+  Pilots(const System& system, const std::function<bool()>& stopped) : system_(system), stopped_(stopped), sampler_(system_, stopped) {
+    const double n = static_cast<double>(system.particles.size());
+    const double each = 11.0 * n * std::max(1.0, 0.5 * (n - 1.0));
+    count_ = std::clamp(static_cast<int>(affordable / (each * 10.0 * steps_of_a_pilot)), 1, most_pilots);
+    length_ = std::clamp(static_cast<int>(affordable / (each * 10.0 * count_)), 10, steps_of_a_pilot);
+  }
+
+  /// The largest error of the energy within `length_` steps of h0, with steps of h; nothing where a step is not resolved.
+  std::optional<double> energy_error(double h, double h0) {
+    system_.dynamics.integrator.step = h;
+    World world(*system_.table, system_.dynamics);
+    Observer observer;
+    double worst = 0.0;
+    for (int k = 0; k < count_; ++k) {
+      world.clear();
+      add_starts(world, sampler_, static_cast<std::uint64_t>(k));
+      const Energy start = energy(world, Time(0.0));
+      if (k == 0) energy_ = start.total();
+      energy_ = std::max(energy_, start.total());
+      double kinetic = start.kinetic, change = 0.0;
+      const double end = std::min(system_.run.t_max, length_ * h0);
+      for (int look = 1; look <= looks; ++look) {
+        const double t = end * look / looks;
+        world.run_until(t, observer, stopped_);
+        if (stopped_ && stopped_()) throw SamplingStopped();
+        bool all = true;
+        for (int i = 0; i < world.size(); ++i) {
+          if (world.fate(i) == Fate::unresolved || world.fate(i) == Fate::lost) {
+            report_ = world.report(i);
+            return {};
+          }
+          all = all && !world.finished(i);
+        }
+        if (!all) break;
+        const Energy now = energy(world, Time(t));
+        kinetic = std::max(kinetic, now.kinetic);
+        change = std::max(change, std::fabs(now.total() - start.total()));
+      }
+      if (change > 0.0) worst = std::max(worst, change / kinetic);
+    }
+    return worst;
+  }
+  double highest_energy() const { return energy_; }
+  const std::string& report() const { return report_; }
+
+ private:
+  Energy energy(const World& world, Time t) const {
+    std::vector<Particle> particles;
+    std::vector<State> states;
+    for (int i = 0; i < world.size(); ++i) {
+      particles.push_back(world.particle(i));
+      states.push_back(world.state_at(i, t));
+    }
+    return energy_of(particles, states, system_.dynamics, *system_.table);
+  }
+
+  System system_;
+  std::function<bool()> stopped_;
+  Sampler sampler_;
+  int count_ = 1, length_ = 1;
+  double energy_ = 0.0;
+  std::string report_;
+};
+
+/// Does a step resolve the external forces wherever a particle of that energy can be? True where that is not known
+/// beforehand: in the open plane, and where particles interact.
+bool resolves_region(const System& system, const World& world, double energy, double h) {
+  const Table& table = *system.table;
+  const ForceField& forces = *system.dynamics.forces;
+  if (!forces.external() || system.particles.size() > 1 || table.extent == Extent::open_plane) return true;
+  const geometry::Box box =
+      table.lattice
+          ? geometry::hull_of(table.lattice->edges, [](const auto& e) { return geometry::Box{e.segment.from, e.segment.from}; })
+          : geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
+  ForceMap map(forces, system.particles.front());
+  const auto inside = [&](Vector x) { return table.lattice || world.contains(x); };
+  return map.resolves_everywhere(box.low, box.high, energy, inside,
+                                 resolution::span_of(h / resolution::steps_a_radius, system.particles.front().omega));
+}
+
+double largest_turn(const System& system) {
+  double omega = 0.0;
+  for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
+  return omega;
+}
+
+}  // namespace
+
+bool needs_step(const System& system) {
+  return system.dynamics.forces && !system.dynamics.forces->empty() && !is_adaptive(system.dynamics.integrator.scheme) &&
+         !(system.dynamics.integrator.step > 0.0);
+}
+
+ChosenStep choose_step(const System& system, const std::function<bool()>& stopped) {
+  Pilots pilots(system, stopped);
+  const World world(*system.table);
+  const double most_turn = system.table->walls.empty() ? 2.0 : 1.0;
+  const double longest = std::min(system.run.t_max, 1e15);
+  int n = 0;
+  while (step_number(n) < longest) ++n;
+  while (step_number(n - 1) >= longest) --n;
+  ChosenStep best{0.0, std::numeric_limits<double>::infinity()};
+  double resolved = 0.0;
+  constexpr int most_tried = 150;
+  for (int tried = 0; tried < most_tried; ++tried, --n) {
+    const double h = step_number(n);
+    if (h > longest || largest_turn(system) * h > most_turn) continue;
+    if (resolved > 0.0 && h < shortest * resolved) break;
+    const std::optional<double> error = pilots.energy_error(h, resolved > 0.0 ? resolved : h);
+    if (!error || (!(resolved > 0.0) && !resolves_region(system, world, pilots.highest_energy(), h))) continue;
+    if (!(resolved > 0.0)) resolved = h;
+    if (*error < best.energy_error) best = {h, *error};
+    if (*error <= wanted_energy_error) break;
+  }
+  if (!(best.step > 0.0))
+    throw InputError(Place{{}, 0, 0, "integrator.step"}, "no step resolves the forces: " + pilots.report(),
+                     "a softer potential, or a step that you choose");
+  return best;
+}
+
+}  // namespace carom
