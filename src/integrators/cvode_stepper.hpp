@@ -1,6 +1,7 @@
 // Adams' method of variable order and step: CVODE of SUNDIALS.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -29,6 +30,7 @@ class CvodeStepper final : public Stepper<double> {
   void begin(const Phase<double>& from, double longest_first);
   void advance();
   bool take();
+  double longest() const { return std::min(longest_, problem_.longest_step()); }
 
   OdeProblem problem_;
   EnergyCheck energy_;
@@ -40,7 +42,8 @@ class CvodeStepper final : public Stepper<double> {
   double reached_ = 0.0;                      ///< by the last internal step
   Phase<double> ahead_;                       ///< there
   double reached_energy_ = 0.0;
-  double planned_ = 0.0;                      ///< length of the next internal step
+  double planned_ = 0.0;                      ///< length of the next internal step; at most that after a stop
+  bool stopped_ = false;                      ///< the last one ended where the forces asked it to
   int steps_ = 0;
 };
 

@@ -4,7 +4,7 @@
 // a particle that comes out of a step inside a bump, at full speed, has an energy it cannot have.
 #pragma once
 
-#include <span>
+#include <string_view>
 #include <vector>
 
 #include "integrators/ode_problem.hpp"
@@ -26,20 +26,22 @@ class EnergyCheck {
     const Phase<double>& phase;
     double energy;
   };
-  /// May the energy change by so much in an accepted step? `acceleration`: by the forces, at its end.
-  bool allows(const End& from, const End& to, std::span<const Vector> acceleration, const OdeProblem::Scale& scale,
-              double duration);
+  /// May the energy change by so much in an accepted step?
+  bool allows(const End& from, const End& to, const OdeProblem::Scale& scale, double duration);
+  /// The same for a part of a step, which leaves no trace.
+  bool allows_part(const End& from, const End& to, const OdeProblem::Scale& scale, double duration) const;
   static constexpr std::string_view failure =
       "the energy changes however short the step: the potential jumps here, or has a pole";
 
  private:
-  double noise(const Phase<double>& at, double size);
+  double excess(const End& from, const End& to, const OdeProblem::Scale& scale) const;
+  double noise(const End& from, const End& to, double size) const;
+  double noise_at(const std::vector<Vector>& position, double size) const;
 
   const ForceLaw<double>& law_;
   double tolerance_;
   double noise_ = 0.0;  ///< of the potential energy, seen in this chain
   bool first_ = true;   ///< no step of the chain has been looked at
-  std::vector<Vector> moved_;
 };
 
 }  // namespace carom

@@ -60,8 +60,9 @@ bool OdeProblem::leads_on(double duration) {
 }
 
 double OdeProblem::resolved(const Phase<double>& from, double asked) {
-  const double allowed = std::min(asked, law_.longest_step(from, asked));
-  if (allowed == asked || (allowed > 0.0 && !scale_.is_short(allowed))) return allowed;
+  const double allowed = law_.longest_step(from, asked);
+  if (allowed >= asked) return asked;
+  if (allowed > 0.0 && !scale_.is_short(allowed)) return allowed;
   failure_ = fmt::format("the force cannot be resolved at ({:.6g}, {:.6g})", from.position[0].x, from.position[0].y);
   if (from.position.size() > 1) failure_ += ", or where another of its group is";
   return 0.0;
@@ -94,14 +95,6 @@ void OdeProblem::unload(Phase<double>& to, bool ok) const {
       y += 2;
     }
   }
-}
-
-std::span<const Vector> OdeProblem::accelerations_in_state() {
-  const double* y = N_VGetArrayPointer(state_.get());
-  const double* a = y + 2 * omega_.size();
-  for (std::size_t i = 0; i < omega_.size(); ++i)
-    acceleration_[i] = Vector{a[2 * i], a[2 * i + 1]} - omega_[i] * right(Vector{y[2 * i], y[2 * i + 1]});
-  return acceleration_;
 }
 
 void OdeProblem::rethrow() {

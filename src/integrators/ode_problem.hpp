@@ -62,10 +62,6 @@ class OdeProblem {
   double first_step(const Phase<double>& from, int order);
 
   void load(const Phase<double>& phase);
-  /// Accelerations by the forces at the end of a step from what was loaded.
-  std::span<const Vector> accelerations_at_end(const Phase<double>& end) { return known_.at_end(end.position); }
-  /// The same from the derivative that SUNDIALS has put into the state.
-  std::span<const Vector> accelerations_in_state();
   /// Takes over the state of SUNDIALS. `ok` false: the motion could not be computed, and all is NaN.
   void unload(Phase<double>& to, bool ok) const;
   /// Throws what a force law has thrown inside a callback.
