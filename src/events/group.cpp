@@ -73,7 +73,11 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
 void Group::make_stepper() {
   if (stepper_) return;
   omega_.clear();
-  for (const Particle& p : particles_) omega_.push_back(p.omega);
+  masses_.clear();
+  for (const Particle& p : particles_) {
+    omega_.push_back(p.omega);
+    masses_.push_back(p.mass);
+  }
   if (in_.plan.split_walls) return make_drift();
   stepper_ = carom::make_stepper(in_.plan, *this, omega_);
   path_ = std::make_unique<StepPath<double>>(*stepper_, *this, omega_);
@@ -88,6 +92,15 @@ void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const 
   if (forces.interacts()) forces.add_pairs(particles_, x, in_.lattice, a);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (particles_[i].mass != 1.0) a[i] = (1.0 / particles_[i].mass) * a[i];
+}
+
+double Group::potential_energy(std::span<const Vector> x) const {
+  return in_.forces ? in_.forces->potential_energy(particles_, x, in_.lattice) : 0.0;
+}
+
+/// Tails end at a 1e-16th of a height. Where bumps overlap, many end in one step; their sums are rounded, too.
+double Group::energy_jumps() const {
+  return in_.forces ? 64.0 * static_cast<double>(particles_.size()) * in_.forces->tail_bound() : 0.0;
 }
 
 /// Where the step that begins now ends.

@@ -45,7 +45,7 @@ class Group final : public ForceLaw<double> {
     int member = -1;                           ///< -1: the end of the step
     const Barrier<double>* barrier = nullptr;
     bool slides = false;                       ///< it cannot be told from motion along that wall
-    std::string_view fault;                    ///< why there is no path that walls can be found on; "": there is
+    std::string fault;                         ///< why there is no path that walls can be found on; "": there is
     int outside = -1;                          ///< then: this member alone has left the table; -1: it is the fault of all
   };
 
@@ -90,10 +90,13 @@ class Group final : public ForceLaw<double> {
   void find_maps();
   bool resolves(const Phase<double>& from, const Phase<double>* to, const resolution::Span&, bool ahead) const;
   bool resolves_pairs(const Phase<double>& from, const resolution::Span&, bool ahead) const;
-  double longest_resolved(const Phase<double>& from, double asked) const;
-  std::string_view check_resolution();
-  std::string_view describe_unresolved(const Phase<double>& at, double step, double radius);
+  std::string check_resolution();
+  std::string describe_unresolved(const Phase<double>& at, double step, double radius);
   void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
+  std::span<const double> masses() const override { return masses_; }
+  double potential_energy(std::span<const geometry::Vector> x) const override;
+  double energy_jumps() const override;
+  double longest_step(const Phase<double>& from, const double& asked) const override;
   void make_stepper();
   Time step_end(const Time& limit) const;
   void make_drift();
@@ -110,7 +113,7 @@ class Group final : public ForceLaw<double> {
   const Surroundings& in_;
   std::vector<int> bodies_;
   std::vector<Particle> particles_;
-  std::vector<double> omega_;
+  std::vector<double> omega_, masses_;
   std::vector<geometry::Cell> cells_;
   Phase<double> phase_;
   Time time_;
@@ -137,7 +140,6 @@ class Group final : public ForceLaw<double> {
   resolution::Checks checks_;
   resolution::Chain chain_;
   Phase<double> checked_;        ///< a step has ended there and resolved what lies about it; empty: none has
-  std::string fault_text_;
 };
 
 /// The instant k * step.

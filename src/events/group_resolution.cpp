@@ -84,24 +84,21 @@ bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& sp
 }
 
 /// The longest of asked, asked/2, asked/4, ... that resolves the forces from there on; 0 if none does.
-double Group::longest_resolved(const Phase<double>& from, double asked) const {
+double Group::longest_step(const Phase<double>& from, const double& asked) const {
   constexpr int most_halvings = 60;
-  for (int k = 0; k < most_halvings; ++k, asked *= 0.5)
-    if (resolves(from, nullptr, resolution::span_of(asked, largest_omega_), false)) return asked;
+  double time = asked;
+  for (int k = 0; k < most_halvings; ++k, time *= 0.5)
+    if (resolves(from, nullptr, resolution::span_of(time, largest_omega_), false)) return time;
   return 0.0;
 }
 
 /// Whether the step under way, from phase_ to the path's end, resolves the forces; if not, why.
-std::string_view Group::check_resolution() {
+std::string Group::check_resolution() {
   if (maps_.empty()) return {};
   const Phase<double>&from = path_->start().phase, &to = path_->end().phase;
   const double step = path_->end().time;
   if (!(step > 0.0)) return {};
-  // Adaptive schemes ask for the longest step before they take it.
-  if (is_adaptive(in_.plan.scheme)) {
-    const resolution::Span span = resolution::span_of(step, largest_omega_);
-    return resolves(from, nullptr, span, false) ? std::string_view() : describe_unresolved(from, step, step);
-  }
+  if (is_adaptive(in_.plan.scheme)) return {};  // these ask for the longest step before they take it
   if (!checks_.made_for(step, largest_omega_)) {
     checks_ = resolution::Checks(step, largest_omega_);
     checked_.position.clear();
@@ -122,8 +119,8 @@ std::string_view Group::check_resolution() {
   return {};
 }
 
-std::string_view Group::describe_unresolved(const Phase<double>& at, double step, double radius) {
-  const double shorter = step / radius * longest_resolved(at, radius);
+std::string Group::describe_unresolved(const Phase<double>& at, double step, double radius) {
+  const double shorter = step / radius * longest_step(at, radius);
   // The member that is to blame, where particles do not interact.
   std::size_t member = 0;
   const resolution::Span span = resolution::span_of(radius, largest_omega_);
@@ -139,8 +136,7 @@ std::string_view Group::describe_unresolved(const Phase<double>& at, double step
                   x.y, shorter);
   else
     std::snprintf(text, sizeof text, "no step resolves the forces near (%.6g, %.6g), where they have no bound", x.x, x.y);
-  fault_text_ = text;
-  return fault_text_;
+  return text;
 }
 
 }  // namespace carom

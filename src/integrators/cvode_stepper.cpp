@@ -14,12 +14,13 @@ namespace {
 /// After so many internal steps a chain begins anew: CVODE's clock runs on, and what it loses
 /// to rounding would grow with it.
 constexpr int longest_chain = 1000;
+constexpr double far = std::numeric_limits<double>::max();
 
 }  // namespace
 
 CvodeStepper::CvodeStepper(const ForceLaw<double>& law, std::span<const double> omega, double tolerance,
                            double longest)
-    : problem_(law, omega, tolerance), longest_(longest) {
+    : problem_(law, omega, tolerance), energy_(law, tolerance), longest_(longest) {
   N_VConst(0.0, problem_.state());
   memory_ = CVodeCreate(CV_ADAMS, problem_.context());
   if (memory_ == nullptr) throw InternalError("CVODE has no memory");
@@ -44,11 +45,13 @@ double CvodeStepper::step(const Phase<double>& from, double at_most, Phase<doubl
     if (same_bits(from, end_)) {
       std::swap(start_, end_);
       start_time_ = end_time_;
-      if (start_time_ == reached_ && steps_ >= longest_chain) begin(start_);
+      if (start_time_ == reached_ && steps_ >= longest_chain) begin(start_, far);
     } else {
       start_ = from;
       problem_.set_scale(problem_.first_scale(from));
-      begin(start_);
+      reached_energy_ = energy_.at(start_);
+      energy_.begin();
+      begin(start_, far);
     }
     if (start_time_ == reached_) advance();
   }
@@ -67,25 +70,50 @@ double CvodeStepper::step(const Phase<double>& from, double at_most, Phase<doubl
   return duration;
 }
 
-void CvodeStepper::begin(const Phase<double>& from) {
+void CvodeStepper::begin(const Phase<double>& from, double longest_first) {
   problem_.load(from);
   CVodeReInit(memory_, 0.0, problem_.state());
-  const double longest = std::min(longest_, problem_.longest_step());
-  CVodeSetMaxStep(memory_, longest);
-  CVodeSetInitStep(memory_, std::min(longest, problem_.first_step(from, 1)));
+  planned_ = std::min({longest(), longest_first, problem_.first_step(from, 1)});
+  stopped_ = false;
+  CVodeSetMaxStep(memory_, longest());
+  CVodeSetInitStep(memory_, planned_);
   start_time_ = reached_ = 0.0;
   steps_ = 0;
   problem_.set_failure({});
 }
 
+/// From the start, which the last internal step has reached.
 void CvodeStepper::advance() {
-  ++steps_;
+  for (;;) {
+    ++steps_;
+    const double before = reached_;
+    if (!take()) return;
+    const double duration = reached_ - before, energy = energy_.at(ahead_);
+    if (energy_.allows({start_, reached_energy_}, {ahead_, energy}, problem_.scale(), duration)) {
+      reached_energy_ = energy;
+      return;
+    }
+    if (problem_.scale().is_least(duration)) return problem_.set_failure(EnergyCheck::failure);
+    begin(start_, 0.5 * duration);
+  }
+}
+
+/// One internal step, as long as the forces allow. False: there is none.
+bool CvodeStepper::take() {
+  const double allowed = problem_.resolved(start_, planned_);
+  if (!(allowed > 0.0)) return false;
+  CVodeSetStopTime(memory_, stopped_ || allowed < planned_ ? reached_ + allowed : far);
   const double before = reached_;
-  const double ahead = std::numeric_limits<double>::max();  // one step, as far as it goes
-  const int status = CVode(memory_, ahead, problem_.state(), &reached_, CV_ONE_STEP);
+  const int status = CVode(memory_, far, problem_.state(), &reached_, CV_ONE_STEP);
   problem_.rethrow();
   if (status < 0) problem_.set_failure(OdeProblem::no_step);
-  problem_.leads_on(reached_ - before);
+  if (status < 0 || !problem_.leads_on(reached_ - before)) return false;
+  stopped_ = status == CV_TSTOP_RETURN;
+  CVodeGetCurrentStep(memory_, &planned_);
+  // After a stop CVODE keeps its plan to itself. A step is at most 10 times the last one, the second 10000 times.
+  if (stopped_) planned_ = std::min(longest(), (steps_ == 1 ? 1e4 : 10.0) * (reached_ - before));
+  problem_.unload(ahead_, true);
+  return true;
 }
 
 }  // namespace carom

@@ -1,5 +1,7 @@
 #include "integrators/ode_problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -50,13 +52,20 @@ OdeProblem::Scale OdeProblem::first_scale(const Phase<double>& from) {
 }
 
 bool OdeProblem::leads_on(double duration) {
-  // 10000 steps of this size are a millionth of the way through the motion's own size.
-  constexpr double tiny = 1e-10;
   constexpr int most = 10000;
-  tiny_steps_ = duration < tiny * longest_step() ? tiny_steps_ + 1 : 0;
+  tiny_steps_ = scale_.is_short(duration) ? tiny_steps_ + 1 : 0;
   if (tiny_steps_ <= most) return true;
   failure_ = "the adaptive scheme has reached its limit of 10000 steps in a row that lead nowhere";
   return false;
+}
+
+double OdeProblem::resolved(const Phase<double>& from, double asked) {
+  const double allowed = law_.longest_step(from, asked);
+  if (allowed >= asked) return asked;
+  if (allowed > 0.0 && !scale_.is_short(allowed)) return allowed;
+  failure_ = fmt::format("the force cannot be resolved at ({:.6g}, {:.6g})", from.position[0].x, from.position[0].y);
+  if (from.position.size() > 1) failure_ += ", or where another of its group is";
+  return 0.0;
 }
 
 double OdeProblem::first_step(const Phase<double>& from, int order) {

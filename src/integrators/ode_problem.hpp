@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <sundials/sundials_context.hpp>
 #include <type_traits>
@@ -31,6 +32,13 @@ class OdeProblem {
   /// Sizes of positions and velocities that a relative tolerance refers to.
   struct Scale {
     double position = 0.0, velocity = 0.0;
+
+    /// The time in which the motion goes through its own size.
+    double time() const { return position / velocity; }
+    /// 10000 steps of this length are a millionth of the way through the motion's own size.
+    bool is_short(double duration) const { return duration < 1e-10 * time(); }
+    /// A step that leads a few units in the last place on cannot be cut.
+    bool is_least(double duration) const { return duration < 0x1p-48 * time(); }
   };
   /// Those at the beginning of a chain of steps; along it weights() lets them grow with the motion, and
   /// they never shrink, so
@@ -38,9 +46,11 @@ class OdeProblem {
   Scale first_scale(const Phase<double>& from);
   void set_scale(const Scale& scale) { scale_ = scale; }
   const Scale& scale() const { return scale_; }
-  /// The time in which the motion goes through its own size. No step is longer: where no force acts the
-  /// error control would let steps grow without bound, and over the next force.
-  double longest_step() const { return scale_.position / scale_.velocity; }
+  /// No step is longer: where no force acts the error control would let steps grow without bound, and over the next
+  /// force.
+  double longest_step() const { return scale_.time(); }
+  /// How long a step of at most `asked` may be by the law; 0, and a failure, if it is too short to lead anywhere.
+  double resolved(const Phase<double>& from, double asked);
   /// Counts a step of that duration, shorter than asked for. False if it is the last of too many in a row
   /// that lead nowhere: the error control shrinks its steps towards a singular point and never gets there.
   bool leads_on(double duration);
@@ -75,7 +85,7 @@ class OdeProblem {
   std::vector<double> omega_;
   double tolerance_;
   int tiny_steps_ = 0;  ///< in a row
-  std::string_view failure_;
+  std::string failure_;
   Scale scale_;
   std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector> state_;
   std::vector<Vector> position_, acceleration_;

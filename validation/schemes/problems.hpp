@@ -23,6 +23,11 @@ class Problem : public ForceLaw<Real> {
     compute(x, a);
   }
   virtual Real potential(std::span<const Vector> x) const = 0;
+  std::span<const Real> masses() const final {
+    mass_.resize(omega.size(), Real(1));
+    return mass_;
+  }
+  Real potential_energy(std::span<const Vector> x) const final { return potential(x); }
 
   Real energy(const Phase<Real>& phase) const {
     Real sum = potential(phase.position);
@@ -37,6 +42,7 @@ class Problem : public ForceLaw<Real> {
 
  private:
   virtual void compute(std::span<const Vector> x, std::span<Vector> a) const = 0;
+  mutable std::vector<Real> mass_;
 };
 
 template <class Real>

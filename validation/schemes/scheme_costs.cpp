@@ -3,9 +3,13 @@
 //   scheme_costs            a Markdown table of costs; the last column is the mean (of logarithms) of
 //                           what a scheme needs against the one that needs least
 //   scheme_costs errors     error against cost, for one who wants to draw it
+//   scheme_costs tables     the same for Runge–Kutta tables with error control; built-in ones of ARKODE beside its own
+#include <cstdio>  // for the headers of ARKODE, which use FILE
+
+#include <arkode/arkode_butcher_erk.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -15,6 +19,7 @@
 
 #include "carom/integrators/make_stepper.hpp"
 #include "carom/integrators/scheme.hpp"
+#include "integrators/arkode_stepper.hpp"
 #include "problems.hpp"
 
 namespace {
@@ -81,16 +86,15 @@ double distance(const Phase<double>& a, const Phase<double>& b) {
 }
 
 /// Walks to the end of the case with `steps` equal steps, or as the error control wants (0).
-Point walk(Case& c, const IntegratorPlan& plan, long steps, Phase<double>* end = nullptr) {
+Point walk(Case& c, Stepper<double>& stepper, long steps, Phase<double>* end = nullptr) {
   const Problem<double>& problem = *c.problem;
-  const auto stepper = make_stepper(plan, problem, problem.omega);
   problem.evaluations = 0;
   Phase<double> phase = problem.start, next;
   const double energy = problem.energy(phase);
   double energy_error = 0.0;
   double t = 0.0;
   for (long k = 0; steps > 0 ? k < steps : t < c.time; ++k) {
-    t += stepper->step(phase, steps > 0 ? c.time / static_cast<double>(steps) : c.time - t, next);
+    t += stepper.step(phase, steps > 0 ? c.time / static_cast<double>(steps) : c.time - t, next);
     std::swap(phase, next);
     energy_error = std::max(energy_error, std::fabs(problem.energy(phase) - energy));
   }
@@ -98,6 +102,10 @@ Point walk(Case& c, const IntegratorPlan& plan, long steps, Phase<double>* end =
   const double error = distance(phase, c.end);
   return {static_cast<double>(problem.evaluations) / c.time, std::isfinite(error) ? error : 1e9,
           energy_error};
+}
+
+Point walk(Case& c, const IntegratorPlan& plan, long steps, Phase<double>* end = nullptr) {
+  return walk(c, *make_stepper(plan, *c.problem, c.problem->omega), steps, end);
 }
 
 std::vector<Point> curve(Case& c, const std::string& scheme) {
@@ -146,14 +154,46 @@ std::vector<Case> make_cases() {
 
 const double bounds[] = {1e-3, 1e-6, 1e-9};
 
+void print_tables(std::vector<Case>& cases) {
+  const struct {
+    const char* name;
+    ARKodeButcherTable table;
+  } tables[] = {{"Verner 9(8)", nullptr},
+                {"Fehlberg 7(8)", ARKodeButcherTable_LoadERK(ARKODE_FEHLBERG_13_7_8)},
+                {"Verner 6(5)", ARKodeButcherTable_LoadERK(ARKODE_VERNER_8_5_6)},
+                {"Dormand–Prince 5(4)", ARKodeButcherTable_LoadERK(ARKODE_DORMAND_PRINCE_7_4_5)}};
+  for (const auto& [name, table] : tables) {
+    std::printf("| %s |", name);
+    for (Case& c : cases) {
+      std::vector<Point> points;
+      for (double tolerance = 1e-3; tolerance > 2e-15; tolerance /= std::sqrt(10.0)) {
+        ArkodeStepper stepper(*c.problem, c.problem->omega, tolerance, table);
+        points.push_back(walk(c, stepper, 0));
+      }
+      for (const double bound : {1e-5, 1e-7, 1e-9, 1e-11}) {
+        const double work = work_for(points, bound);
+        if (work > 0.0)
+          std::printf(" %.0f |", work);
+        else
+          std::printf(" – |");
+      }
+    }
+    std::printf("\n");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const bool errors = argc > 1 && std::strcmp(argv[1], "errors") == 0;
   std::vector<Case> cases = make_cases();
+  if (argc > 1 && std::strcmp(argv[1], "tables") == 0) {
+    print_tables(cases);
+    return 0;
+  }
   std::vector<std::pair<std::string, int>> names;
   for (const Scheme& scheme : schemes()) names.emplace_back(scheme.name, scheme.order);
-  names.emplace_back("arkode", 8);
+  names.emplace_back("arkode", 9);
   names.emplace_back("cvode", 0);
 
   std::map<std::string, std::vector<double>> table;

@@ -52,6 +52,10 @@ class ForceField {
   ForceBound external_bound(const Particle&, const Neighbourhood&) const;
   ForceBound pair_bound(const Particle& a, const Particle& b, double distance, double rho) const;
 
+  /// The potential energy of all.
+  double potential_energy(std::span<const Particle> particles, std::span<const geometry::Vector> x,
+                          const geometry::Lattice* lattice) const;
+
   const std::vector<std::unique_ptr<const Potential>>& potentials() const { return potentials_; }
   /// Does some external potential reach everywhere?
   bool everywhere() const { return everywhere_; }

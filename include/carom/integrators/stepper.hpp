@@ -15,7 +15,8 @@ struct Phase {
   std::vector<geometry::BasicVector<Real>> position, velocity;
 };
 
-/// The acceleration of each particle of a group (force / mass), without the magnetic part.
+/// The acceleration of each particle of a group (force / mass), without the magnetic part. Adaptive schemes ask for
+/// more: the energy and the longest step that the forces allow.
 template <class Real>
 class ForceLaw {
  public:
@@ -23,6 +24,18 @@ class ForceLaw {
   /// Sets every entry of `acceleration`. Both spans have one entry a particle.
   virtual void accelerations(std::span<const geometry::BasicVector<Real>> position,
                              std::span<geometry::BasicVector<Real>> acceleration) const = 0;
+
+  /// The masses where the exact motion keeps sum m v^2/2 + potential_energy(); empty where it keeps no energy, or none
+  /// that is known.
+  virtual std::span<const Real> masses() const { return {}; }
+  /// The potential energy of the group. Its gradient is minus the forces.
+  virtual Real potential_energy(std::span<const geometry::BasicVector<Real>> /*position*/) const { return Real(0); }
+  /// By how much potential_energy() may jump where tails are cut off.
+  virtual Real energy_jumps() const { return Real(0); }
+
+  /// The longest step from there, of at most `asked` > 0, in which a scheme cannot miss a force; 0 where there is none.
+  /// A function of its arguments alone.
+  virtual Real longest_step(const Phase<Real>& /*from*/, const Real& asked) const { return asked; }
 };
 
 /// One step of a scheme. The path of a group is a function of its start alone: step(from, t) for
