@@ -41,6 +41,11 @@ void ForceField::add_pairs(std::span<const Particle> particles, std::span<const 
   if (interaction_) interaction_->add_forces(particles, x, lattice, force);
 }
 
+double ForceField::pair_energy(std::span<const Particle> particles, std::span<const Vector> x,
+                               const geometry::Lattice* lattice) const {
+  return interaction_ ? interaction_->energy(particles, x, lattice) : 0.0;
+}
+
 namespace {
 
 void check(const PotentialSpec& s, const std::vector<Particle>& particles, bool lattice) {
