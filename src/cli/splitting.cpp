@@ -1,5 +1,6 @@
 // carom escape --splitting: survival by splitting populations.
 #include "carom/ensemble/splitting.hpp"
+#include "carom/events/report.hpp"
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
+#include "carom/events/report.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/validation_cases.hpp"
