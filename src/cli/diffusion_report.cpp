@@ -125,7 +125,7 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   json.set("unresolved", result.unresolved);
   json.set("lost", result.lost);
   json.set("collisions", result.collisions);
-  if (engine_of(system) != "events") json.set("energy_change", result.energy_change).set("energy_error", json_of(result.energy_error));
+  if (engine_of(system) != "events") json.set("energy_change", result.energy_change).set("energy_error", energy_json(result.energy_error));
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));

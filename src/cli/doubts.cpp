@@ -13,7 +13,7 @@ namespace carom::cli {
 
 namespace {
 
-bool is_integrated(const System& system) { return engine_of(system) != "events"; }
+bool integrated(const System& system) { return engine_of(system) != "events"; }
 
 // `all`: of that many, each of them `what`.
 Doubts doubts(const System& system, std::uint64_t all, const char* what, std::uint64_t unresolved, std::uint64_t lost,
@@ -46,7 +46,7 @@ int Doubts::status(bool complete) const { return any() ? untrusted : complete ? 
 
 std::string energy_doubt(const System& system, const EnergyError& error) {
   const IntegratorPlan& plan = system.dynamics.integrator;
-  if (!is_integrated(system) || error.largest <= plan.energy_tolerance) return {};
+  if (!integrated(system) || error.largest <= plan.energy_tolerance) return {};
   return fmt::format("the energy changed by {:.2g} of the largest kinetic energy, more than integrator.energy_tolerance = {}: take a {}",
                      error.largest, plan.energy_tolerance, is_adaptive(plan.scheme) ? "smaller tolerance" : "shorter step");
 }
@@ -74,7 +74,7 @@ Doubts doubts_of(const System& system, const SingleRunResult& r) {
   return doubts(system, r.particles.size(), "particle", unresolved, lost, reports, energy);
 }
 
-Json json_of(const EnergyError& error) { return Json::object().set("end", error.end).set("largest", error.largest); }
+Json energy_json(const EnergyError& error) { return Json::object().set("end", error.end).set("largest", error.largest); }
 
 void add_report(Json& json, const std::string& report) {
   json.set("reason", shown(report)).set("state", bits_in(report));
@@ -96,7 +96,7 @@ void warn_of(const Reports& reports) {
 }
 
 void add_steps(Json& json, const System& system, const StepCounts& steps) {
-  if (!is_integrated(system)) return;
+  if (!integrated(system)) return;
   json.set("steps", steps.steps).set("force_evaluations", steps.force_evaluations);
   if (!system.dynamics.integrator.count_unresolved) return;
   json.set("unresolved_steps", steps.unresolved);
@@ -104,7 +104,7 @@ void add_steps(Json& json, const System& system, const StepCounts& steps) {
 }
 
 std::string steps_text(const System& system, const StepCounts& steps) {
-  if (!is_integrated(system)) return {};
+  if (!integrated(system)) return {};
   std::string text = fmt::format("{} steps, {} force evaluations", grouped(steps.steps), grouped(steps.force_evaluations));
   if (system.dynamics.integrator.count_unresolved)
     text += steps.unresolved == 0 ? std::string(", no step unresolved")
@@ -114,13 +114,13 @@ std::string steps_text(const System& system, const StepCounts& steps) {
 }
 
 std::string pace_text(const System& system, std::uint64_t hits, const StepCounts& steps, double seconds) {
-  const bool by_steps = hits == 0 && is_integrated(system);
+  const bool by_steps = hits == 0 && integrated(system);
   return with_prefix(static_cast<double>(by_steps ? steps.steps : hits) / std::max(seconds, 1e-9)) + (by_steps ? "steps/s" : "hits/s");
 }
 
 std::string energy_text(const System& system, const EnergyError& error) {
-  if (!is_integrated(system)) return {};
-  return fmt::format("largest change of a trajectory's energy {:.2g} at the end, {:.2g} at any time, relative to its largest kinetic energy\n",
+  if (!integrated(system)) return {};
+  return fmt::format("largest change of a trajectory's energy {:.2g} at the end, {:.2g} at most, relative to its largest kinetic energy\n",
                      error.end, error.largest);
 }
 

@@ -31,7 +31,7 @@ Doubts doubts_of(const System&, const SingleRunResult&);
 /// "" or what is said of the energy.
 std::string energy_doubt(const System&, const EnergyError&);
 
-Json json_of(const EnergyError&);
+Json energy_json(const EnergyError&);
 /// `reports` of those that failed, if there are any: index, reason, and state in hexadecimal numbers.
 void add_reports(Json&, const Reports&);
 /// `reason` and `state` of a report.

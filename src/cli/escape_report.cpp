@@ -73,7 +73,7 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   json.set("lost", counts.lost);
   json.set("collisions", counts.collisions);
   if (system.of_discs()) json.set("contacts", counts.contacts);
-  if (engine_of(system) != "events") json.set("energy_change", counts.energy_change).set("energy_error", json_of(result.energy_error));
+  if (engine_of(system) != "events") json.set("energy_change", counts.energy_change).set("energy_error", energy_json(result.energy_error));
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));

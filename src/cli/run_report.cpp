@@ -37,7 +37,7 @@ void add_end(Json& json, const System& system, const ParticleEnd& particle) {
   json.set("vx", particle.vx);
   json.set("vy", particle.vy);
   json.set("cell", Json::array().push(particle.cell.first).push(particle.cell.second));
-  json.set("energy_error", json_of(particle.energy_error));
+  json.set("energy_error", energy_json(particle.energy_error));
   if (is_failure(particle.progress.fate) && !particle.report.empty()) add_report(json, particle.report);
   const Trust& trust = particle.trust;
   json.set("trusted_collisions", trust.known ? Json(trust.hits) : Json());

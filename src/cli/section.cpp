@@ -86,7 +86,7 @@ Json section_json(const System& system, const SectionResult& result, const std::
   json.set("collisions", result.collisions);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
-  if (engine_of(system) != "events") json.set("energy_error", json_of(result.energy_error));
+  if (engine_of(system) != "events") json.set("energy_error", energy_json(result.energy_error));
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   if (!output.empty()) json.set("archive", output);
