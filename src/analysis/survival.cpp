@@ -89,8 +89,10 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole) {
     case Fate::singular:
       ++singular;
       return;
-    case Fate::lost:
     case Fate::unresolved:
+      ++unresolved;
+      return;
+    case Fate::lost:
       ++lost;
       return;
     case Fate::escaped:
@@ -116,6 +118,7 @@ void SurvivalCounts::merge(const SurvivalCounts& other) {
   capped += other.capped;
   singular += other.singular;
   unbounded += other.unbounded;
+  unresolved += other.unresolved;
   lost += other.lost;
   collisions += other.collisions;
   contacts += other.contacts;

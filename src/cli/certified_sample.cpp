@@ -81,7 +81,8 @@ void check(const LoadedSystem& loaded) {
 void add_result(Json& json, const PairedEscapeResult& result, int digits) {
   const PairedResult& r = result.pairs;
   json.set("status", result.complete ? "completed" : "interrupted");
-  json.set("pairs", r.pairs).set("digits", digits).set("singular", result.singular).set("lost", result.lost);
+  json.set("pairs", r.pairs).set("digits", digits).set("singular", result.singular);
+  json.set("unresolved", result.unresolved).set("lost", result.lost);
   json.set("certified_singular", result.other_singular).set("undecided", result.unknown);
   json.set("other_hole", r.other_hole).set("other_hits", r.other_hits).set("other_time", r.other_time);
   const auto of_pairs = [&](double x) { return r.pairs > 0 ? Json(x) : Json(); };
@@ -113,9 +114,9 @@ std::string text_of(const PairedEscapeResult& result, int digits) {
   text += fmt::format("    elsewhere or not    {}\n", share(r.other_hole));
   text += fmt::format("    after other hits    {}\n", share(r.other_hits));
   text += fmt::format("    at another time     {}\n", share(r.other_time));
-  if (result.singular + result.lost + result.other_singular + result.unknown > 0)
-    text += fmt::format("  not compared          {} singular in doubles, {} certified as singular, {} lost, {} undecided\n",
-                        result.singular, result.other_singular, result.lost, result.unknown);
+  if (result.singular + result.unresolved + result.lost + result.other_singular + result.unknown > 0)
+    text += fmt::format("  not compared          {} singular in doubles, {} certified as singular, {} unresolved, {} lost, {} undecided\n",
+                        result.singular, result.other_singular, result.unresolved, result.lost, result.unknown);
   if (r.pairs == 0)
     return text + fmt::format("  no pair was compared: nothing is known of the curves\n  computed in           {:.3g} s\n",
                               result.seconds);
@@ -167,7 +168,7 @@ int certified_sample(const Options& options) {
   } else {
     print(fmt::format("{}\n", system.title.empty() ? system.name : system.title) + text_of(result, digits));
   }
-  if (result.lost > 0) return lost;
+  if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;
 }
 

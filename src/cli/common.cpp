@@ -131,11 +131,6 @@ std::string engine_of(const System& system) {
   return dynamics.forces->everywhere() || dynamics.forces->interacts() ? "steps" : "auto";
 }
 
-const char* why_lost(const System& system) {
-  return engine_of(system) == "events" ? "an internal error: please report it"
-                                       : "a step failed, as a rule too long for its force: see the messages";
-}
-
 std::string repeated_starts(const System& system) {
   const std::uint64_t listed = listed_trajectories(system), all = system.run.trajectories;
   if (listed == 0 || listed >= all || !system.injections.empty()) return {};

@@ -10,7 +10,6 @@ namespace carom::cli {
 int diffusion(const Options& options) {
   EnsembleKind<DiffusionResult> kind;
   kind.run = run_diffusion;
-  kind.lost = [](const DiffusionResult& result) { return result.lost; };
   kind.print = [&](const EnsembleJob<DiffusionResult>& job, const DiffusionResult& result, const std::string& status) {
     print_diffusion(options, job.loaded.system, result, {status, job.output, job.shard});
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/common.hpp"
+#include "cli/doubts.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -91,7 +92,7 @@ std::string fit_text(const DiffusionSummary& summary) {
   return text;
 }
 
-std::string ends_text(const System& system, const DiffusionResult& result) {
+std::string ends_text(const DiffusionResult& result) {
   std::string text;
   const auto add = [&](std::uint64_t number, const char* what) {
     if (number > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(number), what);
@@ -101,7 +102,8 @@ std::string ends_text(const System& system, const DiffusionResult& result) {
   add(result.capped, "ended by the cap on hits");
   add(result.unbounded, "left all walls behind");
   add(result.singular, "singular");
-  add(result.lost, fmt::format("lost: {}", why_lost(system)).c_str());
+  add(result.unresolved, fmt::format("unresolved: {}", why_unresolved).c_str());
+  add(result.lost, fmt::format("lost: {}", why_lost).c_str());
   return text.empty() ? text : "\nof the particles: " + text + "\n";
 }
 
@@ -120,9 +122,12 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   json.set("capped", result.capped);
   json.set("unbounded", result.unbounded);
   json.set("singular", result.singular);
+  json.set("unresolved", result.unresolved);
   json.set("lost", result.lost);
   json.set("collisions", result.collisions);
-  if (engine_of(system) != "events") json.set("energy_change", result.energy_change);
+  if (engine_of(system) != "events") json.set("energy_change", result.energy_change).set("energy_error", energy_json(result.energy_error));
+  add_steps(json, system, result.steps);
+  add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
   if (const std::string none = no_lanes_for_diffusion(system); !none.empty()) json.set("no_lanes", none);
@@ -168,7 +173,7 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
 
 std::string diffusion_text(const System& system, const DiffusionResult& result, const DiffusionSummary& summary,
                            const EnsembleContext& context) {
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = doubts_of(system, result).text() + fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(result.trajectories),
                       system.run.times.back(), system.run.seed,
                       context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
@@ -176,14 +181,14 @@ std::string diffusion_text(const System& system, const DiffusionResult& result, 
   text += moments_table(summary.points);
   text += fit_text(summary);
   text += horizon_text(summary.horizon);
-  text += ends_text(system, result);
-  if (engine_of(system) != "events")
-    text += fmt::format("\nlargest change of a trajectory's energy {:.2g}\n", result.energy_change);
-  text += fmt::format("\n{} collisions in {:.3g} s on {}{} thread{}: {}hits/s\n{}   digest {:016x}\n",
-                      grouped(result.collisions), result.seconds,
+  text += ends_text(result);
+  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
+  const std::string steps = steps_text(system, result.steps);
+  text += fmt::format("\n{} collisions{} in {:.3g} s on {}{} thread{}: {}\n{}   digest {:016x}\n",
+                      grouped(result.collisions), steps.empty() ? "" : ", " + steps, result.seconds,
                       result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "", result.threads,
                       result.threads == 1 ? "" : "s",
-                      with_prefix(static_cast<double>(result.collisions) / std::max(result.seconds, 1e-9)),
+                      pace_text(system, result.collisions, result.steps, result.seconds),
                       decisions_text(result.decisions), result.digest);
   text += lanes_text(no_lanes_for_diffusion(system), result.lanes);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);

@@ -58,7 +58,6 @@ int escape(const Options& options) {
   if (!options.certify_sample.empty()) return certified_sample(options);
   EnsembleKind<EscapeResult> kind;
   kind.run = [](const System& system, const EnsembleOptions<EscapeResult>& how) { return run_escape(system, {how, {}}); };
-  kind.lost = [](const EscapeResult& result) { return result.counts.lost; };
   kind.print = [&](const EnsembleJob<EscapeResult>& job, const EscapeResult& result, const std::string& status) {
     const System& system = job.loaded.system;
     const EnsembleContext context{status, job.output, job.shard};

@@ -8,6 +8,7 @@
 
 #include "carom/table/hole_names.hpp"
 #include "cli/common.hpp"
+#include "cli/doubts.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -46,7 +47,8 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
   line("  capped", counts.capped, "ended by the cap on hits", false);
   line("singular", counts.singular, "hit a corner without a limit, or moved along a wall", false);
   line("unbounded", counts.unbounded, "no wall follows any more", false);
-  line("lost", counts.lost, why_lost(system), false);
+  line("unresolved", counts.unresolved, why_unresolved, false);
+  line("lost", counts.lost, why_lost, false);
   return text;
 }
 
@@ -67,10 +69,13 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   json.set("capped", counts.capped);
   json.set("singular", counts.singular);
   json.set("unbounded", counts.unbounded);
+  json.set("unresolved", counts.unresolved);
   json.set("lost", counts.lost);
   json.set("collisions", counts.collisions);
   if (system.of_discs()) json.set("contacts", counts.contacts);
-  if (engine_of(system) != "events") json.set("energy_change", counts.energy_change);
+  if (engine_of(system) != "events") json.set("energy_change", counts.energy_change).set("energy_error", energy_json(result.energy_error));
+  add_steps(json, system, result.steps);
+  add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
   if (const std::string none = no_lanes_for_escape(system); !none.empty())
@@ -108,7 +113,7 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
 
 std::string escape_text(const System& system, const EscapeResult& result, const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = doubts_of(system, result).text() + fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(counts.trajectories),
                       system.run.t_max, system.run.seed,
                       context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
@@ -116,14 +121,15 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
   if (const std::string note = repeated_starts(system); !note.empty()) text += note + '\n';
   text += survival_table(counts);
   text += fates(system, counts);
-  if (engine_of(system) != "events")
-    text += fmt::format("\nlargest change of a trajectory's energy {:.2g}\n", counts.energy_change);
+  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   const double hits = static_cast<double>(counts.collisions);
-  text += fmt::format("\n{} collisions{} in {:.3g} s on {}{} thread{}: {}hits/s", grouped(counts.collisions),
+  const std::string steps = steps_text(system, result.steps);
+  text += fmt::format("\n{} collisions{}{} in {:.3g} s on {}{} thread{}: {}", grouped(counts.collisions),
                       system.of_discs() ? fmt::format(" and {} contacts", grouped(counts.contacts)) : "",
+                      steps.empty() ? "" : ", " + steps,
                       result.seconds, result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
                       result.threads, result.threads == 1 ? "" : "s",
-                      with_prefix(hits / std::max(result.seconds, 1e-9)));
+                      pace_text(system, counts.collisions, result.steps, result.seconds));
   if (counts.collisions > 0)
     text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
   text += fmt::format("\n{}   digest {:016x}\n", decisions_text(result.decisions), result.digest);

@@ -63,6 +63,6 @@ int main(int argc, char** argv) {
     return bad_input;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "carom: internal error, please report it: %s\n", error.what());
-    return lost;
+    return untrusted;
   }
 }

@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/diffusion_report.hpp"
+#include "cli/doubts.hpp"
 #include "cli/escape_report.hpp"
 
 namespace carom::cli {
@@ -25,11 +26,11 @@ void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
 
 int print_sum(const Options& options, const System& system, const EscapeResult& result, const EnsembleContext& context) {
   print(options.json ? escape_json(system, result, context).text() + "\n" : escape_text(system, result, context));
-  return result.counts.lost > 0 ? lost : done;
+  return doubts_of(system, result).status(true);
 }
 int print_sum(const Options& options, const System& system, const DiffusionResult& result, const EnsembleContext& context) {
   print_diffusion(options, system, result, context);
-  return result.lost > 0 ? lost : done;
+  return doubts_of(system, result).status(true);
 }
 
 template <class Result>
@@ -44,7 +45,7 @@ int merge_parts(const Options& options, const std::string& output, const std::ve
   write_sum(output, loaded, origin, sum, lock, options.force);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
-  for (const auto& [index, text] : sum.result.reports) warn(text);
+  warn_of(sum.result.reports);
   return print_sum(options, loaded.system, sum.result, {sum.status, output, sum.shard});
 }
 

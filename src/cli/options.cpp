@@ -127,7 +127,7 @@ void define(CLI::App& app, Options& o) {
           "\n"
           "What -o writes is kept every ten seconds: carom escape --resume FILE.h5 goes on after Ctrl-C, a kill\n"
           "or a full disk, and ends with the same bits.\n"
-          "A closed table is legal: nothing escapes. Exit status 3 if a trajectory was lost.")
+          "A closed table is legal: nothing escapes. Exit status 3 if a trajectory could not be followed.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")

@@ -33,6 +33,7 @@ struct Parsed {
 };
 Parsed parse(int argc, char** argv);
 
-enum Status { done = 0, bad_input = 1, usage = 2, lost = 3, stopped = 130 };
+/// `untrusted`: trajectories that failed, energies beyond their tolerance, or a failed validation.
+enum Status { done = 0, bad_input = 1, usage = 2, untrusted = 3, stopped = 130 };
 
 }  // namespace carom::cli

@@ -9,8 +9,10 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
+#include "carom/events/report.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/doubts.hpp"
 #include "cli/run_in_balls.hpp"
 #include "cli/run_report.hpp"
 #include "io/progress.hpp"
@@ -74,7 +76,7 @@ void refuse_going_back(const System& system, const StoredRun& stored) {
 // The archive stays as it is, and the result is printed again; that nothing was added must be said.
 void say_if_ended(const StoredRun& stored) {
   const auto ended = [](const ParticleProgress& p) {
-    return p.fate == Fate::escaped || p.fate == Fate::unbounded || p.fate == Fate::singular || p.fate == Fate::lost;
+    return p.fate == Fate::escaped || p.fate == Fate::unbounded || p.fate == Fate::singular || is_failure(p.fate);
   };
   if (!std::all_of(stored.particles.begin(), stored.particles.end(), ended)) return;
   const Fate fate = stored.particles.front().fate;
@@ -120,6 +122,7 @@ int run(const Options& options) {
       throw InputError(Place{"command line", 0, 0, "--trust-tolerance"}, "the stored run has its own tolerance",
                        "a new run");
     how.resume = stored.particles;
+    how.steps = stored.steps;
     refuse_going_back(loaded.system, stored);
     say_if_ended(stored);
     archive = RunArchive::extend(options.resume, output, loaded, provenance_of(options, loaded.system, 1),
@@ -141,7 +144,8 @@ int run(const Options& options) {
                 : static_cast<double>(counting.hits) / (static_cast<double>(system.run.collisions) *
                                                         static_cast<double>(system.particles.size()));
         progress.show(by_time > by_hits ? by_time : by_hits,
-                      with_prefix(static_cast<double>(counting.hits) / progress.seconds()) + "hits/s");
+                      counting.hits > 0 ? with_prefix(static_cast<double>(counting.hits) / progress.seconds()) + "hits/s"
+                                        : fmt::format("t = {:.4g}", counting.time));
       }
       return interrupted.load(std::memory_order_relaxed);
     };
@@ -151,11 +155,10 @@ int run(const Options& options) {
   if (archive) archive->finish(result, status);
 
   for (const ParticleEnd& particle : result.particles)
-    if (particle.progress.fate == Fate::lost) warn(particle.report);
+    if (is_failure(particle.progress.fate) && !particle.report.empty()) warn(std::string(shown(particle.report)));
   print(options.json ? run_json(system, result, status, output).text() + "\n"
                      : run_text(system, result, status, output));
-  if (status == name_of(Fate::lost)) return lost;
-  return result.interrupted ? stopped : done;
+  return doubts_of(system, result).status(!result.interrupted);
 }
 
 }  // namespace carom::cli

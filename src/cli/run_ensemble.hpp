@@ -10,6 +10,7 @@
 
 #include "carom/base/error.hpp"
 #include "cli/common.hpp"
+#include "cli/doubts.hpp"
 #include "cli/ensemble_job.hpp"
 #include "cli/mpi_ranks.hpp"
 #include "io/progress.hpp"
@@ -21,7 +22,6 @@ template <class Result>
 struct EnsembleKind {
   std::function<Result(const System&, const EnsembleOptions<Result>&)> run;
   std::function<void(const EnsembleJob<Result>&, const Result&, const std::string& status)> print;
-  std::function<std::uint64_t(const Result&)> lost;
 };
 
 template <class Result>
@@ -52,10 +52,9 @@ std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options, cons
 
 template <class Result>
 int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, const Result& result, const std::string& status) {
-  for (const auto& [index, text] : result.reports) warn(text);
+  warn_of(result.reports);
   kind.print(job, result, status);
-  if (kind.lost(result) > 0) return lost;
-  return result.complete ? done : stopped;
+  return doubts_of(job.loaded.system, result).status(result.complete);
 }
 
 // Any rank but the first: what it does is reported there.
@@ -101,7 +100,8 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
       how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
         if (progress.due())
           progress.show(static_cast<double>(trajectories) / all,
-                        with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s");
+                        hits > 0 ? with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
+                                 : with_prefix(static_cast<double>(trajectories) / progress.seconds()) + "trajectories/s");
       };
     call.make(&job.loaded);  // the others count on what comes next
     result = kind.run(system, how);

@@ -57,7 +57,7 @@ int run_in_plain_numbers(const Options& options) {
     print(end_text(loaded.system, result) + fmt::format("  guarantee     {}\n", warning) +
           fmt::format("  computed in   {:.3g} s, by {} bits\n", seconds, task.bits));
   }
-  if (end.fate == PlainEnd::lost) return lost;
+  if (end.fate == PlainEnd::lost) return untrusted;
   return interrupted ? stopped : done;
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "cli/common.hpp"
+#include "cli/doubts.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -37,7 +37,8 @@ void add_end(Json& json, const System& system, const ParticleEnd& particle) {
   json.set("vx", particle.vx);
   json.set("vy", particle.vy);
   json.set("cell", Json::array().push(particle.cell.first).push(particle.cell.second));
-  json.set("energy_error", particle.energy_error);
+  json.set("energy_error", energy_json(particle.energy_error));
+  if (is_failure(particle.progress.fate) && !particle.report.empty()) add_report(json, particle.report);
   const Trust& trust = particle.trust;
   json.set("trusted_collisions", trust.known ? Json(trust.hits) : Json());
   json.set("trusted_time", trust.known ? Json(trust.time.value()) : Json());
@@ -67,29 +68,31 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
   text += fmt::format("\n  t             {}\n  position      {}, {}", particle.t, particle.x, particle.y);
   if (system.table->lattice)
     text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
-  const double error = particle.energy_error;
-  text += fmt::format("\n  velocity      {}, {}\n  energy error  {}\n", particle.vx, particle.vy,
-                      std::isnan(error) ? "not known: not all that interact are left" : fmt::format("{:.2g}", error));
+  const EnergyError& error = particle.energy_error;
+  text += fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g} at the end, {:.2g} at most\n", particle.vx, particle.vy,
+                      error.end, error.largest);
   text += fmt::format("  trusted       {}\n", trust_text(system, particle));
   return text;
 }
 
-/// A doubt about the steps: "" where energy is kept to a thousandth of what moves.
+/// What cannot be trusted of the energy: "" where it is kept.
 std::string energy_note(const System& system, const SingleRunResult& result) {
-  if (engine_of(system) == "events" || std::isnan(result.particles.front().energy_error)) return {};
-  const Energy &start = result.energy_at_start, &end = result.energy_at_end;
-  const double change = end.total() - start.total(), scale = std::max(start.kinetic, end.kinetic);
-  if (std::fabs(change) <= 1e-3 * scale) return {};
-  return fmt::format("energy changed by {:.2g}, with a kinetic energy of {:.2g}: take a shorter step", change, scale);
+  EnergyError all;
+  for (const ParticleEnd& particle : result.particles) all += particle.energy_error;
+  return energy_doubt(system, all);
 }
 
 }  // namespace
 
 std::string run_status(const SingleRunResult& result) {
   if (result.particles.size() == 1) return status_of(result.particles.front(), result.interrupted);
-  const bool any_lost = std::any_of(result.particles.begin(), result.particles.end(),
-                                    [](const auto& p) { return p.progress.fate == Fate::lost; });
-  return any_lost ? name_of(Fate::lost) : result.interrupted ? "interrupted" : "completed";
+  const auto any = [&](Fate fate) {
+    return std::any_of(result.particles.begin(), result.particles.end(),
+                       [&](const auto& p) { return p.progress.fate == fate; });
+  };
+  for (const Fate fate : {Fate::lost, Fate::unresolved})
+    if (any(fate)) return name_of(fate);
+  return result.interrupted ? "interrupted" : "completed";
 }
 
 Json run_json(const System& system, const SingleRunResult& result, const std::string& status,
@@ -100,6 +103,7 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
   json.set("collisions", result.collisions);
   if (system.of_discs()) json.set("contacts", result.contacts);
   json.set("decisions", decisions_json(result.decisions));
+  add_steps(json, system, result.steps);
   if (result.particles.size() == 1) {
     add_end(json, system, result.particles.front());
   } else {
@@ -122,7 +126,7 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
 
 std::string run_text(const System& system, const SingleRunResult& result, const std::string& status,
                      const std::string& output) {
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = doubts_of(system, result).text() + fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   for (std::size_t i = 0; i < result.particles.size(); ++i) {
     if (result.particles.size() > 1) text += fmt::format("particle {}\n", i);
     text += end_text(system, result.particles[i], result.interrupted);
@@ -130,8 +134,8 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
   if (result.particles.size() > 1)
     text += fmt::format("{}: {} collisions{}\n", status, grouped(result.collisions),
                         system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "");
-  const std::string note = energy_note(system, result);
-  if (!note.empty()) text += fmt::format("  note          {}\n", note);
+  if (const std::string steps = steps_text(system, result.steps); !steps.empty())
+    text += fmt::format("  integration   {}\n", steps);
   text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds, decisions_text(result.decisions));
   if (!output.empty()) text += fmt::format("  archive       {}\n", output);
   return text;

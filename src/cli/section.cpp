@@ -11,6 +11,7 @@
 #include "carom/events/world.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/doubts.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -80,17 +81,21 @@ Json section_json(const System& system, const SectionResult& result, const std::
   json.set("capped", result.capped);
   json.set("singular", result.singular);
   json.set("unbounded", result.unbounded);
+  json.set("unresolved", result.unresolved);
   json.set("lost", result.lost);
   json.set("collisions", result.collisions);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
+  if (engine_of(system) != "events") json.set("energy_error", energy_json(result.energy_error));
+  add_steps(json, system, result.steps);
+  add_reports(json, result.reports);
   if (!output.empty()) json.set("archive", output);
   return json;
 }
 
 std::string section_text(const System& system, const SectionResult& result, const std::vector<OrbitLine>& lines,
                          const std::string& output) {
-  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = doubts_of(system, result).text() + fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("{} points of {} orbit{}{}\n", grouped(result.points), grouped(result.orbits),
                       result.orbits == 1 ? "" : "s",
                       result.complete ? "" : "  (interrupted: those that were finished)");
@@ -108,12 +113,15 @@ std::string section_text(const System& system, const SectionResult& result, cons
   end(result.capped, "ended by the cap on hits");
   end(result.unbounded, "left all walls behind");
   end(result.singular, "singular");
-  end(result.lost, fmt::format("lost: {}", why_lost(system)).c_str());
+  end(result.unresolved, fmt::format("unresolved: {}", why_unresolved).c_str());
+  end(result.lost, fmt::format("lost: {}", why_lost).c_str());
   if (result.incomplete > 0)
     text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n", grouped(result.incomplete),
                         grouped(system.section.points), system.run.t_max, ends.empty() ? "" : " (" + ends + ")");
-  text += fmt::format("\n{} collisions in {:.3g} s on {} thread{}\n{}   digest {:016x}\n", grouped(result.collisions),
-                      result.seconds, result.threads, result.threads == 1 ? "" : "s",
+  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
+  const std::string steps = steps_text(system, result.steps);
+  text += fmt::format("\n{} collisions{} in {:.3g} s on {} thread{}\n{}   digest {:016x}\n", grouped(result.collisions),
+                      steps.empty() ? "" : ", " + steps, result.seconds, result.threads, result.threads == 1 ? "" : "s",
                       decisions_text(result.decisions), result.digest);
   text += output.empty() ? "-o FILE.h5 stores the points\n" : fmt::format("archive: {}\n", output);
   return text;
@@ -153,11 +161,10 @@ int section(const Options& options) {
   }
   const std::string status = result.complete ? "completed" : "interrupted";
   if (archive) archive->finish(result, status);
-  for (const std::string& report : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
+  warn_of(result.reports);
   print(options.json ? section_json(system, result, status, options.output).text() + "\n"
                      : section_text(system, result, lines, options.output));
-  if (result.lost > 0) return lost;
-  return result.complete ? done : stopped;
+  return doubts_of(system, result).status(result.complete);
 }
 
 }  // namespace carom::cli

@@ -1,5 +1,6 @@
 // carom escape --splitting: survival by splitting populations.
 #include "carom/ensemble/splitting.hpp"
+#include "carom/events/report.hpp"
 
 #include <fmt/format.h>
 
@@ -143,7 +144,7 @@ int splitting(const Options& options) {
   const std::vector<SplitPoint> points_of_p = survival(result);
   const auto last = std::find_if(points_of_p.begin(), points_of_p.end(), [](const SplitPoint& p) { return died_out(p.p); });
   const double extinction = last == points_of_p.end() ? std::numeric_limits<double>::infinity() : last->at;
-  for (const std::string& report : result.reports) std::fprintf(stderr, "carom: %s\n", report.c_str());
+  for (const std::string& report : result.reports) warn(std::string(shown(report)));
   if (result.plan.population < Extrapolated::least_population)
     warn(fmt::format("populations of {} trajectories: errors and intervals hold from {} on", result.plan.population,
                      Extrapolated::least_population));
@@ -162,7 +163,7 @@ int splitting(const Options& options) {
     json.set("population", result.plan.population).set("repetitions", result.runs.front().size());
     json.set("kick", result.plan.kick).set("lookback", result.plan.lookback).set("rejected", rejected);
     json.set("kick_cost", Json::object().set("value", cost.value).set("stderr", cost.error));
-    json.set("lost", result.lost).set("collisions", result.collisions);
+    json.set("unresolved", result.unresolved).set("lost", result.lost).set("collisions", result.collisions);
     json.set("digest", fmt::format("{:016x}", result.digest));
     Json points = Json::array(), rates = Json::array();
     for (const SplitPoint& point : points_of_p)
@@ -207,7 +208,7 @@ int splitting(const Options& options) {
     text += fmt::format("digest {:016x}\n", result.digest);
     print(text);
   }
-  if (result.lost > 0) return lost;
+  if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;
 }
 

@@ -6,6 +6,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
+#include "carom/events/report.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/validation_cases.hpp"
@@ -33,13 +34,14 @@ std::string line_of(const ValidationCase& c, Allowance allowance) {
     line += fmt::format("{:.7f} +- {:.7f}  expected {:.7f}  {:+.1f} sigma", c.value, c.error, c.expected,
                         c.distance);
   else if (c.digest != 0)
-    line += fmt::format("{} lost, {} singular, filter share {:.9f}, digest {:016x}", c.lost, c.singular,
+    line += fmt::format("{} lost, {}{} singular, filter share {:.9f}, digest {:016x}", c.lost,
+                        c.unresolved > 0 ? fmt::format("{} unresolved, ", c.unresolved) : "", c.singular,
                         c.filter_share, c.digest);
   else
     line += fmt::format("{:.15f}  expected {:.15f}  difference {:+.2g}", c.value, c.expected, c.distance);
   if (allowance.below > 0.0 || allowance.above > 0.0)
     line += fmt::format(" (allowed -{:g}, +{:g})", allowance.below, allowance.above);
-  return line + (c.report.empty() ? "" : "\n        " + c.report) + "\n";
+  return line + (c.report.empty() ? "" : "\n        " + std::string(shown(c.report))) + "\n";
 }
 
 Json json_of(const ValidationCase& c, Allowance allowance) {
@@ -47,7 +49,7 @@ Json json_of(const ValidationCase& c, Allowance allowance) {
   json.set("name", c.name).set("passed", c.passed).set("seed", c.seed).set("value", c.value);
   json.set("error", c.error).set("expected", c.expected).set("sigma", c.distance);
   json.set("allowed_below", allowance.below).set("allowed_above", allowance.above).set("source", c.source);
-  json.set("hits", c.hits).set("lost", c.lost).set("singular", c.singular);
+  json.set("hits", c.hits).set("unresolved", c.unresolved).set("lost", c.lost).set("singular", c.singular);
   json.set("filter_share", c.filter_share).set("digest", fmt::format("{:016x}", c.digest));
   if (!c.report.empty()) json.set("report", c.report);
   return json.set("seconds", c.seconds).set("cpu_seconds", c.cpu_seconds);
@@ -88,7 +90,7 @@ int validate(const Options& options) {
   } else {
     print(fmt::format("\n{} passed, {} failed{}\n", passed, failed, complete ? "" : ", interrupted"));
   }
-  if (failed > 0) return lost;
+  if (failed > 0) return untrusted;
   return complete ? done : stopped;
 }
 

@@ -55,6 +55,7 @@ bool DiffusionResult::add(const DiffusionResult& other) {
   singular += other.singular;
   unbounded += other.unbounded;
   capped += other.capped;
+  unresolved += other.unresolved;
   lost += other.lost;
   collisions += other.collisions;
   energy_change = std::max(energy_change, other.energy_change);

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "carom/ensemble/diffusion.hpp"
+#include "carom/events/report.hpp"
+#include "ensemble/energy_watch.hpp"
 #include "ensemble/ensemble_run.hpp"
 #include "ensemble/first_reports.hpp"
 #include "ensemble/particle_hash.hpp"
@@ -38,9 +40,8 @@ class DiffusionTally {
 
   bool stopped() const { return thread_.stopped(); }
 
-  /// `energy_change`: of its particles together.
-  void add(std::uint64_t trajectory, const std::vector<DiffusingParticle>& particles, double energy_change,
-           const DecisionCounts& decisions) {
+  void add(std::uint64_t trajectory, const std::vector<DiffusingParticle>& particles, const EnergiesSeen& energies,
+           const StepCounts& steps, const DecisionCounts& decisions) {
     std::uint64_t hits = 0;
     const TrajectoryRange range{trajectory, trajectory + 1};
     thread_.deliver(range, [&](DiffusionResult& sum) {
@@ -49,7 +50,9 @@ class DiffusionTally {
         add_to(sum, trajectory, p);
         hits += p.hits;
       }
-      sum.energy_change = std::max(sum.energy_change, energy_change);
+      sum.energy_change = larger(sum.energy_change, energies.change);
+      sum.energy_error += energies.error;
+      sum.steps += steps;
       sum.decisions += decisions;
       sum.done.add(range);
     });
@@ -57,15 +60,15 @@ class DiffusionTally {
   }
 
  private:
-  /// Who is so far away that |r - r(0)|^4 is no number is lost there.
+  /// A particle so far away that |r - r(0)|^4 is no number ends there as unresolved.
   static DiffusingParticle held_by_numbers(DiffusingParticle p, const std::vector<double>& times) {
     const std::vector<double>& squares = *p.squares;
     const auto beyond = std::find_if(squares.begin(), squares.end(), [](double s) { return !std::isfinite(s * s); });
     p.samples = static_cast<std::size_t>(beyond - squares.begin());
     if (beyond == squares.end()) return p;
-    p.fate = Fate::lost;
+    p.fate = Fate::unresolved;
     p.time = times[p.samples];
-    p.report = "particle " + std::to_string(p.number) + " is lost: it is so far away that |r - r(0)|^4 is not a number";
+    p.report = report_of({}, p.state, p.fate, "it is so far away that |r - r(0)|^4 is not a number");
     return p;
   }
   void add_to(DiffusionResult& sum, std::uint64_t trajectory, const DiffusingParticle& p) const {
@@ -73,7 +76,7 @@ class DiffusionTally {
     for (std::size_t k = 0; k < p.samples; ++k) sum.sums.add(trajectory, k, (*p.squares)[k]);
     sum.collisions += p.hits;
     sum.digest += hash_(p.number, p.fate, p.time, p.hits, p.last_wall, p.state, std::span(*p.squares).first(p.samples));
-    if (p.fate == Fate::lost) keep_first(sum.reports, p.number, p.report);
+    if (is_failure(p.fate)) keep_first(sum.reports, p.number, p.report);
   }
   static void count(DiffusionResult& sum, Fate fate) {
     ++sum.trajectories;
@@ -84,8 +87,8 @@ class DiffusionTally {
       case Fate::escaped: ++sum.escaped; break;
       case Fate::singular: ++sum.singular; break;
       case Fate::unbounded: ++sum.unbounded; break;
-      case Fate::lost:
-      case Fate::unresolved: ++sum.lost; break;
+      case Fate::unresolved: ++sum.unresolved; break;
+      case Fate::lost: ++sum.lost; break;
     }
   }
 

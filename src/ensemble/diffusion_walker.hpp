@@ -1,14 +1,11 @@
 // Trajectories of a diffusion run, one after the other.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include "carom/ensemble/sampler.hpp"
-#include "carom/events/energy.hpp"
 #include "carom/events/world.hpp"
 #include "ensemble/diffusion_tally.hpp"
 
@@ -30,6 +27,7 @@ class DiffusionWalker : public Observer {
         system_(system),
         sampler_(sampler),
         world_(*system.table, system.dynamics, decisions),
+        energies_(system),
         starts_(system.particles.size()),
         squares_(system.particles.size()),
         ends_(system.particles.size()) {
@@ -50,19 +48,26 @@ class DiffusionWalker : public Observer {
         squares_[index(p)].clear();
         ends_[index(p)] = {Fate::survived, system_.run.times.back()};
       }
-      const bool forces = system_.dynamics.forces && !system_.dynamics.forces->empty();
-      const double energy = forces ? energy_now() : 0.0;
+      energies_.begin(starts_);
+      sampled_.clear();
       world_.run_until(system_.run.times.back(), *this, stopped);
       if (stopped()) return false;
-      const double change = forces && everybody_is_left() ? std::fabs(energy_now() - energy) : 0.0;
+      std::vector<SampledEnergies::End> ends;
+      for (int p = 0; p < particles; ++p) ends.push_back({world_.state(p), ends_[index(p)].fate, world_.energy_balance(p).kinetic});
       const DecisionCounts now = world_.decisions();
-      tally_.add(trajectory, all_of(trajectory), change, now - std::exchange(decisions_, now));
+      tally_.add(trajectory, all_of(trajectory), energies_.end(ends), world_.step_counts(), now - std::exchange(decisions_, now));
     }
     return true;
   }
 
   void sample(int particle, Time, const State& state) override {
     squares_[index(particle)].push_back(square_of_displacement(system_, starts_[index(particle)], state));
+    energies_.sample(index(particle), state);
+    sampled_.push_back(state);
+  }
+  void sampled(Time) override {
+    energies_.sample(sampled_);
+    sampled_.clear();
   }
 
   void end(const EndEvent& event) override {
@@ -81,22 +86,13 @@ class DiffusionWalker : public Observer {
   };
   static std::size_t index(int particle) { return static_cast<std::size_t>(particle); }
 
-  double energy_now() const {
-    std::vector<State> states;
-    for (int p = 0; p < world_.size(); ++p) states.push_back(world_.state(p));
-    return energy_of(system_.particles, states, system_.dynamics, *system_.table).total();
-  }
-  bool everybody_is_left() const {
-    return std::all_of(ends_.begin(), ends_.end(), [](const End& e) { return e.fate == Fate::survived; });
-  }
-
   std::vector<DiffusingParticle> all_of(std::uint64_t trajectory) const {
     std::vector<DiffusingParticle> all;
     for (int p = 0; p < world_.size(); ++p) {
       const End& end = ends_[index(p)];
       const std::uint64_t number = trajectory * system_.particles.size() + static_cast<std::uint64_t>(p);
       all.push_back({number, end.fate, end.time, world_.hits(p), world_.last_wall(p), world_.state(p), &squares_[index(p)],
-                     end.fate == Fate::lost ? world_.report(p) : std::string()});
+                     is_failure(end.fate) ? world_.report(p) : std::string()});
     }
     return all;
   }
@@ -105,7 +101,9 @@ class DiffusionWalker : public Observer {
   const System& system_;
   const Sampler& sampler_;
   World world_;
+  SampledEnergies energies_;
   std::vector<State> starts_;
+  std::vector<State> sampled_;  // at the time of the sample under way
   std::vector<std::vector<double>> squares_;  // of the trajectory under way
   std::vector<End> ends_;
   DecisionCounts decisions_;  // that were told

@@ -62,6 +62,9 @@ class EscapeEnsemble {
     EscapeResult part;
     part.counts = std::move(tally.counts);
     part.digest = tally.digest;
+    part.steps = tally.steps;
+    part.energy_error = tally.energies.error;
+    part.counts.energy_change = tally.energies.change;
     part.reports = std::move(tally.reports);
     part.decisions = decisions;
     part.effort = effort;

@@ -53,11 +53,12 @@ class EscapeRunner {
     const std::size_t first_record = records ? records->size() : 0;
     for (int particle = 0; records && particle < count; ++particle)
       records->push_back(start_of(*system_.table, world_.state(particle)));
-    const std::vector<double> before = energies();
+    const std::vector<Energy> before = energies();
     world_.run_until(system_.run.t_max, ends_, interrupted);
     if (interrupted && interrupted()) return false;
     note_energies(before, energies(), tally);
     tally.counts.contacts += ends_.contacts;
+    tally.steps += world_.step_counts();
     for (int particle = 0; particle < count; ++particle) {
       const std::uint64_t index = particle_index(system_, trajectory, static_cast<std::uint64_t>(particle));
       TrajectoryRecord end = end_of(particle);
@@ -77,8 +78,8 @@ class EscapeRunner {
   const DecisionCounts& decisions() const { return world_.decisions(); }
 
  private:
-  std::vector<double> energies() const {
-    std::vector<double> all;
+  std::vector<Energy> energies() const {
+    std::vector<Energy> all;
     for (int p = 0; energies_.of_each() && p < world_.size(); ++p)
       all.push_back(energies_.energy(world_.particle(p), world_.state(p)));
     if (!energies_.of_all()) return all;
@@ -87,14 +88,17 @@ class EscapeRunner {
     all.push_back(energies_.energy(states));
     return all;
   }
-  // Of a particle that is lost nothing is known; of particles that share their energy, all must be left.
-  void note_energies(const std::vector<double>& before, const std::vector<double>& after, EscapeTally& tally) const {
-    const auto is = [this](int p, Fate fate) { return ends_.of(p) && ends_.of(p)->fate == fate; };
+  // Of a particle that failed nothing is known; of particles that share their energy, all must be left.
+  void note_energies(const std::vector<Energy>& before, const std::vector<Energy>& after, EscapeTally& tally) const {
     bool all = true;
-    for (int p = 0; p < world_.size(); ++p) all = all && (!ends_.of(p) || is(p, Fate::survived));
-    for (std::size_t k = 0; k < before.size(); ++k)
-      if (energies_.of_all() ? all : !is(static_cast<int>(k), Fate::lost)) tally.note_energies(before[k], after[k]);
+    for (int p = 0; p < world_.size(); ++p) all = all && (!ends_.of(p) || ends_.of(p)->fate == Fate::survived);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const int p = static_cast<int>(k);
+      if (energies_.of_all() ? all : !failed(p))
+        tally.energies.add(before[k].total(), after[k], 0.0, world_.energy_balance(p).kinetic);
+    }
   }
+  bool failed(int particle) const { return ends_.of(particle) && is_failure(ends_.of(particle)->fate); }
 
   // A particle that has not ended, or never can, survives until t_max.
   TrajectoryRecord end_of(int particle) const {

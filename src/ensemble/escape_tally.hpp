@@ -1,8 +1,6 @@
 // What a block of an escape ensemble adds up.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -10,6 +8,7 @@
 
 #include "carom/ensemble/escape.hpp"
 #include "carom/table/hole_names.hpp"
+#include "ensemble/energy_watch.hpp"
 #include "ensemble/first_reports.hpp"
 #include "ensemble/particle_hash.hpp"
 
@@ -30,19 +29,18 @@ inline TrajectoryRecord start_of(const Table& table, const State& state) {
 struct EscapeTally {
   SurvivalCounts counts;
   std::uint64_t digest = 0;
+  StepCounts steps;
+  EnergiesSeen energies;
   std::vector<std::pair<std::uint64_t, std::string>> reports;  // of the first by index
 
   explicit EscapeTally(const System& system)
       : counts(system.run.times, hole_names(*system.table).size()), hash_(system) {}
 
-  void note_energies(double before, double after) {
-    counts.energy_change = std::max(counts.energy_change, std::fabs(after - before));
-  }
   /// The end of one particle; record.time is t_max for survivors, `state` that after its last event.
   void add(const TrajectoryRecord& end, int last_wall, const State& state, const std::string& report) {
     counts.add(end.fate, end.time, end.hits, end.hole);
     digest += hash_(end.index, end.fate, end.time, end.hits, last_wall, state);
-    if (end.fate == Fate::lost) keep_first(reports, end.index, report);
+    if (is_failure(end.fate)) keep_first(reports, end.index, report);
   }
 
  private:

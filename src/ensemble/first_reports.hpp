@@ -1,4 +1,4 @@
-// Which of the lost particles are told of.
+// Which of the particles that were lost or unresolved are told of.
 #pragma once
 
 #include <algorithm>

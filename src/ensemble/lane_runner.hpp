@@ -51,7 +51,7 @@ class LaneRunner {
       start.tag = (trajectory_ - 1) * system_.particles.size() + particle_;
       ++particle_;
       if (records_) note_start(start);
-      if (energies_.of_each()) energy_of(start.tag) = energies_.energy(start.particle, start.state);
+      if (energies_.of_each()) energy_of(start.tag) = energies_.energy(start.particle, start.state).total();
       return true;
     };
     const auto sink = [&](const LaneEnd& end) {
@@ -109,9 +109,10 @@ class LaneRunner {
     record.time = to_the_end ? system_.run.t_max : end.time.value();
     EscapeTally& tally = block_of(end.tag)->second.done.tally;
     tally.add(record, end.last_wall, end.state, end.report);
-    if (energies_.of_each() && end.fate != Fate::lost) {
+    tally.steps += end.steps;
+    if (energies_.of_each() && !is_failure(end.fate)) {
       const Particle& particle = system_.particles[end.tag % system_.particles.size()];
-      tally.note_energies(energy_of(end.tag), energies_.energy(particle, end.state));
+      tally.energies.add(energy_of(end.tag), energies_.energy(particle, end.state), 0.0, end.kinetic);
     }
     if (records_) record_of(end.tag) = record;
   }

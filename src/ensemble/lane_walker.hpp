@@ -95,10 +95,10 @@ class LaneWalker {
     const std::size_t p = end.tag % each();
     const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
     open.ends[p] = {open.trajectory * each() + p, end.fate, to_the_end ? system_.run.times.back() : end.time.value(),
-                    end.hits, end.last_wall, end.state, &open.members[p].squares, end.fate == Fate::lost ? end.report : ""};
+                    end.hits, end.last_wall, end.state, &open.members[p].squares, is_failure(end.fate) ? end.report : ""};
     if (--open.left > 0) return;
     const DecisionCounts now = lanes_.decisions();
-    tally_.add(open.trajectory, open.ends, 0.0, now - std::exchange(decisions_, now));
+    tally_.add(open.trajectory, open.ends, {}, {}, now - std::exchange(decisions_, now));
     free_.push_back(end.tag / each());
   }
 

@@ -18,7 +18,7 @@ namespace {
 
 struct Pair {
   PairedEnd first, second;
-  enum class State : unsigned char { open, known, singular, lost, other_singular, unknown } state = State::open;
+  enum class State : unsigned char { open, known, singular, unresolved, lost, other_singular, unknown } state = State::open;
 };
 
 class LastEvent : public Observer {
@@ -54,8 +54,10 @@ class Worker {
     world_.run_until(system_.run.t_max, seen, stopped);
     if (stopped()) return;
     const EndEvent& end = seen.last;
-    if (end.fate == Fate::singular || end.fate == Fate::lost) {
-      pair.state = end.fate == Fate::lost ? Pair::State::lost : Pair::State::singular;
+    if (end.fate == Fate::singular || is_failure(end.fate)) {
+      pair.state = end.fate == Fate::singular     ? Pair::State::singular
+                   : end.fate == Fate::unresolved ? Pair::State::unresolved
+                                                  : Pair::State::lost;
       return;
     }
     if (end.fate == Fate::escaped || end.fate == Fate::unbounded) pair.first.time = end.time.value();
@@ -118,6 +120,7 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
   for (const Pair& pair : pairs) {
     if (pair.state == Pair::State::known) survival.add(pair.first, pair.second);
     if (pair.state == Pair::State::singular) ++result.singular;
+    if (pair.state == Pair::State::unresolved) ++result.unresolved;
     if (pair.state == Pair::State::lost) ++result.lost;
     if (pair.state == Pair::State::other_singular) ++result.other_singular;
     if (pair.state == Pair::State::unknown) ++result.unknown;

@@ -8,6 +8,8 @@ bool EnsembleResult::add_common(const EnsembleResult& other) {
   if (!done.add(other.done)) return false;
   digest += other.digest;
   decisions += other.decisions;
+  steps += other.steps;
+  energy_error += other.energy_error;
   seconds += other.seconds;
   cpu_seconds += other.cpu_seconds;
   if (other.reports.empty()) return true;

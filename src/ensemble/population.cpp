@@ -127,8 +127,8 @@ Population::Way Population::fly(Walker& walker, const Stage& stage, const std::f
 
 /// Of the walker that flew last and ended without a continuation.
 void Population::count_if_lost(PopulationRun& result, std::vector<std::string>& reports) const {
-  if (world_.fate(0) != Fate::lost) return;
-  ++result.lost;
+  if (!is_failure(world_.fate(0))) return;
+  ++(world_.fate(0) == Fate::lost ? result.lost : result.unresolved);
   if (reports.size() < most_reports) reports.push_back(world_.report(0));
 }
 

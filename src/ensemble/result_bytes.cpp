@@ -11,7 +11,7 @@ namespace carom {
 namespace {
 
 void write_common(BytesOut& out, const EnsembleResult& sum) {
-  out << sum.digest << sum.decisions << sum.cpu_seconds << sum.done.ranges()
+  out << sum.digest << sum.decisions << sum.steps << sum.energy_error << sum.cpu_seconds << sum.done.ranges()
       << std::uint64_t{sum.reports.size()};
   for (const auto& [index, text] : sum.reports) out << index << text;
 }
@@ -19,7 +19,7 @@ void write_common(BytesOut& out, const EnsembleResult& sum) {
 void read_common(BytesIn& in, EnsembleResult& sum) {
   std::vector<TrajectoryRange> done;
   std::uint64_t count = 0;
-  in >> sum.digest >> sum.decisions >> sum.cpu_seconds >> done >> count;
+  in >> sum.digest >> sum.decisions >> sum.steps >> sum.energy_error >> sum.cpu_seconds >> done >> count;
   for (const TrajectoryRange& range : done) sum.done.add(range);
   for (std::uint64_t i = 0; i < count; ++i) {
     auto& [index, text] = sum.reports.emplace_back();
@@ -31,13 +31,13 @@ void read_common(BytesIn& in, EnsembleResult& sum) {
 template <class Counts>
 auto numbers_of(Counts& c) {
   return std::vector{&c.trajectories, &c.escaped, &c.survived,   &c.pinned,   &c.capped,   &c.singular,
-                     &c.unbounded,    &c.lost,    &c.collisions, &c.contacts, &c.most_hits};
+                     &c.unbounded,    &c.unresolved, &c.lost,    &c.collisions, &c.contacts, &c.most_hits};
 }
 
 template <class Result>
 auto diffusion_numbers_of(Result& r) {
   return std::vector{&r.trajectories, &r.survived, &r.pinned, &r.escaped, &r.singular, &r.unbounded,
-                     &r.capped, &r.lost, &r.collisions};
+                     &r.capped, &r.unresolved, &r.lost, &r.collisions};
 }
 
 // Most digits of a sum are zero: the others.

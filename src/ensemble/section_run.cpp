@@ -11,13 +11,13 @@
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/world.hpp"
 #include "ensemble/block_order.hpp"
+#include "ensemble/first_reports.hpp"
 #include "ensemble/parallel_blocks.hpp"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t most_reports = 5;
 // Orbits of random starts, unless a number is asked for: more are hard to tell apart in a picture.
 constexpr std::uint64_t default_orbits = 50;
 
@@ -35,14 +35,14 @@ struct Tally {
     result.capped += r.capped;
     result.singular += r.singular;
     result.unbounded += r.unbounded;
+    result.unresolved += r.unresolved;
     result.lost += r.lost;
     result.digest += r.digest;
-    reports.insert(reports.end(), other.reports.begin(), other.reports.end());
-    std::sort(reports.begin(), reports.end());
-    if (reports.size() > most_reports) reports.resize(most_reports);
+    result.steps += r.steps;
+    result.energy_error += r.energy_error;
+    for (const auto& [index, report] : r.reports) keep_first(result.reports, index, report);
   }
-  SectionResult result;  // its counts alone
-  std::vector<std::pair<std::uint64_t, std::string>> reports;
+  SectionResult result;  // its counts and reports alone
 };
 
 std::uint64_t hash_of(std::uint64_t so_far, const SectionPoint& p) {
@@ -62,6 +62,7 @@ class Follower {
         order_(order),
         done_(done) {
     if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
+    world_.watch_energy();
     // One direction takes at least every other crossing.
     const std::uint64_t points = system.section.points;
     const std::size_t most = points == 0 || points > SIZE_MAX / 4 ? SIZE_MAX : static_cast<std::size_t>(2 * points + 2);
@@ -113,6 +114,7 @@ class Follower {
   void count(std::uint64_t orbit) {
     SectionResult& r = tally.result;
     ++r.orbits;
+    r.steps += world_.step_counts();
     r.points += recorder_.points().size();
     const std::size_t particles = system_.particles.size();
     std::vector<std::uint64_t> hashes, counts(particles, 0);
@@ -134,13 +136,13 @@ class Follower {
         case Fate::capped: ++r.capped; break;
         case Fate::singular: ++r.singular; break;
         case Fate::unbounded: ++r.unbounded; break;
-        case Fate::lost:
-        case Fate::unresolved:
-          ++r.lost;
-          if (tally.reports.size() < most_reports)
-            tally.reports.emplace_back(orbit * particles + p, world_.report(body));
-          break;
+        case Fate::unresolved: ++r.unresolved; break;
+        case Fate::lost: ++r.lost; break;
       }
+      if (is_failure(world_.fate(body)))
+        keep_first(r.reports, orbit * particles + p, world_.report(body));
+      else
+        r.energy_error += world_.energy_balance(body).error_at_end(world_.energy_balance(body).change, 0.0);
     }
   }
 
@@ -194,7 +196,6 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
   result.seconds = watch.seconds();
   result.cpu_seconds = watch.cpu_seconds();
   result.threads = plan.threads;
-  for (auto& [index, text] : total.reports) result.reports.push_back(std::move(text));
   return result;
 }
 

@@ -1,11 +1,14 @@
 #include "carom/ensemble/single_run.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "carom/base/error.hpp"
+#include "carom/base/twofold.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
@@ -15,6 +18,65 @@
 namespace carom {
 
 namespace {
+
+// What is seen of the energies of particles that nothing acts on between hits and contacts.
+class FreeEnergies {
+ public:
+  /// `shared`: contacts pass energy on.
+  FreeEnergies(const std::vector<Particle>& particles, bool shared)
+      : particles_(particles), shared_(shared), seen_(particles.size()), changes_(particles.size()) {}
+
+  void begin(int particle, const EnergyBalance& before, const State& state) {
+    EnergyBalance& seen = seen_[at(particle)];
+    const double kinetic = kinetic_energy(particle, state.velocity);
+    if (shared_ && begun_) {
+      sum_ += kinetic;
+    } else {
+      seen = before;
+      changes_[at(particle)] = before.change;
+      sum_ = kinetic;
+    }
+    begun_ = true;
+    seen.kinetic = larger(seen.kinetic, sum_);
+  }
+  void hit(const HitEvent& event) {
+    if (shared_) return pass({{event.particle, event.before, event.after}});
+    const Particle& p = particles_[static_cast<std::size_t>(event.particle)];
+    see(event.particle, kinetic_energy(event.particle, event.after) - 0.5 * p.mass * (p.speed * p.speed));
+  }
+  void contact(const ContactEvent& event) {
+    pass({{event.first, event.first_before, event.first_after}, {event.second, event.second_before, event.second_after}});
+  }
+  const EnergyBalance& of(int particle) const { return seen_[at(particle)]; }
+
+ private:
+  struct Change {
+    int particle;
+    geometry::Vector before, after;
+  };
+  /// Differences are added without rounding, so that nothing but the energies' own roundings is left of them.
+  void pass(std::initializer_list<Change> all) {
+    for (const Change& one : all)
+      changes_[0] = changes_[0] + Twofold::sum(kinetic_energy(one.particle, one.after), -kinetic_energy(one.particle, one.before));
+    see(0, changes_[0].value());
+  }
+  void see(int particle, double change) {
+    EnergyBalance& seen = seen_[at(particle)];
+    seen.change = change;
+    seen.largest = larger(seen.largest, std::fabs(change));
+  }
+  std::size_t at(int particle) const { return shared_ ? 0 : static_cast<std::size_t>(particle); }
+  double kinetic_energy(int particle, const geometry::Vector& v) const {
+    return 0.5 * particles_[static_cast<std::size_t>(particle)].mass * dot(v, v);
+  }
+
+  const std::vector<Particle>& particles_;
+  const bool shared_;
+  bool begun_ = false;
+  double sum_ = 0.0;
+  std::vector<EnergyBalance> seen_;
+  std::vector<Twofold> changes_;
+};
 
 // Passes events on under the numbers of the system's particles: those that ended in an earlier part
 // of the run are no longer in the world.
@@ -31,6 +93,7 @@ class Renumbering : public Observer {
     if (trust_ != nullptr) trust_->hit(event);
     HitEvent copy = event;
     copy.particle = number(event.particle);
+    if (energies_ != nullptr) energies_->hit(copy);
     observer_.hit(copy);
   }
   void contact(const ContactEvent& event) override {
@@ -39,6 +102,7 @@ class Renumbering : public Observer {
     copy.second = number(event.second);
     ++contacts_[static_cast<std::size_t>(copy.first)];
     ++contacts_[static_cast<std::size_t>(copy.second)];
+    if (energies_ != nullptr) energies_->contact(copy);
     observer_.contact(copy);
   }
   void sample(int particle, Time time, const State& state) override {
@@ -56,12 +120,14 @@ class Renumbering : public Observer {
   }
   const std::optional<EndEvent>& end_of(std::size_t particle) const { return ends_[particle]; }
   void estimate(TrustRecorder* trust) { trust_ = trust; }
+  void watch(FreeEnergies* energies) { energies_ = energies; }
   std::uint64_t contacts_of(std::size_t particle) const { return contacts_[particle]; }
 
  private:
   int number(int particle) const { return numbers_[static_cast<std::size_t>(particle)]; }
   Observer& observer_;
   TrustRecorder* trust_ = nullptr;  ///< by the numbers of the world
+  FreeEnergies* energies_ = nullptr;
   const std::vector<int>& numbers_;
   std::vector<Time> entries_;  ///< when each particle entered
   std::vector<std::optional<EndEvent>> ends_;
@@ -71,11 +137,11 @@ class Renumbering : public Observer {
 // Has the particle ended for good? A cap on hits may have been raised since, and a pinned or
 // surviving particle goes on.
 bool gone(Fate fate) {
-  return fate == Fate::escaped || fate == Fate::singular || fate == Fate::unbounded || fate == Fate::lost;
+  return fate == Fate::escaped || fate == Fate::singular || fate == Fate::unbounded || is_failure(fate);
 }
 
 ParticleEnd as_seen(const System& system, const ParticleProgress& progress, State state,
-                    double energy_error) {
+                    const EnergyError& energy_error) {
   ParticleEnd end;
   end.progress = progress;
   end.t = state.time.value();
@@ -163,16 +229,35 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     passed_on.estimate(&*trust);
   }
   SingleRunResult result;
-  // Energy is shared by particles that interact, by forces or by contacts.
   const ForceField* field = system.dynamics.forces.get();
-  const bool forces = field != nullptr && (!field->empty() || !field->disc_radii().empty());
+  const bool integrated = system.dynamics.everywhere || (field != nullptr && !field->empty());
+  // Energy is shared by particles that interact, by forces or by contacts.
+  const bool shared = integrated ? field != nullptr && field->interacts() : system.of_discs();
   std::vector<Particle> particles;
   for (const int p : numbers) particles.push_back(all[static_cast<std::size_t>(p)]);
-  if (forces) {
+  const auto energies_now = [&](const auto& state_of) {
+    std::vector<Energy> energies;
     std::vector<State> states;
-    for (std::size_t i = 0; i < numbers.size(); ++i) states.push_back(world.state(static_cast<int>(i)));
-    result.energy_at_start = energy_of(particles, states, system.dynamics, *system.table);
+    for (std::size_t i = 0; i < numbers.size(); ++i) states.push_back(state_of(i));
+    if (shared) return std::vector<Energy>(numbers.size(), energy_of(particles, states, system.dynamics, *system.table));
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      energies.push_back(energy_of({&particles[i], 1}, {&states[i], 1}, system.dynamics, *system.table));
+    return energies;
+  };
+  const auto state_now = [&](std::size_t i) { return world.state(static_cast<int>(i)); };
+  const std::vector<Energy> at_start = energies_now(state_now);
+  FreeEnergies free(all, shared);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const EnergyBalance& before = progress[static_cast<std::size_t>(numbers[i])].energy;
+    if (integrated)
+      world.set_energy_balance(static_cast<int>(i), before);
+    else
+      free.begin(numbers[i], before, state_now(i));
   }
+  if (integrated)
+    world.watch_energy();
+  else
+    passed_on.watch(&free);
   const std::function<bool()> interrupted = [&] {
     result.interrupted = result.interrupted || (options.interrupted && options.interrupted());
     return result.interrupted;
@@ -195,33 +280,40 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     if (world.last_wall(body) >= 0) now.last_wall = world.last_wall(body);
     now.hole = world.hole(body);
     if (trust) now.trust = trust->trust(body);
+    now.energy = integrated ? world.energy_balance(body) : free.of(numbers[i]);
     const std::optional<EndEvent>& end = passed_on.end_of(p);
     now.fate = end ? end->fate : Fate::survived;
     const bool until_stop = now.fate == Fate::survived || now.fate == Fate::pinned;
     now.end = !until_stop ? end->time : result.interrupted ? now.state.time : Time(system.run.t_max);
   }
+  if (shared && !numbers.empty())
+    for (ParticleProgress& one : progress) one.energy = progress[static_cast<std::size_t>(numbers.front())].energy;
   std::vector<State> last(count);
   for (std::size_t p = 0; p < count; ++p) last[p] = moved_on(all[p], progress[p]);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::size_t p = static_cast<std::size_t>(numbers[i]);
     last[p] = world.state_at(static_cast<int>(i), progress[p].end);
   }
-  double energy_error = 0.0;
-  if (forces) {
-    std::vector<State> states;
-    for (const int p : numbers) states.push_back(last[static_cast<std::size_t>(p)]);
-    result.energy_at_end = energy_of(particles, states, system.dynamics, *system.table);
-    const double start = result.energy_at_start.total(), change = result.energy_at_end.total() - start;
-    energy_error = start == 0.0 ? change : change / start;
-    // Particles that feel each other share their energy until the first of them is gone.
-    const bool everybody = std::none_of(progress.begin(), progress.end(), [](const ParticleProgress& one) {
-      return gone(one.fate) || one.fate == Fate::capped;
-    });
-    if (count > 1 && field->interacts() && !everybody) energy_error = std::numeric_limits<double>::quiet_NaN();
+  // Particles that share their energy are all there until the first of them is gone.
+  const bool everybody = numbers.size() == count && std::none_of(progress.begin(), progress.end(), [](const ParticleProgress& one) {
+    return gone(one.fate) || one.fate == Fate::capped;
+  });
+  const std::vector<Energy> at_end = energies_now([&](std::size_t i) { return last[static_cast<std::size_t>(numbers[i])]; });
+  std::vector<EnergyError> errors;
+  for (const ParticleProgress& one : progress) errors.push_back(one.energy.error_at_end(one.energy.change, 0.0));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::size_t p = static_cast<std::size_t>(numbers[i]);
+    const EnergyBalance& seen = progress[p].energy;
+    if (shared ? everybody : integrated) {
+      const double before = options.resume.empty() ? 0.0 : options.resume[p].energy.change;
+      errors[p] = seen.error_at_end(before + (at_end[i].total() - at_start[i].total()), at_end[i].kinetic);
+    } else if (!shared) {
+      const double error = speed_error(all[p], last[p]);
+      errors[p] = {error, larger(errors[p].largest, std::fabs(error))};
+    }
   }
   for (std::size_t p = 0; p < count; ++p) {
-    const double error = forces ? energy_error : speed_error(all[p], last[p]);
-    result.particles.push_back(as_seen(system, progress[p], last[p], error));
+    result.particles.push_back(as_seen(system, progress[p], last[p], errors[p]));
     ParticleEnd& end = result.particles.back();
     if (!trust) end.progress.trust.open = false;  // an earlier part of the run may have flown
     end.trust = trust ? trust->at_end(all[p], progress[p].state, progress[p].trust, progress[p].end)
@@ -233,6 +325,8 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   for (std::size_t i = 0; i < numbers.size(); ++i)
     result.particles[static_cast<std::size_t>(numbers[i])].report = world.report(static_cast<int>(i));
   result.decisions = world.decisions();
+  result.steps = options.steps;
+  result.steps += world.step_counts();
   result.seconds = watch.seconds();
   result.cpu_seconds = watch.cpu_seconds();
   return result;

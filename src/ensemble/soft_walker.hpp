@@ -40,41 +40,35 @@ class SoftWalker {
     for (std::size_t k = 0; k < count; ++k) starts_[k] = sampler_.draw_all(world_, first + k);
     squares_.assign(count * particles, {});
     ends_.assign(count, {});
+    energies_.clear();
+    for (std::size_t k = 0; k < count; ++k) energies_.emplace_back(system_).begin(starts_[k]);
     for (std::size_t p = 0; p < particles; ++p) {
       walks_.clear();
       for (std::size_t k = 0; k < count; ++k) walks_.push_back({starts_[k][p]});
       const auto sample = [&](std::size_t k, std::size_t, const State& state) {
         squares_[k * particles + p].push_back(square_of_displacement(system_, starts_[k][p], state));
+        energies_[k].sample(p, state);
       };
       if (!lanes_.run(system_.particles[p], walks_, t_end, system_.run.times, sample, stopped)) return false;
       for (std::size_t k = 0; k < count; ++k) ends_[k].push_back(std::move(walks_[k]));
     }
     for (std::size_t k = 0; k < count; ++k) {
       std::vector<DiffusingParticle> all;
+      std::vector<SampledEnergies::End> energies;
+      StepCounts steps;
       for (std::size_t p = 0; p < particles; ++p) {
         SoftLanes::Walk& walk = ends_[k][p];
         const double time = walk.fate == Fate::survived ? t_end : walk.ended.value();
         all.push_back({(first + k) * particles + p, walk.fate, time, walk.hits, walk.last_wall, walk.state,
                        &squares_[k * particles + p], {}});
-        if (walk.fate == Fate::lost) all.back().report = std::move(walk.report);
+        energies.push_back({walk.state, walk.fate, walk.kinetic});
+        steps += walk.steps;
+        if (is_failure(walk.fate)) all.back().report = std::move(walk.report);
       }
       const DecisionCounts now = lanes_.decisions();
-      tally_.add(first + k, all, energy_change(k), now - std::exchange(decisions_, now));
+      tally_.add(first + k, all, energies_[k].end(energies), steps, now - std::exchange(decisions_, now));
     }
     return true;
-  }
-
-  /// Of a trajectory whose particles are all left.
-  double energy_change(std::size_t k) const {
-    std::vector<State> states;
-    for (const SoftLanes::Walk& walk : ends_[k]) {
-      if (walk.fate != Fate::survived) return 0.0;
-      states.push_back(walk.state);
-    }
-    return std::fabs(energy_of(states) - energy_of(starts_[k]));
-  }
-  double energy_of(const std::vector<State>& states) const {
-    return carom::energy_of(system_.particles, states, system_.dynamics, *system_.table).total();
   }
 
   const System& system_;
@@ -84,6 +78,7 @@ class SoftWalker {
   DiffusionTally tally_;
   DecisionCounts decisions_;  ///< that were told
   std::vector<std::vector<State>> starts_;
+  std::vector<SampledEnergies> energies_;
   std::vector<std::vector<SoftLanes::Walk>> ends_;
   std::vector<std::vector<double>> squares_;
   std::vector<SoftLanes::Walk> walks_;

@@ -135,7 +135,10 @@ double chosen_kick(const Setting& setting, SplittingPlan plan, SplittingOptions 
     shared.first = (starts + plan.population - 1) / plan.population;
     const bool all = follow(setting, plan, BlockPlan(repetitions, options.threads, 1), options, shared);
     result.reports.insert(result.reports.end(), shared.reports.begin(), shared.reports.end());
-    for (const PopulationRun& one : shared.runs.front()) result.lost += one.lost;
+    for (const PopulationRun& one : shared.runs.front()) {
+      result.unresolved += one.unresolved;
+      result.lost += one.lost;
+    }
     return all ? shared.runs.front() : std::vector<PopulationRun>();
   };
   for (plan.kick = SplittingPlan::largest_choice; plan.kick > least; plan.kick /= 2) {
@@ -186,6 +189,7 @@ SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
   for (const auto& runs : result.runs) {
     for (const PopulationRun& run : runs) {
       result.collisions += run.collisions;
+      result.unresolved += run.unresolved;
       result.lost += run.lost;
       result.digest += run.digest;
     }

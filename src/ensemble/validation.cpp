@@ -32,7 +32,7 @@ bool agrees(const ValidationCase& c, Allowance allowance) {
 
 void judge(ValidationCase& c, Allowance allowance) {
   c.distance = c.error > 0.0 ? (c.value - c.expected) / c.error : c.value - c.expected;
-  c.passed = c.complete && c.lost == 0 && agrees(c, allowance);
+  c.passed = c.complete && c.lost == 0 && c.unresolved == 0 && agrees(c, allowance);
 }
 
 // Runs the ensemble and fills in everything but the value.
@@ -44,6 +44,7 @@ EscapeResult run(const System& system, const ValidationOptions& options, Validat
   c.complete = result.complete;
   c.seed = system.run.seed;
   c.hits = result.counts.collisions;
+  c.unresolved = result.counts.unresolved;
   c.lost = result.counts.lost;
   c.seconds = result.seconds;
   c.cpu_seconds = result.cpu_seconds;
@@ -89,7 +90,7 @@ class Follower {
       Probe probe(system_);
       World world(*system_.table, system_.dynamics);
       world.limit_hits(system_.run.collisions);
-      std::uint64_t lost = 0, singular = 0;
+      std::uint64_t unresolved = 0, lost = 0, singular = 0;
       const auto stopped = [&] { return failed_ || interrupted(); };
       for (std::uint64_t i = next_++; i < system_.run.trajectories && !stopped(); i = next_++) {
         probe.begin(i);
@@ -97,11 +98,13 @@ class Follower {
         add_start(world, sampler_, i, 0);
         world.run_until(system_.run.t_max, probe);
         probe.end();
+        unresolved += world.fate(0) == Fate::unresolved;
         lost += world.fate(0) == Fate::lost;
         singular += world.fate(0) == Fate::singular;
       }
       const std::lock_guard lock(mutex_);
       case_.hits += probe.hits;
+      case_.unresolved += unresolved;
       case_.lost += lost;
       case_.singular += singular;
       kept_.insert(kept_.end(), probe.kept.begin(), probe.kept.end());
@@ -271,6 +274,7 @@ ValidationCase check_distance(const System& system, double expected, Allowance a
   const ParticleEnd& end = result.particles.front();
   c.value = std::sqrt(end.x * end.x + end.y * end.y);
   c.hits = end.progress.hits;
+  c.unresolved = end.progress.fate == Fate::unresolved;
   c.lost = end.progress.fate == Fate::lost;
   c.report = end.report;
   c.seconds = result.seconds;

@@ -1,10 +1,36 @@
 #include "carom/events/energy.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "forces/nearest_copy.hpp"
 
 namespace carom {
 
 using geometry::Vector;
+
+double larger(double a, double b) {
+  if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
+  return std::max(a, b);
+}
+
+double relative_to(double kinetic, double change) {
+  if (change == 0.0) return 0.0;
+  return std::isnan(change) ? std::numeric_limits<double>::infinity() : std::fabs(change) / kinetic;
+}
+
+EnergyError& EnergyError::operator+=(const EnergyError& o) {
+  end = larger(std::fabs(end), std::fabs(o.end));
+  largest = larger(largest, o.largest);
+  return *this;
+}
+
+EnergyError EnergyBalance::error_at_end(double change_at_end, double kinetic_at_end) const {
+  const double scale = larger(kinetic, kinetic_at_end);
+  const double end = relative_to(scale, change_at_end);
+  return {change_at_end < 0.0 ? -end : end, relative_to(scale, larger(largest, std::fabs(change_at_end)))};
+}
 
 Energy energy_of(std::span<const Particle> particles, std::span<const State> states, const Dynamics& dynamics,
                  const Table& table) {

@@ -62,6 +62,8 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   bodies_ = std::move(bodies);
   particles_ = std::move(particles);
   passed_ = nullptr;
+  last_energy_.reset();
+  external_.position.clear();
   cells_.assign(bodies_.size(), Cell{});
   phase_.position.resize(bodies_.size());
   phase_.velocity.resize(bodies_.size());
@@ -85,10 +87,16 @@ void Group::make_stepper() {
 
 void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const {
   std::fill(a.begin(), a.end(), Vector{});
+  if (in_.counts) ++in_.counts->force_evaluations;
   if (!in_.forces) return;
   const ForceField& forces = *in_.forces;
+  double energy = 0.0;
   if (forces.external())
-    for (std::size_t i = 0; i < x.size(); ++i) forces.add_external(particles_[i], x[i], a[i]);
+    for (std::size_t i = 0; i < x.size(); ++i) energy += forces.add_external(particles_[i], x[i], a[i]);
+  if (in_.remember_energy) {
+    external_.position.assign(x.begin(), x.end());
+    external_.energy = energy;
+  }
   if (forces.interacts()) forces.add_pairs(particles_, x, in_.lattice, a);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (particles_[i].mass != 1.0) a[i] = (1.0 / particles_[i].mass) * a[i];
@@ -193,6 +201,7 @@ std::string_view Group::fault_at(const Phase<double>& phase) const {
 }
 
 void Group::advance() {
+  if (in_.counts) ++in_.counts->steps;
   phase_ = next_.member < 0 ? path_->end().phase : path_->at(next_.duration).phase;
   time_ = next_time();
   if (splits_) end_drift();
@@ -210,7 +219,40 @@ State Group::state_at(std::size_t member, const Time& time) {
   return s;
 }
 
+double Group::kinetic_energy() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    sum += 0.5 * particles_[i].mass * dot(phase_.velocity[i], phase_.velocity[i]);
+  return sum;
+}
+
+double Group::energy() {
+  double sum = kinetic_energy();
+  if (!in_.forces) return sum;
+  const ForceField& forces = *in_.forces;
+  if (forces.external() && external_.position == phase_.position) {
+    sum += external_.energy;
+  } else if (forces.external()) {
+    Vector unused{};
+    for (std::size_t i = 0; i < bodies_.size(); ++i) sum += forces.add_external(particles_[i], phase_.position[i], unused);
+  }
+  return sum + forces.pair_energy(particles_, phase_.position, in_.lattice);
+}
+
+double Group::change_of_energy() {
+  const double now = energy(), before = last_energy_.value_or(now);
+  last_energy_ = now;
+  return now - before;
+}
+
+void Group::forget() {
+  stepper_->forget();
+  path_->forget();
+}
+
 void Group::remove(std::size_t member) {
+  last_energy_.reset();
+  external_.position.clear();
   if (bodies_.size() == 1) return bodies_.clear();  // the rest is kept for whoever comes next
   const auto i = static_cast<std::ptrdiff_t>(member);
   bodies_.erase(bodies_.begin() + i);

@@ -4,11 +4,13 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "carom/base/time.hpp"
+#include "carom/events/step_counts.hpp"
 #include "carom/events/surface.hpp"
 #include "carom/forces/force_field.hpp"
 #include "carom/geometry/lattice.hpp"
@@ -38,6 +40,8 @@ class Group final : public ForceLaw<double> {
     double longest_way = std::numeric_limits<double>::infinity();  ///< most that walls allow in one step
     std::shared_ptr<ForceMaps> maps;         ///< bounds of external forces; null: any step will do
     std::function<bool(geometry::Vector)> inside;  ///< of a bounded table, or on its wall to rounding; empty: of another
+    StepCounts* counts = nullptr;              ///< where steps and evaluations are counted, or null
+    bool remember_energy = false;              ///< of the latest evaluation of the external forces
   };
   /// What comes first.
   struct Next {
@@ -77,6 +81,17 @@ class Group final : public ForceLaw<double> {
   /// after what comes first; `origin`: of its cell.
   void crossings(const Surface& surface, std::size_t member, double from, double to, geometry::Vector origin,
                  std::vector<SurfaceCrossing>& found);
+  double kinetic_energy() const;
+  /// Kinetic and potential energy of all members at phase(), whose potentials the last evaluation of the forces may have given.
+  double energy();
+  bool has_energy() const { return last_energy_.has_value(); }
+  /// By how much that has changed since it was last asked for; 0 if others are members now.
+  double change_of_energy();
+  /// Forgets what is known of forces: whichever phase comes next, the same will be evaluated.
+  void forget();
+  /// Are the forces at the start, or the end, of the path under way known to the search for walls?
+  bool arc_at_start() const { return !path_->start().acceleration.empty(); }
+  bool arc_at_end() const { return !path_->end().acceleration.empty(); }
   /// Takes a member out.
   void remove(std::size_t member);
   /// Puts a member back into the lattice's cell.
@@ -111,6 +126,12 @@ class Group final : public ForceLaw<double> {
   void watch(const Phase<double>& end);
 
   const Surroundings& in_;
+  struct Evaluated {
+    std::vector<geometry::Vector> position;
+    double energy = 0.0;
+  };
+  mutable Evaluated external_;         ///< the potentials of the latest evaluation, if they are remembered
+  std::optional<double> last_energy_;  ///< as of change_of_energy; empty: of other members
   std::vector<int> bodies_;
   std::vector<Particle> particles_;
   std::vector<double> omega_, masses_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace carom {
 
@@ -67,13 +66,6 @@ bool meets_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Ve
     const double first = b.gap(from), last = b.gap(to);
     return !(std::min(first, last) > b.slack) && !(std::max(first, last) < -b.slack);
   });
-}
-
-std::string describe(const Particle& p, const State& s, Fate fate) {
-  char text[400];
-  std::snprintf(text, sizeof text, "%s: wall %d, u %a, x %a, y %a, vx %a, vy %a, omega %a, t %.17g", name_of(fate),
-                s.wall, s.u, s.position.x, s.position.y, s.velocity.x, s.velocity.y, p.omega, s.time.value());
-  return text;
 }
 
 }  // namespace carom

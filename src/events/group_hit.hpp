@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "carom/events/decisions.hpp"
@@ -27,8 +26,5 @@ GroupHit hit_of(const HitFinder& finder, const Table&, const Group&, std::size_t
 bool on_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vector);
 /// Does the short way between two points touch one of them, to rounding?
 bool meets_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vector, geometry::Vector);
-
-/// For reports of particles that are lost, or singular.
-std::string describe(const Particle&, const State&, Fate);
 
 }  // namespace carom

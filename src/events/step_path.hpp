@@ -49,6 +49,8 @@ class StepPath {
     end.time = stepper_.step(from, at_most, end.phase);
     return end.time;
   }
+  /// The next path is a new one, wherever it begins.
+  void forget() { used_ = 0; }
   Knot& start() { return *knots_[0]; }
   Knot& end() { return *knots_[1]; }
 

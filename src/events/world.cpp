@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "carom/base/error.hpp"
+#include "carom/events/report.hpp"
 #include "events/group_hit.hpp"
 #include "events/table_with_supports.hpp"
 #include "events/world_implementation.hpp"
@@ -86,13 +87,13 @@ void World::Implementation::fly(int index) { predict(index, bodies[static_cast<s
 void World::Implementation::fly_on(int index) { enqueue(index, bodies[static_cast<std::size_t>(index)]); }
 void World::Implementation::apply_own(int index, Observer& observer) { apply(index, queue.key(index).time, observer); }
 
-void World::Implementation::end(int index, Fate fate, Time time, Observer* observer) {
+void World::Implementation::end(int index, Fate fate, Time time, Observer* observer, std::string_view why) {
   Body& b = bodies[static_cast<std::size_t>(index)];
   b.fate = fate;
   b.finished = true;
   queue.remove(index);
   if (fate == Fate::lost || fate == Fate::singular || fate == Fate::unresolved)
-    b.report = describe(b.particle, b.state, fate);
+    b.report = report_of(b.particle, b.state, fate, why);
   if (observer) observer->end({index, fate, time, b.state, b.hole, b.hits});
 }
 
@@ -204,7 +205,8 @@ bool World::Implementation::fails_before(const Body& b, Time t) const {
   return !group.next().fault.empty() && group.time() < t;
 }
 
-/// Who is in such a step is lost where it begins, also if it would end later than the run. True if others go on from there.
+/// Ends every particle whose step under way failed where that step begins, also if it would end later than the run. True if
+/// others go on from there.
 bool World::Implementation::end_failed_steps(Time t_end, Observer& observer) {
   bool others = false;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -297,6 +299,8 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
     if (!w.contacts || b.particle.speed > 0.0) w.begin_free(b);
     if (w.by_range) b.check = state.time;
   }
+  w.balances.push_back({0.0, 0.0, 0.5 * b.particle.mass * dot(state.velocity, state.velocity)});
+  w.changes.emplace_back();
   w.bodies.push_back(std::move(b));
   const int index = static_cast<int>(w.bodies.size()) - 1;
   w.queue.push({});
@@ -312,6 +316,9 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
 void World::clear() {
   Implementation& w = *implementation_;
   w.bodies.clear();
+  w.balances.clear();
+  w.changes.clear();
+  w.steps = {};
   w.queue.clear();
   w.idle_groups.clear();
   for (std::size_t i = 0; i < w.groups.size(); ++i) w.idle_groups.push_back(static_cast<int>(i));

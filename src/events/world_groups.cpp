@@ -56,6 +56,7 @@ void World::Implementation::add_barriers() {
   surroundings.forces = acts(dynamics) ? dynamics.forces.get() : nullptr;
   surroundings.plan = dynamics.integrator;
   if (surroundings.forces) surroundings.maps = std::make_shared<ForceMaps>(*surroundings.forces);
+  surroundings.counts = &steps;
   if (table.lattice) {
     surroundings.lattice = &*table.lattice;
     surroundings.centre = centre_of_cell(*table.lattice);
@@ -153,6 +154,7 @@ void World::Implementation::predict_group(int leader) {
   if (one_group || by_range)
     for (const Body& b : bodies)
       if (!b.finished && b.group < 0 && b.state.time > group.time()) until = std::min(until, b.state.time);
+  look_at_start(group);
   group.predict(until);
   queue.update(leader, group.next_time(), static_cast<int>(EventKind::group));
 }
@@ -182,6 +184,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
   }
   if (surface) watch_group(group, group.next_time(), observer);
   group.advance();
+  look_at_end(group);
   if (next.member < 0)
     for (std::size_t k = 0; k < group.bodies().size(); ++k) group.fold(k);
   copy_states(group);
@@ -205,8 +208,7 @@ void World::Implementation::apply_group(int leader, Observer& observer) {
 /// Where the step under way begins.
 void World::Implementation::lose(Group& group, std::size_t member, std::string_view why, Observer& observer) {
   const int body = group.bodies()[member];
-  end(body, Fate::unresolved, group.time(), &observer);
-  bodies[at(body)].report.append(": ").append(why);
+  end(body, Fate::unresolved, group.time(), &observer, why);
   take_out(group, member);
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "carom/base/twofold.hpp"
 #include "carom/events/decision_range.hpp"
 #include "carom/events/world.hpp"
 #include "events/contacts.hpp"
@@ -57,7 +58,7 @@ class World::Implementation {
   void apply_own(int index, Observer& observer);  ///< apply, likewise
   void fly_on(int index);  ///< enqueue, likewise
   void reflect(int index, Body& body, Time now, Observer& observer, const HitFinder::Landing& landing);
-  void end(int index, Fate fate, Time time, Observer* observer);
+  void end(int index, Fate fate, Time time, Observer* observer, std::string_view why = {});
   void emit_samples(Time until, bool inclusive, Observer& observer);
   State state_at(const Body& body, Time t) const;
   bool fails_before(const Body& body, Time t) const;
@@ -104,6 +105,12 @@ class World::Implementation {
   void copy_states(const Group& group);
   bool is_support(int wall) const { return wall >= wall_count; }
 
+  // Energies (world_energy.cpp).
+  bool share_energy() const { return one_group || by_range; }
+  EnergyBalance& balance_of(const Group& group);
+  void look_at_start(Group& group);
+  void look_at_end(Group& group);
+
   // Hard discs (world_contacts.cpp).
   void add_contacts();
   void add_disc(int index);
@@ -146,6 +153,9 @@ class World::Implementation {
   bool one_group = false;         ///< the particles interact at any distance
   bool by_range = false;          ///< they interact within a range: groups merge and split
   Group::Surroundings surroundings;
+  StepCounts steps;
+  std::vector<EnergyBalance> balances;  ///< one a body; where they interact the first is that of all
+  std::vector<Twofold> changes;         ///< their changes, without the rounding of sums
   std::vector<std::unique_ptr<Group>> groups;
   std::vector<int> idle_groups;   ///< kept for the next particle that comes under a force
   std::unique_ptr<Contacts> contacts;  ///< of hard discs, or null

@@ -41,17 +41,18 @@ void ForceField::add_pairs(std::span<const Particle> particles, std::span<const 
   if (interaction_) interaction_->add_forces(particles, x, lattice, force);
 }
 
+double ForceField::pair_energy(std::span<const Particle> particles, std::span<const Vector> x,
+                               const geometry::Lattice* lattice) const {
+  return interaction_ ? interaction_->energy(particles, x, lattice) : 0.0;
+}
+
 double ForceField::potential_energy(std::span<const Particle> particles, std::span<const Vector> x,
                                     const geometry::Lattice* lattice) const {
   double sum = 0.0;
   Vector unused{};
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (external()) sum += add_external(particles[i], x[i], unused);
-    for (std::size_t j = i + 1; j < x.size() && interacts(); ++j)
-      sum += add_pair(particles[i], particles[j],
-                      lattice ? nearest_copy(x[i] - x[j], *lattice) : x[i] - x[j], unused);
-  }
-  return sum;
+  if (external())
+    for (std::size_t i = 0; i < x.size(); ++i) sum += add_external(particles[i], x[i], unused);
+  return sum + pair_energy(particles, x, lattice);
 }
 
 namespace {

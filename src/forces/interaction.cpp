@@ -65,6 +65,20 @@ class Central final : public Interaction {
       force[i] = force[i] + sum;
     }
   }
+  double energy(std::span<const Particle> particles, std::span<const Vector> x,
+                const geometry::Lattice* lattice) const override {
+    double all = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      double sum = 0.0;
+      for (std::size_t j = i + 1; j < x.size(); ++j) {
+        const Vector d = lattice ? nearest_copy(x[i] - x[j], *lattice) : x[i] - x[j];
+        const double charges = charged_ ? particles[i].charge * particles[j].charge : 1.0;
+        sum += charges * law_(dot(d, d)).value;
+      }
+      all += sum;
+    }
+    return all;
+  }
   double reach() const override { return reach_; }
   double tail() const override { return tail_; }
 

@@ -52,6 +52,8 @@ class Interaction {
                           std::span<geometry::Vector> force) const = 0;
   /// How large the force of a pair can be whose separation is displaced by at most `rho` from one of that length.
   virtual ForceBound bound(const Particle& a, const Particle& b, double distance, double rho) const = 0;
+  /// The sum of W over all pairs.
+  virtual double energy(std::span<const Particle>, std::span<const geometry::Vector> x, const geometry::Lattice*) const = 0;
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
 };

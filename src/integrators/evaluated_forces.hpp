@@ -40,6 +40,10 @@ class EvaluatedForces {
     return end.acceleration;
   }
 
+  void forget() {
+    for (Known* known : {&start_, &whole_, &part_}) known->position.clear();
+  }
+
   /// What is known at these positions from the start under way, or nothing.
   std::span<const Vector> remembered(std::span<const Vector> position) const {
     if (matches(start_, position)) return start_.acceleration;

@@ -59,6 +59,8 @@ class SplittingStepper final : public Stepper<Real> {
     return time;
   }
 
+  void forget() override { known_.forget(); }
+
  private:
   std::span<const Vector> accelerations(std::size_t stage, std::span<const Vector> position) {
     if (stage == 0) return known_.at_start(position);

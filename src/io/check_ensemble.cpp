@@ -80,7 +80,7 @@ void check_stored(const StoredEnsemble& stored, const EscapeResult& result, cons
 void check_stored(const StoredEnsemble& stored, const DiffusionResult& result, const System& system) {
   check_common(stored, result, result.trajectories, "/fates/trajectories", system);
   check_times(stored, result.sums.times(), "/msd/t", system);
-  if (result.survived + result.escaped + result.capped + result.singular + result.unbounded + result.lost !=
+  if (result.survived + result.escaped + result.capped + result.singular + result.unbounded + result.unresolved + result.lost !=
       result.trajectories)
     damaged(stored.file, "'/fates' do not add up to '/fates/trajectories'");
   if (result.pinned > result.survived) damaged(stored.file, "'/fates/pinned' is more than '/fates/survived'");

@@ -128,6 +128,8 @@ void write_counts(const ArchiveFile& file, const DiffusionResult& result, const 
     hdf5::write_column(ends.get(), name, std::span(&value, 1), description, file.name());
   };
   for (const Number& number : numbers) write(number.name, result.*number.value, {"1", number.text});
+  write("unresolved", result.unresolved, {"1", "Ended where integration could not follow"});
+  if (is_integrated(system)) write_integration(ends.get(), result, file.name());
   write(energy_change, result.energy_change, {"energy", "With forces: the largest change of a trajectory's energy"});
   write(digest, result.digest, {"1", "Sum of a hash of each trajectory's end: other ends, another digest"});
 }
@@ -145,6 +147,8 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult& result) {
     value = read_number<std::decay_t<decltype(value)>>(ends.get(), column, fmt::format("/fates/{}", column), name);
   };
   for (const Number& number : numbers) read(result.*number.value, number.name);
+  result.unresolved = read_unresolved(ends.get(), name);
+  read_integration(ends.get(), name, result);
   read(result.energy_change, energy_change);
   read(result.digest, digest);
 }

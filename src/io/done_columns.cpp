@@ -8,9 +8,11 @@
 
 #include "carom/base/error.hpp"
 #include "io/ensemble_columns.hpp"
+#include "io/step_numbers.hpp"
 
 namespace carom {
 
+using hdf5::Description;
 using hdf5::Handle;
 
 Handle open_group(hid_t file, const char* group, const std::string& name) {
@@ -28,7 +30,7 @@ void write_done(const ArchiveFile& file, const EnsembleResult& result) {
   if (result.reports.empty()) return;
   std::string text;
   for (const auto& [index, report] : result.reports) text += fmt::format("{}\t{}\n", index, report);
-  hdf5::write_text(file.id(), "lost", text, {"text", "Index and state of the first lost trajectories"}, file.name());
+  hdf5::write_text(file.id(), "lost", text, {"text", "The first trajectories that were lost or unresolved: index, reason, state in hexadecimal numbers, between tabs"}, file.name());
 }
 
 void read_done(hid_t file, const std::string& name, EnsembleResult& result) {
@@ -50,6 +52,44 @@ void read_done(hid_t file, const std::string& name, EnsembleResult& result) {
     if (!starts_with_index) damaged(name, "a line of '/lost' does not begin with an index");
     result.reports.emplace_back(index, line.substr(tab + 1));
   }
+}
+
+namespace {
+
+bool has(hid_t group, const char* column) { return H5Lexists(group, column, H5P_DEFAULT) > 0; }
+
+struct RealNumber {
+  const char* name;
+  double& value;
+  Description description;
+};
+std::vector<RealNumber> reals_of(EnsembleResult& result) {
+  return {{first_unresolved, result.steps.first_unresolved, {"time", "When the earliest of these began"}},
+          {"energy_error_end", result.energy_error.end,
+           {"1", "Largest change of an energy until the end, relative to the largest kinetic energy"}},
+          {"energy_error_largest", result.energy_error.largest, {"1", "Largest change of an energy that was seen, likewise"}}};
+}
+
+}  // namespace
+
+void write_integration(hid_t fates, const EnsembleResult& result, const std::string& name) {
+  for (const StepNumber& number : step_numbers)
+    hdf5::write_column(fates, number.name, std::span<const std::uint64_t>(&(result.steps.*number.value), 1), {"1", number.text}, name);
+  EnsembleResult copy = result;
+  for (const RealNumber& number : reals_of(copy))
+    hdf5::write_column(fates, number.name, std::span<const double>(&number.value, 1), number.description, name);
+}
+
+void read_integration(hid_t fates, const std::string& name, EnsembleResult& result) {
+  if (!has(fates, step_numbers[0].name)) return;
+  for (const StepNumber& number : step_numbers)
+    result.steps.*number.value = read_number<std::uint64_t>(fates, number.name, fmt::format("/fates/{}", number.name), name);
+  for (const RealNumber& number : reals_of(result))
+    number.value = read_number<double>(fates, number.name, fmt::format("/fates/{}", number.name), name);
+}
+
+std::uint64_t read_unresolved(hid_t fates, const std::string& name) {
+  return has(fates, "unresolved") ? read_number<std::uint64_t>(fates, "unresolved", "/fates/unresolved", name) : 0;
 }
 
 }  // namespace carom

@@ -17,7 +17,7 @@ namespace carom {
 void check_stored(const StoredEnsemble&, const EscapeResult&, const System&);
 void check_stored(const StoredEnsemble&, const DiffusionResult&, const System&);
 
-/// Trajectories that are counted, and reports of lost ones.
+/// Trajectories that are counted, and reports of those that failed.
 void write_done(const ArchiveFile&, const EnsembleResult&);
 void read_done(hid_t file, const std::string& name, EnsembleResult&);
 
@@ -26,6 +26,17 @@ void write_counts(const ArchiveFile&, const EscapeResult&, const System&);
 void read_counts(hid_t file, const std::string& name, EscapeResult&);
 void write_counts(const ArchiveFile&, const DiffusionResult&, const System&);
 void read_counts(hid_t file, const std::string& name, DiffusionResult&);
+
+/// Is motion integrated anywhere?
+inline bool is_integrated(const System& system) {
+  const Dynamics& d = system.dynamics;
+  return d.everywhere || (d.forces && !d.forces->empty());
+}
+/// What integration has cost, and how well energies were kept; archives of earlier builds have none of it.
+void write_integration(hid_t fates, const EnsembleResult&, const std::string& name);
+void read_integration(hid_t fates, const std::string& name, EnsembleResult&);
+/// 0 in archives of earlier builds, which called these particles lost.
+std::uint64_t read_unresolved(hid_t fates, const std::string& name);
 
 /// A group of an archive that is read; InputError where it is missing.
 hdf5::Handle open_group(hid_t file, const char* group, const std::string& name);

@@ -72,10 +72,12 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
   number("capped", counts.capped, "Survivors ended by the cap on hits");
   number("singular", counts.singular, "Ended where no continuation is defined");
   number("unbounded", counts.unbounded, "No wall follows any more");
-  number("lost", counts.lost, "Ended by an error: in free flight always 0, under forces a step that failed");
+  number("unresolved", counts.unresolved, "Ended where integration could not follow");
+  number("lost", counts.lost, "Internal errors: always 0");
   number("collisions", counts.collisions, "Reflections of all trajectories");
   number("most_hits", counts.most_hits, "Most reflections of a single trajectory");
   if (system.of_discs()) number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
+  if (is_integrated(system)) write_integration(group.get(), result, target);
   if (system.dynamics.forces && !system.dynamics.forces->empty())
     hdf5::write_column(group.get(), "energy_change", std::span<const double>(&counts.energy_change, 1),
                        {"energy", "The largest change of a particle's energy"}, target);
@@ -134,18 +136,21 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   counts.capped = number("capped");
   counts.singular = number("singular");
   counts.unbounded = number("unbounded");
+  counts.unresolved = read_unresolved(fates.get(), name);
   counts.lost = number("lost");
   counts.collisions = number("collisions");
   counts.most_hits = number("most_hits");
   if (H5Lexists(fates.get(), "contacts", H5P_DEFAULT) > 0) counts.contacts = number("contacts");
   if (H5Lexists(fates.get(), "energy_change", H5P_DEFAULT) > 0)
     counts.energy_change = read_number<double>(fates.get(), "energy_change", "/fates/energy_change", name);
-  if (counts.escaped + counts.survived + counts.singular + counts.unbounded + counts.lost != counts.trajectories)
+  if (counts.escaped + counts.survived + counts.singular + counts.unbounded + counts.unresolved + counts.lost !=
+      counts.trajectories)
     damaged(name, "'/fates' do not add up to '/fates/trajectories'");
   const std::uint64_t gone = counts.escaped + counts.unbounded;
   if (total(counts.gone_in) > gone) damaged(name, "'/survival/gone' has more than '/fates'");
   if (total(counts.gone_in_hits) > gone) damaged(name, "'/survival_hits/gone' has more than '/fates'");
   result.digest = number("digest");
+  read_integration(fates.get(), name, result);
   const auto effort = [&](const char* what) {
     return static_cast<std::uint64_t>(hdf5::read_integer_attribute(provenance.get(), what, name));
   };

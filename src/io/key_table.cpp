@@ -143,6 +143,12 @@ const std::vector<KeyDescription>& key_table() {
        "time of a step; needed where forces act, except with arkode and cvode: there it is the longest step, if not given a width of the narrowest bump"},
       {"integrator", "", "tolerance", "number", "",
        "of arkode and cvode, 1e-12 if not given: error of a step, relative to the state"},
+      {"integrator", "", "unresolved", "string", "\"stop\"",
+       "what becomes of a step that does not resolve the forces it sweeps: stop ends the trajectory as unresolved, count counts "
+       "the step and goes on"},
+      {"integrator", "", "energy_tolerance", "number", "1e-3",
+       "largest change of the energy, relative to the largest kinetic energy, that a result may have; beyond it the report says so "
+       "first and the exit status is 3"},
       {"integrator", "", "walls", "string", "\"reflect\"",
        "reflect: found and refined within the steps; split: walls inside the drifts, for comparison only"},
 

@@ -33,6 +33,12 @@ IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Parti
     plan.tolerance = default_tolerance;
     section.fill("tolerance", number_value("1e-12", section.place_of("tolerance")));
   }
+  plan.energy_tolerance = as_positive(section.get("energy_tolerance"));
+  const Value& unresolved = section.get("unresolved");
+  plan.count_unresolved = as_text(unresolved) == "count";
+  if (!plan.count_unresolved && as_text(unresolved) != "stop")
+    throw InputError(unresolved.place, "unknown treatment of unresolved steps '" + unresolved.text + "'",
+                     "\"stop\" or \"count\"", nearest_name(unresolved.text, {"stop", "count"}));
   const Value& treatment = section.get("walls");
   plan.split_walls = as_text(treatment) == "split";
   if (!plan.split_walls && as_text(treatment) != "reflect")

@@ -10,7 +10,9 @@
 #include "io/archive_file.hpp"
 #include "io/columns.hpp"
 #include "io/contact_columns.hpp"
+#include "io/ensemble_columns.hpp"
 #include "io/ensemble_files.hpp"
+#include "io/step_numbers.hpp"
 #include "io/trust_columns.hpp"
 
 namespace carom {
@@ -90,6 +92,9 @@ const StateField state_fields[] = {
      {"1", "Hole it escaped through, -1: none"},
      nullptr,
      [](P p) { return std::int64_t{p.hole}; }},
+    {"energy_change", true, {"energy", "Change of the energy since the start"}, [](P p) { return p.energy.change; }, nullptr},
+    {"energy_largest", true, {"energy", "Largest change that was seen"}, [](P p) { return p.energy.largest; }, nullptr},
+    {"energy_kinetic", true, {"energy", "Largest kinetic energy that was seen"}, [](P p) { return p.energy.kinetic; }, nullptr},
     {"fate",
      false,
      {"1", "Index into the attribute `names`"},
@@ -136,6 +141,8 @@ class RunArchive::Implementation {
   void reopen(const LoadedSystem& loaded, const Provenance& origin);
   void create_state(std::size_t particles);
   void write_state(const std::vector<ParticleEnd>& particles);
+  void create_steps();
+  void write_steps(const StepCounts& steps);
   bool with_energies() const { return of_discs || (dynamics.forces && !dynamics.forces->empty()); }
 
   ArchiveLock lock;  // first: it lets go last
@@ -198,6 +205,7 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     const Handle group = file.group("energy", "Sums over the particles at each sample's time");
     for (const auto& [name, description] : energy_fields) energies.add<double>(group.get(), name, description);
   }
+  if (is_integrated(loaded.system)) create_steps();
   const std::size_t particles = loaded.system.particles.size() + injected_count(loaded.system, trajectory);
   create_state(particles);
   if (estimates_trust(loaded.system))
@@ -247,6 +255,7 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
 void RunArchive::Implementation::write_state(const std::vector<ParticleEnd>& particles) {
   const Handle group = file.open_group("state");
   for (const StateField& field : state_fields) {
+    if (H5Lexists(group.get(), field.name, H5P_DEFAULT) <= 0) continue;  // of an archive of an earlier build
     Handle dataset = hdf5::checked(H5Dopen2(group.get(), field.name, H5P_DEFAULT), H5Dclose, file.name());
     herr_t written = -1;
     if (field.real) {
@@ -261,6 +270,27 @@ void RunArchive::Implementation::write_state(const std::vector<ParticleEnd>& par
     hdf5::check(written >= 0, file.name());
     hdf5::check(dataset.close(), file.name());
   }
+}
+
+void RunArchive::Implementation::create_steps() {
+  const Handle group = file.group("steps", "What integration has cost");
+  const auto create = [&](const char* name, hid_t type, Description description) {
+    hdf5::create_fixed(group.get(), name, type, 1, description, file.name(), hdf5::Checksum::fletcher32);
+  };
+  for (const StepNumber& number : step_numbers) create(number.name, H5T_NATIVE_UINT64, {"1", number.text});
+  create(first_unresolved, H5T_NATIVE_DOUBLE, {"time", "When the earliest of these began"});
+}
+
+void RunArchive::Implementation::write_steps(const StepCounts& steps) {
+  if (H5Lexists(file.id(), "steps", H5P_DEFAULT) <= 0) return;
+  const Handle group = file.open_group("steps");
+  const auto write = [&](const char* name, hid_t type, const void* value) {
+    Handle dataset = hdf5::checked(H5Dopen2(group.get(), name, H5P_DEFAULT), H5Dclose, file.name());
+    hdf5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0, file.name());
+    hdf5::check(dataset.close(), file.name());
+  };
+  for (const StepNumber& number : step_numbers) write(number.name, H5T_NATIVE_UINT64, &(steps.*number.value));
+  write(first_unresolved, H5T_NATIVE_DOUBLE, &steps.first_unresolved);
 }
 
 RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
@@ -345,6 +375,7 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   a.contacts.close();
   a.energies.close();
   a.write_state(result.particles);
+  a.write_steps(result.steps);
   if (result.particles.front().trust.known)
     write_trust(a.file.open_group("trust").get(), result.particles, a.file.name());
   a.file.add_decisions(result.decisions);
@@ -386,6 +417,11 @@ StoredRun read_run(const std::string& name) {
   const auto u = reals("u"), x = reals("x"), y = reals("y"), vx = reals("vx"), vy = reals("vy"),
              high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
              end_low = reals("end_low");
+  const auto energies = [&](const char* field) {
+    const bool there = H5Lexists(state.get(), field, H5P_DEFAULT) > 0;
+    return there ? reals(field) : std::vector<double>(wall.size(), 0.0);
+  };
+  const auto change = energies("energy_change"), largest = energies("energy_largest"), kinetic = energies("energy_kinetic");
   for (std::size_t i = 0; i < wall.size(); ++i) {
     ParticleProgress p;
     p.state.wall = static_cast<int>(wall[i]);
@@ -400,7 +436,14 @@ StoredRun read_run(const std::string& name) {
     p.last_wall = static_cast<std::int32_t>(last_wall.at(i));
     p.hole = static_cast<std::int32_t>(hole.at(i));
     p.fate = static_cast<Fate>(fate.at(i));
+    p.energy = {change.at(i), largest.at(i), kinetic.at(i)};
     run.particles.push_back(p);
+  }
+  if (H5Lexists(file.get(), "steps", H5P_DEFAULT) > 0) {
+    const Handle steps(H5Gopen2(file.get(), "steps", H5P_DEFAULT), H5Gclose);
+    for (const StepNumber& number : step_numbers)
+      run.steps.*number.value = hdf5::read_column<std::uint64_t>(steps.get(), number.name, name).at(0);
+    run.steps.first_unresolved = hdf5::read_column<double>(steps.get(), first_unresolved, name).at(0);
   }
   if (H5Lexists(file.get(), "trust", H5P_DEFAULT) > 0)
     read_trust(Handle(H5Gopen2(file.get(), "trust", H5P_DEFAULT), H5Gclose).get(), run.particles, name);

@@ -75,6 +75,7 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
     number("capped", result.capped, "Ended by the cap on hits");
     number("singular", result.singular, "Ended where no continuation is defined");
     number("unbounded", result.unbounded, "No wall follows any more");
+    number("unresolved", result.unresolved, "Ended where integration could not follow");
     number("lost", result.lost, "Internal errors: always 0");
     number("digest", result.digest, "Sum of a hash of each orbit's points: equal digests, equal bits");
     const Handle provenance = a.file.open_group("provenance");

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "carom/base/elementary.hpp"
+#include "carom/events/report.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "events/group_hit.hpp"
 #include "events/surroundings.hpp"
@@ -56,6 +58,17 @@ Group::Surroundings surroundings_of(const Table& table, const Dynamics& dynamics
   return in;
 }
 
+/// Evaluations of the force in a step; `known`: that at its start is known.
+std::uint64_t evaluations(const std::vector<Stage<double>>& stages, bool known) {
+  std::uint64_t count = 0;
+  for (const Stage<double>& s : stages) {
+    if (s.kind == Stage<double>::Kind::kick && !known) ++count, known = true;
+    if (s.kind == Stage<double>::Kind::drift || s.kind == Stage<double>::Kind::straight) known = false;
+  }
+  return count;
+}
+bool is_kick(const Stage<double>& stage) { return stage.kind == Stage<double>::Kind::kick; }
+
 }  // namespace
 
 std::string unknown_to_steps(const Table& table, const Dynamics& dynamics) {
@@ -78,11 +91,15 @@ SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, Instruction
       field_(*dynamics.forces),
       step_(dynamics.integrator.step),
       stages_(stages_of<double>(find_scheme(dynamics.integrator.scheme))),
+      keeps_forces_(is_kick(stages_.front()) && is_kick(stages_.back())),
+      step_cost_(evaluations(stages_, keeps_forces_)),
+      sample_cost_(evaluations(stages_, is_kick(stages_.front()))),
       surroundings_(surroundings_of(table, dynamics)),
       kernel_(kernel_for(set)),
       finder_(table, options),
       group_(surroundings_) {
   if (table_.extent == Extent::bounded) surroundings_.inside = [this](Vector x) { return inside(x); };
+  surroundings_.counts = &steps_;
   forces_.exp = elementary::exp_by(kernel_.width);
   forces_.other = add_other;
   forces_.context = this;
@@ -185,8 +202,18 @@ void SoftEngine::read_start(const SoftPack& pack, int lane, const Time& time, St
 }
 
 /// As World does it with a group of one.
-SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, double t_end, std::span<const double> times,
+SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, bool from_lane, double t_end, std::span<const double> times,
                                        const Sample& sample) {
+  // What this group knows is of another particle. A World knows the forces at the ends of this one's latest step.
+  group_.forget();
+  steps_ = {};
+  const bool arc_known = std::exchange(track.arc_known, false);
+  bool first = true;
+  const auto count = [&](Outcome outcome) {
+    track.counts += steps_;
+    if (from_lane) track.counts.force_evaluations -= keeps_forces_;
+    return outcome;
+  };
   State& s = track.state;
   const Time end = next_multiple(s.time, step_);
   std::size_t sampled = 0;
@@ -199,25 +226,30 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, double t_end, std::span
     group_.phase().velocity[0] = s.velocity;
     group_.cells()[0] = s.cell;
     group_.set_time(s.time);
+    track.fastest = std::max(track.fastest, dot(s.velocity, s.velocity));
     const Group::Next next = group_.predict(never);
+    if (std::exchange(first, false) && arc_known && group_.arc_at_start()) --steps_.force_evaluations;
     const Time when = group_.next_time();
     const bool over = when > Time(t_end);
     if (!next.fault.empty()) {
       // There are no states within a step that fails.
       emit_while([&](const Time& t) { return !(t > s.time); });
-      return s.time < Time(t_end) ? this->end(track, Fate::unresolved, next.fault) : Outcome::over;
+      return count(s.time < Time(t_end) ? this->end(track, Fate::unresolved, next.fault) : Outcome::over);
     }
     emit_while([&](const Time& t) { return over || t < when; });
-    if (over) return Outcome::over;
+    if (over) return count(Outcome::over);
     group_.advance();
-    if (next.member < 0) return end_step(track);
-    if (hit(track, *next.barrier)) return Outcome::ended;
-    if (!(s.time < end)) return Outcome::on_a_wall;
+    if (next.member < 0) return count(end_step(track));
+    if (hit(track, *next.barrier)) return count(Outcome::ended);
+    if (!(s.time < end)) return count(Outcome::on_a_wall);
   }
 }
 
 SoftEngine::Outcome SoftEngine::end_step(SoftTrack& track) {
+  const geometry::Cell cell = group_.cells()[0];
   group_.fold(0);
+  track.arc_known = group_.cells()[0] == cell && group_.arc_at_end();
+  if (group_.cells()[0] != cell) count_start(track);
   State& s = track.state;
   s.wall = -1;
   s.position = group_.phase().position[0];
@@ -225,6 +257,12 @@ SoftEngine::Outcome SoftEngine::end_step(SoftTrack& track) {
   s.cell = group_.cells()[0];
   s.time = group_.time();
   return Outcome::at_step_end;
+}
+
+void SoftEngine::count_lane(SoftTrack& track, std::uint64_t steps, bool tried, double fastest) const {
+  track.counts.steps += steps - tried;
+  track.counts.force_evaluations += steps * step_cost_;
+  track.fastest = std::max(track.fastest, fastest);
 }
 
 bool SoftEngine::inside(Vector x) {
@@ -253,8 +291,8 @@ SoftEngine::Outcome SoftEngine::end(SoftTrack& track, Fate fate, std::string_vie
   track.finished = true;
   track.fate = fate;
   track.ended = track.state.time;
-  if (fate == Fate::lost || fate == Fate::singular || fate == Fate::unresolved) track.report = describe(particle_, track.state, fate);
-  if (!fault.empty()) track.report.append(": ").append(fault);
+  if (fate == Fate::lost || fate == Fate::singular || fate == Fate::unresolved)
+    track.report = report_of(particle_, track.state, fate, fault);
   return Outcome::ended;
 }
 

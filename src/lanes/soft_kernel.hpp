@@ -175,6 +175,8 @@ void step(const SoftForces& forces, const SoftStage* stage, int stages, SoftPack
     store(load(pack.y + lane), pack.from_y + lane);
     store(load(pack.vx + lane), pack.from_vx + lane);
     store(load(pack.vy + lane), pack.from_vy + lane);
+    const Vector v{load(pack.vx + lane), load(pack.vy + lane)};
+    store(simd::max(load(pack.fastest + lane), dot(v, v)), pack.fastest + lane);
   }
   for (; stages > 0; --stages, ++stage) {
     if (stage->kind == Kind::kick && !pack.fresh) evaluate(forces, pack);

@@ -46,6 +46,7 @@ class SoftLanes::Implementation {
 
   bool run_pack(std::span<Walk> walks, std::size_t first, double t_end, std::span<const double> times,
                 const Sample& sample, const std::function<bool()>& interrupted) {
+    steps_ = 0;
     fill(walks);
     now_ = Time();
     std::size_t next = 0;
@@ -61,6 +62,7 @@ class SoftLanes::Implementation {
       const double duration = std::clamp(end - now_, 0.0, std::numeric_limits<double>::max());
       engine_.take_step(duration, pack_);
       engine_.find_calls(duration, pack_);
+      ++steps_;
       for (std::size_t i = 0; i < due.size(); ++i) emit(walks.size(), first, from + i, due[i], sample);
       moved_.clear();
       for (std::size_t k = 0; k < walks.size(); ++k)
@@ -90,6 +92,8 @@ class SoftLanes::Implementation {
       if (s.wall < 0) engine_.put(s, pack_, lane);
       tracks_[lane] = SoftTrack();
       tracks_[lane].state = s;
+      if (s.wall < 0) engine_.count_start(tracks_[lane]);
+      enter(lane);
     }
   }
 
@@ -103,6 +107,7 @@ class SoftLanes::Implementation {
       State s;
       SoftEngine::read(copy, static_cast<int>(k), time, s);
       s.cell = tracks_[k].state.cell;
+      if (since > 0.0) engine_.count_sample(tracks_[k]);
       sample(first + k, number, s);
     }
   }
@@ -111,12 +116,19 @@ class SoftLanes::Implementation {
                        const SoftEngine::Sample& sample) {
     const int lane = static_cast<int>(k);
     SoftTrack& track = tracks_[k];
-    if (place_[k] == Place::in_lane) SoftEngine::read_start(pack_, lane, now_, track.state);
+    const bool from_lane = place_[k] == Place::in_lane;
+    if (from_lane) {
+      SoftEngine::read_start(pack_, lane, now_, track.state);
+      const std::uint64_t steps = steps_ - 1 - entered_[lane];
+      if (steps > 0) track.arc_known = false;
+      engine_.count_lane(track, steps, false, pack_.fastest[lane]);
+    }
     place_[k] = Place::gone;
-    switch (engine_.follow(track, t_end, times, sample)) {
+    switch (engine_.follow(track, from_lane, t_end, times, sample)) {
       case Outcome::at_step_end:
         place_[k] = Place::in_lane;
         pack_.resolved[lane] = false;
+        enter(lane);
         engine_.put(track.state, pack_, lane);
         moved_.push_back(lane);
         break;
@@ -133,7 +145,14 @@ class SoftLanes::Implementation {
     State& s = tracks_[lane].state;
     SoftEngine::read(pack_, lane, now_, s);
     engine_.put(s, pack_, lane);
+    engine_.count_start(tracks_[lane]);
     moved_.push_back(lane);
+  }
+
+  /// Its next step is the pack's next one.
+  void enter(int lane) {
+    entered_[lane] = steps_;
+    pack_.fastest[lane] = 0.0;
   }
 
   void finish(std::span<Walk> walks) {
@@ -141,13 +160,18 @@ class SoftLanes::Implementation {
       Walk& walk = walks[k];
       SoftTrack& track = tracks_[k];
       // The last step was tried, and is not made.
-      if (place_[k] == Place::in_lane) SoftEngine::read_start(pack_, static_cast<int>(k), now_, track.state);
+      if (place_[k] == Place::in_lane) {
+        SoftEngine::read_start(pack_, static_cast<int>(k), now_, track.state);
+        engine_.count_lane(track, steps_ - entered_[k], true, pack_.fastest[k]);
+      }
       walk.state = track.state;
       walk.fate = track.fate;
       walk.ended = track.ended;
       walk.hits = track.hits;
       walk.last_wall = track.last_wall;
       walk.report = std::move(track.report);
+      walk.steps = track.counts;
+      walk.kinetic = engine_.kinetic_energy(track);
     }
   }
 
@@ -156,6 +180,8 @@ class SoftLanes::Implementation {
   Place place_[SoftPack::lanes] = {};
   SoftTrack tracks_[SoftPack::lanes];
   Time now_;
+  std::uint64_t steps_ = 0;                      ///< that the pack has taken
+  std::uint64_t entered_[SoftPack::lanes] = {};  ///< how many it had taken when the lane's own began
   std::vector<int> moved_;  ///< lanes that hold another point than their last step left there
 };
 

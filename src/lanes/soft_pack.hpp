@@ -19,6 +19,7 @@ struct SoftPack {
   bool fresh = false;
   int count = 0;  ///< lanes in use, a multiple of eight
   double from_x[lanes] = {}, from_y[lanes] = {}, from_vx[lanes] = {}, from_vy[lanes] = {};  ///< at the step's start
+  double fastest[lanes] = {};  ///< the largest v^2 where a step began
   /// Lanes that the caller must look at after a step. `undecided`: it may meet a wall, or leads too far, or
   /// beyond all bounds. Else it has left the cell.
   int calls = 0;

@@ -106,13 +106,21 @@ class SoftWorld::Implementation {
       tracks_[lane] = SoftTrack();
       tracks_[lane].state = start.state;
       tracks_[lane].hits = start.hits;
-      if (start.state.wall < 0 ? resume(lane, 0.0) : follow(lane)) return;
+      if (start.state.wall >= 0) {
+        if (follow(lane, false)) return;
+        continue;
+      }
+      engine.count_start(tracks_[lane]);
+      resume(lane, 0.0);
+      return;
     }
   }
 
   /// Goes on in its lane from the track's state after that many steps.
   bool resume(int lane, double steps) {
     pack_.resolved[lane] = false;
+    entered_[lane] = next_;
+    pack_.fastest[lane] = 0.0;
     engine.put(tracks_[lane].state, pack_, lane);
     last_step_[lane] = next_ + (whole_ - static_cast<std::uint64_t>(steps));
     soonest_ = std::min(soonest_, last_step_[lane]);
@@ -124,16 +132,20 @@ class SoftWorld::Implementation {
 
   void leave_to_scalar(int lane) {
     --effort.hits;
-    SoftEngine::read_start(pack_, lane, before(lane), tracks_[lane].state);
-    if (!follow(lane)) fill(lane);
+    SoftTrack& track = tracks_[lane];
+    SoftEngine::read_start(pack_, lane, before(lane), track.state);
+    const std::uint64_t steps = next_ - 1 - entered_[lane];
+    if (steps > 0) track.arc_known = false;
+    engine.count_lane(track, steps, false, pack_.fastest[lane]);
+    if (!follow(lane, true)) fill(lane);
   }
 
   /// The scalar engine's steps, until lanes can go on; false if the trajectory ends.
-  bool follow(int lane) {
+  bool follow(int lane, bool from_lane) {
     SoftTrack& track = tracks_[lane];
-    for (;;) {
+    for (;; from_lane = false) {
       ++effort.scalar;
-      switch (engine.follow(track, t_end_)) {
+      switch (engine.follow(track, from_lane, t_end_)) {
         case Outcome::at_step_end:
           return resume(lane, std::nearbyint(track.state.time.value() / engine.step()));
         case Outcome::on_a_wall:
@@ -152,6 +164,7 @@ class SoftWorld::Implementation {
     for (int lane = 0; lane < used_; ++lane) {
       if (!active_[lane] || last_step_[lane] >= next_) continue;
       SoftEngine::read_start(pack_, lane, before(lane), tracks_[lane].state);
+      engine.count_lane(tracks_[lane], next_ - entered_[lane], true, pack_.fastest[lane]);
       report(lane);
       fill(lane);
     }
@@ -163,7 +176,7 @@ class SoftWorld::Implementation {
   void report(int lane) {
     const SoftTrack& t = tracks_[lane];
     (*sink_)({starts_[lane].tag, t.fate, t.finished ? t.ended : t.state.time, t.state, t.hole, t.hits, t.last_wall,
-              t.report});
+              t.report, t.counts, engine.kinetic_energy(t)});
   }
 
   void leave(int lane) {
@@ -175,6 +188,7 @@ class SoftWorld::Implementation {
     State& s = tracks_[lane].state;
     SoftEngine::read(pack_, lane, s.time, s);
     engine.put(s, pack_, lane);
+    engine.count_start(tracks_[lane]);
     moved_.push_back(lane);
   }
 
@@ -185,11 +199,12 @@ class SoftWorld::Implementation {
       while (used_ > lane && !active_[used_ - 1]) --used_;
       if (used_ <= lane) break;
       const int last = --used_;
-      for (double* q : {pack_.x, pack_.y, pack_.vx, pack_.vy, pack_.ax, pack_.ay}) q[lane] = q[last];
+      for (double* q : {pack_.x, pack_.y, pack_.vx, pack_.vy, pack_.ax, pack_.ay, pack_.fastest}) q[lane] = q[last];
       pack_.resolved[lane] = pack_.resolved[last];
       starts_[lane] = starts_[last];
       tracks_[lane] = std::move(tracks_[last]);
       last_step_[lane] = last_step_[last];
+      entered_[lane] = entered_[last];
       active_[lane] = true;
       active_[last] = false;
       for (int& moved : moved_)
@@ -214,6 +229,7 @@ class SoftWorld::Implementation {
   bool active_[SoftPack::lanes] = {};
   std::uint64_t next_ = 0;                            ///< number of the pack's next step
   std::uint64_t last_step_[SoftPack::lanes] = {};     ///< the pack's step that ends too late for the lane
+  std::uint64_t entered_[SoftPack::lanes] = {};       ///< number of the pack's step that was the lane's first since it began, or came back
   std::uint64_t soonest_ = never;                     ///< the first of them
   int used_ = 0, busy_ = 0;
   bool exhausted_ = false;

@@ -72,15 +72,18 @@ TEST(Survival, IsGoneAtTheReportedTimeItself) {
   EXPECT_DOUBLE_EQ(hits[4].p, 1.0 / 3.0);
 }
 
-TEST(Survival, LeavesSingularAndLostOnesOut) {
+TEST(Survival, LeavesSingularUnresolvedAndLostOnesOut) {
   SurvivalCounts counts({10.0}, 0);
   counts.add(Fate::singular, 1.0, 1, -1);
   counts.add(Fate::lost, 1.0, 1, -1);
+  counts.add(Fate::unresolved, 1.0, 1, -1);
   counts.add(Fate::unbounded, 2.0, 1, -1);
   counts.add(Fate::pinned, 10.0, 0, -1);
   counts.add(Fate::capped, 3.0, 5, -1);
   EXPECT_EQ(counts.trajectories,
-            counts.escaped + counts.survived + counts.singular + counts.unbounded + counts.lost);
+            counts.escaped + counts.survived + counts.singular + counts.unbounded + counts.unresolved + counts.lost);
+  EXPECT_EQ(counts.unresolved, 1u);
+  EXPECT_EQ(counts.lost, 1u);
   EXPECT_EQ(counts.survived, 2u);
   EXPECT_EQ(counts.pinned, 1u);
   EXPECT_EQ(counts.capped, 1u);
@@ -91,7 +94,7 @@ SurvivalCounts random_counts(unsigned seed, int n) {
   std::mt19937_64 random(seed);
   SurvivalCounts counts({0.5, 1.0, 4.0}, 2);
   for (int i = 0; i < n; ++i) {
-    const auto fate = static_cast<Fate>(random() % 7);
+    const auto fate = static_cast<Fate>(random() % 8);
     counts.add(fate, static_cast<double>(random() % 600) / 100.0, random() % 50,
                static_cast<int>(random() % 2));
   }

@@ -97,7 +97,7 @@ TEST(Escape, PrintsItsKeysAndOneDigest) {
   EXPECT_EQ(one.status, 0);
   EXPECT_EQ(one.err, "");
   expect_keys(one.out,
-              {"trajectories", "escaped", "survived", "pinned", "capped", "singular", "unbounded", "lost",
+              {"trajectories", "escaped", "survived", "pinned", "capped", "singular", "unbounded", "unresolved", "lost",
                "collisions", "digest", "decisions", "survival", "survival_hits", "rate", "holes"});
   EXPECT_EQ(json_value(one.out, "trajectories"), "2000");
   EXPECT_EQ(json_value(one.out, "threads"), "1");

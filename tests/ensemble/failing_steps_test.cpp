@@ -92,7 +92,7 @@ std::vector<std::optional<Time>> losses(const System& system, std::uint64_t traj
     Listener listener;
     world.run_until(system.run.t_max, listener);
     all.emplace_back();
-    if (listener.last && listener.last->fate == Fate::lost) all.back() = listener.last->time;
+    if (listener.last && listener.last->fate == Fate::unresolved) all.back() = listener.last->time;
   }
   return all;
 }
@@ -101,11 +101,11 @@ TEST(FailingSteps, AreNotAveraged) {
   for (const System& system : {running_away(), over_an_edge(), slipping_through()}) {
     DiffusionOptions options;
     const DiffusionResult one = run_diffusion(system, options);
-    EXPECT_GT(one.lost, 10u);
-    EXPECT_EQ(one.lost + one.survived, system.run.trajectories);
+    EXPECT_GT(one.unresolved, 10u);
+    EXPECT_EQ(one.unresolved + one.survived, system.run.trajectories);
     System as_long = system;
     as_long.run.t_max = system.run.times.back();
-    EXPECT_EQ(one.lost, run_escape(as_long).counts.lost);
+    EXPECT_EQ(one.unresolved, run_escape(as_long).counts.unresolved);
     const auto points = DisplacementMoments(one.sums).points();
     EXPECT_EQ(points.back().count, one.survived);
     const auto lost = losses(system, system.run.trajectories);
@@ -114,14 +114,14 @@ TEST(FailingSteps, AreNotAveraged) {
       for (const auto& when : lost) there += !when || !(*when < Time(point.t));
       // Whoever runs away is far away before its step fails.
       ASSERT_LE(point.count, there) << point.t;
-      ASSERT_GE(point.count + (system.table->walls.empty() ? one.lost : 0), there) << point.t;
+      ASSERT_GE(point.count + (system.table->walls.empty() ? one.unresolved : 0), there) << point.t;
       ASSERT_EQ(std::isnan(point.square.value), point.count == 0) << point.t;
     }
     for (const InstructionSet set : available_instruction_sets()) {
       options.lanes = set;
       const DiffusionResult lanes = run_diffusion(system, options);
       EXPECT_EQ(lanes.digest, one.digest) << name_of(set);
-      EXPECT_EQ(lanes.lost, one.lost) << name_of(set);
+      EXPECT_EQ(lanes.unresolved, one.unresolved) << name_of(set);
       const auto also = DisplacementMoments(lanes.sums).points();
       for (std::size_t k = 0; k < points.size(); ++k) {
         ASSERT_EQ(also[k].count, points[k].count);
@@ -151,7 +151,7 @@ TEST(FailingSteps, FailInTheLastStep) {
       Listener listener;
       world.run_until(times.back(), listener);
       ASSERT_TRUE(listener.last);
-      EXPECT_EQ(listener.last->fate, Fate::lost);
+      EXPECT_EQ(listener.last->fate, Fate::unresolved);
       EXPECT_EQ(listener.last->time.value(), from);
       EXPECT_EQ(listener.states.size(), *lost[k] < Time(from) ? 1u : 2u);
       for (const State& s : listener.states) EXPECT_TRUE(std::isfinite(dot(s.position, s.position)));
@@ -165,7 +165,7 @@ TEST(FailingSteps, FailInTheLastStep) {
       std::size_t samples = 0;
       lanes.run(system.particles[0], walks, times.back(), times, [&](std::size_t, std::size_t, const State&) { ++samples; },
                 {});
-      EXPECT_EQ(walks[0].fate, Fate::lost);
+      EXPECT_EQ(walks[0].fate, Fate::unresolved);
       EXPECT_EQ(walks[0].ended.value(), from);
       EXPECT_EQ(samples, listener.states.size());
     }

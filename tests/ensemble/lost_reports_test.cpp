@@ -19,11 +19,11 @@ TEST(LostReports, AreThoseOfTheLowestIndices) {
   std::vector<TrajectoryRecord> records;
   options.records = [&](const std::vector<TrajectoryRecord>& more) { records.insert(records.end(), more.begin(), more.end()); };
   const EscapeResult one = run_escape(system, options);
-  ASSERT_GT(one.counts.lost, 20u);
-  ASSERT_LT(one.counts.lost, 400u);
+  ASSERT_GT(one.counts.unresolved, 20u);
+  ASSERT_LT(one.counts.unresolved, 400u);
   std::vector<std::uint64_t> first;
   for (const TrajectoryRecord& r : records)
-    if (r.fate == Fate::lost && first.size() < EnsembleResult::most_reports) first.push_back(r.index);
+    if (r.fate == Fate::unresolved && first.size() < EnsembleResult::most_reports) first.push_back(r.index);
   ASSERT_EQ(one.reports.size(), first.size());
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(one.reports[i].first, first[i]);
   for (const InstructionSet set : available_instruction_sets())

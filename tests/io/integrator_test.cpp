@@ -41,6 +41,18 @@ TEST(Integrator, AdaptiveSchemesDoNotStepOverBumps) {
   EXPECT_EQ(step("[[potential]]\nkind = \"harmonic\"\n", "arkode", slow), 0.0);
 }
 
+TEST(Integrator, WhatCannotBeTrusted) {
+  const auto plan = [](const std::string& more) { return read(well + "[integrator]\nstep = 0.01\n" + more).dynamics.integrator; };
+  EXPECT_EQ(plan("").energy_tolerance, 1e-3);
+  EXPECT_FALSE(plan("").count_unresolved);
+  EXPECT_EQ(plan("energy_tolerance = 1e-6\n").energy_tolerance, 1e-6);
+  EXPECT_TRUE(plan("unresolved = \"count\"\n").count_unresolved);
+  EXPECT_HAS(resolved(well + "[integrator]\nstep = 0.01\n"), "unresolved = \"stop\"");
+  EXPECT_HAS(fault(well + "[integrator]\nstep = 0.01\nenergy_tolerance = 0\n"), "line 6, column 20: integrator.energy_tolerance: must be");
+  EXPECT_HAS(fault(well + "[integrator]\nstep = 0.01\nunresolved = \"cuont\"\n"), "line 6, column 14: integrator.unresolved: unknown");
+  EXPECT_HAS(fault(well + "[integrator]\nstep = 0.01\nunresolved = \"cuont\"\n"), "did you mean 'count'?");
+}
+
 TEST(Integrator, NoForceNeedsNoStep) {
   EXPECT_EQ(read(square()).dynamics.integrator.step, 0.0);
   EXPECT_EQ(read(square("[integrator]\nscheme = \"kahan-li-8\"\n")).dynamics.integrator.scheme, "kahan-li-8");

@@ -26,7 +26,7 @@ struct SurvivalCounts {
   std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
   std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
   std::uint64_t trajectories = 0, escaped = 0, survived = 0, pinned = 0, capped = 0, singular = 0,
-                unbounded = 0, lost = 0, collisions = 0;
+                unbounded = 0, unresolved = 0, lost = 0, collisions = 0;
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; counted by whoever follows them
   std::uint64_t most_hits = 0;  ///< of a single trajectory
   double energy_change = 0.0;   ///< the largest of a particle under forces; from whoever follows them
@@ -38,8 +38,8 @@ struct SurvivalCounts {
   void add(Fate fate, double time, std::uint64_t hits, int hole);
   /// Adds the counts of another part of the same ensemble (same times, same holes).
   void merge(const SurvivalCounts& other);
-  /// Trajectories whose fate is known: neither singular nor lost. Shares are taken of these.
-  std::uint64_t followed() const { return trajectories - singular - lost; }
+  /// Trajectories whose fate is known: neither singular nor unresolved nor lost. Shares are taken of these.
+  std::uint64_t followed() const { return trajectories - singular - unresolved - lost; }
 };
 
 /// Share `p` that is still there at time t, with its 95 % interval (low, high).

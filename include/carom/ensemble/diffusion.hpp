@@ -35,7 +35,7 @@ struct DiffusionResult : EnsembleResult {
   DisplacementSums sums;
   /// Particles of all trajectories by how they ended before the last report time.
   std::uint64_t trajectories = 0, survived = 0, pinned = 0, escaped = 0, singular = 0, unbounded = 0,
-                capped = 0, lost = 0;
+                capped = 0, unresolved = 0, lost = 0;
   std::uint64_t collisions = 0;
   double energy_change = 0.0;  ///< with forces: the largest of a trajectory from its start to its end
 

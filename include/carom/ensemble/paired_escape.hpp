@@ -33,9 +33,9 @@ struct PairedEscapeOptions {
 /// How often the two ends of a start differ, and whether the two survival curves do.
 struct PairedEscapeResult {
   PairedResult pairs;
-  /// Pairs that are not compared: the engine's orbit ended as singular (or lost: an internal error), the other one did, its
-  /// end is not known.
-  std::uint64_t singular = 0, lost = 0, other_singular = 0, unknown = 0;
+  /// Pairs that are not compared: the engine's orbit ended as singular (or unresolved; or lost: an internal error), the other
+  /// one did, its end is not known.
+  std::uint64_t singular = 0, unresolved = 0, lost = 0, other_singular = 0, unknown = 0;
   bool complete = true;
   int threads = 1;
   double seconds = 0.0, cpu_seconds = 0.0;

@@ -14,7 +14,9 @@
 #include "carom/ensemble/ranks.hpp"
 #include "carom/ensemble/trajectory_ranges.hpp"
 #include "carom/events/decisions.hpp"
+#include "carom/events/energy.hpp"
 #include "carom/events/event.hpp"
+#include "carom/events/step_counts.hpp"
 #include "carom/lanes/instruction_set.hpp"
 
 namespace carom {
@@ -37,12 +39,14 @@ struct EnsembleResult {
   std::uint64_t digest = 0;  ///< sum modulo 2^64 of a hash of each particle's end; see docs/guide/commands.md
   TrajectoryRanges done;  ///< trajectories that are counted
   DecisionCounts decisions;
+  StepCounts steps;         ///< under forces
+  EnergyError energy_error; ///< under forces: the largest of a trajectory
   bool complete = true;  ///< false when interrupted
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;                                             ///< of each process
   int ranks = 1;                                               ///< processes
   std::optional<InstructionSet> lanes;                         ///< that flew it; empty: the scalar engine did
-  std::vector<std::pair<std::uint64_t, std::string>> reports;  ///< first few lost ones: index and state
+  std::vector<std::pair<std::uint64_t, std::string>> reports;  ///< of the first few that failed: index and report
 
  protected:
   /// False, and no change, where a trajectory is in both.

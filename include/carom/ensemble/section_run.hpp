@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "carom/analysis/section.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
+#include "carom/events/energy.hpp"
+#include "carom/events/step_counts.hpp"
 
 namespace carom {
 
@@ -28,13 +31,15 @@ struct SectionResult {
   std::uint64_t orbits = 0;      ///< trajectories that were followed to their end
   std::uint64_t points = 0, collisions = 0;
   std::uint64_t incomplete = 0;  ///< particles that met the section less often than asked for
-  std::uint64_t pinned = 0, escaped = 0, capped = 0, singular = 0, unbounded = 0, lost = 0;
+  std::uint64_t pinned = 0, escaped = 0, capped = 0, singular = 0, unbounded = 0, unresolved = 0, lost = 0;
   std::uint64_t digest = 0;      ///< sum of a hash of each particle's points
   bool complete = true;
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;
   DecisionCounts decisions;
-  std::vector<std::string> reports;  ///< first few states that were lost
+  StepCounts steps;          ///< under forces
+  EnergyError energy_error;  ///< under forces: the largest of a particle, or of all of an orbit that interact
+  std::vector<std::pair<std::uint64_t, std::string>> reports;  ///< of the first few particles that failed: index and report
 };
 
 /// How many trajectories System::section stands for.

@@ -12,6 +12,7 @@
 #include "carom/events/energy.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/events/observer.hpp"
+#include "carom/events/step_counts.hpp"
 
 namespace carom {
 
@@ -26,6 +27,8 @@ struct ParticleProgress {
   Fate fate = Fate::survived;
   Time end;  ///< the clock: t_max, or when the trajectory ended
   Trust trust;
+  /// Of the particle; of all together where they interact, by forces or by contacts.
+  EnergyBalance energy;
 };
 
 /// A particle at the end of a run, as people want to see it.
@@ -34,16 +37,17 @@ struct ParticleEnd {
   Trust trust;  ///< at the end: up to which collision and time
   double t = 0, x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped
   geometry::Cell cell;
-  /// Relative. Free particles: each against its own speed; with forces: of the total energy of all together since
-  /// the start (not relative where that was 0), NaN once one of several that interact has ended.
-  double energy_error = 0;
-  std::string report;       ///< of lost and singular ones
+  /// Relative to the largest kinetic energy seen, at every step and hit: of the particle, or of all that interact. Of these
+  /// `end` is that of the last step if some are gone.
+  EnergyError energy_error;
+  std::string report;       ///< of lost, unresolved and singular ones (events/report.hpp)
 };
 
 /// How to run one trajectory, and from where to go on.
 struct SingleRunOptions {
   DecisionOptions decisions;
   std::vector<ParticleProgress> resume;  ///< empty: start afresh
+  StepCounts steps;                      ///< of the part that is resumed
   std::function<bool()> interrupted;     ///< asked between events, and while starts are drawn: SamplingStopped
   std::uint64_t trajectory = 0;          ///< index: which start is drawn
   /// What the system's doubles were rounded from; null: they are what is meant.
@@ -56,7 +60,7 @@ struct SingleRunResult {
   bool interrupted = false;
   std::uint64_t collisions = 0;
   std::uint64_t contacts = 0;  ///< of hard discs, each pair once
-  Energy energy_at_start, energy_at_end;  ///< with forces: of the particles that are not gone
+  StepCounts steps;  ///< under forces
   DecisionCounts decisions;
   double seconds = 0, cpu_seconds = 0;
 };

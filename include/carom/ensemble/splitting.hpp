@@ -66,7 +66,7 @@ struct PopulationRun {
   std::vector<std::uint64_t> reached;  ///< walkers that reached each level
   std::vector<CopiesOfStage> copies;   ///< of each stage; none are kicked before the first
   double singular = 0.0;               ///< share that ended without a continuation; taken out of the others
-  std::uint64_t collisions = 0, lost = 0, digest = 0;
+  std::uint64_t collisions = 0, unresolved = 0, lost = 0, digest = 0;
   std::uint64_t tried = 0,
                 parted = 0;  ///< copies that were kicked, and those whose new way reached the level
 };
@@ -80,9 +80,9 @@ struct SplittingResult {
   bool complete = true;  ///< false when interrupted: whole populations only
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;
-  std::uint64_t collisions = 0, lost = 0;
+  std::uint64_t collisions = 0, unresolved = 0, lost = 0;
   std::uint64_t digest = 0;
-  std::vector<std::string> reports;  ///< first few states that were lost
+  std::vector<std::string> reports;  ///< of the first few that failed
 };
 
 /// Throws InputError where the plan or the system does not allow it.

@@ -19,9 +19,9 @@ struct ValidationCase {
   double distance = 0.0;        ///< (value - expected) / error, or their difference where error is 0
   bool passed = false;
   bool complete = true;         ///< false when interrupted: then it neither passed nor failed
-  std::uint64_t seed = 1, hits = 0, lost = 0, singular = 0, digest = 0;
+  std::uint64_t seed = 1, hits = 0, unresolved = 0, lost = 0, singular = 0, digest = 0;
   double filter_share = 1.0;    ///< of decisions, by double precision with its bound
-  std::string report;           ///< the first state that was lost
+  std::string report;           ///< of the first trajectory that failed
   int threads = 1;
   double seconds = 0.0, cpu_seconds = 0.0;
 };
@@ -38,7 +38,7 @@ struct Allowance {
   double below = 0.0, above = 0.0;
 };
 
-// Every check fails if a trajectory is lost. Each sets all but name and source.
+// Every check fails if a trajectory is lost or unresolved. Each sets all but name and source.
 
 /// Mean time between hits from cosine starts on all walls (the invariant measure of the boundary map),
 /// which is pi (A - A0) / L: `no_hit_area` A0 is the area of the centres of Larmor circles that meet no

@@ -14,6 +14,29 @@ struct Energy {
   double total() const { return kinetic + external + pair; }
 };
 
+/// How far energy is from what it was at the start, relative to the largest kinetic energy seen.
+struct EnergyError {
+  double end = 0.0;      ///< at the end
+  double largest = 0.0;  ///< the largest seen, without its sign
+  /// Of several trajectories: the largest of each, without a sign.
+  EnergyError& operator+=(const EnergyError&);
+};
+
+/// What is seen of the energy of a particle under forces, or of all particles together where they interact.
+struct EnergyBalance {
+  double change = 0.0;   ///< since the start, at the end of the latest step
+  double largest = 0.0;  ///< the largest change after a step or at a hit, without its sign
+  double kinetic = 0.0;  ///< the largest kinetic energy where a step began
+
+  /// With what is seen at the end.
+  EnergyError error_at_end(double change_at_end, double kinetic_at_end) const;
+};
+
+/// The larger one of two numbers, none of them negative; one that is no number counts as infinite.
+double larger(double, double);
+/// |change| / kinetic, or 0 where nothing has changed.
+double relative_to(double kinetic, double change);
+
 /// One state a particle, all at the same time. Pairs on a lattice see their nearest copies, as in the
 /// motion.
 Energy energy_of(std::span<const Particle>, std::span<const State>, const Dynamics&, const Table&);

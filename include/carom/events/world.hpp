@@ -10,8 +10,10 @@
 
 #include "carom/events/decisions.hpp"
 #include "carom/events/dynamics.hpp"
+#include "carom/events/energy.hpp"
 #include "carom/events/event.hpp"
 #include "carom/events/observer.hpp"
+#include "carom/events/step_counts.hpp"
 #include "carom/events/surface.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
@@ -71,7 +73,17 @@ class World {
   int last_wall(int particle) const;          ///< -1 before the first hit
   int hole(int particle) const;               ///< -1 unless escaped
   const DecisionCounts& decisions() const;
-  /// For `lost` and `singular`: the state that caused it, as text.
+  /// What integration has cost since the last clear().
+  const StepCounts& step_counts() const;
+
+  /// From the next step on, energies are looked at after each one and at each hit. Else energy_balance knows nothing but kinetic
+  /// ones.
+  void watch_energy();
+  /// Of a particle under forces; of all together where they interact.
+  const EnergyBalance& energy_balance(int particle) const;
+  /// What was seen before, when a stored trajectory goes on.
+  void set_energy_balance(int particle, const EnergyBalance& before);
+  /// For `lost`, `unresolved` and `singular`: why, and the state that caused it (events/report.hpp).
   const std::string& report(int particle) const;
 
   /// Is the point strictly inside the domain (exact)? For lattices: in the free part of its cell.

@@ -51,6 +51,9 @@ class ForceField {
   /// `rho` from one of that length: docs/physics/resolution.md.
   ForceBound external_bound(const Particle&, const Neighbourhood&) const;
   ForceBound pair_bound(const Particle& a, const Particle& b, double distance, double rho) const;
+  /// Energy of all pairs, which feel each other as in add_pairs.
+  double pair_energy(std::span<const Particle> particles, std::span<const geometry::Vector> x,
+                     const geometry::Lattice* lattice) const;
 
   /// The potential energy of all.
   double potential_energy(std::span<const Particle> particles, std::span<const geometry::Vector> x,

@@ -47,6 +47,8 @@ class Stepper {
   /// Moves `from` by a time of at most `at_most` > 0 into `to` (never the same object) and returns the
   /// time it moved: `at_most` itself for fixed schemes; less where an adaptive one needs a smaller step.
   virtual Real step(const Phase<Real>& from, Real at_most, Phase<Real>& to) = 0;
+  /// Forgets the forces that it remembers, which changes nothing but the cost.
+  virtual void forget() {}
   /// Why the last step could not be taken ("": it could). Its phase is then no number.
   virtual std::string_view failure() const { return {}; }
 };

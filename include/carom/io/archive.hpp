@@ -85,6 +85,7 @@ struct StoredRun {
   std::string system_name, system_toml, status;
   std::string engine;  ///< "events", "steps" or "auto"
   std::vector<ParticleProgress> particles;
+  StepCounts steps;
 };
 /// Throws InputError for anything but the archive of a finished or interrupted run.
 StoredRun read_run(const std::string& file);

@@ -32,6 +32,8 @@ struct LaneEnd {
   std::uint64_t hits = 0;
   int last_wall = -1;        ///< as World::last_wall
   std::string report;        ///< as World::report
+  StepCounts steps = {};     ///< under forces: as World::step_counts
+  double kinetic = 0.0;      ///< under forces: the largest kinetic energy where a step began
 };
 
 /// Runs free particles on one table, each by itself: the same orbits as World, bit for bit. A lane decides

@@ -11,6 +11,7 @@
 #include "carom/events/decisions.hpp"
 #include "carom/events/dynamics.hpp"
 #include "carom/events/event.hpp"
+#include "carom/events/step_counts.hpp"
 #include "carom/lanes/instruction_set.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
@@ -43,6 +44,8 @@ class SoftLanes {
     std::uint64_t hits = 0;
     int last_wall = -1;
     std::string report = {};
+    StepCounts steps = {};  ///< as World::step_counts
+    double kinetic = 0.0;   ///< the largest kinetic energy where a step began
   };
   using Sample = std::function<void(std::size_t walk, std::size_t time, const State&)>;
   /// Follows particles of one kind until `t_end`. `sample` receives the state of each at the given times,

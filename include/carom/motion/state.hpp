@@ -43,5 +43,7 @@ enum class Fate : unsigned char {
 };
 inline constexpr Fate last_fate = Fate::unresolved;
 const char* name_of(Fate);
+/// Nothing is known of what would come after.
+inline bool is_failure(Fate fate) { return fate == Fate::lost || fate == Fate::unresolved; }
 
 }  // namespace carom

@@ -1,0 +1,52 @@
+// Why a result cannot be trusted, which a report says before all else; and what integration has cost.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/section_run.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "io/json.hpp"
+
+namespace carom::cli {
+
+using Reports = std::vector<std::pair<std::uint64_t, std::string>>;
+
+/// Trajectories that failed, and energies that changed by more than integrator.energy_tolerance; a line each.
+struct Doubts {
+  std::vector<std::string> lines;
+  bool any() const { return !lines.empty(); }
+  std::string text() const;
+  /// Of the command; `complete`: it was not interrupted.
+  int status(bool complete) const;
+};
+Doubts doubts_of(const System&, const EscapeResult&);
+Doubts doubts_of(const System&, const DiffusionResult&);
+Doubts doubts_of(const System&, const SectionResult&);
+Doubts doubts_of(const System&, const SingleRunResult&);
+/// "" or what is said of the energy.
+std::string energy_doubt(const System&, const EnergyError&);
+
+Json energy_json(const EnergyError&);
+/// `reports` of those that failed, if there are any: index, reason, and state in hexadecimal numbers.
+void add_reports(Json&, const Reports&);
+/// `reason` and `state` of a report.
+void add_report(Json&, const std::string& report);
+/// On standard error: what those that failed died of, for people.
+void warn_of(const Reports&);
+
+/// Where motion is integrated: `steps`, `force_evaluations`, and with unresolved = "count" `unresolved_steps` and
+/// `first_unresolved`.
+void add_steps(Json&, const System&, const StepCounts&);
+/// The same as a text that goes on a sentence: "1 200 steps, 13 200 force evaluations"; "" where nothing is integrated.
+std::string steps_text(const System&, const StepCounts&);
+/// "1.2M hits/s", or steps where nothing hits.
+std::string pace_text(const System&, std::uint64_t hits, const StepCounts&, double seconds);
+/// "largest change of a trajectory's energy 1e-12 …\n"; "" where nothing is integrated.
+std::string energy_text(const System&, const EnergyError&);
+
+}  // namespace carom::cli
