@@ -13,6 +13,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom_version.hpp"
+#include "io/checksums.hpp"
 #include "io/ensemble_files.hpp"
 
 namespace carom {
@@ -169,7 +170,10 @@ std::vector<Origin> ArchiveFile::read_origins(hid_t provenance, const std::strin
   return parts;
 }
 
-void ArchiveFile::start_swmr() const { hdf5::check(H5Fstart_swmr_write(id()) >= 0, name_); }
+void ArchiveFile::start_swmr() const {
+  hdf5::reserve_checksums(id(), name_);
+  hdf5::check(H5Fstart_swmr_write(id()) >= 0, name_);
+}
 
 void ArchiveFile::set_status(const std::string& status, bool complete) const {
   hdf5::change_attribute(id(), "status", std::string_view(status), name_);
@@ -187,6 +191,7 @@ void ArchiveFile::add_decisions(const DecisionCounts& counts) const {
 }
 
 void ArchiveFile::keep_as(const std::string& target) {
+  hdf5::write_checksums(id(), name_);
   hdf5::check(H5Fflush(id(), H5F_SCOPE_GLOBAL) >= 0, name_);
   hdf5::check(file_.close(), name_);
   sync(path_, O_RDONLY, name_);
