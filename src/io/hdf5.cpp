@@ -67,8 +67,6 @@ void check(bool ok, const std::string& file) {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reason, &reason);
   H5Eclear2(H5E_DEFAULT);
-  if (reason == std::strerror(EAGAIN))  // HDF5 locks the files that it opens
-    throw InputError(Place{file, 0, 0, ""}, "another program has it open", "another name, or the end of that program");
   if (reason.empty()) reason = errno != 0 ? std::strerror(errno) : "the disk may be full";
   throw InputError(fmt::format("cannot write '{}': {}", file, reason));
 }

@@ -149,6 +149,22 @@ TEST(RunArchive, CanBeReadWhileItGrowsAndAfterAKill) {
   EXPECT_NE(resumed.err.find("killed"), std::string::npos);
 }
 
+// HDF5 locks what it opens, for reading, too.
+TEST(RunArchive, SaysThatAnotherProgramHasItOpen) {
+  const Shell shell;
+  ASSERT_EQ(shell("$carom run stadium --t-max 3 -o a.h5 --quiet").status, 0);
+  const std::map<std::string, std::string> datasets = open_archive(shell.folder() + "/a.h5").datasets;
+  const hid_t reader = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(reader, 0);
+  const Outcome o = shell("$carom run stadium --t-max 3 -o a.h5 --quiet --force");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(o.out, "");
+  EXPECT_NE(o.err.find("a.h5: another program has it open (expected "), std::string::npos) << o.err;
+  H5Fclose(reader);
+  EXPECT_EQ(open_archive(shell.folder() + "/a.h5").datasets, datasets);
+  EXPECT_EQ(shell("$carom run stadium --t-max 3 -o a.h5 --quiet --force").status, 0);
+}
+
 TEST(EscapeArchive, HoldsEveryTrajectory) {
   const Shell shell;
   const Outcome o = shell(
