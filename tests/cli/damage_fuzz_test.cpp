@@ -69,6 +69,8 @@ struct Archive {
   std::string use, result;           // a shell line that reads it and may write the archive `result`; "": none does
 };
 
+void PrintTo(const Archive& archive, std::ostream* out) { *out << archive.name; }
+
 const std::string discs = R"(cat > discs.toml <<END
 [lattice]
 vectors = [[4, 0], [0, 4]]
