@@ -129,8 +129,13 @@ const Group::Next& Group::predict(const Time& limit) {
   next_.duration = path_->begin(from, rest);
   whole_step_ = !(next_.duration < rest);
   next_.fault = fault_at(path_->end().phase);
-  if (next_.fault.empty() && !splits_) next_.fault = check_resolution();
   if (!next_.fault.empty()) return next_;
+  if (!splits_) {
+    next_.fault = check_resolution();
+    next_.unresolved = !next_.fault.empty();
+    if (next_.unresolved && !in_.plan.count_unresolved) return next_;
+    next_.fault.clear();
+  }
   bool near_wall = false;
   CrossingSearch<double> search(*path_);
   StepPath<double>::Knot* last = &path_->end();
@@ -201,7 +206,11 @@ std::string_view Group::fault_at(const Phase<double>& phase) const {
 }
 
 void Group::advance() {
-  if (in_.counts) ++in_.counts->steps;
+  if (in_.counts) {
+    StepCounts taken{.steps = 1};
+    if (next_.unresolved) taken = {.steps = 1, .unresolved = 1, .first_unresolved = time_.value()};
+    *in_.counts += taken;
+  }
   phase_ = next_.member < 0 ? path_->end().phase : path_->at(next_.duration).phase;
   time_ = next_time();
   if (splits_) end_drift();

@@ -48,6 +48,7 @@ class Group final : public ForceLaw<double> {
     double duration = 0.0;
     int member = -1;                           ///< -1: the end of the step
     const Barrier<double>* barrier = nullptr;
+    bool unresolved = false;                   ///< the step does not resolve the forces, and is taken all the same
     bool slides = false;                       ///< it cannot be told from motion along that wall
     std::string fault;                         ///< why there is no path that walls can be found on; "": there is
     int outside = -1;                          ///< then: this member alone has left the table; -1: it is the fault of all

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +14,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom_version.hpp"
+#include "io/checksums.hpp"
 #include "io/ensemble_files.hpp"
 
 namespace carom {
@@ -36,6 +38,15 @@ void sync(const std::string& path, int flags, const std::string& name) {
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (!ok) throw InputError(fmt::format("cannot write '{}': {}", name, std::strerror(error)));
+}
+
+// HDF5 would empty a file before it sees that another program has it open. It locks by flock.
+void refuse_open_elsewhere(const std::string& path, const std::string& name) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return;  // it is not there, or cannot be written: that is said later
+  const bool is_open = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  if (is_open) throw InputError(Place{name, 0, 0, ""}, "another program has it open", "another name, or the end of that program");
 }
 
 Handle latest_format(const std::string& name) {
@@ -87,6 +98,7 @@ ArchiveFile::~ArchiveFile() {
 }
 
 ArchiveFile ArchiveFile::create(const std::string& path, const std::string& name) {
+  refuse_open_elsewhere(path, name);
   const Handle access = latest_format(name);
   errno = 0;
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
@@ -169,7 +181,10 @@ std::vector<Origin> ArchiveFile::read_origins(hid_t provenance, const std::strin
   return parts;
 }
 
-void ArchiveFile::start_swmr() const { hdf5::check(H5Fstart_swmr_write(id()) >= 0, name_); }
+void ArchiveFile::start_swmr() const {
+  hdf5::reserve_checksums(id(), name_);
+  hdf5::check(H5Fstart_swmr_write(id()) >= 0, name_);
+}
 
 void ArchiveFile::set_status(const std::string& status, bool complete) const {
   hdf5::change_attribute(id(), "status", std::string_view(status), name_);
@@ -187,6 +202,7 @@ void ArchiveFile::add_decisions(const DecisionCounts& counts) const {
 }
 
 void ArchiveFile::keep_as(const std::string& target) {
+  hdf5::write_checksums(id(), name_);
   hdf5::check(H5Fflush(id(), H5F_SCOPE_GLOBAL) >= 0, name_);
   hdf5::check(file_.close(), name_);
   sync(path_, O_RDONLY, name_);

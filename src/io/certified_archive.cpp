@@ -59,7 +59,7 @@ class TextColumn {
     rows_ = 0;
     type_ = hdf5::checked(H5Tcopy(H5T_C_S1), H5Tclose, file_);
     hdf5::check(H5Tset_size(type_.get(), length_) >= 0, file_);
-    dataset_ = hdf5::create_growing(group_, name.c_str(), type_.get(), batch_, description_, file_, hdf5::Checksum::fletcher32);
+    dataset_ = hdf5::create_growing(group_, name.c_str(), type_.get(), batch_, description_, file_);
   }
 
   // The rows so far move to a column with room, which takes the place and the name of this one.
@@ -102,7 +102,7 @@ class CertifiedArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
                  const CertifiedTask& task)
-      : target(path), digits(task.digits), file(ArchiveFile::create(aside_of(path), path)), rows(path, hdf5::Checksum::fletcher32) {
+      : target(path), digits(task.digits), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
     file.write_head("certified", loaded, origin);
     for (const Wall& w : loaded.system.table->walls) walls.push_back(w.name);
     for (const Hole& h : loaded.system.table->holes) holes.push_back(h.name);

@@ -13,13 +13,12 @@ namespace carom::hdf5 {
 class Columns {
  public:
   Columns() = default;
-  /// Without checksums where readers may come while rows are written.
-  explicit Columns(std::string file, Checksum checksum = Checksum::none) : file_(std::move(file)), checksum_(checksum) {}
+  explicit Columns(std::string file) : file_(std::move(file)) {}
 
   /// Adds a column; rows are pushed in the order in which columns were added.
   template <class T>
   hid_t add(hid_t group, const char* name, Description description) {
-    return take(create_growing(group, name, native_type<T>(), chunk, description, file_, checksum_), native_type<T>());
+    return take(create_growing(group, name, native_type<T>(), chunk, description, file_), native_type<T>());
   }
   /// The same for a column that is in the file already; new rows follow the old ones.
   template <class T>
@@ -32,7 +31,7 @@ class Columns {
   void row(Values... values) {
     std::size_t column = 0;
     (push(columns_[column++], values), ...);
-    if (++pending_ == batch) flush();
+    if ((rows_ + ++pending_) % batch == 0) flush();
   }
 
   /// Writes what is pending and makes it visible to readers.
@@ -54,8 +53,10 @@ class Columns {
   }
 
  private:
-  // Rows written at a time, and rows stored together: short runs make small files.
+  // Rows written at a time, and rows stored together: short runs make small files. A batch fills its chunks, so that those
+  // who read while rows are written never meet one that is written again.
   static constexpr std::size_t batch = 4096, chunk = 1024;
+  static_assert(batch % chunk == 0);
   struct Column {
     Handle dataset;
     hid_t type;
@@ -74,7 +75,6 @@ class Columns {
   }
 
   std::string file_;
-  Checksum checksum_ = Checksum::none;
   std::vector<Column> columns_;
   std::size_t rows_ = 0, pending_ = 0;
 };

@@ -85,8 +85,7 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
   if (!holes.empty()) {
     const Handle dataset =
         hdf5::create_fixed(group.get(), "holes", H5T_NATIVE_UINT64, holes.size(),
-                           {"1", "Escapes by hole; names in the attribute `names`"}, target,
-                           hdf5::Checksum::fletcher32);
+                           {"1", "Escapes by hole; names in the attribute `names`"}, target);
     hdf5::write_attribute(dataset.get(), "names", holes, target);
     hdf5::check(H5Dwrite(dataset.get(), H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT,
                          counts.hole_escapes.data()) >= 0,

@@ -43,18 +43,6 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-// CRC-32 as zlib has it, so that others can compute it.
-std::uint32_t crc32(std::string_view bytes) {
-  std::uint32_t sum = 0xffffffffu;
-  for (const char byte : bytes) {
-    sum ^= static_cast<unsigned char>(byte);
-    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1) ^ ((sum & 1u) != 0 ? 0xedb88320u : 0u);
-  }
-  return ~sum;
-}
-
-constexpr const char* text_checksum = "crc32";
-
 [[noreturn]] void cannot_read(const std::string& file, const char* what) {
   throw InputError(Place{file, 0, 0, ""}, fmt::format("'{}' is missing or not readable", what),
                    "an archive that carom wrote");
@@ -185,7 +173,6 @@ void write_text(hid_t parent, const char* name, std::string_view text, Descripti
       checked(H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
               H5Dclose, file);
   describe(dataset.get(), description, file);
-  write_attribute(dataset.get(), text_checksum, std::int64_t{crc32(text)}, file);
   const std::string padded(text.empty() ? std::string(1, '\0') : std::string(text));
   check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) >= 0, file);
   check(dataset.close(), file);
@@ -198,21 +185,16 @@ std::string read_text(hid_t parent, const char* name, const std::string& file) {
   std::string text(H5Tget_size(type.get()), '\0');
   if (H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     cannot_read(file, name);
-  text = trimmed(std::move(text));
-  const bool has_checksum = H5Aexists(dataset.get(), text_checksum) > 0;  // texts of earlier builds have none
-  if (has_checksum && read_integer_attribute(dataset.get(), text_checksum, file) != std::int64_t{crc32(text)})
-    throw InputError(Place{file, 0, 0, ""}, fmt::format("the text '{}' was changed: its checksum is another", name),
-                     "an archive as carom wrote it");
-  return text;
+  return trimmed(std::move(text));
 }
 
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description description,
-                    const std::string& file, Checksum checksum) {
+                    const std::string& file) {
   const hsize_t size = rows;
   const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
   const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
   check(H5Pset_alloc_time(layout.get(), H5D_ALLOC_TIME_EARLY) >= 0, file);
-  if (checksum == Checksum::fletcher32 && rows > 0) {
+  if (rows > 0) {
     const hsize_t chunk = std::min<hsize_t>(size, 65536);  // filters work on chunks
     check(H5Pset_chunk(layout.get(), 1, &chunk) >= 0 && H5Pset_fletcher32(layout.get()) >= 0, file);
   }
@@ -223,12 +205,11 @@ Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows
 }
 
 Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk, Description description,
-                      const std::string& file, Checksum checksum) {
+                      const std::string& file) {
   const hsize_t none = 0, unlimited = H5S_UNLIMITED, rows = chunk;
   const Handle space = checked(H5Screate_simple(1, &none, &unlimited), H5Sclose, file);
   const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
-  check(H5Pset_chunk(layout.get(), 1, &rows) >= 0, file);
-  if (checksum == Checksum::fletcher32) check(H5Pset_fletcher32(layout.get()) >= 0, file);
+  check(H5Pset_chunk(layout.get(), 1, &rows) >= 0 && H5Pset_fletcher32(layout.get()) >= 0, file);
   Handle dataset = checked(
       H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT), H5Dclose, file);
   describe(dataset.get(), description, file);

@@ -13,7 +13,7 @@ using hdf5::Handle;
 hdf5::Columns create_records(const ArchiveFile& file, const System& system) {
   const std::string& target = file.name();
   const std::vector<std::string> holes = hole_names(*system.table);
-  hdf5::Columns trajectories(target, hdf5::Checksum::fletcher32);
+  hdf5::Columns trajectories(target);
   const Handle group = file.group("trajectories", "Start and end of each trajectory, by index");
   const hid_t to = group.get();
   trajectories.add<std::uint64_t>(to, "index", {"1", "trajectory * particles + particle; with injections trajectory * 2^20 + particle"});

@@ -8,6 +8,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "io/archive_file.hpp"
+#include "io/checksums.hpp"
 #include "io/columns.hpp"
 #include "io/contact_columns.hpp"
 #include "io/ensemble_columns.hpp"
@@ -218,7 +219,7 @@ void RunArchive::Implementation::create_state(std::size_t particles) {
   for (const StateField& field : state_fields) {
     const hid_t type = field.real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
     const Handle dataset =
-        hdf5::create_fixed(group.get(), field.name, type, particles, field.description, file.name(), hdf5::Checksum::fletcher32);
+        hdf5::create_fixed(group.get(), field.name, type, particles, field.description, file.name());
     if (std::string_view(field.name) == "fate")
       hdf5::write_attribute(dataset.get(), "names", fate_names(), file.name());
   }
@@ -275,7 +276,7 @@ void RunArchive::Implementation::write_state(const std::vector<ParticleEnd>& par
 void RunArchive::Implementation::create_steps() {
   const Handle group = file.group("steps", "What integration has cost");
   const auto create = [&](const char* name, hid_t type, Description description) {
-    hdf5::create_fixed(group.get(), name, type, 1, description, file.name(), hdf5::Checksum::fletcher32);
+    hdf5::create_fixed(group.get(), name, type, 1, description, file.name());
   };
   for (const StepNumber& number : step_numbers) create(number.name, H5T_NATIVE_UINT64, {"1", number.text});
   create(first_unresolved, H5T_NATIVE_DOUBLE, {"time", "When the earliest of these began"});
@@ -401,6 +402,7 @@ StoredRun read_run(const std::string& name) {
   run.status = hdf5::read_string_attribute(file.get(), "status", name);
   if (run.status == "running")
     throw InputError(place, "its run was killed", "the archive of a finished or interrupted run");
+  hdf5::verify(file.get(), name);  // what goes on is kept beside what it goes on from
   run.system_toml = hdf5::read_text(file.get(), "system", name);
   const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
   run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);

@@ -12,7 +12,7 @@ using hdf5::Handle;
 class SectionArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin)
-      : target(path), file(ArchiveFile::create(aside_of(path), path)), rows(path, hdf5::Checksum::fletcher32) {
+      : target(path), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
     file.write_head("section", loaded, origin);
     const System& system = loaded.system;
     const Handle group = file.group("section", "Points of the section, orbit after orbit, in order of time");

@@ -12,6 +12,7 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom_version.hpp"
 #include "ensemble/arithmetic.hpp"
+#include "io/checksums.hpp"
 #include "io/ensemble_columns.hpp"
 #include "io/ensemble_files.hpp"
 #include "io/value.hpp"
@@ -47,6 +48,7 @@ Stored<Result> read_one(const std::string& name) {
   if (kind_in(file, name) != stored.kind)
     throw InputError(Place{name, 0, 0, ""}, fmt::format("the archive does not hold {} {} ensemble", stored.kind == "escape" ? "an" : "a", stored.kind),
                      fmt::format("one written by carom {}", stored.kind));
+  hdf5::verify(file.get(), name);
   const Handle provenance = open_group(file.get(), "provenance", name);
   const hid_t from = provenance.get();
   const auto attribute = [&](const char* what) { return hdf5::read_string_attribute(from, what, name); };

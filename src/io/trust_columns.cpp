@@ -25,7 +25,7 @@ void write(hid_t group, const char* name, const std::vector<T>& values, const st
 
 void create_trust(hid_t group, std::size_t particles, const std::string& file) {
   const auto create = [&](const char* name, hid_t type, std::size_t rows, hdf5::Description description) {
-    hdf5::create_fixed(group, name, type, rows, description, file, hdf5::Checksum::fletcher32);
+    hdf5::create_fixed(group, name, type, rows, description, file);
   };
   create("collisions", H5T_NATIVE_INT64, particles,
          {"1", "Reflections before the first whose estimated error is too large"});

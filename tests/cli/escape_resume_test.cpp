@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "io/checksums.hpp"
 #include "kill_and_resume.hpp"
 
 namespace carom {
@@ -124,7 +125,7 @@ TEST(EscapeResume, NamesTheRecordsThatAreMissing) {
   EXPECT_TRUE(shell.exists("a.h5.part"));
 }
 
-// Sets a text attribute of /provenance to 9s, or removes it.
+// Sets a text attribute of /provenance to 9s, or removes it. Its checksums are right.
 void change_provenance(const std::string& path, const char* name, bool remove = false) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), provenance = H5Gopen2(file, "provenance", H5P_DEFAULT);
   if (remove) {
@@ -137,6 +138,7 @@ void change_provenance(const std::string& path, const char* name, bool remove = 
     H5Aclose(attribute);
   }
   H5Gclose(provenance);
+  hdf5::write_checksums(file, path);
   H5Fclose(file);
 }
 
