@@ -97,6 +97,9 @@ void warn_of(const Reports& reports) {
 
 void add_steps(Json& json, const System& system, const StepCounts& steps) {
   if (!integrated(system)) return;
+  const IntegratorPlan& plan = system.dynamics.integrator;
+  json.set("step", plan.step > 0.0 ? Json(plan.step) : Json());
+  if (plan.step_chosen) json.set("step_chosen", true);
   json.set("steps", steps.steps).set("force_evaluations", steps.force_evaluations);
   if (!system.dynamics.integrator.count_unresolved) return;
   json.set("unresolved_steps", steps.unresolved);
@@ -105,7 +108,10 @@ void add_steps(Json& json, const System& system, const StepCounts& steps) {
 
 std::string steps_text(const System& system, const StepCounts& steps) {
   if (!integrated(system)) return {};
-  std::string text = fmt::format("{} steps, {} force evaluations", grouped(steps.steps), grouped(steps.force_evaluations));
+  const IntegratorPlan& plan = system.dynamics.integrator;
+  std::string text = fmt::format("{} steps", grouped(steps.steps));
+  if (plan.step > 0.0) text += fmt::format(" of {}{}", plan.step, plan.step_chosen ? " (chosen)" : "");
+  text += fmt::format(", {} force evaluations", grouped(steps.force_evaluations));
   if (system.dynamics.integrator.count_unresolved)
     text += steps.unresolved == 0 ? std::string(", no step unresolved")
                                   : fmt::format(", {} steps unresolved, the first at t = {:.6g}", grouped(steps.unresolved),

@@ -130,6 +130,7 @@ int run(const Options& options) {
   }
   const System& system = loaded.system;
   if (estimates_trust(system)) how.written = written_system(loaded);
+  how.estimate_state_error = true;
 
   Counting counting(archive.get());
   SingleRunResult result;

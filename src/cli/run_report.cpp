@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "carom/integrators/scheme.hpp"
 #include "cli/common.hpp"
 #include "cli/doubts.hpp"
 #include "io/progress.hpp"
@@ -71,7 +72,16 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
   const EnergyError& error = particle.energy_error;
   text += fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g} at the end, {:.2g} at most\n", particle.vx, particle.vy,
                       error.end, error.largest);
-  text += fmt::format("  trusted       {}\n", trust_text(system, particle));
+  if (!system.dynamics.forces || system.dynamics.forces->empty())
+    text += fmt::format("  trusted       {}\n", trust_text(system, particle));
+  return text;
+}
+
+std::string state_error_text(const System& system, const StateError& error, double end) {
+  const bool adaptive = is_adaptive(system.dynamics.integrator.scheme);
+  std::string text = fmt::format("  state error   {:.2g} in position, {:.2g} in velocity, against {}\n", error.position, error.velocity,
+                                 adaptive ? "a finer tolerance" : "half the step");
+  if (error.until < end) text += fmt::format("                at t = {:.6g}: no later times are compared\n", error.until);
   return text;
 }
 
@@ -118,6 +128,13 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
     }
     json.set("particles", std::move(particles));
   }
+  if (result.state_error) {
+    Json error = Json::object();
+    error.set("position", result.state_error->position);
+    error.set("velocity", result.state_error->velocity);
+    error.set("until", result.state_error->until);
+    json.set("state_error", std::move(error));
+  }
   const std::string note = energy_note(system, result);
   if (!note.empty()) json.set("note", note);
   if (!output.empty()) json.set("archive", output);
@@ -136,6 +153,11 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
                         system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "");
   if (const std::string steps = steps_text(system, result.steps); !steps.empty())
     text += fmt::format("  integration   {}\n", steps);
+  if (result.state_error) {
+    double end = 0.0;
+    for (const ParticleEnd& particle : result.particles) end = std::max(end, particle.progress.end.value());
+    text += state_error_text(system, *result.state_error, end);
+  }
   text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds, decisions_text(result.decisions));
   if (!output.empty()) text += fmt::format("  archive       {}\n", output);
   return text;

@@ -329,6 +329,11 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   result.steps += world.step_counts();
   result.seconds = watch.seconds();
   result.cpu_seconds = watch.cpu_seconds();
+  if (options.estimate_state_error && options.resume.empty() && !result.interrupted) {
+    double end = 0.0;
+    for (const ParticleProgress& p : progress) end = std::max(end, p.end.value());
+    result.state_error = state_error(system, options.trajectory, end, options.interrupted);
+  }
   return result;
 }
 

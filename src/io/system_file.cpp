@@ -10,6 +10,7 @@
 #include <sstream>
 #include <utility>
 
+#include "carom/ensemble/choose_step.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
@@ -133,10 +134,11 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   system.section = io::read_section(root, *table);
   system.table = std::move(table);
   if (needs_step(system)) {
-    loaded.chosen_step = choose_step(system);
-    system.dynamics.integrator.step = loaded.chosen_step->step;
+    const double step = choose_step(system).step;
+    system.dynamics.integrator.step = step;
+    system.dynamics.integrator.step_chosen = true;
     io::Section section(*root.find("integrator"), "integrator");
-    section.fill("step", io::number_value(fmt::format("{}", loaded.chosen_step->step), section.place_of("step")));
+    section.fill("step", io::number_value(fmt::format("{}", step), section.place_of("step")));
   }
   check_number_of_steps(root, system);
   loaded.exact = io::read_exact(root);

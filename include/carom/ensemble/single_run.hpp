@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "carom/analysis/trust.hpp"
+#include "carom/ensemble/state_error.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/decisions.hpp"
@@ -50,6 +52,7 @@ struct SingleRunOptions {
   StepCounts steps;                      ///< of the part that is resumed
   std::function<bool()> interrupted;     ///< asked between events, and while starts are drawn: SamplingStopped
   std::uint64_t trajectory = 0;          ///< index: which start is drawn
+  bool estimate_state_error = false;     ///< under forces: costs up to three times the run (ensemble/state_error.hpp)
   /// What the system's doubles were rounded from; null: they are what is meant.
   std::shared_ptr<const WrittenSystem> written;
 };
@@ -61,6 +64,7 @@ struct SingleRunResult {
   std::uint64_t collisions = 0;
   std::uint64_t contacts = 0;  ///< of hard discs, each pair once
   StepCounts steps;  ///< under forces
+  std::optional<StateError> state_error;  ///< under forces, where it is asked for and the run began at its start
   DecisionCounts decisions;
   double seconds = 0, cpu_seconds = 0;
 };

@@ -2,14 +2,12 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "carom/analysis/written_system.hpp"
 #include "carom/certify/exact_system.hpp"
-#include "carom/ensemble/choose_step.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/io/system_overrides.hpp"
 
@@ -40,7 +38,6 @@ const std::vector<BuiltinSystem>& builtin_systems();
 struct LoadedSystem {
   System system;
   std::string resolved_toml;
-  std::optional<ChosenStep> chosen_step;  ///< where the file gives none and forces act
   /// The same with the numbers as they were written, of the first particle. Its start is that of [initial] if
   /// that is a point.
   ExactSystem exact;

@@ -1,0 +1,26 @@
+// How far an integrated orbit can be believed: the same run with half the step.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "carom/ensemble/system.hpp"
+
+namespace carom {
+
+/// The largest distance, over all particles, of a run's states from those of the same run with half the step (adaptive
+/// schemes: a 64th of the tolerance, 1e-15 at least). For a scheme of order p it errs by a 2^p-th of itself.
+struct StateError {
+  double position = 0.0, velocity = 0.0;
+  double until = 0.0;  ///< the time they are of: that asked for; earlier where the runs part, or after most_compared steps
+};
+
+/// Steps, times the square of the number of particles, that are compared at most.
+inline constexpr double most_compared = 4e6;
+
+/// Of the first start, at the time t_end or before. Nothing where no force acts, for hard discs, or if it was stopped.
+std::optional<StateError> state_error(const System&, std::uint64_t trajectory, double t_end,
+                                      const std::function<bool()>& stopped = {});
+
+}  // namespace carom
