@@ -26,13 +26,16 @@ double scale_of(const Options& options) {
   return scale;
 }
 
+/// Seven decimals, or as many digits of large numbers.
+std::string number_text(double value) { return value < 10.0 ? fmt::format("{:.7f}", value) : fmt::format("{:.7g}", value); }
+
 std::string line_of(const ValidationCase& c, Allowance allowance) {
   std::string line =
       fmt::format("{}  {:<34} seed {}  {:>12.4g} hits {:>7.2f} s  ", c.passed ? "passed" : "FAILED", c.name,
                   c.seed, static_cast<double>(c.hits), c.seconds);
   if (c.error > 0.0)
-    line += fmt::format("{:.7f} +- {:.7f}  expected {:.7f}  {:+.1f} sigma", c.value, c.error, c.expected,
-                        c.distance);
+    line += fmt::format("{} +- {}  expected {}{}  {:+.1f} sigma", number_text(c.value), number_text(c.error), number_text(c.expected),
+                        c.expected_error > 0.0 ? " +- " + number_text(c.expected_error) : "", c.distance);
   else if (c.digest != 0)
     line += fmt::format("{} lost, {}{} singular, filter share {:.9f}, digest {:016x}", c.lost,
                         c.unresolved > 0 ? fmt::format("{} unresolved, ", c.unresolved) : "", c.singular,
@@ -47,7 +50,8 @@ std::string line_of(const ValidationCase& c, Allowance allowance) {
 Json json_of(const ValidationCase& c, Allowance allowance) {
   Json json = Json::object();
   json.set("name", c.name).set("passed", c.passed).set("seed", c.seed).set("value", c.value);
-  json.set("error", c.error).set("expected", c.expected).set("sigma", c.distance);
+  json.set("error", c.error).set("expected", c.expected);
+  json.set("expected_error", c.expected_error).set("sigma", c.distance);
   json.set("allowed_below", allowance.below).set("allowed_above", allowance.above).set("source", c.source);
   json.set("hits", c.hits).set("unresolved", c.unresolved).set("lost", c.lost).set("singular", c.singular);
   json.set("filter_share", c.filter_share).set("digest", fmt::format("{:016x}", c.digest));

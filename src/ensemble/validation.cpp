@@ -11,6 +11,7 @@
 
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
+#include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
@@ -24,15 +25,16 @@ namespace {
 constexpr double most_errors = 4.0;
 
 // An integrable orbit may have no scatter at all: then the numbers agree to rounding.
-bool agrees(const ValidationCase& c, Allowance allowance) {
+bool agrees(const ValidationCase& c, double error, Allowance allowance) {
   const double rounding = 1e-12 * std::fabs(c.expected);
-  const double reach = most_errors * c.error + rounding;
+  const double reach = most_errors * error + rounding;
   return c.value >= c.expected - reach - allowance.below && c.value <= c.expected + reach + allowance.above;
 }
 
 void judge(ValidationCase& c, Allowance allowance) {
-  c.distance = c.error > 0.0 ? (c.value - c.expected) / c.error : c.value - c.expected;
-  c.passed = c.complete && c.lost == 0 && c.unresolved == 0 && agrees(c, allowance);
+  const double error = std::sqrt(c.error * c.error + c.expected_error * c.expected_error);
+  c.distance = error > 0.0 ? (c.value - c.expected) / error : c.value - c.expected;
+  c.passed = c.complete && c.lost == 0 && c.unresolved == 0 && agrees(c, error, allowance);
 }
 
 // Runs the ensemble and fills in everything but the value.
@@ -252,16 +254,45 @@ ValidationCase check_escape_rate(const System& system, double expected, const Va
   return c;
 }
 
-ValidationCase check_survivors(const System& system, double factor, double expected, Allowance allowance,
+ValidationCase check_survivors(const System& system, double factor, Estimate expected, Allowance allowance,
                                const ValidationOptions& options) {
   ValidationCase c;
-  c.expected = expected;
+  c.expected = expected.value;
+  c.expected_error = expected.error;
   const EscapeResult result = run(system, options, c);
   const double n = static_cast<double>(result.counts.followed());
   const double survived = static_cast<double>(result.counts.survived);
   c.value = factor * survived / n;
   c.error = factor * binomial_error(survived, n);
   judge(c, allowance);
+  return c;
+}
+
+ValidationCase check_displacement(const System& system, Estimate expected, const ValidationOptions& options) {
+  ValidationCase c;
+  c.expected = expected.value;
+  c.expected_error = expected.error;
+  c.seed = system.run.seed;
+  DiffusionOptions how;
+  how.threads = options.threads;
+  how.interrupted = options.interrupted;
+  const DiffusionResult result = run_diffusion(system, how);
+  c.complete = result.complete;
+  c.hits = result.collisions;
+  c.unresolved = result.unresolved;
+  c.lost = result.lost;
+  c.singular = result.singular;
+  c.digest = result.digest;
+  c.threads = result.threads;
+  c.seconds = result.seconds;
+  c.cpu_seconds = result.cpu_seconds;
+  if (!result.reports.empty()) c.report = result.reports.front().second;
+  if (c.complete) {
+    const Estimate square = DisplacementMoments(result.sums).points().back().square;
+    c.value = square.value;
+    c.error = square.error;
+  }
+  judge(c, {});
   return c;
 }
 

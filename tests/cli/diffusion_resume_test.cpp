@@ -9,7 +9,7 @@ namespace carom {
 namespace {
 
 const Ensemble lorentz{"diffusion", "lorentz-triangular --trajectories 8000 --t-max 2e4"};
-const Ensemble soft{"diffusion", "soft-lorentz --trajectories 700 --t-max 40"};
+const Ensemble soft{"diffusion", "soft-lorentz --trajectories 700 --t-max 10"};
 
 // Five kills; fifty with CAROM_SOAK.
 int kills(int few) { return std::getenv("CAROM_SOAK") ? 25 : few; }

@@ -71,12 +71,12 @@ void expect_one_result(const std::string& command, const std::string& options, s
 TEST(OneResult, OfEscapes) { expect_one_result("escape", "magnetic-square --trajectories 2000 --t-max 1e5 --per-trajectory", 7); }
 
 TEST(OneResult, OfEscapesUnderForces) {
-  expect_one_result("escape", "soft-lorentz --trajectories 200 --t-max 200 --per-trajectory", 13);
+  expect_one_result("escape", "soft-lorentz --trajectories 200 --t-max 50 --per-trajectory", 13);
 }
 
 TEST(OneResult, OfDiffusion) { expect_one_result("diffusion", "lorentz-triangular --trajectories 600 --t-max 4e4", 13); }
 
-TEST(OneResult, OfDiffusionUnderForces) { expect_one_result("diffusion", "soft-lorentz --trajectories 200 --t-max 200", 13); }
+TEST(OneResult, OfDiffusionUnderForces) { expect_one_result("diffusion", "soft-lorentz --trajectories 200 --t-max 50", 13); }
 
 }  // namespace
 }  // namespace carom

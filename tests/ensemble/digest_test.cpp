@@ -153,7 +153,7 @@ TEST(Digest, OfIntegratedMotionIsTheSameInEveryWay) {
     settings.emplace_back("run.trajectories", trajectories);
     systems.push_back(built_in(name, settings));
   };
-  add("soft-lorentz", "10.03", "150");
+  add("soft-lorentz", "2.53", "150");
   add("soft-lorentz", "5", "20", {{"integrator.scheme", "\"arkode\""}});
   add("antidot-magnetic", "3", "150");
   add("henon-heiles", "20", "70", {{"particles.energy", "0.2"}});

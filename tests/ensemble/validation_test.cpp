@@ -76,10 +76,47 @@ trajectories = 200000
 TEST(Validation, SurvivorsWithinAnAllowance) {
   // Nobody leaves a closed disc.
   const System system = closed_circle("uniform", "collisions = 10\ntrajectories = 1000\n");
-  EXPECT_TRUE(check_survivors(system, 2.0, 2.0, {}).passed);
-  EXPECT_FALSE(check_survivors(system, 2.0, 1.8, {}).passed);
-  EXPECT_TRUE(check_survivors(system, 2.0, 1.8, {0.0, 0.2}).passed);
-  EXPECT_FALSE(check_survivors(system, 2.0, 1.8, {0.2, 0.0}).passed);
+  EXPECT_TRUE(check_survivors(system, 2.0, {2.0}, {}).passed);
+  EXPECT_FALSE(check_survivors(system, 2.0, {1.8}, {}).passed);
+  EXPECT_TRUE(check_survivors(system, 2.0, {1.8}, {0.0, 0.2}).passed);
+  EXPECT_FALSE(check_survivors(system, 2.0, {1.8}, {0.2, 0.0}).passed);
+}
+
+TEST(Validation, BothErrorsCount) {
+  const System system = closed_circle("uniform", "collisions = 10\ntrajectories = 1000\n");
+  // All of a thousand survive: the own error is about 1e-3, and 0.1 is far away unless the reference is as uncertain.
+  EXPECT_FALSE(check_survivors(system, 1.0, {0.9, 0.001}, {}).passed);
+  const ValidationCase c = check_survivors(system, 1.0, {0.9, 0.05}, {});
+  EXPECT_TRUE(c.passed);
+  EXPECT_EQ(c.expected_error, 0.05);
+  EXPECT_NEAR(c.distance, 2.0, 1e-3);
+}
+
+TEST(Validation, DisplacementOfFreeFlight) {
+  // Speed 2 in a lattice whose only disc is out of reach: |r(t) - r(0)| = 2 t for all.
+  const System system = make_system(R"(
+[table]
+shape = "lorentz"
+lattice = "square"
+spacing = 10
+radius = 0.1
+[particles]
+speed = 2
+[initial]
+kind = "rectangle"
+min = [4.9, 4.9]
+max = [5, 5]
+[run]
+t_max = 1.5
+times = [0.5, 1.5]
+trajectories = 300
+)");
+  const ValidationCase c = check_displacement(system, {9.0});
+  EXPECT_TRUE(c.passed) << c.value;
+  EXPECT_NEAR(c.value, 9.0, 1e-12);
+  EXPECT_EQ(c.lost, 0u);
+  EXPECT_FALSE(check_displacement(system, {9.01}).passed);
+  EXPECT_TRUE(check_displacement(system, {9.01, 0.005}).passed);
 }
 
 TEST(Validation, DistanceOfOneOrbit) {

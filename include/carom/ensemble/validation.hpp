@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/ensemble/system.hpp"
 
 namespace carom {
@@ -16,7 +17,8 @@ struct ValidationCase {
   double value = 0.0;
   double error = 0.0;           ///< own standard error (0: none)
   double expected = 0.0;
-  double distance = 0.0;        ///< (value - expected) / error, or their difference where error is 0
+  double expected_error = 0.0;  ///< standard error of the expected value (0: exact)
+  double distance = 0.0;        ///< (value - expected) / both errors together, or their difference where these are 0
   bool passed = false;
   bool complete = true;         ///< false when interrupted: then it neither passed nor failed
   std::uint64_t seed = 1, hits = 0, unresolved = 0, lost = 0, singular = 0, digest = 0;
@@ -32,8 +34,8 @@ struct ValidationOptions {
   const std::atomic<bool>* interrupted = nullptr;
 };
 
-/// How far a value may be from what is expected: four of its standard errors, and `below` and `above`
-/// on top where finite times or lengths leave a known bias.
+/// How far a value may be from what is expected: four standard errors of their difference, and `below` and
+/// `above` on top where finite times or lengths leave a known bias.
 struct Allowance {
   double below = 0.0, above = 0.0;
 };
@@ -58,8 +60,11 @@ ValidationCase check_survival_per_hit(const System&, double expected, const Vali
 ValidationCase check_escape_rate(const System&, double expected, const ValidationOptions& = {});
 
 /// Share of trajectories that survive until t_max or their cap on hits, times `factor`.
-ValidationCase check_survivors(const System&, double factor, double expected, Allowance,
+ValidationCase check_survivors(const System&, double factor, Estimate expected, Allowance,
                                const ValidationOptions& = {});
+
+/// Mean square displacement at the last report time.
+ValidationCase check_displacement(const System&, Estimate expected, const ValidationOptions& = {});
 
 /// Distance from the origin of the plane at t_max, of trajectory 0. It passes within `allowance`:
 /// rounding grows with every hit, so one orbit in double precision has no standard error.
