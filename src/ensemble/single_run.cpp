@@ -35,9 +35,11 @@ class FreeEnergies {
       seen = before;
       changes_[at(particle)] = before.change;
       sum_ = kinetic;
+      goes_on_ = before.kinetic > 0.0;
     }
     begun_ = true;
-    seen.kinetic = larger(seen.kinetic, sum_);
+    // A part that goes on begins where an undisturbed run has no beginning: its energy there is that of before, but rounded anew.
+    if (!goes_on_) seen.kinetic = larger(seen.kinetic, sum_);
   }
   void hit(const HitEvent& event) {
     if (shared_) return pass({{event.particle, event.before, event.after}});
@@ -72,7 +74,7 @@ class FreeEnergies {
 
   const std::vector<Particle>& particles_;
   const bool shared_;
-  bool begun_ = false;
+  bool begun_ = false, goes_on_ = false;
   double sum_ = 0.0;
   std::vector<EnergyBalance> seen_;
   std::vector<Twofold> changes_;
