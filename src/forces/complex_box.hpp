@@ -91,7 +91,7 @@ inline Box inverse(const Box& a) {
 inline Box square(const Box& a) { return {square(a.re) - square(a.im), 2.0 * (a.re * a.im)}; }
 
 /// The box about all numbers of these moduli and arguments.
-inline Box polar(Range modulus, Range argument) { return {modulus * cosine(argument), modulus * sine(argument)}; }
+inline Box of_polar(Range modulus, Range argument) { return {modulus * cosine(argument), modulus * sine(argument)}; }
 /// Arguments in (-pi, pi]; all of them where the box touches 0 or the negative axis.
 inline Range argument(const Box& a) {
   constexpr double pi = 3.141592653589793;
@@ -105,14 +105,14 @@ inline bool is_cut(const Box& a) { return !(a.re.low > 0.0) && has_zero(a.im); }
 
 inline Box root(const Box& a) {
   const Range m = modulus_squared(a), t = argument(a);
-  return polar({std::sqrt(std::sqrt(m.low)), std::sqrt(std::sqrt(m.high))}, {0.5 * t.low, 0.5 * t.high});
+  return of_polar({std::sqrt(std::sqrt(m.low)), std::sqrt(std::sqrt(m.high))}, {0.5 * t.low, 0.5 * t.high});
 }
 inline Box logarithm(const Box& a) {
   const Range m = modulus_squared(a);
   if (!(m.low > 0.0)) return Box::all();
   return {{0.5 * elementary::log(m.low), 0.5 * elementary::log(m.high)}, argument(a)};
 }
-inline Box exponential(const Box& a) { return polar(exponential(a.re), a.im); }
+inline Box exponential(const Box& a) { return of_polar(exponential(a.re), a.im); }
 inline Box sine(const Box& a) {
   return {sine(a.re) * hyperbolic_cosine(a.im), cosine(a.re) * hyperbolic_sine(a.im)};
 }
@@ -152,7 +152,7 @@ inline Box power(const Box& a, int n) {
   const Range m = modulus_squared(a);
   const auto to = [n](double m2) { return m2 > 0.0 ? elementary::exp(0.5 * n * elementary::log(m2)) : 0.0; };
   const Range t = argument(a);
-  return polar({to(m.low), to(m.high)}, {n * t.low, n * t.high});
+  return of_polar({to(m.low), to(m.high)}, {n * t.low, n * t.high});
 }
 
 }  // namespace carom::complex_box

@@ -11,11 +11,11 @@ namespace carom {
 struct IntegratorPlan {
   std::string scheme;        ///< a name of schemes(), a magnetic scheme, "arkode" or "cvode"; "": the default
   double step = 0.0;         ///< > 0: time between two ends of steps; 0: not given
-  bool step_chosen = false;  ///< the step is not of the file: ensemble/choose_step.hpp found it
   double tolerance = 0.0;    ///< > 0: relative tolerance of an adaptive scheme; 0: not given
   bool split_walls = false;  ///< walls = "split": walls inside the drift, for comparison only
   bool count_unresolved = false;   ///< unresolved = "count": steps that do not resolve a force are counted, not fatal
   double energy_tolerance = 1e-3;  ///< largest change of the energy over the largest kinetic energy that is accepted
+  bool step_chosen = false;        ///< the step is not of the file: ensemble/choose_step.hpp found it
 };
 
 inline constexpr double default_tolerance = 1e-12;  ///< of an adaptive scheme
