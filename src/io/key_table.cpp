@@ -140,7 +140,7 @@ const std::vector<KeyDescription>& key_table() {
 
       {"integrator", "", "scheme", "string", "\"blanes-moan-srkn11b\"", "name of a scheme, arkode or cvode"},
       {"integrator", "", "step", "number", "",
-       "time of a step; needed where forces act, except with arkode and cvode: there it is the longest step, if not given a width of the narrowest bump"},
+       "time of a step; where forces act and none is given the program chooses one; the longest step of arkode and cvode"},
       {"integrator", "", "tolerance", "number", "",
        "of arkode and cvode, 1e-12 if not given: error of a step, relative to the state"},
       {"integrator", "", "unresolved", "string", "\"stop\"",
