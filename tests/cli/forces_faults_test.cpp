@@ -181,7 +181,8 @@ TEST(ForceFaults, PolesInTheRegion) {
       if (o.status == 0) continue;
       EXPECT_EQ(o.status, 3) << expression << " " << scheme << o.err;
       bool reason = false;
-      for (const char* one : {"is not a number", "too rough", "finds no step", "lead nowhere", "runs away", "too long", "does not resolve", "no step resolves"})
+      for (const char* one : {"is not a number", "too rough", "finds no step", "lead nowhere", "runs away", "too long", "does not resolve", "no step resolves",
+                              "cannot be resolved"})
         reason = reason || holds(o.err, one);
       EXPECT_TRUE(reason) << expression << " " << scheme << o.err;
     }
