@@ -271,6 +271,7 @@ void Group::remove(std::size_t member) {
   phase_.velocity.erase(phase_.velocity.begin() + i);
   stepper_.reset();
   make_stepper();
+  find_maps();
 }
 
 void Group::fold(std::size_t member) {

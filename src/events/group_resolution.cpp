@@ -85,6 +85,7 @@ bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& sp
 
 /// The longest of asked, asked/2, asked/4, ... that resolves the forces from there on; 0 if none does.
 double Group::longest_step(const Phase<double>& from, const double& asked) const {
+  if (maps_.empty()) return asked;
   constexpr int most_halvings = 60;
   double time = asked;
   for (int k = 0; k < most_halvings; ++k, time *= 0.5)
