@@ -2,14 +2,14 @@
 #pragma once
 
 #include <functional>
-#include <utility>
 
 namespace carom {
 
 /// Counts work, and asks once in some milliseconds of it. It belongs to one thread.
 class Interrupt {
  public:
-  explicit Interrupt(std::function<bool()> asked = {}) : asked_(std::move(asked)) {}
+  /// `asked` must live as long; empty or null: nothing stops it.
+  explicit Interrupt(const std::function<bool()>* asked = nullptr) : asked_(asked && *asked ? asked : nullptr) {}
 
   /// Adds work, in nanoseconds roughly. True: stop; what has been computed since this was false is worth nothing.
   bool after(double work) {
@@ -22,11 +22,11 @@ class Interrupt {
   static constexpr double between_questions = 1e7;
   bool ask() {
     work_ = 0.0;
-    stopped_ = stopped_ || (asked_ && asked_());
+    stopped_ = stopped_ || (asked_ && (*asked_)());
     return stopped_;
   }
 
-  std::function<bool()> asked_;
+  const std::function<bool()>* asked_;
   double work_ = 0.0;
   bool stopped_ = false;
 };
