@@ -16,7 +16,7 @@ namespace {
 // All discs are drawn again so often until none overlap, each of them so often until it finds room.
 constexpr int draws_of_all = 10'000, draws_of_one = 100'000;
 // Most pairs that are compared before that is given up; those of an arrangement that is found do not count.
-constexpr double most_pairs = 1e9;
+constexpr double most_pairs = 2e8;
 
 bool overlap(const System& system, const State& a, const State& b, double reach) {
   Vector d = a.position - b.position;
