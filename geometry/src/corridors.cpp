@@ -17,8 +17,8 @@ namespace {
 
 using Exact = BasicVector<Dyadic>;
 
-// Directions looked at, at most.
-constexpr std::size_t most_directions = 20000;
+// Directions looked at, at most, and projections of walls onto them: each costs some microseconds.
+constexpr std::size_t most_directions = 20000, most_projections = 200000;
 
 Exact exact(Vector v) { return {Dyadic(v.x), Dyadic(v.y)}; }
 
@@ -113,16 +113,18 @@ struct Direction {
 };
 
 // One of each pair of opposite primitive vectors not longer than `longest`, shortest first.
-std::vector<Direction> directions(const Lattice& lattice, double longest, bool& complete) {
+std::vector<Direction> directions(const Lattice& lattice, double longest, std::size_t walls, bool& complete) {
+  const double most = static_cast<double>(std::clamp<std::size_t>(most_projections / walls, 1, most_directions));
   const double area = lattice.cell_area();
   const double a = std::sqrt(dot(lattice.first, lattice.first));
   const double b = std::sqrt(dot(lattice.second, lattice.second));
   std::vector<Direction> result;
   // |m| = |cross(p, second)| / area and |n| = |cross(first, p)| / area.
   double most_first = std::floor(longest * b / area + 1.0), most_second = std::floor(longest * a / area + 1.0);
-  if ((most_first + 1) * (2 * most_second + 1) > static_cast<double>(most_directions)) {
+  // Twice or more where one of the numbers has come down to its least, 1.
+  while ((most_first + 1) * (2 * most_second + 1) > std::max(most, 6.0)) {
     complete = false;
-    longest *= std::sqrt(static_cast<double>(most_directions) / ((most_first + 1) * (2 * most_second + 1)));
+    longest *= std::sqrt(most / ((most_first + 1) * (2 * most_second + 1)));
     most_first = std::floor(longest * b / area + 1.0);
     most_second = std::floor(longest * a / area + 1.0);
   }
@@ -194,7 +196,7 @@ Corridors free_corridors(const Lattice& lattice, const std::vector<Curve>& walls
   if (period.sign() < 0) period = -period;
   // One part in 10^3 more than enough: the bound itself is computed in doubles.
   const double longest = 1.001 * lattice.cell_area() / least_width(walls);
-  for (const Direction& direction : directions(lattice, longest, result.complete)) {
+  for (const Direction& direction : directions(lattice, longest, walls.size(), result.complete)) {
     const Cell& c = direction.cell;
     const Exact p = Dyadic(static_cast<double>(c.first)) * first + Dyadic(static_cast<double>(c.second)) * second;
     std::vector<Interval> intervals;

@@ -140,10 +140,10 @@ int certified_sample(const Options& options) {
   PairedEscapeOptions how;
   how.sample = whole_number(options.certify_sample, "--certify-sample", 1);
   how.threads = threads_of(options);
-  how.interrupted = &catch_interrupts();
   const int digits = digits_of(options);
   LoadedSystem loaded = load_system(options.system, options.overrides);
   choose_engine(options.engine, loaded.system);
+  how.interrupted = &catch_interrupts();
   const System& system = loaded.system;
   if (how.sample > system.run.trajectories)
     throw InputError(place_of("--certify-sample"), fmt::format("the ensemble has {} trajectories", system.run.trajectories),

@@ -75,10 +75,10 @@ EnsembleJob<Result> job_of(const Options& options) {
   if (!options.resume.empty()) return job_to_go_on<Result>(options);
   EnsembleJob<Result> job;
   job.output = options.output;
-  if (!job.output.empty()) job.lock = lock_output(job.output);
   job.shard = shard_of(options);
   job.loaded = load_system(options.system, overrides_of(options));
   choose_engine(options.engine, job.loaded.system);
+  if (!job.output.empty()) job.lock = lock_output(job.output);
   return job;
 }
 template EnsembleJob<EscapeResult> job_of(const Options&);

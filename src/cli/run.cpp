@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "carom/base/error.hpp"
@@ -100,14 +101,16 @@ int run(const Options& options) {
   SingleRunOptions how;
   if (!options.trajectory.empty()) how.trajectory = whole_number(options.trajectory, "--trajectory", 0);
 
-  const std::atomic<bool>& interrupted = catch_interrupts();  // before there is an archive
   LoadedSystem loaded;
+  std::optional<Progress> preparing(std::in_place, !options.quiet);
   std::unique_ptr<RunArchive> archive;
   std::string output = options.output;
   if (options.resume.empty()) {
     loaded = load_system(options.system, run_overrides(options));
     choose_engine(options.engine, loaded.system);
     check_start(loaded.system);  // a start that is impossible must not cost an old archive
+    // From here on a signal must leave a valid archive. Before, it simply ends the program, whatever that computes.
+    catch_interrupts();
     if (!output.empty()) archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1), options.force,
                                                       how.trajectory, lock_output(output));
   } else {
@@ -121,6 +124,7 @@ int run(const Options& options) {
     if (!options.overrides.trust_tolerance.empty())
       throw InputError(Place{"command line", 0, 0, "--trust-tolerance"}, "the stored run has its own tolerance",
                        "a new run");
+    catch_interrupts();
     how.resume = stored.particles;
     how.steps = stored.steps;
     refuse_going_back(loaded.system, stored);
@@ -128,10 +132,12 @@ int run(const Options& options) {
     archive = RunArchive::extend(options.resume, output, loaded, provenance_of(options, loaded.system, 1),
                                  options.force, lock);
   }
+  const std::atomic<bool>& interrupted = catch_interrupts();
   const System& system = loaded.system;
   if (estimates_trust(system)) how.written = written_system(loaded);
   how.estimate_state_error = true;
 
+  preparing.reset();
   Counting counting(archive.get());
   SingleRunResult result;
   {

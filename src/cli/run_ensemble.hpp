@@ -35,7 +35,6 @@ EnsembleOptions<Result> how_to_run(const Options& options) {
     how.save_every = interval.seconds;
     how.save_every_blocks = interval.blocks;
   }
-  how.interrupted = &catch_interrupts();
   return how;
 }
 
@@ -64,6 +63,7 @@ int run_as_hand(const Options& options, const EnsembleKind<Result>& kind, Ranks&
   if (!loaded) return done;
   EnsembleOptions<Result> how = how_to_run<Result>(options);
   how.ranks = &ranks;
+  how.interrupted = &catch_interrupts();
   kind.run(loaded->system, how);
   return *how.interrupted ? stopped : done;
 }
@@ -75,7 +75,10 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
   JobCall call(ranks);
   check_engine(options);
   EnsembleOptions<Result> how = how_to_run<Result>(options);
+  std::optional<Progress> preparing(std::in_place, !options.quiet);
   EnsembleJob<Result> job = job_of<Result>(options);
+  preparing.reset();
+  how.interrupted = &catch_interrupts();  // until here a signal ends the program, whatever it computes
   if (job.stored && job.stored->result.complete) {
     remove_checkpoint(job.output);  // left by a process that was killed at its last step
     job.lock.reset();

@@ -133,11 +133,13 @@ int section(const Options& options) {
   check_engine(options);
   SectionOptions how;
   how.threads = threads_of(options);
-  how.interrupted = &catch_interrupts();  // before there is an archive
+  std::optional<Progress> preparing(std::in_place, !options.quiet);
   LoadedSystem loaded = load_section(options);
+  preparing.reset();
   choose_engine(options.engine, loaded.system);
   const System& system = loaded.system;
 
+  how.interrupted = &catch_interrupts();  // before there is an archive
   std::unique_ptr<SectionArchive> archive;
   if (!options.output.empty())
     archive = std::make_unique<SectionArchive>(options.output, loaded, provenance_of(options, system, how.threads),

@@ -1,6 +1,7 @@
 // Starts of hard discs: none may overlap another.
 #include <fmt/format.h>
 
+#include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/random.hpp"
 #include "carom/ensemble/sampler.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 // All discs are drawn again so often until none overlap, each of them so often until it finds room.
 constexpr int draws_of_all = 10'000, draws_of_one = 100'000;
+// Most pairs that are compared before that is given up; those of an arrangement that is found do not count.
+constexpr double most_pairs = 2e8;
 
 bool overlap(const System& system, const State& a, const State& b, double reach) {
   Vector d = a.position - b.position;
@@ -27,10 +30,16 @@ bool overlap(const System& system, const State& a, const State& b, double reach)
 /// other. Where so many are so large that this finds none, they are placed one after the other.
 std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t trajectory) const {
   const std::size_t count = system_.particles.size();
+  Interrupt interrupt(&stopped_);
+  double pairs = 0.0;  // of draws that did not fit
   const auto fits = [&](const std::vector<State>& placed, const State& next) {
+    if (interrupt.after(200.0 + 4.0 * static_cast<double>(placed.size()))) throw SamplingStopped();
     const double radius = system_.particles[placed.size()].radius;
     for (std::size_t q = 0; q < placed.size(); ++q)
-      if (overlap(system_, next, placed[q], radius + system_.particles[q].radius)) return false;
+      if (overlap(system_, next, placed[q], radius + system_.particles[q].radius)) {
+        pairs += static_cast<double>(q + 1);
+        return false;
+      }
     return true;
   };
   std::vector<RandomStream> random;
@@ -44,8 +53,7 @@ std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t traject
     while (states.size() < count) states.push_back(draw_next(states));
     return states;  // the world says which overlap
   }
-  for (int draw = 0; draw < draws_of_all; ++draw) {
-    stop_if_asked(draw);
+  for (int draw = 0; draw < draws_of_all && pairs < 0.5 * most_pairs; ++draw) {
     states.clear();
     while (states.size() < count) {
       State next = draw_next(states);
@@ -56,12 +64,10 @@ std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t traject
   }
   for (std::int64_t attempt = patience(1, trajectory); attempt > 0; --attempt) {
     states.clear();
+    pairs = 0.0;
     while (states.size() < count) {
       State next = draw_next(states);
-      for (int draw = 0; draw < draws_of_one && !fits(states, next); ++draw) {
-        stop_if_asked(draw);
-        next = draw_next(states);
-      }
+      for (int draw = 0; draw < draws_of_one && pairs < most_pairs && !fits(states, next); ++draw) next = draw_next(states);
       if (!fits(states, next)) break;
       states.push_back(next);
     }

@@ -272,7 +272,7 @@ State Sampler::on_line(const World& world, RandomStream& random, std::uint64_t t
     const elementary::SinCos turned = elementary::sincos(initial.angle);
     direction = {turned.cos, turned.sin};
   }
-  const Vector velocity = speed * unit(direction);
+  const Vector velocity = speed == 0.0 ? Vector{} : speed * unit(direction);
   const std::int64_t most = initial.from == initial.to ? 1 : patience(most_tries_of_a_line, trajectory);
   for (std::int64_t tries = 0; tries < most; ++tries) {
     stop_if_asked(tries);
@@ -285,8 +285,8 @@ State Sampler::on_line(const World& world, RandomStream& random, std::uint64_t t
 
 State Sampler::at_point(const World& world, Vector position, Vector given, double speed) const {
   const InitialCondition& initial = system_.initial;
-  if (given.x == 0.0 && given.y == 0.0) throw impossible(initial, "the velocity is zero");
-  // A disc may rest; a velocity that already has the speed is taken as it is, digit for digit.
+  if (given == Vector{} && speed != 0.0) throw impossible(initial, "the velocity is zero");
+  // A disc may rest, and a particle under forces; a velocity that already has the speed is taken as it is, digit for digit.
   Vector velocity = std::sqrt(dot(given, given)) == speed ? given : speed * unit(given);
   if (speed == 0.0) velocity = {};
   const State state = off_walls(*system_.table, position, velocity);
@@ -370,8 +370,10 @@ int add_state(World& world, const Sampler& sampler, const State& state, std::uin
 
 void add_starts(World& world, const Sampler& sampler, std::uint64_t trajectory) {
   const std::vector<State> states = sampler.draw_all(world, trajectory);
-  for (std::size_t p = 0; p < states.size(); ++p)
+  for (std::size_t p = 0; p < states.size(); ++p) {
+    if (sampler.stopped()) throw SamplingStopped();
     add_state(world, sampler, states[p], trajectory, static_cast<int>(p));
+  }
 }
 
 int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, int particle) {

@@ -286,7 +286,9 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     const std::optional<EndEvent>& end = passed_on.end_of(p);
     now.fate = end ? end->fate : Fate::survived;
     const bool until_stop = now.fate == Fate::survived || now.fate == Fate::pinned;
-    now.end = !until_stop ? end->time : result.interrupted ? now.state.time : Time(system.run.t_max);
+    // What is pinned without a last time has been followed to its end.
+    const bool endless = without_end && now.fate == Fate::pinned;
+    now.end = !until_stop ? end->time : result.interrupted || endless ? now.state.time : Time(system.run.t_max);
   }
   if (shared && !numbers.empty())
     for (ParticleProgress& one : progress) one.energy = progress[static_cast<std::size_t>(numbers.front())].energy;

@@ -1,10 +1,12 @@
 // Starts of particles under forces: total energies, and particles that feel each other.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/random.hpp"
 #include "carom/ensemble/sampler.hpp"
@@ -19,6 +21,12 @@ namespace {
 
 /// If so few of the draws lie below the energy, it is below all that matters.
 constexpr std::int64_t most_draws = 100'000;
+/// Of particles that interact: they are all drawn again, and each pair costs some nanoseconds.
+constexpr double most_pairs = 2e8;
+std::int64_t most_draws_of_all(std::size_t particles) {
+  const double n = static_cast<double>(particles), pairs = 0.5 * n * (n - 1.0);
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(most_pairs / pairs), 4, most_draws);
+}
 
 Vector with_speed(Vector velocity, double speed) {
   return (speed / std::sqrt(dot(velocity, velocity))) * velocity;
@@ -88,13 +96,16 @@ std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajector
   double energy = 0.0;
   for (const double e : system_.energies) energy += e;
   double lowest = std::numeric_limits<double>::infinity();
-  const std::int64_t most = random_positions() ? patience(most_draws, trajectory) : 1;
+  const std::int64_t most = random_positions() ? patience(most_draws_of_all(count), trajectory) : 1;
+  Interrupt interrupt(&stopped_);
   for (std::int64_t draw = 0; draw < most; ++draw) {
-    stop_if_asked(draw);
     states.clear();
-    for (std::size_t p = 0; p < count; ++p)
+    for (std::size_t p = 0; p < count; ++p) {
+      if (interrupt.after(1000.0)) throw SamplingStopped();
       states.push_back(draw_free(world, random[p], trajectory, static_cast<int>(p)));
-    const Energy now = energy_of(system_.particles, states, dynamics, *system_.table);
+    }
+    const Energy now = energy_of(system_.particles, states, dynamics, *system_.table, &interrupt);
+    if (interrupt.stopped()) throw SamplingStopped();
     const double potential = now.external + now.pair;
     if (!std::isfinite(potential)) {
       if (random_positions()) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/interrupt.hpp"
 #include "forces/nearest_copy.hpp"
 
 namespace carom {
@@ -33,7 +34,7 @@ EnergyError EnergyBalance::error_at_end(double change_at_end, double kinetic_at_
 }
 
 Energy energy_of(std::span<const Particle> particles, std::span<const State> states, const Dynamics& dynamics,
-                 const Table& table) {
+                 const Table& table, Interrupt* interrupt) {
   Energy e;
   for (std::size_t i = 0; i < states.size(); ++i)
     e.kinetic += 0.5 * particles[i].mass * dot(states[i].velocity, states[i].velocity);
@@ -41,6 +42,7 @@ Energy energy_of(std::span<const Particle> particles, std::span<const State> sta
   const ForceField& forces = *dynamics.forces;
   Vector unused{};
   for (std::size_t i = 0; i < states.size(); ++i) {
+    if (interrupt && interrupt->after(10.0 * static_cast<double>(states.size() - i))) return e;
     if (forces.external()) e.external += forces.add_external(particles[i], states[i].position, unused);
     for (std::size_t j = i + 1; j < states.size() && forces.interacts(); ++j) {
       Vector d = states[i].position - states[j].position;

@@ -88,7 +88,7 @@ void Group::make_stepper() {
 void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const {
   std::fill(a.begin(), a.end(), Vector{});
   if (in_.counts) ++in_.counts->force_evaluations;
-  if (!in_.forces) return;
+  if (!in_.forces || interrupted(100.0 * static_cast<double>(x.size()))) return;
   const ForceField& forces = *in_.forces;
   double energy = 0.0;
   if (forces.external())
@@ -97,7 +97,7 @@ void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const 
     external_.position.assign(x.begin(), x.end());
     external_.energy = energy;
   }
-  if (forces.interacts()) forces.add_pairs(particles_, x, in_.lattice, a);
+  if (forces.interacts()) forces.add_pairs(particles_, x, in_.lattice, a, listens_ ? in_.interrupt : nullptr);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (particles_[i].mass != 1.0) a[i] = (1.0 / particles_[i].mass) * a[i];
 }
@@ -116,30 +116,48 @@ Time Group::step_end(const Time& limit) const {
   return in_.plan.step > 0.0 ? std::min(limit, next_multiple(time_, in_.plan.step)) : limit;
 }
 
+void Group::drop_prediction() {
+  next_ = {};
+  stepper_.reset();  // and all that it remembers
+  if (splits_) splits_->position.clear();
+  checked_.position.clear();
+  make_stepper();
+}
+
 const Group::Next& Group::predict(const Time& limit) {
   next_ = {};
+  between_.duration = -1.0;
   if (in_.plan.step > 0.0 && too_late(time_, in_.plan.step)) {
     whole_step_ = false;
     next_.fault = "more than 2^52 steps lie behind it, and the next cannot be counted; a longer step goes farther";
     return next_;
   }
+  listens_ = true;
+  find_next(limit);
+  listens_ = false;
+  return next_;
+}
+
+void Group::find_next(const Time& limit) {
   const Phase<double>& from = splits_ ? begin_drift(limit) : phase_;
   if (!splits_) path_end_ = step_end(limit);
   const double rest = std::clamp(path_end_ - time_, 0.0, std::numeric_limits<double>::max());
   next_.duration = path_->begin(from, rest);
   whole_step_ = !(next_.duration < rest);
   next_.fault = fault_at(path_->end().phase);
-  if (!next_.fault.empty()) return next_;
+  if (!next_.fault.empty()) return;
   if (!splits_) {
     next_.fault = check_resolution();
     next_.unresolved = !next_.fault.empty();
-    if (next_.unresolved && !in_.plan.count_unresolved) return next_;
+    if (next_.unresolved && !in_.plan.count_unresolved) return;
     next_.fault.clear();
   }
   bool near_wall = false;
   CrossingSearch<double> search(*path_);
   StepPath<double>::Knot* last = &path_->end();
   for (std::size_t i = 0; i < bodies_.size() && !in_.barriers.empty(); ++i) {
+    if (search.gave_up() || interrupted(10.0 * static_cast<double>(in_.barriers.size()))) break;
+    path_->keep_few(*last);
     const PathHull<double> hull(path_->start(), path_->end(), i);
     for (const Barrier<double>& barrier : in_.barriers) {
       if (stays_off(barrier, hull)) continue;
@@ -155,6 +173,7 @@ const Group::Next& Group::predict(const Time& limit) {
     }
   }
   passed_ = nullptr;
+  if (in_.interrupt && in_.interrupt->stopped()) return;
   if (search.gave_up())
     next_.fault =
         "the path of this step is too rough to find walls on it; the step is too long, or a potential has a pole";
@@ -162,7 +181,6 @@ const Group::Next& Group::predict(const Time& limit) {
     next_.fault = fault_at(last->phase);
   // Near a wall the search had to decide: nobody may have slipped through.
   if (near_wall && next_.fault.empty()) watch(last->phase);
-  return next_;
 }
 
 /// Where the lone member flies on freely from the edge. Nothing happens at an edge while others or another support hold
@@ -219,7 +237,14 @@ void Group::advance() {
 State Group::state_at(std::size_t member, const Time& time) {
   State s;
   const double duration = time - time_;
-  const Phase<double>& phase = duration > 0.0 ? path_->at(duration).phase : phase_;
+  // Not as a knot of the path: samples may be many.
+  if (duration > 0.0 && duration != between_.duration) {
+    listens_ = true;
+    path_->move(duration, between_.phase);
+    listens_ = false;
+    between_.duration = in_.interrupt && in_.interrupt->stopped() ? -1.0 : duration;
+  }
+  const Phase<double>& phase = duration > 0.0 ? between_.phase : phase_;
   s.position = phase.position[member];
   s.velocity = phase.velocity[member];
   if (splits_) s.velocity = s.velocity + outstanding_kick(phase, member, time);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/interrupt.hpp"
 #include "carom/base/time.hpp"
 #include "carom/events/step_counts.hpp"
 #include "carom/events/surface.hpp"
@@ -31,6 +32,7 @@ class Group final : public ForceLaw<double> {
  public:
   /// What the group lives in; shared by all groups of a world, which it must outlive.
   struct Surroundings {
+    Interrupt* interrupt = nullptr;            ///< of the run under way; null: nothing interrupts it
     const ForceField* forces = nullptr;        ///< null: nothing acts
     IntegratorPlan plan;
     const geometry::Lattice* lattice = nullptr;
@@ -74,6 +76,8 @@ class Group final : public ForceLaw<double> {
   Time next_time() const { return next_.member < 0 && whole_step_ ? path_end_ : time_ + next_.duration; }
   /// Is phase() that after whole steps, and not between the drifts of one?
   bool between_steps() const { return !splits_ || !splits_->under_way; }
+  /// A prediction was interrupted: forgets all that it computed. Another one is needed before anything else.
+  void drop_prediction();
   /// Goes to what was predicted.
   void advance();
   /// The state of a member at a time within the step under way.
@@ -103,11 +107,13 @@ class Group final : public ForceLaw<double> {
   void pass(const Barrier<double>& edge) { passed_ = &edge; }
 
  private:
+  bool interrupted(double work) const { return listens_ && in_.interrupt && in_.interrupt->after(work); }
   void find_maps();
   bool resolves(const Phase<double>& from, const Phase<double>* to, const resolution::Span&, bool ahead) const;
   bool resolves_pairs(const Phase<double>& from, const resolution::Span&, bool ahead) const;
   std::string check_resolution();
   std::string describe_unresolved(const Phase<double>& at, double step, double radius);
+  void find_next(const Time& limit);
   void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override;
   std::span<const double> masses() const override { return masses_; }
   double potential_energy(std::span<const geometry::Vector> x) const override;
@@ -140,7 +146,13 @@ class Group final : public ForceLaw<double> {
   Phase<double> phase_;
   Time time_;
   Next next_;
+  bool listens_ = false;  ///< an interrupt may end what is computed now
   const Barrier<double>* passed_ = nullptr;  ///< an edge that the next step starts on
+  /// The last state that was asked for within the step under way.
+  struct {
+    double duration = -1.0;
+    Phase<double> phase;
+  } between_;
   bool whole_step_ = false;  ///< the path under way ends at path_end_
   Time path_end_;            ///< of the step; of the drift with walls = "split"
   /// walls = "split": kicks at once, drifts that see the walls and nothing else.

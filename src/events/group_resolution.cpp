@@ -56,7 +56,8 @@ bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& sp
       acceleration[i] = external.force;
       jump[i] = external.jump;
     }
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n; ++i) {
+      if (interrupted(20.0 * static_cast<double>(i))) return;
       for (std::size_t j = 0; j < i; ++j) {
         Vector d = from.position[i] - from.position[j];
         if (in_.lattice) d = nearest_copy(d, *in_.lattice);
@@ -66,6 +67,7 @@ bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& sp
         jump[i] += pair.jump / particles_[i].mass;
         jump[j] += pair.jump / particles_[j].mass;
       }
+    }
   };
   bound();  // of the forces at the real positions
   const double share = ahead ? 0.5 : 1.0;

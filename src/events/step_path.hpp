@@ -63,10 +63,18 @@ class StepPath {
     move(time, knot.phase);
     return knot;
   }
+  /// Keeps the start, the end and this knot alone where all of them together are large.
+  void keep_few(Knot& one) {
+    constexpr std::size_t most = std::size_t{1} << 20;  // particles at all knots: some tens of megabytes
+    if (used_ < 4 || used_ * start().phase.position.size() < most) return;
+    const auto there = std::find_if(knots_.begin(), knots_.end(), [&](const auto& knot) { return knot.get() == &one; });
+    if (there - knots_.begin() > 2) std::swap(knots_[2], *there);
+    used_ = 3;
+  }
   /// The phase at a time, without keeping it.
   void move(Real time, Phase<Real>& to) {
-    if (!(time > Real(0))) {
-      to = start().phase;
+    if (!(time > Real(0)) || time == end().time) {
+      to = (time > Real(0) ? end() : start()).phase;
       return;
     }
     Real done = stepper_.step(start().phase, time, to);

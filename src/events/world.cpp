@@ -231,13 +231,16 @@ void World::Implementation::emit_samples(Time until, bool inclusive, Observer& o
     }
     if (inclusive ? Time(t) > until : !(Time(t) < until)) return;
     bool any = false;
+    seen.clear();  // all of an instant, or nothing
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies[i].finished && bodies[i].fate != Fate::pinned) continue;
       any = true;
       if (bodies[i].state.time > Time(t)) continue;  // it is still to come
       if (fails_before(bodies[i], t)) continue;
-      observer.sample(static_cast<int>(i), t, state_at(bodies[i], t));
+      seen.emplace_back(static_cast<int>(i), state_at(bodies[i], t));
+      if (interrupt.after(100.0)) return;
     }
+    for (const auto& [particle, state] : seen) observer.sample(particle, t, state);
     if (!any) return;  // nobody is left to be sampled
     observer.sampled(t);
     ++next_sample;
@@ -288,13 +291,16 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   b.last_event = state.time;
   if (state.wall < 0 && !contains(state.position))
     throw std::invalid_argument("the point does not lie inside the table");
-  const bool integrated = w.integrates && w.integrated_at(state.position);
+  const bool rests = state.velocity == Vector{};
+  // Where particles meet within a range, one that rests may be met.
+  const bool integrated = w.integrates && (w.integrated_at(state.position) || (w.by_range && rests));
   // Where forces act, the speed is not a constant: it is that of the start.
   if (w.integrates) b.particle.speed = std::sqrt(dot(state.velocity, state.velocity));
   if (w.contacts) w.check_disc(b);
   if (!w.integrates)
     if (const std::string fault = w.scales.fault(b.particle); !fault.empty()) throw std::invalid_argument(fault);
   if (!integrated) {
+    if (rests && !w.contacts) throw std::invalid_argument("the velocity is zero and no force acts there");
     w.check_speed(b);
     if (!w.contacts || b.particle.speed > 0.0) w.begin_free(b);
     if (w.by_range) b.check = state.time;
@@ -344,18 +350,27 @@ void World::sample_every(double interval) {
 std::uint64_t World::run_until(double t_end, Observer& observer, const std::function<bool()>& interrupted) {
   Implementation& w = *implementation_;
   std::uint64_t events = 0;
+  w.interrupt = Interrupt(&interrupted);
+  const struct Over {
+    Interrupt& interrupt;
+    ~Over() { interrupt = Interrupt(); }
+  } over{w.interrupt};
   if (w.surface) w.begin_watching();
-  if (w.unprepared) w.prepare_contacts();
+  if (w.unprepared && !w.prepare_contacts()) return events;
+  if (w.unpredicted) w.predict_again();
   const bool asks = static_cast<bool>(w.enough);
+  // Asking may cost more than a flight, and less than a step.
+  const std::uint64_t between_questions = w.integrates || w.contacts ? 16 : 256;
   do {
     while (!w.queue.empty()) {
       if (asks && w.enough()) return events;
       const int index = w.queue.top();
       const Time when(w.queue.key(index).time.high, w.queue.key(index).time.low);
       if (!(when.high < t_end) && when > Time(t_end)) break;
-      // Asking may cost more than an event.
-      if (interrupted && events % 256 == 0 && interrupted()) return events;
+      if (w.interrupt.stopped()) return events;
+      if (interrupted && events % between_questions == 0 && interrupted()) return events;
       if (w.sampling) w.emit_samples(when, false, observer);
+      if (w.interrupt.stopped()) return events;
       if (w.contacts) [[unlikely]]
         w.apply_disc(index, observer);
       else
@@ -363,7 +378,9 @@ std::uint64_t World::run_until(double t_end, Observer& observer, const std::func
       if (w.surface) w.watch_event(index, when, observer);
       ++events;
     }
+    if (w.interrupt.stopped()) return events;
     if (w.sampling) w.emit_samples(t_end, true, observer);
+    if (w.interrupt.stopped()) return events;
   } while (w.integrates && w.end_failed_steps(t_end, observer));
   if (w.surface) w.watch_until(t_end, observer);
   return events;

@@ -139,11 +139,15 @@ void World::Implementation::look_again(int index, int partner, const Time& now) 
     if (other != partner) look_ahead(other, now);
 }
 
-void World::Implementation::prepare_contacts() {
-  unprepared = false;
+/// False if that was interrupted.
+bool World::Implementation::prepare_contacts() {
   contacts->prepare(clock);
-  for (int i = 0; i < contacts->size(); ++i)
+  for (int i = 0; i < contacts->size(); ++i) {
+    if (interrupt.after(1000.0)) return false;
     if (contacts->disc(i).here) look_ahead(i, clock);
+  }
+  unprepared = false;
+  return true;
 }
 
 void World::Implementation::apply_disc(int index, Observer& observer) {

@@ -53,6 +53,7 @@ void World::Implementation::add_barriers() {
       throw InputError(Place{{}, 0, 0, "integrator.step"}, "particles that meet within a range need the length of a step",
                        "a time > 0");
   }
+  surroundings.interrupt = &interrupt;
   surroundings.forces = acts(dynamics) ? dynamics.forces.get() : nullptr;
   surroundings.plan = dynamics.integrator;
   if (surroundings.forces) surroundings.maps = std::make_shared<ForceMaps>(*surroundings.forces);
@@ -96,12 +97,12 @@ void World::Implementation::form_group(std::vector<int> members) {
     group->phase().velocity[k] = b.state.velocity;
     group->cells()[k] = b.state.cell;
     b.group = number;
-    std::erase(waiting, members[k]);
     // At a hit a particle stays where the wall is until its step ends.
     if (b.state.wall < 0) group->fold(k);
     // One entry a group: its first member's.
     queue.update(members[k], never, static_cast<int>(EventKind::group));
   }
+  std::erase_if(waiting, [&](int i) { return bodies[at(i)].group == number; });
   group->set_time(bodies[at(members.front())].state.time);
   predict_group(members.front());
 }
@@ -156,7 +157,21 @@ void World::Implementation::predict_group(int leader) {
       if (!b.finished && b.group < 0 && b.state.time > group.time()) until = std::min(until, b.state.time);
   look_at_start(group);
   group.predict(until);
+  // What was computed before an interrupt came is worth nothing.
+  if (interrupt.stopped()) {
+    unpredicted = true;
+    group.drop_prediction();
+  }
   queue.update(leader, group.next_time(), static_cast<int>(EventKind::group));
+}
+
+/// After a run that was interrupted within a prediction.
+void World::Implementation::predict_again() {
+  unpredicted = false;
+  for (std::size_t i = 0; i < bodies.size() && !interrupt.stopped(); ++i)
+    if (bodies[i].group >= 0 && groups[at(bodies[i].group)]->bodies().front() == static_cast<int>(i))
+      predict_group(static_cast<int>(i));
+  unpredicted = interrupt.stopped();
 }
 
 void World::Implementation::copy_states(const Group& group) {
@@ -288,7 +303,7 @@ bool World::Implementation::leave_between_supports(Group& group, Observer& obser
   if (group.bodies().size() > 1 || surroundings.supports.empty()) return false;
   const int index = group.bodies().front();
   const Vector x = bodies[at(index)].state.position;
-  if (integrated_at(x) || !contains(x)) return false;
+  if (bodies[at(index)].state.velocity == Vector{} || integrated_at(x) || !contains(x)) return false;
   take_out(group, 0);
   set_free(index);
   if (by_range) look_around(index, bodies[at(index)].state.time, observer);

@@ -8,8 +8,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/interrupt.hpp"
 #include "carom/base/twofold.hpp"
 #include "carom/events/decision_range.hpp"
 #include "carom/events/world.hpp"
@@ -93,6 +95,7 @@ class World::Implementation {
   void start_integrating(int index, Observer& observer);
   void integrate(int index, const Time& now, Observer& observer);
   void predict_group(int leader);
+  void predict_again();
   void apply_group(int leader, Observer& observer);
   void hit_in_group(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer);
   void lose(Group& group, std::size_t member, std::string_view why, Observer& observer);
@@ -115,7 +118,7 @@ class World::Implementation {
   void add_contacts();
   void add_disc(int index);
   void check_disc(Body& body) const;
-  void prepare_contacts();
+  bool prepare_contacts();
   void apply_disc(int index, Observer& observer);
   void look_ahead(int index, const Time& now);
   void look_again(int index, int partner, const Time& now);
@@ -144,6 +147,7 @@ class World::Implementation {
   double sample_interval = 0.0;
   std::uint64_t next_sample = 0;
   bool sampling = false;
+  std::vector<std::pair<int, State>> seen;  ///< of the sample under way
   std::function<bool()> enough;         ///< ends a run, or is empty
   const Surface* surface = nullptr;     ///< watched, or null
   std::size_t most_crossings = 0;       ///< of one flight
@@ -153,6 +157,8 @@ class World::Implementation {
   bool one_group = false;         ///< the particles interact at any distance
   bool by_range = false;          ///< they interact within a range: groups merge and split
   Group::Surroundings surroundings;
+  Interrupt interrupt;            ///< of the run under way
+  bool unpredicted = false;       ///< the last run was interrupted within the prediction of a group
   StepCounts steps;
   std::vector<EnergyBalance> balances;  ///< one a body; where they interact the first is that of all
   std::vector<Twofold> changes;         ///< their changes, without the rounding of sums

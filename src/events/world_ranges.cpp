@@ -156,8 +156,9 @@ bool World::Implementation::split(const std::vector<int>& members, Observer& obs
       if (part[i] == p) together.push_back(members[i]);
     if (together.empty()) continue;
     Body& b = bodies[at(together.front())];
-    // On a wall to rounding a flight would not know its side: then the step after the next one asks again.
-    if (together.size() > 1 || integrated_at(b.state.position) || !contains(b.state.position)) {
+    // One that rests does not fly. On a wall to rounding a flight would not know its side: then the step after the next one asks again.
+    const bool rests = b.state.velocity == Vector{};
+    if (together.size() > 1 || rests || integrated_at(b.state.position) || !contains(b.state.position)) {
       form_group(together);
       continue;
     }

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <vector>
 
+#include "base/interrupt.hpp"
+
 namespace carom {
 namespace {
 
@@ -18,6 +20,7 @@ struct Arrays {
   std::size_t size;
   const double *x, *y, *charge;
   double *force_x, *force_y, *pull_x, *pull_y;
+  Interrupt* interrupt;
 };
 
 using Lanes [[gnu::vector_size(lanes * sizeof(double))]] = double;
@@ -58,6 +61,7 @@ struct One {
 [[gnu::always_inline]] inline void sum_pairs(double strength, const Arrays& a) {
   for (std::size_t i = 0; i < a.size; ++i) {
     const std::size_t next = i + 1, partners = a.size - next;
+    if (a.interrupt && a.interrupt->after(static_cast<double>(partners))) return;
     pull({a.x[i], a.y[i], strength * a.charge[i]}, partners, a.x + next, a.y + next, a.charge + next,
          a.force_x + next, a.force_y + next, a.pull_x, a.pull_y);
     a.force_x[i] += sum_of(a.pull_x, partners);
@@ -85,7 +89,7 @@ Sum widest() {
 }  // namespace
 
 void add_coulomb_pairs(double strength, std::span<const Particle> particles, std::span<const geometry::Vector> x,
-                       std::span<geometry::Vector> force) {
+                       std::span<geometry::Vector> force, Interrupt* interrupt) {
   static const Sum sum = widest();
   thread_local std::vector<double> columns;
   const std::size_t n = x.size();
@@ -97,7 +101,7 @@ void add_coulomb_pairs(double strength, std::span<const Particle> particles, std
     column[2 * n + i] = particles[i].charge;
   }
   sum(strength, {n, column, column + n, column + 2 * n, column + 3 * n, column + 4 * n,
-           column + 5 * n, column + 6 * n});
+           column + 5 * n, column + 6 * n, interrupt});
   for (std::size_t i = 0; i < n; ++i) force[i] = force[i] + geometry::Vector{column[3 * n + i], column[4 * n + i]};
 }
 

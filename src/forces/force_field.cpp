@@ -37,8 +37,8 @@ ForceBound ForceField::pair_bound(const Particle& a, const Particle& b, double d
 }
 
 void ForceField::add_pairs(std::span<const Particle> particles, std::span<const Vector> x,
-                           const geometry::Lattice* lattice, std::span<Vector> force) const {
-  if (interaction_) interaction_->add_forces(particles, x, lattice, force);
+                           const geometry::Lattice* lattice, std::span<Vector> force, Interrupt* interrupt) const {
+  if (interaction_) interaction_->add_forces(particles, x, lattice, force, interrupt);
 }
 
 double ForceField::pair_energy(std::span<const Particle> particles, std::span<const Vector> x,

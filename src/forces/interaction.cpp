@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/interrupt.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
 #include "forces/central_bounds.hpp"
@@ -50,10 +51,11 @@ class Central final : public Interaction {
     return charges * w;
   }
   void add_forces(std::span<const Particle> particles, std::span<const Vector> x, const geometry::Lattice* lattice,
-                  std::span<Vector> force) const override {
+                  std::span<Vector> force, Interrupt* interrupt) const override {
     if (!lattice && coulomb_strength_ && x.size() >= worth_lanes)
-      return add_coulomb_pairs(*coulomb_strength_, particles, x, force);
+      return add_coulomb_pairs(*coulomb_strength_, particles, x, force, interrupt);
     for (std::size_t i = 0; i < x.size(); ++i) {
+      if (interrupt && interrupt->after(10.0 * static_cast<double>(x.size() - i))) return;
       Vector sum{};
       for (std::size_t j = i + 1; j < x.size(); ++j) {
         const Vector d = lattice ? nearest_copy(x[i] - x[j], *lattice) : x[i] - x[j];

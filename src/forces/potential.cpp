@@ -78,6 +78,11 @@ std::unique_ptr<const Potential> on_lattice(const PotentialSpec& s, const BumpSh
   if (!(each * static_cast<double>(s.centers.size()) < most_copies))
     throw InputError(s.place, "more than 100000 bumps overlap: the potential is as good as flat",
                      "a softness or width of a few cells at most");
+  // The table's coarsest meshes are a quarter of the cell wide; what lies about one is listed.
+  const double square = std::max(dot(lattice.first, lattice.first), dot(lattice.second, lattice.second));
+  if (!(square / lattice.cell_area() * static_cast<double>(s.centers.size()) < most_copies))
+    throw InputError(s.place, "the lattice vectors are too unequal: more than 100000 bumps lie in a line within one cell's length",
+                     "vectors more alike in length");
   return make_lattice_bumps(shape, s.height, s.centers, lattice, reach);
 }
 

@@ -47,9 +47,9 @@ class Interaction {
   /// Adds the force on a to `force`, returns W.
   virtual double add_force(const Particle& a, const Particle& b, geometry::Vector separation,
                            geometry::Vector& force) const = 0;
-  /// The same for all pairs at once.
+  /// The same for all pairs at once; half done where `interrupt`, if there is one, says so.
   virtual void add_forces(std::span<const Particle>, std::span<const geometry::Vector> x, const geometry::Lattice*,
-                          std::span<geometry::Vector> force) const = 0;
+                          std::span<geometry::Vector> force, Interrupt* interrupt) const = 0;
   /// How large the force of a pair can be whose separation is displaced by at most `rho` from one of that length.
   virtual ForceBound bound(const Particle& a, const Particle& b, double distance, double rho) const = 0;
   /// The sum of W over all pairs.

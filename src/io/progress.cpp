@@ -9,9 +9,12 @@
 namespace carom {
 
 Progress::Progress(bool wanted, double done)
-    : enabled_(wanted && isatty(STDERR_FILENO) != 0), done_(done), start_(Clock::now()), last_(start_) {}
+    : enabled_(wanted && isatty(STDERR_FILENO) != 0), done_(done), start_(Clock::now()), last_(start_) {
+  if (enabled_) clock_ = std::jthread([this](const std::stop_token& stop) { tell_time(stop); });
+}
 
 Progress::~Progress() {
+  clock_ = {};  // waits for its end
   if (shown_) std::fputs("\r\033[K", stderr);
 }
 
@@ -21,13 +24,24 @@ double Progress::seconds() const { return std::chrono::duration<double>(Clock::n
 
 void Progress::show(double share, const std::string& rate) {
   if (!enabled_) return;
+  const std::lock_guard lock(mutex_);
   last_ = Clock::now();
   shown_ = true;
   const double left = seconds_left(seconds(), done_, share);
-  const std::string line = fmt::format("\r{:5.1f} %  {}  {}\033[K", 100.0 * share, rate,
-                                       left > 0.0 ? as_duration(left) + " left" : std::string());
-  std::fputs(line.c_str(), stderr);
+  line_ = fmt::format("\r{:5.1f} %  {}  {}", 100.0 * share, rate, left > 0.0 ? as_duration(left) + " left" : std::string());
+  std::fputs((line_ + "\033[K").c_str(), stderr);
   std::fflush(stderr);
+}
+
+void Progress::tell_time(const std::stop_token& stop) {
+  constexpr std::chrono::seconds interval(2);
+  std::unique_lock lock(mutex_);
+  while (!stopped_.wait_for(lock, stop, interval, [&stop] { return stop.stop_requested(); })) {
+    if (Clock::now() - last_ < interval) continue;
+    shown_ = true;
+    std::fputs(fmt::format("{}  {} so far\033[K", line_, as_duration(seconds())).c_str(), stderr);
+    std::fflush(stderr);
+  }
 }
 
 double seconds_left(double seconds, double from, double share) {

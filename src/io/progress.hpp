@@ -2,11 +2,15 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace carom {
 
-/// Rewrites one line a few times a second while standard error is a terminal.
+/// Rewrites one line a few times a second while standard error is a terminal. Where nothing is shown for some seconds, as while a
+/// system is prepared, the line tells how long it has taken.
 class Progress {
  public:
   /// `done`: the share of the work that others have done before.
@@ -23,9 +27,15 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
+  void tell_time(const std::stop_token&);
+
   bool enabled_, shown_ = false;
   double done_;
   Clock::time_point start_, last_;
+  std::string line_ = "\rpreparing";
+  std::mutex mutex_;  ///< of the line, and of when and whether it was shown
+  std::condition_variable_any stopped_;
+  std::jthread clock_;  ///< last: it uses what stands above
 };
 
 /// How long the rest will take after `seconds` took the work from the share `from` to `share`. Negative: unknown.

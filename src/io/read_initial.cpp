@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "io/read.hpp"
 #include "io/starts_file.hpp"
@@ -92,7 +93,16 @@ void read_birkhoff(Section& section, const Table& table, const std::vector<Parti
   combine(s_axis, v_axis, v.place, initial);
 }
 
-void read_point(Section& section, InitialCondition& initial) {
+/// Under forces a particle of speed 0 may start so.
+void check_not_zero(const geometry::Vector& velocity, const Place& place, bool rests) {
+  if (velocity == geometry::Vector{} && !rests)
+    throw InputError(place, "the velocity is zero", "a velocity that is not zero");
+}
+
+/// Without another speed, a start of zero velocity has given its particle the speed 0.
+bool rests(const Particle& p) { return p.speed == 0.0; }
+
+void read_point(Section& section, const std::vector<Particle>& particles, InitialCondition& initial) {
   const Value& position = section.get("position");
   initial.position = as_vector(position);
   initial.place = position.place;
@@ -106,21 +116,23 @@ void read_point(Section& section, InitialCondition& initial) {
   }
   const Value& velocity = section.get("velocity");
   initial.velocity = as_vector(velocity);
-  if (initial.velocity == geometry::Vector{0, 0}) {
-    throw InputError(velocity.place, "the velocity is zero", "a velocity that is not zero");
-  }
+  check_not_zero(initial.velocity, velocity.place, std::all_of(particles.begin(), particles.end(), rests));
 }
 
-void read_list(Section& section, InitialCondition& initial) {
+void read_list(Section& section, const std::vector<Particle>& particles, InitialCondition& initial) {
   const Value& starts = section.get("starts");
   initial.place = starts.place;
+  // Trajectory after trajectory, a particle comes to each start that is a multiple of this away from its first one.
+  const std::size_t apart = std::gcd(particles.size(), as_list(starts).items.size());
   for (const Value& row : as_list(starts).items) {
+    bool all_rest = true;
+    for (std::size_t p = initial.positions.size() % apart; p < particles.size(); p += apart)
+      all_rest = all_rest && rests(particles[p]);
     const std::vector<ExactNumber> numbers = as_numbers(row);
     if (numbers.size() != 4) throw InputError(row.place, "a start has four numbers", "[x, y, vx, vy]");
     initial.positions.push_back({numbers[0].to_double(), numbers[1].to_double()});
     initial.velocities.push_back({numbers[2].to_double(), numbers[3].to_double()});
-    if (initial.velocities.back() == geometry::Vector{0, 0})
-      throw InputError(row.place, "the velocity is zero", "a velocity that is not zero");
+    check_not_zero(initial.velocities.back(), row.place, all_rest);
   }
   if (initial.positions.empty()) throw InputError(starts.place, "the list is empty", "at least one start");
 }
@@ -156,6 +168,8 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
   for (const auto& [known, kind] : kinds()) {
     if (known == name) initial.kind = kind;
   }
+  if ((initial.kind == Kind::boundary || initial.kind == Kind::hole) && std::any_of(particles.begin(), particles.end(), rests))
+    throw InputError(section.get("kind").place, "a particle at rest cannot start on a wall", "a speed > 0, or a start inside");
   switch (initial.kind) {
     case Kind::uniform:
       if (table.extent == Extent::open_plane) {
@@ -174,13 +188,13 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
       break;
     }
     case Kind::point:
-      read_point(section, initial);
+      read_point(section, particles, initial);
       break;
     case Kind::birkhoff:
       read_birkhoff(section, table, particles, initial);
       break;
     case Kind::list:
-      read_list(section, initial);
+      read_list(section, particles, initial);
       break;
     case Kind::rectangle:
       read_rectangle(section, initial);

@@ -83,8 +83,8 @@ class Reader {
       // the length of initial.velocity, see there
     } else {
       speed_ = Quantity(particles_.get("speed"));
-      if (hard_discs() && !field_.has("larmor_radius"))
-        speed_.check_not_negative();  // others will set a resting disc in motion
+      if (may_rest() && !field_.has("larmor_radius"))
+        speed_.check_not_negative();  // a force or another disc will set it in motion
       else
         speed_.check_positive();
     }
@@ -112,6 +112,8 @@ class Reader {
     if (root_.find("potential") != nullptr) return true;
     return root_.find("interaction") != nullptr && count_ > 1 && !hard_discs();
   }
+  // Whether a force does act is known when all is read.
+  bool may_rest() const { return root_.find("potential") != nullptr || root_.find("interaction") != nullptr; }
   bool hard_discs() const {
     const Value* interaction = root_.find("interaction");
     const Value* kind = interaction == nullptr ? nullptr : interaction->find("kind");
@@ -127,16 +129,17 @@ class Reader {
     const ExactPoint v = as_point(*velocity);
     const double x = v.x.to_double(), y = v.y.to_double();
     velocity_.rounded = std::sqrt(x * x + y * y);
-    if (!(velocity_.rounded > 0)) {
+    if (!(velocity_.rounded > 0) && !(may_rest() && !field_.has("larmor_radius"))) {
       throw InputError(velocity->place, "the velocity is zero", "a velocity that is not zero");
     }
     velocity_.exact =
         ExactNumber("sqrt(" + in_brackets(v.x) + "^2+" + in_brackets(v.y) + "^2)", velocity->place);
+    by_velocity_ = true;
     return true;
   }
 
   Speed speed(std::size_t k) const {
-    if (velocity_.rounded > 0) return velocity_;
+    if (by_velocity_) return velocity_;
     if (energy_.given() && !(energy_[k].to_double() > 0)) {
       if (field_.has("larmor_radius"))
         throw InputError(
@@ -194,7 +197,7 @@ class Reader {
   Speed velocity_;
   std::optional<ExactNumber> larmor_radius_, field_strength_;
   std::uint64_t count_ = 1;
-  bool lists_ = false;
+  bool lists_ = false, by_velocity_ = false;
 };
 
 }  // namespace

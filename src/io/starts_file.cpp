@@ -22,9 +22,9 @@ std::size_t count_of(const Value& particles) {
   return 1;
 }
 
-/// The length of a start's velocity; 0 if it is none.
+/// The length of a start's velocity; below 0 if it is none.
 struct Length {
-  double rounded = 0.0;
+  double rounded = -1.0;
   Value exact;
 };
 Length length_of(const Value& start) {
@@ -50,9 +50,10 @@ void take_speeds_from_starts(Value& root) {
   // Trajectory after trajectory, a particle comes to each start that is a multiple of this away from its first one.
   const std::size_t count = count_of(particles), apart = std::gcd(count, starts->items.size());
   std::vector<Length> lengths;
+  const bool may_rest = root.find("potential") != nullptr || root.find("interaction") != nullptr;
   for (std::size_t i = 0; i < starts->items.size(); ++i) {
     const Length length = length_of(starts->items[i]);
-    if (!(length.rounded > 0.0)) return;  // a fault that is told of where starts are read
+    if (!(length.rounded > 0.0) && !(length.rounded == 0.0 && may_rest)) return;  // a fault that is told of where starts are read
     if (i < apart) {
       lengths.push_back(length);
       continue;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -91,6 +92,50 @@ void check_scales(const Value& root, const System& system, const Table& table) {
                    "other units, in which lengths, speeds and frequencies are nearer to 1");
 }
 
+// Samples are counted as steps are.
+void check_number_of_samples(const Value& root, const System& system) {
+  constexpr double most = 0x1p52;
+  const double t_max = system.run.t_max;
+  if (!(system.run.sample > 0.0) || t_max >= no_last_time || t_max / system.run.sample < most) return;
+  throw InputError(root.find("run")->find("sample")->place,
+                   io::shown(t_max / system.run.sample) + " samples until t_max = " + io::shown(t_max) +
+                       ": they are counted up to 2^52",
+                   "a time above " + io::shown(t_max / most) + " between samples");
+}
+
+// Where a particle that meets no wall is on its circle at the time t, an angle omega t tells: it needs all its digits
+// before the point.
+void check_angles(const Value& root, const System& system) {
+  constexpr double most = 0x1p52;
+  const double t_max = system.run.t_max;
+  double omega = 0.0;
+  for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
+  if (t_max >= no_last_time || omega * t_max < most) return;
+  throw InputError(root.find("run")->find("t_max")->place,
+                   "until t_max = " + io::shown(t_max) + " a particle turns by " + io::shown(omega * t_max) +
+                       " in the field: angles are known up to 2^52",
+                   "t_max below " + io::shown(most / omega) + ", or a weaker field");
+}
+
+// Each step takes the forces of all pairs several times, and keeps the positions at several times within it.
+void check_number_of_pairs(const Value& root, const System& system) {
+  constexpr std::size_t most = std::size_t{1} << 14;
+  if (!system.dynamics.forces->interacts() || system.particles.size() <= most) return;
+  const Value* count = root.find("particles")->find("count");
+  throw InputError(count ? count->place : Place{root.place.file, 0, 0, "particles.count"},
+                   std::to_string(system.particles.size()) + " particles that interact are too many pairs for each step",
+                   "at most " + std::to_string(most));
+}
+
+void check_rest(const Value& root, const System& system) {
+  const bool rests = std::any_of(system.particles.begin(), system.particles.end(),
+                                 [](const Particle& p) { return p.speed == 0.0; });
+  if (!rests || system.of_discs() || !system.dynamics.forces->empty()) return;
+  const Value* speed = root.find("particles")->find("speed");
+  throw InputError(speed ? speed->place : system.initial.place, "the particle rests, and no force acts on it",
+                   "a velocity that is not zero");
+}
+
 std::string text_of_builtin(const std::string& name) {
   std::vector<std::string> names;
   for (const BuiltinSystem& system : builtin_systems()) {
@@ -128,6 +173,10 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   system.initial = io::read_initial(root, *table, system.particles);
   // Where particles enter at random no trajectory repeats another.
   system.run = io::read_run(root, root.find("injection") != nullptr ? 0 : listed_trajectories(system));
+  check_number_of_pairs(root, system);
+  check_rest(root, system);
+  check_number_of_samples(root, system);
+  check_angles(root, system);
   system.injections = io::read_injections(root, *table, system.particles, system.run.t_max);
   if (!system.dynamics.forces->empty()) refuse_injections(system, "a system with forces");
   if (!radii.empty()) refuse_injections(system, "a system of hard discs");

@@ -16,7 +16,8 @@ using geometry::Vector;
 
 constexpr std::uint64_t most_discs = 10'000'000;
 constexpr std::uint64_t most_seed = std::uint64_t{1} << 53;
-constexpr int most_draws = 1'000'000;  // of one disc
+constexpr int most_draws = 1'000'000;                     // of one disc
+constexpr std::uint64_t most_draws_of_all = 100'000'000;  // some seconds
 
 // u is the rounding of one operation.
 constexpr double u = 0x1p-53;
@@ -107,6 +108,7 @@ void random_discs(const TableSpec& spec, Table& table) {
   // Between walls a disc keeps off them by the margin that it keeps from others.
   const double margin = spec.torus ? 0.0 : radius + rounding * side;
   Arrangement arrangement(side, radius, count, spec.torus);
+  std::uint64_t draws_of_all = 0;
   for (std::uint64_t disc = 0; disc < count; ++disc) {
     RandomStream random(seed, Purpose::arrangement, disc);
     int draws = 0;
@@ -117,7 +119,7 @@ void random_discs(const TableSpec& spec, Table& table) {
         arrangement.place({x, y});
         break;
       }
-      if (++draws == most_draws) {
+      if (++draws == most_draws || ++draws_of_all == most_draws_of_all) {
         throw InputError(count_number.place(),
                          "no room was found for disc " + std::to_string(disc + 1) + " of " + std::to_string(count),
                          "fewer or smaller discs: placed one after the other they fill about half of the area");

@@ -43,6 +43,7 @@ class Sampler {
   explicit Sampler(const System&, std::function<bool()> stopped = {});
   Sampler(const System&, const std::atomic<bool>* interrupted);
   const System& system() const { return system_; }
+  bool stopped() const { return stopped_ && stopped_(); }
 
   /// The state of particle `particle` of trajectory `trajectory`. `world` answers which points lie in
   /// the domain. Throws InputError when the initial condition is impossible, and SamplingStopped.
@@ -68,7 +69,7 @@ class Sampler {
   void add_source(int wall, double from, double to);
   static std::int64_t patience(std::int64_t of_the_first, std::uint64_t trajectory);
   void stop_if_asked(std::int64_t tries) const {
-    if (tries % 256 == 255 && stopped_ && stopped_()) throw SamplingStopped();
+    if (tries % 256 == 255 && stopped()) throw SamplingStopped();
   }
   State in_box(const World&, RandomStream&, std::uint64_t trajectory, geometry::Vector low, geometry::Vector high,
                double speed, const char* where) const;

@@ -8,6 +8,8 @@
 
 namespace carom {
 
+class Interrupt;
+
 /// The parts of the total energy.
 struct Energy {
   double kinetic = 0.0, external = 0.0, pair = 0.0;
@@ -38,8 +40,9 @@ double larger(double, double);
 double relative_to(double kinetic, double change);
 
 /// One state a particle, all at the same time. Pairs on a lattice see their nearest copies, as in the
-/// motion.
-Energy energy_of(std::span<const Particle>, std::span<const State>, const Dynamics&, const Table&);
+/// motion. Where `interrupt` says so, it stops half done.
+Energy energy_of(std::span<const Particle>, std::span<const State>, const Dynamics&, const Table&,
+                 Interrupt* interrupt = nullptr);
 
 /// Sum of m v. Conserved without walls, external forces and field.
 geometry::Vector momentum_of(std::span<const Particle>, std::span<const State>);

@@ -22,6 +22,7 @@ struct Support {
 
 class Potential;
 class Interaction;
+class Interrupt;
 struct ForceBound;
 struct Neighbourhood;
 
@@ -43,9 +44,10 @@ class ForceField {
   double add_pair(const Particle& a, const Particle& b, geometry::Vector separation,
                   geometry::Vector& force) const;
 
-  /// Adds the forces of all pairs. On a lattice a pair feels its nearest copies.
+  /// Adds the forces of all pairs. On a lattice a pair feels its nearest copies. Where `interrupt` says so, it stops half done.
   void add_pairs(std::span<const Particle> particles, std::span<const geometry::Vector> x,
-                 const geometry::Lattice* lattice, std::span<geometry::Vector> force) const;
+                 const geometry::Lattice* lattice, std::span<geometry::Vector> force,
+                 Interrupt* interrupt = nullptr) const;
 
   /// How large the external force can be near a place, and that of a pair whose separation is displaced by at most
   /// `rho` from one of that length: docs/physics/resolution.md.
