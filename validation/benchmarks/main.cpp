@@ -53,8 +53,8 @@ int main(int argc, char** argv) {
   const bool help = std::any_of(names.begin(), names.end(), [](const std::string& name) { return name == "--help" || name == "-h"; });
   if (help) fmt::print("bench [NAME...]: measures the rows whose names begin so, or all of\n");
   Report report = help ? Report(Report::Aim::list) : Report(Report::Aim::measure, names);
-  for (const auto& rows : {straight_and_larmor_flights, flights_in_lanes, steps_under_forces, contacts_of_hard_discs, certified_orbits,
-                           whole_ensembles})
+  for (const auto& rows : {straight_and_larmor_flights, flights_in_lanes, steps_under_forces, questions_of_resolution, contacts_of_hard_discs,
+                           certified_orbits, whole_ensembles})
     rows(report);
   return report.failed() ? 1 : 0;
 }

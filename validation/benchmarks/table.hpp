@@ -46,6 +46,7 @@ class Report {
 void straight_and_larmor_flights(Report&);  ///< scalar engine, stepping in time, a loop over obstacles
 void flights_in_lanes(Report&);             ///< lanes of every instruction set of this machine
 void steps_under_forces(Report&);           ///< the same for steps
+void questions_of_resolution(Report&);      ///< does a step resolve its forces?
 void contacts_of_hard_discs(Report&);
 void certified_orbits(Report&);             ///< beside plain MPFR
 void whole_ensembles(Report&);              ///< starts, sums and threads included
