@@ -79,7 +79,7 @@ std::string end_text(const System& system, const ParticleEnd& particle, bool int
 
 std::string state_error_text(const System& system, const StateError& error, double end) {
   const bool adaptive = is_adaptive(system.dynamics.integrator.scheme);
-  std::string text = fmt::format("  state error   {:.2g} in position, {:.2g} in velocity, against {}\n", error.position, error.velocity,
+  std::string text = fmt::format("  state error   {:.2g} in position, {:.2g} in velocity, by {}\n", error.position, error.velocity,
                                  adaptive ? "a finer tolerance" : "half the step");
   if (error.until < end) text += fmt::format("                at t = {:.6g}: no later times are compared\n", error.until);
   return text;

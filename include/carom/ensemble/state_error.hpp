@@ -9,8 +9,8 @@
 
 namespace carom {
 
-/// The largest distance, over all particles, of a run's states from those of the same run with half the step (adaptive
-/// schemes: a 64th of the tolerance, 1e-15 at least). For a scheme of order p it errs by a 2^p-th of itself.
+/// Twice the largest distance, over all particles, of a run's states from those of the same run with half the step (adaptive
+/// schemes: a 64th of the tolerance, 1e-15 at least). Of a small error of order p the distance is all but a 2^p-th.
 struct StateError {
   double position = 0.0, velocity = 0.0;
   double until = 0.0;  ///< the time they are of: that asked for; earlier where the runs part, or after most_compared steps
