@@ -66,6 +66,7 @@ centers = [[0.05, 0.05], [0.25, 0.03], [0.5, 0.02], [0.75, 0.05], [0.95, 0.04], 
 energy = 1
 [integrator]
 step = 0.15
+unresolved = "count"
 [run]
 t_max = 20
 trajectories = 100

@@ -99,7 +99,7 @@ void expect_as_in_one_group(const System& system, double until, double tolerance
 std::string list_of(const std::string& interaction, const std::string& starts, int count) {
   return "[interaction]\n" + interaction + "\n[particles]\ncount = " + std::to_string(count) +
          "\nspeed = 1\n[initial]\nkind = \"list\"\nstarts = " + starts +
-         "\n[integrator]\nstep = 0.01\n[run]\nt_max = 1\n";
+         "\n[integrator]\nstep = 0.0025\n[run]\nt_max = 1\n";
 }
 
 // Where a potential acts everywhere, particles that start within their range interact from the first step on.
