@@ -22,7 +22,7 @@ namespace {
 /// If so few of the draws lie below the energy, it is below all that matters.
 constexpr std::int64_t most_draws = 100'000;
 /// Of particles that interact: they are all drawn again, and each pair costs some nanoseconds.
-constexpr double most_pairs = 2e8;
+constexpr double most_pairs = 1e8;
 std::int64_t most_draws_of_all(std::size_t particles) {
   const double n = static_cast<double>(particles), pairs = 0.5 * n * (n - 1.0);
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(most_pairs / pairs), 4, most_draws);

@@ -119,7 +119,7 @@ void check_angles(const Value& root, const System& system) {
 
 // Each step takes the forces of all pairs several times, and keeps the positions at several times within it.
 void check_number_of_pairs(const Value& root, const System& system) {
-  constexpr std::size_t most = std::size_t{1} << 14;
+  constexpr std::size_t most = std::size_t{1} << 13;
   if (!system.dynamics.forces->interacts() || system.particles.size() <= most) return;
   const Value* count = root.find("particles")->find("count");
   throw InputError(count ? count->place : Place{root.place.file, 0, 0, "particles.count"},

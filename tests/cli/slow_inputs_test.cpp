@@ -28,7 +28,7 @@ TEST(SlowInputs, AreRefusedByTheirKey) {
   const std::string lattice = "[[potential]]\nkind = \"fermi\"\nheight = 1\nradius = 0.3\nsoftness = 0.01\nlattice = true\n[integrator]\n"
                               "step = 0.01\n[particles]\nenergy = 0.5\n[initial]\nkind = \"uniform\"\n";
   const std::pair<std::string, std::string> refused[] = {
-      {"[table]\nshape = \"plane\"\n[lattice]\nvectors = [[1, 0], [0, 1.2e11]]\n" + lattice, "potential"},
+      {"[table]\nshape = \"plane\"\n[lattice]\nvectors = [[1, 0], [0, 1.2e11]]\n" + lattice, "potential[0]"},
       {"[table]\nshape = \"circle\"\nradius = 1\n[run]\nt_max = 10\nsample = 5e-101\n", "run.sample"},
       {"[table]\nshape = \"circle\"\nradius = 1\n[field]\nB = 1e50\n[run]\nt_max = 10\n", "run.t_max"},
       {"[table]\nshape = \"rectangle\"\nwidth = 1e29\nheight = 1e29\n[run]\nt_max = 1e31\nsample = 1\n", "run.sample"},
