@@ -35,7 +35,9 @@ class EvaluatedForces {
     return start_.acceleration;
   }
   std::span<const Vector> at_end(std::span<const Vector> position) {
-    Known& end = whole_.position.empty() || matches(whole_, position) ? whole_ : part_;
+    // A part that ends where the whole step does, to rounding, is evaluated as any other: what a path costs depends on how
+    // it is cut alone.
+    Known& end = whole_.position.empty() ? whole_ : part_;
     if (!matches(end, position)) evaluate(end, position);
     return end.acceleration;
   }

