@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/table_svg.hpp"
+#include "io/progress.hpp"
 
 namespace carom::cli {
 
@@ -106,9 +108,11 @@ int table(const Options& options) {
       throw InputError(Place{options.output, 0, 0, ""}, "a table is drawn as SVG", "a name ending in .svg");
     refuse_existing(options.output, options.force);
   }
+  std::optional<Progress> preparing(std::in_place, !options.quiet);
   const LoadedSystem loaded = load_system(options.system, options.overrides);
   const System& system = loaded.system;
   const TableMeasure measured = measure(*system.table);
+  preparing.reset();
   if (!options.output.empty()) write_file(options.output, table_svg(*system.table, system.title));
   if (!options.json) {
     print(table_text(system, measured, options.output));

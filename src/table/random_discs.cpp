@@ -14,7 +14,7 @@ namespace {
 using geometry::Circle;
 using geometry::Vector;
 
-constexpr std::uint64_t most_discs = 10'000'000;
+constexpr std::uint64_t most_discs = 1'000'000;  // half a gigabyte
 constexpr std::uint64_t most_seed = std::uint64_t{1} << 53;
 constexpr int most_draws = 1'000'000;                     // of one disc
 constexpr std::uint64_t most_draws_of_all = 100'000'000;  // some seconds

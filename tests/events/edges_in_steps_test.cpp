@@ -35,8 +35,8 @@ double energy(const State& s, const Dynamics& d, const Table& table) {
 bool ends(World& world, double until, long most = 400) {
   Observer nobody;
   long asked = 0;
-  world.run_until(until, nobody, [&] { return ++asked > most; });
-  return asked <= most;
+  world.run_until(until, nobody, [&] { return ++asked > 16 * most; });
+  return asked <= 16 * most;
 }
 
 Table square() { return polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}); }
