@@ -8,6 +8,7 @@
 
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/energy.hpp"
+#include "carom/events/report.hpp"
 #include "carom/events/world.hpp"
 #include "carom/geometry/hull.hpp"
 #include "carom/integrators/scheme.hpp"
@@ -23,8 +24,9 @@ constexpr double wanted_energy_error = 1e-10;
 constexpr int most_pilots = 16, steps_of_a_pilot = 100, looks = 10;
 /// Evaluations of pair forces that all pilots of one step may cost.
 constexpr double affordable = 2e7;
-/// A step so much shorter than the longest one that is resolved is the shortest that is tried.
-constexpr double shortest = 1e-3;
+/// The shortest step that is tried, against the longest that is resolved at the start, and against the longest that is resolved
+/// all along.
+constexpr double shortest_resolved = 1e-3, shortest = 1e-2;
 
 /// 1, 2, 5, 10, ...: number 3 k is 10^k, exactly as it is read from a file.
 double step_number(int n) {
@@ -42,8 +44,15 @@ class Pilots {
     length_ = std::clamp(static_cast<int>(affordable / (each * 10.0 * count_)), 10, steps_of_a_pilot);
   }
 
-  /// The largest error of the energy within `length_` steps of h0, with steps of h; nothing where a step is not resolved.
-  std::optional<double> energy_error(double h, double h0) {
+  /// The largest error of the energy within many steps of h0, with steps of h; nothing where a step is not resolved.
+  std::optional<double> energy_error(double h, double h0) { return follow(h, length_ * h0); }
+  /// Are steps of h resolved until a time?
+  bool resolve(double h, double until) { return follow(h, until).has_value(); }
+  double highest_energy() const { return energy_; }
+  const std::string& report() const { return report_; }
+
+ private:
+  std::optional<double> follow(double h, double until) {
     system_.dynamics.integrator.step = h;
     World world(*system_.table, system_.dynamics);
     Observer observer;
@@ -55,7 +64,7 @@ class Pilots {
       if (k == 0) energy_ = start.total();
       energy_ = std::max(energy_, start.total());
       double kinetic = start.kinetic, change = 0.0;
-      const double end = std::min(system_.run.t_max, length_ * h0);
+      const double end = std::min(system_.run.t_max, until);
       for (int look = 1; look <= looks; ++look) {
         const double t = end * look / looks;
         world.run_until(t, observer, stopped_);
@@ -63,7 +72,7 @@ class Pilots {
         bool all = true;
         for (int i = 0; i < world.size(); ++i) {
           if (world.fate(i) == Fate::unresolved || world.fate(i) == Fate::lost) {
-            report_ = world.report(i);
+            report_ = shown(world.report(i));
             return {};
           }
           all = all && !world.finished(i);
@@ -77,10 +86,6 @@ class Pilots {
     }
     return worst;
   }
-  double highest_energy() const { return energy_; }
-  const std::string& report() const { return report_; }
-
- private:
   Energy energy(const World& world, Time t) const {
     std::vector<Particle> particles;
     std::vector<State> states;
@@ -137,14 +142,18 @@ ChosenStep choose_step(const System& system, const std::function<bool()>& stoppe
   while (step_number(n) < longest) ++n;
   while (step_number(n - 1) >= longest) --n;
   ChosenStep best{0.0, std::numeric_limits<double>::infinity()};
-  double resolved = 0.0;
+  double at_start = 0.0, resolved = 0.0;
   constexpr int most_tried = 150;
   for (int tried = 0; tried < most_tried; ++tried, --n) {
     const double h = step_number(n);
     if (h > longest || largest_turn(system) * h > most_turn) continue;
-    if (resolved > 0.0 && h < shortest * resolved) break;
-    const std::optional<double> error = pilots.energy_error(h, resolved > 0.0 ? resolved : h);
-    if (!error || (!(resolved > 0.0) && !resolves_region(system, world, pilots.highest_energy(), h))) continue;
+    if (!(at_start > 0.0)) {
+      if (!pilots.resolve(h, h) || !resolves_region(system, world, pilots.highest_energy(), h)) continue;
+      at_start = h;
+    }
+    if (h < shortest_resolved * at_start || h < shortest * resolved) break;
+    const std::optional<double> error = pilots.energy_error(h, at_start);
+    if (!error) continue;
     if (!(resolved > 0.0)) resolved = h;
     if (*error < best.energy_error) best = {h, *error};
     if (*error <= wanted_energy_error) break;

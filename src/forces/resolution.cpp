@@ -52,7 +52,8 @@ bool ForceMap::resolves_everywhere(Vector low, Vector high, double energy, const
                                    const resolution::Span& span) {
   const double side = std::max(high.x - low.x, high.y - low.y);
   if (!(side > 0x1p-900 && side < 0x1p900)) return true;
-  const int e = static_cast<int>(std::bit_cast<std::uint64_t>(side) >> 52) - 1022;
+  constexpr int finer = 4;  // so that no mesh of the first ones is much of the box
+  const int e = static_cast<int>(std::bit_cast<std::uint64_t>(side) >> 52) - 1022 - finer;
   const double over = power_of_two(-e);
   int patience = 200000;  // meshes; a force that needs more is too narrow for this step
   for (double i = std::floor(low.x * over); i <= std::floor(high.x * over); i += 1.0)

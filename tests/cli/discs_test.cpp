@@ -128,7 +128,7 @@ TEST(DiscsTyped, WhatCannotBeIsRefusedByName) {
   expect_refused(shell, "$carom run ./box.toml --set 'interaction.radius=3'", {"interaction", "radius"});
   expect_refused(shell, "$carom run ./torus.toml --set 'particles.speed=-1'", {"particles.speed", "negative"});
   expect_refused(shell, "$carom run ./torus.toml --set 'interaction={kind=\"coulomb\"}' --set integrator.step=0.1",
-                 {"particles.speed[2]", "positive"});
+                 {"interaction", "infinitely far"});
 }
 
 TEST(DiscsTyped, RandomStartsLeaveRoom) {

@@ -57,7 +57,7 @@ TEST(ChosenSteps, SeeANarrowBumpThatNoPilotOrbitMeets) {
 TEST(ChosenSteps, AForceWithoutABoundIsRefused) {
   try {
     read_system("[[potential]]\nkind = \"expression\"\nexpression = \"log(x^2+y^2)\"\n[initial]\nkind = \"point\"\n"
-                "position = [0, 0]\nvelocity = [1, 0]\n[run]\nt_max = 1\n",
+                "position = [0.5, 0]\nvelocity = [-1, 0]\n[run]\nt_max = 1\n",
                 "pole");
     FAIL();
   } catch (const InputError& e) {

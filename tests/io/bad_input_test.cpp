@@ -198,7 +198,6 @@ TEST(BadInput, Forces) {
   EXPECT_HAS(fault(square("[[potential]]\nkind = \"gaussian\"\nwidth = -1\n")), "must be positive");
   EXPECT_HAS(fault(square("[[potential]]\nkind = \"coulomb\"\ncharge = -1\n[integrator]\nstep = 0.1\n")), "attracts");
   EXPECT_HAS(fault(square("[[potential]]\nkind = \"gaussian\"\nwidth = 1\nlattice = true\n")), "there is none");
-  EXPECT_HAS(fault(square("[[potential]]\nkind = \"harmonic\"\n")), "needs a step");
   EXPECT_HAS(fault(square("[potential]\nkind = \"harmonic\"\n")), "[[potential]], with two brackets");
   EXPECT_HAS(fault(square("[interaction]\nkind = \"coulom\"\n")), "did you mean 'coulomb'?");
   EXPECT_HAS(fault(square("[interaction]\nkind = \"hard-discs\"\nradii = [1, 2]\n")), "2 radii for 1 particles");

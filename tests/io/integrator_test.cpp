@@ -22,25 +22,6 @@ TEST(Integrator, DefaultsAreWrittenDown) {
   EXPECT_EQ(resolved(resolved(adaptive)), resolved(adaptive));
 }
 
-// Without a step it is that in which the fastest particle goes through the narrowest bump.
-TEST(Integrator, AdaptiveSchemesDoNotStepOverBumps) {
-  const auto step = [](const std::string& potentials, const std::string& scheme, const std::string& particles) {
-    const std::string text = start + potentials + "[integrator]\nscheme = \"" + scheme + "\"\n" + particles;
-    EXPECT_EQ(resolved(resolved(text)), resolved(text));
-    return read(text).dynamics.integrator.step;
-  };
-  const std::string narrow = "[[potential]]\nkind = \"gaussian\"\nheight = 2\nwidth = 0.01\n";
-  const std::string deep = "[[potential]]\nkind = \"gaussian\"\nheight = -4\nwidth = 0.1\n";
-  const std::string fermi = "[[potential]]\nkind = \"fermi\"\nheight = 2\nradius = 0.3\nsoftness = 0.001\n";
-  const std::string slow = "[particles]\nspeed = 1\n";
-  EXPECT_DOUBLE_EQ(step(narrow, "arkode", slow), 0.01);
-  EXPECT_DOUBLE_EQ(step(narrow, "arkode", "[particles]\nenergy = 8\n"), 0.0025);
-  EXPECT_DOUBLE_EQ(step(narrow + deep, "arkode", slow), 0.01 / 3);
-  EXPECT_DOUBLE_EQ(step(narrow + fermi, "arkode", slow), 0.008);
-  EXPECT_DOUBLE_EQ(step(narrow, "cvode", slow), 0.01);
-  EXPECT_EQ(step("[[potential]]\nkind = \"harmonic\"\n", "arkode", slow), 0.0);
-}
-
 TEST(Integrator, WhatCannotBeTrusted) {
   const auto plan = [](const std::string& more) { return read(well + "[integrator]\nstep = 0.01\n" + more).dynamics.integrator; };
   EXPECT_EQ(plan("").energy_tolerance, 1e-3);
@@ -59,9 +40,6 @@ TEST(Integrator, NoForceNeedsNoStep) {
 }
 
 TEST(Integrator, FaultsAreAtTheirPlaces) {
-  EXPECT_HAS(fault(well), "test.toml: integrator.step: the scheme 'blanes-moan-srkn11b' needs a step");
-  EXPECT_HAS(fault(well + "[integrator]\nscheme = \"ruth-3\"\n"),
-             "line 4, column 1: integrator.step: the scheme 'ruth-3'");
   EXPECT_HAS(fault(well + "[integrator]\nstep = 0\n"), "line 5, column 8: integrator.step: must be");
   EXPECT_HAS(fault(square("[integrator]\nscheme = \"kahan-li\"\n")),
              "line 6, column 10: integrator.scheme: unknown scheme");
