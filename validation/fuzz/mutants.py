@@ -290,10 +290,10 @@ def moved_key(chance, sections):
         other.append(section[row] if chance.random() < 0.3 else section.pop(row))
 
 
-def section_of_another(chance, sections, donor):
+def section_of_another(chance, sections, donor, rough):
     given = chance.choice(split(donor))
     same = [i for i, s in enumerate(sections) if s[0] == given[0]]
-    if same and chance.random() < 0.7:
+    if same and (not rough or chance.random() < 0.5):
         sections[same[0]] = list(given)
     else:
         sections.append(list(given))
@@ -395,12 +395,12 @@ def flipped(chance, data):
 def make_case(seed, index, systems):
     """The system file as bytes, and the command's arguments before and after its name."""
     chance = random.Random(f"carom fuzz {seed} {index}")
-    source = lambda: chance.choice(systems) if chance.random() < 0.45 else composed(chance)
-    sections = split(source())
+    flying = [text for text in systems if "[table]" in text or "[[potential]]" in text]  # the guide has parts of systems, too
+    sections = split(chance.choice(flying) if chance.random() < 0.4 else composed(chance))
     rough = chance.random() < 0.3
     for _ in range(chance.choice((1, 1, 1, 1, 2, 2, 2, 3, 3, 4, 6))):
         if chance.random() < 0.1:
-            section_of_another(chance, sections, source())
+            section_of_another(chance, sections, chance.choice(systems) if chance.random() < 0.4 else composed(chance), rough)
         else:
             kinds = ROUGH if rough else GENTLE
             mutate, = chance.choices([m for m, _ in kinds], [weight for _, weight in kinds])
@@ -415,7 +415,7 @@ def make_case(seed, index, systems):
         options += ["--threads", chance.choice("1112")]
         if chance.random() < 0.3:
             options += ["--t-max", "1"]
-        if chance.random() < 0.15:
+        if chance.random() < (0.2 if b"step = " in data else 0.02):
             options += ["--engine", "steps"]
         if chance.random() < 0.1:
             options += ["--collisions", chance.choice(("1", "30"))]
