@@ -36,7 +36,7 @@ View view_of(const Table& table) {
   for (const Wall& wall : table.walls) boxes.push_back(geometry::bounding_box(wall.curve));
   if (table.lattice)
     for (const auto& edge : table.lattice->edges) boxes.push_back({edge.segment.from, edge.segment.from});
-  if (boxes.empty()) throw InputError("a table without walls cannot be drawn");
+  if (boxes.empty()) throw InputError({"command line", 0, 0, "-o"}, "a table without walls cannot be drawn");
   View view;
   view.box = geometry::hull_of(boxes);
   const double size = std::max(view.box.high.x - view.box.low.x, view.box.high.y - view.box.low.y);
