@@ -7,6 +7,7 @@
 #include "carom/base/error.hpp"
 #include "carom/table/table.hpp"
 #include "certify/ball_table.hpp"
+#include "table/obstacles.hpp"
 
 namespace carom::certify {
 
@@ -109,6 +110,7 @@ class TableBuilder {
       throw InputError(spec_.shape_place, "the shape '" + shape + "' has no certified form",
                        "another shape, or --precision double");
     }
+    for (const ObstacleSpec& obstacle : spec_.obstacles) add_obstacle(obstacle);
     if (spec_.lattice) table_.lattice = {point(spec_.lattice->first), point(spec_.lattice->second)};
     return std::move(table_);
   }
@@ -197,6 +199,7 @@ class TableBuilder {
   // Centres are drawn as doubles, and are these exactly.
   void random_discs() {
     TableSpec closed = spec_;
+    closed.obstacles.clear();
     closed.holes.clear();
     for (const Wall& wall : build_table(closed).walls)
       if (const auto* disc = std::get_if<geometry::Circle>(&wall.curve))
@@ -208,6 +211,16 @@ class TableBuilder {
       table_.lattice = {{side, 0}, {0, side}};
     else
       polygon(rectangle(side, side));
+  }
+  void add_obstacle(const ObstacleSpec& o) {
+    if (o.shape == ObstacleSpec::Shape::polygon) {
+      for (const ClockwiseSide& s : clockwise_sides(o)) add(segment_wall(point(o.points[s.from]), point(o.points[s.to])));
+    } else if (o.shape == ObstacleSpec::Shape::circle) {
+      add(circle_wall(point(o.center), Source<N>::value(o.radius), false));
+    } else {
+      const N a = Source<N>::value(o.a);
+      add(ellipse_wall(point(o.center), a * Source<N>::direction(o.angle), Source<N>::value(o.b) / a, false));
+    }
   }
   void path(const LoopSpec& loop) {
     VectorOf<N> from = point(loop.start);

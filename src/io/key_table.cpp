@@ -41,7 +41,18 @@ const std::vector<KeyDescription>& key_table() {
       {"table", "random-discs", "count", "whole number", "", "number of discs, placed at random without overlap"},
       {"table", "random-discs", "seed", "whole number", "1", "of the arrangement"},
       {"table", "path", "loop", "list of tables", "", "closed loops of pieces: [[table.loop]]"},
+      {"table", "", "obstacle", "list of tables", "", "closed walls inside the table or in the cell: [[table.obstacle]]"},
       {"table", "", "hole", "list of tables", "", "openings of walls: [[table.hole]]"},
+
+      {"table.obstacle", "", "shape", "string", "", "circle, ellipse or polygon"},
+      {"table.obstacle", "circle|ellipse", "center", "point", "", "its centre"},
+      {"table.obstacle", "circle", "radius", "number", "", "its radius"},
+      {"table.obstacle", "ellipse", "a", "number", "", "one semi-axis"},
+      {"table.obstacle", "ellipse", "b", "number", "", "the other semi-axis"},
+      {"table.obstacle", "ellipse", "angle", "number", "0", "angle of the semi-axis a against +x, in radians"},
+      {"table.obstacle", "polygon", "points", "list of points", "", "the corners, either way round"},
+      {"table.obstacle", "", "name", "string", "",
+       "name of its wall, or for a polygon the start of the names NAME_side_1, NAME_side_2 …; obstacle_1, obstacle_2 … if not given"},
 
       {"table.hole", "", "wall", "string", "", "name of the wall"},
       {"table.hole", "", "center", "number", "", "arc length from the wall's start to the hole's centre"},
@@ -188,7 +199,7 @@ const std::vector<KeyDescription>& key_table() {
 std::string key_table_markdown() {
   // There may be several of these, each under [[its name]].
   const auto heading = [](std::string_view section) {
-    const bool list = section == "table.hole" || section == "table.loop" || section == "injection" || section == "potential";
+    const bool list = section == "table.obstacle" || section == "table.hole" || section == "table.loop" || section == "injection" || section == "potential";
     return list ? fmt::format("[[{}]]", section) : std::string(section);
   };
   std::string page;

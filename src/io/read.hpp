@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "carom/certify/exact_system.hpp"
+#include "carom/ensemble/report_times.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/forces/force_spec.hpp"
 #include "carom/table/table_spec.hpp"
@@ -39,8 +40,6 @@ SectionPlan read_section(Value& root, const Table& table);
 /// Speed, field and start of the first particle, as they were written; after the other sections.
 ExactSystem read_exact(Value& root);
 
-/// `count` values from `first` to `last`, both exact, evenly spaced or with even ratios. The bits
-/// are the same everywhere.
-std::vector<double> spaced(double first, double last, std::uint64_t count, bool logarithmic);
+using carom::spaced;
 
 }  // namespace carom::io

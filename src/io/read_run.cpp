@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cmath>
 
-#include "carom/base/elementary.hpp"
 #include "io/overrides.hpp"
 #include "io/read.hpp"
 
@@ -126,20 +124,6 @@ std::vector<double> read_times(Section& run, double t_max) {
 }
 
 }  // namespace
-
-std::vector<double> spaced(double first, double last, std::uint64_t count, bool logarithmic) {
-  std::vector<double> values;
-  const double low = logarithmic ? elementary::log(first) : 0.0;
-  const double range = logarithmic ? elementary::log(last) - low : 0.0;
-  for (std::uint64_t k = 0; k < count; ++k) {
-    const double part = static_cast<double>(k) / static_cast<double>(count - 1);
-    double value = logarithmic ? elementary::exp(low + range * part) : first + (last - first) * part;
-    if (k == 0) value = first;
-    if (k + 1 == count) value = last;
-    values.push_back(value);
-  }
-  return values;
-}
 
 RunPlan read_run(Value& root, std::uint64_t starts) {
   Section section(*root.find("run"), "run");

@@ -29,6 +29,31 @@ HoleSpec read_hole(Value& value, std::size_t index) {
   return hole;
 }
 
+ObstacleSpec read_obstacle(Value& value, std::size_t index) {
+  using Shape = ObstacleSpec::Shape;
+  const std::string shape = read_kind(value, "table.obstacle", "shape", {"circle", "ellipse", "polygon"});
+  Section section(value, "table.obstacle", shape);
+  section.check_keys();
+  ObstacleSpec obstacle;
+  obstacle.place = value.place;
+  if (shape == "polygon") {
+    obstacle.shape = Shape::polygon;
+    obstacle.points = as_points(section.get("points"));
+  } else {
+    obstacle.center = as_point(section.get("center"));
+  }
+  if (shape == "circle") obstacle.radius = as_number(section.get("radius"));
+  if (shape == "ellipse") {
+    obstacle.shape = Shape::ellipse;
+    obstacle.a = as_number(section.get("a"));
+    obstacle.b = as_number(section.get("b"));
+    obstacle.angle = as_number(section.get("angle"));
+  }
+  const std::string name = "obstacle_" + std::to_string(index + 1);
+  obstacle.name = as_text(section.fill("name", text_value(name, section.place_of("name"))));
+  return obstacle;
+}
+
 PieceSpec read_piece(Value& value) {
   const bool line = value.find("line_to") != nullptr;
   const bool arc = value.find("arc_to") != nullptr || value.find("arc_via") != nullptr;
@@ -131,6 +156,11 @@ TableSpec read_table(Value& root) {
   if (Value* loops = section.find("loop")) {
     as_list(*loops);
     for (Value& loop : loops->items) spec.loops.push_back(read_loop(loop));
+  }
+  if (Value* obstacles = section.find("obstacle")) {
+    as_list(*obstacles);
+    for (std::size_t k = 0; k < obstacles->items.size(); ++k)
+      spec.obstacles.push_back(read_obstacle(obstacles->items[k], k));
   }
   if (Value* holes = section.find("hole")) {
     as_list(*holes);

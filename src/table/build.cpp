@@ -57,10 +57,10 @@ Builder builder_of(const TableSpec& spec) {
 
 void check_names(const TableSpec& spec, const Table& table) {
   std::set<std::string> names;
-  for (const Wall& wall : table.walls) {
-    if (!names.insert(wall.name).second) {
-      throw InputError(spec.place, "two walls are called '" + wall.name + "'", "a name of its own for each");
-    }
+  for (std::size_t k = 0; k < table.walls.size(); ++k) {
+    const std::string& name = table.walls[k].name;
+    if (!names.insert(name).second)
+      throw InputError(shapes::place_of_wall(spec, table, k), "two walls are called '" + name + "'", "a name of its own for each");
   }
 }
 
@@ -101,6 +101,7 @@ Table build_table(const TableSpec& spec) {
   Table table;
   table.shape = spec.shape;
   builder_of(spec)(spec, table);
+  shapes::add_obstacles(spec, table);
   if (spec.lattice) shapes::repeat(*spec.lattice, table);
   check_names(spec, table);
   if (!table.walls.empty()) shapes::check_region(spec, table);

@@ -62,9 +62,9 @@ std::string flat_arc(const Wall& wall) {
 }
 
 void shapes::refuse_flat_arcs(const TableSpec& spec, const Table& table) {
-  for (const Wall& wall : table.walls)
-    if (const std::string fault = flat_arc(wall); !fault.empty())
-      throw InputError(place_of_wall(spec, table, wall.name), fault, bent_enough);
+  for (std::size_t k = 0; k < table.walls.size(); ++k)
+    if (const std::string fault = flat_arc(table.walls[k]); !fault.empty())
+      throw InputError(place_of_wall(spec, table, k), fault, bent_enough);
 }
 
 }  // namespace carom

@@ -56,7 +56,10 @@ double coordinate(const ExactNumber& value) {
 
 geometry::Vector point(const ExactPoint& value) { return {coordinate(value.x), coordinate(value.y)}; }
 
-std::string quoted(const ExactNumber& value) { return "(" + value.text() + ")"; }
+std::string quoted(const ExactNumber& value) {
+  const auto rational = value.to_rational();
+  return "(" + (rational ? rational->numerator + "/" + rational->denominator : value.text()) + ")";
+}
 
 ExactNumber derived(const std::string& expression, const ExactNumber& origin) {
   return ExactNumber(expression, origin.place());

@@ -23,7 +23,7 @@ geometry::Vector point(const ExactPoint& value);
 
 /// The number that an expression of other numbers means, exactly; it keeps the place of `origin`.
 ExactNumber derived(const std::string& expression, const ExactNumber& origin);
-/// "(text)" of a number, to be part of an expression.
+/// A number as part of an expression: "(1/10)", "(sqrt(2))". Exact: the text of a number made from a double is not.
 std::string quoted(const ExactNumber& value);
 
 /// The place of a key of the table that was not written.

@@ -1,8 +1,10 @@
 // The exact check that the walls bound a region.
 #include "carom/geometry/region.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "table/obstacles.hpp"
 #include "table/shapes.hpp"
 
 namespace carom::shapes {
@@ -37,10 +39,13 @@ geometry::RegionKind kind_of(Extent extent) {
 
 }  // namespace
 
-Place place_of_wall(const TableSpec& spec, const Table& table, const std::string& name) {
-  const int index = table.wall_index(name);
-  if (index < 0) return spec.place;
-  std::size_t left = static_cast<std::size_t>(index);
+Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall) {
+  std::size_t after = table.walls.size();
+  for (std::size_t k = spec.obstacles.size(); k-- > 0;) {
+    after -= walls_of(spec.obstacles[k]);
+    if (wall >= after) return spec.obstacles[k].place;
+  }
+  std::size_t left = wall;
   for (const LoopSpec& loop : spec.loops) {
     if (left < loop.pieces.size()) return loop.pieces[left].place;
     left -= loop.pieces.size();
@@ -59,7 +64,9 @@ void check_region(const TableSpec& spec, const Table& table) {
   for (const geometry::RegionFault& fault : faults) {
     problem.append(problem.empty() ? "" : "; ").append(fault.sentence);
   }
-  throw InputError(place_of_wall(spec, table, faults.front().first), problem,
+  // Of two walls that cross the later one is named: it is the obstacle's.
+  const int wall = std::max(table.wall_index(faults.front().first), table.wall_index(faults.front().second));
+  throw InputError(wall < 0 ? spec.place : place_of_wall(spec, table, static_cast<std::size_t>(wall)), problem,
                    "closed loops that do not cross, outer ones counter-clockwise, obstacles clockwise");
 }
 

@@ -1,6 +1,7 @@
 // The named shapes: each function adds the walls of one shape to a table.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -50,13 +51,16 @@ void repeat(const LatticeSpec& lattice, Table& table);
 
 void path(const TableSpec& spec, Table& table);
 
+/// The walls of [[table.obstacle]], after those of the shape.
+void add_obstacles(const TableSpec& spec, Table& table);
+
 /// Turns the holes' arc lengths into parameters.
 void add_holes(const TableSpec& spec, Table& table);
 
 /// Are arcs bent enough for hits in doubles? docs/physics/exactness.md, Flat arcs.
 void refuse_flat_arcs(const TableSpec& spec, const Table& table);
-/// Where a wall was written: its corner, centre or piece if it has one, else the table.
-Place place_of_wall(const TableSpec& spec, const Table& table, const std::string& name);
+/// Where a wall was written: its obstacle, corner, centre or piece if it has one, else the table.
+Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall);
 
 /// Is the table a region: closed, simple, oriented, obstacles inside and apart? Exact.
 void check_region(const TableSpec& spec, const Table& table);

@@ -63,6 +63,26 @@ inline std::vector<Shaped> all_shapes() {
   Shaped many = shaped("random-discs", {{"side", "4"}, {"radius", "0.3"}, {"count", "7"}}, "0.02", "0.03");
   many.spec.torus = false;
   all.push_back(many);
+  // Obstacles of every kind, one of them across the corners of a cell.
+  Shaped room = shaped("rectangle", {{"width", "3"}, {"height", "2"}}, "0.3", "0.2");
+  ObstacleSpec disc;
+  disc.center = {exactly("1"), exactly("sqrt(2)/2")};
+  disc.radius = exactly("1/3");
+  ObstacleSpec egg = disc;
+  egg.shape = ObstacleSpec::Shape::ellipse;
+  egg.center = {exactly("2"), exactly("3/2")};
+  egg.a = exactly("0.4");
+  egg.b = exactly("0.2");
+  egg.angle = exactly("pi/12");
+  ObstacleSpec block;
+  block.shape = ObstacleSpec::Shape::polygon;
+  block.points = {{exactly("2"), exactly("0.2")}, {exactly("2.5"), exactly("1/3")}, {exactly("2.1"), exactly("sqrt(3)/2")}};
+  room.spec.obstacles = {disc, egg, block};
+  all.push_back(room);
+  Shaped cell = shaped("sinai", {{"side", "2"}, {"radius", "0.4"}}, "0.05", "1.07");
+  cell.spec.obstacles = {disc};
+  cell.spec.obstacles[0].center = {};
+  all.push_back(cell);
   Shaped polygon = shaped("polygon", {}, "0.3", "0.4");
   polygon.spec.points["points"] = {{exactly("0"), exactly("0")},
                                    {exactly("2"), exactly("0.1")},

@@ -31,5 +31,5 @@ foreach(project consumer consumer_geometry)
   run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/${folder} -B ${scratch}/${project} -DCMAKE_PREFIX_PATH=${scratch}/prefix
       -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS})
   run(${CMAKE_COMMAND} --build ${scratch}/${project})
-  run(${scratch}/${project}/${project})
+  run(${CMAKE_CTEST_COMMAND} --test-dir ${scratch}/${project} --output-on-failure --no-tests=error)
 endforeach()

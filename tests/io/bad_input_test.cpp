@@ -20,7 +20,7 @@ void expect_in_square(const std::vector<Fault>& faults) {
 TEST(BadInput, UnknownNamesShowPlaceAndNearest) {
   EXPECT_EQ(fault("[table]\nshape = \"rectangle\"\nwidht = 1\nheight = 1\n"),
             "test.toml, line 3, column 1: table.widht: unknown key 'widht' for 'rectangle' (expected one of "
-            "shape, width, height, hole; did you mean 'width'?)");
+            "shape, width, height, obstacle, hole; did you mean 'width'?)");
   expect({{"[table]\nshape = \"rectangel\"\n", "line 2, column 9: table.shape: unknown shape 'rectangel'"},
           {"[table]\nshape = \"rectangel\"\n", "did you mean 'rectangle'?"},
           {"[tabel]\nshape = \"circle\"\n", "line 1, column 2: tabel: unknown section or key 'tabel'"},
@@ -35,6 +35,28 @@ TEST(BadInput, UnknownNamesShowPlaceAndNearest) {
                     {"[initial]\nkind = \"point\"\nwall = \"top\"\n", "it belongs to boundary, birkhoff"},
                     {"[initial]\nkind = \"boundary\"\nwall = \"topp\"\n", "did you mean 'top'?"},
                     {"[particles]\nsped = 1\n", "did you mean 'speed'?"}});
+}
+
+InputError error_of(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error;
+  }
+  return InputError("no fault");
+}
+
+TEST(BadInput, ObstaclesNameTheirKeyAndPlace) {
+  const auto error = [](const std::string& keys) { return error_of(square("[[table.obstacle]]\n" + keys)); };
+  EXPECT_EQ(error("shape = \"cirle\"\n").nearest(), "circle");
+  EXPECT_EQ(error("shape = \"circle\"\ncentre = [0.5, 0.5]\nradius = 0.1\n").nearest(), "center");
+  EXPECT_EQ(error("shape = \"circle\"\ncenter = [0.5, 0.5]\n").place().key, "table.obstacle[0].radius");
+  EXPECT_EQ(error("shape = \"ellipse\"\ncenter = [0.5, 0.5]\na = 0.1\nb = -1\n").place().key, "table.obstacle[0].b");
+  EXPECT_EQ(error("shape = \"ellipse\"\ncenter = [0.5, 0.5]\na = 0.1\nb = 0.1\nradius = 1\n").place().line, 10);
+  const InputError crossing = error("shape = \"circle\"\ncenter = [1, 0.5]\nradius = 0.1\n");
+  EXPECT_EQ(crossing.place().line, 5);
+  EXPECT_EQ(crossing.place().key, "table.obstacle[0]");
+  EXPECT_FALSE(crossing.expected().empty());
 }
 
 TEST(BadInput, MissingThingsAreNamed) {

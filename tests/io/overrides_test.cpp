@@ -33,7 +33,7 @@ TEST(Overrides, SetReplacesWhatItExcludes) {
 TEST(Overrides, FaultsAreOnTheCommandLine) {
   EXPECT_EQ(fault(square(), set("table.widht", "1")),
             "command line: table.widht: unknown key 'widht' for 'rectangle' (expected one of shape, width, "
-            "height, hole; did you mean 'width'?)");
+            "height, obstacle, hole; did you mean 'width'?)");
   EXPECT_HAS(fault(square(), set("table.width", "wide")), "command line: table.width: unknown word 'wide'");
   EXPECT_HAS(fault(square(), set("rnu.t_max", "1")), "did you mean 'run'?");
   EXPECT_HAS(fault(square(), set("table.width.x", "1")), "'width' is a number, it has no key 'x'");

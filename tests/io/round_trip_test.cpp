@@ -110,6 +110,13 @@ TEST(RoundTrip, EverySection) {
            std::string(
                "[table]\nshape = \"path\"\n[[table.loop]]\nstart = [-1, 0]\npieces = [{line_to = [1, 0]},\n"
                "{arc_via = [0, 1], arc_to = [-1, 0], name = \"dome\"}]\n"),
+           square("[[table.obstacle]]\nshape = \"circle\"\ncenter = [\"1/3\", 0.2]\nradius = 0.1\n"
+                  "[[table.obstacle]]\nshape = \"ellipse\"\ncenter = [0.7, 0.2]\na = 0.1\nb = \"1/7\"\nangle = 0.3\n"
+                  "name = \"egg\"\n"
+                  "[[table.obstacle]]\nshape = \"polygon\"\npoints = [[0.5, 0.5], [0.7, 0.5], [0.6, 0.6]]\n"
+                  "[[table.hole]]\nwall = \"obstacle_3_side_2\"\ncenter = 0.05\nwidth = 0.01\n"),
+           std::string("[table]\nshape = \"sinai\"\nside = 1\nradius = 0.2\n"
+                       "[[table.obstacle]]\nshape = \"circle\"\ncenter = [0, 0]\nradius = 0.1\n"),
            std::string("[table]\nshape = \"discs\"\ncenters = [[0, 0], [3, 0]]\nradii = [1, \"1/2\"]\n"
                        "[lattice]\nvectors = [[6, 0], [\"1/2\", 4]]\n"),
        }) {

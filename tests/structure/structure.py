@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads the tree and says where it leaves the plan of the house.
 
-    structure.py includes | libm | length  [ROOT]
+    structure.py includes | umbrella | libm | length  [ROOT]
 
 Exit status 1 and one line a fault if there is one. The plan is data: the tables below.
 """
@@ -149,6 +149,21 @@ def check_includes(root):
                 yield f"examples/{path.name}: only <carom/…> and the standard library, not {match.group(2)}"
 
 
+def check_umbrella(root):
+    """Every public header comes with UMBRELLA, but for the maps."""
+    reached, ahead = set(), [UMBRELLA]
+    while ahead:
+        path = ahead.pop()
+        if path in reached or not (root / path).is_file():
+            continue
+        reached.add(path)
+        code = without_comments((root / path).read_text(encoding="utf-8"), strings=False)
+        ahead += [f"include/{header}" for _, header in INCLUDE.findall(code) if header.startswith("carom/")]
+    for path, _ in sources(root):
+        if path.startswith("include/") and not path.startswith("include/carom/maps/") and path not in reached:
+            yield f"{path} is not part of {UMBRELLA}"
+
+
 def check_libm(root):
     call = re.compile(r"(?<![\w.>])(?<!elementary::)(?:std::|::)?\b(" + "|".join(LIBM) + r")[fl]?\s*\(")
     for path, text in sources(root):
@@ -173,7 +188,7 @@ def check_length(root):
             print(f"{name}: {lines} lines (long)")
 
 
-CHECKS = {"includes": check_includes, "libm": check_libm, "length": check_length}
+CHECKS = {"includes": check_includes, "umbrella": check_umbrella, "libm": check_libm, "length": check_length}
 
 
 def main(arguments):

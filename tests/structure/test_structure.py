@@ -62,6 +62,17 @@ class Includes(unittest.TestCase):
         self.legal("src/table/build.cpp", '/*\n#include "carom/events/world.hpp"\n*/')
 
 
+class Umbrella(unittest.TestCase):
+    def test_public_headers_come_with_it(self):
+        world = '#include "carom/table/table.hpp"\n#include "carom/base/error.hpp"\n'
+        files = {"include/carom/events/world.hpp": world,
+                 "include/carom/carom.hpp": '#include "carom/events/world.hpp"\n',
+                 "include/carom/maps/maps.hpp": "#pragma once\n"}
+        self.assertEqual(faults("umbrella", files), [])
+        files["include/carom/motion/tangent.hpp"] = "#pragma once\n"
+        self.assertEqual(len(faults("umbrella", files)), 1)
+
+
 class Libm(unittest.TestCase):
     def count(self, path, line):
         return len(faults("libm", {path: line + "\n"}))

@@ -1,6 +1,7 @@
 // Numbers as a user writes them: "0.1" is one tenth, "sqrt(3)/2" is that.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +26,7 @@ class ExactNumber {
  public:
   ExactNumber() = default;                        ///< zero
   ExactNumber(double value);                      ///< exactly that double; NOLINT
-  ExactNumber(std::string_view text, Place place);  ///< parses; throws InputError
+  ExactNumber(std::string_view text, Place place = {});  ///< parses; throws InputError; NOLINT
 
   /// The nearest double (correctly rounded, ties to even). Throws InputError on overflow.
   double to_double() const;
@@ -41,7 +42,14 @@ class ExactNumber {
   std::string text_ = "0";
   Place place_;
   std::shared_ptr<const Node> expression_;  // null: zero
-  mutable std::optional<double> rounded_;
+  std::optional<double> rounded_;           // empty: beyond the range of doubles
 };
+
+inline namespace literals {
+/// "1/3"_exact
+inline ExactNumber operator""_exact(const char* text, std::size_t length) {
+  return ExactNumber(std::string_view(text, length));
+}
+}  // namespace literals
 
 }  // namespace carom

@@ -14,9 +14,9 @@ namespace carom {
 /// Where an orbit starts: a point of the plane, or the point of a wall with parameter u. `direction` is
 /// that of the velocity, its length is free; or its angle is given.
 struct ExactStart {
-  ExactPoint position;
-  ExactPoint direction;
-  std::optional<ExactNumber> angle;
+  ExactPoint position = {};
+  ExactPoint direction = {};
+  std::optional<ExactNumber> angle = {};
   int wall = -1;
   double u = 0.0;
 };

@@ -39,8 +39,8 @@ struct RunPlan {
   std::uint64_t seed = 1;
   double sample = 0.0;               ///< time between samples (0: none)
   double trust_tolerance = 1e-3;     ///< of errors, relative to the table's size (analysis/trust.hpp)
-  std::vector<double> times;
-  std::optional<std::pair<double, double>> window;  ///< report times that D is taken from
+  std::vector<double> times = {};
+  std::optional<std::pair<double, double>> window = {};  ///< report times that D is taken from
 };
 
 /// Particles that enter through a hole during a run: the cosine law over its opening, inwards.

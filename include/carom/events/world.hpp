@@ -25,7 +25,8 @@ namespace carom {
 /// (docs/physics/walls-in-steps.md).
 class World {
  public:
-  /// Free particles. Keeps a reference to the table, which must live as long. InputError: an arc is too flat.
+  /// For free particles: no forces act. make_world(system) (ensemble/trajectories.hpp) makes the world of a System with its
+  /// forces. Keeps a reference to the table, which must live as long. InputError: an arc is too flat.
   explicit World(const Table& table, DecisionOptions options = {});
   World(const Table& table, const Dynamics& dynamics, DecisionOptions options = {});
   explicit World(Table&&, DecisionOptions = {}) = delete;
@@ -62,6 +63,11 @@ class World {
   /// now and then between events; true returns early. Returns the number of events applied.
   std::uint64_t run_until(double t_end, Observer& observer,
                           const std::function<bool()>& interrupted = {});
+  /// The same without an observer.
+  std::uint64_t run_until(double t_end) {
+    Observer none;
+    return run_until(t_end, none);
+  }
 
   int size() const;
   bool finished(int particle) const;          ///< has ended

@@ -1,6 +1,7 @@
 // The billiard table: walls, joints, holes and an optional lattice.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -44,6 +45,8 @@ struct Table {
   /// May walls cross? Not those of a table that was built; the edges of supports of forces do.
   bool crossing = false;
 
+  /// The wall with that index, as events and states name it. Throws std::out_of_range for -1: no wall.
+  const Wall& wall(int index) const { return walls.at(static_cast<std::size_t>(index)); }
   /// Index of the wall or hole with that name, or -1.
   int wall_index(const std::string& name) const;
   int hole_index(const std::string& name) const;

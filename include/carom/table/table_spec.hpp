@@ -36,16 +36,27 @@ struct LoopSpec {
 
 /// A hole as the system file gives it.
 struct HoleSpec {
-  std::string wall;
+  std::string wall = {};
   ExactNumber center, width;           ///< arc lengths along the wall
-  std::string name;                    ///< "" : hole_1, hole_2 …
-  Place place, wall_place;
+  std::string name = {};               ///< "" : hole_1, hole_2 …
+  Place place = {}, wall_place = {};
 };
 
 /// "hole_1", "hole_2" … where none is given.
 inline std::string name_of_hole(const std::vector<HoleSpec>& holes, std::size_t index) {
   return holes[index].name.empty() ? "hole_" + std::to_string(index + 1) : holes[index].name;
 }
+
+/// An obstacle as the system file gives it: a circle has a center and a radius; an ellipse a center, the semi-axes a
+/// and b, and the angle of a against +x in radians; a polygon has points, either way round.
+struct ObstacleSpec {
+  enum class Shape { circle, ellipse, polygon } shape = Shape::circle;
+  ExactPoint center;
+  ExactNumber radius, a, b, angle;
+  std::vector<ExactPoint> points;
+  std::string name;                    ///< "" : obstacle_1, obstacle_2 …
+  Place place;
+};
 
 /// The two vectors of a lattice.
 struct LatticeSpec {
@@ -65,6 +76,7 @@ struct TableSpec {
   std::map<std::string, std::string> words;
   bool torus = true;                   ///< sinai, random-discs
   std::vector<LoopSpec> loops;         ///< path
+  std::vector<ObstacleSpec> obstacles;
   std::vector<HoleSpec> holes;
   std::optional<LatticeSpec> lattice;
 };

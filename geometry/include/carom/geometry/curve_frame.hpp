@@ -20,7 +20,8 @@ struct CurveFrame : Frame<double> {
   Vector phase{1.0, 0.0};
 };
 
-/// Throws std::invalid_argument for a curve without extent (zero length, radius, axis or ratio).
+/// Costs about 4 µs (exact arithmetic): make it once a curve. Throws std::invalid_argument for a curve without extent
+/// (zero length, radius, axis or ratio).
 CurveFrame frame_of(const Curve&);
 
 inline Vector point_at(const CurveFrame& f, double u) {

@@ -1,0 +1,99 @@
+#include "table/obstacles.hpp"
+
+#include <utility>
+
+#include "carom/base/exact_sum.hpp"
+#include "carom/base/fused_product.hpp"
+#include "table/direction.hpp"
+#include "table/numbers.hpp"
+#include "table/shapes.hpp"
+
+namespace carom {
+namespace {
+
+using geometry::Vector;
+
+bool counterclockwise(const std::vector<Vector>& corners) {
+  ExactSum twice_the_area;
+  const auto add_product = [&](double a, double b) {
+    const double product = a * b;
+    twice_the_area.add(product);
+    twice_the_area.add(fused_product(a, b, -product));  // what rounding took: exact
+  };
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector p = corners[k], q = corners[(k + 1) % corners.size()];
+    add_product(p.x, q.y);
+    add_product(-p.y, q.x);
+  }
+  return twice_the_area.value() > 0.0;
+}
+
+std::vector<Vector> corners_of(const ObstacleSpec& obstacle) {
+  std::vector<Vector> corners;
+  for (const ExactPoint& p : obstacle.points) corners.push_back(shapes::point(p));
+  return corners;
+}
+
+}  // namespace
+
+std::string name_of_obstacle(const std::vector<ObstacleSpec>& obstacles, std::size_t index) {
+  return obstacles[index].name.empty() ? "obstacle_" + std::to_string(index + 1) : obstacles[index].name;
+}
+
+std::size_t walls_of(const ObstacleSpec& obstacle) {
+  return obstacle.shape == ObstacleSpec::Shape::polygon ? obstacle.points.size() : 1;
+}
+
+std::vector<ClockwiseSide> clockwise_sides(const ObstacleSpec& obstacle) {
+  const std::size_t n = obstacle.points.size();
+  const bool turn_round = counterclockwise(corners_of(obstacle));
+  std::vector<ClockwiseSide> sides;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t side = turn_round ? n - 1 - k : k, next = (side + 1) % n;
+    sides.push_back(turn_round ? ClockwiseSide{next, side, side} : ClockwiseSide{side, next, side});
+  }
+  return sides;
+}
+
+namespace shapes {
+namespace {
+
+void add_polygon_obstacle(const ObstacleSpec& obstacle, const std::string& name, Table& table) {
+  const std::vector<Vector> corners = corners_of(obstacle);
+  if (corners.size() < 3)
+    throw InputError(obstacle.place, "a polygon has at least three corners, not " + std::to_string(corners.size()),
+                     "three points or more");
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    if (corners[k] == corners[(k + 1) % corners.size()])
+      throw InputError(obstacle.points[k].x.place(), "the same point twice in a row", "corners that differ");
+  const std::vector<std::string> names = numbered(name + "_side", corners.size());
+  std::vector<NamedCurve> chain;
+  for (const ClockwiseSide& s : clockwise_sides(obstacle))
+    chain.push_back({names[s.side], geometry::Segment{corners[s.from], corners[s.to]}});
+  add_loop(table, std::move(chain));
+}
+
+}  // namespace
+
+void add_obstacles(const TableSpec& spec, Table& table) {
+  for (std::size_t k = 0; k < spec.obstacles.size(); ++k) {
+    const ObstacleSpec& o = spec.obstacles[k];
+    const std::string name = name_of_obstacle(spec.obstacles, k);
+    switch (o.shape) {
+      case ObstacleSpec::Shape::circle:
+        add_loop(table, {{name, geometry::Circle{point(o.center), size_of(o.radius, "radius"), false}}});
+        break;
+      case ObstacleSpec::Shape::ellipse:
+        size_of(o.b, "b");
+        add_loop(table, {{name, geometry::Ellipse{point(o.center), direction(o.angle, 0, 1, size_of(o.a, "a")),
+                                                  size_of(derived(quoted(o.b) + "/" + quoted(o.a), o.b), "b/a"), false}}});
+        break;
+      case ObstacleSpec::Shape::polygon:
+        add_polygon_obstacle(o, name, table);
+        break;
+    }
+  }
+}
+
+}  // namespace shapes
+}  // namespace carom
