@@ -40,16 +40,28 @@ Vector centre_of_cell(const geometry::Lattice& lattice) {
 
 void fold_towards_centre(const geometry::Lattice& lattice, Vector centre, Vector& x, Cell& cell) {
   const auto distance = [&](const Vector& a) { return dot(a - centre, a - centre); };
-  for (bool moved = true; moved;) {
-    moved = false;
+  // Cell by cell; after 64 rounds by leaps that grow, then shrink. Beyond the longest leap x has no digit left that says
+  // where in a cell it is, and stays as it is.
+  constexpr std::int64_t longest = std::int64_t{1} << 50;
+  std::int64_t leap = 1;
+  for (int round = 0;; ++round) {
+    bool moved = false;
     for (const geometry::CellEdge& e : lattice.edges) {
-      const Vector nearer = x - lattice.translation(e.beyond);
+      const Cell beyond{leap * e.beyond.first, leap * e.beyond.second};
+      const Vector nearer = x - lattice.translation(beyond);
       if (!(distance(nearer) < distance(x))) continue;  // strictly nearer: no going to and fro
       x = nearer;
-      cell.first += e.beyond.first;
-      cell.second += e.beyond.second;
+      cell.first += beyond.first;
+      cell.second += beyond.second;
       moved = true;
     }
+    if (moved && leap == longest) return;
+    if (moved && round >= 64)
+      leap *= 2;
+    else if (!moved && leap > 1)
+      leap /= 2;
+    else if (!moved)
+      return;
   }
 }
 

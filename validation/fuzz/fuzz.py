@@ -20,7 +20,8 @@ Verdicts
   silent    with --silence: no line of progress for so long
   memory    it holds more than 2 GB, or asks for more than 4 GB
   place     status 1, and the message names neither a file, a line, a key nor an option
-  output    no valid JSON with status 0 or 3, something on standard output with status 1, or 3 without a reason
+  output    no valid JSON with status 0 or 3, something on standard output with status 1, 3 without a reason,
+            or fates of escape that do not add up to its trajectories
 
 Busy machines: a program that waits for a processor is not deaf. The kernel counts that time (/proc/PID/schedstat), and
 it is taken off. Builds with sanitizers (--sanitized) reserve addresses without end and are slow: there is no
@@ -189,6 +190,10 @@ def judge(ended, command, limits):
         return "output", f"no JSON: {error}"
     if any(isinstance(n, int) and n > 0 for n in values_of(report, {"lost"})) or "lost" in values_of(report, {"status"}):
         return "lost", last
+    if command == "escape" and "trajectories" in report:
+        fates = ("escaped", "survived", "singular", "unbounded", "unresolved", "lost")
+        if report.get("status") == "completed" and report["trajectories"] != sum(report[fate] for fate in fates):
+            return "output", "the fates do not add up"
     if ended.code == 0:
         if command == "run" and report.get("status") == "completed" and holds_null(list(values_of(report, {"x", "y", "vx", "vy", "t"}))):
             return "null", "completed"

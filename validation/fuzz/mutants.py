@@ -42,6 +42,12 @@ HOLES = """
 center = 0.5; width = 0.2
 center = 0.3; width = "1/10"; name = "hole_1"
 """
+OBSTACLES = """
+shape = "circle"; center = [0.6, "1/3"]; radius = 0.1
+shape = "ellipse"; center = [0.5, 0.5]; a = 0.2; b = 0.05; angle = "pi/6"; name = "blade"
+shape = "polygon"; points = [[0.4, 0.4], [0.6, 0.4], ["1/2", "3/5"]]
+shape = "circle"; center = [0.3, 0.3]; radius = 0.1; [[table.obstacle]]; shape = "circle"; center = [0.5, 0.3]; radius = 0.1
+"""
 FIELDS = """
 B = 0.5
 B = "-3/2"
@@ -144,6 +150,8 @@ def composed(chance):
     if "[lattice]" in potential or (potential and chance.random() < 0.4):
         wall = table = ""
     parts = [f"[table]\n{table}"] if table else []
+    if wall and "[lattice]" not in table and chance.random() < 0.2:
+        parts.append(f"[[table.obstacle]]\n{chance.choice(pieces(OBSTACLES))}")
     hole = wall and "[lattice]" not in table and chance.random() < 0.4
     if hole:
         parts.append(f'[[table.hole]]\nwall = "{wall}"\n{chance.choice(pieces(HOLES))}')
@@ -214,7 +222,7 @@ def joined(sections):
     return "\n".join(line for section in sections for line in section if line) + "\n"
 
 
-ALL_PIECES = "\n".join((TABLES, HOLES, FIELDS, POTENTIALS, INTERACTIONS, PARTICLES, STARTS, INTEGRATORS, INJECTIONS, RUNS, SECTIONS))
+ALL_PIECES = "\n".join((TABLES, OBSTACLES, HOLES, FIELDS, POTENTIALS, INTERACTIONS, PARTICLES, STARTS, INTEGRATORS, INJECTIONS, RUNS, SECTIONS))
 
 
 def replace_one(chance, sections, pattern, new):
