@@ -4,7 +4,7 @@
 using namespace carom::literals;
 
 int main() {
-  const auto stadium = carom::stadium(1, 1);
+  const auto stadium = carom::stadium(2, 1);
   const carom::ExactStart start{.position = {"1/10"_exact, "1/5"_exact}, .direction = {1, "1/3"_exact}};
   int hits = 0;
   for (const carom::CertifiedHit& hit : carom::certified_orbit(stadium, start, 200, 30)) {
