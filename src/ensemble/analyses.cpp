@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "carom/ensemble/report_times.hpp"
-#include "carom/events/decision_range.hpp"
 
 namespace carom {
 
@@ -11,8 +10,6 @@ System make_system(const MadeTable& made, RunPlan run) {
   System system;
   system.table = made.table;
   system.particles = {Particle{}};
-  if (const std::string fault = beyond_decisions(*system.table, system.particles); !fault.empty())
-    throw InputError(made.spec->place, fault, "another unit of length, in which lengths are nearer to 1");
   if (!(run.t_max > 0.0)) throw InputError(Place{"", 0, 0, "run.t_max"}, "must be positive", "a number > 0");
   if (run.times.empty()) run.times = default_report_times(run.t_max);
   system.run = std::move(run);

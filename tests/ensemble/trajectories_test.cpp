@@ -48,7 +48,7 @@ TEST(Trajectories, AreThoseOfAnEnsemble) {
 
 TEST(Trajectories, AreSampledAsTheSystemSays) {
   Counter counter;
-  for_each_trajectory(small("mushroom", {{"run.sample", "5"}}), {0, 3}, counter);
+  for_each_trajectory(small("mushroom", {{"run.sample", "5"}, {"table.hole", "[]"}}), {0, 3}, counter);
   EXPECT_EQ(counter.samples, 15u);
 }
 
