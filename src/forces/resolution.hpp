@@ -143,8 +143,8 @@ class ForceMap {
     const double rounded_i = (i - 0.5) + whole, rounded_j = (j - 0.5) + whole;
     const std::uint64_t a = std::bit_cast<std::uint64_t>(rounded_i), b = std::bit_cast<std::uint64_t>(rounded_j);
     const std::uint64_t key = static_cast<std::uint64_t>(exponent + 2048) << 52 | (a & 0x3ffffff) << 26 | (b & 0x3ffffff);
-    // Neighbours lie side by side in squares of 32 times 32.
-    const std::size_t slot = (a & 31) + 32 * (b & 31) + 1024 * static_cast<std::size_t>(exponent + 2048);
+    // Neighbours lie side by side in squares of 128 times 128.
+    const std::size_t slot = (a & 127) + 128 * (b & 127) + 16384 * static_cast<std::size_t>(exponent + 2048);
     Entry& kept = entries_[slot & (kept_entries - 1)];
     return kept.key == key ? kept : compute(kept, key, exponent, rounded_i - whole, rounded_j - whole);
   }
@@ -153,7 +153,7 @@ class ForceMap {
                      const resolution::Span&, int& patience);
   bool resolves_closely(geometry::Vector x, double square_speed, int coarsest, const resolution::Span&);
 
-  static constexpr std::size_t kept_entries = 8192;
+  static constexpr std::size_t kept_entries = 65536;
   const ForceField& forces_;
   Particle kind_;
   std::vector<Entry> entries_;
