@@ -16,7 +16,7 @@ std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before = 
 /// that follow, then a line for each dataset and attribute with the CRC-32 of its bytes, its type, number of values and
 /// path. All these have a fixed length: the attribute is written again in place as long as nothing new is in the file.
 void write_checksums(hid_t file, const std::string& name);
-/// Makes room for that before readers come (SWMR), for nothing can be created then; the sums are zeros.
+/// Makes room for that list before readers come (SWMR): nothing can be created afterwards. The sums are zeros.
 void reserve_checksums(hid_t file, const std::string& name);
 
 /// Reads everything that is listed. Throws InputError where there is no such list, and where something is missing, cannot be

@@ -121,7 +121,7 @@ TEST(Checksums, ABitOfARunIsToldOf) {
     ASSERT_EQ(shell("cp a.h5 b.h5").status, 0);
     const std::string path = shell.folder() + "/b.h5";
     change_last_bit(path, read_reals(path, column).back());
-    EXPECT_FALSE(can_be_read(path, column)) << column;  // by nobody: Fletcher-32
+    EXPECT_FALSE(can_be_read(path, column)) << column;  // by no reader: Fletcher-32
     const Outcome o = shell("$carom run --resume b.h5 --t-max 40 --quiet");
     EXPECT_EQ(o.status, 1) << column;
     EXPECT_NE(o.err.find(std::string("b.h5: '/") + column + "' is missing or not readable"), std::string::npos) << o.err;
@@ -205,7 +205,7 @@ TEST(Checksums, WhatIsSwappedRemovedOrChangedIsToldOf) {
   EXPECT_NE(none.err.find("b.h5: '/provenance@checksums' is missing"), std::string::npos) << none.err;
 }
 
-// Notes of a user's own, whatever their type, are nobody's business.
+// Notes that a user has added are ignored, whatever their type.
 TEST(Checksums, WhatOthersAddedIsNotLookedAt) {
   const Shell shell;
   ASSERT_EQ(shell("$carom run sinai --t-max 30 -o a.h5 --quiet").status, 0);
