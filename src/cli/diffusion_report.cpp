@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/ensemble/engine.hpp"
 #include "cli/common.hpp"
 #include "cli/doubts.hpp"
 #include "io/progress.hpp"
@@ -130,7 +131,7 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
-  if (const std::string none = no_lanes_for_diffusion(system); !none.empty()) json.set("no_lanes", none);
+  if (const std::string none = why_one_by_one(system); !none.empty()) json.set("no_lanes", none);
   Json msd = Json::array(), fourth = Json::array(), local = Json::array(), corridors = Json::array();
   for (const MomentPoint& p : summary.points) {
     msd.push(Json::object().set("t", p.t).set("value", p.square.value).set("stderr", p.square.error));
@@ -190,7 +191,7 @@ std::string diffusion_text(const System& system, const DiffusionResult& result, 
                       result.threads == 1 ? "" : "s",
                       pace_text(system, result.collisions, result.steps, result.seconds),
                       decisions_text(result.decisions), result.digest);
-  text += lanes_text(no_lanes_for_diffusion(system), result.lanes);
+  text += lanes_text(why_one_by_one(system), result.lanes);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

@@ -65,7 +65,7 @@ Doubts doubts_of(const System& system, const SingleRunResult& r) {
   Reports reports;
   EnergyError energy;
   for (std::size_t p = 0; p < r.particles.size(); ++p) {
-    const ParticleEnd& end = r.particles[p];
+    const RunEnd& end = r.particles[p];
     unresolved += end.progress.fate == Fate::unresolved;
     lost += end.progress.fate == Fate::lost;
     if (is_failure(end.progress.fate) && !end.report.empty()) reports.emplace_back(p, end.report);

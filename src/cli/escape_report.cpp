@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/ensemble/engine.hpp"
 #include "carom/table/hole_names.hpp"
 #include "cli/common.hpp"
 #include "cli/doubts.hpp"
@@ -78,7 +79,7 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
-  if (const std::string none = no_lanes_for_escape(system); !none.empty())
+  if (const std::string none = why_one_by_one(system); !none.empty())
     json.set("lanes", Json()).set("no_lanes", none);
   else if (result.effort.steps > 0)
     json.set("lanes", Json::object()
@@ -133,7 +134,7 @@ std::string escape_text(const System& system, const EscapeResult& result, const 
   if (counts.collisions > 0)
     text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
   text += fmt::format("\n{}   digest {:016x}\n", decisions_text(result.decisions), result.digest);
-  text += lanes_text(no_lanes_for_escape(system), result.lanes, result.effort);
+  text += lanes_text(why_one_by_one(system), result.lanes, result.effort);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

@@ -161,7 +161,7 @@ int run(const Options& options) {
   const std::string status = run_status(result);
   if (archive) archive->finish(result, status);
 
-  for (const ParticleEnd& particle : result.particles)
+  for (const RunEnd& particle : result.particles)
     if (is_failure(particle.progress.fate) && !particle.report.empty()) warn(std::string(shown(particle.report)));
   print(options.json ? run_json(system, result, status, output).text() + "\n"
                      : run_text(system, result, status, output));

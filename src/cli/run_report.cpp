@@ -13,7 +13,7 @@ namespace carom::cli {
 
 namespace {
 
-std::string status_of(const ParticleEnd& particle, bool interrupted) {
+std::string status_of(const RunEnd& particle, bool interrupted) {
   switch (particle.progress.fate) {
     case Fate::survived:
       return interrupted ? "interrupted" : "completed";
@@ -24,12 +24,12 @@ std::string status_of(const ParticleEnd& particle, bool interrupted) {
   }
 }
 
-std::string wall_of(const System& system, const ParticleEnd& particle) {
+std::string wall_of(const System& system, const RunEnd& particle) {
   const int wall = particle.progress.last_wall;
   return wall < 0 ? std::string() : system.table->walls[static_cast<std::size_t>(wall)].name;
 }
 
-void add_end(Json& json, const System& system, const ParticleEnd& particle) {
+void add_end(Json& json, const System& system, const RunEnd& particle) {
   const std::string wall = wall_of(system, particle);
   json.set("wall", wall.empty() ? Json() : Json(wall));
   json.set("t", particle.t);
@@ -48,7 +48,7 @@ void add_end(Json& json, const System& system, const ParticleEnd& particle) {
   if (hole >= 0) json.set("hole", system.table->holes[static_cast<std::size_t>(hole)].name);
 }
 
-std::string trust_text(const System& system, const ParticleEnd& particle) {
+std::string trust_text(const System& system, const RunEnd& particle) {
   const Trust& trust = particle.trust;
   if (!trust.known) return "not estimated where motion is integrated or discs meet";
   if (trust.open && trust.time == particle.progress.end)
@@ -57,7 +57,7 @@ std::string trust_text(const System& system, const ParticleEnd& particle) {
                      grouped(trust.hits), trust.time.value(), system.run.trust_tolerance);
 }
 
-std::string end_text(const System& system, const ParticleEnd& particle, bool interrupted) {
+std::string end_text(const System& system, const RunEnd& particle, bool interrupted) {
   std::string text = fmt::format("  status        {}", status_of(particle, interrupted));
   const int hole = particle.progress.hole;
   if (hole >= 0)
@@ -88,7 +88,7 @@ std::string state_error_text(const System& system, const StateError& error, doub
 /// What cannot be trusted of the energy: "" where it is kept.
 std::string energy_note(const System& system, const SingleRunResult& result) {
   EnergyError all;
-  for (const ParticleEnd& particle : result.particles) all += particle.energy_error;
+  for (const RunEnd& particle : result.particles) all += particle.energy_error;
   return energy_doubt(system, all);
 }
 
@@ -118,7 +118,7 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
     add_end(json, system, result.particles.front());
   } else {
     Json particles = Json::array();
-    for (const ParticleEnd& particle : result.particles) {
+    for (const RunEnd& particle : result.particles) {
       Json one = Json::object();
       one.set("status", status_of(particle, result.interrupted));
       one.set("collisions", particle.progress.hits);
@@ -155,7 +155,7 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
     text += fmt::format("  integration   {}\n", steps);
   if (result.state_error) {
     double end = 0.0;
-    for (const ParticleEnd& particle : result.particles) end = std::max(end, particle.progress.end.value());
+    for (const RunEnd& particle : result.particles) end = std::max(end, particle.progress.end.value());
     text += state_error_text(system, *result.state_error, end);
   }
   text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds, decisions_text(result.decisions));

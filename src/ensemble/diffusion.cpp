@@ -5,8 +5,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
-#include "ensemble/lane_walker.hpp"
-#include "ensemble/soft_walker.hpp"
+#include "ensemble/diffusion_listener.hpp"
 
 namespace carom {
 
@@ -21,12 +20,19 @@ DiffusionResult nothing(const System& system) {
   return result;
 }
 
-template <class Walker>
-void run_blocks_of(EnsembleRun<DiffusionResult>::Thread& thread, Walker walker) {
-  TrajectoryRange block;
-  std::uint64_t number = 0;
-  while (!thread.stopped() && thread.claim(block, number) && walker.run(block)) {
-  }
+// What one thread does.
+void work(const System& system, const Sampler& sampler, const DiffusionOptions& options, DiffusionListener::Thread& thread) {
+  const auto engine = make_engine(system, {.t_end = system.run.times.back(),
+                                           .times = system.run.times,
+                                           .decisions = options.decisions,
+                                           .lanes = options.lanes});
+  DiffusionListener listener(system, *engine, thread);
+  const std::function<bool()> stopped = [&] { return thread.stopped(); };
+  DrawnStarts starts(sampler, [&](TrajectoryRange& block) {
+    std::uint64_t number = 0;
+    return !stopped() && thread.claim(block, number);
+  });
+  engine->run(starts, listener, stopped);
 }
 
 void refuse_impossible(const System& system) {
@@ -62,31 +68,14 @@ bool DiffusionResult::add(const DiffusionResult& other) {
   return true;
 }
 
-// Under forces a pack is of one kind of particles after the other, so these may differ.
-std::string no_lanes_for_diffusion(const System& system) {
-  return EitherLanes::is_free(system) ? EitherLanes::hindrance(system) : SoftLanes::hindrance(*system.table, system.dynamics);
-}
-
 DiffusionResult run_diffusion(const System& system, const DiffusionOptions& options) {
   return run_in_crew(options, [&](Post post) {
     refuse_impossible(system);
     check_start(system, options.interrupted);
     const Sampler sampler(system, options.interrupted);
     EnsembleRun<DiffusionResult> run(system, options, nothing(system), post);
-    const bool free = EitherLanes::is_free(system);
-    if (options.lanes && no_lanes_for_diffusion(system).empty()) run.lanes = options.lanes;
-    return run.run([&](auto& thread) {
-      const DiffusionTally tally(thread, system);
-      std::uint64_t number = 0;
-      if (run.lanes && free)
-        LaneWalker(system, sampler, *run.lanes, options.decisions, tally).run([&](TrajectoryRange& block) {
-          return thread.claim(block, number);
-        });
-      else if (run.lanes)
-        run_blocks_of(thread, SoftWalker(system, sampler, *run.lanes, options.decisions, tally));
-      else
-        run_blocks_of(thread, DiffusionWalker(system, sampler, options.decisions, tally));
-    });
+    if (why_one_by_one(system).empty()) run.lanes = options.lanes;
+    return run.run([&](DiffusionListener::Thread& thread) { work(system, sampler, options, thread); });
   });
 }
 

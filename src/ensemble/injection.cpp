@@ -68,15 +68,17 @@ std::vector<InjectedParticle> Injector::draw(std::uint64_t trajectory) const {
 
 std::vector<InjectedParticle> Injector::add(World& world, std::uint64_t trajectory) const {
   std::vector<InjectedParticle> all = draw(trajectory);
-  for (const InjectedParticle& one : all) {
-    try {
-      world.add(one.particle, one.state);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(systems_.front().injections.front().place,
-                       "a particle of trajectory " + std::to_string(trajectory) + " cannot enter: " + error.what());
-    }
-  }
+  for (const InjectedParticle& one : all) add_injected(world, systems_.front(), one, trajectory);
   return all;
+}
+
+void add_injected(World& world, const System& system, const InjectedParticle& one, std::uint64_t trajectory) {
+  try {
+    world.add(one.particle, one.state);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(system.injections.front().place,
+                     "a particle of trajectory " + std::to_string(trajectory) + " cannot enter: " + error.what());
+  }
 }
 
 std::size_t injected_count(const System& system, std::uint64_t trajectory) {

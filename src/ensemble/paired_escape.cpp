@@ -1,14 +1,15 @@
 #include "carom/ensemble/paired_escape.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "carom/analysis/trust.hpp"
 #include "carom/base/error.hpp"
-#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/stopwatch.hpp"
-#include "carom/events/world.hpp"
 #include "carom/table/hole_names.hpp"
 #include "ensemble/parallel_blocks.hpp"
 
@@ -21,50 +22,41 @@ struct Pair {
   enum class State : unsigned char { open, known, singular, unresolved, lost, other_singular, unknown } state = State::open;
 };
 
-class LastEvent : public Observer {
- public:
-  void end(const EndEvent& event) override { last = event; }
-  EndEvent last;
-};
-
-class Worker {
+/// One thread's: flies the trajectories of a block, and each one in the other way as it ends.
+class Worker : public Listener {
  public:
   Worker(const System& system, const Sampler& sampler, OtherFlight other, std::vector<Pair>& pairs)
-      : system_(system), sampler_(sampler), world_(*system.table, system.dynamics), other_(std::move(other)),
-        pairs_(pairs) {
-    if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
-  }
+      : sampler_(sampler),
+        holes_(hole_numbers(*system.table)),
+        engine_(make_engine(system, {.t_end = system.run.t_max})),
+        other_(std::move(other)),
+        pairs_(pairs) {}
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
 
   bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
-    for (std::uint64_t trajectory = first; trajectory < end; ++trajectory) {
-      Pair& pair = pairs_[static_cast<std::size_t>(trajectory)];
-      if (!stopped()) fly(trajectory, pair, stopped);
-      if (pair.state == Pair::State::open) return false;
-    }
-    return true;
+    stopped_ = &stopped;
+    DrawnStarts starts(sampler_, TrajectoryRange{first, end});
+    return engine_->run(starts, *this, stopped) &&
+           std::none_of(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.begin() + static_cast<std::ptrdiff_t>(end),
+                        [](const Pair& pair) { return pair.state == Pair::State::open; });
   }
 
- private:
-  // A pair that was stopped on the way stays open.
-  void fly(std::uint64_t trajectory, Pair& pair, const std::function<bool()>& stopped) {
-    const State start = sampler_.draw(world_, trajectory, 0);
-    world_.clear();
-    world_.add(system_.particles.front(), start);
-    LastEvent seen;
-    world_.run_until(system_.run.t_max, seen, stopped);
-    if (stopped()) return;
-    const EndEvent& end = seen.last;
+  // A pair that is stopped on the way stays open.
+  void end(const Trajectory& t, const TrajectoryEnd& ends) override {
+    const ParticleEnd& end = ends.particles.front();
+    Pair& pair = pairs_[static_cast<std::size_t>(t.number)];
     if (end.fate == Fate::singular || is_failure(end.fate)) {
       pair.state = end.fate == Fate::singular     ? Pair::State::singular
                    : end.fate == Fate::unresolved ? Pair::State::unresolved
                                                   : Pair::State::lost;
       return;
     }
-    if (end.fate == Fate::escaped || end.fate == Fate::unbounded) pair.first.time = end.time.value();
+    if (end.fate == Fate::escaped || end.fate == Fate::unbounded) pair.first.time = end.time;
     pair.first.hole = number_of(end.hole);
     pair.first.hits = end.hits;
-    const OtherEnd other = other_(start);
-    if (other.kind == OtherEnd::unknown && stopped()) return;
+    const OtherEnd other = other_(t.starts.front());
+    if (other.kind == OtherEnd::unknown && (*stopped_)()) return;
     pair.state = other.kind == OtherEnd::known      ? Pair::State::known
                  : other.kind == OtherEnd::singular ? Pair::State::other_singular
                                                     : Pair::State::unknown;
@@ -72,14 +64,16 @@ class Worker {
     pair.second = other.end;
     pair.second.hole = number_of(other.end.hole);
   }
+
+ private:
   int number_of(int hole) const { return hole < 0 ? hole : holes_[static_cast<std::size_t>(hole)]; }
 
-  const System& system_;
   const Sampler& sampler_;
-  const std::vector<int> holes_ = hole_numbers(*system_.table);
-  World world_;
-  OtherFlight other_;
+  const std::vector<int> holes_;
+  const std::unique_ptr<Engine> engine_;
+  const OtherFlight other_;
   std::vector<Pair>& pairs_;
+  const std::function<bool()>* stopped_ = nullptr;
 };
 
 }  // namespace

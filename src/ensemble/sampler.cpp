@@ -354,10 +354,7 @@ State Sampler::on_wall(int wall, double u, double tangential, double normal, dou
   return state;
 }
 
-namespace {
-
-int add_state(World& world, const Sampler& sampler, const State& state, std::uint64_t trajectory, int particle) {
-  const System& system = sampler.system();
+int add_start(World& world, const System& system, const State& state, std::uint64_t trajectory, int particle) {
   try {
     return world.add(system.particles.at(static_cast<std::size_t>(particle)), state);
   } catch (const std::invalid_argument& error) {
@@ -366,18 +363,16 @@ int add_state(World& world, const Sampler& sampler, const State& state, std::uin
   }
 }
 
-}  // namespace
+int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, int particle) {
+  return add_start(world, sampler.system(), sampler.draw(world, trajectory, particle), trajectory, particle);
+}
 
 void add_starts(World& world, const Sampler& sampler, std::uint64_t trajectory) {
   const std::vector<State> states = sampler.draw_all(world, trajectory);
   for (std::size_t p = 0; p < states.size(); ++p) {
     if (sampler.stopped()) throw SamplingStopped();
-    add_state(world, sampler, states[p], trajectory, static_cast<int>(p));
+    add_start(world, sampler.system(), states[p], trajectory, static_cast<int>(p));
   }
-}
-
-int add_start(World& world, const Sampler& sampler, std::uint64_t trajectory, int particle) {
-  return add_state(world, sampler, sampler.draw(world, trajectory, particle), trajectory, particle);
 }
 
 void check_start(const System& system, const std::atomic<bool>* interrupted) {

@@ -1,15 +1,13 @@
 #include "carom/ensemble/section_run.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <memory>
 #include <utility>
 
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
-#include "carom/ensemble/injection.hpp"
-#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/stopwatch.hpp"
-#include "carom/events/world.hpp"
 #include "ensemble/block_order.hpp"
 #include "ensemble/first_reports.hpp"
 #include "ensemble/parallel_blocks.hpp"
@@ -50,86 +48,99 @@ std::uint64_t hash_of(std::uint64_t so_far, const SectionPoint& p) {
   return mix(so_far ^ static_cast<std::uint64_t>(std::int64_t{p.wall} * 4 + p.direction));
 }
 
-class Follower {
+EngineOptions asked_for(const System& system, const SectionOptions& options) {
+  EngineOptions asked{.t_end = system.run.t_max, .energy = true, .decisions = options.decisions, .lanes = options.lanes};
+  if (system.section.boundary) {
+    asked.hits = true;
+  } else {
+    // One direction takes at least every other crossing.
+    const std::uint64_t points = system.section.points;
+    asked.surface = &system.section.surface;
+    if (points > 0 && points <= SIZE_MAX / 4) asked.most_crossings = static_cast<std::size_t>(2 * points + 2);
+  }
+  // All particles of an orbit stop when the last one has its points.
+  if (system.particles.size() > 1) asked.lanes.reset();
+  return asked;
+}
+
+/// One thread's: flies blocks of orbits, and keeps their points until all of a block are there.
+class Follower : public Listener {
  public:
   Follower(const System& system, const Sampler& sampler, const SectionOptions& options, Order& order,
            const std::function<void(std::uint64_t)>& done)
       : system_(system),
         sampler_(sampler),
         options_(options),
-        world_(*system.table, system.dynamics, options.decisions),
-        recorder_(*system.table, system.section),
+        frames_(frames_of(*system.table)),
+        engine_(make_engine(system, asked_for(system, options))),
         order_(order),
-        done_(done) {
-    if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
-    world_.watch_energy();
-    // One direction takes at least every other crossing.
-    const std::uint64_t points = system.section.points;
-    const std::size_t most = points == 0 || points > SIZE_MAX / 4 ? SIZE_MAX : static_cast<std::size_t>(2 * points + 2);
-    if (!system.section.boundary) world_.watch(&system.section.surface, most);
-  }
+        done_(done) {}
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
 
   bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+    bool complete = false;
     try {
-      return run_block(block, first, end, stopped);
+      if (options_.points) order_.await_turn(block);
+      first_ = first;
+      points_.assign(options_.points ? end - first : 0, {});
+      DrawnStarts starts(sampler_, TrajectoryRange{first, end});
+      complete = engine_->run(starts, *this, stopped);
     } catch (...) {
-      order_.close();  // nobody waits for what will never come
+      order_.close();  // no thread may wait for what will never come
       throw;
     }
+    if (!complete) {
+      order_.close();
+      return false;
+    }
+    std::vector<SectionPoint> all;
+    for (const std::vector<SectionPoint>& points : points_) all.insert(all.end(), points.begin(), points.end());
+    if (options_.points) order_.deliver(block, std::move(all));
+    return true;
   }
 
-  const DecisionCounts& decisions() const { return world_.decisions(); }
+  void begin(const Trajectory& t) override {
+    if (recorders_.size() <= t.slot) recorders_.resize(t.slot + 1, {*system_.table, system_.section, frames_});
+    recorders_[t.slot].begin(t.number, t.starts);
+  }
+  void hit(const Trajectory& t, int particle, const State& state) override { recorders_[t.slot].hit(particle, state); }
+  void crossing(const Trajectory& t, int particle, const State& state, int direction) override {
+    recorders_[t.slot].crossing(particle, state, direction);
+  }
+  void particle_end(const Trajectory& t, int particle, Fate fate) override { recorders_[t.slot].end(particle, fate); }
+  bool enough(const Trajectory& t) override { return recorders_[t.slot].done(); }
+  void end(const Trajectory& t, const TrajectoryEnd& end) override {
+    const std::vector<SectionPoint>& points = recorders_[t.slot].points();
+    count(t.number, points, end);
+    if (options_.points) points_[t.number - first_] = points;
+    if (options_.progress) done_(points.size());
+  }
+
+  DecisionCounts decisions() const { return engine_->decisions(); }
 
   Tally tally;
 
  private:
-  bool run_block(std::uint64_t block, std::uint64_t first, std::uint64_t end,
-                 const std::function<bool()>& stopped) {
-    if (options_.points) order_.await_turn(block);
-    std::vector<SectionPoint> points;
-    for (std::uint64_t orbit = first; orbit < end; ++orbit) {
-      if (!follow(orbit, stopped)) {
-        order_.close();
-        return false;
-      }
-      if (options_.points) points.insert(points.end(), recorder_.points().begin(), recorder_.points().end());
-      if (options_.progress) done_(recorder_.points().size());
-    }
-    if (options_.points) order_.deliver(block, std::move(points));
-    return true;
-  }
-
-  bool follow(std::uint64_t orbit, const std::function<bool()>& stopped) {
-    world_.clear();
-    add_starts(world_, sampler_, orbit);
-    recorder_.begin(orbit, world_);
-    // What happens after the last point does not belong to it.
-    world_.stop_when([this] { return recorder_.done(); });
-    world_.run_until(system_.run.t_max, recorder_, stopped);
-    if (stopped()) return false;
-    count(orbit);
-    return true;
-  }
-
-  void count(std::uint64_t orbit) {
+  void count(std::uint64_t orbit, const std::vector<SectionPoint>& points, const TrajectoryEnd& end) {
     SectionResult& r = tally.result;
     ++r.orbits;
-    r.steps += world_.step_counts();
-    r.points += recorder_.points().size();
-    const std::size_t particles = system_.particles.size();
+    r.steps += end.steps;
+    r.points += points.size();
+    const std::size_t particles = end.particles.size();
     std::vector<std::uint64_t> hashes, counts(particles, 0);
     for (std::size_t p = 0; p < particles; ++p) hashes.push_back(mix(orbit * particles + p));
-    for (const SectionPoint& point : recorder_.points()) {
+    for (const SectionPoint& point : points) {
       const auto p = static_cast<std::size_t>(point.particle);
       hashes[p] = hash_of(hashes[p], point);
       ++counts[p];
     }
     for (std::size_t p = 0; p < particles; ++p) {
+      const ParticleEnd& particle = end.particles[p];
       r.digest += hashes[p];
       r.incomplete += counts[p] < system_.section.points;
-      const int body = static_cast<int>(p);
-      r.collisions += world_.hits(body);
-      switch (world_.fate(body)) {
+      r.collisions += particle.hits;
+      switch (particle.fate) {
         case Fate::survived: break;
         case Fate::pinned: ++r.pinned; break;
         case Fate::escaped: ++r.escaped; break;
@@ -139,20 +150,23 @@ class Follower {
         case Fate::unresolved: ++r.unresolved; break;
         case Fate::lost: ++r.lost; break;
       }
-      if (is_failure(world_.fate(body)))
-        keep_first(r.reports, orbit * particles + p, world_.report(body));
+      if (is_failure(particle.fate))
+        keep_first(r.reports, orbit * particles + p, particle.report);
       else
-        r.energy_error += world_.energy_balance(body).error_at_end(world_.energy_balance(body).change, 0.0);
+        r.energy_error += particle.energy.error_at_end(particle.energy.change, 0.0);
     }
   }
 
   const System& system_;
   const Sampler& sampler_;
   const SectionOptions& options_;
-  World world_;
-  SectionRecorder recorder_;
+  const std::vector<geometry::CurveFrame> frames_;
+  const std::unique_ptr<Engine> engine_;
   Order& order_;
   const std::function<void(std::uint64_t)>& done_;
+  std::vector<SectionRecorder> recorders_;  ///< by slot
+  std::uint64_t first_ = 0;                 ///< orbit of the block, …
+  std::vector<std::vector<SectionPoint>> points_;  ///< … and the points of each from it on
 };
 
 }  // namespace

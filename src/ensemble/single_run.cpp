@@ -142,9 +142,9 @@ bool gone(Fate fate) {
   return fate == Fate::escaped || fate == Fate::singular || fate == Fate::unbounded || is_failure(fate);
 }
 
-ParticleEnd as_seen(const System& system, const ParticleProgress& progress, State state,
+RunEnd as_seen(const System& system, const ParticleProgress& progress, State state,
                     const EnergyError& energy_error) {
-  ParticleEnd end;
+  RunEnd end;
   end.progress = progress;
   end.t = state.time.value();
   end.vx = state.velocity.x;
@@ -318,7 +318,7 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   }
   for (std::size_t p = 0; p < count; ++p) {
     result.particles.push_back(as_seen(system, progress[p], last[p], errors[p]));
-    ParticleEnd& end = result.particles.back();
+    RunEnd& end = result.particles.back();
     if (!trust) end.progress.trust.open = false;  // an earlier part of the run may have flown
     end.trust = trust ? trust->at_end(all[p], progress[p].state, progress[p].trust, progress[p].end)
                       : end.progress.trust;

@@ -302,7 +302,7 @@ ValidationCase check_distance(const System& system, double expected, Allowance a
   c.seed = system.run.seed;
   Observer nothing;
   const SingleRunResult result = run_single(system, nothing);
-  const ParticleEnd& end = result.particles.front();
+  const RunEnd& end = result.particles.front();
   c.value = std::sqrt(end.x * end.x + end.y * end.y);
   c.hits = end.progress.hits;
   c.unresolved = end.progress.fate == Fate::unresolved;

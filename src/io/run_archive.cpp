@@ -33,9 +33,9 @@ Vector unwrapped(const Table& table, Vector position, const geometry::Cell& cell
 
 // One value a particle.
 template <class T, class Get>
-std::vector<T> collect(const std::vector<ParticleEnd>& particles, Get get) {
+std::vector<T> collect(const std::vector<RunEnd>& particles, Get get) {
   std::vector<T> values;
-  for (const ParticleEnd& particle : particles) values.push_back(static_cast<T>(get(particle)));
+  for (const RunEnd& particle : particles) values.push_back(static_cast<T>(get(particle)));
   return values;
 }
 
@@ -141,7 +141,7 @@ class RunArchive::Implementation {
   void create(const LoadedSystem& loaded, const Provenance& origin, std::uint64_t trajectory);
   void reopen(const LoadedSystem& loaded, const Provenance& origin);
   void create_state(std::size_t particles);
-  void write_state(const std::vector<ParticleEnd>& particles);
+  void write_state(const std::vector<RunEnd>& particles);
   void create_steps();
   void write_steps(const StepCounts& steps);
   bool with_energies() const { return of_discs || (dynamics.forces && !dynamics.forces->empty()); }
@@ -253,7 +253,7 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
   }
 }
 
-void RunArchive::Implementation::write_state(const std::vector<ParticleEnd>& particles) {
+void RunArchive::Implementation::write_state(const std::vector<RunEnd>& particles) {
   const Handle group = file.open_group("state");
   for (const StateField& field : state_fields) {
     if (H5Lexists(group.get(), field.name, H5P_DEFAULT) <= 0) continue;  // of an archive of an earlier build
@@ -261,11 +261,11 @@ void RunArchive::Implementation::write_state(const std::vector<ParticleEnd>& par
     herr_t written = -1;
     if (field.real) {
       const auto values =
-          collect<double>(particles, [&](const ParticleEnd& p) { return field.real_of(p.progress); });
+          collect<double>(particles, [&](const RunEnd& p) { return field.real_of(p.progress); });
       written = H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     } else {
       const auto values = collect<std::int64_t>(
-          particles, [&](const ParticleEnd& p) { return field.integer_of(p.progress); });
+          particles, [&](const RunEnd& p) { return field.integer_of(p.progress); });
       written = H5Dwrite(dataset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     }
     hdf5::check(written >= 0, file.name());

@@ -35,11 +35,11 @@ void create_trust(hid_t group, std::size_t particles, const std::string& file) {
          {"mixed", "While open: errors of x, y, vx, vy and t after the last event, rows 5 i to 5 i + 4"});
 }
 
-void write_trust(hid_t group, const std::vector<ParticleEnd>& particles, const std::string& file) {
+void write_trust(hid_t group, const std::vector<RunEnd>& particles, const std::string& file) {
   std::vector<std::int64_t> collisions;
   std::vector<double> time, error;
   std::vector<std::int32_t> open;
-  for (const ParticleEnd& p : particles) {
+  for (const RunEnd& p : particles) {
     collisions.push_back(static_cast<std::int64_t>(p.trust.hits));
     time.push_back(p.trust.time.value());
     open.push_back(p.trust.open ? 1 : 0);

@@ -11,7 +11,7 @@ namespace carom {
 
 /// Makes the datasets; they are filled when the run ends.
 void create_trust(hid_t group, std::size_t particles, const std::string& file);
-void write_trust(hid_t group, const std::vector<ParticleEnd>&, const std::string& file);
+void write_trust(hid_t group, const std::vector<RunEnd>&, const std::string& file);
 /// Into the progress of each particle, whose states are read already.
 void read_trust(hid_t group, std::vector<ParticleProgress>&, const std::string& file);
 

@@ -1,7 +1,7 @@
 // a b + c in lanes, each rounded once: on every instruction set the numbers of fused_product of doubles.
 //
 // Included by files of one instruction set alone: the register's type is that set's own. On x86-64 processors without the
-// instruction nothing may come here: lanes have no kernels there (lane_world.cpp).
+// instruction nothing may come here: lanes have no kernels there (free_lanes.cpp).
 #pragma once
 
 #include <experimental/simd>

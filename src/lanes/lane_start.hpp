@@ -1,7 +1,7 @@
 // Where a lane may begin, and the numbers that it begins with.
 #pragma once
 
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/lanes.hpp"
 #include "events/next_hit.hpp"
 #include "lanes/kernels.hpp"
 

@@ -188,6 +188,15 @@ void SoftEngine::refresh(SoftPack& pack, std::span<const int> which) {
   }
 }
 
+void SoftEngine::copy(const SoftPack& from, int lane, SoftPack& to, int there) {
+  to.x[there] = from.x[lane];
+  to.y[there] = from.y[lane];
+  to.vx[there] = from.vx[lane];
+  to.vy[there] = from.vy[lane];
+  to.ax[there] = from.ax[lane];
+  to.ay[there] = from.ay[lane];
+}
+
 void SoftEngine::read(const SoftPack& pack, int lane, const Time& time, State& s) {
   s.wall = -1;
   s.position = {pack.x[lane], pack.y[lane]};
@@ -278,12 +287,15 @@ bool SoftEngine::hit(SoftTrack& track, const Barrier<double>& barrier) {
   track.last_wall = barrier.wall;
   track.hole = hit.hole;
   if (hit.hole < 0) ++track.hits;
+  const bool enough = hit.hole < 0 && reported_hit_ && !reported_hit_(track);
   if (hit.hole >= 0)
     end(track, Fate::escaped, {});
   else if (!hit.inward)
     end(track, Fate::singular, {});
   else if (track.hits >= limit_)
     end(track, Fate::capped, {});
+  else if (enough)
+    end(track, Fate::survived, {});
   return track.finished;
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "carom/events/decisions.hpp"
@@ -51,6 +52,8 @@ class SoftEngine {
 
   void set_kind(const Particle&);
   void limit_hits(std::uint64_t hits) { limit_ = hits; }
+  /// Is told of each hit; false: the track ends there, as one that survives.
+  void report_hits(std::function<bool(const SoftTrack&)> hit) { reported_hit_ = std::move(hit); }
   bool has_walls() const { return !surroundings_.barriers.empty(); }
   double step() const { return step_; }
 
@@ -62,6 +65,8 @@ class SoftEngine {
   void find_calls(double duration, SoftPack& pack);
   /// Accelerations of these lanes, if the pack's are fresh.
   void refresh(SoftPack& pack, std::span<const int> which);
+  /// Copies what a step needs from a lane of one pack to that of another.
+  static void copy(const SoftPack& from, int lane, SoftPack& to, int there);
   /// Takes over the lane's phase after its step, or at the start of it; the cell stays.
   static void read(const SoftPack& pack, int lane, const Time& time, State& state);
   static void read_start(const SoftPack& pack, int lane, const Time& time, State& state);
@@ -114,6 +119,7 @@ class SoftEngine {
   Group group_;
   std::unique_ptr<const Locator> locator_;
   std::uint64_t limit_ = std::numeric_limits<std::uint64_t>::max();
+  std::function<bool(const SoftTrack&)> reported_hit_;
   DecisionCounts counts_;
   StepCounts steps_;  ///< of the scalar engine, since it was last asked
 };

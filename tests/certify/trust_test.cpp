@@ -168,7 +168,7 @@ TEST(TrustAgainstCertified, EscapesAreTrue) {
     options.trajectory = static_cast<std::uint64_t>(k);
     options.written = written;
     Observer nobody;
-    const ParticleEnd run = run_single(loaded.system, nobody, options).particles.front();
+    const RunEnd run = run_single(loaded.system, nobody, options).particles.front();
     if (run.progress.fate != Fate::escaped || !run.trust.open || !(run.trust.time == run.progress.end)) {
       ++untrusted;
       continue;

@@ -75,7 +75,7 @@ TEST(StateErrors, AreThoseOfTheClosedForm) {
     const SingleRunResult result = run_single(system, observer, options);
     ASSERT_TRUE(result.state_error);
     EXPECT_EQ(result.state_error->until, 20.0);
-    const ParticleEnd& end = result.particles[0];
+    const RunEnd& end = result.particles[0];
     const double error = std::hypot(end.x - std::cos(20.0), end.y - 0.5 * std::sin(20.0));
     EXPECT_NEAR(result.state_error->position / error, 1.75, 0.3) << integrator;  // order 2 leaves a quarter
   }

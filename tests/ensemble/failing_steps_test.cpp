@@ -11,6 +11,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
 #include "carom/lanes/soft_lanes.hpp"
+#include "lanes/one_by_one.hpp"
 #include "systems.hpp"
 
 namespace carom {
@@ -148,7 +149,7 @@ TEST(FailingSteps, FailInTheLastStep) {
       World world(*system.table, system.dynamics);
       world.sample_at(times);
       add_start(world, sampler, k, 0);
-      const SoftLanes::Walk start{world.state(0)};
+      const std::vector<LaneStart> start{{0, system.particles[0], world.state(0), 0}};
       Listener listener;
       world.run_until(times.back(), listener);
       ASSERT_TRUE(listener.last);
@@ -161,13 +162,13 @@ TEST(FailingSteps, FailInTheLastStep) {
       EXPECT_TRUE(listener.states.size() < 2 || world.contains(last) || world.contains(last + 1e-9 * (Vector{0.5, 0.5} - last)))
           << k;
 
-      SoftLanes lanes(*system.table, system.dynamics, InstructionSet::baseline);
-      std::vector<SoftLanes::Walk> walks{start};
+      SoftLanes lanes(*system.table, system.dynamics, system.particles[0], InstructionSet::baseline);
       std::size_t samples = 0;
-      lanes.run(system.particles[0], walks, times.back(), times, [&](std::size_t, std::size_t, const State&) { ++samples; },
-                {});
-      EXPECT_EQ(walks[0].fate, Fate::unresolved);
-      EXPECT_EQ(walks[0].ended.value(), from);
+      lanes.sample_at(times, [&](std::uint64_t, std::size_t, const State&) { ++samples; });
+      lanes.run_until(times.back(), tests::one_by_one(start), [&](const LaneEnd& end) {
+        EXPECT_EQ(end.fate, Fate::unresolved);
+        EXPECT_EQ(end.time.value(), from);
+      });
       EXPECT_EQ(samples, listener.states.size());
     }
     EXPECT_GT(seen, 5);

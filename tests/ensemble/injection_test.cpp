@@ -71,7 +71,7 @@ TEST(Injection, RunsFollowWhatEnters) {
   EXPECT_EQ(trace.first[2], 0.125);
   EXPECT_EQ(trace.first[3], 0.375);
   EXPECT_TRUE(trace.inside);
-  const ParticleEnd& last = result.particles[3];
+  const RunEnd& last = result.particles[3];
   ASSERT_EQ(last.progress.hits, 0u);  // it moves by 0.15
   const Vector moved = Vector{last.x, last.y} - drawn[1].state.position;
   EXPECT_NEAR(moved.x, 0.1 * drawn[1].state.velocity.x, 1e-15);

@@ -25,7 +25,7 @@ SingleRunResult run(const System& system) {
 TEST(Rest, AReleaseInAHarmonicWellIsACosine) {
   for (const char* lines : {"scheme = \"blanes-moan-srkn11b\"\nstep = 0.01", "scheme = \"velocity-verlet\"\nstep = 0.0005",
                             "scheme = \"arkode\"\ntolerance = 1e-12", "scheme = \"cvode\"\ntolerance = 1e-12"}) {
-    const ParticleEnd end = run(make_system(plane + well + at + integrator(lines))).particles.front();
+    const RunEnd end = run(make_system(plane + well + at + integrator(lines))).particles.front();
     EXPECT_EQ(end.progress.fate, Fate::survived) << lines << end.report;
     EXPECT_NEAR(end.x, std::cos(6.0), 1e-5) << lines;
     EXPECT_NEAR(end.vx, -2.0 * std::sin(6.0), 1e-5) << lines;
@@ -37,7 +37,7 @@ TEST(Rest, AFieldTurnsWhatIsReleased) {
   // Constant force f along x, a = (f, 0) + omega (v_y, -v_x): a cycloid, x = f/omega^2 (1 - cos(omega t)).
   const System system = make_system(plane + "[[potential]]\nkind = \"linear\"\nforce = [1, 0]\n[field]\nB = 2\n" + at +
                                     integrator("scheme = \"blanes-moan-srkn11b\"\nstep = 0.01"));
-  const ParticleEnd end = run(system).particles.front();
+  const RunEnd end = run(system).particles.front();
   EXPECT_NEAR(end.x, 1.0 + 0.25 * (1.0 - std::cos(6.0)), 1e-9);
   EXPECT_NEAR(end.y, 0.25 * std::sin(6.0) - 0.5 * 3.0, 1e-9);
 }
@@ -45,7 +45,7 @@ TEST(Rest, AFieldTurnsWhatIsReleased) {
 TEST(Rest, AnEquilibriumStays) {
   for (const char* lines : {"step = 0.01", "scheme = \"arkode\"\nstep = 0.1", "scheme = \"cvode\"\nstep = 0.1"}) {
     const System system = make_system("[table]\nshape = \"circle\"\nradius = 3\n" + well + "center = [1, 0]\n" + at + integrator(lines));
-    const ParticleEnd end = run(system).particles.front();
+    const RunEnd end = run(system).particles.front();
     EXPECT_EQ(end.progress.fate, Fate::survived) << lines << end.report;
     EXPECT_EQ(end.x, 1.0) << lines;
     EXPECT_EQ(end.y, 0.0) << lines;
@@ -60,7 +60,7 @@ TEST(Rest, TwoChargesRepelEachOther) {
       make_system(plane + "[interaction]\nkind = \"coulomb\"\nstrength = 1\n[particles]\ncount = 2\n[initial]\nkind = \"list\"\n"
                           "starts = [[-0.5, 0, 0, 0], [0.5, 0, 0, 0]]\n" + integrator("scheme = \"blanes-moan-srkn11b\"\nstep = 0.001"));
   const SingleRunResult result = run(system);
-  const ParticleEnd &a = result.particles[0], &b = result.particles[1];
+  const RunEnd &a = result.particles[0], &b = result.particles[1];
   EXPECT_LT(a.vx, -0.5);
   EXPECT_DOUBLE_EQ(a.vx, -b.vx);
   const double r = b.x - a.x, v = b.vx - a.vx;

@@ -48,7 +48,7 @@ TEST_P(SingleRun, GoesOnBitForBit) {
     system.run.t_max = stop;
     const SingleRunResult part = run_single(system, parts, options);
     options.resume.clear();
-    for (const ParticleEnd& p : part.particles) options.resume.push_back(p.progress);
+    for (const RunEnd& p : part.particles) options.resume.push_back(p.progress);
     if (stop < 60.0) continue;
     EXPECT_EQ(part.particles[0].x, at_once.particles[0].x);
     EXPECT_EQ(part.particles[0].vy, at_once.particles[0].vy);
@@ -177,8 +177,8 @@ TEST(BuiltInSystems, TheSoftLorentzGasIsResolved) {
     half.set = usual.set;
     half.set.emplace_back("integrator.step", "0.0125");
     Observer nothing;
-    const ParticleEnd a = run_single(load_system("soft-lorentz", usual).system, nothing).particles.front();
-    const ParticleEnd b = run_single(load_system("soft-lorentz", half).system, nothing).particles.front();
+    const RunEnd a = run_single(load_system("soft-lorentz", usual).system, nothing).particles.front();
+    const RunEnd b = run_single(load_system("soft-lorentz", half).system, nothing).particles.front();
     EXPECT_NEAR(a.x, b.x, 1e-4) << "seed " << seed;
     EXPECT_NEAR(a.y, b.y, 1e-4) << "seed " << seed;
   }

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/free_lanes.hpp"
 #include "lanes/one_by_one.hpp"
 #include "random_tables.hpp"
 
@@ -36,7 +36,7 @@ double drift(Vector centre, double radius, double speed, std::uint64_t hits, Dic
     before += momentum(s);
     starts.push_back(start);
   }
-  LaneWorld lanes(table, {starts[0].particle}, widest_instruction_set());
+  FreeLanes lanes(table, {starts[0].particle}, widest_instruction_set());
   lanes.limit_hits(hits);
   lanes.run_until(1e300, tests::one_by_one(starts),
                   [&](const LaneEnd& end) { after += momentum(end.state); });

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "carom/events/world.hpp"
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/free_lanes.hpp"
 #include "events/next_hit.hpp"
 #include "lanes/make_lane_table.hpp"
 #include "random_tables.hpp"
@@ -175,7 +175,7 @@ TEST(DiscsInSight, OfARowLieAhead) {
     world.add(start.particle, start.state, 0);
     world.run_until(1e3, none);
     for (const InstructionSet set : available_instruction_sets()) {
-      LaneWorld lanes(table, {start.particle}, set);
+      FreeLanes lanes(table, {start.particle}, set);
       lanes.limit_hits(1);
       int given = 0, ended = 0, asked = 0;
       lanes.run_until(

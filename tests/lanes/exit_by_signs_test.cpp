@@ -10,7 +10,7 @@
 
 #include "carom/events/world.hpp"
 #include "carom/geometry/curve.hpp"
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/free_lanes.hpp"
 #include "events/next_hit.hpp"
 #include "lanes/make_lane_table.hpp"
 #include "lanes/one_by_one.hpp"
@@ -112,7 +112,7 @@ TEST(ExitBySigns, IsNotLearntFromAStartBesideItsPlace) {
     starts[i].particle.speed = std::sqrt(dot(s.velocity, s.velocity));
     starts[i].tag = i;
   }
-  LaneWorld lanes(table, {starts[0].particle}, widest_instruction_set());
+  FreeLanes lanes(table, {starts[0].particle}, widest_instruction_set());
   lanes.limit_hits(40);
   lanes.run_until(1e300, tests::one_by_one(starts), [&](const LaneEnd& end) {
         World world(table);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "carom/events/world.hpp"
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/free_lanes.hpp"
 #include "lanes/fused_in_lanes.hpp"
 #include "lanes/one_by_one.hpp"
 #include "random_tables.hpp"
@@ -74,7 +74,7 @@ std::vector<std::uint64_t> ends(const Table& table, double omega, bool in_lanes)
     for (std::size_t k = 0; k < 5; ++k) found[5 * i + k] = bits(numbers[k]);
   };
   if (in_lanes) {
-    LaneWorld lanes(table, {starts[0].particle}, InstructionSet::baseline);
+    FreeLanes lanes(table, {starts[0].particle}, InstructionSet::baseline);
     lanes.limit_hits(100);
     lanes.run_until(1e300, tests::one_by_one(starts), [&](const LaneEnd& end) { keep(end.tag, end.state); });
     return found;

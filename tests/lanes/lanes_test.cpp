@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "carom/geometry/curve.hpp"
-#include "carom/lanes/lane_world.hpp"
+#include "carom/events/world.hpp"
+#include "carom/lanes/free_lanes.hpp"
 #include "random_tables.hpp"
 
 namespace carom {
 namespace {
-
 using tests::Dice;
 using tests::Shape;
 
@@ -140,7 +140,7 @@ void compare(const Table& table, Case& all, Totals& totals, const char* what) {
   std::vector<Flown> expected;
   for (const LaneStart& start : all.starts) expected.push_back(by_world(world, start, all));
   for (const InstructionSet set : available_instruction_sets()) {
-    LaneWorld lanes(table, {all.starts[0].particle}, set);
+    FreeLanes lanes(table, {all.starts[0].particle}, set);
     lanes.limit_hits(all.limit);
     std::vector<std::vector<State>> reports(all.starts.size());
     lanes.sample_at(all.times, [&](std::uint64_t tag, std::size_t number, const State& state) {
@@ -208,7 +208,7 @@ Totals compare_on_tables(Shape shape, int turn, long tables) {
     if (dice.coin()) all.t_end = dice.spread(1.0, 1000.0) * size / speed;
     for (int i = 0; i < 150; ++i) all.starts.push_back(random_start(table, world, dice, size, speed, omega));
     if (dice.coin()) add_times(all, table, dice);
-    EXPECT_TRUE(LaneWorld::suits(table, {all.starts[0].particle}));
+    EXPECT_TRUE(FreeLanes::suits(table, {all.starts[0].particle}));
     compare(table, all, totals, std::to_string(k).c_str());
   }
   EXPECT_GT(totals.fates[Fate::capped], 100);
@@ -326,7 +326,7 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
     all.limit = static_cast<std::uint64_t>(dice.whole(1, rectangles ? 1000 : 100));
     if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size;
     for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, 1.0));
-    if (!LaneWorld::suits(table, {all.starts[0].particle})) continue;
+    if (!FreeLanes::suits(table, {all.starts[0].particle})) continue;
     if (dice.coin()) add_times(all, table, dice);
     const Totals before = totals;
     compare(table, all, totals, std::to_string(k).c_str());
@@ -363,7 +363,7 @@ TEST(LaneRuns, TurnAmongTheDiscsOfLattices) {
     const double radius = size * dice.spread(0.05, 2.0);
     for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, speed, dice.sign() * speed / radius));
     for (LaneStart& start : all.starts) start.particle.omega = std::copysign(start.particle.omega, all.starts[0].particle.omega);
-    if (!LaneWorld::suits(table, {all.starts[0].particle})) continue;
+    if (!FreeLanes::suits(table, {all.starts[0].particle})) continue;
     ++tables;
     if (dice.coin()) add_times(all, table, dice);
     compare(table, all, totals, std::to_string(k).c_str());
@@ -411,11 +411,11 @@ TEST(LaneRuns, ReportWhatIsAskedOfThisRun) {
   LaneStart pinned;
   pinned.state.velocity = {1, 0};
   pinned.particle.omega = 10.0;
-  LaneWorld lanes(table, {pinned.particle}, widest_instruction_set());
+  FreeLanes lanes(table, {pinned.particle}, widest_instruction_set());
   int reports = 0;
   const auto count = [&](std::uint64_t, std::size_t, const State&) { ++reports; };
   for (const std::vector<double>& times : {std::vector<double>{1.0, 2.0, 9.0}, {}, {3.0}}) {
-    lanes.sample_at(times, times.empty() ? LaneWorld::Sampled() : count);
+    lanes.sample_at(times, times.empty() ? FreeLanes::Sampled() : count);
     bool given = false;
     lanes.run_until(5.0, [&](LaneStart& start) { return start = pinned, !std::exchange(given, true); }, [](const LaneEnd&) {});
   }
@@ -431,7 +431,7 @@ TEST(LaneRuns, StopWithinAFlight) {
   LaneStart corridor;
   corridor.state.position = {0.1, 0.4};
   corridor.state.velocity = {1, 0};
-  LaneWorld lanes(table, {corridor.particle}, widest_instruction_set());
+  FreeLanes lanes(table, {corridor.particle}, widest_instruction_set());
   int asked = 0, ended = 0;
   lanes.run_until(
       1e12, [&](LaneStart& start) { return start = corridor, true; }, [&](const LaneEnd&) { ++ended; }, [&] { return ++asked > 10; });
@@ -467,7 +467,7 @@ TEST(LaneRuns, GoOnFromWhereTheyWereStopped) {
   Dice dice(6);
   const Table table = tests::stadium();
   const World world(table);
-  LaneWorld lanes(table, {Particle{}}, widest_instruction_set());
+  FreeLanes lanes(table, {Particle{}}, widest_instruction_set());
   Case all;
   all.limit = 50;
   std::vector<LaneStart> starts;

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "carom/lanes/lane_world.hpp"
+#include "carom/events/world.hpp"
+#include "carom/lanes/free_lanes.hpp"
 #include "random_tables.hpp"
 
 namespace carom {
@@ -30,8 +31,8 @@ TEST_P(LongRunsInLanes, LoseNoParticle) {
   const System system = read_system(text, GetParam().name).system;
   World world(*system.table);
   const Sampler sampler(system);
-  ASSERT_TRUE(LaneWorld::suits(*system.table, system.particles));
-  LaneWorld lanes(*system.table, system.particles, widest_instruction_set());
+  ASSERT_TRUE(FreeLanes::suits(*system.table, system.particles));
+  FreeLanes lanes(*system.table, system.particles, widest_instruction_set());
   lanes.limit_hits(hits_each);
   std::uint64_t next = 0, capped = 0, singular = 0, pinned = 0;
   lanes.run_until(
@@ -76,7 +77,7 @@ TEST(LongRunsOnLattices, EndInTheSameCellAtOnceAndByHalves) {
     at_once[i].state = sampler.draw_all(world, i)[0];
   }
   std::vector<LaneStart> by_halves = at_once;
-  LaneWorld lanes(*system.table, system.particles, widest_instruction_set());
+  FreeLanes lanes(*system.table, system.particles, widest_instruction_set());
   const auto fly = [&](std::vector<LaneStart>& starts, std::uint64_t limit) {
     std::size_t given = 0;
     lanes.limit_hits(limit);

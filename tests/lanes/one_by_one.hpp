@@ -1,10 +1,10 @@
-// Starts for LaneWorld, from a list.
+// Starts for FreeLanes, from a list.
 #pragma once
 
 #include <functional>
 #include <vector>
 
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/lanes.hpp"
 
 namespace carom::tests {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/free_lanes.hpp"
 #include "measuring.hpp"
 #include "table.hpp"
 
@@ -110,7 +110,7 @@ void measure_row(Report& report, const Row& row) {
   const double by_geometry = row.mean_flight < 0.0 ? mean : measure(*system.table).mean_flight;
   const bool right = std::fabs(mean / by_geometry - 1.0) < 0.02;
   for (const InstructionSet set : available_instruction_sets()) {
-    LaneWorld lanes(*system.table, system.particles, set);
+    FreeLanes lanes(*system.table, system.particles, set);
     lanes.limit_hits(1000);
     Best best;
     best.repeat(5, [&] {

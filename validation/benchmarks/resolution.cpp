@@ -11,6 +11,7 @@
 #include "carom/events/energy.hpp"
 #include "carom/lanes/soft_lanes.hpp"
 #include "forces/resolution.hpp"
+#include "lane_starts.hpp"
 #include "measuring.hpp"
 #include "table.hpp"
 
@@ -74,12 +75,10 @@ void measure_row(Report& report, const Row& row) {
     }
     return static_cast<double>(recorder.states.size());
   });
-  SoftLanes lanes(*system.table, system.dynamics, available_instruction_sets().back());
+  SoftLanes lanes(*system.table, system.dynamics, particle, available_instruction_sets().back());
   Best whole;
   whole.repeat(5, [&] {
-    std::vector<SoftLanes::Walk> walks;
-    for (const State& start : starts) walks.push_back({start});
-    lanes.run(particle, walks, t_end, {}, [](std::size_t, std::size_t, const State&) {});
+    lanes.run_until(t_end, each_of(particle, starts), [](const LaneEnd&) {});
     return static_cast<double>(steps * trajectories);
   });
   report.add({std::string(row.name) + ", a question", "scalar", question.each, question.ratio, "a whole step",

@@ -13,6 +13,7 @@
 
 #include "carom/events/energy.hpp"
 #include "carom/lanes/soft_lanes.hpp"
+#include "lane_starts.hpp"
 #include "measuring.hpp"
 #include "table.hpp"
 
@@ -93,13 +94,10 @@ void measure_row(Report& report, const Row& row) {
     change = std::fmax(change, std::fabs(energy_of(system, ends[i]) - energy_of(system, starts[i])));
   const bool right = change < row.energy;
   for (const InstructionSet set : available_instruction_sets()) {
-    SoftLanes lanes(*system.table, system.dynamics, set);
+    SoftLanes lanes(*system.table, system.dynamics, system.particles[0], set);
     Best best;
     best.repeat(5, [&] {
-      std::vector<SoftLanes::Walk> walks;
-      for (const State& start : starts) walks.push_back({start});
-      lanes.run(system.particles[0], walks, t_end, {}, [](std::size_t, std::size_t, const State&) {});
-      for (std::size_t i = 0; i < trajectories; ++i) ends[i] = walks[i].state;
+      lanes.run_until(t_end, each_of(system.particles[0], starts), [&](const LaneEnd& end) { ends[end.tag] = end.state; });
       return done;
     });
     const bool same = digest_of(ends) == expected;

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "carom/events/observer.hpp"
+#include "carom/events/event.hpp"
 #include "carom/events/surface.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "carom/table/table.hpp"
 
 namespace carom {
-
-class World;
 
 /// Which section is taken ([section] of the system file).
 struct SectionPlan {
@@ -34,16 +33,23 @@ struct SectionPoint {
   double x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped; after the hit at the boundary
 };
 
-/// Collects the section of one trajectory after another, from a world that watches the plan's surface.
-class SectionRecorder : public Observer {
- public:
-  SectionRecorder(const Table&, const SectionPlan&);
+/// Where the arc lengths of a table's walls begin.
+std::vector<geometry::CurveFrame> frames_of(const Table&);
 
-  /// The particles of the world are about to move. A start on a wall is a point of the boundary section.
-  void begin(std::uint64_t orbit, const World&);
-  void hit(const HitEvent&) override;
-  void end(const EndEvent&) override;
-  void crossing(int particle, Time, const State&, int direction) override;
+/// Collects the section of one trajectory after another.
+class SectionRecorder {
+ public:
+  /// Refers to all of them.
+  SectionRecorder(const Table& table, const SectionPlan& plan, const std::vector<geometry::CurveFrame>& frames)
+      : table_(&table), plan_(&plan), frames_(&frames) {}
+
+  /// A start on a wall is a point of the boundary section.
+  void begin(std::uint64_t orbit, std::span<const State> starts);
+  /// The state after a hit.
+  void hit(int particle, const State&);
+  /// A crossing of the plan's surface.
+  void crossing(int particle, const State&, int direction);
+  void end(int particle, Fate);
 
   /// Has every particle all its points?
   bool done() const;
@@ -54,13 +60,12 @@ class SectionRecorder : public Observer {
     std::uint64_t count = 0;
     bool moving = true;
   };
-  geometry::Vector unwrapped(geometry::Vector position, const geometry::Cell& cell) const;
-  bool full(const Orbit& orbit) const { return plan_.points > 0 && orbit.count >= plan_.points; }
-  void add_hit(int particle, int wall, double u, Time, geometry::Vector position, geometry::Vector velocity);
+  geometry::Vector unwrapped(const State&) const;
+  bool full(const Orbit& orbit) const { return plan_->points > 0 && orbit.count >= plan_->points; }
 
-  const Table& table_;
-  const SectionPlan& plan_;
-  std::vector<geometry::CurveFrame> frames_;
+  const Table* table_;
+  const SectionPlan* plan_;
+  const std::vector<geometry::CurveFrame>* frames_;
   std::uint64_t orbit_ = 0;
   std::vector<Orbit> orbits_;
   std::vector<SectionPoint> points_;

@@ -48,9 +48,6 @@ using DiffusionJournal = EnsembleJournal<DiffusionResult>;
 /// `lanes`: those that independent particles fly or are stepped in.
 using DiffusionOptions = EnsembleOptions<DiffusionResult>;
 
-/// Why its particles fly one after the other, as a phrase; "" where they fly in lanes.
-std::string no_lanes_for_diffusion(const System&);
-
 /// Runs trajectories until the last report time and sums their displacements in the plane: whole cells
 /// are subtracted as integers. A particle that ends earlier counts at the times before.
 DiffusionResult run_diffusion(const System&, const DiffusionOptions& = {});

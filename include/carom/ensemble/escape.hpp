@@ -30,9 +30,6 @@ struct EscapeOptions : EnsembleOptions<EscapeResult> {
   std::function<void(const std::vector<TrajectoryRecord>&)> records;
 };
 
-/// Why its particles fly one after the other, as a phrase; "" where they fly in lanes.
-std::string no_lanes_for_escape(const System&);
-
 /// Runs the ensemble, or the part that is asked for. Where a trajectory has several
 /// particles, each of them is an entry of its own in every count; one
 /// that is injected counts from the time 0 on as one that is not gone. Throws InputError where the initial

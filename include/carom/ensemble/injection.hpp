@@ -37,6 +37,9 @@ class Injector {
   std::vector<Sampler> samplers_;  ///< of these
 };
 
+/// Adds a particle that was drawn to the world. Throws InputError.
+void add_injected(World&, const System&, const InjectedParticle&, std::uint64_t trajectory);
+
 /// How many particles enter in a trajectory.
 std::size_t injected_count(const System&, std::uint64_t trajectory);
 

@@ -86,9 +86,11 @@ class Sampler {
   geometry::Vector low_, high_;  ///< uniform: box around the domain
 };
 
-/// Draws a state and adds it to the world; returns the particle's number there. Throws InputError.
+/// Adds a particle that was drawn to the world; returns its number there. Throws InputError.
+int add_start(World&, const System&, const State&, std::uint64_t trajectory, int particle);
+/// Draws it as well.
 int add_start(World&, const Sampler&, std::uint64_t trajectory, int particle);
-/// The same for all particles of a trajectory.
+/// Draws and adds all particles of a trajectory.
 void add_starts(World&, const Sampler&, std::uint64_t trajectory);
 /// How many trajectories start differently where starts are listed (point, list, birkhoff): later ones repeat them.
 /// 0 where starts are drawn.

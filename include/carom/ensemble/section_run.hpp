@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "carom/events/decisions.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/step_counts.hpp"
+#include "carom/lanes/instruction_set.hpp"
 
 namespace carom {
 
@@ -20,6 +22,7 @@ namespace carom {
 struct SectionOptions {
   int threads = 0;  ///< 0: as many as OpenMP gives
   DecisionOptions decisions;
+  std::optional<InstructionSet> lanes = widest_instruction_set();  ///< empty: one by one
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(std::uint64_t orbits, std::uint64_t points)> progress;
   /// If set, receives the points, orbit after orbit (one thread at a time).

@@ -34,7 +34,7 @@ struct ParticleProgress {
 };
 
 /// A particle at the end of a run, as people want to see it.
-struct ParticleEnd {
+struct RunEnd {
   ParticleProgress progress;
   Trust trust;  ///< at the end: up to which collision and time
   double t = 0, x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped
@@ -59,7 +59,7 @@ struct SingleRunOptions {
 
 /// How one trajectory ended.
 struct SingleRunResult {
-  std::vector<ParticleEnd> particles;
+  std::vector<RunEnd> particles;
   bool interrupted = false;
   std::uint64_t collisions = 0;
   std::uint64_t contacts = 0;  ///< of hard discs, each pair once

@@ -1,60 +1,41 @@
-// Many independent particles under external forces at once, in the lanes of SIMD registers.
+// Lanes of particles under external forces, which go from step to step.
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "carom/events/decisions.hpp"
 #include "carom/events/dynamics.hpp"
-#include "carom/events/event.hpp"
-#include "carom/events/step_counts.hpp"
-#include "carom/lanes/instruction_set.hpp"
-#include "carom/motion/state.hpp"
+#include "carom/lanes/lanes.hpp"
 #include "carom/table/table.hpp"
 
 namespace carom {
 
-/// Steps of a splitting scheme with many particles, each by itself: the same orbits as World, bit for bit. A step
-/// that may meet a wall is World's, as what happens to lanes is rare.
-class SoftLanes {
+/// A lane takes whole steps that meet no wall; all other steps are a World's.
+class SoftLanes : public Lanes {
  public:
-  /// Can such particles be stepped so? Where forces act everywhere, and nothing but forces, a magnetic
-  /// field and walls: no interaction, a fixed step, walls = "reflect".
-  static bool suits(const Table& table, const Dynamics& dynamics) { return hindrance(table, dynamics).empty(); }
+  /// Can such particles be stepped so? Where forces act everywhere, and nothing but forces, a magnetic field and
+  /// walls: no interaction, a fixed step, walls = "reflect". The particles are accelerated alike.
+  static bool suits(const Table& table, const Dynamics& dynamics, const std::vector<Particle>& particles) {
+    return hindrance(table, dynamics, particles).empty();
+  }
   /// What keeps them out of lanes, as a phrase; "" where nothing does.
-  static std::string hindrance(const Table&, const Dynamics&);
+  static std::string hindrance(const Table&, const Dynamics&, const std::vector<Particle>&);
 
-  /// Keeps references to both, which must live as long.
-  SoftLanes(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options = {});
-  ~SoftLanes();
-  SoftLanes(SoftLanes&&) noexcept;
+  /// `particle` is of the kind that all starts are. Keeps references to table and dynamics, which must live as long.
+  SoftLanes(const Table&, const Dynamics&, const Particle&, InstructionSet, DecisionOptions = {});
+  SoftLanes(Table&&, const Dynamics&, const Particle&, InstructionSet, DecisionOptions = {}) = delete;
+  ~SoftLanes() override;
 
-  /// As World's.
-  void limit_hits(std::uint64_t hits);
-
-  /// A particle on its way.
-  struct Walk {
-    State state;         ///< at time 0; then after the last event before the end
-    Fate fate = Fate::survived;
-    Time ended = {};     ///< unless it survived
-    std::uint64_t hits = 0;
-    int last_wall = -1;
-    std::string report = {};
-    StepCounts steps = {};  ///< as World::step_counts
-    double kinetic = 0.0;   ///< the largest kinetic energy where a step began
-  };
-  using Sample = std::function<void(std::size_t walk, std::size_t time, const State&)>;
-  /// Follows particles of one kind until `t_end`. `sample` receives the state of each at the given times,
-  /// which increase; of one that ends those before. `interrupted`, if set, is asked now and then; true
-  /// returns early and false.
-  bool run(const Particle& kind, std::span<Walk> walks, double t_end, std::span<const double> times,
-           const Sample& sample, const std::function<bool()>& interrupted = {});
-
-  DecisionCounts decisions() const;
+  void limit_hits(std::uint64_t hits) override;
+  void sample_at(std::vector<double> times, Sampled sampled) override;
+  void report_hits(Hit) override;
+  /// Trajectories begin at time 0.
+  void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
+                 const std::function<void(const LaneEnd&)>& ended, const std::function<bool()>& interrupted = {}) override;
+  DecisionCounts decisions() const override;
+  /// Steps count as hits do.
+  const LaneEffort& effort() const override;
 
  private:
   class Implementation;

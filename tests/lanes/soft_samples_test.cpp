@@ -12,6 +12,7 @@
 #include "carom/events/world.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "carom/io/system_file.hpp"
+#include "lanes/one_by_one.hpp"
 
 namespace carom {
 namespace {
@@ -68,29 +69,28 @@ void compare(const System& system, std::size_t count, const std::string& name) {
   // At steps, between them, several within one, and at the start.
   const double h = system.dynamics.integrator.step;
   const std::vector<double> times{0.0, 0.3 * h, 0.7 * h, h, 4.0 * h, 11.5 * h, 60.0 * h, 61.25 * h};
-  std::vector<SoftLanes::Walk> starts;
+  std::vector<LaneStart> starts;
   std::vector<Sampled> expected;
   for (std::size_t k = 0; k < count; ++k) {
-    starts.push_back({sampler.draw(world, k, 0)});
+    starts.push_back({k, system.particles[0], sampler.draw(world, k, 0), 0});
     expected.push_back(by_world(system, system.particles[0], starts.back().state, times));
   }
-  ASSERT_TRUE(SoftLanes::suits(*system.table, system.dynamics));
+  ASSERT_TRUE(SoftLanes::suits(*system.table, system.dynamics, system.particles));
   for (const InstructionSet set : available_instruction_sets()) {
-    SoftLanes lanes(*system.table, system.dynamics, set);
-    std::vector<SoftLanes::Walk> walks = starts;
-    std::size_t samples = 0;
-    const bool complete = lanes.run(system.particles[0], walks, times.back(), times,
-                                    [&](std::size_t walk, std::size_t time, const State& state) {
-                                      expect_same(state, expected[walk].samples.at(time),
-                                                  name + " sample " + std::to_string(time));
-                                      ++samples;
-                                    });
-    EXPECT_TRUE(complete);
-    EXPECT_EQ(samples, count * times.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      EXPECT_EQ(walks[k].fate, Fate::survived);
-      expect_same(walks[k].state, expected[k].end, name + " end " + name_of(set));
-    }
+    SoftLanes lanes(*system.table, system.dynamics, system.particles[0], set);
+    std::vector<std::size_t> sampled(count, 0);
+    lanes.sample_at(times, [&](std::uint64_t tag, std::size_t time, const State& state) {
+      EXPECT_EQ(time, sampled[tag]++);
+      expect_same(state, expected[tag].samples.at(time), name + " sample " + std::to_string(time));
+    });
+    std::size_t ends = 0;
+    lanes.run_until(times.back(), tests::one_by_one(starts), [&](const LaneEnd& end) {
+      EXPECT_EQ(end.fate, Fate::survived);
+      EXPECT_EQ(sampled[end.tag], times.size());
+      expect_same(end.state, expected[end.tag].end, name + " end " + name_of(set));
+      ++ends;
+    });
+    EXPECT_EQ(ends, count);
   }
 }
 
@@ -106,7 +106,7 @@ TEST(SoftLanes, KnowEverySplittingScheme) {
     const System system =
         system_of("antidot-magnetic", {{"integrator.scheme", "\"" + std::string(scheme.name) + "\""}});
     if (scheme.form == Scheme::Form::spreiter_walter)
-      EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics));
+      EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics, system.particles));
     else
       compare(system, 9, std::string(scheme.name));
   }
@@ -184,10 +184,10 @@ TEST(SoftLanes, MeetWallsWithinSteps) {
 TEST(SoftLanes, RefuseWhatTheyCannotDo) {
   for (const char* name : {"stadium", "coulomb-circle", "wigner"}) {
     const System system = system_of(name);
-    EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics)) << name;
+    EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics, system.particles)) << name;
   }
   const System adaptive = system_of("soft-lorentz", {{"integrator.scheme", "\"arkode\""}});
-  EXPECT_FALSE(SoftLanes::suits(*adaptive.table, adaptive.dynamics));
+  EXPECT_FALSE(SoftLanes::suits(*adaptive.table, adaptive.dynamics, adaptive.particles));
 }
 
 // A particle that runs away to infinity is reported, and the others do not notice.
@@ -195,24 +195,21 @@ TEST(SoftLanes, TellWhoIsLost) {
   const System system = running_away();
   const World world(*system.table, system.dynamics);
   const Sampler sampler(system);
-  std::vector<SoftLanes::Walk> walks;
-  for (std::uint64_t k = 0; k < 30; ++k) walks.push_back({sampler.draw(world, k, 0)});
-  const std::vector<SoftLanes::Walk> starts = walks;
-  SoftLanes lanes(*system.table, system.dynamics, widest_instruction_set());
-  const std::vector<double> times{40.0};
-  ASSERT_TRUE(
-      lanes.run(system.particles[0], walks, 40.0, times, [](std::size_t, std::size_t, const State&) {}));
-  int lost = 0;
-  for (std::size_t k = 0; k < walks.size(); ++k) {
+  std::vector<LaneStart> starts;
+  for (std::uint64_t k = 0; k < 30; ++k) starts.push_back({k, system.particles[0], sampler.draw(world, k, 0), 0});
+  SoftLanes lanes(*system.table, system.dynamics, system.particles[0], widest_instruction_set());
+  int lost = 0, ends = 0;
+  lanes.run_until(40.0, tests::one_by_one(starts), [&](const LaneEnd& end) {
     World alone(*system.table, system.dynamics);
-    alone.add(system.particles[0], starts[k].state);
-    Observer nobody;
-    alone.run_until(40.0, nobody);
-    EXPECT_EQ(walks[k].fate, alone.fate(0));
-    EXPECT_EQ(walks[k].report, alone.report(0));
-    lost += walks[k].fate == Fate::unresolved;
-    if (walks[k].fate == Fate::survived) expect_same(walks[k].state, alone.state(0), "survivor");
-  }
+    alone.add(system.particles[0], starts[end.tag].state);
+    alone.run_until(40.0);
+    EXPECT_EQ(end.fate, alone.fate(0));
+    EXPECT_EQ(end.report, alone.report(0));
+    lost += end.fate == Fate::unresolved;
+    if (end.fate == Fate::survived) expect_same(end.state, alone.state(0), "survivor");
+    ++ends;
+  });
+  EXPECT_EQ(ends, 30);
   EXPECT_GT(lost, 0);
   EXPECT_LT(lost, 30);
 }

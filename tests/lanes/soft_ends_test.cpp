@@ -1,5 +1,5 @@
 // Trajectories under forces, among walls and through holes: lanes against World, the same bits for every end.
-#include "carom/lanes/soft_world.hpp"
+#include "carom/lanes/soft_lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -199,9 +199,9 @@ std::vector<int> compare(const System& system, std::uint64_t count, const std::s
     expected.push_back(by_world(system, starts.back(), limit));
     ++fates[static_cast<std::size_t>(expected.back().fate)];
   }
-  EXPECT_TRUE(SoftWorld::suits(*system.table, system.dynamics, system.particles));
+  EXPECT_TRUE(SoftLanes::suits(*system.table, system.dynamics, system.particles));
   for (const InstructionSet set : available_instruction_sets()) {
-    SoftWorld lanes(*system.table, system.dynamics, system.particles[0], set);
+    SoftLanes lanes(*system.table, system.dynamics, system.particles[0], set);
     lanes.limit_hits(limit);
     std::size_t next = 0, ended = 0;
     lanes.run_until(
@@ -222,7 +222,7 @@ std::vector<int> compare(const System& system, std::uint64_t count, const std::s
   return fates;
 }
 
-TEST(SoftWorld, HasTheEndsOfTheScalarEngine) {
+TEST(SoftLanes, HasTheEndsOfTheScalarEngine) {
   for (const Case& c : cases) {
     const std::vector<int> fates = compare(system_of(c, 7.3), 100, c.name);
     if (std::string(c.text).find("hole") != std::string::npos) {
@@ -235,13 +235,13 @@ TEST(SoftWorld, HasTheEndsOfTheScalarEngine) {
 }
 
 // Who starts on a wall, and how few or many there are, changes nothing.
-TEST(SoftWorld, StartsOnWallsToo) {
+TEST(SoftLanes, StartsOnWallsToo) {
   for (const std::uint64_t count : {1u, 63u, 65u})
     compare(system_of(cases[0], 3.0, "kind = \"boundary\""), count, "from the boundary");
 }
 
 // Ends at a step's end, within the first step, and after a number of hits.
-TEST(SoftWorld, EndsWhereItShould) {
+TEST(SoftLanes, EndsWhereItShould) {
   for (const double t_max : {0.01, 0.07, 0.14, 0.15}) compare(system_of(cases[0], t_max), 130, "early end");
   const std::vector<int> fates = compare(system_of(cases[1], 40.0), 80, "capped", 5);
   EXPECT_GT(fates[static_cast<std::size_t>(Fate::capped)], 40);
@@ -249,14 +249,14 @@ TEST(SoftWorld, EndsWhereItShould) {
   compare(system_of(cases[0], 1e14), 70, "capped in endless time", 3);
 }
 
-TEST(SoftWorld, RefusesWhatItCannotDo) {
+TEST(SoftLanes, RefusesWhatItCannotDo) {
   System split = system_of(cases[1], 1.0);
   split.dynamics.integrator.split_walls = true;
-  EXPECT_FALSE(SoftWorld::suits(*split.table, split.dynamics, split.particles));
+  EXPECT_FALSE(SoftLanes::suits(*split.table, split.dynamics, split.particles));
   std::vector<Particle> two(2);
   two[1].mass = 2.0;
   const System well = system_of(cases[1], 1.0);
-  EXPECT_FALSE(SoftWorld::suits(*well.table, well.dynamics, two));
+  EXPECT_FALSE(SoftLanes::suits(*well.table, well.dynamics, two));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "carom/lanes/lane_world.hpp"
+#include "carom/lanes/free_lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "carom/events/world.hpp"
 #include "events/next_hit.hpp"
 #include "lanes/discs_in_sight.hpp"
 #include "lanes/exit_by_signs.hpp"
@@ -60,7 +61,7 @@ class OneEvent : public Observer {
 
 }  // namespace
 
-class LaneWorld::Implementation {
+class FreeLanes::Implementation {
  public:
   Implementation(const Table& the_table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)
       : table(the_table),
@@ -98,8 +99,14 @@ class LaneWorld::Implementation {
       cap(main);
       effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
       effort.idle += static_cast<std::uint64_t>(rounded_up(main.pack.used) - main.busy);
+      const std::vector<int> enough = report_hits(main);
       for (int i = 0; i < main.pack.calls; ++i)
         if (!answer(main, i)) fill(main.pack.lane[i]);
+      for (const int lane : enough) {
+        take_out(main, lane);
+        end_after_hit(main, lane);
+        fill(lane);
+      }
       if (exhausted && main.busy < main.pack.used) close_ranks();
     }
   }
@@ -120,6 +127,7 @@ class LaneWorld::Implementation {
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   std::vector<double> times;  ///< to report at
   Sampled sampled;
+  Hit hit;
   std::uint64_t filter = 0;
   LaneEffort effort;
 
@@ -136,6 +144,7 @@ class LaneWorld::Implementation {
     LaneStart start;              ///< or where the scalar engine left it
     std::uint64_t first_hits = 0; ///< when it began
     std::size_t reported = 0;     ///< times
+    std::uint64_t told = 0;       ///< hits that were reported, if they are
   };
   struct Lanes {
     LanePack pack;
@@ -207,8 +216,13 @@ class LaneWorld::Implementation {
       const bool has_hit = entrance.pack.active[lane] != 0.0 && entrance.pack.hits(lane) != static_cast<double>(mine.start.hits);
       if (has_hit) report(mine, mine.start.state, {entrance.pack.high[lane], entrance.pack.low[lane]});
     }
+    const std::vector<int> enough = report_hits(entrance);
     const int calls = entrance.pack.calls;
     for (int i = 0; i < calls; ++i) answer(entrance, i);
+    for (const int lane : enough) {
+      take_out(entrance, lane);
+      end_after_hit(entrance, lane);
+    }
     for (int lane = 0; lane < LanePack::lanes; ++lane)
       if (entrance.pack.active[lane] != 0.0) take_out(entrance, lane);
   }
@@ -224,6 +238,7 @@ class LaneWorld::Implementation {
       if (turn_of(mine.start.particle.omega) != turn) throw std::invalid_argument("a particle that turns another way");
       mine.first_hits = mine.start.hits;
       mine.reported = 0;
+      mine.told = mine.start.hits;
       while (mine.reported < times.size() && Time(times[mine.reported]) < mine.start.state.time) ++mine.reported;
       if (!(mine.start.state.time > Time(main.pack.end)) && lanes::can_start(pieces, finder, mine.start)) {
         resume(lanes, lane);
@@ -254,6 +269,33 @@ class LaneWorld::Implementation {
       if (counts ? next > t : !(next < t)) return;
       sampled(mine.start.tag, mine.reported, flown(last, mine.start.particle.omega, next));
     }
+  }
+  /// Reports the hits of a sweep, if they are asked for; returns the lanes whose hits are enough.
+  std::vector<int> report_hits(Lanes& lanes) {
+    std::vector<int> enough;
+    if (!hit) return enough;
+    for (int lane = 0; lane < lanes.pack.used; ++lane) {
+      if (lanes.pack.active[lane] == 0.0) continue;
+      Trajectory& mine = lanes.trajectories[lane];
+      const auto hits = static_cast<std::uint64_t>(lanes.pack.hits(lane));
+      if (hits == mine.told) continue;
+      mine.told = hits;
+      // Of its last one a call tells.
+      if (!hit(mine.start.tag, state_on_wall(lanes.pack, lane)) && hits < limit) enough.push_back(lane);
+    }
+    return enough;
+  }
+  /// Ends a trajectory at the hit that its state tells.
+  void end_after_hit(Lanes& lanes, int lane) {
+    lanes.leave(lane);
+    const Trajectory& mine = lanes.trajectories[lane];
+    (*sink)({mine.start.tag, Fate::survived, mine.start.state.time, mine.start.state, -1, mine.start.hits, last_wall(mine), {}});
+  }
+  State state_on_wall(const LanePack& pack, int lane) const {
+    State s = last_event(pack, lane);
+    s.wall = static_cast<int>(pieces.wall[static_cast<int>(pack.piece[lane])]);
+    s.u = finder.curve(s.wall).parameter(s.position);
+    return s;
   }
   /// A lane's last event, but for its wall.
   static State last_event(const LanePack& pack, int lane) {
@@ -291,11 +333,8 @@ class LaneWorld::Implementation {
     effort.hits += hits - mine.start.hits;
     filter += 2 * (hits - mine.start.hits);  // which wall, and which way the velocity points
     if (hits == mine.start.hits) return;
-    State& s = mine.start.state;
     mine.start.hits = hits;
-    s = last_event(pack, lane);
-    s.wall = static_cast<int>(pieces.wall[static_cast<int>(pack.piece[lane])]);
-    s.u = finder.curve(s.wall).parameter(s.position);
+    mine.start.state = state_on_wall(pack, lane);
   }
 
   /// Does the trajectory go on?
@@ -358,8 +397,13 @@ class LaneWorld::Implementation {
     }
     for (const State& state : event.states) sampled(mine.start.tag, mine.reported++, state);
     if (entry >= 0) learn(entry, mine.start.hits);
-    mine.start.hits = scalar.hits(0);
+    const bool has_hit = scalar.hits(0) > mine.start.hits;
+    mine.start.hits = mine.told = scalar.hits(0);
     mine.start.state = scalar.state(0);
+    if (has_hit && hit && !hit(mine.start.tag, mine.start.state) && mine.start.hits < limit) {
+      end_after_hit(lanes, lane);
+      return false;
+    }
     if (scalar.fate(0) == Fate::capped && mine.start.hits < limit) {
       if (mine.start.state.u > geometry::first_parameter) {
         resume(lanes, lane);
@@ -404,7 +448,7 @@ class LaneWorld::Implementation {
   bool exhausted = false;
 };
 
-std::string LaneWorld::hindrance(const Table& table, const std::vector<Particle>& particles) {
+std::string FreeLanes::hindrance(const Table& table, const std::vector<Particle>& particles) {
   if (particles.empty()) return "there are no particles";
   for (const Particle& p : particles) {
     if (p.radius != 0.0) return "particles are discs";
@@ -415,20 +459,21 @@ std::string LaneWorld::hindrance(const Table& table, const std::vector<Particle>
   return lanes::misfit(table, reach_of(particles));
 }
 
-LaneWorld::LaneWorld(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)
+FreeLanes::FreeLanes(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)
     : implementation_(std::make_unique<Implementation>(table, particles, set, options)) {}
-LaneWorld::~LaneWorld() = default;
+FreeLanes::~FreeLanes() = default;
 
-void LaneWorld::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }
-void LaneWorld::sample_at(std::vector<double> times, Sampled sampled) {
+void FreeLanes::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }
+void FreeLanes::sample_at(std::vector<double> times, Sampled sampled) {
   implementation_->times = std::move(times);
   implementation_->sampled = std::move(sampled);
 }
-void LaneWorld::run_until(double t_end, const std::function<bool(LaneStart&)>& next,
+void FreeLanes::report_hits(Hit hit) { implementation_->hit = std::move(hit); }
+void FreeLanes::run_until(double t_end, const std::function<bool(LaneStart&)>& next,
                           const std::function<void(const LaneEnd&)>& ended, const std::function<bool()>& interrupted) {
   implementation_->run_until(t_end, next, ended, interrupted);
 }
-DecisionCounts LaneWorld::decisions() const { return implementation_->decisions(); }
-const LaneEffort& LaneWorld::effort() const { return implementation_->effort; }
+DecisionCounts FreeLanes::decisions() const { return implementation_->decisions(); }
+const LaneEffort& FreeLanes::effort() const { return implementation_->effort; }
 
 }  // namespace carom

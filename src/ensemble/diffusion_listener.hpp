@@ -1,0 +1,122 @@
+// Adds up displacements, trajectory by trajectory.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/ensemble/engine.hpp"
+#include "carom/events/report.hpp"
+#include "ensemble/energy_watch.hpp"
+#include "ensemble/ensemble_run.hpp"
+#include "ensemble/first_reports.hpp"
+#include "ensemble/particle_hash.hpp"
+
+namespace carom {
+
+/// One thread's.
+class DiffusionListener : public Listener {
+ public:
+  using Thread = EnsembleRun<DiffusionResult>::Thread;
+  DiffusionListener(const System& system, const Engine& engine, Thread& thread)
+      : system_(system), engine_(engine), thread_(thread), hash_(system) {}
+
+  void begin(const Trajectory& t) override {
+    if (under_way_.size() <= t.slot) under_way_.resize(t.slot + 1, {{}, EnergyWatch(system_)});
+    UnderWay& mine = under_way_[t.slot];
+    mine.squares.resize(t.starts.size());
+    for (std::vector<double>& squares : mine.squares) squares.clear();
+    mine.energies.begin(t);
+  }
+
+  void sample(const Trajectory& t, int particle, std::size_t number, const State& state) override {
+    UnderWay& mine = under_way_[t.slot];
+    const auto p = static_cast<std::size_t>(particle);
+    mine.squares[p].push_back(square_of_displacement(t.starts[p], state));
+    mine.energies.sample(t, p, number, state);
+  }
+
+  void end(const Trajectory& t, const TrajectoryEnd& end) override {
+    UnderWay& mine = under_way_[t.slot];
+    const EnergiesSeen energies = mine.energies.end(t, end);
+    const DecisionCounts decisions = engine_.decisions();
+    const TrajectoryRange range{t.number, t.number + 1};
+    std::uint64_t hits = 0;
+    thread_.deliver(range, [&](DiffusionResult& sum) {
+      for (std::size_t p = 0; p < end.particles.size(); ++p) {
+        add(sum, t.number, t.number * end.particles.size() + p, end.particles[p], mine.squares[p]);
+        hits += end.particles[p].hits;
+      }
+      sum.energy_change = larger(sum.energy_change, energies.change);
+      sum.energy_error += energies.error;
+      sum.steps += end.steps;
+      sum.decisions += decisions - std::exchange(decisions_, decisions);
+      sum.done.add(range);
+    });
+    thread_.report(1, hits);
+  }
+
+ private:
+  /// What is known of a trajectory.
+  struct UnderWay {
+    std::vector<std::vector<double>> squares;  ///< |r - r(0)|^2 of each particle at the report times it reached
+    EnergyWatch energies;
+  };
+
+  double square_of_displacement(const State& start, const State& now) const {
+    geometry::Vector displacement = now.position - start.position;
+    if (const auto& lattice = system_.table->lattice)
+      displacement = displacement +
+                     lattice->translation({now.cell.first - start.cell.first, now.cell.second - start.cell.second});
+    return dot(displacement, displacement);
+  }
+
+  void add(DiffusionResult& sum, std::uint64_t trajectory, std::uint64_t index, const ParticleEnd& end,
+           const std::vector<double>& squares) const {
+    Fate fate = end.fate;
+    double time = end.time;
+    std::string report = end.report;
+    // A particle so far away that |r - r(0)|^4 is no number ends there as unresolved.
+    const auto beyond = std::find_if(squares.begin(), squares.end(), [](double s) { return !std::isfinite(s * s); });
+    const auto samples = static_cast<std::size_t>(beyond - squares.begin());
+    if (beyond != squares.end()) {
+      fate = Fate::unresolved;
+      time = sum.sums.times()[samples];
+      report = report_of({}, end.state, fate, "it is so far away that |r - r(0)|^4 is not a number");
+    }
+    count(sum, fate);
+    for (std::size_t k = 0; k < samples; ++k) sum.sums.add(trajectory, k, squares[k]);
+    sum.collisions += end.hits;
+    sum.digest += hash_(index, fate, time, end.hits, end.last_wall, end.state, std::span(squares).first(samples));
+    if (is_failure(fate)) keep_first(sum.reports, index, report);
+  }
+
+  static void count(DiffusionResult& sum, Fate fate) {
+    ++sum.trajectories;
+    switch (fate) {
+      case Fate::survived: ++sum.survived; break;
+      case Fate::pinned: ++sum.survived, ++sum.pinned; break;
+      case Fate::capped: ++sum.capped; break;
+      case Fate::escaped: ++sum.escaped; break;
+      case Fate::singular: ++sum.singular; break;
+      case Fate::unbounded: ++sum.unbounded; break;
+      case Fate::unresolved: ++sum.unresolved; break;
+      case Fate::lost: ++sum.lost; break;
+    }
+  }
+
+  const System& system_;
+  const Engine& engine_;
+  Thread& thread_;
+  const ParticleHash hash_;
+  std::vector<UnderWay> under_way_;  ///< by slot
+  DecisionCounts decisions_;         ///< that were told
+};
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+#include "carom/ensemble/engine.hpp"
+
+#include <utility>
+
+#include "carom/lanes/free_lanes.hpp"
+#include "carom/lanes/soft_lanes.hpp"
+#include "ensemble/in_lanes.hpp"
+#include "ensemble/one_by_one.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Does nothing act between walls?
+bool is_free(const System& system) {
+  const Dynamics& d = system.dynamics;
+  return !d.everywhere && (!d.forces || d.forces->empty()) && !system.of_discs();
+}
+
+}  // namespace
+
+DrawnStarts::DrawnStarts(const Sampler& sampler, Blocks blocks)
+    : sampler_(sampler), injector_(sampler.system()), blocks_(std::move(blocks)) {}
+DrawnStarts::DrawnStarts(const Sampler& sampler, TrajectoryRange range)
+    : DrawnStarts(sampler, [range, given = false](TrajectoryRange& block) mutable {
+        block = range;
+        return !std::exchange(given, true);
+      }) {}
+
+bool DrawnStarts::next(Trajectory& trajectory, const World& world) {
+  while (block_.first == block_.last)
+    if (!blocks_(block_)) return false;
+  trajectory.number = block_.first++;
+  trajectory.particles = sampler_.system().particles;
+  trajectory.starts = sampler_.draw_all(world, trajectory.number);
+  for (InjectedParticle& one : injector_.draw(trajectory.number)) {
+    trajectory.particles.push_back(one.particle);
+    trajectory.starts.push_back(one.state);
+  }
+  return true;
+}
+
+std::string why_one_by_one(const System& system, const EngineOptions& options) {
+  if (!system.injections.empty()) return "particles enter later ([[injection]])";
+  if (options.surface) return "crossings of a surface are looked for";
+  if (options.energy && !is_free(system)) return "energies are looked at after each step";
+  if (is_free(system)) return FreeLanes::hindrance(*system.table, system.particles);
+  return SoftLanes::hindrance(*system.table, system.dynamics, system.particles);
+}
+
+std::unique_ptr<Engine> make_engine(const System& system, const EngineOptions& options) {
+  if (!options.lanes || !why_one_by_one(system, options).empty()) return std::make_unique<OneByOne>(system, options);
+  std::unique_ptr<Lanes> lanes;
+  if (is_free(system))
+    lanes = std::make_unique<FreeLanes>(*system.table, system.particles, *options.lanes, options.decisions);
+  else
+    lanes = std::make_unique<SoftLanes>(*system.table, system.dynamics, system.particles.at(0), *options.lanes, options.decisions);
+  return std::make_unique<InLanes>(system, options, std::move(lanes));
+}
+
+}  // namespace carom

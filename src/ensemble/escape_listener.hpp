@@ -1,0 +1,126 @@
+// Adds up the ends of trajectories, block by block.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <utility>
+#include <vector>
+
+#include "carom/ensemble/engine.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/injection.hpp"
+#include "carom/table/hole_names.hpp"
+#include "ensemble/block_order.hpp"
+#include "ensemble/energy_watch.hpp"
+#include "ensemble/ensemble_run.hpp"
+#include "ensemble/first_reports.hpp"
+#include "ensemble/particle_hash.hpp"
+
+namespace carom {
+
+/// One thread's. Lanes go from block to block without a pause, so several are under way at once; where records are wanted in
+/// order, one block after the other: a thread that waits for its turn must not keep others waiting.
+class EscapeListener : public Listener {
+ public:
+  using Thread = EnsembleRun<EscapeResult>::Thread;
+
+  /// `order`: of records, or null.
+  EscapeListener(const System& system, const Engine& engine, Thread& thread, BlockOrder* order)
+      : system_(system), engine_(engine), thread_(thread), order_(order), wants_records_(order || thread.wants_records()), hash_(system) {}
+
+  /// The next block, as DrawnStarts asks for it.
+  bool claim(TrajectoryRange& block) {
+    if (pause_ || thread_.stopped()) return false;
+    std::uint64_t number = 0;
+    if (exhausted_ = !thread_.claim(block, number); exhausted_) return false;
+    if (order_) order_->await_turn(number);
+    pause_ = order_ != nullptr;
+    blocks_.push_back({block, number, block.last - block.first, {}, {}});
+    blocks_.back().part.counts = SurvivalCounts(system_.run.times, hole_names(*system_.table).size());
+    return true;
+  }
+  /// After a pause; false if there are no blocks left.
+  bool go_on() {
+    pause_ = false;
+    return !exhausted_ && !thread_.stopped();
+  }
+
+  void begin(const Trajectory& t) override {
+    if (under_way_.size() <= t.slot) under_way_.resize(t.slot + 1, {blocks_.end(), EnergyWatch(system_)});
+    under_way_[t.slot].block = std::prev(blocks_.end());
+    under_way_[t.slot].energies.begin(t);
+  }
+
+  void end(const Trajectory& t, const TrajectoryEnd& end) override {
+    UnderWay& mine = under_way_[t.slot];
+    Block& block = *mine.block;
+    EscapeResult& sum = block.part;
+    const EnergiesSeen energies = mine.energies.end(t, end);
+    sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
+    sum.energy_error += energies.error;
+    sum.counts.contacts += end.contacts;
+    sum.steps += end.steps;
+    std::uint64_t hits = 0;
+    for (std::size_t p = 0; p < end.particles.size(); ++p) {
+      const ParticleEnd& particle = end.particles[p];
+      const std::uint64_t index = particle_index(system_, t.number, p);
+      const int hole = particle.hole < 0 ? -1 : holes_[static_cast<std::size_t>(particle.hole)];
+      sum.counts.add(particle.fate, particle.time, particle.hits, hole);
+      sum.digest += hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall, particle.state);
+      if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
+      if (wants_records_) block.records.push_back(record_of(index, t.starts[p], particle, hole));
+      hits += particle.hits;
+    }
+    thread_.report(1, hits);
+    if (--block.left > 0) return;
+    deliver(block);
+    blocks_.erase(mine.block);
+  }
+
+ private:
+  struct Block {
+    TrajectoryRange range;
+    std::uint64_t number = 0, left = 0;  ///< trajectories that have not ended
+    EscapeResult part;
+    std::vector<TrajectoryRecord> records;
+  };
+  /// What is known of a trajectory.
+  struct UnderWay {
+    std::list<Block>::iterator block;
+    EnergyWatch energies;
+  };
+
+  TrajectoryRecord record_of(std::uint64_t index, const State& start, const ParticleEnd& end, int hole) const {
+    geometry::Vector position = start.position;
+    if (system_.table->lattice) position = position + system_.table->lattice->translation(start.cell);
+    return {index,    position.x, position.y, start.velocity.x, start.velocity.y, end.fate, hole,
+            end.time, end.hits};
+  }
+
+  void deliver(Block& block) {
+    std::sort(block.records.begin(), block.records.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+    if (order_) order_->deliver(block.number, block.records);
+    const DecisionCounts decisions = engine_.decisions();
+    const LaneEffort effort = engine_.effort();
+    block.part.decisions = decisions - std::exchange(decisions_, decisions);
+    block.part.effort = effort - std::exchange(effort_, effort);
+    block.part.done.add(block.range);
+    thread_.deliver(
+        block.range, [&](EscapeResult& sum) { sum.add(block.part); }, std::move(block.records));
+  }
+
+  const System& system_;
+  const Engine& engine_;
+  Thread& thread_;
+  BlockOrder* const order_;
+  const bool wants_records_;
+  const ParticleHash hash_;
+  const std::vector<int> holes_ = hole_numbers(*system_.table);
+  std::list<Block> blocks_;
+  std::vector<UnderWay> under_way_;  ///< by slot
+  bool pause_ = false, exhausted_ = false;
+  DecisionCounts decisions_;  ///< that were told
+  LaneEffort effort_;
+};
+
+}  // namespace carom

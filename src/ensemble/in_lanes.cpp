@@ -1,0 +1,76 @@
+#include "ensemble/in_lanes.hpp"
+
+#include <utility>
+
+namespace carom {
+
+InLanes::InLanes(const System& system, const EngineOptions& options, std::unique_ptr<Lanes> lanes)
+    : system_(system), options_(options), world_(*system.table, options.decisions), lanes_(std::move(lanes)) {
+  if (system.run.collisions > 0) lanes_->limit_hits(system.run.collisions);
+  if (!options_.times.empty())
+    lanes_->sample_at(options_.times, [this](std::uint64_t tag, std::size_t number, const State& state) {
+      listener_->sample(flight(tag).trajectory, static_cast<int>(tag % each()), number, state);
+    });
+  if (options_.hits)
+    lanes_->report_hits([this](std::uint64_t tag, const State& state) {
+      const Trajectory& trajectory = flight(tag).trajectory;
+      listener_->hit(trajectory, static_cast<int>(tag % each()), state);
+      return !listener_->enough(trajectory);
+    });
+}
+
+bool InLanes::run(Starts& starts, Listener& listener, const std::function<bool()>& stopped) {
+  listener_ = &listener;
+  flights_.clear();
+  free_.clear();
+  begun_ = each();
+  const auto next = [&](LaneStart& start) {
+    if (begun_ == each() && !begin(starts)) return false;
+    start.tag = latest_ * each() + begun_;
+    start.particle = system_.particles[begun_];
+    start.state = flights_[latest_].trajectory.starts[begun_++];
+    start.hits = 0;
+    return true;
+  };
+  lanes_->run_until(options_.t_end, next, [this](const LaneEnd& end) { note(end); }, stopped);
+  return free_.size() == flights_.size();
+}
+
+bool InLanes::begin(Starts& starts) {
+  if (free_.empty()) {
+    free_.push_back(flights_.size());
+    flights_.emplace_back();
+    flights_.back().trajectory.slot = free_.back();
+  }
+  latest_ = free_.back();
+  Flight& flight = flights_[latest_];
+  if (!starts.next(flight.trajectory, world_)) return false;
+  free_.pop_back();
+  begun_ = 0;
+  flight.left = each();
+  flight.end.particles.resize(each());
+  flight.end.steps = {};
+  listener_->begin(flight.trajectory);
+  return true;
+}
+
+void InLanes::note(const LaneEnd& end) {
+  Flight& f = flight(end.tag);
+  ParticleEnd& mine = f.end.particles[end.tag % each()];
+  const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
+  mine.fate = end.fate;
+  mine.time = to_the_end ? options_.t_end : end.time.value();
+  mine.state = end.state;
+  mine.hole = end.hole;
+  mine.hits = end.hits;
+  mine.last_wall = end.last_wall;
+  mine.report = end.report;
+  mine.energy.kinetic = end.kinetic;
+  f.end.steps += end.steps;
+  listener_->particle_end(f.trajectory, static_cast<int>(end.tag % each()), end.fate);
+  if (--f.left > 0) return;
+  free_.push_back(f.trajectory.slot);
+  listener_->end(f.trajectory, f.end);
+}
+
+}  // namespace carom

@@ -1,0 +1,47 @@
+// The engine that flies many trajectories at once in lanes.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "carom/ensemble/engine.hpp"
+#include "carom/events/world.hpp"
+#include "carom/lanes/lanes.hpp"
+
+namespace carom {
+
+/// Puts the particles of trajectories into lanes, and the ends of particles together to ends of trajectories.
+class InLanes : public Engine {
+ public:
+  InLanes(const System&, const EngineOptions&, std::unique_ptr<Lanes>);
+  InLanes(const InLanes&) = delete;
+  InLanes& operator=(const InLanes&) = delete;
+
+  bool run(Starts&, Listener&, const std::function<bool()>& stopped) override;
+  DecisionCounts decisions() const override { return lanes_->decisions(); }
+  LaneEffort effort() const override { return lanes_->effort(); }
+
+ private:
+  /// A trajectory under way. Its place is used again, so there are as many as lanes hold.
+  struct Flight {
+    Trajectory trajectory;
+    TrajectoryEnd end;
+    std::size_t left = 0;  ///< particles that have not ended
+  };
+  std::size_t each() const { return system_.particles.size(); }
+  bool begin(Starts&);
+  void note(const LaneEnd&);
+  Flight& flight(std::uint64_t tag) { return flights_[tag / each()]; }
+
+  const System& system_;
+  const EngineOptions options_;
+  World world_;  ///< answers what starts are asked for
+  std::unique_ptr<Lanes> lanes_;
+  Listener* listener_ = nullptr;
+  std::deque<Flight> flights_;
+  std::vector<std::size_t> free_;
+  std::size_t latest_ = 0, begun_ = 0;  ///< the latest flight, and how many of its particles are in lanes
+};
+
+}  // namespace carom
