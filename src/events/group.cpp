@@ -79,7 +79,6 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   cells_.assign(bodies_.size(), Cell{});
   phase_.position.resize(bodies_.size());
   phase_.velocity.resize(bodies_.size());
-  if (splits_) splits_->under_way = splits_->in_drift = false;
   make_stepper();
   find_maps();
 }
@@ -92,7 +91,6 @@ void Group::make_stepper() {
     omega_.push_back(p.omega);
     masses_.push_back(p.mass);
   }
-  if (in_.plan.split_walls) return make_drift();
   stepper_ = carom::make_stepper(in_.plan, *this, omega_);
   path_ = std::make_unique<StepPath<double>>(*stepper_, *this, omega_);
 }
@@ -131,7 +129,6 @@ Time Group::step_end(const Time& limit) const {
 void Group::drop_prediction() {
   next_ = {};
   stepper_.reset();  // and all that it remembers
-  if (splits_) splits_->position.clear();
   checked_.position.clear();
   make_stepper();
 }
@@ -151,19 +148,16 @@ const Group::Next& Group::predict(const Time& limit) {
 }
 
 void Group::find_next(const Time& limit) {
-  const Phase<double>& from = splits_ ? begin_drift(limit) : phase_;
-  if (!splits_) path_end_ = step_end(limit);
+  path_end_ = step_end(limit);
   const double rest = std::clamp(path_end_ - time_, 0.0, std::numeric_limits<double>::max());
-  next_.duration = path_->begin(from, rest);
+  next_.duration = path_->begin(phase_, rest);
   whole_step_ = !(next_.duration < rest);
   next_.fault = fault_at(path_->end().phase);
   if (!next_.fault.empty()) return;
-  if (!splits_) {
-    next_.fault = check_resolution();
-    next_.unresolved = !next_.fault.empty();
-    if (next_.unresolved && !in_.plan.count_unresolved) return;
-    next_.fault.clear();
-  }
+  next_.fault = check_resolution();
+  next_.unresolved = !next_.fault.empty();
+  if (next_.unresolved && !in_.plan.count_unresolved) return;
+  next_.fault.clear();
   bool near_wall = false;
   CrossingSearch<double> search(*path_);
   StepPath<double>::Knot* last = &path_->end();
@@ -243,7 +237,6 @@ void Group::advance() {
   }
   phase_ = next_.member < 0 ? path_->end().phase : path_->at(next_.duration).phase;
   time_ = next_time();
-  if (splits_) end_drift();
 }
 
 State Group::state_at(std::size_t member, const Time& time) {
@@ -259,7 +252,6 @@ State Group::state_at(std::size_t member, const Time& time) {
   const Phase<double>& phase = duration > 0.0 ? between_.phase : phase_;
   s.position = phase.position[member];
   s.velocity = phase.velocity[member];
-  if (splits_) s.velocity = s.velocity + outstanding_kick(phase, member, time);
   s.cell = cells_[member];
   s.time = time;
   return s;

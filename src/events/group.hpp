@@ -22,7 +22,6 @@
 #include "events/crossing_in_step.hpp"
 #include "events/step_path.hpp"
 #include "forces/resolution.hpp"
-#include "integrators/stages.hpp"
 
 namespace carom {
 
@@ -69,13 +68,12 @@ class Group final : public ForceLaw<double> {
   void set_time(const Time& time) { time_ = time; }
 
   /// Takes the next step from phase(), which ends at `limit` at the latest, and finds what comes first.
-  /// With walls = "split" this is the next drift of the step under way, or the rest of it.
   const Next& predict(const Time& limit);
   const Next& next() const { return next_; }
   /// When that is.
   Time next_time() const { return next_.member < 0 && whole_step_ ? path_end_ : time_ + next_.duration; }
   /// Is phase() that after whole steps, and not between the drifts of one?
-  bool between_steps() const { return !splits_ || !splits_->under_way; }
+  bool between_steps() const { return true; }
   /// A prediction was interrupted: forgets all that it computed. Another one is needed before anything else.
   void drop_prediction();
   /// Goes to what was predicted.
@@ -121,11 +119,6 @@ class Group final : public ForceLaw<double> {
   double longest_step(const Phase<double>& from, const double& asked) const override;
   void make_stepper();
   Time step_end(const Time& limit) const;
-  void make_drift();
-  const Phase<double>& begin_drift(const Time& limit);
-  void end_drift();
-  geometry::Vector outstanding_kick(const Phase<double>& phase, std::size_t member, const Time& time) const;
-  void kick(Phase<double>& phase, std::size_t first, std::size_t end);
   StepPath<double>::Knot* first_exit(CrossingSearch<double>& search, const Barrier<double>& edge,
                                      StepPath<double>::Knot& to);
   std::string_view fault_at(const Phase<double>& phase) const;
@@ -154,19 +147,7 @@ class Group final : public ForceLaw<double> {
     Phase<double> phase;
   } between_;
   bool whole_step_ = false;  ///< the path under way ends at path_end_
-  Time path_end_;            ///< of the step; of the drift with walls = "split"
-  /// walls = "split": kicks at once, drifts that see the walls and nothing else.
-  struct Splits {
-    std::vector<Stage<double>> stages;
-    std::size_t stage = 0;   ///< next to be done
-    bool under_way = false;  ///< a step is
-    bool in_drift = false;   ///< a hit has cut the drift that comes next
-    Time step_end;
-    double step = 0.0;
-    Phase<double> kicked;    ///< where the drift begins
-    std::vector<geometry::Vector> position, acceleration;  ///< of the last kick
-  };
-  std::unique_ptr<Splits> splits_;  ///< null: walls = "reflect"
+  Time path_end_;            ///< of the step
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
   std::vector<ForceMap*> maps_;  ///< one a member

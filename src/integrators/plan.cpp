@@ -22,24 +22,10 @@ std::string shown(double x) {
 
 }  // namespace
 
-void check_split_walls(const IntegratorPlan& plan, const Place& place) {
-  if (!plan.split_walls) return;
-  if (!is_adaptive(plan.scheme) && find_scheme(plan.scheme).drifts_forward()) return;
-  std::string fitting;
-  for (const Scheme& s : schemes())
-    if (s.drifts_forward()) fitting.append(fitting.empty() ? "" : ", ").append(s.name);
-  const std::string name = plan.scheme.empty() ? std::string(default_scheme().name) : plan.scheme;
-  throw InputError(key(place, "walls"),
-                   "walls can be split off only where every drift of the scheme goes forward in time, not with '" +
-                       name + "'",
-                   "walls = \"reflect\"; or scheme = one of " + fitting);
-}
-
 void check_plan(const IntegratorPlan& plan, const Place& place) {
   if (plan.step != 0.0 && !(plan.step > 0.0 && std::isfinite(plan.step))) {
     throw InputError(key(place, "step"), "a step of " + shown(plan.step) + " leads nowhere", "a time > 0");
   }
-  check_split_walls(plan, place);
   if (is_adaptive(plan.scheme)) {
     if (plan.tolerance != 0.0 && !(plan.tolerance >= least_tolerance && plan.tolerance < 1.0)) {
       throw InputError(key(place, "tolerance"), "a tolerance of " + shown(plan.tolerance) + " cannot be met",

@@ -10,13 +10,6 @@ const Scheme& default_scheme() { return find_scheme("blanes-moan-srkn11b"); }
 
 bool is_adaptive(std::string_view name) { return name == "arkode" || name == "cvode"; }
 
-bool Scheme::drifts_forward() const {
-  const std::vector<Stage<double>> stages = stages_of<double>(*this);
-  return !stages.empty() && std::all_of(stages.begin(), stages.end(), [](const Stage<double>& s) {
-    return s.kind == Stage<double>::Kind::kick || (s.kind == Stage<double>::Kind::drift && s.coefficient > 0.0);
-  });
-}
-
 const Scheme& find_scheme(const std::string& name, const Place& place) {
   if (name.empty()) return default_scheme();
   std::vector<std::string> names;

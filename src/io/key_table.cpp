@@ -160,8 +160,6 @@ const std::vector<KeyDescription>& key_table() {
       {"integrator", "", "energy_tolerance", "number", "1e-3",
        "largest change of the energy, relative to the largest kinetic energy, that a result may have; beyond it the report says so "
        "first and the exit status is 3"},
-      {"integrator", "", "walls", "string", "\"reflect\"",
-       "reflect: found and refined within the steps; split: walls inside the drifts, for comparison only"},
 
       {"run", "", "t_max", "number", "1000", "when a trajectory stops"},
       {"run", "", "collisions", "whole number", "", "most hits a trajectory may make; no limit if not given"},

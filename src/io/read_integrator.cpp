@@ -39,14 +39,6 @@ IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Parti
   if (!plan.count_unresolved && as_text(unresolved) != "stop")
     throw InputError(unresolved.place, "unknown treatment of unresolved steps '" + unresolved.text + "'",
                      "\"stop\" or \"count\"", nearest_name(unresolved.text, {"stop", "count"}));
-  const Value& treatment = section.get("walls");
-  plan.split_walls = as_text(treatment) == "split";
-  if (!plan.split_walls && as_text(treatment) != "reflect")
-    throw InputError(treatment.place, "unknown treatment of walls '" + treatment.text + "'",
-                     "\"reflect\" or \"split\"");
-  Place split_place = treatment.place;
-  split_place.key = "integrator";
-  check_split_walls(plan, split_place);
   place.key = "integrator";  // the checks add the key at fault
   if (forces || plan.tolerance > 0.0) check_plan(plan, place);
   if (forces) {

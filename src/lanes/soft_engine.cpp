@@ -81,7 +81,6 @@ std::string unknown_to_steps(const Table& table, const Dynamics& dynamics) {
   if (forces->potentials().size() > SoftForces::most) return "more than " + std::to_string(SoftForces::most) + " potentials";
   if (table.lattice && table.lattice->edges.size() > SoftForces::most_edges) return "a lattice cell of many edges";
   if (is_adaptive(plan.scheme) || !(plan.step > 0.0)) return "a scheme without a fixed step";
-  if (plan.split_walls) return "walls = \"split\"";
   if (find_scheme(plan.scheme).form == Scheme::Form::spreiter_walter) return "the scheme " + plan.scheme;
   return {};
 }

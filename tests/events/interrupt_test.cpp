@@ -47,7 +47,7 @@ Course run(const System& system, double until, int every) {
 }
 
 TEST(Interrupt, WithinAStepChangesNoBit) {
-  for (const char* integrator : {"scheme = \"blanes-moan-srkn11b\"\nstep = 2e-5", "scheme = \"velocity-verlet\"\nstep = 2e-6\nwalls = \"split\""}) {
+  for (const char* integrator : {"scheme = \"blanes-moan-srkn11b\"\nstep = 2e-5", "scheme = \"velocity-verlet\"\nstep = 2e-6"}) {
     const LoadedSystem loaded = gas(integrator);
     const Course whole = run(loaded.system, 1e-4, 0), parts = run(loaded.system, 1e-4, 1);
     for (std::size_t i = 0; i < whole.end.size(); ++i) {

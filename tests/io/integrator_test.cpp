@@ -60,17 +60,6 @@ TEST(Integrator, StepsAreCountedInDoubles) {
   EXPECT_EQ(read(text + "[run]\nt_max = 1e9\n").run.t_max, 1e9);
 }
 
-TEST(Integrator, WallsInsideTheDrifts) {
-  const std::string split = well + "[integrator]\nstep = 0.01\nwalls = \"split\"\n";
-  EXPECT_HAS(fault(split), "line 6, column 9: integrator.walls: walls can be split off only where every drift");
-  EXPECT_HAS(fault(split), "not with 'blanes-moan-srkn11b'");
-  EXPECT_HAS(fault(split), "velocity-verlet, mclachlan-2, mclachlan-atela-2");
-  EXPECT_HAS(fault(split + "scheme = \"arkode\"\n"), "integrator.walls");
-  EXPECT_HAS(fault(split + "scheme = \"he-2\"\n"), "integrator.walls");
-  EXPECT_TRUE(read(split + "scheme = \"velocity-verlet\"\n").dynamics.integrator.split_walls);
-  EXPECT_FALSE(read(well + "[integrator]\nstep = 0.01\n").dynamics.integrator.split_walls);
-}
-
 TEST(Integrator, StepsThatTurnTooFarAreRefusedAtWalls) {
   const std::string rest = "[[potential]]\nkind = \"harmonic\"\n[field]\nB = 30\n[integrator]\nstep = 0.05\n";
   EXPECT_HAS(fault(start + square(rest)),

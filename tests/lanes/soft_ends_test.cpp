@@ -250,9 +250,6 @@ TEST(SoftLanes, EndsWhereItShould) {
 }
 
 TEST(SoftLanes, RefusesWhatItCannotDo) {
-  System split = system_of(cases[1], 1.0);
-  split.dynamics.integrator.split_walls = true;
-  EXPECT_FALSE(SoftLanes::suits(*split.table, split.dynamics, split.particles));
   std::vector<Particle> two(2);
   two[1].mass = 2.0;
   const System well = system_of(cases[1], 1.0);

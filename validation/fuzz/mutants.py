@@ -111,7 +111,6 @@ step = 0.5; unresolved = "count"
 scheme = "arkode"
 scheme = "cvode"; tolerance = 1e-9
 scheme = "velocity-verlet"; step = 0.01
-scheme = "velocity-verlet"; step = 0.01; walls = "split"
 step = 0.01; energy_tolerance = 1e-6
 """
 INJECTIONS = """

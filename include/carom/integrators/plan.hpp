@@ -12,7 +12,6 @@ struct IntegratorPlan {
   std::string scheme;        ///< a name of schemes(), a magnetic scheme, "arkode" or "cvode"; "": the default
   double step = 0.0;         ///< > 0: time between two ends of steps; 0: not given
   double tolerance = 0.0;    ///< > 0: relative tolerance of an adaptive scheme; 0: not given
-  bool split_walls = false;  ///< walls = "split": walls inside the drift, for comparison only
   bool count_unresolved = false;   ///< unresolved = "count": steps that do not resolve a force are counted, not fatal
   double energy_tolerance = 1e-3;  ///< largest change of the energy over the largest kinetic energy that is accepted
   bool step_chosen = false;        ///< the step is not of the file: ensemble/choose_step.hpp found it
@@ -26,9 +25,6 @@ void check_plan(const IntegratorPlan& plan, const Place& place = {});
 
 /// An InputError if a fixed-step scheme has no step.
 void check_step(const IntegratorPlan& plan, const Place& place = {});
-
-/// An InputError if walls = "split" does not go with the scheme: it takes drifts that all go forward.
-void check_split_walls(const IntegratorPlan& plan, const Place& place = {});
 
 /// A fixed step turns velocities by |omega| h at most. Schemes are stable for any, but accurate only far below a
 /// full turn. Returns a warning above 2 ("" below); an InputError above 1 where there are walls, as the path

@@ -39,8 +39,6 @@ struct Scheme {
   std::string_view source;
 
   bool symmetric() const { return form != Form::listed && form != Form::spreiter_walter; }
-  /// Made of drifts and kicks, and all drifts go forward in time? (Then the order is 2 at most.)
-  bool drifts_forward() const;
   /// Does a step keep phase-space areas? (He et al. keep the volume only.)
   bool symplectic() const { return form != Form::he && form != Form::spreiter_walter; }
 };
