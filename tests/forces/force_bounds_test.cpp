@@ -164,6 +164,14 @@ TEST(ForceBounds, HoldForTypedPotentials) {
   }
 }
 
+// There half turns cannot be counted any more.
+TEST(ForceBounds, HoldWhereAnglesHaveNoDigitsLeft) {
+  const std::string variables[] = {"x", "y"};
+  for (const char* text : {"sin(x)", "cos(3*x)", "sin(1e21*x)*cos(y)"})
+    for (const double x : {1e17, 1e21, 1e100, 1e300})
+      EXPECT_GE(bound_of(TypedExpression::parse(text, variables, {}, {}), {{x, 0.0}, {x, 0.0}, 1e-30}).force, 1.0) << text << x;
+}
+
 TEST(ForceBounds, KinksHaveAJumpAndNoMoreThanThat) {
   const std::string variables[] = {"x", "y"};
   const auto at = [&](const char* text, Vector x, double rho) {
