@@ -49,22 +49,21 @@ ForceBound ForceMap::about(Vector x, double rho) {
 }
 
 bool ForceMap::resolves_everywhere(Vector low, Vector high, double energy, const std::function<bool(Vector)>& inside,
-                                   const resolution::Span& span) {
+                                   const resolution::Span& span, int& left) {
   const double side = std::max(high.x - low.x, high.y - low.y);
   if (!(side > 0x1p-900 && side < 0x1p900)) return true;
   constexpr int finer = 4;  // so that no mesh of the first ones is much of the box
   const int e = static_cast<int>(std::bit_cast<std::uint64_t>(side) >> 52) - 1022 - finer;
   const double over = power_of_two(-e);
-  int patience = 200000;  // meshes; a force that needs more is too narrow for this step
   for (double i = std::floor(low.x * over); i <= std::floor(high.x * over); i += 1.0)
     for (double j = std::floor(low.y * over); j <= std::floor(high.y * over); j += 1.0)
-      if (!resolves_mesh(e, i, j, energy, inside, span, patience)) return false;
+      if (!resolves_mesh(e, i, j, energy, inside, span, left)) return false;
   return true;
 }
 
 bool ForceMap::resolves_mesh(int exponent, double i, double j, double energy, const std::function<bool(Vector)>& inside,
-                             const resolution::Span& span, int& patience) {
-  if (--patience < 0) return false;
+                             const resolution::Span& span, int& left) {
+  if (--left < 0) return false;
   const double mesh = power_of_two(exponent);
   double kinetic = -1.0;
   bool domain = false;
@@ -82,7 +81,7 @@ bool ForceMap::resolves_mesh(int exponent, double i, double j, double energy, co
   if (!(2.0 * mesh > least) || exponent < -900) return false;
   for (const double p : {0.0, 1.0})
     for (const double q : {0.0, 1.0})
-      if (!resolves_mesh(exponent - 1, 2.0 * i + p, 2.0 * j + q, energy, inside, span, patience)) return false;
+      if (!resolves_mesh(exponent - 1, 2.0 * i + p, 2.0 * j + q, energy, inside, span, left)) return false;
   return true;
 }
 

@@ -105,9 +105,10 @@ class ForceMap {
   /// Bounds of the acceleration within displacements of rho or a little more, a power of two.
   ForceBound about(geometry::Vector x, double rho);
   /// Is every motion of that total energy which starts in the box, where `inside` holds, analytic over the span? Energies
-  /// are looked at in nine points of each mesh: for choosing a step, which is checked again when it is taken.
+  /// are looked at in nine points of each mesh: for choosing a step, which is checked again when it is taken. Meshes are taken
+  /// from `left`; a force that needs more of them is too narrow.
   bool resolves_everywhere(geometry::Vector low, geometry::Vector high, double energy,
-                           const std::function<bool(geometry::Vector)>& inside, const resolution::Span&);
+                           const std::function<bool(geometry::Vector)>& inside, const resolution::Span&, int& left);
 
  private:
   static constexpr int no_exponent = std::numeric_limits<int>::min();
@@ -150,7 +151,7 @@ class ForceMap {
   }
   const Entry& compute(Entry&, std::uint64_t key, int exponent, double i, double j) const;
   bool resolves_mesh(int exponent, double i, double j, double energy, const std::function<bool(geometry::Vector)>& inside,
-                     const resolution::Span&, int& patience);
+                     const resolution::Span&, int& left);
   bool resolves_closely(geometry::Vector x, double square_speed, int coarsest, const resolution::Span&);
 
   static constexpr std::size_t kept_entries = 65536;
