@@ -25,6 +25,44 @@ const ForceMap::Entry& ForceMap::compute(Entry& kept, std::uint64_t key, int exp
   return kept;
 }
 
+void ForceMap::resolve_known(const Motions& motions, const resolution::Span& span, bool* known) const {
+  int which[most_at_once] = {}, count = 0;
+  for (int k = 0; k < motions.count; ++k) which[k] = k;
+  resolve_known(motions, first_finer, which, motions.count, span, known);
+  for (int k = 0; k < motions.count; ++k) {
+    which[count] = k;
+    count += !known[k];
+  }
+  if (count > 0) resolve_known(motions, first_finer + 1, which, count, span, known);
+}
+
+// The arithmetic of resolves() and stays().
+void ForceMap::resolve_known(const Motions& motions, int finer, const int* which, int count, const resolution::Span& span,
+                             bool* known) const {
+  std::uint64_t key[most_at_once];
+  std::uint32_t slot[most_at_once];
+  double most[most_at_once];  // without force
+  const double square_time = span.time * span.time, square_growth = span.growth * span.growth;
+  for (int n = 0; n < count; ++n) {
+    const int k = which[n];
+    const double by_speed = motions.square_speed[k] * square_time, way = motions.square_way[k];
+    const double square = square_growth * (way > by_speed ? way : by_speed);
+    const int e = exponent_of(square) - finer;
+    const double over = power_of_two(-e), i = motions.x[k] * over, j = motions.y[k] * over;
+    const Place place = place_of(e, i, j);
+    key[n] = place.key;
+    slot[n] = static_cast<std::uint32_t>(place.slot);
+    most[n] = power_of_two(e + 1) * span.over_time;
+    known[k] = (square > 0x1p-1000) & (square < 0x1p1000) & has_key(i, j);
+  }
+  for (int n = 0; n < count; ++n) {
+    const int k = which[n];
+    const Entry& kept = entries_[slot[n]];
+    const double left = most[n] - 0.5 * static_cast<double>(kept.force) * span.time;
+    known[k] = known[k] & (kept.key == key[n]) & (left >= 0.0) & (motions.square_speed[k] <= left * left) & (kept.jump == 0.0f);
+  }
+}
+
 /// With finer meshes, down to those of half the way; and, for motions that force keeps slow, with coarser ones.
 bool ForceMap::resolves_closely(Vector x, double square_speed, int coarsest, const resolution::Span& span) {
   if (!std::isfinite(x.x + x.y + square_speed + span.growth)) return false;
@@ -36,7 +74,7 @@ bool ForceMap::resolves_closely(Vector x, double square_speed, int coarsest, con
   // At rest where no force acts, as at an equilibrium, any displacement may serve.
   if (coarsest == no_exponent) return any(40, -400);
   constexpr int levels = 6, coarser = 20;
-  return any(coarsest - 1, coarsest - levels) || any(coarsest + coarser, coarsest + 1);
+  return any(coarsest - first_finer - 1, coarsest - levels) || any(coarsest + coarser, coarsest - first_finer + 1);
 }
 
 ForceBound ForceMap::about(Vector x, double rho) {
