@@ -24,6 +24,8 @@ constexpr double wanted_energy_error = 1e-10;
 constexpr int most_pilots = 16, steps_of_a_pilot = 100, looks = 10;
 /// Evaluations of pair forces that all pilots of one step may cost.
 constexpr double affordable = 2e7;
+/// Meshes of forces that are bounded for all steps together; no step needs as many, but a force of thousands of narrow parts may.
+constexpr int most_meshes = 250000;
 /// The shortest step that is tried, against the longest that is resolved at the start, and against the longest that is resolved
 /// all along.
 constexpr double shortest_resolved = 1e-3, shortest = 1e-2;
@@ -105,8 +107,8 @@ class Pilots {
 };
 
 /// Does a step resolve the external forces wherever a particle of that energy can be? True where that is not known
-/// beforehand: in the open plane, and where particles interact.
-bool resolves_region(const System& system, const World& world, double energy, double h) {
+/// beforehand: in the open plane, where particles interact, and where all `meshes` are used up.
+bool resolves_region(const System& system, const World& world, double energy, double h, int& meshes) {
   const Table& table = *system.table;
   const ForceField& forces = *system.dynamics.forces;
   if (!forces.external() || system.particles.size() > 1 || table.extent == Extent::open_plane) return true;
@@ -117,7 +119,8 @@ bool resolves_region(const System& system, const World& world, double energy, do
   ForceMap map(forces, system.particles.front());
   const auto inside = [&](Vector x) { return table.lattice || world.contains(x); };
   return map.resolves_everywhere(box.low, box.high, energy, inside,
-                                 resolution::span_of(h / resolution::steps_a_radius, system.particles.front().omega));
+                                 resolution::span_of(h / resolution::steps_a_radius, system.particles.front().omega), meshes) ||
+         meshes <= 0;
 }
 
 double largest_turn(const System& system) {
@@ -143,12 +146,13 @@ ChosenStep choose_step(const System& system, const std::function<bool()>& stoppe
   while (step_number(n - 1) >= longest) --n;
   ChosenStep best{0.0, std::numeric_limits<double>::infinity()};
   double at_start = 0.0, resolved = 0.0;
+  int meshes = most_meshes;
   constexpr int most_tried = 150;
   for (int tried = 0; tried < most_tried; ++tried, --n) {
     const double h = step_number(n);
     if (h > longest || largest_turn(system) * h > most_turn) continue;
     if (!(at_start > 0.0)) {
-      if (!pilots.resolve(h, h) || !resolves_region(system, world, pilots.highest_energy(), h)) continue;
+      if (!pilots.resolve(h, h) || !resolves_region(system, world, pilots.highest_energy(), h, meshes)) continue;
       at_start = h;
     }
     if (h < shortest_resolved * at_start || h < shortest * resolved) break;

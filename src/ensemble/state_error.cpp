@@ -1,8 +1,11 @@
 #include "carom/ensemble/state_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <stdexcept>
 
+#include "carom/analysis/trust.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
 #include "carom/integrators/scheme.hpp"
@@ -16,10 +19,21 @@ namespace {
 constexpr int looks = 64;
 /// Runs have parted where they are further from each other than this share of the way that they have gone.
 constexpr double parted = 0.1;
-/// The distance leaves out a quarter of the error at order 2, and more where the steps are too long for their order.
-constexpr double margin = 2.0;
+/// The distance leaves out a quarter of the error at order 2, and more where the steps are too long for their order. With a
+/// tolerance the error falls less regularly.
+constexpr double margin = 2.0, margin_of_adaptive = 3.0;
+/// At one look a distance may happen to be small: the largest of so many is taken.
+constexpr int latest = 8;
 /// Both runs are rounded, by a few units a step: what they have in common of it is not seen in their distance.
 constexpr double rounding = 0x1p-51;
+/// How errors grow is seen from a start displaced by this share of positions and velocities: far above what rounding does to
+/// them, and far below what a run can be believed with.
+constexpr double displacement = 0x1p-40;
+/// Each evaluation of a force, and the sums made with it, displace a run by about so much of its size, in directions of their own.
+constexpr double rounding_of_evaluation = 0x1.8p-50;
+/// A pass through the outermost part of a bump, which is left out, turns a velocity v by this times tail/(m v^2) at most: a
+/// force of tail/w in units of the width w, times the distance in units of w (8.6), over a way of 2.5 w, for a Gaussian.
+constexpr double turn_by_tail = 32.0;
 
 IntegratorPlan finer(IntegratorPlan plan) {
   if (is_adaptive(plan.scheme))
@@ -34,6 +48,37 @@ State state_of(const World& world, int particle, double t) {
 
 double length(Vector a) { return std::sqrt(dot(a, a)); }
 
+/// The size of positions; in the plane of that at the start.
+double size_of_positions(const System& system, const World& world, double t_end) {
+  if (!system.table->walls.empty() || system.table->lattice) return size_of(*system.table);
+  double size = 0.0, fastest = 0.0;
+  for (int i = 0; i < world.size(); ++i) {
+    size = std::max(size, length(world.state(i).position));
+    fastest = std::max(fastest, length(world.state(i).velocity));
+  }
+  if (size > 0.0) return size;
+  return fastest > 0.0 ? fastest * t_end / looks : 1.0;
+}
+
+/// Adds the particles of another world, displaced; as they are where there is no room.
+void add_displaced(World& world, const World& others, double size) {
+  for (int i = 0; i < others.size(); ++i) {
+    const State& start = others.state(i);
+    bool added = false;
+    for (const double share : {displacement, -displacement, 0.0}) {
+      State s = start;
+      if (s.wall < 0) s.position = s.position + (share * size) * Vector{0.6, 0.8};
+      s.velocity = s.velocity + share * geometry::left(s.velocity);
+      try {
+        world.add(others.particle(i), s);
+        added = true;
+      } catch (const std::invalid_argument&) {  // outside of the table, or out of the wall
+      }
+      if (added) break;
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<StateError> state_error(const System& system, std::uint64_t trajectory, double t_end,
@@ -42,10 +87,12 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
   const Table& table = *system.table;
   Dynamics fine = system.dynamics;
   fine.integrator = finer(fine.integrator);
-  World as_run(table, system.dynamics), finely(table, fine);
+  World as_run(table, system.dynamics), finely(table, fine), displaced(table, system.dynamics);
   const Sampler sampler(system, stopped);
   add_starts(as_run, sampler, trajectory);
   add_starts(finely, sampler, trajectory);
+  const double size = size_of_positions(system, as_run, t_end), tail = system.dynamics.forces->tail_bound();
+  add_displaced(displaced, as_run, size);
   const int count = as_run.size();
   const double n = static_cast<double>(count);
   const auto plane = [&](const State& s) {
@@ -54,26 +101,49 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
   std::vector<Vector> starts;
   for (int i = 0; i < count; ++i) starts.push_back(plane(as_run.state(i)));
   StateError error;
-  double way = 0.0, fastest = 0.0, farthest = 0.0;
+  double way = 0.0, fastest = 0.0, farthest = 0.0, lightest = as_run.particle(0).mass;
+  for (int i = 1; i < count; ++i) lightest = std::min(lightest, as_run.particle(i).mass);
+  std::array<StateError, latest> apart;  // distances from the finer run
+  StateError grown;                      // the largest from the displaced one so far
+  double growth = 1.0;                   // that, in units of the displacement
+  double evaluated = 0.0, rounded = 0.0;  // evaluations; each over the square of the growth before it
   Observer observer;
   for (int look = 1; look <= looks; ++look) {
     const double t = t_end * look / looks;
     as_run.run_until(t, observer, stopped);
     finely.run_until(t, observer, stopped);
+    displaced.run_until(t, observer, stopped);
     if (stopped && stopped()) return {};
-    error = {0.0, 0.0, t};
+    StateError& now = apart[static_cast<std::size_t>(look % latest)] = {};
     for (int i = 0; i < count; ++i) {
       if (as_run.fate(i) == Fate::unresolved) return {};
-      const State a = state_of(as_run, i, t), b = state_of(finely, i, t);
-      error.position = std::max(error.position, margin * length(plane(a) - plane(b)));
-      error.velocity = std::max(error.velocity, margin * length(a.velocity - b.velocity));
+      const State a = state_of(as_run, i, t), b = state_of(finely, i, t), c = state_of(displaced, i, t);
+      now.position = std::max(now.position, length(plane(a) - plane(b)));
+      now.velocity = std::max(now.velocity, length(a.velocity - b.velocity));
+      grown.position = std::max(grown.position, length(plane(a) - plane(c)));
+      grown.velocity = std::max(grown.velocity, length(a.velocity - c.velocity));
       fastest = std::max(fastest, length(a.velocity));
       farthest = std::max(farthest, length(a.position));
       way = std::max(way, length(plane(a) - starts[static_cast<std::size_t>(i)]));
     }
     const double steps = static_cast<double>(as_run.step_counts().steps), compared = steps * n * n;
-    error.position += rounding * steps * (farthest + fastest * t);
-    error.velocity += rounding * steps * fastest;
+    // What is rounded later grows by less.
+    const double evaluations = static_cast<double>(as_run.step_counts().force_evaluations);
+    rounded += (evaluations - evaluated) / (growth * growth);
+    evaluated = evaluations;
+    growth = std::max({growth, grown.position / (displacement * size), grown.velocity / (displacement * fastest)});
+    double share = rounding_of_evaluation * std::sqrt(rounded) * std::max(1.0, farthest / size);
+    if (tail > 0.0) share += turn_by_tail * tail / (lightest * fastest * fastest) * std::sqrt(1.0 + fastest * t / size);
+    error = {share / displacement * grown.position + rounding * steps * (farthest + fastest * t),
+             share / displacement * grown.velocity + rounding * steps * fastest, t};
+    StateError most;
+    for (const StateError& one : apart) {
+      most.position = std::max(most.position, one.position);
+      most.velocity = std::max(most.velocity, one.velocity);
+    }
+    const double times = is_adaptive(system.dynamics.integrator.scheme) ? margin_of_adaptive : margin;
+    error.position += times * most.position;
+    error.velocity += times * most.velocity;
     if (error.position > parted * way || compared > most_compared) break;
   }
   return error;

@@ -89,8 +89,9 @@ bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& sp
 double Group::longest_step(const Phase<double>& from, const double& asked) const {
   if (maps_.empty()) return asked;
   constexpr int most_halvings = 60;
+  constexpr double work = 1e6;  // of a halving: many meshes are new
   double time = asked;
-  for (int k = 0; k < most_halvings; ++k, time *= 0.5)
+  for (int k = 0; k < most_halvings && !interrupted(k > 0 ? work : 0.0); ++k, time *= 0.5)
     if (resolves(from, nullptr, resolution::span_of(time, largest_omega_), false)) return time;
   return 0.0;
 }

@@ -25,6 +25,13 @@ InputError refused(const char* problem, const char* expected) {
   return InputError(place, problem, expected);
 }
 
+/// Does the separation at a contact tell the direction from centre to centre? Its length is the sum of the radii, but for
+/// rounding, which turns it by as much as it stretches it.
+bool points_along_centres(Vector d, double reach) {
+  constexpr double share = 0x1p-10;
+  return std::fabs(std::sqrt(dot(d, d)) - reach) <= share * reach;
+}
+
 /// Hits as the user's table has them: the finder knows the walls that centres of discs meet.
 class OnWalls final : public Observer {
  public:
@@ -216,6 +223,16 @@ void World::Implementation::collide(int finding, Observer& observer) {
   copy.first += second.first - first.first;
   copy.second += second.second - first.second;
   const Vector d = contacts->separation(a.state.position, b.state.position, copy);
+  if (!points_along_centres(d, a.particle.radius + b.particle.radius)) {
+    for (const int disc : {index, other}) {
+      end(disc, Fate::unresolved, now, &observer,
+          "at this contact rounding of the positions hides where the other disc is: the discs are too small for so large a "
+          "table, or have gone too far");
+      contacts->leave(disc);
+    }
+    look_again(index, other, now);
+    return look_again(other, index, now);
+  }
   ContactEvent contact;
   contact.first = index;
   contact.second = other;

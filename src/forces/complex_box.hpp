@@ -35,10 +35,11 @@ inline Range square(Range a) {
 inline double largest(Range a) { return std::max(a.high, -a.low); }
 inline bool has_zero(Range a) { return !(a.low > 0.0) && !(a.high < 0.0); }
 
-/// Over the angles of a range.
+/// Over the angles of a range. Half turns are counted in doubles: there are few in a range, and none is counted where
+/// their number or an angle has no digits behind its point.
 inline Range cosine(Range a) {
-  constexpr double pi = 3.141592653589793;
-  if (!(a.high - a.low < 2.0 * pi)) return {-1.0, 1.0};
+  constexpr double pi = 3.141592653589793, most = 0x1p32;
+  if (!(a.high - a.low < 2.0 * pi && a.low > -most && a.high < most)) return {-1.0, 1.0};
   Range c{elementary::cos(a.low), elementary::cos(a.high)};
   if (c.low > c.high) std::swap(c.low, c.high);
   for (double k = std::ceil(a.low / pi); k * pi <= a.high; k += 1.0) {

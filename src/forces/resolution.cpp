@@ -25,6 +25,44 @@ const ForceMap::Entry& ForceMap::compute(Entry& kept, std::uint64_t key, int exp
   return kept;
 }
 
+void ForceMap::resolve_known(const Motions& motions, const resolution::Span& span, bool* known) const {
+  int which[most_at_once] = {}, count = 0;
+  for (int k = 0; k < motions.count; ++k) which[k] = k;
+  resolve_known(motions, first_finer, which, motions.count, span, known);
+  for (int k = 0; k < motions.count; ++k) {
+    which[count] = k;
+    count += !known[k];
+  }
+  if (count > 0) resolve_known(motions, first_finer + 1, which, count, span, known);
+}
+
+// The arithmetic of resolves() and stays().
+void ForceMap::resolve_known(const Motions& motions, int finer, const int* which, int count, const resolution::Span& span,
+                             bool* known) const {
+  std::uint64_t key[most_at_once];
+  std::uint32_t slot[most_at_once];
+  double most[most_at_once];  // without force
+  const double square_time = span.time * span.time, square_growth = span.growth * span.growth;
+  for (int n = 0; n < count; ++n) {
+    const int k = which[n];
+    const double by_speed = motions.square_speed[k] * square_time, way = motions.square_way[k];
+    const double square = square_growth * (way > by_speed ? way : by_speed);
+    const int e = exponent_of(square) - finer;
+    const double over = power_of_two(-e), i = motions.x[k] * over, j = motions.y[k] * over;
+    const Place place = place_of(e, i, j);
+    key[n] = place.key;
+    slot[n] = static_cast<std::uint32_t>(place.slot);
+    most[n] = power_of_two(e + 1) * span.over_time;
+    known[k] = (square > 0x1p-1000) & (square < 0x1p1000) & has_key(i, j);
+  }
+  for (int n = 0; n < count; ++n) {
+    const int k = which[n];
+    const Entry& kept = entries_[slot[n]];
+    const double left = most[n] - 0.5 * static_cast<double>(kept.force) * span.time;
+    known[k] = known[k] & (kept.key == key[n]) & (left >= 0.0) & (motions.square_speed[k] <= left * left) & (kept.jump == 0.0f);
+  }
+}
+
 /// With finer meshes, down to those of half the way; and, for motions that force keeps slow, with coarser ones.
 bool ForceMap::resolves_closely(Vector x, double square_speed, int coarsest, const resolution::Span& span) {
   if (!std::isfinite(x.x + x.y + square_speed + span.growth)) return false;
@@ -36,7 +74,7 @@ bool ForceMap::resolves_closely(Vector x, double square_speed, int coarsest, con
   // At rest where no force acts, as at an equilibrium, any displacement may serve.
   if (coarsest == no_exponent) return any(40, -400);
   constexpr int levels = 6, coarser = 20;
-  return any(coarsest - 1, coarsest - levels) || any(coarsest + coarser, coarsest + 1);
+  return any(coarsest - first_finer - 1, coarsest - levels) || any(coarsest + coarser, coarsest - first_finer + 1);
 }
 
 ForceBound ForceMap::about(Vector x, double rho) {
@@ -49,22 +87,21 @@ ForceBound ForceMap::about(Vector x, double rho) {
 }
 
 bool ForceMap::resolves_everywhere(Vector low, Vector high, double energy, const std::function<bool(Vector)>& inside,
-                                   const resolution::Span& span) {
+                                   const resolution::Span& span, int& left) {
   const double side = std::max(high.x - low.x, high.y - low.y);
   if (!(side > 0x1p-900 && side < 0x1p900)) return true;
   constexpr int finer = 4;  // so that no mesh of the first ones is much of the box
   const int e = static_cast<int>(std::bit_cast<std::uint64_t>(side) >> 52) - 1022 - finer;
   const double over = power_of_two(-e);
-  int patience = 200000;  // meshes; a force that needs more is too narrow for this step
   for (double i = std::floor(low.x * over); i <= std::floor(high.x * over); i += 1.0)
     for (double j = std::floor(low.y * over); j <= std::floor(high.y * over); j += 1.0)
-      if (!resolves_mesh(e, i, j, energy, inside, span, patience)) return false;
+      if (!resolves_mesh(e, i, j, energy, inside, span, left)) return false;
   return true;
 }
 
 bool ForceMap::resolves_mesh(int exponent, double i, double j, double energy, const std::function<bool(Vector)>& inside,
-                             const resolution::Span& span, int& patience) {
-  if (--patience < 0) return false;
+                             const resolution::Span& span, int& left) {
+  if (--left < 0) return false;
   const double mesh = power_of_two(exponent);
   double kinetic = -1.0;
   bool domain = false;
@@ -82,7 +119,7 @@ bool ForceMap::resolves_mesh(int exponent, double i, double j, double energy, co
   if (!(2.0 * mesh > least) || exponent < -900) return false;
   for (const double p : {0.0, 1.0})
     for (const double q : {0.0, 1.0})
-      if (!resolves_mesh(exponent - 1, 2.0 * i + p, 2.0 * j + q, energy, inside, span, patience)) return false;
+      if (!resolves_mesh(exponent - 1, 2.0 * i + p, 2.0 * j + q, energy, inside, span, left)) return false;
   return true;
 }
 

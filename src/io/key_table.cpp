@@ -178,7 +178,7 @@ const std::vector<KeyDescription>& key_table() {
        "given"},
       {"run.times", "", "from", "number", "", "the first time"},
       {"run.times", "", "to", "number", "", "the last time, at most t_max"},
-      {"run.times", "", "count", "whole number", "31", "number of times, at least 2"},
+      {"run.times", "", "count", "whole number", "31", "number of times, from 2 to 100000"},
       {"run.times", "", "spacing", "string", "\"log\"", "log or linear"},
 
       {"section", "", "on", "string", "\"boundary\"",

@@ -38,7 +38,7 @@ IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Parti
 SectionPlan read_section(Value& root, const Table& table);
 
 /// Speed, field and start of the first particle, as they were written; after the other sections.
-ExactSystem read_exact(Value& root);
+ExactSystem read_exact(Value& root, bool free);
 
 using carom::spaced;
 

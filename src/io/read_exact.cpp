@@ -36,11 +36,11 @@ ExactNumber omega_of(const Value& particles, const Value& field, const ExactNumb
 
 }  // namespace
 
-ExactSystem read_exact(Value& root) {
+ExactSystem read_exact(Value& root, bool free) {
   const Value &particles = *root.find("particles"), &initial = *root.find("initial");
   ExactSystem exact;
   // Energies are total where forces act, and may leave no speed: no certified orbit asks for it.
-  if (root.find("potential") != nullptr || root.find("interaction") != nullptr) return exact;
+  if (!free) return exact;
   exact.speed = speed_of(particles, initial);
   exact.omega = omega_of(particles, *root.find("field"), exact.speed);
   if (initial.find("kind")->text == "point") {

@@ -6,7 +6,7 @@
 namespace carom::io {
 namespace {
 
-constexpr std::uint64_t most_times = 1000000;
+constexpr std::uint64_t most_times = 100000;
 
 // "log:from:to:count", "lin:from:to:count" or "a,b,c", as --times takes it.
 Value parse_times(const Value& written) {
@@ -81,6 +81,9 @@ std::vector<double> read_grid(Value& value) {
 std::vector<double> read_list(const Value& value) {
   std::vector<double> times;
   if (value.items.empty()) throw InputError(value.place, "the list is empty", "at least one time");
+  if (value.items.size() > most_times)
+    throw InputError(value.place, std::to_string(value.items.size()) + " times are too many",
+                     "at most " + std::to_string(most_times) + " times");
   for (const Value& item : value.items) {
     const double t = as_double(item);
     if (t < 0) throw InputError(item.place, "must not be negative, but is " + item.text, "a time >= 0");

@@ -190,7 +190,7 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
     section.fill("step", io::number_value(fmt::format("{}", step), section.place_of("step")));
   }
   check_number_of_steps(root, system);
-  loaded.exact = io::read_exact(root);
+  loaded.exact = io::read_exact(root, system.dynamics.forces->empty() && !system.of_discs());
   loaded.exact.spec = std::move(spec);
   loaded.exact.table = system.table;
   loaded.t_max = io::as_number(*root.find("run")->find("t_max"));

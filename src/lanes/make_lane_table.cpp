@@ -199,7 +199,7 @@ std::vector<geometry::Cell> cells_within(const Table& table, double reach) {
     for (auto j = -static_cast<std::int64_t>(second); j <= static_cast<std::int64_t>(second); ++j) {
       const geometry::Cell cell{i, j};
       const Vector way = lattice.translation(cell);
-      const bool near = std::any_of(table.walls.begin(), table.walls.end(), [&](const Wall& wall) {
+      const bool near = std::any_of(table.walls.begin(), table.walls.end(), [&, middle = middle, corner = corner](const Wall& wall) {
         const PreparedCurve w(wall.curve);
         const Vector d = w.centre + way - middle;
         return std::sqrt(dot(d, d)) < (reach + std::sqrt(w.r2) + corner) * (1.0 + 0x1p-20);

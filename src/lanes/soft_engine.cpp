@@ -140,8 +140,19 @@ void SoftEngine::find_calls(double duration, SoftPack& pack) {
   kernel_.find_calls(forces_, duration / 3.0, pack);
   if (span_.time != duration / resolution::steps_a_radius)
     span_ = resolution::span_of(duration / resolution::steps_a_radius, particle_.omega);
+  ForceMap::Motions ends;
+  ends.count = pack.count;
+  ends.x = pack.x;
+  ends.y = pack.y;
   for (int lane = 0; lane < pack.count; ++lane) {
-    if (pack.undecided[lane]) continue;
+    const Vector way{0.5 * (pack.x[lane] - pack.from_x[lane]), 0.5 * (pack.y[lane] - pack.from_y[lane])};
+    ends.square_speed[lane] = pack.vx[lane] * pack.vx[lane] + pack.vy[lane] * pack.vy[lane];
+    ends.square_way[lane] = way.x * way.x + way.y * way.y;
+  }
+  bool known[SoftPack::lanes];
+  map_->resolve_known(ends, span_, known);
+  for (int lane = 0; lane < pack.count; ++lane) {
+    if (pack.undecided[lane] || (pack.resolved[lane] & known[lane])) continue;
     const Vector from{pack.from_x[lane], pack.from_y[lane]}, to{pack.x[lane], pack.y[lane]};
     const Vector before{pack.from_vx[lane], pack.from_vy[lane]}, after{pack.vx[lane], pack.vy[lane]};
     const Vector way = 0.5 * (to - from);

@@ -102,6 +102,18 @@ TEST(DiscsTyped, NewtonsCradleIsExact) {
   EXPECT_NE(text.out.find("completed: 0 collisions, 3 contacts"), std::string::npos) << text.out;
 }
 
+TEST(DiscsTyped, ContactsThatRoundingHidesEndBothDiscs) {
+  const Shell shell;
+  store(shell, "cradle.toml", cradle);
+  for (const char* radius : {"1e-21", "1e-15", "1e-14"}) {
+    const Outcome o = shell("$carom run ./cradle.toml --json --set 'interaction.radius=" + std::string(radius) +
+                            "' --set 'initial.starts=[[0.1,0.3,1,0],[4,0.3,1,0],[5,0.3,1,0],[6,0.3,1,0]]'");
+    EXPECT_EQ(o.status, 3) << radius << o.out;
+    EXPECT_EQ(json_value(o.out, "status"), "\"unresolved\"") << radius;
+    EXPECT_EQ(o.out.find("\"x\": null"), std::string::npos) << radius;
+  }
+}
+
 TEST(DiscsTyped, WhatCannotBeIsRefusedByName) {
   const Shell shell;
   store(shell, "cradle.toml", cradle);

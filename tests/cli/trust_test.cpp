@@ -33,6 +33,16 @@ TEST(Trust, IsNullWhereMotionIsIntegrated) {
   }
 }
 
+// A particle that is alone flies freely, whatever interaction there would be.
+TEST(Trust, OfOneParticleIsThatWithoutInteraction) {
+  const Shell shell;
+  const std::string plain = shell("$carom run siam-photon --json").out;
+  const Outcome alone = shell("$carom run siam-photon --json --set 'interaction={kind=\"coulomb\"}'");
+  EXPECT_EQ(alone.status, 0) << alone.err;
+  for (const char* key : {"collisions", "trusted_collisions", "trusted_time", "x"})
+    EXPECT_EQ(json_value(alone.out, key), json_value(plain, key)) << key;
+}
+
 TEST(Trust, EndsSoonerForLess) {
   const Shell shell;
   double before = 1e9;

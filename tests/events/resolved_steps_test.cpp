@@ -81,6 +81,29 @@ TEST(ResolvedSteps, ASingularForceIsNamedWithItsPlace) {
   EXPECT_NEAR(o.state.position.x, 1.0, 0.05);
 }
 
+TEST(ResolvedSteps, AdaptiveSchemesEndWhereNoStepWillDo) {
+  for (const char* scheme : {"cvode", "arkode"}) {
+    const Outcome o = end_of(in_a_box("kind = \"expression\"\nexpression = \"sin(1e29*x)\"", head_on,
+                                      "scheme = \"" + std::string(scheme) + "\""),
+                             2.0);
+    EXPECT_EQ(o.fate, Fate::unresolved) << scheme;
+  }
+}
+
+// The search for a step that resolves a force is long where the force is a long formula.
+TEST(ResolvedSteps, TheSearchForOneListens) {
+  const System system = read_system(in_a_box("kind = \"expression\"\nexpression = \"1e-40*sin(1e29*x)\"", head_on,
+                                             "step = 0.1\nunresolved = \"count\""),
+                                    "resolved steps").system;
+  World world(*system.table, system.dynamics);
+  add_starts(world, Sampler(system), 0);
+  Observer observer;
+  int asked = 0;
+  world.run_until(1.05, observer, [&] { return ++asked < 0; });
+  EXPECT_EQ(world.step_counts().unresolved, 10u);
+  EXPECT_GT(asked, 40);  // several times a step
+}
+
 TEST(ResolvedSteps, AreCountedWhereThatIsAskedFor) {
   const std::string integrator = "scheme = \"velocity-verlet\"\nstep = 0.5\nunresolved = \"count\"";
   const Outcome o = end_of(in_a_box(typed + "{H = 1000, w = 0.022}", head_on, integrator), 10.0);

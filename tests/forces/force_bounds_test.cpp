@@ -164,6 +164,14 @@ TEST(ForceBounds, HoldForTypedPotentials) {
   }
 }
 
+// There half turns cannot be counted any more.
+TEST(ForceBounds, HoldWhereAnglesHaveNoDigitsLeft) {
+  const std::string variables[] = {"x", "y"};
+  for (const char* text : {"sin(x)", "cos(3*x)", "sin(1e21*x)*cos(y)"})
+    for (const double x : {1e17, 1e21, 1e100, 1e300})
+      EXPECT_GE(bound_of(TypedExpression::parse(text, variables, {}, {}), {{x, 0.0}, {x, 0.0}, 1e-30}).force, 1.0) << text << x;
+}
+
 TEST(ForceBounds, KinksHaveAJumpAndNoMoreThanThat) {
   const std::string variables[] = {"x", "y"};
   const auto at = [&](const char* text, Vector x, double rho) {
@@ -266,7 +274,7 @@ TEST(ForceMap, AnswersDependOnNothingThatWasAskedBefore) {
   const auto forces = ForceField::build(spec, {Particle{}}, {});
   ForceMap used(*forces, Particle{});
   Places places;
-  int yes = 0;
+  int yes = 0, known = 0;
   for (int k = 0; k < 3000; ++k) {
     const Vector x{places.uniform(-1, 1), places.uniform(-1, 1)};
     const double speed = places.uniform(0, 2), time = std::pow(2.0, places.uniform(-9, -2));
@@ -276,9 +284,20 @@ TEST(ForceMap, AnswersDependOnNothingThatWasAskedBefore) {
     const bool answer = used.resolves(x, speed * speed, way * way, span);
     EXPECT_EQ(answer, fresh.resolves(x, speed * speed, way * way, span));
     yes += answer;
+    ForceMap::Motions one;
+    one.count = 1;
+    one.x = &x.x;
+    one.y = &x.y;
+    one.square_speed[0] = speed * speed;
+    one.square_way[0] = way * way;
+    bool by_kept_bounds = true;
+    used.resolve_known(one, span, &by_kept_bounds);
+    EXPECT_LE(by_kept_bounds, answer);
+    known += by_kept_bounds;
   }
   EXPECT_GT(yes, 300);
   EXPECT_LT(yes, 2900);
+  EXPECT_GT(known, yes / 2);
 }
 
 }  // namespace

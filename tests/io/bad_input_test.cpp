@@ -188,7 +188,11 @@ TEST(BadInput, TimesMustIncreaseUpToTheEnd) {
        {"[run]\ntimes = {from = 0, to = 10}\n", "run.times.from: must be positive"},
        {"[run]\ntimes = {from = 2, to = 1}\n", "run.times.to: the times end before they begin"},
        {"[run]\ntimes = {from = 1, to = 2, count = 1}\n", "run.times.count: must be a whole number from 2"},
+       {"[run]\ntimes = {from = 1, to = 2, count = 100001}\n", "run.times.count: must be a whole number from 2 to 100000"},
        {"[run]\ntimes = {from = 1, to = 2, spacing = \"logg\"}\n", "did you mean 'log'?"}});
+  std::string list;
+  for (int k = 0; k <= 100000; ++k) list += std::to_string(k) + ",";
+  EXPECT_HAS(fault(square("[run]\nt_max = 1e6\ntimes = [" + list + "]\n")), "at most 100000 times");
 }
 
 TEST(BadInput, HolesAreCheckedWithTheirPlace) {

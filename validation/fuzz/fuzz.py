@@ -126,7 +126,7 @@ def run(arguments, folder, limits):
         os.close(handle)
         out.seek(0)
         said.seek(0)
-        ended.out = out.read(50_000_000).decode(errors="replace")
+        ended.out = out.read(500_000_000).decode(errors="replace")
         ended.said = (said.read(1_000_000) + written).decode(errors="replace")
     if terminal:
         os.close(terminal)

@@ -9,9 +9,10 @@
 
 namespace carom {
 
-/// Twice the largest distance, over all particles, of a run's states from those of the same run with half the step (adaptive
-/// schemes: a 64th of the tolerance, 1e-15 at least). Of a small error of order p the distance is all but a 2^p-th. To it is
-/// added what rounding may do, 2^-51 a step.
+/// Twice the largest distance, over all particles and the last eighth of the run, of a run's states from those of the same run
+/// with half the step (adaptive schemes: three times that from a 64th of the tolerance, 1e-15 at least). Of a small error of
+/// order p the distance is all but a 2^p-th. To it is added what the roundings on the way, and the tails of bumps that are
+/// left out, may have grown to: docs/physics/integrators.md.
 struct StateError {
   double position = 0.0, velocity = 0.0;
   double until = 0.0;  ///< the time they are of: that asked for; earlier where the runs part, or after most_compared steps
