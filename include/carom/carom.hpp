@@ -21,7 +21,6 @@
 #include "carom/base/whole_number.hpp"
 #include "carom/certify/certified_orbit.hpp"
 #include "carom/certify/exact_system.hpp"
-#include "carom/certify/plain_orbit.hpp"
 #include "carom/ensemble/analyses.hpp"
 #include "carom/ensemble/choose_step.hpp"
 #include "carom/ensemble/diffusion.hpp"

@@ -11,7 +11,7 @@
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
 #include "cli/common.hpp"
-#include "cli/exact_run.hpp"
+#include "cli/run_certified.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {

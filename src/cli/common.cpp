@@ -98,7 +98,6 @@ void check_engine(const Options& options) {
     refuse_name("--engine", options.engine, "is not an engine", "auto, events or steps",
                 nearest_name(options.engine, {"auto", "events", "steps"}));
   check_instruction_set(options);
-  if (options.precision != "double") refuse_name("--precision", options.precision, "is not in this version", "double");
 }
 
 InstructionSet instruction_set_of(const Options& options) {

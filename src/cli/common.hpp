@@ -20,7 +20,7 @@ namespace carom::cli {
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least);
 /// Threads asked for; 0: all.
 int threads_of(const Options&);
-/// Throws InputError for engines, instruction sets and precisions this version does not have.
+/// Throws InputError for engines and instruction sets that this version does not have.
 void check_engine(const Options&);
 /// Of these --isa alone; a command that uses no lanes says so.
 void check_instruction_set(const Options&);

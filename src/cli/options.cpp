@@ -156,7 +156,7 @@ void define(CLI::App& app, Options& o) {
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
       .text("--trust-tolerance", o.overrides.trust_tolerance, "X",
             "Largest error of a trusted collision, by the table's size (default 1e-3)")
-      .text("--precision", o.precision, "NAME", "double; certified: every digit guaranteed; or a number of bits: MPFR without guarantee")
+      .text("--precision", o.precision, "NAME", "double, or certified: every digit guaranteed")
       .text("--digits", o.digits, "D", "Guaranteed decimals of a certified run (default 20)")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
   Command(app, o, "diffusion", "Mean square displacement and diffusion coefficient of an ensemble",

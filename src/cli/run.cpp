@@ -14,7 +14,7 @@
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/doubts.hpp"
-#include "cli/run_in_balls.hpp"
+#include "cli/run_certified.hpp"
 #include "cli/run_report.hpp"
 #include "io/progress.hpp"
 
@@ -94,7 +94,7 @@ void say_if_ended(const StoredRun& stored) {
 int run(const Options& options) {
   if (options.precision != "double" || !options.digits.empty()) {
     check_instruction_set(options);
-    return run_in_balls(options);
+    return run_certified(options);
   }
   check_engine(options);
   threads_of(options);  // one trajectory takes one thread; a wrong number is an error all the same

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "carom/base/error.hpp"
-#include "carom/certify/plain_orbit.hpp"
 #include "certify/ball_table.hpp"
 #include "certify/inside.hpp"
 #include "certify/systems.hpp"
 #include "random_tables.hpp"
+#include "validation/benchmarks/plain_orbit.hpp"
 
 namespace carom {
 namespace {
@@ -89,11 +89,8 @@ bool first_hits_agree(const ExactSystem& system, std::uint64_t hits) {
   if (end.fate == CertifiedFate::undecided) {
     EXPECT_TRUE(system.table->lattice.has_value()) << end.reason;
   }
-  PlainTask plain;
-  plain.bits = 1200;
-  plain.collisions = std::max<std::uint64_t>(found.size(), 1);
   const Precision precision(1200);
-  const PlainEnd truth = plain_orbit(system, plain);
+  const bench::PlainEnd truth = bench::plain_orbit(system, std::max<std::uint64_t>(found.size(), 1), 1200);
   EXPECT_EQ(truth.collisions, found.size()) << name_of(end.fate) << " " << end.reason;
   if (truth.collisions != found.size() || found.empty()) return false;
   const CertifiedHit& last = found.back();

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "carom/analysis/trust.hpp"
-#include "carom/certify/plain_orbit.hpp"
 #include "carom/events/world.hpp"
 #include "carom/io/system_file.hpp"
 #include "certify/ball.hpp"
@@ -238,33 +237,6 @@ TEST(CertifiedLarmor, LosesLittleInTheMagneticSquare) {
   EXPECT_GT(rates[rates.size() / 2], 0.2);
   EXPECT_LT(rates[rates.size() / 2], 0.7);
   EXPECT_LT(rates.back(), 1.0);
-}
-
-// The same formulas in plain numbers of many bits end where certified ones do.
-TEST(CertifiedLarmor, PlainNumbersOfManyBitsAgree) {
-  tests::Dice dice(15);
-  const Precision precision(600);
-  for (int k = 0; k < 3; ++k) {
-    for (const Shaped& s : tests::all_shapes()) {
-      const geometry::Vector d = dice.direction();
-      const ExactSystem system = in_field(s, {d.x, d.y}, random_field(dice));
-      SCOPED_TRACE(s.spec.shape + ", omega " + system.omega.text());
-      CertifiedTask task = task_of(0, 50);
-      PlainTask plain;
-      task.t_max = plain.t_max = exactly("11.3");
-      plain.bits = 500;
-      const CertifiedEnd end = CertifiedOrbit(system, task).finish();
-      const PlainEnd other = plain_orbit(system, plain);
-      ASSERT_STREQ(name_of(end.fate), name_of(other.fate));
-      EXPECT_EQ(end.collisions, other.collisions);
-      EXPECT_EQ(end.cell, other.cell);
-      if (end.fate == CertifiedFate::pinned) continue;
-      EXPECT_TRUE(ball_of(end.x).contains(certify::value_of(exactly(other.x))));
-      EXPECT_TRUE(ball_of(end.y).contains(certify::value_of(exactly(other.y))));
-      EXPECT_TRUE(ball_of(end.vx).contains(certify::value_of(exactly(other.vx))));
-      EXPECT_TRUE(ball_of(end.vy).contains(certify::value_of(exactly(other.vy))));
-    }
-  }
 }
 
 }  // namespace

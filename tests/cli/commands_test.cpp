@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"$carom escape sinai -o missing/a.h5", 1, "cannot write 'missing/a.h5'"},
         Bad{"$carom escape sinai -o .", 1, "is a directory"},
         Bad{"$carom run sinai -o missing/a.h5", 1, "cannot write 'missing/a.h5': No such file"},
-        Bad{"$carom run sinai --precision 20", 1, "20 bits are too few"},
+        Bad{"$carom run sinai --precision 20", 1, "certified with --digits"},
         Bad{"$carom run circle --position 5,0 --velocity 1,0 -o a.h5", 1, "not inside the table"},
         Bad{"$carom run mushroom --position 0.3,-1 --velocity 1,1", 1, "not inside the table"},
         Bad{"$carom run circle --position 0,0 --velocity 0,0", 1, "velocity is zero"},

@@ -32,7 +32,7 @@ TEST(OptionNames, EveryCommandMayBeQuiet) {
 // Where it has no effect, that is told; the names are checked even so.
 TEST(OptionNames, InstructionSetsOfCommandsWithoutLanes) {
   const Shell shell;
-  const char* const commands[] = {"run stadium --t-max 3", "run stadium --t-max 3 --precision certified", "run stadium --t-max 3 --precision 100",
+  const char* const commands[] = {"run stadium --t-max 3", "run stadium --t-max 3 --precision certified",
                                   "table stadium", "section ellipse-magnetic --orbits 2 --points 5"};
   for (const std::string command : commands) {
     const Outcome o = shell("$carom " + command + " --isa baseline");

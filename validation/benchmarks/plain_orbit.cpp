@@ -1,14 +1,15 @@
-// MPFR numbers taken at their word: each operation rounds once, and nothing knows how much was lost.
-#pragma once
+#include "plain_orbit.hpp"
 
 #include <mpfr.h>
 
-#include <string>
+#include <algorithm>
 
-#include "carom/base/sign.hpp"
+#include "certify/attempt.hpp"
+#include "certify/pseudo_orbit.hpp"
 
 namespace carom::certify {
 
+/// An MPFR number.
 class Plain {
  public:
   /// Bits of results in this thread, while it lives.
@@ -64,7 +65,6 @@ class Plain {
     return s > 0 ? Sign::positive : s < 0 ? Sign::negative : Sign::zero;
   }
 
-  bool is_number() const { return mpfr_number_p(x_) != 0; }
   double to_double() const { return mpfr_get_d(x_, MPFR_RNDN); }
   /// With as many digits as the precision holds.
   std::string text() const {
@@ -91,4 +91,71 @@ class Plain {
 /// For a choice between formulas of the same number.
 inline double middle_of(const Plain& x) { return x.to_double(); }
 
+
+// Found by the flights of larmor_flight.hpp.
+static Plain time_at(const Kappa<Plain>& k, const MotionOf<Plain>& motion) {
+  const bool turned = sign(k.q) == Sign::negative;
+  Plain h, angle;
+  mpfr_abs(h.raw(), motion.half_omega.raw(), MPFR_RNDN);
+  const Plain p = turned ? -k.p : k.p, y = h * (turned ? -k.q : k.q);
+  mpfr_atan2(angle.raw(), y.raw(), p.raw(), MPFR_RNDN);
+  return angle / h;
+}
+
+/// Exits as near to each other as their numbers can tell: the distance of two roots is that of a root from rounding.
+template <>
+struct IsolationEffort<Plain> {
+  int deepest = static_cast<int>(std::max<mpfr_prec_t>(mpfr_get_default_prec() / 2, 25));
+};
+
 }  // namespace carom::certify
+
+namespace carom::bench {
+
+using namespace certify;
+
+namespace {
+
+Plain plain(const Ball& x) {
+  Plain r;
+  arf_get_mpfr(r.raw(), arb_midref(x.raw()), MPFR_RNDN);
+  return r;
+}
+VectorOf<Plain> plain(const BallVector& v) { return {plain(v.x), plain(v.y)}; }
+geometry::Vector near(const VectorOf<Plain>& v) { return {v.x.to_double(), v.y.to_double()}; }
+
+}  // namespace
+
+PlainEnd plain_orbit(const ExactSystem& system, std::uint64_t collisions, long bits) {
+  const Plain::Precision kept(bits);
+  // The numbers as written, enclosed by more bits than are kept.
+  const Precision more(bits + 64);
+  CertifiedTask task;
+  task.collisions = 1;
+  const KnownTies none;
+  const Attempt start(system, task, none, bits + 64, bits + 64);
+  const auto scene = converted<Plain>(start.scene(), [](const Ball& x) { return plain(x); });
+  PseudoState<Plain> state;
+  state.position = plain(start.state().position);
+  state.velocity = plain(start.state().velocity);
+  state.standing = start.standing();
+  PlainEnd end;
+  while (end.collisions < collisions) {
+    const Choice choice = scene.next(start.whereabouts(), state.position, state.velocity, state.standing,
+                                     near(state.position), near(state.velocity));
+    if (choice.answer != Choice::wall) break;
+    fly_to(scene, choice.first, state);
+    end.wall = state.standing;
+    ++end.collisions;
+  }
+  end.cell = state.cell;
+  if (scene.lattice) state.position = state.position + scene.translation(state.cell);
+  end.t = state.time.text();
+  end.x = state.position.x.text();
+  end.y = state.position.y.text();
+  end.vx = state.velocity.x.text();
+  end.vy = state.velocity.y.text();
+  return end;
+}
+
+}  // namespace carom::bench
