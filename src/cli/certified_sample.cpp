@@ -20,10 +20,8 @@ namespace {
 
 Place place_of(const char* option) { return {"command line", 0, 0, option}; }
 
-// One thread's: the numbers of the system are copied, for each keeps what it was rounded to when asked.
 OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
   ExactSystem system = loaded.exact;
-  system.spec = std::make_shared<const TableSpec>(*loaded.exact.spec);
   CertifiedTask task;
   task.collisions = loaded.system.run.collisions;
   if (loaded.system.run.t_max < no_last_time) task.t_max = ExactNumber(loaded.t_max);
