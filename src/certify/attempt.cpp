@@ -142,14 +142,10 @@ Outcome Attempt::step() {
   }
   std::optional<Now> before;
   if (t_max_ || !arena_.scene.holes.empty()) before = now_.copy();
-  // Who is in the joint already meets the next wall at once: as straight as in a field.
-  const bool turns = arena_.scene.motion.turns;
-  if (in_joint) arena_.scene.motion.turns = arena_.fast.motion.turns = false;
   move_to(choice.first);
-  arena_.scene.motion.turns = arena_.fast.motion.turns = turns;
   const Outcome outcome = arrive(choice.first, before);
   if (outcome.kind == Outcome::undecided)
-    now_ = std::move(*before);  // it may go on, should algebra tell
+    now_ = std::move(*before);  // it may go on, should rational numbers tell
   else if (path_.size() < longest_path)
     path_.push_back(choice.first);
   return outcome;
@@ -162,9 +158,8 @@ Outcome Attempt::arrive(const Copy& copy, const std::optional<Now>& before) {
   if (late == Sign::undecided) return {Outcome::undecided, needed_bits(), {Doubt::last_time, copy, {}, -1}};
   if (late != Sign::positive) return landed(copy, before);
   now_ = before->copy();
-  if (const auto touched = ties_.passed_by.find(now_.hits + 1); touched != ties_.passed_by.end()) {
-    if (const std::optional<Ball> last = last_time()) look_behind(touched->second, *last);
-  }
+  if (const auto touched = ties_.passed_by.find(now_.hits + 1); touched != ties_.passed_by.end())
+    look_behind(touched->second, *last_time());
   return stop_at_last_time();
 }
 
@@ -230,6 +225,31 @@ BallState Attempt::enclosed() const {
   BallState r = now_.state->state(few);
   if (arena_.scene.lattice) r.position = r.position + arena_.scene.translation(now_.cell);
   return r;
+}
+
+std::string Attempt::description(const Doubt& doubt) const {
+  const auto name = [&](const Copy& copy) {
+    std::string text = "'" + system_.table->walls[static_cast<std::size_t>(copy.wall)].name + "'";
+    if (arena_.scene.lattice)
+      text += " of cell " + std::to_string(now_.cell.first + copy.cell.first) + ", " +
+              std::to_string(now_.cell.second + copy.cell.second);
+    return text;
+  };
+  const std::string event = "event " + std::to_string(now_.hits + 1) + ": ";
+  if (doubt.first.wall < 0)
+    return event + "which walls are near, for the position and velocity are not known well enough";
+  const std::string first = name(doubt.first);
+  switch (doubt.kind) {
+    case Doubt::last_time:
+      return event + "whether " + first + " is met before the last time";
+    case Doubt::hole:
+      return event + "on which side of an end of '" +
+             system_.table->holes[static_cast<std::size_t>(doubt.hole_index)].name + "' " + first + " is met";
+    case Doubt::choice:
+      break;
+  }
+  return doubt.second.wall < 0 ? event + "whether the flight meets " + first
+                               : event + "which comes first, " + first + " or " + name(doubt.second);
 }
 
 double Attempt::missing_bits(const BallState& s) const {

@@ -58,8 +58,8 @@ class Attempt {
   bool rescaled() const { return rescaled_; }
   /// The walls met so far, each copy seen from the last one; of long orbits only the beginning is kept.
   const std::vector<Copy>& path() const { return path_; }
-  /// What cannot be told, with the enclosures that overlap.
-  std::string description(const Doubt&);
+  /// What cannot be told at the next event.
+  std::string description(const Doubt&) const;
 
   const SceneOf<Ball>& scene() const { return arena_.scene; }
   const Whereabouts& whereabouts() const { return where_; }
@@ -112,8 +112,6 @@ class Attempt {
   Outcome stop_at_last_time();
   double needed_bits() const;
   double linear_bits() const;
-  std::string name(const Copy&) const;
-  std::string described(const Doubt&) const;
 
   const ExactSystem& system_;
   const CertifiedTask& task_;

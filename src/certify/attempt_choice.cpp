@@ -64,7 +64,6 @@ std::optional<Ball> Attempt::last_time() const {
   return -(h * cosine / sine);
 }
 
-// Of what is met within the flight's turn: without a last time within it, that is later.
 Sign Attempt::order_with_last_time(const Ball& time) const {
   const std::optional<Ball> last = last_time();
   return last ? sign(time - *last) : Sign::negative;
@@ -81,7 +80,7 @@ Ball Attempt::passing_time(const WallEnd& end) const {
   const Precision precision(bits_);
   const BallState s = now_.state->state(bits_);
   const WallOf<Ball>& w = arena_.wall(end.copy.wall);
-  return passing_of(end.last ? w.to : w.from, seen(end.copy, s.position), s.velocity, arena_.scene.motion);
+  return dot(s.velocity, (end.last ? w.to : w.from) - seen(end.copy, s.position)) / dot(s.velocity, s.velocity);
 }
 
 // Which of the walls that the flight touches come after its end?
@@ -92,18 +91,12 @@ void Attempt::look_behind(const std::vector<Copy>& touched, const Ball& end) {
   for (const Copy& copy : touched) {
     const WallOf<Ball>& w = arena_.wall(copy.wall);
     const BallVector P = seen(copy, s.position);
-    Ball time;
-    if (arena_.scene.motion.turns) {  // where the quadratic in kappa has its double root; ellipses are not among these
-      const LarmorQuadratic<Ball> f = larmor_quadratic<Ball, Ball>(w, P, s.velocity, arena_.scene.motion, false);
-      time = f.b / (f.a + f.a);
-    } else {
-      if (w.form == Form::segment) continue;  // it is in line with the flight
-      const BallVector d = P - w.centre;
-      const bool ellipse = w.form == Form::ellipse;
-      const BallVector e = ellipse ? BallVector{dot(d, w.along), dot(d, w.across)} : d;
-      const BallVector u = ellipse ? BallVector{dot(s.velocity, w.along), dot(s.velocity, w.across)} : s.velocity;
-      time = -(dot(e, u) / dot(u, u));
-    }
+    if (w.form == Form::segment) continue;  // it is in line with the flight
+    const BallVector d = P - w.centre;
+    const bool ellipse = w.form == Form::ellipse;
+    const BallVector e = ellipse ? BallVector{dot(d, w.along), dot(d, w.across)} : d;
+    const BallVector u = ellipse ? BallVector{dot(s.velocity, w.along), dot(s.velocity, w.across)} : s.velocity;
+    const Ball time = -(dot(e, u) / dot(u, u));
     if (sign(time - end) == Sign::positive) behind_.push_back(copy);
   }
 }

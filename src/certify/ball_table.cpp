@@ -1,6 +1,5 @@
 #include "certify/ball_table.hpp"
 
-#include "certify/exact_sign.hpp"
 #include "certify/exact_value.hpp"
 #include "certify/table_builder.hpp"
 

@@ -8,7 +8,6 @@
 #include "certify/attempt.hpp"
 #include "certify/enclosure_of.hpp"
 #include "certify/exact_value.hpp"
-#include "certify/listed_ties.hpp"
 #include "certify/system_check.hpp"
 
 namespace carom {
@@ -75,7 +74,7 @@ class CertifiedOrbit::Implementation {
       const Outcome outcome = checked(attempt_->step());
       switch (outcome.kind) {
         case Outcome::hit: {
-          listed_.pass(attempt_->hits(), *attempt_, end_.ties);
+          list_ties(attempt_->hits(), Listed::all);
           if (attempt_->hits() <= given_) break;  // given out by an earlier attempt
           given_ = attempt_->hits();
           undecided_ = 0;
@@ -95,7 +94,7 @@ class CertifiedOrbit::Implementation {
                                                           std::to_string(effort_.bits) + " bits");
             return std::nullopt;
           }
-          // What lacks may lack where numbers are read: then it is not the orbit's bits that help.
+          // The missing bits may be lost while the result is read, not along the orbit: raise the reading precision as well.
           if (std::isfinite(outcome.missing_bits))
             lacked_ = std::min(2 * lacked_ + static_cast<long>(outcome.missing_bits) + 1, effort_.bits);
           restart(effort_.bits + std::max(still_needed(outcome), 4L) +
@@ -106,16 +105,16 @@ class CertifiedOrbit::Implementation {
           if (!decide(outcome)) return std::nullopt;
           break;
         case Outcome::stopped:
-          listed_.pass_touched(attempt_->hits() + 1, *attempt_, end_.ties);
+          list_ties(attempt_->hits() + 1, Listed::touched);
           finish_with(CertifiedFate::completed, "");
           return std::nullopt;
         case Outcome::escaped:
-          listed_.pass(attempt_->hits() + 1, *attempt_, end_.ties);
+          list_ties(attempt_->hits() + 1, Listed::all);
           finish_with(CertifiedFate::escaped, "");
           return std::nullopt;
         case Outcome::unbounded:
           check_domain();
-          listed_.pass_touched(attempt_->hits() + 1, *attempt_, end_.ties);
+          list_ties(attempt_->hits() + 1, Listed::touched);
           finish_with(turns_ ? CertifiedFate::pinned : CertifiedFate::unbounded, "");
           return std::nullopt;
         case Outcome::dead_end:
@@ -123,7 +122,7 @@ class CertifiedOrbit::Implementation {
           return std::nullopt;
         case Outcome::too_far:
           if (outcome.doubt.first.wall < 0) {
-            listed_.pass_touched(attempt_->hits() + 1, *attempt_, end_.ties);
+            list_ties(attempt_->hits() + 1, Listed::touched);
             finish_with(CertifiedFate::undecided, "no wall within 10^5 lattice vectors");
             return std::nullopt;
           }
@@ -194,13 +193,25 @@ class CertifiedOrbit::Implementation {
     return static_cast<long>(lacks + rest + margin(lost + rest, rest > 0.0 ? forecast.spread : 0.0)) + 1;
   }
 
-  // First more bits, then algebra, then many more bits. False: the orbit has ended.
+  // Lists what rational numbers have told, up to the event that the orbit has come to: all of it, or only what was
+  // touched where it ends before the event.
+  enum class Listed : unsigned char { all, touched };
+  void list_ties(std::uint64_t event, Listed listed) {
+    for (const WaitingTie& tie : waiting_) {
+      const bool tangency = tie.touched.wall >= 0;
+      if (tie.event > event || (listed == Listed::touched && !tangency)) continue;
+      if (!tangency || !attempt_->lies_behind(tie.touched)) end_.ties.push_back(tie.text);
+    }
+    std::erase_if(waiting_, [&](const WaitingTie& tie) { return tie.event <= event; });
+  }
+
+  // First more bits, then rational numbers, then many more bits. False: the orbit has ended.
   bool decide(const Outcome& outcome) {
     const std::uint64_t event = attempt_->hits() + 1;
     const auto joint = ties_.joints.find(event);  // what is in doubt may be what comes before it
     const bool known = joint != ties_.joints.end() && outcome.doubt.kind == certify::Doubt::choice &&
                        outcome.doubt.first == joint->second.hit;
-    if (!known && (undecided_ == 1 || listed_.count() > 0)) {        // one tie is seldom alone
+    if (!known && (undecided_ == 1 || ties_found_ > 0)) {        // one tie is seldom alone
       if (const auto tie = tie_at(outcome)) {
         if (!tie->goes_on() && tie->at && joint == ties_.joints.end()) {  // if no other wall comes before
           ties_.joints[event] = {tie->joint.front(), tie->joint, *tie->at, tie->text};
@@ -210,11 +221,12 @@ class CertifiedOrbit::Implementation {
         // Along the edge of a corridor discs are touched without end: on one flight that meets nothing else, or on many.
         const bool again = outcome.kind == Outcome::too_far && tie->kind == certify::Tie::tangency &&
                            ties_.passed_by.count(event) > 0;
-        if (!tie->goes_on() || again || listed_.count() >= 1000) {
+        if (!tie->goes_on() || again || ties_found_ >= 1000) {
           finish_at_tie(tie->text);
           return false;
         }
-        listed_.found(event, *tie);
+        ++ties_found_;
+        waiting_.push_back({event, tie->text, tie->kind == certify::Tie::tangency ? tie->walls.front() : certify::Copy{}});
         if (tie->kind == certify::Tie::tangency) ties_.passed_by[event].push_back(tie->walls.front());
         if (tie->kind == certify::Tie::reflection) {
           for (std::size_t i = 0; i < tie->walls.size(); ++i) 
@@ -231,10 +243,8 @@ class CertifiedOrbit::Implementation {
     }
     const long more = 32L << undecided_++;
     if (more > task_.most_bits_a_doubt) {
-      const std::string& obstacle = tie_finder_.obstacle();
       finish_with(CertifiedFate::undecided,
-                  attempt_->description(outcome.doubt) + "; not decided by " + std::to_string(effort_.bits) + " bits" +
-                      (obstacle.empty() ? "" : ", nor by numbers a + b sqrt(d): " + obstacle));
+                  attempt_->description(outcome.doubt) + "; not decided by " + std::to_string(effort_.bits) + " bits");
       return false;
     }
     restart(effort_.bits + std::max(still_needed(outcome), 0L) + more);
@@ -270,7 +280,7 @@ class CertifiedOrbit::Implementation {
   }
 
   void finish_at_tie(const std::string& text) {
-    listed_.pass(attempt_->hits() + 1, *attempt_, end_.ties);
+    list_ties(attempt_->hits() + 1, Listed::all);
     finish_with(CertifiedFate::singular, text);
   }
 
@@ -321,7 +331,14 @@ class CertifiedOrbit::Implementation {
   const std::function<bool()> interrupted_;
   certify::KnownTies ties_;
   certify::TieFinder tie_finder_{system_, task_};
-  certify::ListedTies listed_;
+  /// Is listed once the orbit has gone through it: it may end before.
+  struct WaitingTie {
+    std::uint64_t event;
+    std::string text;
+    certify::Copy touched;  ///< of a tangency
+  };
+  std::vector<WaitingTie> waiting_;
+  int ties_found_ = 0;
   double hits_ = 0.0;  ///< expected
   double rounding_loss_ = 0.0;
   double loss_a_hit_ = 0.0, spread_a_hit_ = 0.0;  ///< by the first forecast, bits; of n hits sqrt(n) times the latter

@@ -2,7 +2,7 @@
 
 #include <flint/fmpq.h>
 
-#include "certify/evaluate.hpp"
+#include "base/expression.hpp"
 
 namespace carom::certify {
 namespace {
@@ -35,12 +35,43 @@ Ball closed(const ClosedForm& x) {
   return result;
 }
 
+Ball evaluate(const ExactNumber::Node& x) {
+  using Operation = ExactNumber::Node::Operation;
+  switch (x.operation) {
+    case Operation::leaf:
+      return closed(x.closed);
+    case Operation::root:
+      return sqrt(evaluate(*x.first));
+    case Operation::sum:
+      return evaluate(*x.first) + evaluate(*x.second);
+    case Operation::difference:
+      return evaluate(*x.first) - evaluate(*x.second);
+    case Operation::product:
+      return evaluate(*x.first) * evaluate(*x.second);
+    case Operation::quotient:
+      return evaluate(*x.first) / evaluate(*x.second);
+    case Operation::power:
+      break;
+  }
+  return power_of(evaluate(*x.first), x.exponent);
+}
+
 }  // namespace
 
 Ball value_of(const ExactNumber& number) {
   // A few more bits for what the operations of an expression lose.
   const Precision more(Precision::bits() + 32);
-  return number.expression() ? evaluate<Ball>(*number.expression(), closed, power_of) : Ball(0);
+  return number.expression() ? evaluate(*number.expression()) : Ball(0);
+}
+
+Sign sign_of(const ExactNumber& number) {
+  if (const auto rational = number.to_rational())
+    return rational->numerator == "0" ? Sign::zero : rational->numerator[0] == '-' ? Sign::negative : Sign::positive;
+  for (const slong bits : {bits_of_a_first_look, slong{1024}, most_bits_of_a_sign}) {
+    const Precision precision(bits);
+    if (const Sign s = sign(value_of(number)); s != Sign::undecided) return s;
+  }
+  return Sign::undecided;
 }
 
 std::string exact_text(const ExactNumber& number) {

@@ -7,7 +7,7 @@
 #include "carom/base/error.hpp"
 #include "carom/table/table.hpp"
 #include "certify/exact_value.hpp"
-#include "certify/hole_reach.hpp"
+#include "certify/rational.hpp"
 
 namespace carom::certify {
 namespace {
@@ -87,6 +87,36 @@ class EllipseLength {
   Ball a_, b_, m_;
 };
 
+ExactNumber end_of(const HoleSpec& spec, const char* side) {
+  return {"(" + exact_text(spec.center) + ")" + side + "(" + exact_text(spec.width) + ")/2", spec.place};
+}
+
+// The sign of an arc length less that of the wall.
+Sign past_length(const ExactSystem& system, const HoleSpec& spec, const ExactNumber& s) {
+  const auto index = static_cast<std::size_t>(system.table->wall_index(spec.wall));
+  for (const slong bits : {bits_of_a_first_look, slong{1024}, most_bits_of_a_sign}) {
+    const Precision precision(bits);
+    const WallOf<Ball> w = ball_table(*system.spec).walls[index];
+    if (const Sign past = sign(value_of(s) - arc_length(w)); past != Sign::undecided) return past;
+    if (bits != bits_of_a_first_look || w.form != Form::segment) continue;
+    try {  // by squares, for the length is a root; neither number is negative
+      const WallOf<Rational> exact = rational_table(*system.spec).walls[index];
+      return sign(square(Rational(s)) - dot(exact.chord, exact.chord));
+    } catch (const NotRational&) {  // more bits may tell
+    }
+  }
+  return Sign::undecided;
+}
+
+// Of a closed wall a hole is all if it is as wide, wherever it begins. `w`: the wall to the present precision.
+bool is_all_of_its_wall(const ExactSystem& system, const HoleSpec& spec, const WallOf<Ball>& w) {
+  if (sign(value_of(spec.width) - arc_length(w)) == Sign::negative) return false;
+  const auto at_least = [](Sign s) { return s == Sign::zero || s == Sign::positive; };
+  if (w.closed) return at_least(past_length(system, spec, spec.width));
+  const Sign start = before_start(spec);
+  return (start == Sign::zero || start == Sign::negative) && at_least(past_end(system, spec));
+}
+
 class Cutter {
  public:
   Cutter(const WallOf<Ball>& wall, const Ball& from, const Ball& to) : w_(wall), from_(from), to_(to) {}
@@ -153,6 +183,9 @@ Ball arc_length(const WallOf<Ball>& w) {
   const EllipseLength length(w);
   return Ball(w.turn) * (length.to(start + Ball(w.turn) * turn) - length.to(start));
 }
+
+Sign before_start(const HoleSpec& spec) { return sign_of(end_of(spec, "-")); }
+Sign past_end(const ExactSystem& system, const HoleSpec& spec) { return past_length(system, spec, end_of(spec, "+")); }
 
 std::vector<HoleOf<Ball>> ball_holes(const ExactSystem& system, const std::vector<WallOf<Ball>>& walls) {
   std::vector<HoleOf<Ball>> holes;

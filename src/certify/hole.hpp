@@ -65,6 +65,11 @@ Verdict in_hole(const HoleOf<N>& hole, const WallOf<N>& w, const VectorOf<N>& P)
 /// Of a wall, from its start to its end, to the present precision.
 Ball arc_length(const WallOf<Ball>&);
 
+/// Signs of numbers as written, undecided where neither balls of 2^14 bits nor rational numbers tell: of the arc length at
+/// which a hole starts, and of that at which it ends less the length of its wall.
+Sign before_start(const HoleSpec&);
+Sign past_end(const ExactSystem&, const HoleSpec&);
+
 /// To the present precision.
 std::vector<HoleOf<Ball>> ball_holes(const ExactSystem&, const std::vector<WallOf<Ball>>& walls);
 

@@ -81,14 +81,6 @@ Meeting<N> meeting_with(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf
                                  : meets_larmor(w, P, v, motion, standing);
 }
 
-/// When a flight passes a point that it goes through, to compare with times of meetings.
-template <class N>
-N passing_of(const VectorOf<N>& X, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion) {
-  const VectorOf<N> d = X - P;
-  // d = (kappa v + (omega/2) Jv)/(kappa^2 + omega^2/4)
-  return motion.turns ? -(dot(v, d) / dot(d, d)) : dot(v, d) / dot(v, v);
-}
-
 /// A Larmor flight over a lattice in pieces of equal length, in doubles: where to look for walls.
 class LarmorPieces {
  public:

@@ -1,6 +1,6 @@
 #include "certify/line_table.hpp"
 
-#include "certify/quadratic_table.hpp"
+#include "certify/rational.hpp"
 
 namespace carom::certify {
 namespace {
@@ -55,19 +55,18 @@ LineTable::LineTable(const SceneOf<Ball>& scene, long few) : few_bits(few) {
 
 void LineTable::shorten(const ExactSystem& system) {
   try {
-    const QuadraticField field;
-    const TableOf<Quadratic> table = TableBuilder<Quadratic>(*system.spec).build();
-    const Quadratic speed2 = square(Quadratic(system.speed));
+    const TableOf<Rational> table = rational_table(*system.spec);
+    const Rational speed2 = square(Rational(system.speed));
     for (std::size_t i = 0; i < walls.size(); ++i) {
       if (!walls[i].arc) continue;
-      const Quadratic size2 = table.walls[i].radius2 * speed2;
-      const mpq_class* const q = size2.rational();
+      const Rational size2 = table.walls[i].radius2 * speed2;
+      const mpq_class* const q = size2.value();
       if (q == nullptr || !q->get_num().fits_slong_p() || !q->get_den().fits_slong_p()) continue;
       walls[i].inverse.above = q->get_den().get_si();
       walls[i].inverse.below = q->get_num().get_ui();
     }
-  } catch (const NotQuadratic&) {
-    // Some number is of another form, and the constants stay long.
+  } catch (const NotRational&) {
+    // The table needs the sign of another number, and the constants stay long.
   }
 }
 

@@ -11,9 +11,9 @@ namespace carom::certify {
 
 enum class Verdict : unsigned char { no, yes, undecided };
 
-/// Of a number that decides a tie when it is zero: into a joint, touching, at an end. An enclosure that is the point zero
-/// proves the tie, and algebra is asked what follows from it, as where the enclosure is wider; numbers that are taken at
-/// their word give the joint to one of its walls.
+/// The sign of a quantity whose zero is a tie: into a joint, touching, at an end. Enclosures report a proven zero as
+/// undecided, so that the tie is looked for in rational numbers. Numbers taken at their word keep it: they give the joint to
+/// one of its walls.
 template <class N>
 Sign sign_or_tie(const N& x) {
   return sign(x);

@@ -4,7 +4,8 @@
 #include <variant>
 
 #include "certify/containment.hpp"
-#include "certify/exact_sign.hpp"
+#include "certify/exact_value.hpp"
+#include "certify/rational.hpp"
 #include "certify/start.hpp"
 
 namespace carom::certify {
@@ -82,30 +83,29 @@ void check_on_wall(const ExactSystem& system) {
   }
 }
 
-bool lies_on(const WallOf<Quadratic>& w, const VectorOf<Quadratic>& P) {
-  const auto none_negative = [](const Quadratic& a, const Quadratic& b) {
+bool lies_on(const WallOf<Rational>& w, const VectorOf<Rational>& P) {
+  const auto none_negative = [](const Rational& a, const Rational& b) {
     return sign(a) != Sign::negative && sign(b) != Sign::negative;
   };
   if (w.form == Form::segment)
     return is_zero(dot(P - w.from, w.normal)) &&
            none_negative(dot(P - w.from, w.chord), dot(w.to - P, w.chord));
-  const VectorOf<Quadratic> d = P - w.centre;
+  const VectorOf<Rational> d = P - w.centre;
   const bool ellipse = w.form == Form::ellipse;
-  const VectorOf<Quadratic> e = ellipse ? VectorOf<Quadratic>{dot(d, w.along), dot(d, w.across)} : d;
-  if (!is_zero(dot(e, e) - (ellipse ? Quadratic(1) : w.radius2))) return false;
+  const VectorOf<Rational> e = ellipse ? VectorOf<Rational>{dot(d, w.along), dot(d, w.across)} : d;
+  if (!is_zero(dot(e, e) - (ellipse ? Rational(1) : w.radius2))) return false;
   return is_zero(P - w.to) || on_arc(w, P) == Verdict::yes;
 }
 
-// The walls that a point lies on exactly, among those of the loops in doubt, in words. Throws NotQuadratic.
+// The walls that a point lies on exactly, among those of the loops in doubt, in words. Throws NotRational.
 std::string walls_at(const ExactSystem& system, const std::vector<LoopCopy>& in_doubt) {
-  const QuadraticField own;
-  TableOf<Quadratic> table = TableBuilder<Quadratic>(*system.spec).build();
-  SceneOf<Quadratic> lattice;
+  TableOf<Rational> table = rational_table(*system.spec);
+  SceneOf<Rational> lattice;
   lattice.lattice = table.lattice;
-  const VectorOf<Quadratic> P{Quadratic(system.start.position.x), Quadratic(system.start.position.y)};
+  const VectorOf<Rational> P{Rational(system.start.position.x), Rational(system.start.position.y)};
   std::string text;
   for (const LoopCopy& copy : in_doubt) {
-    const VectorOf<Quadratic> seen = copy.cell == geometry::Cell{} ? P : P - lattice.translation(copy.cell);
+    const VectorOf<Rational> seen = copy.cell == geometry::Cell{} ? P : P - lattice.translation(copy.cell);
     for (const int k : copy.loop->walls)
       if (lies_on(table.walls[static_cast<std::size_t>(k)], seen))
         text += (text.empty() ? "" : " and ") + called(system, k);
@@ -129,7 +129,7 @@ void check_inside(const ExactSystem& system) {
     try {
       const std::string walls = walls_at(system, place.in_doubt());
       if (!walls.empty()) refuse("is not inside the table: it lies on " + walls, off_the_walls);
-    } catch (const NotQuadratic&) {  // more bits may tell
+    } catch (const NotRational&) {  // more bits may tell
     }
   }
   refuse("is not told from a point on a wall by " + std::to_string(most_bits_of_a_sign) + " bits",

@@ -1,15 +1,15 @@
-// Exact ties: an orbit that runs exactly into a corner, touches a disc, meets the end of a hole. No precision
-// tells them; where the numbers are rational, or of one square root, algebra does.
+// Exact ties of straight flights: an orbit that runs exactly into a corner, touches a disc, meets the end of a hole. No
+// precision tells them. Where start, direction and table are rational numbers as written, rational arithmetic does.
 #pragma once
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "carom/certify/certified_orbit.hpp"
+#include "certify/rational.hpp"
 #include "certify/scene.hpp"
 
 namespace carom::certify {
@@ -50,22 +50,50 @@ struct Tie {
   bool goes_on() const { return kind != corner && kind != along_wall; }
 };
 
-/// Follows an orbit in exact numbers over the walls that balls have proven.
+/// Follows an orbit in rational numbers over the walls that balls have proven.
 class TieFinder {
  public:
-  TieFinder(const ExactSystem&, const CertifiedTask&);
-  ~TieFinder();
+  TieFinder(const ExactSystem& system, const CertifiedTask& task) : system_(system), task_(task) {}
   TieFinder(const TieFinder&) = delete;
   TieFinder& operator=(const TieFinder&) = delete;
-  /// The tie at the event after the walls `path` were met (each call with a longer path of the same orbit),
-  /// or nothing where algebra finds none: because there is none, or numbers are not of the form or too long.
+  /// The tie at the event after the walls `path` were met (each call with a longer path of the same orbit). Nothing where
+  /// there is none, in a field, and where a number is not rational or longer than 65536 bits.
   std::optional<Tie> find(const std::vector<Copy>& path, const Doubt&);
-  /// Why exact numbers could not follow to the last event that was asked for; "" where they could.
-  const std::string& obstacle() const;
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  using Vector = VectorOf<Rational>;
+  using Wall = WallOf<Rational>;
+  struct Flight {
+    Vector position, velocity;
+    Rational time;  ///< in units of |direction as written|/speed
+    int standing = -1;
+  };
+  // All of these throw NotRational.
+  void prepare();
+  void fly_to(Flight&, const Copy&) const;
+  std::optional<Tie> tie(const Doubt&) const;
+  std::optional<Tie> with_wall(const Copy&) const;
+  std::optional<Tie> touching(const Wall&, const Vector& P, const Copy&, bool standing) const;
+  std::optional<Tie> at_joint(const Vector& joint, const Copy& met) const;
+  bool opens_at(int wall, bool at_its_end) const;
+  std::optional<Tie> with_hole(const Flight&, int hole) const;
+  bool is_at(const Flight&, const HoleSpec&, int side) const;
+  std::optional<Tie> with_last_time(const Flight&) const;
+
+  const Wall& wall(int index) const { return scene_.walls[static_cast<std::size_t>(index)]; }
+  std::string name(int index) const {
+    return "'" + system_.table->walls[static_cast<std::size_t>(index)].name + "'";
+  }
+  Vector seen(const Vector& P, const Copy& copy) const {
+    return copy.cell == geometry::Cell{} ? P : P - scene_.translation(copy.cell);
+  }
+
+  const ExactSystem& system_;
+  const CertifiedTask& task_;
+  SceneOf<Rational> scene_;
+  Flight now_;
+  std::size_t followed_ = 0;
+  bool prepared_ = false, hopeless_ = false;
 };
 
 /// Ties that an orbit has gone through, by the number of the event.

@@ -146,30 +146,5 @@ TEST(ExactStarts, OnAGrid) {
   EXPECT_GT(ties, 20);
 }
 
-// About (5/8, 5/8), and about (1/2, 11/8), with the radius 5/8.
-TEST(ExactStarts, InFields) {
-  const Shaped around = tests::shaped("rectangle", {{"width", "5/4"}, {"height", "5/4"}}, "0", "0");
-  ExactSystem inscribed = along(around, {"1", "9/8", "4", "-3"}, "5");
-  inscribed.omega = exactly("8");
-  const CertifiedEnd pinned = end_of(inscribed, 5);
-  EXPECT_EQ(pinned.fate, CertifiedFate::pinned);
-  EXPECT_EQ(pinned.ties.size(), 4u);
-  ExactSystem corner = along(rectangle(), {"1/2", "3/4", "5", "0"}, "5");
-  corner.omega = exactly("-8");
-  const CertifiedEnd back = end_of(corner, 2);
-  EXPECT_EQ(back.fate, CertifiedFate::completed);
-  ASSERT_EQ(back.ties.size(), 1u);
-  EXPECT_EQ(back.ties[0], "event 1: exactly into the corner between 'right' and 'top', whose angle is pi/2");
-  EXPECT_EQ(back.vx.text(20), "-3.00000000000000000000");
-  EXPECT_EQ(back.vy.text(20), "-4.00000000000000000000");
-  ExactSystem joint = along(stadium(), {"1/2", "3/4", "5", "0"}, "5");
-  joint.omega = exactly("-8");
-  const CertifiedEnd smooth = end_of(joint, 1);
-  ASSERT_EQ(smooth.ties.size(), 1u);
-  EXPECT_EQ(smooth.ties[0],
-            "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
-  EXPECT_EQ(smooth.vy.text(20), "-4.00000000000000000000");
-}
-
 }  // namespace
 }  // namespace carom

@@ -57,7 +57,7 @@ TEST(CertifiedStarts, OutsideOrOnAWall) {
          outside + ": it lies on 'left'");
   expect(refusal(shaped("ellipse", {{"a", "2"}, {"b", "1"}}, "0", "0"), "6/5", "4/5"),
          outside + ": it lies on 'ellipse'");
-  // Between pi and a wall at pi no algebra is needed, but on a wall there is none that tells.
+  // Precision tells a point beside a wall at pi, but not one on it.
   const Shaped odd = shaped("rectangle", {{"width", "pi"}, {"height", "1"}}, "0", "0");
   EXPECT_EQ(refusal(odd, "pi-1/10^1000", "1/2"), "");
   expect(refusal(odd, "pi", "1/2"), "is not told from a point on a wall by 16384 bits");

@@ -68,7 +68,7 @@ struct CertifiedEnd : CertifiedState {
   geometry::Cell cell;       ///< of the last hit, or of the hole it left through
   int hole = -1;
   std::string reason;        ///< of singular and undecided ones
-  std::vector<std::string> ties;  ///< exact coincidences that the orbit went through, decided by algebra
+  std::vector<std::string> ties;  ///< exact coincidences that the orbit went through, decided in rational numbers
 };
 
 /// What an orbit is asked for.
