@@ -11,7 +11,8 @@ def faults(check, files):
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         base = {"include/carom/base/error.hpp": "#pragma once\n", "include/carom/table/table.hpp": "#pragma once\n",
-                "include/carom/events/world.hpp": "#pragma once\n", "src/io/value.hpp": "#pragma once\n"}
+                "include/carom/events/world.hpp": "#pragma once\n", "src/motion/flight.hpp": "#pragma once\n",
+                "src/io/value.hpp": "#pragma once\n"}
         for name, text in {**base, **files}.items():
             path = root / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -34,6 +35,11 @@ class Includes(unittest.TestCase):
         self.illegal("geometry/src/curve.cpp", '#include "carom/table/table.hpp"')
         self.illegal("src/attic/old.cpp", '#include "carom/base/error.hpp"')
         self.illegal("src/table/build.cpp", '#include "nowhere.hpp"')
+        self.illegal("src/certify/wall.cpp", '#include "carom/events/world.hpp"')
+
+    def test_arrows_are_direct(self):
+        self.legal("src/events/world.cpp", '#include "motion/flight.hpp"')
+        self.illegal("src/io/value.cpp", '#include "motion/flight.hpp"')
 
     def test_maps_are_a_witness(self):
         self.legal("src/maps/disc.cpp", '#include "carom/base/error.hpp"')
