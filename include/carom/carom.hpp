@@ -7,7 +7,6 @@
 #include "carom/analysis/section.hpp"
 #include "carom/analysis/survival.hpp"
 #include "carom/analysis/trust.hpp"
-#include "carom/analysis/written_system.hpp"
 #include "carom/base/digest.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"

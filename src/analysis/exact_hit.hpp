@@ -3,18 +3,15 @@
 
 #include <optional>
 
+#include "analysis/written_system.hpp"
 #include "carom/analysis/trust.hpp"
-#include "carom/analysis/written_system.hpp"
 #include "carom/events/event.hpp"
 #include "carom/motion/state.hpp"
 
 namespace carom {
 
-struct SinCosTwofold {
-  Twofold sin, cos;
-};
 /// For |x| up to 4, to 2^-70.
-SinCosTwofold sincos(const Twofold& x);
+void sin_cos(Twofold& sin, Twofold& cos, const Twofold& x);
 
 /// The error after a hit from the one before it: the true orbit flies to the same wall and is reflected there.
 /// Nothing if it does not meet that wall near the engine's hit.

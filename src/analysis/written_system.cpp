@@ -1,83 +1,49 @@
-#include "carom/analysis/written_system.hpp"
+#include "analysis/written_system.hpp"
 
 #include <variant>
 
-#include "motion/point_on_conic.hpp"
-
 namespace carom {
 
+using certify::WallOf;
 using geometry::Vector;
 
 namespace {
 
 TwofoldVector exactly(Vector v) { return {v.x, v.y}; }
 
+// docs of geometry/curve.hpp: how the centre of an arc follows from its ends.
 struct AsStored {
-  WrittenWall wall;
-
-  void operator()(const geometry::Segment& s) {
-    wall.straight = true;
-    wall.from = exactly(s.from);
-    wall.chord = exactly(s.to) - wall.from;
+  WallOf<Twofold> operator()(const geometry::Segment& s) const {
+    return certify::segment_wall(exactly(s.from), exactly(s.to));
   }
-  void operator()(const geometry::CircularArc& s) {
-    arc(s.from, s.to, s.counterclockwise, s.offset, {1.0, 0.0}, 1.0);
-    wall.circular = true;
+  WallOf<Twofold> operator()(const geometry::Circle& s) const {
+    return certify::circle_wall(exactly(s.centre), Twofold(s.radius), s.counterclockwise);
   }
-  void operator()(const geometry::EllipticArc& s) {
-    arc(s.from, s.to, s.counterclockwise, s.offset, exactly(s.axis), s.ratio);
+  WallOf<Twofold> operator()(const geometry::Ellipse& s) const {
+    return certify::ellipse_wall(exactly(s.centre), exactly(s.axis), Twofold(s.ratio), s.counterclockwise);
   }
-  void operator()(const geometry::Circle& s) {
-    full(s.centre, {s.radius, 0.0}, s.counterclockwise, {1.0, 0.0}, 1.0);
-    wall.circular = true;
+  WallOf<Twofold> operator()(const geometry::CircularArc& s) const {
+    const TwofoldVector from = exactly(s.from), chord = exactly(s.to) - from;
+    const TwofoldVector to_centre = Twofold(0.5) * chord + Twofold(s.offset) * left(chord);
+    return certify::arc_wall(from, exactly(s.to), from + to_centre, dot(to_centre, to_centre), s.counterclockwise);
   }
-  void operator()(const geometry::Ellipse& s) {
-    full(s.centre, s.axis, s.counterclockwise, exactly(s.axis), s.ratio);
-  }
-
- private:
-  void axes(const TwofoldVector& p, const Twofold& k, bool counterclockwise) {
-    wall.turn = counterclockwise ? 1.0 : -1.0;
-    wall.along = k * p;
-    wall.across = left(p);
-    const TwofoldVector e = wall.from - wall.centre;
-    const Twofold x = dot(wall.along, e), y = dot(wall.across, e);
-    wall.square = x * x + y * y;
-  }
-  void arc(Vector from, Vector to, bool counterclockwise, double offset, const TwofoldVector& p, const Twofold& k) {
-    wall.from = exactly(from);
-    const TwofoldVector e = exactly(to) - wall.from, q = left(p);
-    const Twofold half(0.5), back = -dot(e, q), on = k * k * dot(e, p);
-    const TwofoldVector turned = back * p + on * q;
-    wall.centre = (wall.from + half * e) + Twofold(offset) * turned;
-    axes(p, k, counterclockwise);
-  }
-  void full(Vector centre, Vector axis, bool counterclockwise, const TwofoldVector& p, const Twofold& k) {
-    wall.centre = exactly(centre);
-    wall.from = wall.centre + exactly(axis);
-    axes(p, k, counterclockwise);
+  WallOf<Twofold> operator()(const geometry::EllipticArc& s) const {
+    const TwofoldVector from = exactly(s.from), chord = exactly(s.to) - from, p = exactly(s.axis), q = left(p);
+    const Twofold k(s.ratio);
+    const TwofoldVector turned = -dot(chord, q) * p + (k * k * dot(chord, p)) * q;
+    const TwofoldVector to_centre = Twofold(0.5) * chord + Twofold(s.offset) * turned;
+    const Twofold x = k * dot(p, to_centre), y = dot(q, to_centre);
+    const TwofoldVector semi_axis = (sqrt(x * x + y * y) / (k * dot(p, p))) * p;
+    return certify::elliptic_arc_wall(from, exactly(s.to), from + to_centre, semi_axis, k, s.counterclockwise);
   }
 };
 
 }  // namespace
 
-TwofoldVector WrittenWall::point(double u) const {
-  if (straight) return from + Twofold(u) * chord;
-  const TwofoldVector a = from - centre, b = quarter_turn(a, along, across);
-  return point_on_conic(centre, a, turn < 0 ? -b : b, u);
-}
-
 WrittenSystem as_stored(const Table& table, const Particle& particle) {
   WrittenSystem written;
-  for (const Wall& wall : table.walls) {
-    AsStored stored;
-    std::visit(stored, wall.curve);
-    written.walls.push_back(stored.wall);
-  }
-  if (table.lattice) {
-    written.first = exactly(table.lattice->first);
-    written.second = exactly(table.lattice->second);
-  }
+  for (const Wall& wall : table.walls) written.table.walls.push_back(std::visit(AsStored{}, wall.curve));
+  if (table.lattice) written.table.lattice = {exactly(table.lattice->first), exactly(table.lattice->second)};
   written.omega = particle.omega;
   written.speed = particle.speed;
   return written;

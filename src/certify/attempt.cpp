@@ -4,7 +4,6 @@
 
 #include "carom/base/error.hpp"
 #include "certify/exact_value.hpp"
-#include "certify/flight_end.hpp"
 #include "certify/line_enclosure.hpp"
 #include "certify/point_enclosure.hpp"
 #include "certify/start.hpp"
@@ -16,6 +15,13 @@ namespace {
 double power_near(double size) { return std::exp2(std::floor(std::log2(size))); }
 
 double bits_of(int digits) { return static_cast<double>(digits) * 3.3219280948873626; }
+
+/// The velocity that a particle came with, which is `after` once it was reflected at P.
+BallVector before_reflection(const WallOf<Ball>& w, const BallVector& P, const BallVector& after) {
+  const BallVector t = tangent_of(w, P);
+  const Ball twice = Ball(2) * dot(after, t);
+  return {twice * t.x - after.x, twice * t.y - after.y};
+}
 
 }  // namespace
 

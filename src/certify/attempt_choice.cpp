@@ -92,10 +92,7 @@ void Attempt::look_behind(const std::vector<Copy>& touched, const Ball& end) {
     const WallOf<Ball>& w = arena_.wall(copy.wall);
     const BallVector P = seen(copy, s.position);
     if (w.form == Form::segment) continue;  // it is in line with the flight
-    const BallVector d = P - w.centre;
-    const bool ellipse = w.form == Form::ellipse;
-    const BallVector e = ellipse ? BallVector{dot(d, w.along), dot(d, w.across)} : d;
-    const BallVector u = ellipse ? BallVector{dot(s.velocity, w.along), dot(s.velocity, w.across)} : s.velocity;
+    const BallVector e = in_round_frame(w, P - w.centre), u = in_round_frame(w, s.velocity);
     const Ball time = -(dot(e, u) / dot(u, u));
     if (sign(time - end) == Sign::positive) behind_.push_back(copy);
   }

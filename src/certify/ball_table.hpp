@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "carom/geometry/lattice.hpp"
 #include "carom/table/table_spec.hpp"
 #include "certify/wall.hpp"
 
@@ -14,6 +15,11 @@ namespace carom::certify {
 template <class Number>
 struct LatticeOf {
   VectorOf<Number> first, second;
+
+  VectorOf<Number> at(const geometry::Cell& c) const {
+    const Number m(static_cast<double>(c.first)), n(static_cast<double>(c.second));
+    return {m * first.x + n * second.x, m * first.y + n * second.y};
+  }
 };
 
 template <class Number>

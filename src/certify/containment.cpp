@@ -19,10 +19,7 @@ WallOf<Ball> turned_round(const WallOf<Ball>& w) {
 }
 
 Verdict within(const WallOf<Ball>& closed, const BallVector& P) {
-  const BallVector d = P - closed.centre;
-  const bool ellipse = closed.form == Form::ellipse;
-  const BallVector e = ellipse ? BallVector{dot(d, closed.along), dot(d, closed.across)} : d;
-  const Ball beyond = square(e.x) + square(e.y) - (ellipse ? Ball(1) : closed.radius2);
+  const Ball beyond = level_at(closed, P);
   return above_zero(sign_or_tie(closed.turn > 0 ? -beyond : beyond));
 }
 
@@ -86,8 +83,6 @@ Containment::Containment(const std::vector<WallLoop>& loops, const BallTable& ta
     too_far_ = true;
     return;
   }
-  SceneOf<Ball> lattice;
-  lattice.lattice = table.lattice;
   for (const WallLoop& loop : loops) {
     // A disc around the whole of it.
     const auto disc = [&](int k) { return where.discs[static_cast<std::size_t>(k)]; };
@@ -105,7 +100,7 @@ Containment::Containment(const std::vector<WallLoop>& loops, const BallTable& ta
     for (double m = std::ceil(c - c_reach); m <= c + c_reach; ++m)
       for (double n = std::ceil(s - s_reach); n <= s + s_reach; ++n) {
         const geometry::Cell cell{static_cast<std::int64_t>(m), static_cast<std::int64_t>(n)};
-        ask({&loop, cell}, table, cell == geometry::Cell{} ? P : P - lattice.translation(cell));
+        ask({&loop, cell}, table, cell == geometry::Cell{} ? P : P - table.lattice->at(cell));
       }
   }
 }

@@ -21,6 +21,14 @@ N cross2(const VectorOf<N>& a, const VectorOf<C>& b) {
   return a.x * b.y - a.y * b.x;
 }
 
+/// The velocity after a reflection, by a normal of any length.
+template <class N>
+VectorOf<N> reflected(const VectorOf<N>& v, const VectorOf<N>& normal) {
+  const N along_normal = normal.x * v.x + normal.y * v.y;
+  const N factor = (along_normal + along_normal) / (square(normal.x) + square(normal.y));
+  return {v.x - factor * normal.x, v.y - factor * normal.y};
+}
+
 /// The flight from P with velocity v to the wall `w` and the reflection there. `standing`: P lies on w.
 template <class N, class C>
 LandingOf<N> fly(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<C>& motion,

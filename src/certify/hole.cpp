@@ -138,8 +138,7 @@ class Cutter {
       turn = (to_ - from_) / radius;
     } else {
       const EllipseLength length(w_);
-      const BallVector e{dot(d, w_.along), dot(d, w_.across)};
-      const Ball start = angle_of(e);
+      const Ball start = angle_of(in_round_frame(w_, d));
       const auto angle_at = [&](const Ball& s) {
         return length.angle_at(length.to(start) + way * s,
                                (start + way * s / length.element(Ball(0.8))).midpoint());
@@ -163,11 +162,7 @@ class Cutter {
 
 Ball arc_length(const WallOf<Ball>& w) {
   if (w.form == Form::segment) return sqrt(dot(w.chord, w.chord));
-  const bool ellipse = w.form == Form::ellipse;
-  const auto seen = [&](const BallVector& P) {
-    const BallVector d = P - w.centre;
-    return angle_of(ellipse ? BallVector{dot(d, w.along), dot(d, w.across)} : d);
-  };
+  const auto seen = [&](const BallVector& P) { return angle_of(in_round_frame(w, P - w.centre)); };
   Ball whole_turn;
   arb_const_pi(whole_turn.raw(), Precision::bits());
   whole_turn = whole_turn + whole_turn;
@@ -179,7 +174,7 @@ Ball arc_length(const WallOf<Ball>& w) {
     if (forwards == Sign::undecided) return turn.widened(Bound(HUGE_VAL));  // nothing is known
     if (forwards != Sign::positive) turn = turn + whole_turn;
   }
-  if (!ellipse) return sqrt(w.radius2) * turn;
+  if (w.form != Form::ellipse) return sqrt(w.radius2) * turn;
   const EllipseLength length(w);
   return Ball(w.turn) * (length.to(start + Ball(w.turn) * turn) - length.to(start));
 }

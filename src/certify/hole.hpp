@@ -48,8 +48,7 @@ Verdict in_hole(const HoleOf<N>& hole, const WallOf<N>& w, const VectorOf<N>& P)
     const N s = dot(P - w.from, w.chord);
     return both(at_least_zero(sign(s - hole.low)), above_zero(sign(hole.high - s)));
   }
-  const VectorOf<N> d = P - w.centre;
-  const VectorOf<N> e = w.form == Form::ellipse ? VectorOf<N>{dot(d, w.along), dot(d, w.across)} : d;
+  const VectorOf<N> e = in_round_frame(w, P - w.centre);
   // From `from` on and before `to`, which is less than half a turn later.
   const auto within = [&](const VectorOf<N>& from, const VectorOf<N>& to) {
     const N behind = cross(from, e), before = cross(e, to);

@@ -74,4 +74,16 @@ LandingOf<N> larmor_state_after(const N& time, const VectorOf<N>& P, const Vecto
   return r;
 }
 
+/// Position and velocity after a time without hits.
+template <class N>
+void fly_for(const N& time, VectorOf<N>& position, VectorOf<N>& velocity, const MotionOf<N>& motion) {
+  if (!motion.turns) {
+    position = {position.x + time * velocity.x, position.y + time * velocity.y};
+    return;
+  }
+  const LandingOf<N> there = larmor_state_after<N>(time, position, velocity, motion.half_omega);
+  position = there.position;
+  velocity = there.velocity;
+}
+
 }  // namespace carom::certify

@@ -79,10 +79,7 @@ LandingOf<N> fly_larmor(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf
     u = {u.x - factor * w.normal.x, u.y - factor * w.normal.y};
     return r;
   }
-  const VectorOf<N> e = normal_at<N, C>(w, r.position);
-  const N along_normal = e.x * u.x + e.y * u.y;
-  const N factor = (along_normal + along_normal) / (square(e.x) + square(e.y));
-  u = {u.x - factor * e.x, u.y - factor * e.y};
+  u = reflected(u, normal_at<N, C>(w, r.position));
   return r;
 }
 

@@ -66,11 +66,8 @@ Meeting<N> meets_conic(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<
                        const MotionOf<N>& motion, bool standing) {
   using std::sqrt;
   const bool obstacle = w.turn < 0;
-  const VectorOf<N> d = P - w.centre;
-  const bool ellipse = w.form == Form::ellipse;
-  const VectorOf<N> e = ellipse ? VectorOf<N>{dot(d, w.along), dot(d, w.across)} : d;
-  const VectorOf<N> u = ellipse ? VectorOf<N>{dot(v, w.along), dot(v, w.across)} : v;
-  const N a = ellipse ? square(u.x) + square(u.y) : motion.speed2;
+  const VectorOf<N> e = in_round_frame(w, P - w.centre), u = in_round_frame(w, v);
+  const N a = w.form == Form::ellipse ? square(u.x) + square(u.y) : motion.speed2;
   const N b = dot(e, u);
   Verdict verdict = Verdict::yes;
   const auto require = [&verdict](Sign s) {  // positive, or there is no hit
@@ -91,8 +88,7 @@ Meeting<N> meets_conic(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<
       require(sign_or_tie(-b));
       if (verdict == Verdict::no) return {};
     }
-    const N c = (square(e.x) + square(e.y)) - (ellipse ? N(1) : w.radius2);
-    const N discriminant = square(b) - a * c;
+    const N discriminant = square(b) - a * level_at(w, P);
     require(sign_or_tie(discriminant));  // a tangent flight does not hit
     if (verdict == Verdict::no) return {};
     const N root = sqrt(discriminant);

@@ -103,11 +103,7 @@ class SceneOf {
     return passage(holes, wall, walls[static_cast<std::size_t>(wall)], P);
   }
 
-  VectorOf<N> translation(const geometry::Cell& c) const {
-    const N first(static_cast<double>(c.first)), second(static_cast<double>(c.second));
-    return {first * lattice->first.x + second * lattice->second.x,
-            first * lattice->first.y + second * lattice->second.y};
-  }
+  VectorOf<N> translation(const geometry::Cell& c) const { return lattice->at(c); }
 
   /// The first wall ahead of P, which lies on the wall `standing` of cell 0 (-1: on none). `P0` and `v0`:
   /// the same in doubles, nearly. `last`: the flight's last time (in a field: -kappa there), if it is asked whether

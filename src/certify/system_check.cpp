@@ -87,25 +87,18 @@ bool lies_on(const WallOf<Rational>& w, const VectorOf<Rational>& P) {
   const auto none_negative = [](const Rational& a, const Rational& b) {
     return sign(a) != Sign::negative && sign(b) != Sign::negative;
   };
-  if (w.form == Form::segment)
-    return is_zero(dot(P - w.from, w.normal)) &&
-           none_negative(dot(P - w.from, w.chord), dot(w.to - P, w.chord));
-  const VectorOf<Rational> d = P - w.centre;
-  const bool ellipse = w.form == Form::ellipse;
-  const VectorOf<Rational> e = ellipse ? VectorOf<Rational>{dot(d, w.along), dot(d, w.across)} : d;
-  if (!is_zero(dot(e, e) - (ellipse ? Rational(1) : w.radius2))) return false;
+  if (!is_zero(level_at(w, P))) return false;
+  if (w.form == Form::segment) return none_negative(dot(P - w.from, w.chord), dot(w.to - P, w.chord));
   return is_zero(P - w.to) || on_arc(w, P) == Verdict::yes;
 }
 
 // The walls that a point lies on exactly, among those of the loops in doubt, in words. Throws NotRational.
 std::string walls_at(const ExactSystem& system, const std::vector<LoopCopy>& in_doubt) {
-  TableOf<Rational> table = rational_table(*system.spec);
-  SceneOf<Rational> lattice;
-  lattice.lattice = table.lattice;
+  const TableOf<Rational> table = rational_table(*system.spec);
   const VectorOf<Rational> P{Rational(system.start.position.x), Rational(system.start.position.y)};
   std::string text;
   for (const LoopCopy& copy : in_doubt) {
-    const VectorOf<Rational> seen = copy.cell == geometry::Cell{} ? P : P - lattice.translation(copy.cell);
+    const VectorOf<Rational> seen = copy.cell == geometry::Cell{} ? P : P - table.lattice->at(copy.cell);
     for (const int k : copy.loop->walls)
       if (lies_on(table.walls[static_cast<std::size_t>(k)], seen))
         text += (text.empty() ? "" : " and ") + called(system, k);

@@ -20,57 +20,6 @@ struct Source;
 bool has_brim(const TableSpec&);
 
 template <class N>
-WallOf<N> segment_wall(const VectorOf<N>& from, const VectorOf<N>& to) {
-  WallOf<N> w;
-  w.from = from;
-  w.to = to;
-  w.chord = to - from;
-  w.normal = left(w.chord);
-  w.double_inverse = N(2) / dot(w.chord, w.chord);
-  return w;
-}
-
-template <class N>
-WallOf<N> arc_wall(const VectorOf<N>& from, const VectorOf<N>& to, const VectorOf<N>& centre,
-                   const N& radius2, bool counterclockwise) {
-  WallOf<N> w;
-  w.form = Form::circle;
-  w.turn = counterclockwise ? 1.0 : -1.0;
-  w.from = from;
-  w.to = to;
-  w.chord = to - from;
-  w.centre = centre;
-  w.radius2 = radius2;
-  w.double_inverse = N(2) / radius2;
-  return w;
-}
-
-template <class N>
-WallOf<N> circle_wall(const VectorOf<N>& centre, const N& radius, bool counterclockwise) {
-  const VectorOf<N> start{centre.x + radius, centre.y};
-  WallOf<N> w = arc_wall(start, start, centre, square(radius), counterclockwise);
-  w.closed = true;
-  return w;
-}
-
-template <class N>
-WallOf<N> ellipse_wall(const VectorOf<N>& centre, const VectorOf<N>& axis, const N& ratio,
-                       bool counterclockwise) {
-  WallOf<N> w;
-  w.form = Form::ellipse;
-  w.closed = true;
-  w.turn = counterclockwise ? 1.0 : -1.0;
-  w.from = w.to = centre + axis;
-  w.centre = centre;
-  // (P - C) . axis/a^2 is the coordinate in units of a; across: the other axis is ratio left(axis).
-  const N a2 = dot(axis, axis);
-  w.along = {axis.x / a2, axis.y / a2};
-  const N scale = N(1) / (ratio * a2);
-  w.across = {-(scale * axis.y), scale * axis.x};
-  return w;
-}
-
-template <class N>
 class TableBuilder {
  public:
   explicit TableBuilder(const TableSpec& spec) : spec_(spec) {}
@@ -252,12 +201,7 @@ class TableBuilder {
     const VectorOf<N> to = point(piece.to);
     const WallOf<N> circle = arc_through(seen(from), seen(point(piece.via)), seen(to), piece.place);
     const VectorOf<N> centre = circle.centre.x * axis + (ratio * circle.centre.y) * other;
-    WallOf<N> w = ellipse_wall(centre, sqrt(circle.radius2) * axis, ratio, circle.turn > 0);
-    w.closed = false;
-    w.from = from;
-    w.to = to;
-    w.chord = to - from;
-    return w;
+    return elliptic_arc_wall(from, to, centre, sqrt(circle.radius2) * axis, ratio, circle.turn > 0);
   }
 
   const TableSpec& spec_;

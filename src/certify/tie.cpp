@@ -66,9 +66,7 @@ std::optional<Tie> TieFinder::find(const std::vector<Copy>& path, const Doubt& d
 void TieFinder::prepare() {
   if (prepared_) return;
   if (!is_zero(Rational(system_.omega))) throw NotRational();
-  TableOf<Rational> table = rational_table(*system_.spec);
-  scene_.walls = std::move(table.walls);
-  scene_.lattice = std::move(table.lattice);
+  table_ = rational_table(*system_.spec);
   const ExactStart& start = system_.start;
   now_.standing = start.wall;
   now_.position = start.wall >= 0 ? point_with_parameter(wall(start.wall), start.u)
@@ -76,15 +74,15 @@ void TieFinder::prepare() {
   now_.velocity = start.angle ? rational_direction(*start.angle)
                               : Vector{Rational(start.direction.x), Rational(start.direction.y)};
   // The speed is that of the direction: only the time is another one.
-  scene_.motion.speed2 = dot(now_.velocity, now_.velocity);
-  scene_.motion.inverse_speed2 = Rational(1) / scene_.motion.speed2;
+  motion_.speed2 = dot(now_.velocity, now_.velocity);
+  motion_.inverse_speed2 = Rational(1) / motion_.speed2;
   prepared_ = true;
 }
 
 void TieFinder::fly_to(Flight& flight, const Copy& copy) const {
   const bool same = copy.wall == flight.standing && copy.cell == geometry::Cell{};
   const LandingOf<Rational> landing = fly<Rational, Rational>(wall(copy.wall), seen(flight.position, copy),
-                                                              flight.velocity, scene_.motion, same);
+                                                              flight.velocity, motion_, same);
   flight = {landing.position, landing.velocity, flight.time + landing.time, copy.wall};
   for (const Rational* x :
        {&flight.position.x, &flight.position.y, &flight.velocity.x, &flight.velocity.y, &flight.time})
@@ -130,16 +128,13 @@ std::optional<Tie> TieFinder::touching(const Wall& w, const Vector& P, const Cop
     if (from_ahead && to_ahead) tie.at = WallEnd{copy, sign(to - from) == Sign::negative};
     return tie;
   }
-  const Vector d = P - w.centre;
-  const bool ellipse = w.form == Form::ellipse;
-  const Vector e = ellipse ? Vector{dot(d, w.along), dot(d, w.across)} : d;
-  const Vector u = ellipse ? Vector{dot(v, w.along), dot(v, w.across)} : v;
-  const Rational a = dot(u, u), b = dot(e, u);
+  const Vector u = in_round_frame(w, v);
+  const Rational a = dot(u, u), b = dot(in_round_frame(w, P - w.centre), u);
   if (standing) {
     if (!is_zero(b)) return std::nullopt;
     return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall) + ", on which it lies"};
   }
-  const Rational c = dot(e, e) - (ellipse ? Rational(1) : w.radius2);
+  const Rational c = level_at(w, P);
   if (!is_zero(square(b) - a * c)) return std::nullopt;
   if (is_zero(c)) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall)};  // where it is
   return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall) + ", which is no hit", {copy}};
@@ -162,8 +157,8 @@ std::optional<Tie> TieFinder::at_joint(const Vector& J, const Copy& met) const {
   const Vector& v = now_.velocity;
   int ends = -1, begins = -1, meeting = 0;
   std::vector<Copy> walls_there;  // a wall into whose domain the flight comes there may be met before
-  for (std::size_t k = 0; k < scene_.walls.size(); ++k) {
-    const Wall& w = scene_.walls[k];
+  for (std::size_t k = 0; k < table_.walls.size(); ++k) {
+    const Wall& w = table_.walls[k];
     if (w.closed) continue;
     const bool stops = is_zero(w.to - J), starts = is_zero(w.from - J);
     if (!stops && !starts) continue;
@@ -245,7 +240,7 @@ std::optional<Tie> TieFinder::with_hole(const Flight& there, int index) const {
 // |v| t = speed t_max, squared.
 std::optional<Tie> TieFinder::with_last_time(const Flight& there) const {
   const Rational last = Rational(system_.speed) * Rational(*task_.t_max);
-  if (!is_zero(square(there.time) * scene_.motion.speed2 - square(last))) return std::nullopt;
+  if (!is_zero(square(there.time) * motion_.speed2 - square(last))) return std::nullopt;
   return Tie{Tie::last_time, name(there.standing) + " is met exactly at the last time: the hit counts"};
 }
 

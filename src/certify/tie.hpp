@@ -80,17 +80,18 @@ class TieFinder {
   bool is_at(const Flight&, const HoleSpec&, int side) const;
   std::optional<Tie> with_last_time(const Flight&) const;
 
-  const Wall& wall(int index) const { return scene_.walls[static_cast<std::size_t>(index)]; }
+  const Wall& wall(int index) const { return table_.walls[static_cast<std::size_t>(index)]; }
   std::string name(int index) const {
     return "'" + system_.table->walls[static_cast<std::size_t>(index)].name + "'";
   }
   Vector seen(const Vector& P, const Copy& copy) const {
-    return copy.cell == geometry::Cell{} ? P : P - scene_.translation(copy.cell);
+    return copy.cell == geometry::Cell{} ? P : P - table_.lattice->at(copy.cell);
   }
 
   const ExactSystem& system_;
   const CertifiedTask& task_;
-  SceneOf<Rational> scene_;
+  TableOf<Rational> table_;
+  MotionOf<Rational> motion_;
   Flight now_;
   std::size_t followed_ = 0;
   bool prepared_ = false, hopeless_ = false;

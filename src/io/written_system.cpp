@@ -1,4 +1,5 @@
 // The numbers of a system as they were written, in twice the digits of a double.
+#include "analysis/written_system.hpp"
 #include "carom/base/error.hpp"
 #include "carom/io/system_file.hpp"
 #include "certify/ball_table.hpp"
@@ -16,22 +17,6 @@ Twofold twofold(const Ball& x) {
   return {high, (x - Ball(high)).to_double()};
 }
 TwofoldVector twofold(const BallVector& v) { return {twofold(v.x), twofold(v.y)}; }
-
-WrittenWall written_wall(const certify::WallOf<Ball>& w) {
-  WrittenWall r;
-  r.straight = w.form == certify::Form::segment;
-  r.circular = w.form == certify::Form::circle;
-  r.turn = w.turn;
-  r.from = twofold(w.from);
-  r.chord = twofold(w.chord);
-  r.centre = twofold(w.centre);
-  if (r.circular) r.square = twofold(w.radius2);
-  if (w.form != certify::Form::ellipse) return r;
-  r.along = twofold(w.along);
-  r.across = twofold(w.across);
-  r.square = 1.0;
-  return r;
-}
 
 void write_start(const ExactSystem& exact, const System& system, WrittenSystem& written) {
   if (system.initial.kind != InitialCondition::Kind::point) return;
@@ -54,11 +39,10 @@ std::shared_ptr<const WrittenSystem> written_system(const LoadedSystem& loaded) 
   WrittenSystem written;
   try {
     const certify::BallTable table = certify::ball_table(*exact.spec);
-    for (const certify::WallOf<Ball>& wall : table.walls) written.walls.push_back(written_wall(wall));
-    if (table.lattice) {
-      written.first = twofold(table.lattice->first);
-      written.second = twofold(table.lattice->second);
-    }
+    const auto convert = [](const Ball& x) { return twofold(x); };
+    for (const certify::WallOf<Ball>& wall : table.walls)
+      written.table.walls.push_back(certify::converted<Twofold>(wall, convert));
+    if (table.lattice) written.table.lattice = {twofold(table.lattice->first), twofold(table.lattice->second)};
   } catch (const InputError&) {
     return nullptr;  // a shape without certified form: its doubles are meant
   }

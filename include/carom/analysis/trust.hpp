@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <memory>
 
-#include "carom/analysis/written_system.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/events/observer.hpp"
 #include "carom/table/table.hpp"
 
 namespace carom {
+
+/// A system as it was written, in twice the digits of a double (written_system() of io/).
+struct WrittenSystem;
 
 /// The true state after an event less the computed one, each at its own hit.
 struct OrbitError {

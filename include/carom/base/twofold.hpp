@@ -1,6 +1,8 @@
 // Numbers of twice the digits: the unevaluated sum of two doubles.
 #pragma once
 
+#include <cmath>
+
 namespace carom {
 
 /// high + low, |low| at most about an ulp of high. Results are good to some 2^-100 of their size, so what a
@@ -49,6 +51,12 @@ struct Twofold {
     const double q = a.high / b.high;
     const Twofold rest = a - Twofold(q) * b;
     return quick_sum(q, rest.value() / b.high);
+  }
+  friend constexpr Twofold square(const Twofold& a) { return a * a; }
+  friend Twofold sqrt(const Twofold& a) {
+    const double root = std::sqrt(a.high);
+    if (root == 0.0) return {};
+    return quick_sum(root, (a - product(root, root)).value() / (root + root));
   }
   friend bool operator==(const Twofold&, const Twofold&) = default;
 };

@@ -6,12 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "carom/analysis/written_system.hpp"
 #include "carom/certify/exact_system.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/io/system_overrides.hpp"
 
 namespace carom {
+
+struct WrittenSystem;
 
 /// A key of the system file.
 struct KeyDescription {
