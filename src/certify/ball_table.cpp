@@ -14,18 +14,6 @@ struct Source<Ball> {
   }
 };
 
-bool has_brim(const TableSpec& spec) {
-  const ExactNumber &cap = spec.numbers.at("cap_radius"), &stem = spec.numbers.at("stem_width");
-  const std::string difference = "2*(" + exact_text(cap) + ")-(" + exact_text(stem) + ")";
-  const Sign brim = sign_of(ExactNumber(difference, stem.place()));
-  if (brim == Sign::negative)
-    throw InputError(stem.place(), "the stem is wider than the cap", "stem_width <= 2 cap_radius");
-  if (brim == Sign::undecided)
-    throw InputError(stem.place(), "whether the stem is as wide as the cap cannot be told",
-                     "numbers that differ by more");
-  return brim == Sign::positive;
-}
-
-BallTable ball_table(const TableSpec& spec) { return TableBuilder<Ball>(spec).build(); }
+BallTable ball_table(const TableSpec& spec) { return table_of<Ball>(spec); }
 
 }  // namespace carom::certify

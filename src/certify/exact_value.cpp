@@ -3,6 +3,7 @@
 #include <flint/fmpq.h>
 
 #include "base/expression.hpp"
+#include "table/numbers.hpp"
 
 namespace carom::certify {
 namespace {
@@ -74,14 +75,9 @@ Sign sign_of(const ExactNumber& number) {
   return Sign::undecided;
 }
 
-std::string exact_text(const ExactNumber& number) {
-  const auto rational = number.to_rational();
-  return rational ? rational->numerator + "/" + rational->denominator : number.text();
-}
-
 CosSin direction_of(const ExactNumber& angle, long part, long whole) {
   CosSin result;
-  const std::string turns = "((" + exact_text(angle) + ")/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole) + ")";
+  const std::string turns = "(" + shapes::quoted(angle) + "/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole) + ")";
   const ExactNumber halves(turns + "*2", angle.place());  // in units of pi
   if (const auto exact = halves.to_rational()) {
     fmpq_t q;

@@ -11,9 +11,6 @@ namespace carom::certify {
 /// A ball around what the number means, to the present precision.
 Ball value_of(const ExactNumber&);
 
-/// The number as text that means it exactly: that of a double is rounded.
-std::string exact_text(const ExactNumber&);
-
 inline constexpr slong bits_of_a_first_look = 128, most_bits_of_a_sign = 1 << 14;
 /// The sign of a number as written. Undecided where it is not rational and no ball of 2^14 bits tells it from zero.
 Sign sign_of(const ExactNumber&);

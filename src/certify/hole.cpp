@@ -8,6 +8,7 @@
 #include "carom/table/table.hpp"
 #include "certify/exact_value.hpp"
 #include "certify/rational.hpp"
+#include "table/numbers.hpp"
 
 namespace carom::certify {
 namespace {
@@ -88,7 +89,7 @@ class EllipseLength {
 };
 
 ExactNumber end_of(const HoleSpec& spec, const char* side) {
-  return {"(" + exact_text(spec.center) + ")" + side + "(" + exact_text(spec.width) + ")/2", spec.place};
+  return {shapes::quoted(spec.center) + side + shapes::quoted(spec.width) + "/2", spec.place};
 }
 
 // The sign of an arc length less that of the wall.

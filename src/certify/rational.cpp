@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "certify/exact_value.hpp"
 #include "certify/table_builder.hpp"
+#include "table/numbers.hpp"
 
 namespace carom::certify {
 
@@ -12,7 +12,7 @@ struct Source<Rational> {
   static Rational value(const ExactNumber& number) { return Rational(number); }
   static VectorOf<Rational> direction(const ExactNumber& angle, long part = 0, long whole = 1) {
     const std::string turns =
-        "(" + exact_text(angle) + ")/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole);
+        shapes::quoted(angle) + "/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole);
     const Rational quarters(ExactNumber("4*(" + turns + ")"));
     const mpq_class* const q = quarters.value();
     if (q == nullptr || q->get_den() != 1) return {Rational::unknown(), Rational::unknown()};
@@ -24,6 +24,6 @@ struct Source<Rational> {
 
 VectorOf<Rational> rational_direction(const ExactNumber& angle) { return Source<Rational>::direction(angle); }
 
-TableOf<Rational> rational_table(const TableSpec& spec) { return TableBuilder<Rational>(spec).build(); }
+TableOf<Rational> rational_table(const TableSpec& spec) { return table_of<Rational>(spec); }
 
 }  // namespace carom::certify

@@ -7,6 +7,7 @@
 #include "certify/exact_value.hpp"
 #include "certify/rational.hpp"
 #include "certify/start.hpp"
+#include "table/numbers.hpp"
 
 namespace carom::certify {
 namespace {
@@ -17,33 +18,35 @@ std::string called(const ExactSystem& system, int wall) {
   return "'" + system.table->walls[static_cast<std::size_t>(wall)].name + "'";
 }
 
-// Which walls there are, and which way they turn, is read off the numbers as written and off the doubles:
+// Whether a mushroom has a brim, and which way an arc turns, is read off the numbers as written and off the doubles:
 // that may differ.
 void check_walls(const ExactSystem& system) {
   const Precision precision(bits_of_a_first_look);
-  const BallTable table = ball_table(*system.spec);
-  const auto same = [](const WallOf<Ball>& w, const geometry::Curve& curve) {
-    const auto is = [&](Form form, bool closed, bool counterclockwise) {
-      return w.form == form && w.closed == closed && (w.turn > 0) == counterclockwise;
-    };
-    if (std::holds_alternative<geometry::Segment>(curve)) return w.form == Form::segment;
-    if (const auto* c = std::get_if<geometry::Circle>(&curve))
-      return is(Form::circle, true, c->counterclockwise);
-    if (const auto* c = std::get_if<geometry::CircularArc>(&curve))
-      return is(Form::circle, false, c->counterclockwise);
-    if (const auto* c = std::get_if<geometry::Ellipse>(&curve))
-      return is(Form::ellipse, true, c->counterclockwise);
-    if (const auto* c = std::get_if<geometry::EllipticArc>(&curve))
-      return is(Form::ellipse, false, c->counterclockwise);
-    return true;
-  };
+  const TableSpec& spec = *system.spec;
   const std::vector<Wall>& rounded = system.table->walls;
-  bool all = rounded.size() == table.walls.size();
-  for (std::size_t k = 0; all && k < rounded.size(); ++k) all = same(table.walls[k], rounded[k].curve);
-  if (!all)
-    throw InputError(system.spec->shape_place,
-                     "the table as it was written has other walls than the same in double precision",
-                     "numbers that differ by more than the rounding of doubles");
+  const auto other_walls = [&] {
+    return InputError(spec.shape_place, "the table as it was written has other walls than the same in double precision",
+                      "numbers that differ by more than the rounding of doubles");
+  };
+  if (spec.shape == "mushroom") {
+    const ExactNumber& stem = spec.numbers.at("stem_width");
+    const Sign brim =
+        sign_of(shapes::derived("2*" + shapes::quoted(spec.numbers.at("cap_radius")) + "-" + shapes::quoted(stem), stem));
+    if (brim == Sign::negative)
+      throw InputError(stem.place(), "the stem is wider than the cap", "stem_width <= 2 cap_radius");
+    if (brim == Sign::undecided)
+      throw InputError(stem.place(), "whether the stem is as wide as the cap cannot be told",
+                       "numbers that differ by more");
+    if ((brim == Sign::positive) != (system.table->wall_index("brim_left") >= 0)) throw other_walls();
+  }
+  const BallTable table = ball_table(spec);
+  for (std::size_t k = 0; k < rounded.size(); ++k) {
+    const bool counterclockwise = table.walls[k].turn > 0;
+    if (const auto* arc = std::get_if<geometry::CircularArc>(&rounded[k].curve); arc && arc->counterclockwise != counterclockwise)
+      throw other_walls();
+    if (const auto* arc = std::get_if<geometry::EllipticArc>(&rounded[k].curve); arc && arc->counterclockwise != counterclockwise)
+      throw other_walls();
+  }
 }
 
 void check_velocity(const ExactStart& start) {

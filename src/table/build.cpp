@@ -8,21 +8,6 @@
 namespace carom {
 namespace shapes {
 
-void add_loop(Table& table, std::vector<NamedCurve> chain) {
-  const int first = static_cast<int>(table.walls.size());
-  const int count = static_cast<int>(chain.size());
-  for (int k = 0; k < count; ++k) {
-    NamedCurve& piece = chain[static_cast<std::size_t>(k)];
-    Wall wall;
-    wall.name = std::move(piece.name);
-    wall.curve = piece.curve;
-    wall.next = first + (k + 1) % count;
-    wall.previous = first + (k + count - 1) % count;
-    wall.corner = piece.corner;
-    table.walls.push_back(std::move(wall));
-  }
-}
-
 std::vector<std::string> numbered(const std::string& stem, std::size_t count) {
   std::vector<std::string> names;
   for (std::size_t k = 1; k <= count; ++k) names.push_back(stem + "_" + std::to_string(k));
@@ -33,7 +18,7 @@ std::vector<std::string> numbered(const std::string& stem, std::size_t count) {
 
 namespace {
 
-using Builder = void (*)(const TableSpec&, Table&);
+using Builder = shapes::Shape (*)(const TableSpec&);
 const std::pair<const char*, Builder> builders[] = {
     {"rectangle", shapes::rectangle}, {"polygon", shapes::polygon}, {"triangle", shapes::triangle},
     {"regular", shapes::regular},     {"circle", shapes::circle},   {"ellipse", shapes::ellipse},
@@ -55,6 +40,21 @@ Builder builder_of(const TableSpec& spec) {
                    nearest_name(spec.shape, names));
 }
 
+void add_loop(Table& table, const shapes::Chain& chain) {
+  const int first = static_cast<int>(table.walls.size());
+  const int count = static_cast<int>(chain.size());
+  for (int k = 0; k < count; ++k) {
+    const shapes::NamedCurve& piece = chain[static_cast<std::size_t>(k)];
+    Wall wall;
+    wall.name = piece.name;
+    wall.curve = rounded(piece.curve);
+    wall.next = first + (k + 1) % count;
+    wall.previous = first + (k + count - 1) % count;
+    wall.corner = piece.corner;
+    table.walls.push_back(std::move(wall));
+  }
+}
+
 void check_names(const TableSpec& spec, const Table& table) {
   std::set<std::string> names;
   for (std::size_t k = 0; k < table.walls.size(); ++k) {
@@ -65,6 +65,12 @@ void check_names(const TableSpec& spec, const Table& table) {
 }
 
 }  // namespace
+
+shapes::Shape shapes::written_shape(const TableSpec& spec) {
+  Shape shape = builder_of(spec)(spec);
+  add_obstacles(spec, shape);
+  return shape;
+}
 
 int Table::wall_index(const std::string& name) const {
   for (std::size_t k = 0; k < walls.size(); ++k) {
@@ -100,8 +106,10 @@ int Table::hole_index(const std::string& name) const {
 Table build_table(const TableSpec& spec) {
   Table table;
   table.shape = spec.shape;
-  builder_of(spec)(spec, table);
-  shapes::add_obstacles(spec, table);
+  const shapes::Shape shape = shapes::written_shape(spec);
+  table.extent = shape.extent;
+  for (const shapes::Chain& chain : shape.loops) add_loop(table, chain);
+  if (shape.lattice) shapes::set_lattice(table, *shape.lattice, shapes::point(shape.cell_centre));
   if (spec.lattice) shapes::repeat(*spec.lattice, table);
   check_names(spec, table);
   if (!table.walls.empty()) shapes::check_region(spec, table);

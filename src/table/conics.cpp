@@ -6,23 +6,18 @@
 
 namespace carom::shapes {
 
-using geometry::Circle;
-using geometry::Vector;
-
-void circle(const TableSpec& spec, Table& table) {
-  add_loop(table, {{"circle", Circle{Vector{0, 0}, size(spec, "radius"), true}}});
+Shape circle(const TableSpec& spec) {
+  size(spec, "radius");
+  return {{{{"circle", WrittenCircle{{}, number(spec, "radius"), true}}}}};
 }
 
-void ellipse(const TableSpec& spec, Table& table) {
-  const ExactNumber& a = number(spec, "a");
-  const ExactNumber& b = number(spec, "b");
-  const double semi_axis = size_of(a, "a");
-  size_of(b, "b");
-  const double ratio = size_of(derived(quoted(b) + "/" + quoted(a), b), "b/a");
-  add_loop(table, {{"ellipse", geometry::Ellipse{Vector{0, 0}, Vector{semi_axis, 0}, ratio, true}}});
+Shape ellipse(const TableSpec& spec) {
+  size(spec, "a");
+  size(spec, "b");
+  return {{{{"ellipse", WrittenEllipse{{}, number(spec, "a"), number(spec, "b"), {}, true}}}}};
 }
 
-void annulus(const TableSpec& spec, Table& table) {
+Shape annulus(const TableSpec& spec) {
   const double outer = size(spec, "outer");
   const ExactNumber& inner_number = number(spec, "inner");
   const double inner = size_of(inner_number, "inner");
@@ -36,8 +31,8 @@ void annulus(const TableSpec& spec, Table& table) {
     throw InputError(offset_number.place(), "the inner circle sticks out of the outer one",
                      "inner + |offset| <= outer");
   }
-  add_loop(table, {{"outer", Circle{Vector{0, 0}, outer, true}}});
-  add_loop(table, {{"inner", Circle{Vector{offset, 0}, inner, false}}});
+  return {{{{"outer", WrittenCircle{{}, number(spec, "outer"), true}}},
+           {{"inner", WrittenCircle{{offset_number, 0}, inner_number, false}}}}};
 }
 
 }  // namespace carom::shapes

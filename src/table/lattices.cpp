@@ -11,7 +11,6 @@
 namespace carom::shapes {
 namespace {
 
-using geometry::Circle;
 using geometry::Vector;
 
 std::string shown(Vector v) {
@@ -36,20 +35,11 @@ void refuse_long_vectors(const geometry::Lattice& lattice, const Place& place) {
                        shown(geometry::displacement(lattice, second)));
 }
 
-void set_lattice(Table& table, Vector first, Vector second, Vector centre, const Place& place) {
-  try {
-    table.lattice = geometry::make_lattice(first, second, centre);
-  } catch (const std::invalid_argument&) {
-    throw InputError(place, "the lattice vectors are parallel or zero", "two vectors that span the plane");
-  }
-  refuse_long_vectors(*table.lattice, place);
-  table.extent = Extent::lattice;
-}
-
-std::vector<double> radii_of(const TableSpec& spec, std::size_t count) {
+std::vector<ExactNumber> radii_of(const TableSpec& spec, std::size_t count) {
   const auto list = spec.lists.find("radii");
   if (list == spec.lists.end()) {
-    return std::vector<double>(count, size(spec, "radius"));
+    size(spec, "radius");
+    return std::vector<ExactNumber>(count, number(spec, "radius"));
   }
   const auto single = spec.numbers.find("radius");
   if (single != spec.numbers.end()) {
@@ -60,70 +50,79 @@ std::vector<double> radii_of(const TableSpec& spec, std::size_t count) {
                      std::to_string(list->second.size()) + " radii for " + std::to_string(count) + " centers",
                      "one radius for each center");
   }
-  std::vector<double> radii;
-  for (const ExactNumber& r : list->second) radii.push_back(size_of(r, "radius"));
-  return radii;
+  for (const ExactNumber& r : list->second) size_of(r, "radius");
+  return list->second;
 }
 
 }  // namespace
 
-void sinai(const TableSpec& spec, Table& table) {
-  const double side = size(spec, "side");
-  const ExactNumber& radius_number = number(spec, "radius");
-  const double radius = size_of(radius_number, "radius");
-  if (2 * radius > side) {
-    throw InputError(radius_number.place(), "the disc does not fit into the square", "radius <= side/2");
+void set_lattice(Table& table, const LatticeSpec& spec, Vector centre) {
+  try {
+    table.lattice = geometry::make_lattice(point(spec.first), point(spec.second), centre);
+  } catch (const std::invalid_argument&) {
+    throw InputError(spec.place, "the lattice vectors are parallel or zero", "two vectors that span the plane");
   }
-  const Vector middle{side / 2, side / 2};
-  add_loop(table, {{"disc", Circle{middle, radius, false}}});
-  close_square(table, side, spec);
+  refuse_long_vectors(*table.lattice, spec.place);
+  table.extent = Extent::lattice;
 }
 
-void close_square(Table& table, double side, const TableSpec& spec) {
+Shape sinai(const TableSpec& spec) {
+  const ExactNumber& side = number(spec, "side");
+  const ExactNumber& radius = number(spec, "radius");
+  if (2 * size_of(radius, "radius") > size_of(side, "side")) {
+    throw InputError(radius.place(), "the disc does not fit into the square", "radius <= side/2");
+  }
+  Shape shape{{{{"disc", WrittenCircle{{half(side), half(side)}, radius, false}}}}};
+  close_square(shape, side, spec);
+  return shape;
+}
+
+void close_square(Shape& shape, const ExactNumber& side, const TableSpec& spec) {
   if (spec.torus) {
-    set_lattice(table, {side, 0}, {0, side}, {side / 2, side / 2}, spec.place);
+    shape.lattice = {{side, 0}, {0, side}, spec.place};
+    shape.cell_centre = {half(side), half(side)};
   } else {
-    add_polygon(table, {"bottom", "right", "top", "left"}, {{0, 0}, {side, 0}, {side, side}, {0, side}});
+    add_polygon(shape, {"bottom", "right", "top", "left"},
+                {ExactPoint{0, 0}, ExactPoint{side, 0}, ExactPoint{side, side}, ExactPoint{0, side}});
   }
 }
 
-void lorentz(const TableSpec& spec, Table& table) {
-  const ExactNumber& spacing_number = number(spec, "spacing");
-  const double spacing = size_of(spacing_number, "spacing");
-  const ExactNumber& radius_number = number(spec, "radius");
-  const double radius = size_of(radius_number, "radius");
-  if (2 * radius > spacing) {
-    throw InputError(radius_number.place(), "neighbouring discs overlap", "radius <= spacing/2");
+Shape lorentz(const TableSpec& spec) {
+  const ExactNumber& spacing = number(spec, "spacing");
+  const ExactNumber& radius = number(spec, "radius");
+  if (2 * size_of(radius, "radius") > size_of(spacing, "spacing")) {
+    throw InputError(radius.place(), "neighbouring discs overlap", "radius <= spacing/2");
   }
   const auto word = spec.words.find("lattice");
   const std::string lattice = word == spec.words.end() ? "triangular" : word->second;
-  add_loop(table, {{"disc_1", Circle{Vector{0, 0}, radius, false}}});
+  Shape shape{{{{"disc_1", WrittenCircle{{}, radius, false}}}}};
   if (lattice == "triangular") {
-    const double height = derived(quoted(spacing_number) + "*sqrt(3)/2", spacing_number).to_double();
-    set_lattice(table, {spacing, 0}, {spacing / 2, height}, {0, 0}, spec.place);
+    shape.lattice = {{spacing, 0}, {half(spacing), derived(quoted(spacing) + "*sqrt(3)/2", spacing)}, spec.place};
   } else if (lattice == "square") {
-    set_lattice(table, {spacing, 0}, {0, spacing}, {0, 0}, spec.place);
+    shape.lattice = {{spacing, 0}, {0, spacing}, spec.place};
   } else {
     throw InputError(place_of(spec, "lattice"), "unknown lattice '" + lattice + "'",
                      "\"triangular\" or \"square\"", nearest_name(lattice, {"triangular", "square"}));
   }
+  return shape;
 }
 
-void discs(const TableSpec& spec, Table& table) {
+Shape discs(const TableSpec& spec) {
   const auto centers = spec.points.find("centers");
   if (centers == spec.points.end() || centers->second.empty()) {
     throw InputError(place_of(spec, "centers"), "the shape 'discs' needs 'centers'",
                      "a list of points [x, y]");
   }
-  const std::vector<double> radii = radii_of(spec, centers->second.size());
+  const std::vector<ExactNumber> radii = radii_of(spec, centers->second.size());
   const std::vector<std::string> names = numbered("disc", radii.size());
-  for (std::size_t k = 0; k < radii.size(); ++k) {
-    add_loop(table, {{names[k], Circle{point(centers->second[k]), radii[k], false}}});
-  }
-  table.extent = Extent::open_plane;
+  Shape shape;
+  for (std::size_t k = 0; k < radii.size(); ++k)
+    shape.loops.push_back({{names[k], WrittenCircle{centers->second[k], radii[k], false}}});
+  shape.extent = Extent::open_plane;
+  return shape;
 }
 
-void plane(const TableSpec&, Table& table) { table.extent = Extent::open_plane; }
+Shape plane(const TableSpec&) { return {{}, Extent::open_plane}; }
 
 void repeat(const LatticeSpec& lattice, Table& table) {
   if (table.extent == Extent::lattice) {
@@ -135,11 +134,11 @@ void repeat(const LatticeSpec& lattice, Table& table) {
                      "[lattice] with obstacles in the open plane: discs, or a path of clockwise loops");
   }
   if (table.walls.empty())
-    return set_lattice(table, point(lattice.first), point(lattice.second), {0, 0}, lattice.place);
+    return set_lattice(table, lattice, {0, 0});
   const geometry::Box box =
       geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
   const Vector centre{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2};
-  set_lattice(table, point(lattice.first), point(lattice.second), centre, lattice.place);
+  set_lattice(table, lattice, centre);
 }
 
 }  // namespace carom::shapes

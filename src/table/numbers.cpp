@@ -57,12 +57,17 @@ double coordinate(const ExactNumber& value) {
 geometry::Vector point(const ExactPoint& value) { return {coordinate(value.x), coordinate(value.y)}; }
 
 std::string quoted(const ExactNumber& value) {
+  constexpr std::size_t long_text = 2000;  // numbers made from doubles are shorter, and what was written means itself
   const auto rational = value.to_rational();
-  return "(" + (rational ? rational->numerator + "/" + rational->denominator : value.text()) + ")";
+  const bool as_ratio = rational && rational->numerator.size() + rational->denominator.size() < long_text;
+  return "(" + (as_ratio ? rational->numerator + "/" + rational->denominator : value.text()) + ")";
 }
 
 ExactNumber derived(const std::string& expression, const ExactNumber& origin) {
   return ExactNumber(expression, origin.place());
 }
+
+ExactNumber half(const ExactNumber& value) { return derived(quoted(value) + "/2", value); }
+ExactNumber negative(const ExactNumber& value) { return derived("-" + quoted(value), value); }
 
 }  // namespace carom::shapes

@@ -26,6 +26,10 @@ ExactNumber derived(const std::string& expression, const ExactNumber& origin);
 /// A number as part of an expression: "(1/10)", "(sqrt(2))". Exact: the text of a number made from a double is not.
 std::string quoted(const ExactNumber& value);
 
+/// Half of a number, and its negative.
+ExactNumber half(const ExactNumber&);
+ExactNumber negative(const ExactNumber&);
+
 /// The place of a key of the table that was not written.
 Place place_of(const TableSpec& spec, const std::string& key);
 

@@ -1,10 +1,7 @@
 #include "table/obstacles.hpp"
 
-#include <utility>
-
 #include "carom/base/exact_sum.hpp"
 #include "carom/base/fused_product.hpp"
-#include "table/direction.hpp"
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
@@ -58,7 +55,7 @@ std::vector<ClockwiseSide> clockwise_sides(const ObstacleSpec& obstacle) {
 namespace shapes {
 namespace {
 
-void add_polygon_obstacle(const ObstacleSpec& obstacle, const std::string& name, Table& table) {
+Chain polygon_obstacle(const ObstacleSpec& obstacle, const std::string& name) {
   const std::vector<Vector> corners = corners_of(obstacle);
   if (corners.size() < 3)
     throw InputError(obstacle.place, "a polygon has at least three corners, not " + std::to_string(corners.size()),
@@ -67,29 +64,28 @@ void add_polygon_obstacle(const ObstacleSpec& obstacle, const std::string& name,
     if (corners[k] == corners[(k + 1) % corners.size()])
       throw InputError(obstacle.points[k].x.place(), "the same point twice in a row", "corners that differ");
   const std::vector<std::string> names = numbered(name + "_side", corners.size());
-  std::vector<NamedCurve> chain;
+  Chain chain;
   for (const ClockwiseSide& s : clockwise_sides(obstacle))
-    chain.push_back({names[s.side], geometry::Segment{corners[s.from], corners[s.to]}});
-  add_loop(table, std::move(chain));
+    chain.push_back({names[s.side], WrittenSegment{obstacle.points[s.from], obstacle.points[s.to]}});
+  return chain;
 }
 
 }  // namespace
 
-void add_obstacles(const TableSpec& spec, Table& table) {
+void add_obstacles(const TableSpec& spec, Shape& shape) {
   for (std::size_t k = 0; k < spec.obstacles.size(); ++k) {
     const ObstacleSpec& o = spec.obstacles[k];
     const std::string name = name_of_obstacle(spec.obstacles, k);
     switch (o.shape) {
       case ObstacleSpec::Shape::circle:
-        add_loop(table, {{name, geometry::Circle{point(o.center), size_of(o.radius, "radius"), false}}});
+        shape.loops.push_back({{name, WrittenCircle{o.center, o.radius, false}}});
         break;
       case ObstacleSpec::Shape::ellipse:
         size_of(o.b, "b");
-        add_loop(table, {{name, geometry::Ellipse{point(o.center), direction(o.angle, 0, 1, size_of(o.a, "a")),
-                                                  size_of(derived(quoted(o.b) + "/" + quoted(o.a), o.b), "b/a"), false}}});
+        shape.loops.push_back({{name, WrittenEllipse{o.center, o.a, o.b, o.angle, false}}});
         break;
       case ObstacleSpec::Shape::polygon:
-        add_polygon_obstacle(o, name, table);
+        shape.loops.push_back(polygon_obstacle(o, name));
         break;
     }
   }

@@ -95,7 +95,7 @@ class Arrangement {
 
 }  // namespace
 
-void random_discs(const TableSpec& spec, Table& table) {
+Shape random_discs(const TableSpec& spec) {
   const double side = size(spec, "side");
   const ExactNumber& radius_number = number(spec, "radius");
   const double radius = size_of(radius_number, "radius");
@@ -127,9 +127,13 @@ void random_discs(const TableSpec& spec, Table& table) {
     }
   }
   const std::vector<std::string> names = numbered("disc", count);
-  for (std::size_t k = 0; k < names.size(); ++k)
-    add_loop(table, {{names[k], Circle{arrangement.placed()[k], radius, false}}});
-  close_square(table, side, spec);
+  Shape shape;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const Vector centre = arrangement.placed()[k];  // drawn as doubles, it is these exactly
+    shape.loops.push_back({{names[k], WrittenCircle{{centre.x, centre.y}, radius_number, false}}});
+  }
+  close_square(shape, number(spec, "side"), spec);
+  return shape;
 }
 
 }  // namespace carom::shapes

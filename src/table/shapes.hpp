@@ -1,58 +1,108 @@
-// The named shapes: each function adds the walls of one shape to a table.
+// The named shapes: each function gives the walls of one shape in the numbers that were written. Tables round these to
+// doubles (build.cpp), certified orbits enclose them (certify/table_builder.hpp).
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "carom/table/table.hpp"
 
 namespace carom::shapes {
 
+/// A corner of a regular polygon: `radius` from the origin, in the direction of `angle` and `part` of `whole` turns.
+struct RegularCorner {
+  ExactNumber radius, angle;
+  int part = 0, whole = 1;
+};
+using WrittenPoint = std::variant<ExactPoint, RegularCorner>;
+
+struct WrittenSegment {
+  WrittenPoint from, to;
+};
+/// Counter-clockwise about its centre, which lies `offset` chords on the left of the chord. Half circles have offset 0:
+/// their tangents at the ends are exactly at right angles to the chord, so that they join straight walls without a corner.
+struct WrittenArc {
+  ExactPoint from, to, centre;
+  ExactNumber radius, offset;
+};
+struct WrittenCircle {
+  ExactPoint centre;
+  ExactNumber radius;
+  bool counterclockwise = false;
+};
+/// `angle`: of the semi-axis a against +x.
+struct WrittenEllipse {
+  ExactPoint centre;
+  ExactNumber a, b, angle;
+  bool counterclockwise = false;
+};
+/// A piece of a path.
+struct WrittenPiece {
+  ExactPoint from;
+  PieceSpec piece;
+};
+using WrittenCurve = std::variant<WrittenSegment, WrittenArc, WrittenCircle, WrittenEllipse, WrittenPiece>;
+
 /// A wall before it has neighbours.
 struct NamedCurve {
   std::string name;
-  geometry::Curve curve;
+  WrittenCurve curve;
   int corner = 0;  ///< n if the corner at its start is declared to have the angle pi/n
 };
+/// Curves of which each ends where the next begins and the last where the first begins. A full circle or ellipse is a chain
+/// of one.
+using Chain = std::vector<NamedCurve>;
 
-/// Adds a chain of curves, each of which ends where the next begins and the last where the first
-/// begins. A full circle or ellipse is a chain of one.
-void add_loop(Table& table, std::vector<NamedCurve> chain);
+struct Shape {
+  std::vector<Chain> loops;
+  Extent extent = Extent::bounded;
+  std::optional<LatticeSpec> lattice = {};
+  ExactPoint cell_centre = {};
+};
+
+/// The shape of a table with its obstacles and its lattice.
+Shape written_shape(const TableSpec&);
+/// A curve in doubles.
+geometry::Curve rounded(const WrittenCurve&);
+
 /// Adds a polygon whose side k runs from corner k to the next; the corners' angle may be declared.
-void add_polygon(Table& table, const std::vector<std::string>& names,
-                 const std::vector<geometry::Vector>& corners, int corner = 0);
+void add_polygon(Shape&, const std::vector<std::string>& names, const std::vector<WrittenPoint>& corners, int corner = 0);
 /// "side_1", "side_2", …
 std::vector<std::string> numbered(const std::string& stem, std::size_t count);
 
-void rectangle(const TableSpec& spec, Table& table);
-void polygon(const TableSpec& spec, Table& table);
-void triangle(const TableSpec& spec, Table& table);
-void regular(const TableSpec& spec, Table& table);
+Shape rectangle(const TableSpec&);
+Shape polygon(const TableSpec&);
+Shape triangle(const TableSpec&);
+Shape regular(const TableSpec&);
 
-void circle(const TableSpec& spec, Table& table);
-void ellipse(const TableSpec& spec, Table& table);
-void annulus(const TableSpec& spec, Table& table);
+Shape circle(const TableSpec&);
+Shape ellipse(const TableSpec&);
+Shape annulus(const TableSpec&);
 
-void stadium(const TableSpec& spec, Table& table);
-void mushroom(const TableSpec& spec, Table& table);
-void lemon(const TableSpec& spec, Table& table);
+Shape stadium(const TableSpec&);
+Shape mushroom(const TableSpec&);
+Shape lemon(const TableSpec&);
 
-void sinai(const TableSpec& spec, Table& table);
-void lorentz(const TableSpec& spec, Table& table);
-void discs(const TableSpec& spec, Table& table);
-void random_discs(const TableSpec& spec, Table& table);
+Shape sinai(const TableSpec&);
+Shape lorentz(const TableSpec&);
+Shape discs(const TableSpec&);
+Shape random_discs(const TableSpec&);
 /// The square [0, side]^2 about discs: a torus, or with walls.
-void close_square(Table& table, double side, const TableSpec& spec);
+void close_square(Shape&, const ExactNumber& side, const TableSpec&);
 /// No walls: for particles that forces hold, or on a lattice.
-void plane(const TableSpec& spec, Table& table);
-/// [lattice]: repeats the obstacles of any open table.
-void repeat(const LatticeSpec& lattice, Table& table);
+Shape plane(const TableSpec&);
+/// Repeats the obstacles of an open table: those of a shape about the cell's centre, or of any by [lattice].
+void set_lattice(Table&, const LatticeSpec&, geometry::Vector centre);
+void repeat(const LatticeSpec&, Table&);
 
-void path(const TableSpec& spec, Table& table);
+Shape path(const TableSpec&);
 
 /// The walls of [[table.obstacle]], after those of the shape.
-void add_obstacles(const TableSpec& spec, Table& table);
+void add_obstacles(const TableSpec&, Shape&);
 
 /// Turns the holes' arc lengths into parameters.
 void add_holes(const TableSpec& spec, Table& table);

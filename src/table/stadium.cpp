@@ -4,44 +4,39 @@
 
 namespace carom::shapes {
 
-using geometry::CircularArc;
-using geometry::Segment;
-using geometry::Vector;
-
-// Half circles have offset 0: their tangents at the ends are exactly at right angles to the chord, so
-// that they join the straight walls without a corner.
-
-void stadium(const TableSpec& spec, Table& table) {
-  const double a = size(spec, "half_length");
-  const double r = size(spec, "radius");
-  const Vector south_west{-a, -r}, south_east{a, -r}, north_east{a, r}, north_west{-a, r};
-  add_loop(table, {{"bottom", Segment{south_west, south_east}},
-                   {"right", CircularArc{south_east, north_east, 0.0, true}},
-                   {"top", Segment{north_east, north_west}},
-                   {"left", CircularArc{north_west, south_west, 0.0, true}}});
+Shape stadium(const TableSpec& spec) {
+  const ExactNumber &a = number(spec, "half_length"), &r = number(spec, "radius"), west = negative(a), south = negative(r);
+  size_of(a, "half_length");
+  size_of(r, "radius");
+  const ExactPoint south_west{west, south}, south_east{a, south}, north_east{a, r}, north_west{west, r};
+  return {{{{"bottom", WrittenSegment{south_west, south_east}},
+            {"right", WrittenArc{south_east, north_east, {a, 0}, r, 0}},
+            {"top", WrittenSegment{north_east, north_west}},
+            {"left", WrittenArc{north_west, south_west, {west, 0}, r, 0}}}}};
 }
 
-void mushroom(const TableSpec& spec, Table& table) {
-  const double cap = size(spec, "cap_radius");
-  const ExactNumber& stem_width = number(spec, "stem_width");
-  const double half = size_of(stem_width, "stem_width") / 2;
-  const double height = size(spec, "stem_height");
-  if (half > cap) {
+Shape mushroom(const TableSpec& spec) {
+  const ExactNumber &cap = number(spec, "cap_radius"), &stem_width = number(spec, "stem_width");
+  const ExactNumber right = half(stem_width), left = negative(right);
+  const ExactNumber floor = negative(number(spec, "stem_height"));
+  size_of(cap, "cap_radius");
+  size_of(stem_width, "stem_width");
+  size_of(number(spec, "stem_height"), "stem_height");
+  if (right.to_double() > cap.to_double())
     throw InputError(stem_width.place(), "the stem is wider than the cap", "stem_width <= 2 cap_radius");
-  }
-  const Vector foot_left{-half, -height}, foot_right{half, -height};
-  const Vector neck_right{half, 0}, neck_left{-half, 0}, cap_right{cap, 0}, cap_left{-cap, 0};
-  std::vector<NamedCurve> chain{{"stem_bottom", Segment{foot_left, foot_right}},
-                                {"stem_right", Segment{foot_right, neck_right}}};
-  const bool brim = half < cap;  // a stem as wide as the cap leaves no brim: cap and stem join smoothly
-  if (brim) chain.push_back({"brim_right", Segment{neck_right, cap_right}});
-  chain.push_back({"cap", CircularArc{cap_right, cap_left, 0.0, true}});
-  if (brim) chain.push_back({"brim_left", Segment{cap_left, neck_left}});
-  chain.push_back({"stem_left", Segment{neck_left, foot_left}});
-  add_loop(table, std::move(chain));
+  const ExactPoint foot_left{left, floor}, foot_right{right, floor};
+  const ExactPoint neck_right{right, 0}, neck_left{left, 0}, cap_right{cap, 0}, cap_left{negative(cap), 0};
+  Chain chain{{"stem_bottom", WrittenSegment{foot_left, foot_right}}, {"stem_right", WrittenSegment{foot_right, neck_right}}};
+  // A stem as wide as the cap leaves no brim: cap and stem join smoothly.
+  const bool brim = right.to_double() < cap.to_double();
+  if (brim) chain.push_back({"brim_right", WrittenSegment{neck_right, cap_right}});
+  chain.push_back({"cap", WrittenArc{cap_right, cap_left, {}, cap, 0}});
+  if (brim) chain.push_back({"brim_left", WrittenSegment{cap_left, neck_left}});
+  chain.push_back({"stem_left", WrittenSegment{neck_left, foot_left}});
+  return {{chain}};
 }
 
-void lemon(const TableSpec& spec, Table& table) {
+Shape lemon(const TableSpec& spec) {
   const ExactNumber& radius = number(spec, "radius");
   const ExactNumber& separation = number(spec, "separation");
   size_of(radius, "radius");
@@ -53,11 +48,11 @@ void lemon(const TableSpec& spec, Table& table) {
   // The circles about (-d/2, 0) and (d/2, 0) meet at (0, ±h); in units of the chord 2h a centre lies
   // d/(4h) beside the chord's middle.
   const std::string h = "sqrt(" + r + "^2-" + d + "^2/4)";
-  const double tip = size_of(derived(h, radius), "half the height of the lemon");
-  const double offset = derived(d + "/(4*" + h + ")", separation).to_double();
-  const Vector south{0, -tip}, north{0, tip};
-  add_loop(table, {{"right", CircularArc{south, north, offset, true}},
-                   {"left", CircularArc{north, south, offset, true}}});
+  const ExactNumber tip = derived(h, radius), offset = derived(d + "/(4*" + h + ")", separation);
+  size_of(tip, "half the height of the lemon");
+  const ExactPoint south{0, negative(tip)}, north{0, tip};
+  return {{{{"right", WrittenArc{south, north, {negative(half(separation)), 0}, radius, offset}},
+            {"left", WrittenArc{north, south, {half(separation), 0}, radius, offset}}}}};
 }
 
 }  // namespace carom::shapes
