@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "certify/larmor_circle.hpp"
-#include "certify/start.hpp"
+#include "certify/flight/larmor_circle.hpp"
+#include "certify/wall/start.hpp"
 
 namespace carom {
 

@@ -7,7 +7,7 @@
 #include "carom/base/twofold.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
-#include "certify/ball_table.hpp"
+#include "certify/wall/ball_table.hpp"
 
 namespace carom {
 

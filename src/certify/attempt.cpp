@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "carom/base/error.hpp"
-#include "certify/exact_value.hpp"
-#include "certify/line_enclosure.hpp"
-#include "certify/point_enclosure.hpp"
-#include "certify/start.hpp"
+#include "certify/enclosure/line_enclosure.hpp"
+#include "certify/enclosure/point_enclosure.hpp"
+#include "certify/number/exact_value.hpp"
+#include "certify/wall/start.hpp"
 
 namespace carom::certify {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "carom/certify/certified_orbit.hpp"
-#include "certify/line_table.hpp"
-#include "certify/pilot.hpp"
-#include "certify/state_enclosure.hpp"
+#include "certify/enclosure/line_table.hpp"
+#include "certify/enclosure/pilot.hpp"
+#include "certify/enclosure/state_enclosure.hpp"
 #include "certify/tie.hpp"
 
 namespace carom::certify {

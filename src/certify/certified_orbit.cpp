@@ -6,9 +6,9 @@
 
 #include "carom/base/error.hpp"
 #include "certify/attempt.hpp"
-#include "certify/enclosure_of.hpp"
-#include "certify/exact_value.hpp"
-#include "certify/system_check.hpp"
+#include "certify/number/enclosure_of.hpp"
+#include "certify/number/exact_value.hpp"
+#include "certify/wall/system_check.hpp"
 
 namespace carom {
 

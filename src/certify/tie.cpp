@@ -1,9 +1,9 @@
 #include "certify/tie.hpp"
 
 #include "carom/table/table.hpp"
-#include "certify/flight.hpp"
-#include "certify/hole.hpp"
-#include "certify/start.hpp"
+#include "certify/flight/flight.hpp"
+#include "certify/wall/hole.hpp"
+#include "certify/wall/start.hpp"
 
 namespace carom::certify {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "carom/certify/certified_orbit.hpp"
-#include "certify/rational.hpp"
-#include "certify/scene.hpp"
+#include "certify/flight/scene.hpp"
+#include "certify/wall/rational_table.hpp"
 
 namespace carom::certify {
 

@@ -2,8 +2,8 @@
 #include "analysis/written_system.hpp"
 #include "carom/base/error.hpp"
 #include "carom/io/system_file.hpp"
-#include "certify/ball_table.hpp"
-#include "certify/exact_value.hpp"
+#include "certify/number/exact_value.hpp"
+#include "certify/wall/ball_table.hpp"
 
 namespace carom {
 

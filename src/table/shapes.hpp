@@ -1,5 +1,5 @@
 // The named shapes: each function gives the walls of one shape in the numbers that were written. Tables round these to
-// doubles (build.cpp), certified orbits enclose them (certify/table_builder.hpp).
+// doubles (build.cpp), certified orbits enclose them (certify/wall/table_builder.hpp).
 #pragma once
 
 #include <cstddef>

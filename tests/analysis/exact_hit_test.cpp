@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "certify/start.hpp"
+#include "certify/wall/start.hpp"
 #include "geometry/quad.hpp"
 #include "random_tables.hpp"
 #include "tables_by_hand.hpp"

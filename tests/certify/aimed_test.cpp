@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "carom/base/error.hpp"
-#include "certify/ball_table.hpp"
 #include "certify/inside.hpp"
 #include "certify/systems.hpp"
+#include "certify/wall/ball_table.hpp"
 #include "random_tables.hpp"
 #include "validation/benchmarks/plain_orbit.hpp"
 

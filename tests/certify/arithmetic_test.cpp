@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "certify/dual.hpp"
-#include "certify/error_set.hpp"
+#include "certify/enclosure/error_set.hpp"
+#include "certify/number/dual.hpp"
 #include "certify/systems.hpp"
 #include "random_tables.hpp"
 

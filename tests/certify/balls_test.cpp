@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "certify/exact_value.hpp"
-#include "certify/interval.hpp"
+#include "certify/number/exact_value.hpp"
+#include "certify/number/interval.hpp"
 #include "certify/systems.hpp"
 #include "random_tables.hpp"
 

@@ -7,11 +7,11 @@
 #include <ranges>
 
 #include "carom/events/world.hpp"
-#include "certify/ball_table.hpp"
-#include "certify/enclosure_of.hpp"
-#include "certify/exact_value.hpp"
 #include "certify/inside.hpp"
+#include "certify/number/enclosure_of.hpp"
+#include "certify/number/exact_value.hpp"
 #include "certify/systems.hpp"
+#include "certify/wall/ball_table.hpp"
 #include "certify/way_back.hpp"
 #include "random_tables.hpp"
 

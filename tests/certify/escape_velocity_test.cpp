@@ -1,9 +1,9 @@
 // The velocity that an orbit leaves with: the one it came with, to all digits that were asked for.
 #include <gtest/gtest.h>
 
-#include "certify/ball_table.hpp"
-#include "certify/exact_value.hpp"
+#include "certify/number/exact_value.hpp"
 #include "certify/systems.hpp"
+#include "certify/wall/ball_table.hpp"
 #include "random_tables.hpp"
 
 namespace carom {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "carom/base/error.hpp"
-#include "certify/hole.hpp"
 #include "certify/systems.hpp"
+#include "certify/wall/hole.hpp"
 
 namespace carom {
 namespace {

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "carom/events/world.hpp"
-#include "certify/ball_table.hpp"
-#include "certify/enclosure_of.hpp"
-#include "certify/exact_value.hpp"
-#include "certify/hole.hpp"
+#include "certify/number/enclosure_of.hpp"
+#include "certify/number/exact_value.hpp"
 #include "certify/systems.hpp"
+#include "certify/wall/ball_table.hpp"
+#include "certify/wall/hole.hpp"
 #include "random_tables.hpp"
 
 namespace carom {

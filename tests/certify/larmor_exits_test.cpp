@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "certify/larmor_wall.hpp"
+#include "certify/enclosure/tangent.hpp"
+#include "certify/flight/larmor_wall.hpp"
 #include "certify/systems.hpp"
-#include "certify/table_builder.hpp"
-#include "certify/tangent.hpp"
+#include "certify/wall/table_builder.hpp"
 #include "random_tables.hpp"
 
 namespace carom {

@@ -8,13 +8,13 @@
 #include "carom/analysis/trust.hpp"
 #include "carom/events/world.hpp"
 #include "carom/io/system_file.hpp"
-#include "certify/ball.hpp"
-#include "certify/enclosure_of.hpp"
-#include "certify/exact_value.hpp"
 #include "certify/inside.hpp"
+#include "certify/number/ball.hpp"
+#include "certify/number/enclosure_of.hpp"
+#include "certify/number/exact_value.hpp"
 #include "certify/systems.hpp"
+#include "certify/wall/wall.hpp"
 #include "certify/way_back.hpp"
-#include "certify/wall.hpp"
 #include "random_tables.hpp"
 
 namespace carom {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "certify/enclosure_of.hpp"
+#include "certify/number/enclosure_of.hpp"
 #include "certify/systems.hpp"
 
 namespace carom {

@@ -1,7 +1,7 @@
 // A bracket of a root made narrow stays inside itself.
 #include <gtest/gtest.h>
 
-#include "certify/larmor_quartic.hpp"
+#include "certify/flight/larmor_quartic.hpp"
 #include "random_tables.hpp"
 
 namespace carom::certify {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "certify/ball_table.hpp"
-#include "certify/scene.hpp"
+#include "certify/enclosure/tangent.hpp"
+#include "certify/flight/scene.hpp"
 #include "certify/systems.hpp"
-#include "certify/tangent.hpp"
+#include "certify/wall/ball_table.hpp"
 #include "random_tables.hpp"
 
 namespace carom {

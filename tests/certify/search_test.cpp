@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "certify/ball_table.hpp"
-#include "certify/scene.hpp"
+#include "certify/flight/scene.hpp"
 #include "certify/systems.hpp"
+#include "certify/wall/ball_table.hpp"
 
 namespace carom {
 namespace {

@@ -4,10 +4,10 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
-#include "certify/containment.hpp"
-#include "certify/exact_value.hpp"
-#include "certify/system_check.hpp"
+#include "certify/number/exact_value.hpp"
 #include "certify/systems.hpp"
+#include "certify/wall/containment.hpp"
+#include "certify/wall/system_check.hpp"
 #include "random_tables.hpp"
 
 namespace carom {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "carom/certify/certified_orbit.hpp"
-#include "certify/enclosure_of.hpp"
+#include "certify/number/enclosure_of.hpp"
 
 namespace carom::tests {
 

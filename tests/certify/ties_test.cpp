@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "certify/rational.hpp"
+#include "certify/number/rational.hpp"
 #include "certify/systems.hpp"
 
 namespace carom {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "certify/exact_value.hpp"
+#include "certify/number/exact_value.hpp"
 #include "certify/systems.hpp"
 
 namespace carom::tests {

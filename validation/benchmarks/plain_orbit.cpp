@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "certify/attempt.hpp"
-#include "certify/pseudo_orbit.hpp"
+#include "certify/flight/pseudo_orbit.hpp"
 
 namespace carom::certify {
 
