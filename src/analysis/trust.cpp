@@ -75,7 +75,7 @@ class TrustRecorder::Implementation {
     edge.position = edge.position + (sign * 4.0 * geometry::unit_roundoff * size / length_of(v)) * side;
     return edge;
   }
-  /// Who arrives later than this arrives elsewhere.
+  /// A neighbour that arrives later than this arrives elsewhere.
   double latest(const Particle& particle, double duration) const {
     return duration + 3.0 * tolerance * size / particle.speed;
   }

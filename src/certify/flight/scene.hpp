@@ -165,8 +165,8 @@ class SceneOf {
   }
 
  private:
-  /// `later`: where nothing was looked for walls come after the last time. One that is found may then do so too, and
-  /// behind another one: who flies there looks at the time.
+  /// `later`: the search stopped at the last time. A wall that was found may lie beyond it, and need not be the first
+  /// there: the caller checks the time.
   static Choice answer(const First<N, Copy>& first, bool later = false) {
     Choice choice;
     const Copy* rival = first.rival();
