@@ -126,7 +126,6 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
   refuse_files_of_others(file, plan.force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
   Implementation& a = *implementation_;
-  a.origin.before = stored.origins;
   a.merged = stored.merged;
   a.plan.per_trajectory = stored.per_trajectory;
   a.plan.shard = stored.shard;

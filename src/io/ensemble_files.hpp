@@ -30,6 +30,8 @@ void refuse_files_of_others(const std::string& file, bool force);
 void refuse_aside_of_others(const std::string& file, const std::string& aside, bool force);
 /// Where an ensemble of this name stands: FILE.h5.part if that is its checkpoint, else FILE.h5.
 std::string stored_in(const std::string& file);
+/// Do both hold parts of one ensemble, or the whole, by one version?
+bool are_one_ensemble(const StoredEnsemble&, const StoredEnsemble&);
 /// Opens an archive of this schema; throws InputError for anything else.
 hdf5::Handle open_ensemble(const std::string& name);
 

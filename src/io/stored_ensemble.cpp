@@ -149,6 +149,19 @@ std::string difference(const std::string& toml, const std::string& other_toml, c
   return difference("", a, b, but);
 }
 
+bool are_one_ensemble(const StoredEnsemble& a, const StoredEnsemble& b) {
+  return a.kind == b.kind && difference(a.system_toml, b.system_toml).empty() && a.shard == b.shard && a.version == b.version &&
+         a.engine == b.engine && a.everywhere == b.everywhere && a.arithmetic == b.arithmetic &&
+         a.per_trajectory == b.per_trajectory;
+}
+
+LoadedSystem system_of(const StoredEnsemble& stored) {
+  LoadedSystem loaded = read_system(stored.system_toml, stored.file + ": /system");
+  loaded.system.name = stored.system_name;
+  loaded.system.dynamics.everywhere = stored.everywhere;
+  return loaded;
+}
+
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file) {
   const std::string name = stored_in(file);
@@ -161,10 +174,7 @@ Stored<Result> read_ensemble(const std::string& file) {
   } catch (const InputError&) {
     return part;  // what is to be replaced may be anything
   }
-  const bool one_ensemble = difference(whole.system_toml, part.system_toml).empty() && whole.shard == part.shard &&
-                            whole.version == part.version && whole.engine == part.engine &&
-                            whole.everywhere == part.everywhere && whole.arithmetic == part.arithmetic && whole.per_trajectory == part.per_trajectory;
-  return one_ensemble && whole.result.done.size() >= part.result.done.size() ? whole : part;
+  return are_one_ensemble(whole, part) && whole.result.done.size() >= part.result.done.size() ? whole : part;
 }
 
 template <class Result>

@@ -116,6 +116,8 @@ struct StoredEnsemble {
   Shard shard;
   bool per_trajectory = false;
 };
+/// Its system.
+LoadedSystem system_of(const StoredEnsemble&);
 /// With what it has added up.
 template <class Result>
 struct Stored : StoredEnsemble {
@@ -139,15 +141,16 @@ std::string difference(const std::string& toml, const std::string& other_toml, c
 struct EnsemblePart {
   std::string file;
   TrajectoryRanges done;
+  double seconds = 0;
 };
 template <class Result>
 struct SumOfParts : Stored<Result> {
   std::vector<EnsemblePart> parts;
 };
-/// The sum of parts of one ensemble, in any order the same: shard 1/1, complete where nothing is missing. One part
+/// The sum of parts of one ensemble, in any order the same; complete where nothing of the shard is missing. One part
 /// at a time is in memory. Throws InputError where parts overlap or do not match, and says in what.
 template <class Result>
-SumOfParts<Result> sum_of(const std::vector<std::string>& files);
+SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& shard = {});
 /// Writes the sum as its ensemble's archive, in place of what there is of that name. InputError where FILE.part.new is a file
 /// of somebody else, unless `force` replaces it.
 template <class Result>
@@ -167,7 +170,7 @@ class EnsembleArchive : public EnsembleJournal<Result> {
     ArchiveLock lock = nullptr;
   };
   EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Plan&);
-  /// Goes on with a stored ensemble; plan and earlier provenance are those of the store.
+  /// Goes on with a stored ensemble; the plan is that of the store.
   EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Stored<Result>&, const Plan&);
   EnsembleArchive(const EnsembleArchive&) = delete;
   ~EnsembleArchive() override;
