@@ -8,6 +8,7 @@
 #include "carom/base/exact_number.hpp"
 #include "cli/common.hpp"
 #include "io/rank_parts.hpp"
+#include "io/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -57,7 +58,8 @@ template <class Result>
 EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   EnsembleJob<Result> job;
   job.output = archive_named(options.resume);
-  if (sharing != Sharing::other) {
+  // What is complete is only shown.
+  if (sharing != Sharing::other && !(is_complete(job.output) && !has_work_folder(job.output))) {
     job.lock = lock_output(job.output);
     gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);
   }

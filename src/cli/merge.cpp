@@ -42,7 +42,7 @@ int merge_parts(const Options& options, const std::string& output, const std::ve
   const LoadedSystem loaded = system_of(sum);
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
-  write_sum(output, loaded, origin, sum, lock, options.force);
+  write_sum(output, loaded, origin, sum, lock);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
   warn_of(sum.result.reports);

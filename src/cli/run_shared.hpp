@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@
 #include "cli/run_ensemble.hpp"
 #include "cli/temporary_folder.hpp"
 #include "io/rank_parts.hpp"
+#include "io/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -85,12 +87,11 @@ int add_up(const Options& options, const EnsembleKind<Result>& kind, EnsembleJob
     Provenance origin = origin_of(options, job);
     origin.threads = sum->result.threads;
     if (sum->result.lanes) origin.isa = name_of(*sum->result.lanes);
-    if (!job.output.empty()) write_sum(job.output, job.loaded, origin, *sum, job.lock, true);
+    if (!job.output.empty()) write_sum(job.output, job.loaded, origin, *sum, job.lock);
   } catch (...) {
     say_how_to_go_on(options, job, kept);
     throw;
   }
-  remove_parts_of_ranks(file);
   job.lock.reset();
   say_what_became_of_it(options, job, sum->result);
   return report(kind, job, sum->result, sum->status);
@@ -108,7 +109,7 @@ int run_shared(const Options& options, const EnsembleKind<Result>& kind, Ranks& 
     how_to_run<Result>(options);
     const Progress preparing(!options.quiet);
     job = job_of<Result>(options, Sharing::first);
-    if (!job.stored && !job.output.empty()) remove_parts_of_ranks(job.output);
+    if (!job.stored && !job.output.empty()) give_up_checkpoint(job.output);
   });
   const bool complete = job.stored && job.stored->result.complete;
   const std::string word = ranks.tell(ready.exception ? "failed" : complete ? nothing : go);
@@ -129,7 +130,8 @@ int run_shared(const Options& options, const EnsembleKind<Result>& kind, Ranks& 
       meeting.begin();
       if (!first) job = job_of<Result>(options, Sharing::other);
       if (job.output.empty()) temporary.emplace();
-      file = temporary ? temporary->file("sum.h5") : job.output;
+      file = temporary ? temporary->file("sum") : job.output;
+      if (temporary) std::filesystem::create_directory(folder_of(file));
       fly_share(options, kind, job, ranks, part_of_rank(file, ranks.rank()), meeting.stopped(), end);
     });
     meeting.end(mine.exception != nullptr);

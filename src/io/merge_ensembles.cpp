@@ -153,13 +153,11 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& sh
 
 template <class Result>
 void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const SumOfParts<Result>& sum,
-               ArchiveLock lock, bool force) {
+               ArchiveLock lock) {
   hdf5::silence();
   if (!lock) lock = lock_archive(path);
   const System& system = loaded.system;
-  const std::string aside = aside_of(checkpoint_of(path));
-  refuse_aside_of_others(path, aside, force);
-  ArchiveFile file = ArchiveFile::create(aside, path);
+  ArchiveFile file = ArchiveFile::create(aside_of(path), path);
   file.write_head(kind_of(sum.result), loaded, origin);
   write_parts(file, sum.result, sum.shard, sum.everywhere, sum.arithmetic);
   if (!sum.merged.empty()) hdf5::write_attribute(file.open_group("provenance").get(), "merged", sum.merged, path);
@@ -171,14 +169,14 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   }
   file.set_status(sum.status, sum.result.complete);
   file.keep_as(path);
-  remove_checkpoint(path);
+  give_up_checkpoint(path);
 }
 
 template SumOfParts<EscapeResult> sum_of(const std::vector<std::string>&, const Shard&);
 template SumOfParts<DiffusionResult> sum_of(const std::vector<std::string>&, const Shard&);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<EscapeResult>&,
-                        ArchiveLock, bool);
+                        ArchiveLock);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<DiffusionResult>&,
-                        ArchiveLock, bool);
+                        ArchiveLock);
 
 }  // namespace carom

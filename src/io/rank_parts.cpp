@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string begin_of_parts(const std::string& file) { return file + ".rank-"; }
+std::string begin_of_parts(const std::string& file) { return folder_of(file) + "/rank-"; }
 
 // The origin of what is stored, as that of an archive which it goes into.
 Provenance origin_of(const StoredEnsemble& stored, const EnsembleResult& result) {
@@ -33,7 +33,7 @@ Provenance origin_of(const StoredEnsemble& stored, const EnsembleResult& result)
 template <class Result>
 void finish_checkpoint(const std::string& file, ArchiveLock lock) {
   if (!lock) lock = lock_archive(file);
-  if (!has_checkpoint(file)) return;
+  if (!exists(checkpoint_of(file))) return;
   const Stored<Result> stored = read_ensemble<Result>(file);
   if (stored.file == file) return remove_checkpoint(file);
   const LoadedSystem loaded = system_of(stored);
@@ -56,21 +56,13 @@ std::vector<std::string> parts_of_ranks(const std::string& file) {
   for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end; entry.increment(error)) {
     std::string part = (folder / entry->path().filename()).string();
     if (!part.starts_with(begin)) continue;
-    if (part.ends_with(checkpoint_of(""))) part.resize(part.size() - checkpoint_of("").size());
+    if (part.ends_with(folder_of(""))) part.resize(part.size() - folder_of("").size());
     const std::string number = part.substr(begin.size());
     if (!number.empty() && number.find_first_not_of("0123456789") == std::string::npos) parts.push_back(part);
   }
   std::sort(parts.begin(), parts.end());
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   return parts;
-}
-
-void remove_parts_of_ranks(const std::string& file) {
-  std::error_code ignored;
-  for (const std::string& part : parts_of_ranks(file)) {
-    remove_checkpoint(part);
-    fs::remove(part, ignored);
-  }
 }
 
 template <class Result>
@@ -122,9 +114,9 @@ void gather_parts(const std::string& file, bool whole, ArchiveLock lock) {
   }
   if (!files.empty()) {
     const SumOfParts<Result> sum = sum_of_ranks<Result>(file, files, one->shard);
-    write_sum(file, system_of(sum), origin_of(sum, sum.result), sum, lock, true);
+    write_sum(file, system_of(sum), origin_of(sum, sum.result), sum, lock);
   }
-  remove_parts_of_ranks(file);
+  give_up_checkpoint(file);
 }
 template void gather_parts<EscapeResult>(const std::string&, bool, ArchiveLock);
 template void gather_parts<DiffusionResult>(const std::string&, bool, ArchiveLock);

@@ -12,7 +12,6 @@ namespace carom {
 std::string part_of_rank(const std::string& file, int rank);
 /// Those that are there, finished or as checkpoints.
 std::vector<std::string> parts_of_ranks(const std::string& file);
-void remove_parts_of_ranks(const std::string& file);
 
 /// The sum of the shares, and of FILE where it is one of the files. `seconds` is the time that passed: shares run side by side.
 template <class Result>

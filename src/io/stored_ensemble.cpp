@@ -15,6 +15,7 @@
 #include "io/checksums.hpp"
 #include "io/ensemble_columns.hpp"
 #include "io/ensemble_files.hpp"
+#include "io/rank_parts.hpp"
 #include "io/value.hpp"
 
 namespace carom {
@@ -164,13 +165,13 @@ LoadedSystem system_of(const StoredEnsemble& stored) {
 
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file) {
-  const std::string name = stored_in(file);
-  if (name == file) return read_one<Result>(file);
-  Stored<Result> part = read_one<Result>(name);
-  if (!exists(file)) return part;
+  const std::string name = archive_named(file), checkpoint = checkpoint_of(name);
+  if (!exists(checkpoint)) return read_one<Result>(name);
+  Stored<Result> part = read_one<Result>(checkpoint);
+  if (!exists(name)) return part;
   Stored<Result> whole;
   try {
-    whole = read_one<Result>(file);
+    whole = read_one<Result>(name);
   } catch (const InputError&) {
     return part;  // what is to be replaced may be anything
   }
@@ -186,6 +187,29 @@ template void check_stored(const Stored<DiffusionResult>&, const System&);
 
 template Stored<EscapeResult> read_ensemble(const std::string&);
 template Stored<DiffusionResult> read_ensemble(const std::string&);
+
+bool is_complete(const std::string& file) {
+  hdf5::silence();
+  try {
+    return hdf5::read_integer_attribute(open_ensemble(file).get(), "complete", file) == 1;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::string kind_of_ensemble(const std::string& file) {
+  hdf5::silence();
+  std::string name = archive_named(file);
+  if (exists(checkpoint_of(name)))
+    name = checkpoint_of(name);
+  else if (const std::vector<std::string> parts = parts_of_ranks(name); !parts.empty())
+    return kind_of_ensemble(parts.front());
+  const std::string kind = kind_in(open_ensemble(name), name);
+  if (kind != kind_of(EscapeResult()) && kind != kind_of(DiffusionResult()))
+    throw InputError(Place{name, 0, 0, ""}, "the archive does not hold an ensemble",
+                     "one written by carom escape or carom diffusion");
+  return kind;
+}
 
 Shard shard_of(const std::string& text, const Place& place) {
   constexpr std::uint64_t most = (std::uint64_t{1} << 32) - 1;
@@ -216,7 +240,7 @@ void refuse_other_version(const StoredEnsemble& stored) {
 }
 
 void write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& pieces) {
-  const Handle group = file.group("records", "Where the records of the trajectories first … last - 1 stand in FILE.records");
+  const Handle group = file.group("records", "Where the records of the trajectories first … last - 1 stand in the file of records");
   const auto column = [&](const char* name, std::uint64_t RecordLog::Piece::*field, const char* text) {
     std::vector<std::uint64_t> values;
     for (const RecordLog::Piece& piece : pieces) values.push_back(piece.*field);
@@ -249,21 +273,6 @@ std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint, const T
   for (const RecordLog::Piece& piece : pieces) once = held.add(TrajectoryRange{piece.first, piece.last}) && once;
   if (!once || held != done) damaged(checkpoint, "'/records' holds others than the trajectories of '/done'");
   return pieces;
-}
-
-bool holds_copies(const std::string& path, const StoredEnsemble& stored) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return false;
-  RecordReader reader(stored.file);
-  std::vector<TrajectoryRecord> batch;
-  while (reader.next(batch)) {
-    std::vector<char> there(batch.size() * sizeof(TrajectoryRecord));
-    file.read(there.data(), static_cast<std::streamsize>(there.size()));
-    const auto count = static_cast<std::size_t>(file.gcount());
-    if (std::memcmp(there.data(), batch.data(), count) != 0) return false;
-    if (count < there.size()) return true;
-  }
-  return file.peek() == std::ifstream::traits_type::eof();
 }
 
 void copy_records(const StoredEnsemble& stored, const TrajectoryRanges& done, const System& system, RecordLog& log) {

@@ -100,19 +100,19 @@ int count_of(const std::string& words, const std::string& text) {
 TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
-  const std::string run = "$carom escape stadium --trajectories 3e6 --t-max 60 --quiet --json --threads 1";
+  const std::string run = "$carom escape stadium --trajectories 1e7 --t-max 60 --quiet --json --threads 1";
   ASSERT_EQ(shell(run + " -o whole.h5").status, 0);
   const auto whole = datasets(shell, "whole.h5");
   for (int kill = 0; kill < (std::getenv("CAROM_SOAK") ? 25 : 3); ++kill) {
     const std::string victim = kill % 2 == 0 ? "tail -1" : "head -1", wait = std::to_string(0.02 * kill);
     for (int tries = 0;; ++tries) {
       ASSERT_LT(tries, 20) << "it ends before it is killed";
-      const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint blocks:100 & pid=$!; until_saved a.h5.rank-2; sleep " + wait +
+      const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint blocks:100 & pid=$!; until_saved a.h5.part/rank-2; sleep " + wait +
                                    "; kill -9 $(pgrep -P $pid | " + victim + "); wait $pid");
-      if (killed.status != 0 && shell.exists("a.h5.rank-2.part")) break;
-      shell("rm -f a.h5*");
+      if (killed.status != 0 && shell.exists("a.h5.part/rank-2.part/checkpoint.h5")) break;
+      shell("rm -rf a.h5*");
     }
-    EXPECT_EQ(open_archive(shell.folder() + "/a.h5.rank-2.part").complete, 0);
+    EXPECT_EQ(open_archive(shell.folder() + "/a.h5.part/rank-2.part/checkpoint.h5").complete, 0);
     // By the same ranks, by others, and by one process.
     const int number = std::vector{3, 2, 0}[static_cast<std::size_t>(kill % 3)];
     const Outcome end = shell(ranks(number) + "$carom escape --resume a.h5 --json");
@@ -141,7 +141,7 @@ TEST(Ranks, AllEndWhenOneHasNoDiskAndSayWhyOnce) {
     EXPECT_EQ(first.status, 1) << first.err;
     EXPECT_EQ(count_of("carom: cannot write 'a.h5", first.err), 1) << first.err;
     EXPECT_NE(first.err.find("File too large"), std::string::npos) << first.err;
-    shell("rm -f a.h5*");
+    shell("rm -rf a.h5*");
     const Outcome later = with_limit(shell, rank, "-f 2000", run + "-o b.h5");
     EXPECT_EQ(later.status, 1) << later.err;
     EXPECT_EQ(count_of("carom: cannot write 'b.h5", later.err), 1) << later.err;
@@ -149,7 +149,7 @@ TEST(Ranks, AllEndWhenOneHasNoDiskAndSayWhyOnce) {
     const Outcome on = shell("$carom escape --resume b.h5 --quiet --json --checkpoint blocks:20 & pid=$!; until_saved b.h5; kill -INT $pid; wait $pid");
     EXPECT_EQ(on.status, 130) << on.err;
     EXPECT_EQ(shell.files(), (std::vector<std::string>{"b.h5", "one.sh"}));
-    shell("rm -f b.h5*");
+    shell("rm -rf b.h5*");
   }
 }
 
@@ -176,7 +176,7 @@ TEST(Ranks, AllEndWhenOneHasNoMemory) {
                                    "$carom diffusion lorentz-triangular --trajectories 1000 --times lin:0.01:10:1000 --quiet --threads 1 --force -o a.h5");
       EXPECT_NE(o.status, 124) << "rank " << rank << " with " << memory << " kB\n" << o.err;
       EXPECT_EQ(o.status == 0, shell.exists("a.h5")) << o.err;
-      shell("rm -f a.h5*");
+      shell("rm -rf a.h5*");
     }
 }
 
