@@ -104,7 +104,7 @@ int run_alone(const Options& options, const EnsembleKind<Result>& kind) {
   preparing.reset();
   how.interrupted = &catch_interrupts();  // until here a signal ends the program, whatever it computes
   if (job.stored && job.stored->result.complete) {
-    remove_checkpoint(job.output);  // left by a process that was killed at its last step
+    if (job.lock) remove_checkpoint(job.output);  // left by a process that was killed at its last step
     job.lock.reset();
     return report(kind, job, job.stored->result, job.stored->status);
   }

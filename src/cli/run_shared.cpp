@@ -1,26 +1,11 @@
 #include "cli/run_shared.hpp"
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <new>
 #include <sstream>
 
 namespace carom::cli {
-
-TemporaryFolder::TemporaryFolder() {
-  const char* const folder = std::getenv("TMPDIR");
-  path_ = fmt::format("{}/carom-XXXXXX", folder ? folder : "/tmp");
-  if (!::mkdtemp(path_.data())) throw InputError(fmt::format("cannot make the folder '{}': {}", path_, std::strerror(errno)));
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 ShareEnd share_end_of(const std::function<void(ShareEnd&)>& work) {
   ShareEnd end;

@@ -33,7 +33,7 @@ Provenance origin_of(const StoredEnsemble& stored, const EnsembleResult& result)
 template <class Result>
 void finish_checkpoint(const std::string& file, ArchiveLock lock) {
   if (!lock) lock = lock_archive(file);
-  if (!exists(checkpoint_of(file))) return;
+  if (!has_checkpoint(file)) return;
   const Stored<Result> stored = read_ensemble<Result>(file);
   if (stored.file == file) return remove_checkpoint(file);
   const LoadedSystem loaded = system_of(stored);
@@ -50,6 +50,7 @@ std::string part_of_rank(const std::string& file, int rank) { return fmt::format
 
 std::vector<std::string> parts_of_ranks(const std::string& file) {
   std::vector<std::string> parts;
+  if (!has_work_folder(file)) return parts;
   const std::string begin = begin_of_parts(file);
   const fs::path folder = fs::path(begin).parent_path();
   std::error_code error;

@@ -166,7 +166,7 @@ LoadedSystem system_of(const StoredEnsemble& stored) {
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file) {
   const std::string name = archive_named(file), checkpoint = checkpoint_of(name);
-  if (!exists(checkpoint)) return read_one<Result>(name);
+  if (!has_checkpoint(name)) return read_one<Result>(name);
   Stored<Result> part = read_one<Result>(checkpoint);
   if (!exists(name)) return part;
   Stored<Result> whole;
@@ -200,7 +200,7 @@ bool is_complete(const std::string& file) {
 std::string kind_of_ensemble(const std::string& file) {
   hdf5::silence();
   std::string name = archive_named(file);
-  if (exists(checkpoint_of(name)))
+  if (has_checkpoint(name))
     name = checkpoint_of(name);
   else if (const std::vector<std::string> parts = parts_of_ranks(name); !parts.empty())
     return kind_of_ensemble(parts.front());

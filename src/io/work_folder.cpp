@@ -147,7 +147,7 @@ void refuse_inside(const std::string& file) {
                      "a name in another folder");
 }
 
-bool has_checkpoint(const std::string& file) { return exists(checkpoint_of(file)) || !parts_of_ranks(file).empty(); }
+bool has_checkpoint(const std::string& file) { return has_work_folder(file) && exists(checkpoint_of(file)); }
 
 // Without a checkpoint records mean nothing.
 void remove_checkpoint(const std::string& file) {

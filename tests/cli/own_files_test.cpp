@@ -158,6 +158,10 @@ TEST(OwnFiles, OthersBesideAnArchiveAreLeft) {
   EXPECT_EQ(json_value(again.out, "status"), "\"completed\"");
   EXPECT_EQ(shell("$carom merge sum.h5 a.h5 b.h5").status, 0);
   EXPECT_EQ(shell.read("a.h5.part"), "notes\n");
+  ASSERT_EQ(shell("mkdir b.h5.part && echo notes > b.h5.part/checkpoint.h5").status, 0);
+  EXPECT_EQ(shell("$carom escape --resume b.h5").status, 0);
+  EXPECT_EQ(shell("rm sum.h5; $carom merge sum.h5 b.h5").status, 0);
+  EXPECT_EQ(shell.read("b.h5.part/checkpoint.h5"), "notes\n");
   // What would go on needs the name.
   const Outcome half = shell("$carom merge half.h5 a.h5 && echo notes > half.h5.part && $carom escape --resume half.h5");
   EXPECT_EQ(half.status, 1);
