@@ -25,11 +25,11 @@ namespace carom::cli {
 
 /// What became of one rank's share.
 struct ShareEnd {
-  std::uint64_t kept = 0;           ///< trajectories on the disk
-  bool stopped = false;             ///< by a signal, before a start was found
-  std::string error;                ///< "": none
-  std::vector<std::string> warnings;
-  std::exception_ptr exception;     ///< of this process
+  std::uint64_t kept = 0;             ///< trajectories on the disk
+  bool stopped = false;               ///< by a signal, before a start was found
+  std::string error;                  ///< "": none
+  std::vector<std::string> warnings;  ///< that have not been said yet
+  std::exception_ptr exception;       ///< of this process
 };
 /// Calls `work`, and keeps what it throws.
 ShareEnd share_end_of(const std::function<void(ShareEnd&)>& work);
@@ -54,7 +54,8 @@ void fly_share(const Options& options, const EnsembleKind<Result>& kind, Ensembl
   plan.force = true;
   plan.per_trajectory = job.stored ? job.stored->per_trajectory : options.per_trajectory;
   plan.shard = job.shard;
-  plan.warn = [&end](const std::string& text) { end.warnings.push_back(text); };
+  plan.warn = warn;
+  if (ranks.rank() > 0) plan.warn = [&end](const std::string& text) { end.warnings.push_back(text); };
   EnsembleArchive<Result> archive(part, job.loaded, provenance_of(options, system, threads_of(options)), plan);
   how.journal = &archive;
   try {

@@ -46,7 +46,7 @@ void finish_checkpoint(const std::string& file, ArchiveLock lock) {
 
 }  // namespace
 
-std::string part_of_rank(const std::string& file, int rank) { return fmt::format("{}{}", begin_of_parts(file), rank + 1); }
+std::string part_of_rank(const std::string& file, int rank) { return fmt::format("{}{}", begin_of_parts(file), rank); }
 
 std::vector<std::string> parts_of_ranks(const std::string& file) {
   std::vector<std::string> parts;
