@@ -28,7 +28,6 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/paired_escape.hpp"
 #include "carom/ensemble/parts.hpp"
-#include "carom/ensemble/ranks.hpp"
 #include "carom/ensemble/report_times.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/section_run.hpp"

@@ -143,6 +143,7 @@ void follow_links(Options& options) {
 }
 
 ArchiveLock lock_output(const std::string& file) {
+  refuse_inside(file);
   ArchiveLock lock = lock_archive(file);
   if (const std::string weakness = weakness_of(lock); !weakness.empty())
     warn(fmt::format("no other process is kept from writing '{}': its file system gives no locks ({})", file, weakness));

@@ -3,7 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diffusion_report.hpp"
-#include "cli/run_ensemble.hpp"
+#include "cli/run_shared.hpp"
 
 namespace carom::cli {
 

@@ -7,7 +7,8 @@
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
 #include "cli/common.hpp"
-#include "ensemble/crew.hpp"
+#include "io/rank_parts.hpp"
+#include "io/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -54,10 +55,14 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
 }
 
 template <class Result>
-EnsembleJob<Result> job_to_go_on(const Options& options) {
+EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   EnsembleJob<Result> job;
   job.output = archive_named(options.resume);
-  job.lock = lock_output(job.output);
+  // What is complete is only shown.
+  if (sharing != Sharing::other && !(is_complete(job.output) && !has_work_folder(job.output))) {
+    job.lock = lock_output(job.output);
+    gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);
+  }
   job.stored = read_ensemble<Result>(job.output);
   if (!options.output.empty() && options.output != job.output)
     throw InputError(place_of("--output"), "an ensemble goes on in the same archive", "no -o beside --resume");
@@ -71,39 +76,20 @@ EnsembleJob<Result> job_to_go_on(const Options& options) {
 }  // namespace
 
 template <class Result>
-EnsembleJob<Result> job_of(const Options& options) {
-  if (!options.resume.empty()) return job_to_go_on<Result>(options);
+EnsembleJob<Result> job_of(const Options& options, Sharing sharing) {
+  if (!options.resume.empty()) return job_to_go_on<Result>(options, sharing);
   EnsembleJob<Result> job;
   job.output = options.output;
   job.shard = shard_of(options);
   job.loaded = load_system(options.system, overrides_of(options));
   choose_engine(options.engine, job.loaded.system);
-  if (!job.output.empty()) job.lock = lock_output(job.output);
+  if (job.output.empty() || sharing == Sharing::other) return job;
+  job.lock = lock_output(job.output);
+  refuse_existing(job.output, options.force);
   return job;
 }
-template EnsembleJob<EscapeResult> job_of(const Options&);
-template EnsembleJob<DiffusionResult> job_of(const Options&);
-
-void JobCall::make(const LoadedSystem* job) {
-  if (!ranks_) return;
-  Ranks& ranks = *std::exchange(ranks_, nullptr);
-  if (!job) return call_crew(ranks, nullptr);
-  const CrewJob crew_job{job->system.name, job->resolved_toml, job->system.dynamics.everywhere};
-  call_crew(ranks, &crew_job);
-}
-
-std::optional<LoadedSystem> called_job(Ranks& ranks) {
-  const std::optional<CrewJob> job = called_by(ranks);
-  if (!job) return {};
-  try {
-    LoadedSystem loaded = read_system(job->toml, job->name);
-    loaded.system.dynamics.everywhere = job->everywhere;
-    return loaded;
-  } catch (const std::exception& error) {
-    Hand(ranks).end(text_of(error));
-    throw;
-  }
-}
+template EnsembleJob<EscapeResult> job_of(const Options&, Sharing);
+template EnsembleJob<DiffusionResult> job_of(const Options&, Sharing);
 
 bool is_plain_ensemble(const Options& options) {
   const bool adds_up = options.command == "escape" || options.command == "diffusion";

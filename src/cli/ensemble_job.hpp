@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "carom/ensemble/ranks.hpp"
 #include "carom/io/archive.hpp"
 #include "carom/io/system_file.hpp"
 #include "cli/options.hpp"
@@ -19,23 +18,11 @@ struct EnsembleJob {
   Shard shard;
   std::optional<Stored<Result>> stored;  ///< what it goes on with
 };
+/// Of processes that share a run the first one writes the archive; the others only read.
+enum class Sharing { alone, first, other };
 /// Throws InputError where what is stored is not what is asked for, and says what differs.
 template <class Result>
-EnsembleJob<Result> job_of(const Options&);
-
-/// Tells the other ranks what to run: the job, or that there is none if it is given back before.
-class JobCall {
- public:
-  explicit JobCall(Ranks* ranks) : ranks_(ranks) {}
-  JobCall(const JobCall&) = delete;
-  ~JobCall() { make(nullptr); }
-  void make(const LoadedSystem* job);
-
- private:
-  Ranks* ranks_;
-};
-/// What it told this rank; nothing: no job.
-std::optional<LoadedSystem> called_job(Ranks&);
+EnsembleJob<Result> job_of(const Options&, Sharing = Sharing::alone);
 
 /// Only adds up trajectories: such ensembles can be parted, continued and shared between processes.
 bool is_plain_ensemble(const Options&);

@@ -4,7 +4,7 @@
 #include "cli/certified_sample.hpp"
 #include "cli/commands.hpp"
 #include "cli/escape_report.hpp"
-#include "cli/run_ensemble.hpp"
+#include "cli/run_shared.hpp"
 
 namespace carom::cli {
 

@@ -36,13 +36,13 @@ int print_sum(const Options& options, const System& system, const DiffusionResul
 template <class Result>
 int merge_parts(const Options& options, const std::string& output, const std::vector<std::string>& files,
                 ArchiveLock lock) {
-  const SumOfParts<Result> sum = sum_of<Result>(files);
-  LoadedSystem loaded = read_system(sum.system_toml, sum.parts.front().file + ": /system");
-  loaded.system.name = sum.system_name;
-  loaded.system.dynamics.everywhere = sum.everywhere;
+  SumOfParts<Result> sum = sum_of<Result>(files);
+  sum.merged.clear();
+  for (const EnsemblePart& part : sum.parts) sum.merged.push_back(part.file);
+  const LoadedSystem loaded = system_of(sum);
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
-  write_sum(output, loaded, origin, sum, lock, options.force);
+  write_sum(output, loaded, origin, sum, lock);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
   warn_of(sum.result.reports);

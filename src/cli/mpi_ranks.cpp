@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <utility>
 
 #include "carom/base/error.hpp"
 
@@ -11,9 +13,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <cstdint>
 #include <stdexcept>
-#include <vector>
 #endif
 
 namespace carom::cli {
@@ -55,36 +56,68 @@ class MpiRanks : public Ranks {
   ~MpiRanks() override { MPI_Finalize(); }
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  void send(int to, const std::vector<std::byte>& bytes) override {
-    // A long message goes in pieces, of which only the last is shorter than the others.
-    std::size_t at = 0;
-    for (;;) {
-      const std::size_t piece = std::min(most, bytes.size() - at);
-      MPI_Send(bytes.data() + at, static_cast<int>(piece), MPI_BYTE, to, 0, MPI_COMM_WORLD);
-      at += piece;
-      if (piece < most) return;
-    }
+  // Where memory ends in one of these the process ends, and mpirun ends the others.
+  Vote vote(Vote mine) noexcept override {
+    constexpr int not_done = 1, stop = 2;
+    const int own = (mine.done ? 0 : not_done) | (mine.stop ? stop : 0);
+    int all = 0;
+    MPI_Request request;
+    MPI_Iallreduce(&own, &all, 1, MPI_INT, MPI_BOR, MPI_COMM_WORLD, &request);
+    wait(request);
+    return {(all & not_done) == 0, (all & stop) != 0};
   }
-  std::optional<Message> receive() override {
-    int there = 0;
-    MPI_Status status;
-    MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &there, &status);
-    if (!there) return {};
-    Message message;
-    message.from = status.MPI_SOURCE;
-    for (;;) {
-      int size = 0;
-      MPI_Probe(message.from, 0, MPI_COMM_WORLD, &status);
-      MPI_Get_count(&status, MPI_BYTE, &size);
-      const std::size_t at = message.bytes.size();
-      message.bytes.resize(at + static_cast<std::size_t>(size));
-      MPI_Recv(message.bytes.data() + at, size, MPI_BYTE, message.from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-      if (static_cast<std::size_t>(size) < most) return message;
+  std::string tell(const std::string& text) noexcept override {
+    std::uint64_t size = text.size();
+    MPI_Request request;
+    MPI_Ibcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &request);
+    wait(request);
+    std::string said = rank_ == 0 ? text : std::string(size, '\0');
+    MPI_Ibcast(said.data(), static_cast<int>(said.size()), MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+    wait(request);
+    return said;
+  }
+  void gather(const std::string& text, const std::function<void(int, const std::string&)>& take) noexcept override {
+    if (rank_ == 0) {
+      take(0, text);
+      for (int from = 1; from < size_; ++from) take(from, receive(from));
+      return;
+    }
+    std::uint64_t size = text.size();
+    MPI_Request request;
+    MPI_Isend(&size, 1, MPI_UINT64_T, 0, 0, MPI_COMM_WORLD, &request);
+    wait(request);
+    for (std::size_t at = 0; at < text.size(); at += most) {
+      MPI_Isend(text.data() + at, length(text.size() - at), MPI_BYTE, 0, 0, MPI_COMM_WORLD, &request);
+      wait(request);
     }
   }
 
  private:
+  // Long texts go in pieces.
   static constexpr std::size_t most = std::size_t{1} << 30;
+  static int length(std::size_t left) { return static_cast<int>(std::min(most, left)); }
+  std::string receive(int from) {
+    std::uint64_t size = 0;
+    MPI_Request request;
+    MPI_Irecv(&size, 1, MPI_UINT64_T, from, 0, MPI_COMM_WORLD, &request);
+    wait(request);
+    std::string text(size, '\0');
+    for (std::size_t at = 0; at < text.size(); at += most) {
+      MPI_Irecv(text.data() + at, length(text.size() - at), MPI_BYTE, from, 0, MPI_COMM_WORLD, &request);
+      wait(request);
+    }
+    return text;
+  }
+  // MPI's own waiting takes a whole processor, and others compute.
+  static void wait(MPI_Request& request) {
+    for (;;) {
+      int over = 0;
+      MPI_Test(&request, &over, MPI_STATUS_IGNORE);
+      if (over) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
   int rank_ = 0, size_ = 1;
 };
 
@@ -102,11 +135,31 @@ Ranks* start_ranks() {
   // Without this, a process that was started alone would look for partners for a third of a second.
   if (rank_in_environment()) {
     static MpiRanks ranks;
-    return &ranks;
+    return ranks.size() > 1 ? &ranks : nullptr;
   }
 #endif
   refuse_strangers(1);
   return nullptr;
+}
+
+void Meeting::end(bool failed) {
+  if (std::exchange(over_, true)) return;
+  if (failed) stopped_ = true;
+  done_ = true;
+  if (thread_.joinable())
+    thread_.join();
+  else
+    vote_until_all_are_done();
+}
+
+void Meeting::vote_until_all_are_done() {
+  constexpr auto pause = std::chrono::milliseconds(20);
+  for (;;) {
+    const Ranks::Vote all = ranks_.vote({done_, stopped_ || interrupted_});
+    if (all.stop) stopped_ = true;
+    if (all.done) return;
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 }  // namespace carom::cli

@@ -1,4 +1,4 @@
-// A command that runs an ensemble: alone or with others, from the start or from where it was left.
+// A command that runs an ensemble, from the start or from where it was left.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "cli/common.hpp"
@@ -38,16 +39,25 @@ EnsembleOptions<Result> how_to_run(const Options& options) {
   return how;
 }
 
+template <class Result>
+Provenance origin_of(const Options& options, const EnsembleJob<Result>& job) {
+  Provenance origin = provenance_of(options, job.loaded.system, threads_of(options));
+  if (job.stored) origin.before = job.stored->origins;
+  return origin;
+}
+
 // The archive that the ensemble goes into, or null.
 template <class Result>
 std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options, const EnsembleJob<Result>& job) {
   using Archive = EnsembleArchive<Result>;
   if (job.output.empty()) return nullptr;
   const typename Archive::Plan plan{options.force, options.per_trajectory, job.shard, warn, job.lock};
-  const Provenance origin = provenance_of(options, job.loaded.system, threads_of(options));
+  const Provenance origin = origin_of(options, job);
   if (job.stored) return std::make_unique<Archive>(job.output, job.loaded, origin, *job.stored, plan);
   return std::make_unique<Archive>(job.output, job.loaded, origin, plan);
 }
+
+inline const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
 
 template <class Result>
 int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, const Result& result, const std::string& status) {
@@ -56,23 +66,37 @@ int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, con
   return doubts_of(job.loaded.system, result).status(result.complete);
 }
 
-// Any rank but the first: what it does is reported there.
 template <class Result>
-int run_as_hand(const Options& options, const EnsembleKind<Result>& kind, Ranks& ranks) {
-  const std::optional<LoadedSystem> loaded = called_job(ranks);
-  if (!loaded) return done;
-  EnsembleOptions<Result> how = how_to_run<Result>(options);
-  how.ranks = &ranks;
-  how.interrupted = &catch_interrupts();
-  kind.run(loaded->system, how);
-  return *how.interrupted ? stopped : done;
+void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, std::uint64_t kept) {
+  if (job.output.empty() || kept == 0) return;
+  warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}", grouped(kept), options.command,
+                   job.output));
 }
 
 template <class Result>
-int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
-  Ranks* const ranks = start_ranks();
-  if (ranks && ranks->rank() > 0) return run_as_hand(options, kind, *ranks);
-  JobCall call(ranks);
+void say_what_became_of_it(const Options& options, const EnsembleJob<Result>& job, const Result& result) {
+  if (options.isa != "auto" && !result.lanes) warn("--isa changed nothing: these particles fly one after the other, in no lanes");
+  if (!result.complete) say_how_to_go_on(options, job, result.done.size());
+}
+
+// What `how` asks for, with the progress of this process.
+template <class Result>
+Result fly(const Options& options, const EnsembleKind<Result>& kind, const System& system, EnsembleOptions<Result> how) {
+  const double all = static_cast<double>(how.part.last - how.part.first);
+  const std::uint64_t before = how.before ? how.before->done.size() : 0;
+  Progress progress(!options.quiet, all > 0 ? static_cast<double>(before) / all : 0.0);
+  if (progress.enabled())
+    how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
+      if (progress.due())
+        progress.show(static_cast<double>(trajectories) / all,
+                      hits > 0 ? with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
+                               : with_prefix(static_cast<double>(trajectories) / progress.seconds()) + "trajectories/s");
+    };
+  return kind.run(system, how);
+}
+
+template <class Result>
+int run_alone(const Options& options, const EnsembleKind<Result>& kind) {
   check_engine(options);
   EnsembleOptions<Result> how = how_to_run<Result>(options);
   std::optional<Progress> preparing(std::in_place, !options.quiet);
@@ -80,44 +104,26 @@ int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
   preparing.reset();
   how.interrupted = &catch_interrupts();  // until here a signal ends the program, whatever it computes
   if (job.stored && job.stored->result.complete) {
-    remove_checkpoint(job.output);  // left by a process that was killed at its last step
+    if (job.lock) remove_checkpoint(job.output);  // left by a process that was killed at its last step
     job.lock.reset();
     return report(kind, job, job.stored->result, job.stored->status);
   }
-  const System& system = job.loaded.system;
-  how.part = job.shard.range(system.run.trajectories);
+  how.part = job.shard.range(job.loaded.system.run.trajectories);
   if (job.stored) how.before = &job.stored->result;
   std::unique_ptr<EnsembleArchive<Result>> archive = archive_of(options, job);
   how.journal = archive.get();
-  how.ranks = ranks;
-  const auto say_how_to_go_on = [&](std::uint64_t kept) {
-    if (job.output.empty() || kept == 0) return;
-    warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}", grouped(kept), options.command,
-                     job.output));
-  };
   Result result;
   try {
-    const double all = static_cast<double>(how.part.last - how.part.first);
-    Progress progress(!options.quiet, how.before ? static_cast<double>(how.before->done.size()) / all : 0.0);
-    if (progress.enabled())
-      how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
-        if (progress.due())
-          progress.show(static_cast<double>(trajectories) / all,
-                        hits > 0 ? with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
-                                 : with_prefix(static_cast<double>(trajectories) / progress.seconds()) + "trajectories/s");
-      };
-    call.make(&job.loaded);  // the others count on what comes next
-    result = kind.run(system, how);
-    if (archive) archive->finish(result, result.complete ? "completed" : "interrupted");
+    result = fly(options, kind, job.loaded.system, how);
+    if (archive) archive->finish(result, status_of(result.complete));
   } catch (...) {
-    if (archive) say_how_to_go_on(archive->kept());
+    if (archive) say_how_to_go_on(options, job, archive->kept());
     throw;
   }
   archive.reset();  // whatever becomes of the report
-  if (options.isa != "auto" && !result.lanes) warn("--isa changed nothing: these particles fly one after the other, in no lanes");
   job.lock.reset();
-  if (!result.complete) say_how_to_go_on(result.done.size());
-  return report(kind, job, result, result.complete ? "completed" : "interrupted");
+  say_what_became_of_it(options, job, result);
+  return report(kind, job, result, status_of(result.complete));
 }
 
 }  // namespace carom::cli

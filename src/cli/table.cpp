@@ -14,6 +14,7 @@
 #include "cli/common.hpp"
 #include "cli/table_svg.hpp"
 #include "io/progress.hpp"
+#include "io/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -86,16 +87,14 @@ std::string table_text(const System& system, const TableMeasure& measured, const
 
 // Aside, then renamed: a drawing is there whole or not at all.
 void write_file(const std::string& name, const std::string& text) {
-  const std::string part = name + ".part";
+  const std::string part = aside_of(name);
   errno = 0;
   std::FILE* file = std::fopen(part.c_str(), "w");
   bool ok = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   ok = file && std::fclose(file) == 0 && ok;
   ok = ok && std::rename(part.c_str(), name.c_str()) == 0;
   if (ok) return;
-  const std::string reason = std::strerror(errno);
-  if (file) std::remove(part.c_str());
-  throw InputError(fmt::format("cannot write '{}': {}", name, reason));
+  throw InputError(fmt::format("cannot write '{}': {}", name, std::strerror(errno)));
 }
 
 }  // namespace
@@ -103,9 +102,11 @@ void write_file(const std::string& name, const std::string& text) {
 int table(const Options& options) {
   check_engine(options);
   const Stopwatch watch;
+  ArchiveLock lock;
   if (!options.output.empty()) {
     if (!options.output.ends_with(".svg"))
       throw InputError(Place{options.output, 0, 0, ""}, "a table is drawn as SVG", "a name ending in .svg");
+    lock = lock_output(options.output);
     refuse_existing(options.output, options.force);
   }
   std::optional<Progress> preparing(std::in_place, !options.quiet);

@@ -28,14 +28,7 @@ class BlockList {
     const std::uint64_t from = ranges_[at].first + (number - first_[at]) * block_;
     return {from, std::min(ranges_[at].last, from + block_)};
   }
-  /// Blocks first … last - 1, neighbours as one range.
-  std::vector<TrajectoryRange> ranges(std::uint64_t first, std::uint64_t last) const {
-    TrajectoryRanges sum;
-    for (std::uint64_t number = first; number < last; ++number) sum.add((*this)[number]);
-    return sum.ranges();
-  }
   std::uint64_t block() const { return block_; }
-  std::size_t gaps() const { return ranges_.size(); }
 
  private:
   std::vector<TrajectoryRange> ranges_;

@@ -69,14 +69,12 @@ bool DiffusionResult::add(const DiffusionResult& other) {
 }
 
 DiffusionResult run_diffusion(const System& system, const DiffusionOptions& options) {
-  return run_in_crew(options, [&](Post post) {
-    refuse_impossible(system);
-    check_start(system, options.interrupted);
-    const Sampler sampler(system, options.interrupted);
-    EnsembleRun<DiffusionResult> run(system, options, nothing(system), post);
-    if (why_one_by_one(system).empty()) run.lanes = options.lanes;
-    return run.run([&](DiffusionListener::Thread& thread) { work(system, sampler, options, thread); });
-  });
+  refuse_impossible(system);
+  check_start(system, options.interrupted);
+  const Sampler sampler(system, options.interrupted);
+  EnsembleRun<DiffusionResult> run(system, options, nothing(system));
+  if (why_one_by_one(system).empty()) run.lanes = options.lanes;
+  return run.run([&](DiffusionListener::Thread& thread) { work(system, sampler, options, thread); });
 }
 
 }  // namespace carom

@@ -33,24 +33,22 @@ bool EscapeResult::add(const EscapeResult& other) {
 }
 
 EscapeResult run_escape(const System& system, const EscapeOptions& options) {
-  return run_in_crew(options, [&](Post post) {
-    check_start(system, options.interrupted);
-    const Sampler sampler(system, options.interrupted);
-    EnsembleRun<EscapeResult> run(system, options, nothing(system), post);
-    if (why_one_by_one(system).empty()) run.lanes = options.lanes;
-    BlockOrder order(options.records, 16 * static_cast<std::uint64_t>(run.threads()));
-    const EscapeResult result = run.run([&](EscapeListener::Thread& thread) {
-      try {
-        work(system, sampler, options, thread, options.records ? &order : nullptr);
-      } catch (...) {
-        order.close();  // no thread may wait for a block that will not come
-        throw;
-      }
-      if (thread.stopped()) order.close();
-    });
-    if (options.records) order.flush();
-    return result;
+  check_start(system, options.interrupted);
+  const Sampler sampler(system, options.interrupted);
+  EnsembleRun<EscapeResult> run(system, options, nothing(system));
+  if (why_one_by_one(system).empty()) run.lanes = options.lanes;
+  BlockOrder order(options.records, 16 * static_cast<std::uint64_t>(run.threads()));
+  const EscapeResult result = run.run([&](EscapeListener::Thread& thread) {
+    try {
+      work(system, sampler, options, thread, options.records ? &order : nullptr);
+    } catch (...) {
+      order.close();  // no thread may wait for a block that will not come
+      throw;
+    }
+    if (thread.stopped()) order.close();
   });
+  if (options.records) order.flush();
+  return result;
 }
 
 }  // namespace carom

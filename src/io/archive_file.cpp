@@ -16,6 +16,7 @@
 #include "carom_version.hpp"
 #include "io/checksums.hpp"
 #include "io/ensemble_files.hpp"
+#include "io/rank_parts.hpp"
 
 namespace carom {
 
@@ -77,9 +78,14 @@ void refuse_existing(const std::string& file, bool force) {
   refuse_no_file(file);
   if (!force && exists(file))
     throw InputError(Place{file, 0, 0, ""}, "the output file exists already", "another name, or --force");
-  if (!force && has_checkpoint(file))
-    throw InputError(Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
-                     fmt::format("carom {} --resume {} to go on with it, another name, or --force", kind_of_ensemble(file), file));
+  if (force || (!has_checkpoint(file) && parts_of_ranks(file).empty())) return;
+  std::string command = "carom";
+  try {
+    command += " " + kind_of_ensemble(file);
+  } catch (const InputError&) {  // it is damaged: --resume says in what
+  }
+  throw InputError(Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
+                   fmt::format("{} --resume {} to go on with it, another name, or --force", command, file));
 }
 
 ArchiveFile::ArchiveFile(Handle file, std::string path, std::string name)

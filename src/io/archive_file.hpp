@@ -47,7 +47,4 @@ class ArchiveFile {
 
 inline constexpr int archive_schema = 1;
 
-/// Where archives are written that are renamed when finished. FILE.part is an ensemble's checkpoint.
-inline std::string aside_of(const std::string& file) { return file + ".new"; }
-
 }  // namespace carom

@@ -153,7 +153,6 @@ CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& 
                                    const Provenance& origin, const CertifiedTask& task, bool force, ArchiveLock lock) {
   if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
-  refuse_aside_of_others(file, aside_of(file), force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, task);
   implementation_->lock = std::move(lock);
 }
@@ -187,7 +186,7 @@ void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& ef
   }
   a.file.set_status(status, complete);
   a.file.keep_as(a.target);
-  remove_checkpoint(a.target);
+  give_up_checkpoint(a.target);
   a.lock.reset();
 }
 

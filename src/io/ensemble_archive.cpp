@@ -58,7 +58,6 @@ class EnsembleArchive<Result>::Implementation {
   std::uint64_t kept = 0;
   std::optional<InputError> unwritten;  // records that belong to the next checkpoint
   bool saved = false, finished = false;
-  bool old_records = false;  // of a checkpoint that is replaced
   int failures = 0;
 };
 
@@ -78,7 +77,7 @@ void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Sh
 template <class Result>
 void EnsembleArchive<Result>::Implementation::write(const Result& result, const std::string& status, bool last) {
   if (unwritten) throw *unwritten;  // what is counted and what is recorded would differ
-  ArchiveFile file = ArchiveFile::create(aside_of(checkpoint_of(target)), target);
+  ArchiveFile file = ArchiveFile::create(aside_of(target), target);
   Provenance now = origin;
   now.threads = result.threads;
   if (result.lanes) now.isa = name_of(*result.lanes);
@@ -107,12 +106,9 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
   Plan locked = plan;
   if (!locked.lock) locked.lock = lock_archive(file);
   refuse_existing(file, plan.force);
-  refuse_files_of_others(file, plan.force);
+  give_up_checkpoint(file);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
-  implementation_->old_records = has_records(file);
-  if (!plan.per_trajectory) return;
-  remove_checkpoint(file);  // its records go now
-  implementation_->log.emplace(records_of(file), file);
+  if (plan.per_trajectory) implementation_->log.emplace(records_of(file), file);
 }
 
 template <class Result>
@@ -121,12 +117,9 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
   Plan locked = plan;
   if (!locked.lock) locked.lock = lock_archive(file);
   const bool goes_on = stored.file == checkpoint_of(file);
-  // Killed before its first checkpoint, a run that went on with this archive leaves copies of its records.
-  if (stored.per_trajectory && !goes_on && holds_copies(records_of(file), stored)) std::remove(records_of(file).c_str());
-  refuse_files_of_others(file, plan.force);
+  if (!goes_on) remove_checkpoint(file);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, locked);
   Implementation& a = *implementation_;
-  a.origin.before = stored.origins;
   a.merged = stored.merged;
   a.plan.per_trajectory = stored.per_trajectory;
   a.plan.shard = stored.shard;
@@ -168,8 +161,6 @@ void EnsembleArchive<Result>::save(const Result& so_far) {
   Implementation& a = *implementation_;
   try {
     a.write(so_far, "running", false);
-    if (!a.log && a.old_records) std::remove(records_of(a.target).c_str());
-    a.old_records = false;
     a.kept = so_far.done.size();
     a.saved = true;
     a.failures = 0;

@@ -115,7 +115,7 @@ void write_records(const ArchiveFile& file, const System& system, std::vector<So
 }  // namespace
 
 template <class Result>
-SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
+SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& shard) {
   SumOfParts<Result> sum;
   System system;
   for (const std::string& file : files) {
@@ -127,7 +127,7 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
         throw InputError(Place{part.file, 0, 0, ""},
                          fmt::format("trajectories {} to {} are in '{}', too", both->first, both->last - 1, other.file),
                          "parts that do not overlap");
-    sum.parts.push_back({part.file, part.result.done});
+    sum.parts.push_back({part.file, part.result.done, part.result.seconds});
     refuse_other_version(part);
     if (first) {
       system = read_system(part.system_toml, part.file + ": /system").system;
@@ -144,27 +144,23 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files) {
     sum.result.threads = std::max(sum.result.threads, part.result.threads);
     sum.result.lanes = std::max(sum.result.lanes, part.result.lanes);  // as with threads: the most of any part
   }
-  sum.shard = {};
+  sum.shard = shard;
   sum.file.clear();
-  sum.result.complete = sum.result.done.missing_from({0, system.run.trajectories}).empty();
+  sum.result.complete = sum.result.done.missing_from(shard.range(system.run.trajectories)).empty();
   sum.status = sum.result.complete ? "completed" : "incomplete";
   return sum;
 }
 
 template <class Result>
 void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const SumOfParts<Result>& sum,
-               ArchiveLock lock, bool force) {
+               ArchiveLock lock) {
   hdf5::silence();
   if (!lock) lock = lock_archive(path);
   const System& system = loaded.system;
-  std::vector<std::string> files;
-  for (const EnsemblePart& part : sum.parts) files.push_back(part.file);
-  const std::string aside = aside_of(checkpoint_of(path));
-  refuse_aside_of_others(path, aside, force);
-  ArchiveFile file = ArchiveFile::create(aside, path);
+  ArchiveFile file = ArchiveFile::create(aside_of(path), path);
   file.write_head(kind_of(sum.result), loaded, origin);
   write_parts(file, sum.result, sum.shard, sum.everywhere, sum.arithmetic);
-  hdf5::write_attribute(file.open_group("provenance").get(), "merged", files, path);
+  if (!sum.merged.empty()) hdf5::write_attribute(file.open_group("provenance").get(), "merged", sum.merged, path);
   write_counts(file, sum.result, system);
   if (sum.per_trajectory) {
     std::vector<Source> sources;
@@ -173,14 +169,14 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   }
   file.set_status(sum.status, sum.result.complete);
   file.keep_as(path);
-  remove_checkpoint(path);
+  give_up_checkpoint(path);
 }
 
-template SumOfParts<EscapeResult> sum_of(const std::vector<std::string>&);
-template SumOfParts<DiffusionResult> sum_of(const std::vector<std::string>&);
+template SumOfParts<EscapeResult> sum_of(const std::vector<std::string>&, const Shard&);
+template SumOfParts<DiffusionResult> sum_of(const std::vector<std::string>&, const Shard&);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<EscapeResult>&,
-                        ArchiveLock, bool);
+                        ArchiveLock);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<DiffusionResult>&,
-                        ArchiveLock, bool);
+                        ArchiveLock);
 
 }  // namespace carom

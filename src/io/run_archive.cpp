@@ -316,7 +316,6 @@ std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const 
   std::error_code error;
   if (!std::filesystem::equivalent(source, target, error)) refuse_existing(target, force);
   const std::string copy = aside_of(target);
-  refuse_aside_of_others(target, copy, force);
   if (!std::filesystem::copy_file(source, copy, std::filesystem::copy_options::overwrite_existing, error)) {
     const std::string reason = error.message();
     std::filesystem::remove(copy, error);
@@ -382,7 +381,7 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   a.file.add_decisions(result.decisions);
   a.file.set_status(status, !result.interrupted);
   a.file.keep_as(a.target);
-  remove_checkpoint(a.target);
+  give_up_checkpoint(a.target);
   a.lock.reset();
 }
 

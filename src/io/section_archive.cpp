@@ -45,7 +45,6 @@ SectionArchive::SectionArchive(const std::string& file, const LoadedSystem& load
                                bool force, ArchiveLock lock) {
   if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
-  refuse_aside_of_others(file, aside_of(file), force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin);
   implementation_->lock = std::move(lock);
 }
@@ -84,7 +83,7 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
   a.file.add_decisions(result.decisions);
   a.file.set_status(status, result.complete);
   a.file.keep_as(a.target);
-  remove_checkpoint(a.target);
+  give_up_checkpoint(a.target);
   a.lock.reset();
 }
 

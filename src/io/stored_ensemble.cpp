@@ -15,6 +15,7 @@
 #include "io/checksums.hpp"
 #include "io/ensemble_columns.hpp"
 #include "io/ensemble_files.hpp"
+#include "io/rank_parts.hpp"
 #include "io/value.hpp"
 
 namespace carom {
@@ -149,22 +150,32 @@ std::string difference(const std::string& toml, const std::string& other_toml, c
   return difference("", a, b, but);
 }
 
+bool are_one_ensemble(const StoredEnsemble& a, const StoredEnsemble& b) {
+  return a.kind == b.kind && difference(a.system_toml, b.system_toml).empty() && a.shard == b.shard && a.version == b.version &&
+         a.engine == b.engine && a.everywhere == b.everywhere && a.arithmetic == b.arithmetic &&
+         a.per_trajectory == b.per_trajectory;
+}
+
+LoadedSystem system_of(const StoredEnsemble& stored) {
+  LoadedSystem loaded = read_system(stored.system_toml, stored.file + ": /system");
+  loaded.system.name = stored.system_name;
+  loaded.system.dynamics.everywhere = stored.everywhere;
+  return loaded;
+}
+
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file) {
-  const std::string name = stored_in(file);
-  if (name == file) return read_one<Result>(file);
-  Stored<Result> part = read_one<Result>(name);
-  if (!exists(file)) return part;
+  const std::string name = archive_named(file), checkpoint = checkpoint_of(name);
+  if (!has_checkpoint(name)) return read_one<Result>(name);
+  Stored<Result> part = read_one<Result>(checkpoint);
+  if (!exists(name)) return part;
   Stored<Result> whole;
   try {
-    whole = read_one<Result>(file);
+    whole = read_one<Result>(name);
   } catch (const InputError&) {
     return part;  // what is to be replaced may be anything
   }
-  const bool one_ensemble = difference(whole.system_toml, part.system_toml).empty() && whole.shard == part.shard &&
-                            whole.version == part.version && whole.engine == part.engine &&
-                            whole.everywhere == part.everywhere && whole.arithmetic == part.arithmetic && whole.per_trajectory == part.per_trajectory;
-  return one_ensemble && whole.result.done.size() >= part.result.done.size() ? whole : part;
+  return are_one_ensemble(whole, part) && whole.result.done.size() >= part.result.done.size() ? whole : part;
 }
 
 template <class Result>
@@ -176,6 +187,29 @@ template void check_stored(const Stored<DiffusionResult>&, const System&);
 
 template Stored<EscapeResult> read_ensemble(const std::string&);
 template Stored<DiffusionResult> read_ensemble(const std::string&);
+
+bool is_complete(const std::string& file) {
+  hdf5::silence();
+  try {
+    return hdf5::read_integer_attribute(open_ensemble(file).get(), "complete", file) == 1;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::string kind_of_ensemble(const std::string& file) {
+  hdf5::silence();
+  std::string name = archive_named(file);
+  if (has_checkpoint(name))
+    name = checkpoint_of(name);
+  else if (const std::vector<std::string> parts = parts_of_ranks(name); !parts.empty())
+    return kind_of_ensemble(parts.front());
+  const std::string kind = kind_in(open_ensemble(name), name);
+  if (kind != kind_of(EscapeResult()) && kind != kind_of(DiffusionResult()))
+    throw InputError(Place{name, 0, 0, ""}, "the archive does not hold an ensemble",
+                     "one written by carom escape or carom diffusion");
+  return kind;
+}
 
 Shard shard_of(const std::string& text, const Place& place) {
   constexpr std::uint64_t most = (std::uint64_t{1} << 32) - 1;
@@ -206,7 +240,7 @@ void refuse_other_version(const StoredEnsemble& stored) {
 }
 
 void write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& pieces) {
-  const Handle group = file.group("records", "Where the records of the trajectories first … last - 1 stand in FILE.records");
+  const Handle group = file.group("records", "Where the records of the trajectories first … last - 1 stand in the file of records");
   const auto column = [&](const char* name, std::uint64_t RecordLog::Piece::*field, const char* text) {
     std::vector<std::uint64_t> values;
     for (const RecordLog::Piece& piece : pieces) values.push_back(piece.*field);
@@ -239,21 +273,6 @@ std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint, const T
   for (const RecordLog::Piece& piece : pieces) once = held.add(TrajectoryRange{piece.first, piece.last}) && once;
   if (!once || held != done) damaged(checkpoint, "'/records' holds others than the trajectories of '/done'");
   return pieces;
-}
-
-bool holds_copies(const std::string& path, const StoredEnsemble& stored) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return false;
-  RecordReader reader(stored.file);
-  std::vector<TrajectoryRecord> batch;
-  while (reader.next(batch)) {
-    std::vector<char> there(batch.size() * sizeof(TrajectoryRecord));
-    file.read(there.data(), static_cast<std::streamsize>(there.size()));
-    const auto count = static_cast<std::size_t>(file.gcount());
-    if (std::memcmp(there.data(), batch.data(), count) != 0) return false;
-    if (count < there.size()) return true;
-  }
-  return file.peek() == std::ifstream::traits_type::eof();
 }
 
 void copy_records(const StoredEnsemble& stored, const TrajectoryRanges& done, const System& system, RecordLog& log) {

@@ -82,11 +82,11 @@ TEST(Checksums, AChangedSystemOfACheckpointIsRefused) {
   const Shell shell;
   shell("$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
-  const std::string checkpoint = shell.folder() + "/a.h5.part";
+  const std::string checkpoint = shell.folder() + "/a.h5.part/checkpoint.h5";
   change_text(checkpoint, "stem_width = 1", "stem_width = 2");
-  expect_changed(shell("timeout 20 $carom escape --resume a.h5"), "a.h5.part", "/system");
-  expect_changed(shell("$carom merge sum.h5 a.h5"), "a.h5.part", "/system");
-  EXPECT_TRUE(shell.exists("a.h5.part") && !shell.exists("a.h5") && !shell.exists("sum.h5"));
+  expect_changed(shell("timeout 20 $carom escape --resume a.h5"), "a.h5.part/checkpoint.h5", "/system");
+  expect_changed(shell("$carom merge sum.h5 a.h5"), "a.h5.part/checkpoint.h5", "/system");
+  EXPECT_TRUE(shell.exists("a.h5.part/checkpoint.h5") && !shell.exists("a.h5") && !shell.exists("sum.h5"));
   // As it was, it goes on.
   change_text(checkpoint, "stem_width = 2", "stem_width = 1");
   const std::string go_on = "$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -9 $pid; wait $pid";
@@ -258,20 +258,20 @@ TEST(Checksums, AreThoseOfZlib) {
 TEST(Checksums, ABitOfTheRecordsOfACheckpointIsToldOfAtOnce) {
   const Shell shell;
   shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
-        "until_there a.h5.records; until_saved a.h5; kill -9 $pid; wait $pid");
-  ASSERT_TRUE(shell.exists("a.h5.part"));
+        "until_there a.h5.part/records; until_saved a.h5; kill -9 $pid; wait $pid");
+  ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
   // Bytes 8 to 15 of the first record: where the trajectory started.
   double x = 0;
-  std::ifstream(shell.folder() + "/a.h5.records", std::ios::binary).seekg(8).read(reinterpret_cast<char*>(&x), sizeof x);
-  ASSERT_EQ(shell("cp a.h5.records kept").status, 0);
-  change_last_bit(shell.folder() + "/a.h5.records", x);
+  std::ifstream(shell.folder() + "/a.h5.part/records", std::ios::binary).seekg(8).read(reinterpret_cast<char*>(&x), sizeof x);
+  ASSERT_EQ(shell("cp a.h5.part/records kept").status, 0);
+  change_last_bit(shell.folder() + "/a.h5.part/records", x);
   const Outcome o = shell("timeout 20 $carom escape --resume a.h5");
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");
-  EXPECT_NE(o.err.find("a.h5.records: the records of the trajectories "), std::string::npos) << o.err;
-  EXPECT_TRUE(shell.exists("a.h5.part") && shell.exists("a.h5.records") && !shell.exists("a.h5"));
+  EXPECT_NE(o.err.find("a.h5.part/records: the records of the trajectories "), std::string::npos) << o.err;
+  EXPECT_TRUE(shell.exists("a.h5.part/checkpoint.h5") && shell.exists("a.h5.part/records") && !shell.exists("a.h5"));
   // Mended, they go on.
-  const Outcome again = shell("cp kept a.h5.records; $carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
+  const Outcome again = shell("cp kept a.h5.part/records; $carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(again.status, 130) << again.err;
 }
 

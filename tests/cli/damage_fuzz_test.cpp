@@ -89,7 +89,7 @@ END
 )";
 // Killed or interrupted after its second checkpoint, when some of the trajectories are in it.
 std::string unfinished(const std::string& command, const char* signal) {
-  return "for i in 1 2 3 4 5 6 7 8 9; do rm -f a.h5*; $carom " + command + " -o a.h5 --quiet --threads 1 --checkpoint blocks:10 & pid=$!; until_saved a.h5; kill -" +
+  return "for i in 1 2 3 4 5 6 7 8 9; do rm -rf a.h5*; $carom " + command + " -o a.h5 --quiet --threads 1 --checkpoint blocks:10 & pid=$!; until_saved a.h5; kill -" +
          signal + " $pid; wait $pid; status=$?; [ $status = 130 -o $status = 137 ] && break; done; true";
 }
 const std::string run_on = "$carom run --resume a.h5 --json --quiet -o out.h5 --t-max ";
@@ -107,11 +107,11 @@ const Archive archives[] = {
     {"escape", "$carom escape stadium --trajectories 2000 --t-max 20 --per-trajectory -o a.h5 --quiet", {"a.h5"},
      "$carom escape --resume a.h5 --json --quiet", ""},
     {"escape-interrupted", unfinished("escape " + slow + " --per-trajectory", "INT"), {"a.h5"}, "$carom escape --resume a.h5 --json --quiet --threads 1", "a.h5"},
-    {"escape-checkpoint", unfinished("escape " + slow + " --per-trajectory", "KILL"), {"a.h5.part", "a.h5.records"},
+    {"escape-checkpoint", unfinished("escape " + slow + " --per-trajectory", "KILL"), {"a.h5.part/checkpoint.h5", "a.h5.part/records"},
      "$carom escape --resume a.h5 --json --quiet --threads 1", "a.h5"},
     {"diffusion", "$carom diffusion lorentz-triangular --trajectories 50 --t-max 5 -o a.h5 --quiet", {"a.h5"},
      "$carom diffusion --resume a.h5 --json --quiet", ""},
-    {"diffusion-checkpoint", unfinished("diffusion lorentz-triangular --trajectories 20000 --t-max 100 --block 50", "KILL"), {"a.h5.part"},
+    {"diffusion-checkpoint", unfinished("diffusion lorentz-triangular --trajectories 20000 --t-max 100 --block 50", "KILL"), {"a.h5.part/checkpoint.h5"},
      "$carom diffusion --resume a.h5 --json --quiet --threads 1", "a.h5"},
     {"merge",
      "for k in 1 2; do $carom escape stadium --trajectories 1000 --t-max 20 --per-trajectory --shard $k/2 -o s$k.h5 --quiet; done; mv s1.h5 a.h5",
@@ -158,7 +158,7 @@ void print(const char* who, const char* name, const Counts& counts) {
 void make(const Shell& shell, const Archive& archive) {
   shell(archive.make);
   for (const std::string& file : archive.damaged) ASSERT_TRUE(shell.exists(file)) << archive.name;
-  ASSERT_EQ(shell("mkdir kept && cp a.h5* kept").status, 0);
+  ASSERT_EQ(shell("mkdir kept && cp -r a.h5* kept").status, 0);
 }
 
 class DamageFuzz : public testing::TestWithParam<Archive> {};
@@ -205,7 +205,7 @@ TEST_P(DamageFuzz, TheProgramRefusesOrGivesTheSameResult) {
   Cases cases(2);
   Counts counts;
   for (int k = 0; k < by_program; ++k) {
-    ASSERT_EQ(shell("rm -f out.h5 a.h5*; cp kept/* .").status, 0);
+    ASSERT_EQ(shell("rm -rf out.h5 a.h5*; cp -r kept/* .").status, 0);
     const std::string& file = archive.damaged[cases.below(archive.damaged.size())];
     const std::size_t way = cases.below(std::size(ways));
     write_file(shell.folder() + "/" + file, damaged(shell.read(file), way, cases));

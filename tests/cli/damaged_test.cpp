@@ -198,18 +198,18 @@ TEST(Damaged, RecordsOfOthersAreRefused) {
   const Shell shell;
   shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
-  ASSERT_TRUE(shell.exists("a.h5.part"));
-  Damage(shell.folder() + "/a.h5.part").resize("records/rows", 0);
+  ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
+  Damage(shell.folder() + "/a.h5.part/checkpoint.h5").resize("records/rows", 0);
   const Outcome length = shell("timeout 20 $carom escape --resume a.h5");
   EXPECT_EQ(length.status, 1);
-  EXPECT_NE(length.err.find("a.h5.part: '/records/rows' differs in length"), std::string::npos) << length.err;
+  EXPECT_NE(length.err.find("a.h5.part/checkpoint.h5: '/records/rows' differs in length"), std::string::npos) << length.err;
   {
-    Damage damage(shell.folder() + "/a.h5.part");
+    Damage damage(shell.folder() + "/a.h5.part/checkpoint.h5");
     for (const char* column : {"first", "last", "row", "rows"}) damage.resize((std::string("records/") + column).c_str(), 0);
   }
   const Outcome others = shell("timeout 20 $carom escape --resume a.h5");
   EXPECT_EQ(others.status, 1);
-  EXPECT_NE(others.err.find("a.h5.part: '/records' holds others than the trajectories of '/done'"), std::string::npos) << others.err;
+  EXPECT_NE(others.err.find("a.h5.part/checkpoint.h5: '/records' holds others than the trajectories of '/done'"), std::string::npos) << others.err;
 }
 
 }  // namespace

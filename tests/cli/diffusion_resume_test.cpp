@@ -24,7 +24,7 @@ TEST(DiffusionResume, RefusesWhatDiffers) {
   const Shell shell;
   shell("$carom diffusion lorentz-triangular --trajectories 1e8 -o a.h5 --quiet --checkpoint blocks:1 & pid=$!; "
         "until_saved a.h5; kill -9 $pid; wait $pid");
-  ASSERT_TRUE(shell.exists("a.h5.part"));
+  ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
   const std::pair<const char*, const char*> cases[] = {
       {"diffusion --resume a.h5 --seed 2", "run.seed is 2, not 1"},
       {"diffusion lorentz-square --resume a.h5", "the system is lorentz-square, not lorentz-triangular"},
@@ -60,7 +60,7 @@ TEST(DiffusionResume, TakesAnotherWindow) {
   EXPECT_EQ(json_value(shell("$carom diffusion " + ensemble + " --resume a.h5").out, "window"), json_value(whole.out, "window"));
   // On the way, too: the archive is that of the first command.
   const auto contents = datasets(shell, "a.h5");
-  shell("$carom diffusion " + ensemble + " --window 5,50 -o b.h5 --checkpoint blocks:1 & pid=$!; until_there b.h5.part; kill -INT $pid; wait $pid; "
+  shell("$carom diffusion " + ensemble + " --window 5,50 -o b.h5 --checkpoint blocks:1 & pid=$!; until_there b.h5.part/checkpoint.h5; kill -INT $pid; wait $pid; "
         "$carom diffusion --resume b.h5 --window 20,40");
   expect_same_datasets(shell.folder() + "/b.h5", contents);
 }

@@ -54,7 +54,7 @@ inline void kill_and_resume(const Ensemble& ensemble, const std::string& options
   const Undisturbed whole(shell, ensemble, options);
   // What was killed before its first checkpoint begins anew.
   const auto begin = [&] {
-    const bool anew = !shell.exists("a.h5") && !shell.exists("a.h5.part");
+    const bool anew = !shell.exists("a.h5") && !shell.exists("a.h5.part/checkpoint.h5");
     return anew ? ensemble.anew(options) + " -o a.h5" : ensemble.on("a.h5");
   };
   std::mt19937 random(seed);
@@ -66,11 +66,11 @@ inline void kill_and_resume(const Ensemble& ensemble, const std::string& options
     const std::string signal = random() % 2 ? "-9" : "-TERM";
     const Outcome o = shell("$carom" + begin() + " --checkpoint 0.02 --threads " + std::to_string(1 + random() % 2) +
                             " & pid=$!; sleep " + seconds(0.01 + when) + "; kill " + signal + " $pid; wait $pid");
-    expect_whole(shell, "a.h5.part");
+    expect_whole(shell, "a.h5.part/checkpoint.h5");
     if (o.status == 0) {  // faster than the kill
       latest *= 0.8;
       expect_same_datasets(shell.folder() + "/a.h5", whole.contents);
-      shell("rm -f a.h5 a.h5.*");
+      shell("rm -rf a.h5 a.h5.*");
       continue;
     }
     // A signal may come before anything is ready for it.
@@ -115,12 +115,12 @@ inline void fill_the_disk(const Ensemble& ensemble, const std::string& options, 
   for (int i = 0;; ++i) {
     ASSERT_LT(i, tries);
     const Outcome o = shell("$carom" + ensemble.anew(options) + " -o small/a.h5 --threads 1 --checkpoint 0.1 2>said & pid=$!; "
-                            "until_there small/a.h5.part; " + filler + "until_there said; rm small/filler; wait $pid");
+                            "until_there small/a.h5.part/checkpoint.h5; " + filler + "until_there said; rm small/filler; wait $pid");
     const std::string said = shell.read("said");
     const bool warned = said.find("no checkpoint: cannot write 'small/a.h5': No space left on device") != std::string::npos;
     ASSERT_TRUE(o.status == 0 || warned) << said;
     if (o.status == 0 && warned) break;
-    shell("rm small/* said");
+    shell("rm -rf small/* said");
   }
   expect_same_datasets(shell.folder() + "/small/a.h5", whole.contents);
   shell("rm small/a.h5");
@@ -131,17 +131,17 @@ inline void fill_the_disk(const Ensemble& ensemble, const std::string& options, 
     full = shell("$carom" + ensemble.anew(options) + " -o small/b.h5 --threads 1 --block 4 --checkpoint blocks:100 & pid=$!; "
                  "until_saved small/b.h5; " + filler + "wait $pid");
     if (full.status != 0) break;
-    shell("rm small/*");
+    shell("rm -rf small/*");
   }
   EXPECT_EQ(full.status, 1) << full.err;
   EXPECT_EQ(full.out, "");
   EXPECT_NE(full.err.find("cannot write 'small/b.h5': No space left on device"), std::string::npos) << full.err;
   EXPECT_NE(full.err.find("carom " + ensemble.command + " --resume small/b.h5"), std::string::npos) << full.err;
-  expect_whole(shell, "small/b.h5.part");
+  expect_whole(shell, "small/b.h5.part/checkpoint.h5");
   const Outcome end = shell("rm small/filler; $carom" + ensemble.on("small/b.h5"));
   EXPECT_EQ(end.status, 0) << end.err;
   expect_same_datasets(shell.folder() + "/small/b.h5", whole.contents);
-  EXPECT_FALSE(shell.exists("small/b.h5.part") || shell.exists("small/b.h5.records"));
+  EXPECT_FALSE(shell.exists("small/b.h5.part"));
   shell("umount small");
 }
 

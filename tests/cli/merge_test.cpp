@@ -1,7 +1,10 @@
 // Shards that are merged, and ranks that fail.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "archive_contents.hpp"
 #include "processes.hpp"
@@ -87,27 +90,43 @@ TEST(Merge, HoldsOnePartAtATime) {
   EXPECT_EQ(json_value(merged.out, "status"), "\"completed\"");
 }
 
+int count_of(const std::string& words, const std::string& text) {
+  int count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}
+
 // Twenty-five times with CAROM_SOAK.
 TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
-  const std::string run = "$carom escape stadium --trajectories 3e6 --t-max 60 --quiet --json --threads 1";
+  const std::string run = "$carom escape stadium --trajectories 1e7 --t-max 60 --quiet --json --threads 1";
   ASSERT_EQ(shell(run + " -o whole.h5").status, 0);
   const auto whole = datasets(shell, "whole.h5");
-  for (int kill = 0; kill < (std::getenv("CAROM_SOAK") ? 25 : 1); ++kill) {
+  for (int kill = 0; kill < (std::getenv("CAROM_SOAK") ? 25 : 3); ++kill) {
     const std::string victim = kill % 2 == 0 ? "tail -1" : "head -1", wait = std::to_string(0.02 * kill);
     for (int tries = 0;; ++tries) {
       ASSERT_LT(tries, 20) << "it ends before it is killed";
-      const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint blocks:100 & pid=$!; until_saved a.h5; sleep " + wait +
+      const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint blocks:100 & pid=$!; until_saved a.h5.part/rank-2; sleep " + wait +
                                    "; kill -9 $(pgrep -P $pid | " + victim + "); wait $pid");
-      if (killed.status != 0 && shell.exists("a.h5.part")) break;
-      shell("rm -f a.h5*");
+      if (killed.status != 0 && shell.exists("a.h5.part/rank-2.part/checkpoint.h5")) break;
+      shell("rm -rf a.h5*");
     }
-    EXPECT_EQ(open_archive(shell.folder() + "/a.h5.part").complete, 0);
-    const Outcome end = shell(ranks(2) + "$carom escape --resume a.h5 --json");
+    EXPECT_EQ(open_archive(shell.folder() + "/a.h5.part/rank-2.part/checkpoint.h5").complete, 0);
+    const Outcome anew = shell(run + " -o a.h5");
+    EXPECT_NE(anew.err.find("a.h5: a run that has not ended left a checkpoint of this name (expected carom escape --resume a.h5"), std::string::npos) << anew.err;
+    // By the same ranks, by others, and by one process.
+    const int number = std::vector{3, 2, 0}[static_cast<std::size_t>(kill % 3)];
+    const Outcome end = shell("cp -r a.h5.part left; " + ranks(number) + "$carom escape --resume a.h5 --json");
     EXPECT_EQ(end.status, 0) << end.err;
-    EXPECT_EQ(json_value(end.out, "ranks"), "2");
+    EXPECT_EQ(json_value(end.out, "ranks"), std::to_string(std::max(1, number)));
     expect_same_datasets(shell.folder() + "/a.h5", whole);
+    EXPECT_EQ(shell.files(), (std::vector<std::string>{"a.h5", "left", "whole.h5"}));
+    // As if it had been killed before it removed the shares: these are in the sum already.
+    const Outcome again = shell("mv left a.h5.part; " + ranks(number) + "$carom escape --resume a.h5 --json");
+    EXPECT_EQ(again.status, 0) << again.err;
+    expect_same_datasets(shell.folder() + "/a.h5", whole);
+    EXPECT_EQ(shell.files(), (std::vector<std::string>{"a.h5", "whole.h5"}));
     shell("rm a.h5");
   }
 }
@@ -119,22 +138,39 @@ Outcome with_limit(const Shell& shell, int rank, const std::string& limit, const
                "--bind-to none -n 3 bash one.sh " + command);
 }
 
-TEST(Ranks, AllEndWhenTheFirstHasNoDiskAndSayWhy) {
+TEST(Ranks, AllEndWhenOneHasNoDiskAndSayWhyOnce) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
   const std::string run = "$carom escape stadium --trajectories 1e9 --t-max 60 --quiet --threads 1 --per-trajectory --checkpoint blocks:20 ";
-  // No room for the first checkpoint; later, none for more records than there are.
-  const Outcome first = with_limit(shell, 0, "-f 1", run + "-o a.h5");
-  EXPECT_EQ(first.status, 1) << first.err;
-  EXPECT_NE(first.err.find("cannot write 'a.h5': File too large"), std::string::npos) << first.err;
-  shell(run + "-o b.h5 & pid=$!; until_saved b.h5; kill -9 $pid; wait $pid");
-  ASSERT_GT(shell.read("b.h5.records").size(), 0u);
-  const std::string room = std::to_string(shell.read("b.h5.records").size() / 1024 + 100);
-  const Outcome later = with_limit(shell, 0, "-f " + room, "$carom escape --resume b.h5 --quiet --threads 1 --checkpoint blocks:20");
-  EXPECT_EQ(later.status, 1) << later.err;
-  EXPECT_NE(later.err.find("carom: cannot write 'b.h5': File too large"), std::string::npos) << later.err;
-  EXPECT_NE(later.err.find("carom escape --resume b.h5"), std::string::npos) << later.err;
-  EXPECT_EQ(open_archive(shell.folder() + "/b.h5.part").complete, 0);
+  for (const int rank : {0, 1}) {
+    // No room for the first checkpoint; and none for more than 2 MB of records.
+    const Outcome first = with_limit(shell, rank, "-f 1", run + "-o a.h5");
+    EXPECT_EQ(first.status, 1) << first.err;
+    EXPECT_EQ(count_of("carom: cannot write 'a.h5", first.err), 1) << first.err;
+    EXPECT_NE(first.err.find("File too large"), std::string::npos) << first.err;
+    shell("rm -rf a.h5*");
+    const Outcome later = with_limit(shell, rank, "-f 2000", run + "-o b.h5");
+    EXPECT_EQ(later.status, 1) << later.err;
+    EXPECT_EQ(count_of("carom: cannot write 'b.h5", later.err), 1) << later.err;
+    EXPECT_NE(later.err.find("carom escape --resume b.h5"), std::string::npos) << later.err;
+    const Outcome on = shell("$carom escape --resume b.h5 --quiet --json --checkpoint blocks:20 & pid=$!; until_saved b.h5; kill -INT $pid; wait $pid");
+    EXPECT_EQ(on.status, 130) << on.err;
+    EXPECT_EQ(shell.files(), (std::vector<std::string>{"b.h5", "one.sh"}));
+    shell("rm -rf b.h5*");
+  }
+}
+
+// Without an archive what the ranks have added up travels through folders for temporary files.
+TEST(Ranks, AllEndWhenOneHasNoTemporaryFolder) {
+  if (!has_mpi()) GTEST_SKIP() << "no mpirun";
+  const Shell shell;
+  for (const std::string rank : {"0", "2"}) {
+    const Outcome o = shell("cat > one.sh <<'END'\n[ \"$OMPI_COMM_WORLD_RANK\" = " + rank + " ] && export TMPDIR=/nowhere\nexec \"$@\"\nEND\n" +
+                            ranks(3) + "timeout 60 bash one.sh $carom escape stadium --trajectories 1e9 --quiet --threads 1");
+    EXPECT_EQ(o.status, 1) << o.err;
+    EXPECT_EQ(o.out, "");
+    EXPECT_EQ(count_of("carom: ", o.err), 1) << o.err;
+  }
 }
 
 // Where the memory ends depends on the machine, so there may even be enough; but nobody waits for ever.
@@ -147,7 +183,7 @@ TEST(Ranks, AllEndWhenOneHasNoMemory) {
                                    "$carom diffusion lorentz-triangular --trajectories 1000 --times lin:0.01:10:1000 --quiet --threads 1 --force -o a.h5");
       EXPECT_NE(o.status, 124) << "rank " << rank << " with " << memory << " kB\n" << o.err;
       EXPECT_EQ(o.status == 0, shell.exists("a.h5")) << o.err;
-      shell("rm -f a.h5*");
+      shell("rm -rf a.h5*");
     }
 }
 

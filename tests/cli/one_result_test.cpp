@@ -44,7 +44,7 @@ void expect_one_result(const std::string& command, const std::string& options, s
     const std::string run = ranks(way.processes) + run_it + "--threads " + std::to_string(way.threads) + " --block " + way.block +
                             " --isa " + way.isa;
     SCOPED_TRACE(run);
-    const Outcome one = shell("rm -f *.h5.* one.h5; " + run + " -o one.h5");
+    const Outcome one = shell("rm -rf *.h5.* one.h5; " + run + " -o one.h5");
     EXPECT_EQ(one.status, 0) << one.err;
     expect_same_datasets(shell.folder() + "/one.h5", whole);
     const std::string order = number++ % 2 == 0 ? "3.h5 1.h5 2.h5" : "2.h5 3.h5 1.h5";
@@ -53,9 +53,10 @@ void expect_one_result(const std::string& command, const std::string& options, s
     expect_same_datasets(shell.folder() + "/all.h5", whole);
     // The first of the ranks: mpirun itself would soon end them all.
     const std::string process = way.processes > 0 ? "$(pgrep -P $pid | head -1)" : "$pid";
+    const std::string saved = way.processes > 1 ? "r.h5.part/rank-1" : "r.h5";
     bool ended = true;
     for (int tries = 0; ended && tries < 5; ++tries) {
-      shell("rm -f r.h5*; " + run + " -o r.h5 --checkpoint blocks:1 & pid=$!; until_saved r.h5; kill -INT " + process + "; wait $pid");
+      shell("rm -rf r.h5*; " + run + " -o r.h5 --checkpoint blocks:1 & pid=$!; until_saved " + saved + "; kill -INT " + process + "; wait $pid");
       ended = shell.exists("r.h5") && open_archive(shell.folder() + "/r.h5").complete != 0;
     }
     interrupted += !ended;

@@ -20,9 +20,10 @@ namespace {
 const char* const functions = R"sh(
 until_there() { until [ -s "$1" ]; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done; }
 until_saved() {
-  until_there "$1.part" || return 1
-  found=$(stat -c %y "$1.part")
-  while [ "$(stat -c %y "$1.part" 2>/dev/null)" = "$found" ]; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done
+  checkpoint="$1.part/checkpoint.h5"
+  until_there "$checkpoint" || return 1
+  found=$(stat -c %y "$checkpoint")
+  while [ "$(stat -c %y "$checkpoint" 2>/dev/null)" = "$found" ]; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done
 }
 until_listening() {
   until grep -qs '^SigCgt:.*[4-7c-f]...$' /proc/$pid/status; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done

@@ -14,7 +14,7 @@ TEST(Streams, ThatAreClosedAreNoFilesOfTheRun) {
   const Undisturbed whole(shell, mushroom, " --per-trajectory");
   const Outcome o = shell(until_records_are_full(mushroom) + " >&- 2>&-");
   EXPECT_EQ(o.status, 1);
-  ASSERT_TRUE(shell.exists("a.h5.part"));
+  ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
   const Outcome end = shell("$carom" + mushroom.on("a.h5"));
   EXPECT_EQ(end.status, 0) << end.err;
   expect_same_datasets(shell.folder() + "/a.h5", whole.contents);
@@ -33,7 +33,7 @@ TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
   Outcome o;
   for (int tries = 0; tries < 10 && o.status != 130; ++tries)
     o = shell("rm -rf a.h5*; $carom escape mushroom --trajectories 1e9 --quiet --json -o a.h5 --checkpoint 0.4 2>/dev/full & pid=$!; "
-              "until_saved a.h5; until mkdir a.h5.part.new; do sleep 0.02; done; sleep 0.6; rmdir a.h5.part.new; "
+              "until_saved a.h5; until mkdir a.h5.part/new; do sleep 0.02; done; sleep 0.6; rmdir a.h5.part/new; "
               "kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"");
@@ -48,11 +48,11 @@ TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
 TEST(Streams, RecordsOfOtherTrajectoriesAreRefused) {
   const Shell shell;
   ASSERT_EQ(shell(until_records_are_full(mushroom)).status, 1);
-  ASSERT_TRUE(shell.exists("a.h5.part"));
-  const Outcome o = shell("head -c 7200 /dev/zero | dd of=a.h5.records conv=notrunc 2>/dev/null; $carom" + mushroom.on("a.h5"));
+  ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
+  const Outcome o = shell("head -c 7200 /dev/zero | dd of=a.h5.part/records conv=notrunc 2>/dev/null; $carom" + mushroom.on("a.h5"));
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");
-  EXPECT_NE(o.err.find("a.h5.records: the records of the trajectories"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("a.h5.part/records: the records of the trajectories"), std::string::npos) << o.err;
   EXPECT_FALSE(shell.exists("a.h5"));
 }
 

@@ -1,5 +1,5 @@
-// Diffusion ensembles in parts: interrupted and continued, in shards, shared between ranks. The sum is the whole, bit
-// for bit, although it is one of doubles.
+// Diffusion ensembles in parts: interrupted and continued, in shards. The sum is the whole, bit for bit, although it is
+// one of doubles.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -11,9 +11,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/io/system_file.hpp"
-#include "ensemble/result_bytes.hpp"
 #include "systems.hpp"
-#include "thread_ranks.hpp"
 
 namespace carom {
 namespace {
@@ -110,40 +108,28 @@ TEST(DiffusionInParts, ShardsMakeTheWholeInAnyOrder) {
   }
 }
 
-TEST(DiffusionInParts, ACrewHasTheSameResult) {
+// As several processes do that go on with what is there: each flies a share of what is missing, and counts that alone.
+TEST(DiffusionInParts, SharesOfWhatIsMissingMakeTheWhole) {
   const System system = lorentz();
-  const DiffusionResult alone = run_diffusion(system);
-  for (const int size : {2, 4}) {
-    ThreadCrew crew(size);
-    crew.start_hands([&](Ranks& ranks) {
-      DiffusionOptions options;
-      options.threads = 1;
-      options.ranks = &ranks;
-      run_diffusion(system, options);
-    });
+  const DiffusionResult whole = run_diffusion(system);
+  DiffusionResult sum;
+  sum.sums = DisplacementSums(system.run.times);
+  for (const TrajectoryRange part : {TrajectoryRange{20, 130}, TrajectoryRange{300, 301}}) {
     DiffusionOptions options;
-    options.threads = 1;
-    options.block = 5;
-    options.save_every = 0.005;
-    options.ranks = &crew.first();
-    expect_equal(run_diffusion(system, options), alone);
-    crew.join();
-    EXPECT_EQ(crew.failed(), 0);
-    EXPECT_EQ(crew.messages_left(), 0u);
+    options.part = part;
+    ASSERT_TRUE(sum.add(run_diffusion(system, options)));
   }
-}
-
-TEST(DiffusionInParts, TravelsAsBytes) {
-  const DiffusionResult there = run_diffusion(lorentz());
-  BytesOut out;
-  write_bytes(out, there);
-  BytesIn in(out.bytes);
-  DiffusionResult back;
-  back.sums = DisplacementSums(there.sums.times());
-  read_bytes(in, back);
-  expect_equal(back, there);
-  // 70 digits a sum would be 4 MB.
-  EXPECT_LT(out.bytes.size(), std::size_t{1} << 20);
+  const TrajectoryRanges there = sum.done;
+  for (const std::uint64_t k : {3, 1, 4, 2}) {
+    DiffusionOptions options;
+    options.elsewhere = there;
+    options.part = shard(k, 4, there.missing_from({0, system.run.trajectories}));
+    const DiffusionResult share = run_diffusion(system, options);
+    EXPECT_TRUE(share.complete);
+    EXPECT_LE(share.done.size(), (system.run.trajectories - there.size()) / 4 + 1);
+    ASSERT_TRUE(sum.add(share));
+  }
+  expect_equal(sum, whole);
 }
 
 }  // namespace

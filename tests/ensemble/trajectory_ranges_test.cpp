@@ -80,5 +80,26 @@ TEST(TrajectoryRanges, GapsStayInsideAShard) {
   EXPECT_TRUE(done.missing_from({26, 30}).empty());
 }
 
+TEST(Shard, OfRangesCoversThemOnce) {
+  const std::vector<TrajectoryRange> all{{3, 10}, {12, 13}, {20, 26}};
+  for (const std::uint64_t of : {1, 2, 3, 5, 14, 40}) {
+    std::uint64_t sum = 0, at = 0;
+    for (std::uint64_t k = 1; k <= of; ++k) {
+      const TrajectoryRange part = shard(k, of, all);
+      if (part.first == part.last) continue;
+      EXPECT_GE(part.first, at);
+      at = part.last;
+      std::uint64_t in_part = 0;
+      for (const TrajectoryRange& range : all)
+        for (std::uint64_t i = range.first; i < range.last; ++i) in_part += i >= part.first && i < part.last;
+      EXPECT_LE(in_part, 14 / of + 1);
+      sum += in_part;
+    }
+    EXPECT_EQ(sum, 14u) << of;
+  }
+  EXPECT_EQ(shard(2, 3, {}), TrajectoryRange{});
+  EXPECT_EQ(shard(2, 3, {{5, 17}}), (TrajectoryRange{9, 13}));
+}
+
 }  // namespace
 }  // namespace carom

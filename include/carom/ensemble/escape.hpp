@@ -26,7 +26,7 @@ using EscapeJournal = EnsembleJournal<EscapeResult>;
 
 /// How to run, without influence on the result, and who is given each trajectory.
 struct EscapeOptions : EnsembleOptions<EscapeResult> {
-  /// If set, receives each block's records in increasing order of index (one thread at a time). Not with `ranks`.
+  /// If set, receives each block's records in increasing order of index (one thread at a time).
   std::function<void(const std::vector<TrajectoryRecord>&)> records;
 };
 

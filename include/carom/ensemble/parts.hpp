@@ -1,5 +1,4 @@
-// What all ensembles have in common that can be stopped, continued, cut into parts and shared between
-// processes.
+// What all ensembles have in common that can be stopped, continued and cut into parts.
 #pragma once
 
 #include <atomic>
@@ -11,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "carom/ensemble/ranks.hpp"
 #include "carom/ensemble/trajectory_ranges.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/events/energy.hpp"
@@ -44,7 +42,7 @@ struct EnsembleResult {
   bool complete = true;  ///< false when interrupted
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;                                             ///< of each process
-  int ranks = 1;                                               ///< processes
+  int ranks = 1;                                               ///< processes that shared it
   std::optional<InstructionSet> lanes;                         ///< that flew it; empty: the scalar engine did
   std::vector<std::pair<std::uint64_t, std::string>> reports;  ///< of the first few that failed: index and report
 
@@ -85,10 +83,8 @@ struct EnsembleOptions {
   EnsembleJournal<Result>* journal = nullptr;  ///< is asked to save first of all, and then now and then
   double save_every = 10;               ///< seconds
   std::uint64_t save_every_blocks = 0;  ///< if not 0: whenever that many have come in, whatever the time
-  /// Processes that share the ensemble: each runs it. Rank 0 has the result; part, before, journal and
-  /// progress are its own. The others need the system, and their result is empty. Whatever fails, all of them
-  /// end.
-  Ranks* ranks = nullptr;
+  /// Trajectories that are not done here and not counted: another archive holds them.
+  TrajectoryRanges elsewhere;
   const std::atomic<bool>* interrupted = nullptr;  ///< asked between blocks and during long ones
   /// Called now and then from one thread at a time with the trajectories done so far and the hits of this call alone.
   std::function<void(std::uint64_t done, std::uint64_t hits)> progress;

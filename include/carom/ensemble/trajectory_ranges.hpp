@@ -23,6 +23,23 @@ inline TrajectoryRange shard(std::uint64_t k, std::uint64_t of, std::uint64_t tr
   return {end(k - 1), end(k)};
 }
 
+/// Part k of N of the trajectories of several ranges, in order: the smallest range that holds it, or an empty one.
+inline TrajectoryRange shard(std::uint64_t k, std::uint64_t of, const std::vector<TrajectoryRange>& ranges) {
+  std::uint64_t all = 0;
+  for (const TrajectoryRange& range : ranges) all += range.last - range.first;
+  const TrajectoryRange numbers = shard(k, of, all);
+  TrajectoryRange part;
+  if (numbers.first == numbers.last) return part;
+  std::uint64_t before = 0;
+  for (const TrajectoryRange& range : ranges) {
+    const std::uint64_t end = before + (range.last - range.first);
+    if (before <= numbers.first && numbers.first < end) part.first = range.first + (numbers.first - before);
+    if (before < numbers.last && numbers.last <= end) part.last = range.first + (numbers.last - before);
+    before = end;
+  }
+  return part;
+}
+
 /// A set of trajectories as sorted ranges that neither touch nor overlap: equal sets are equal values,
 /// in whatever order they were put together.
 class TrajectoryRanges {

@@ -24,20 +24,21 @@ void refuse_existing(const std::string& file, bool force);
 /// Is there an ensemble of this name that has not ended?
 bool has_checkpoint(const std::string& file);
 
-/// For whoever holds the lock of `file`: removes its checkpoint, if it has one, and the records that this names.
+/// For the process that holds the lock of `file`: removes its checkpoint, if it has one, and the records that this names.
 void remove_checkpoint(const std::string& file);
 /// The file behind a name: symbolic links are followed, to a file that is not there yet, too, so that what stands beside an
 /// archive stands beside the file and not beside the link. Throws InputError where links lead round.
 std::string followed(const std::string& name);
-/// The archive that a user means: FILE for the name of its checkpoint FILE.part.
+/// The archive that a user means: FILE for the name of its folder FILE.part.
 std::string archive_named(const std::string& name);
+/// Throws InputError where FILE is in the folder in which another archive is made.
+void refuse_inside(const std::string& file);
 
-class FileLock;
-/// As long as it lives, no other process writes the archive.
-using ArchiveLock = std::shared_ptr<FileLock>;
-/// Throws InputError where another process writes it or the archive beside which it stands (FILE.part of FILE), and where it
-/// is no file. Archives take their lock themselves, unless they are given one
-/// that was taken before something was read.
+class WorkFolder;
+/// As long as it lives, no other process writes the archive. It holds the folder FILE.part, in which FILE is made.
+using ArchiveLock = std::shared_ptr<WorkFolder>;
+/// Throws InputError where another process writes it, where it is no file, and where FILE.part is something else. Archives
+/// take their lock themselves, unless they are given one that was taken before something was read.
 ArchiveLock lock_archive(const std::string& file);
 /// Why it keeps nobody away ("No locks available"): the file system gives none. "" where it does.
 std::string weakness_of(const ArchiveLock&);
@@ -62,7 +63,7 @@ class RunArchive : public Observer {
  public:
   static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&, const Provenance&,
                                             bool force, std::uint64_t trajectory = 0, ArchiveLock = nullptr);
-  /// Goes on with the run stored in `source`: works on a copy TARGET.new, which becomes `target`
+  /// Goes on with the run stored in `source`: works on a copy aside, which becomes `target`
   /// (often the source itself) when finished.
   static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
                                             const LoadedSystem&, const Provenance&, bool force, ArchiveLock = nullptr);
@@ -106,7 +107,7 @@ inline const char* kind_of(const DiffusionResult&) { return "diffusion"; }
 
 /// An ensemble as its archive holds it, or the checkpoint of one that has not ended.
 struct StoredEnsemble {
-  std::string file;  ///< that was read: FILE.h5 or FILE.h5.part
+  std::string file;  ///< that was read: FILE or the checkpoint in FILE.part
   std::string kind, version, system_name, system_toml, status;
   std::string engine;       ///< "events", "steps" or "auto"
   bool everywhere = false;  ///< --engine steps: integrates everything
@@ -116,11 +117,15 @@ struct StoredEnsemble {
   Shard shard;
   bool per_trajectory = false;
 };
+/// Its system.
+LoadedSystem system_of(const StoredEnsemble&);
 /// With what it has added up.
 template <class Result>
 struct Stored : StoredEnsemble {
   Result result;
 };
+/// Is there an archive of this name that is complete?
+bool is_complete(const std::string& file);
 /// The kind of ensemble that FILE.h5 or its checkpoint holds. Throws InputError for anything else.
 std::string kind_of_ensemble(const std::string& file);
 /// Of FILE.h5 and its checkpoint, what holds more of the same ensemble; where FILE.h5 is anything else, the
@@ -139,23 +144,22 @@ std::string difference(const std::string& toml, const std::string& other_toml, c
 struct EnsemblePart {
   std::string file;
   TrajectoryRanges done;
+  double seconds = 0;
 };
 template <class Result>
 struct SumOfParts : Stored<Result> {
   std::vector<EnsemblePart> parts;
 };
-/// The sum of parts of one ensemble, in any order the same: shard 1/1, complete where nothing is missing. One part
+/// The sum of parts of one ensemble, in any order the same; complete where nothing of the shard is missing. One part
 /// at a time is in memory. Throws InputError where parts overlap or do not match, and says in what.
 template <class Result>
-SumOfParts<Result> sum_of(const std::vector<std::string>& files);
-/// Writes the sum as its ensemble's archive, in place of what there is of that name. InputError where FILE.part.new is a file
-/// of somebody else, unless `force` replaces it.
+SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& shard = {});
+/// Writes the sum as its ensemble's archive, in place of what there is of that name.
 template <class Result>
-void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const SumOfParts<Result>&,
-               ArchiveLock = nullptr, bool force = false);
+void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const SumOfParts<Result>&, ArchiveLock = nullptr);
 
-/// An ensemble's result. While the ensemble runs, FILE.part is its checkpoint: an archive by itself, always
-/// whole, and FILE.records holds the records of trajectories. When finished, FILE replaces them.
+/// An ensemble's result. While the ensemble runs, its checkpoint is in the folder FILE.part: an archive by itself, always
+/// whole, and the records of trajectories. When finished, FILE replaces the folder.
 template <class Result>
 class EnsembleArchive : public EnsembleJournal<Result> {
  public:
@@ -167,7 +171,7 @@ class EnsembleArchive : public EnsembleJournal<Result> {
     ArchiveLock lock = nullptr;
   };
   EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Plan&);
-  /// Goes on with a stored ensemble; plan and earlier provenance are those of the store.
+  /// Goes on with a stored ensemble; the plan is that of the store.
   EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Stored<Result>&, const Plan&);
   EnsembleArchive(const EnsembleArchive&) = delete;
   ~EnsembleArchive() override;
@@ -188,7 +192,7 @@ class EnsembleArchive : public EnsembleJournal<Result> {
 extern template class EnsembleArchive<EscapeResult>;
 extern template class EnsembleArchive<DiffusionResult>;
 
-/// The points of a section, orbit after orbit; written aside (FILE.new), and renamed when finished.
+/// The points of a section, orbit after orbit; written aside, and renamed when finished.
 class SectionArchive {
  public:
   SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force, ArchiveLock = nullptr);

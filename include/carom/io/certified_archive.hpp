@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// Written beside its name (FILE.h5.part) and renamed when finished; removed when it is not.
+/// Written aside and renamed when finished; removed when it is not.
 class CertifiedArchive {
  public:
   CertifiedArchive(const std::string& file, const LoadedSystem&, const Provenance&, const CertifiedTask&, bool force,

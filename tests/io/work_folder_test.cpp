@@ -1,5 +1,5 @@
 // One writer at a time, also while others let go.
-#include "io/file_lock.hpp"
+#include "io/work_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <fcntl.h>
@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -21,52 +22,43 @@
 namespace carom {
 namespace {
 
-TEST(FileLock, RefusesTheSecondAndLeavesNothing) {
+TEST(WorkFolder, RefusesTheSecondAndLeavesNothing) {
   const ScratchFolder folder;
   const std::string file = folder.file("a");
   {
     const ArchiveLock first = lock_archive(file);
     EXPECT_THROW(lock_archive(file), InputError);
-    EXPECT_TRUE(std::filesystem::exists(file + ".lock"));
+    EXPECT_TRUE(std::filesystem::exists(folder_of(file)));
   }
-  EXPECT_FALSE(std::filesystem::exists(file + ".lock"));
+  EXPECT_FALSE(std::filesystem::exists(folder_of(file)));
   EXPECT_NO_THROW(lock_archive(file));
 }
 
-// Whoever writes what stands beside an archive keeps others from it, and is kept from it by them.
-TEST(FileLock, OfAnArchiveIsThatOfTheFilesBesideIt) {
+// A checkpoint stays, and the folder with it; then it may be claimed again.
+TEST(WorkFolder, StaysWithACheckpoint) {
   const ScratchFolder folder;
   const std::string file = folder.file("a");
-  const std::vector<std::string> beside = {".part", ".part.new", ".records", ".new", ".part.part"};
-  for (const std::string& mark : beside) {
-    {
-      const ArchiveLock first = lock_archive(file);
-      EXPECT_THROW(lock_archive(file + mark), InputError) << mark;
-    }
-    {
-      const ArchiveLock first = lock_archive(file + mark);
-      EXPECT_THROW(lock_archive(file), InputError) << mark;
-      EXPECT_NO_THROW(lock_archive(file + "2" + mark)) << mark;
-    }
-    EXPECT_NO_THROW(lock_archive(file)) << mark;
+  for (int i = 0; i < 2; ++i) {
+    const ArchiveLock lock = lock_archive(file);
+    for (const std::string& name : {checkpoint_of(file), records_of(file), aside_of(file)}) std::ofstream(name) << "x";
   }
-  EXPECT_THROW(lock_archive(file + ".lock"), InputError);
-  // Two beside the same archive, which is free again only after both.
-  ArchiveLock part = lock_archive(file + ".part"), records = lock_archive(file + ".records");
-  part.reset();
-  EXPECT_THROW(lock_archive(file), InputError);
-  records.reset();
-  for (const std::string mark : {"", ".part", ".records", ".lock"}) EXPECT_FALSE(std::filesystem::exists(file + mark + ".lock"));
-  EXPECT_NO_THROW(lock_archive(file));
+  EXPECT_TRUE(exists(checkpoint_of(file)) && exists(records_of(file)) && !exists(aside_of(file)));
+  EXPECT_TRUE(has_checkpoint(file));
+  {
+    const ArchiveLock lock = lock_archive(file);
+    remove_checkpoint(file);
+  }
+  EXPECT_FALSE(exists(folder_of(file)));
 }
 
 // Whoever may only read the lock's file, as that of another user, is refused like anybody.
-TEST(FileLock, OfAnotherUserCounts) {
+TEST(WorkFolder, OfAnotherUserCounts) {
   const ScratchFolder folder;
   const std::string file = folder.file("a");
   std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
   const ArchiveLock first = lock_archive(file);
-  ASSERT_EQ(::chmod((file + ".lock").c_str(), 0444), 0);
+  ASSERT_EQ(::chmod((folder_of(file) + "/carom.lock").c_str(), 0444), 0);
+  std::filesystem::permissions(folder_of(file), std::filesystem::perms::all);
   const bool root = ::geteuid() == 0;  // to whom everything is open
   if (root && ::seteuid(65534) != 0) GTEST_SKIP() << "no right to be another user";
   const bool reached = ::faccessat(AT_FDCWD, folder.path().c_str(), W_OK | X_OK, AT_EACCESS) == 0;
@@ -78,20 +70,21 @@ TEST(FileLock, OfAnotherUserCounts) {
 }
 
 // Threads stand for processes: a lock belongs to an open file.
-TEST(FileLock, IsHeldByOneWhileTheOthersLetGo) {
+TEST(WorkFolder, IsHeldByOneWhileTheOthersLetGo) {
   const ScratchFolder folder;
   const std::string file = folder.file("a");
-  std::atomic<int> inside{0}, most{0}, held{0};
+  std::atomic<int> inside{0}, most{0}, others{0};
   const auto work = [&] {
-    for (int i = 0; i < 3000; ++i) {
+    for (int held = 0; held < 300;) {
       try {
-        const FileLock lock(i % 3 == 0 ? file + ".part" : file);  // alone, or beside it and alone there
+        const WorkFolder claim(file);
         const int now = ++inside;
         if (now > most) most = now;
-        ++held;
-        std::this_thread::sleep_for(std::chrono::microseconds(i % 3 * 30));
+        std::this_thread::sleep_for(std::chrono::microseconds(held++ % 3 * 30));
         --inside;
-      } catch (const InputError&) {
+      } catch (const InputError& error) {
+        others += error.place().file != file;  // the folder is none of Carom's, or cannot be made
+        std::this_thread::yield();
       }
     }
   };
@@ -99,7 +92,8 @@ TEST(FileLock, IsHeldByOneWhileTheOthersLetGo) {
   for (int i = 0; i < 4; ++i) threads.emplace_back(work);
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(most, 1);
-  EXPECT_GT(held, 100);
+  EXPECT_EQ(others, 0);
+  EXPECT_FALSE(exists(folder_of(file)));
 }
 
 }  // namespace
