@@ -46,5 +46,6 @@ class ArchiveFile {
 };
 
 inline constexpr int archive_schema = 1;
+inline constexpr const char* run_archive_kind = "run";
 
 }  // namespace carom

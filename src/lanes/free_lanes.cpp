@@ -32,17 +32,6 @@ constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
 // After so many the cells of hits, a signed byte each, are taken out of 32 bits.
 constexpr std::uint64_t most_sweeps = std::uint64_t{1} << 23;
 
-lanes::Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn) {
-  if (!detail::fuses) return lanes::no_kernels();
-  const bool curved = table.ellipses.any;
-#if defined(CAROM_WIDE_LANES)
-  if (set == InstructionSet::avx512) return (curved ? lanes::avx512_ellipse_kernels : lanes::avx512_kernels)(table, turn);
-  if (set == InstructionSet::avx2) return (curved ? lanes::avx2_ellipse_kernels : lanes::avx2_kernels)(table, turn);
-#endif
-  (void)set;
-  return (curved ? lanes::baseline_ellipse_kernels : lanes::baseline_kernels)(table, turn);
-}
-
 /// Flights get no farther than the diameter of their circle from where they began; straight ones as far as you like.
 double reach_of(const std::vector<Particle>& particles) {
   double reach = 0.0;
@@ -70,7 +59,7 @@ class FreeLanes::Implementation {
         pieces(lanes::make_lane_table(finder, reach_of(particles))),
         turn(turn_of(particles.at(0).omega)),
         in_sight(lanes::discs_in_sight(pieces)),
-        kernels(kernels_for(set, pieces, turn)) {
+        kernels(lanes::kernels_for(set, pieces, turn)) {
     if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
     for (Lanes* l : {&main, &entrance}) l->pack.walkers = &walkers;
     if (!available(set)) throw std::invalid_argument("this machine does not have the instruction set");

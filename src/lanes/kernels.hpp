@@ -1,6 +1,7 @@
 // The kernels of every instruction set that was compiled, as plain functions.
 #pragma once
 
+#include "carom/lanes/instruction_set.hpp"
 #include "lanes/lane_pack.hpp"
 
 namespace carom::lanes {
@@ -22,5 +23,8 @@ Kernels no_kernels();
 Kernels baseline_ellipse_kernels(const LaneTable&, Turn);
 Kernels avx2_ellipse_kernels(const LaneTable&, Turn);
 Kernels avx512_ellipse_kernels(const LaneTable&, Turn);
+
+/// Those of the instruction set for this table.
+Kernels kernels_for(InstructionSet, const LaneTable&, Turn);
 
 }  // namespace carom::lanes

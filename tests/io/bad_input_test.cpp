@@ -277,7 +277,6 @@ TEST(BadInput, Integrator) {
   EXPECT_HAS(fault(square("[integrator]\nscheme = \"forest-ruth\"\n")), "velocity-verlet");
   EXPECT_HAS(fault(square("[integrator]\nstep = 0\n")), "must be positive");
   EXPECT_HAS(fault(square("[integrator]\nstep = -1\n")), "must be positive");
-  EXPECT_HAS(fault(square("[integrator]\nwalls = \"soft\"\n")), "unknown treatment of walls");
 }
 
 TEST(BadInput, FilesAndNames) {

@@ -49,7 +49,6 @@ TEST(Integrator, FaultsAreAtTheirPlaces) {
              "line 7, column 13: integrator.tolerance: the scheme");
   EXPECT_HAS(fault(square("[integrator]\nscheme = \"cvode\"\ntolerance = 1e-18\n")),
              "line 7, column 13: integrator.tolerance: a tolerance of 1e-18");
-  EXPECT_HAS(fault(square("[integrator]\nwalls = \"bounce\"\n")), "integrator.walls: unknown treatment");
   EXPECT_HAS(fault(square("[integrator]\nstepp = 1\n")), "did you mean 'step'?");
 }
 

@@ -405,40 +405,6 @@ TEST(LaneRuns, LeaveThroughAWallThatIsAllHole) {
   }
 }
 
-// A particle that meets no wall is the scalar engine's: it does not keep the report times of a run before.
-TEST(LaneRuns, ReportWhatIsAskedOfThisRun) {
-  const Table table = tests::disc(1.0);
-  LaneStart pinned;
-  pinned.state.velocity = {1, 0};
-  pinned.particle.omega = 10.0;
-  FreeLanes lanes(table, {pinned.particle}, widest_instruction_set());
-  int reports = 0;
-  const auto count = [&](std::uint64_t, std::size_t, const State&) { ++reports; };
-  for (const std::vector<double>& times : {std::vector<double>{1.0, 2.0, 9.0}, {}, {3.0}}) {
-    lanes.sample_at(times, times.empty() ? FreeLanes::Sampled() : count);
-    bool given = false;
-    lanes.run_until(5.0, [&](LaneStart& start) { return start = pinned, !std::exchange(given, true); }, [](const LaneEnd&) {});
-  }
-  EXPECT_EQ(reports, 3);
-}
-
-// In a free corridor of a lattice, a flight as long as the run: the question comes up inside it.
-TEST(LaneRuns, StopWithinAFlight) {
-  Table table;
-  tests::add_loop(table, {geometry::Circle{{0, 0}, 0.25, false}});
-  table.extent = Extent::lattice;
-  table.lattice = geometry::make_lattice({1, 0}, {0, 1}, {0, 0});
-  LaneStart corridor;
-  corridor.state.position = {0.1, 0.4};
-  corridor.state.velocity = {1, 0};
-  FreeLanes lanes(table, {corridor.particle}, widest_instruction_set());
-  int asked = 0, ended = 0;
-  lanes.run_until(
-      1e12, [&](LaneStart& start) { return start = corridor, true; }, [&](const LaneEnd&) { ++ended; }, [&] { return ++asked > 10; });
-  EXPECT_EQ(asked, 11);
-  EXPECT_EQ(ended, 0);
-}
-
 // Starts after the end of the run, and a table too large for any margin.
 TEST(LaneRuns, LeaveTheUnusualToTheWorld) {
   const Table discs = tests::discs({{-1.3, 0}, {1.3, 0}, {0, 2.2}});

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Reads the tree and says where it leaves the plan of the house.
 
-    structure.py includes | umbrella | libm | length  [ROOT]
+    structure.py includes | umbrella | libm | length | format  [ROOT]
 
 Exit status 1 and one line a fault if there is one. The plan is data: the tables below.
 """
 import pathlib
 import re
+import shutil
+import subprocess
 import sys
 
 # Which rooms a room includes: itself, base and these, nothing through others. Ensembles feed the accumulators of analysis/,
@@ -188,7 +190,23 @@ def check_length(root):
             print(f"{name}: {lines} lines (long)")
 
 
-CHECKS = {"includes": check_includes, "umbrella": check_umbrella, "libm": check_libm, "length": check_length}
+def check_format(root):
+    """Every file as clang-format writes it: the version that Debian has, since versions differ."""
+    program = shutil.which("clang-format-14")
+    if not program:
+        print("clang-format-14 is not installed; ./dev test installs it")
+        raise SystemExit(SKIPPED)
+    files = [path for folder in ("include", "geometry", "src", "tests", "examples", "validation")
+             for path in sorted((root / folder).rglob("*.?pp"))]
+    found = subprocess.run([program, "--dry-run", "--ferror-limit=1", *map(str, files)], capture_output=True, text=True,
+                           check=True).stderr
+    for path, line in re.findall(r"^(\S+?):(\d+):\d+: warning", found, re.M):
+        yield f"{pathlib.Path(path).relative_to(root).as_posix()}:{line}: clang-format-14 -i FILE writes it otherwise"
+
+
+SKIPPED = 77
+CHECKS = {"includes": check_includes, "umbrella": check_umbrella, "libm": check_libm, "length": check_length,
+          "format": check_format}
 
 
 def main(arguments):

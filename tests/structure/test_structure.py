@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The checks of structure.py must find what they are for: each fault below in a small tree of its own."""
 import pathlib
+import shutil
 import tempfile
 import unittest
 
@@ -101,6 +102,14 @@ class Length(unittest.TestCase):
     def test_long_files_are_found(self):
         self.assertEqual(len(faults("length", {"src/io/long.cpp": "\n" * 501})), 1)
         self.assertEqual(len(faults("length", {"src/io/long.cpp": "\n" * 500})), 0)
+
+
+@unittest.skipUnless(shutil.which("clang-format-14"), "clang-format-14 is not installed")
+class Format(unittest.TestCase):
+    def test_other_formats_are_found(self):
+        found = faults("format", {".clang-format": "BasedOnStyle: Google\n", "src/base/good.cpp": "int f() { return 1; }\n",
+                                  "src/base/bad.cpp": "int f() {return 1;}\n"})
+        self.assertEqual([fault.split(":")[0] for fault in found], ["src/base/bad.cpp"])
 
 
 class Plan(unittest.TestCase):
