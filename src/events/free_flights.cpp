@@ -57,6 +57,16 @@ void FreeFlights::begin_on_wall(Body& b, int wall, double u) const {
   finder_.begin_on_wall(b.flight, wall, u, b.state.position, b.state.velocity);
 }
 
+/// The flight ends on the edge of a support.
+void FreeFlights::put_on_edge(Body& b, Time now, const HitFinder::Landing& landing) {
+  b.state.wall = -1;
+  b.state.position = landing.at.point;
+  b.state.velocity = landing.velocity;
+  b.state.cell.first += landing.cell.first;
+  b.state.cell.second += landing.cell.second;
+  b.state.time = now;
+}
+
 bool FreeFlights::contains(Vector point) {
   if (finder_.surely_inside(point)) return true;
   if (!locator_) locator_ = std::make_unique<Locator>(inside_);

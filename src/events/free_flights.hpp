@@ -48,6 +48,7 @@ class FreeFlights {
  private:
   void predict(int index, Body& b);
   void schedule(int index, const Body& b);
+  static void put_on_edge(Body& b, Time now, const HitFinder::Landing& landing);
   bool reflect(int index, Body& b, Time now, Observer& observer, const HitFinder::Landing& landing);
 
   HitFinder finder_;
@@ -124,8 +125,8 @@ class FreeFlights {
   b.state.cell.second += landing.cell.second;
   b.state.time.high = now.high;
   b.state.time.low = now.low;
-  const HitEvent& hit = bodies_.count_hit(index, b, before, b.ahead.duration, reflections);
   finder_.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point, after);
+  const HitEvent& hit = bodies_.count_hit(index, b, before, b.ahead.duration, reflections);
   if (bodies_.reaches_limit(b)) {
     observer.hit(hit);
     return bodies_.end(index, Fate::capped, now, observer), true;
@@ -157,12 +158,8 @@ class FreeFlights {
   HitFinder::Landing landing;
   finder_.land(b.flight, b.ahead, landing, counts_);
   if (regions_.is_edge(landing.wall)) [[unlikely]] {
-    b.state.wall = -1;
-    b.state.position = landing.at.point;
-    b.state.velocity = landing.velocity;
-    b.state.cell.first += landing.cell.first;
-    b.state.cell.second += landing.cell.second;
-    b.state.time = now;
+    const HitFinder::Landing there = landing;  // a copy, or the landing would live in memory
+    put_on_edge(b, now, there);
     return false;
   }
   if (b.ahead.kind == Ahead::Kind::joint) {
