@@ -225,16 +225,7 @@ void DiscContacts::collide(int finding, Observer& observer) {
   copy.first += second.first - first.first;
   copy.second += second.second - first.second;
   const Vector d = contacts_.separation(a.state.position, b.state.position, copy);
-  if (!points_along_centres(d, a.particle.radius + b.particle.radius)) {
-    for (const int disc : {index, other}) {
-      bodies_.end(disc, Fate::unresolved, now, observer,
-                  "at this contact rounding of the positions hides where the other disc is: the discs are too small for so "
-                  "large a table, or have gone too far");
-      contacts_.leave(disc);
-    }
-    look_again(index, other, now);
-    return look_again(other, index, now);
-  }
+  if (!points_along_centres(d, a.particle.radius + b.particle.radius)) return give_up(index, other, now, observer);
   ContactEvent contact;
   contact.first = index;
   contact.second = other;
@@ -259,6 +250,18 @@ void DiscContacts::collide(int finding, Observer& observer) {
   look_again(index, other, now);
   look_again(other, index, now);
   if (watch_.active()) watch_.after_event(finding == index ? other : index, now, observer);
+}
+
+/// Ends both discs at a contact whose direction is not known.
+void DiscContacts::give_up(int index, int other, const Time& now, Observer& observer) {
+  for (const int disc : {index, other}) {
+    bodies_.end(disc, Fate::unresolved, now, observer,
+                "at this contact rounding of the positions hides where the other disc is: the discs are too small for so "
+                "large a table, or have gone too far");
+    contacts_.leave(disc);
+  }
+  look_again(index, other, now);
+  look_again(other, index, now);
 }
 
 /// A disc goes on from its state after a contact.

@@ -46,6 +46,7 @@ class DiscContacts {
   void look_again(int index, int partner, const Time& now);
   geometry::Cell advance(int index, const Time& now);
   void collide(int finding, Observer& observer);
+  void give_up(int index, int other, const Time& now, Observer& observer);
   void start(int index, double way, Observer& observer);
   std::optional<Touch> touched_wall(const State& s, double way) const;
   bool settle_on_wall(int index, double way, Observer& observer);

@@ -82,10 +82,8 @@ void Groups::predict(Group& group) {
       const Body& b = bodies_[i];
       if (!b.finished && b.group == nullptr && b.state.time > group.time()) until = std::min(until, b.state.time);
     }
-  if (group.between_steps()) {
-    energies_.before_step(group);
-    if (surroundings_.remember_energy && !group.has_energy()) group.change_of_energy();
-  }
+  energies_.before_step(group);
+  if (surroundings_.remember_energy && !group.has_energy()) group.change_of_energy();
   group.predict(until);
   // What was computed before an interrupt came is worth nothing.
   if (interrupt_.stopped()) {
@@ -105,7 +103,7 @@ void Groups::predict_again() {
 
 void Groups::advance(Group& group) {
   group.advance();
-  if (surroundings_.remember_energy && group.between_steps()) energies_.after_step(group);
+  if (surroundings_.remember_energy) energies_.after_step(group);
   if (group.next().member < 0)
     for (std::size_t k = 0; k < group.bodies().size(); ++k) group.fold(k);
   copy_states(group);

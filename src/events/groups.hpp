@@ -16,8 +16,8 @@
 namespace carom {
 
 /// Forms groups, takes bodies out of them, and predicts and takes their steps. A group has one entry in the queue, that of
-/// its first member. While a body is in a group, the group alone moves it, and Body::state is what this class has copied
-/// from there after the group's last event.
+/// its first member. While a body is in a group, the group moves it, and Body::state is a copy that is made after each of the
+/// group's events.
 class Groups {
  public:
   Groups(const Table& table, const Dynamics& dynamics, const ForceRegions& regions, FreeFlights& flights, Bodies& bodies,

@@ -173,17 +173,14 @@ void Integration::step(Group& group, Observer& observer) {
   if (watch_.active()) watch_.watch_step(group, group.next_time(), observer);
   groups_.advance(group);
   const int member = group.next().member;
-  if (member < 0) {
-    if (group.between_steps()) return looking_.push_back({&group, -1, group.time(), true});
+  if (member < 0) return looking_.push_back({&group, -1, group.time(), true});
+  const Barrier<double>& barrier = *group.next().barrier;
+  if (!regions_.is_edge(barrier.wall)) {
+    hit(group, static_cast<std::size_t>(member), barrier, observer);
+    if (group.bodies().empty()) return;
   } else {
-    const Barrier<double>& barrier = *group.next().barrier;
-    if (!regions_.is_edge(barrier.wall)) {
-      hit(group, static_cast<std::size_t>(member), barrier, observer);
-      if (group.bodies().empty()) return;
-    } else {
-      if (leave_support(group, barrier)) return;
-      group.pass(barrier);
-    }
+    if (leave_support(group, barrier)) return;
+    group.pass(barrier);
   }
   groups_.predict(group);
 }

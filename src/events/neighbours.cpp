@@ -44,7 +44,7 @@ Neighbours::Found Neighbours::around(std::vector<int> members, const Time& now) 
       // A particle that is still to come looks around itself.
       if (taken[at(j)] || other.finished || other.state.time > now) continue;
       // Within its step a group is left alone: it looked around when that began.
-      if (other.group != nullptr && (other.group->time() < now || !other.group->between_steps())) continue;
+      if (other.group != nullptr && other.group->time() < now) continue;
       const State there = groups_.state_at(j, now);
       const double distance = gap(here.position, there.position);
       const double closing = speed + speed_of(there);
