@@ -26,6 +26,11 @@ void Integration::add(int index) {
   bodies_.schedule(index, bodies_[index].state.time, EventKind::group);
 }
 
+void Integration::clear() {
+  waiting_.clear();
+  looking_.clear();
+}
+
 void Integration::apply(int index, Time now, Observer& observer) {
   if (Group* group = bodies_[index].group) {
     step(*group, observer);
@@ -116,9 +121,10 @@ void Integration::end_step(Group& group) {
 /// Takes in what is near, or falls apart. True if the group has changed.
 bool Integration::regroup(const Group& group) {
   const std::size_t before = group.bodies().size();
-  Neighbours::Found near = neighbours_.around(group.bodies(), group.time());
+  const Time now = group.time();
+  Neighbours::Found near = neighbours_.around(group.bodies(), now);
   if (near.members.size() == before) return before > 1 && split(group);
-  join(std::move(near.members), group.time());
+  join(std::move(near.members), now);
   return true;
 }
 

@@ -21,7 +21,7 @@ class Integration {
 
   /// A body is to be integrated from its state on.
   void add(int index);
-  void clear() { waiting_.clear(); }
+  void clear();
 
   /// Applies what comes first for a body that does not fly on by itself: it is in a group, or is to be integrated, or another
   /// body may be near.
