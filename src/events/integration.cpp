@@ -82,8 +82,8 @@ void Integration::join(std::vector<int> members, const Time& now) {
   form(members);
 }
 
-/// Lets those look that look for neighbours. Where particles meet within a range, all groups end the steps that end now first:
-/// then they are where they are seen. These look before those that looked first, and may take them in.
+/// Lets those look that look for neighbours. Where particles meet within a range, all groups end the steps that end now first,
+/// for a group is not seen within its step. These groups look before those that were to look, and may take them in.
 void Integration::settle(Observer& observer) {
   while (!looking_.empty()) {
     const Looking looking = looking_.back();
