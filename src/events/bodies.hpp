@@ -1,4 +1,5 @@
-// The particles of a world: where each of them is, when something happens to it next, and how it ends.
+// The particles of a world: where each of them is, when something happens to it next, and how it
+// ends.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ inline constexpr Time never{std::numeric_limits<double>::infinity()};
 struct Body {
   Particle particle;
   geometry::EnergyShell<double> shell;
-  State state;             ///< after its last event
-  Flight flight;           ///< free: from that state on
+  State state;    ///< after its last event
+  Flight flight;  ///< free: from that state on
   Ahead ahead;
   std::uint64_t hits = 0;
   int last_wall = -1;
@@ -56,13 +57,17 @@ class Bodies {
   int first() const { return queue_.top(); }
   const Time& when(int i) const { return queue_.key(i).time; }
   EventKind what(int i) const { return static_cast<EventKind>(queue_.key(i).kind); }
-  void schedule(int i, const Time& when, EventKind kind) { queue_.update(i, when, static_cast<int>(kind)); }
+  void schedule(int i, const Time& when, EventKind kind) {
+    queue_.update(i, when, static_cast<int>(kind));
+  }
 
   /// Most hits a body may make.
   void limit_hits(std::uint64_t most) { limit_ = most; }
   bool reaches_limit(const Body& b) const { return b.hits >= limit_; }
-  /// Counts a hit after which the body has its present state, on the wall. `flight_time`: since its last event.
-  const HitEvent& count_hit(int i, Body& b, const geometry::Vector& before, double flight_time, int reflections);
+  /// Counts a hit after which the body has its present state, on the wall. `flight_time`: since its
+  /// last event.
+  const HitEvent& count_hit(int i, Body& b, const geometry::Vector& before, double flight_time,
+                            int reflections);
   /// Ends the trajectory of a body. `why`: for its report.
   void end(int i, Fate fate, Time time, Observer& observer, std::string_view why = {});
 
@@ -74,8 +79,10 @@ class Bodies {
 };
 
 /// Number by number, so that no number waits for another.
-[[gnu::always_inline]] inline const HitEvent& Bodies::count_hit(int i, Body& b, const geometry::Vector& before,
-                                                                double flight_time, int reflections) {
+[[gnu::always_inline]] inline const HitEvent& Bodies::count_hit(int i, Body& b,
+                                                                const geometry::Vector& before,
+                                                                double flight_time,
+                                                                int reflections) {
   b.hits += static_cast<std::uint64_t>(reflections);
   b.last_wall = b.state.wall;
   event_.particle = i;

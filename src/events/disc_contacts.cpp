@@ -26,8 +26,8 @@ InputError refused(const char* problem, const char* expected) {
   return InputError(place, problem, expected);
 }
 
-/// Does the separation at a contact tell the direction from centre to centre? Its length is the sum of the radii, but for
-/// rounding, which turns it by as much as it stretches it.
+/// Does the separation at a contact tell the direction from centre to centre? Its length is the sum
+/// of the radii, but for rounding, which turns it by as much as it stretches it.
 bool points_along_centres(Vector d, double reach) {
   constexpr double share = 0x1p-10;
   return std::fabs(std::sqrt(dot(d, d)) - reach) <= share * reach;
@@ -68,12 +68,13 @@ Table table_of_discs(const Table& table, const Dynamics& dynamics) {
                   "no potential, and not --engine steps");
   if (table.walls.empty()) return {};
   if (std::any_of(radii.begin(), radii.end(), [&](double r) { return r != radii.front(); }))
-    throw refused("between walls all discs have one radius", "one radius, or a table without walls");
+    throw refused("between walls all discs have one radius",
+                  "one radius, or a table without walls");
   return inset_table(table, radii.front());
 }
 
-DiscContacts::DiscContacts(const Table& table, const Dynamics& dynamics, Bodies& bodies, FreeFlights& flights,
-                           SectionWatch& watch, Interrupt& interrupt)
+DiscContacts::DiscContacts(const Table& table, const Dynamics& dynamics, Bodies& bodies,
+                           FreeFlights& flights, SectionWatch& watch, Interrupt& interrupt)
     : table_(table),
       radii_(dynamics.forces->disc_radii()),
       bodies_(bodies),
@@ -92,7 +93,8 @@ void DiscContacts::check(Body& b) const {
   set_course(disc, b);
   const int other = contacts_.overlapped(disc);
   if (other >= 0)
-    throw std::invalid_argument("disc " + std::to_string(bodies_.size()) + " overlaps disc " + std::to_string(other));
+    throw std::invalid_argument("disc " + std::to_string(bodies_.size()) + " overlaps disc " +
+                                std::to_string(other));
 }
 
 void DiscContacts::add(int index) {
@@ -128,7 +130,8 @@ void DiscContacts::keep_own(int index) {
   if (kind == EventKind::pinned || kind == EventKind::unbounded) disc.own = never;
 }
 
-/// The queue entry: the earliest of the disc's own next event, its contact, and looking round again.
+/// The queue entry: the earliest of the disc's own next event, its contact, and looking round
+/// again.
 void DiscContacts::look_ahead(int index, const Time& now) {
   const Contacts::Disc& disc = contacts_.disc(index);
   contacts_.predict(index, now);
@@ -184,7 +187,8 @@ void DiscContacts::apply(int index, Observer& observer) {
   look_again(index, -1, now);
 }
 
-/// Brings a disc to the present, into the cell it is in. Returns the cell relative to the one before.
+/// Brings a disc to the present, into the cell it is in. Returns the cell relative to the one
+/// before.
 Cell DiscContacts::advance(int index, const Time& now) {
   Body& b = bodies_[index];
   const auto [position, velocity] =
@@ -225,7 +229,8 @@ void DiscContacts::collide(int finding, Observer& observer) {
   copy.first += second.first - first.first;
   copy.second += second.second - first.second;
   const Vector d = contacts_.separation(a.state.position, b.state.position, copy);
-  if (!points_along_centres(d, a.particle.radius + b.particle.radius)) return give_up(index, other, now, observer);
+  if (!points_along_centres(d, a.particle.radius + b.particle.radius))
+    return give_up(index, other, now, observer);
   ContactEvent contact;
   contact.first = index;
   contact.second = other;
@@ -256,7 +261,8 @@ void DiscContacts::collide(int finding, Observer& observer) {
 void DiscContacts::give_up(int index, int other, const Time& now, Observer& observer) {
   for (const int disc : {index, other}) {
     bodies_.end(disc, Fate::unresolved, now, observer,
-                "at this contact rounding of the positions hides where the other disc is: the discs are too small for so "
+                "at this contact rounding of the positions hides where the other disc is: the "
+                "discs are too small for so "
                 "large a table, or have gone too far");
     contacts_.leave(disc);
   }
@@ -284,7 +290,8 @@ std::optional<DiscContacts::Touch> DiscContacts::touched_wall(const State& s, do
   for (int w = 0; w < walls; ++w)
     for (std::int64_t m = -range; m <= range; ++m)
       for (std::int64_t n = -range; n <= range; ++n) {
-        const Vector x = table_.lattice ? s.position - table_.lattice->translation({m, n}) : s.position;
+        const Vector x =
+            table_.lattice ? s.position - table_.lattice->translation({m, n}) : s.position;
         const geometry::PreparedCurve& curve = flights_.finder().curve(w);
         // Position and time of the flight err by a few units of what they are made of.
         const double bound =
@@ -292,12 +299,14 @@ std::optional<DiscContacts::Touch> DiscContacts::touched_wall(const State& s, do
         const geometry::PreparedCurve::Frame frame = curve.settle(x);
         if (!(norm_1(frame.point - x) <= bound)) continue;
         const double u = curve.parameter(frame.point);
-        if (norm_1(curve.point(u) - x) <= 2.0 * bound) return Touch{w, {m, n}, frame, u};  // not beyond its ends
+        if (norm_1(curve.point(u) - x) <= 2.0 * bound)
+          return Touch{w, {m, n}, frame, u};  // not beyond its ends
       }
   return std::nullopt;
 }
 
-/// Puts a disc that is at a wall onto it; one that was pushed against it is reflected at once. False if it ends there.
+/// Puts a disc that is at a wall onto it; one that was pushed against it is reflected at once.
+/// False if it ends there.
 bool DiscContacts::settle_on_wall(int index, double way, Observer& observer) {
   Body& b = bodies_[index];
   const std::optional<Touch> touch = touched_wall(b.state, way);
@@ -321,7 +330,8 @@ bool DiscContacts::settle_on_wall(int index, double way, Observer& observer) {
   }
   const Vector before = b.state.velocity;
   for (int i = 0; i < 2 && inward == Sign::negative; ++i) {
-    b.state.velocity = geometry::reflected(b.state.velocity, frame.normal, frame.square, frame.k, 0.0);
+    b.state.velocity =
+        geometry::reflected(b.state.velocity, frame.normal, frame.square, frame.k, 0.0);
     inward = finder.inward(w, u, b.state.velocity, frame.normal, flights_.counts());
   }
   if (inward != Sign::positive) {

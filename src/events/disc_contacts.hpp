@@ -15,16 +15,18 @@
 namespace carom {
 
 inline bool has_discs(const Dynamics& d) { return d.forces && !d.forces->disc_radii().empty(); }
-/// The table as the centres of hard discs see it, or one without walls. Throws InputError where it cannot be built.
+/// The table as the centres of hard discs see it, or one without walls. Throws InputError where it
+/// cannot be built.
 Table table_of_discs(const Table& table, const Dynamics& dynamics);
 
 /// All bodies are discs then.
 class DiscContacts {
  public:
-  DiscContacts(const Table& table, const Dynamics& dynamics, Bodies& bodies, FreeFlights& flights, SectionWatch& watch,
-               Interrupt& interrupt);
+  DiscContacts(const Table& table, const Dynamics& dynamics, Bodies& bodies, FreeFlights& flights,
+               SectionWatch& watch, Interrupt& interrupt);
 
-  /// A disc that is to be added: its speed becomes that of its velocity. Throws std::invalid_argument if it overlaps another.
+  /// A disc that is to be added: its speed becomes that of its velocity. Throws
+  /// std::invalid_argument if it overlaps another.
   void check(Body& b) const;
   void add(int index);
   void clear();
@@ -58,8 +60,8 @@ class DiscContacts {
   SectionWatch& watch_;
   Interrupt& interrupt_;
   Contacts contacts_;
-  bool unprepared_ = false;     ///< discs have been added
-  Time clock_;                  ///< of the last event
+  bool unprepared_ = false;  ///< discs have been added
+  Time clock_;               ///< of the last event
   std::vector<int> partners_;
 };
 

@@ -6,7 +6,9 @@
 
 namespace carom {
 
-std::size_t EnergyWatch::entry_of(const Group& group) const { return entry(group.bodies().front()); }
+std::size_t EnergyWatch::entry_of(const Group& group) const {
+  return entry(group.bodies().front());
+}
 
 void EnergyWatch::add(double kinetic) {
   balances_.push_back({0.0, 0.0, kinetic});

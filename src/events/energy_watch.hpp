@@ -20,7 +20,8 @@ class EnergyWatch {
   void add(double kinetic);
   void clear();
 
-  /// Before a step: its kinetic energy. What others brought or took along since the last step is no change.
+  /// Before a step: its kinetic energy. What others brought or took along since the last step is no
+  /// change.
   void before_step(const Group& group);
   /// After a step, and at a hit before its reflection: by how much the energy has changed.
   void after_step(Group& group);
@@ -34,8 +35,9 @@ class EnergyWatch {
 
   const Bodies& bodies_;
   bool together_;
-  std::vector<EnergyBalance> balances_;  ///< one a body; where they interact the first is that of all
-  std::vector<Twofold> changes_;         ///< their changes, without the rounding of sums
+  std::vector<EnergyBalance>
+      balances_;                  ///< one a body; where they interact the first is that of all
+  std::vector<Twofold> changes_;  ///< their changes, without the rounding of sums
 };
 
 }  // namespace carom

@@ -40,7 +40,8 @@ ForceRegions::ForceRegions(const Table& table, const Table& walls, const Dynamic
     by_range_ = !dynamics.everywhere && std::isfinite(dynamics.forces->pair_range());
     one_group_ = !by_range_;
     if (by_range_ && !(dynamics.integrator.step > 0.0))
-      throw InputError(Place{{}, 0, 0, "integrator.step"}, "particles that meet within a range need the length of a step",
+      throw InputError(Place{{}, 0, 0, "integrator.step"},
+                       "particles that meet within a range need the length of a step",
                        "a time > 0");
   }
   if (!any_) return;
@@ -51,6 +52,8 @@ ForceRegions::ForceRegions(const Table& table, const Table& walls, const Dynamic
   for (Barrier<double>& edge : edges_) edge.wall += wall_count_;
 }
 
-bool ForceRegions::hold(geometry::Vector x) const { return everywhere_ || in_some_support(edges_, x, nullptr); }
+bool ForceRegions::hold(geometry::Vector x) const {
+  return everywhere_ || in_some_support(edges_, x, nullptr);
+}
 
 }  // namespace carom

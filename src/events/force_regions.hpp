@@ -10,8 +10,9 @@
 
 namespace carom {
 
-/// The table with a circle for the edge of each support, whose outside is the domain of free flights: where a flight
-/// meets one, integration takes over. Without walls where free flights never occur or nothing has a finite support.
+/// The table with a circle for the edge of each support, whose outside is the domain of free
+/// flights: where a flight meets one, integration takes over. Without walls where free flights
+/// never occur or nothing has a finite support.
 Table table_with_supports(const Table& table, const Dynamics& dynamics);
 
 /// The regions where forces act.

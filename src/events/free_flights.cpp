@@ -7,25 +7,29 @@ namespace carom {
 
 using geometry::Vector;
 
-FreeFlights::FreeFlights(const Table& walls, const Table& inside, const ForceRegions& regions, Bodies& bodies,
-                         DecisionOptions options)
+FreeFlights::FreeFlights(const Table& walls, const Table& inside, const ForceRegions& regions,
+                         Bodies& bodies, DecisionOptions options)
     : finder_(walls, options), bodies_(bodies), regions_(regions), inside_(inside) {
   for (std::size_t i = 0; i < walls.walls.size(); ++i) {
     const Wall& w = walls.walls[i];
     corners_.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
-                       : w.corner > 0 ? w.corner
-                                      : finder_.exact().corner(w.previous, static_cast<int>(i)).order);
+                       : w.corner > 0
+                           ? w.corner
+                           : finder_.exact().corner(w.previous, static_cast<int>(i)).order);
   }
 }
 
-bool FreeFlights::apply_apart(int index, Time now, Observer& observer) { return apply(index, now, observer); }
+bool FreeFlights::apply_apart(int index, Time now, Observer& observer) {
+  return apply(index, now, observer);
+}
 void FreeFlights::predict(int index) { predict(index, bodies_[index]); }
 void FreeFlights::schedule(int index) { schedule(index, bodies_[index]); }
 
 void FreeFlights::check_speed(const Body& b) const {
   // The bounds of the filter count on the energy shell, as reflections keep it (circle_error).
   const double shell = b.particle.speed * b.particle.speed;
-  if (!(std::fabs(dot(b.state.velocity, b.state.velocity) - shell) <= 64.0 * geometry::unit_roundoff * shell))
+  if (!(std::fabs(dot(b.state.velocity, b.state.velocity) - shell) <=
+        64.0 * geometry::unit_roundoff * shell))
     throw std::invalid_argument("the velocity's length is not the particle's speed");
 }
 
@@ -37,7 +41,8 @@ void FreeFlights::begin(Body& b) const {
   if (b.state.wall >= 0) {
     const auto [point, normal, square, k] = finder_.curve(b.state.wall).frame(b.state.u);
     // A state that went on from a hit keeps its point; any other starts at the image of u.
-    if (finder_.curve(b.state.wall).parameter(b.state.position) != b.state.u) b.state.position = point;
+    if (finder_.curve(b.state.wall).parameter(b.state.position) != b.state.u)
+      b.state.position = point;
     DecisionCounts unused;
     if (finder_.inward(b.state.wall, b.state.u, b.state.velocity, normal, unused) != Sign::positive)
       throw std::invalid_argument("the velocity does not point into the domain");

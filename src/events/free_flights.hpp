@@ -1,7 +1,7 @@
 // Free particles: flights from wall to wall.
 //
-// These are the functions where the time of a run goes. They are inlined into the event loop, so that its numbers stay in
-// registers from landing to the next hit.
+// These are the functions where the time of a run goes. They are inlined into the event loop, so
+// that its numbers stay in registers from landing to the next hit.
 #pragma once
 
 #include <memory>
@@ -17,19 +17,21 @@ namespace carom {
 
 class FreeFlights {
  public:
-  /// `walls`: what flights meet. `inside`: the table, without edges of supports, that points are inside of.
+  /// `walls`: what flights meet. `inside`: the table, without edges of supports, that points are
+  /// inside of.
   FreeFlights(const Table& walls, const Table& inside, const ForceRegions& regions, Bodies& bodies,
               DecisionOptions options);
 
-  /// Applies what comes first for a free body. False if a flight does not go on by itself: the body is where forces act from
-  /// now on, or is to be looked after because another body may be near.
+  /// Applies what comes first for a free body. False if a flight does not go on by itself: the body
+  /// is where forces act from now on, or is to be looked after because another body may be near.
   bool apply(int index, Time now, Observer& observer);
   /// The same for callers that it is not inlined into.
   bool apply_apart(int index, Time now, Observer& observer);
 
   /// Throws std::invalid_argument unless the velocity has the length of the particle's speed.
   void check_speed(const Body& b) const;
-  /// Starts a flight from the body's state. Throws std::invalid_argument if its velocity leads out of the domain.
+  /// Starts a flight from the body's state. Throws std::invalid_argument if its velocity leads out
+  /// of the domain.
   void begin(Body& b) const;
   /// Starts a flight from a point on a wall; the particle's speed is that of its velocity.
   void begin_on_wall(Body& b, int wall, double u) const;
@@ -69,10 +71,15 @@ class FreeFlights {
   Time when = b.state.time + b.ahead.duration;
   EventKind kind = EventKind::hit;
   switch (b.ahead.kind) {
-    case Ahead::Kind::wall: break;
-    case Ahead::Kind::edge: kind = EventKind::cell_edge; break;
+    case Ahead::Kind::wall:
+      break;
+    case Ahead::Kind::edge:
+      kind = EventKind::cell_edge;
+      break;
     case Ahead::Kind::joint:
-    case Ahead::Kind::cusp: kind = EventKind::singular; break;
+    case Ahead::Kind::cusp:
+      kind = EventKind::singular;
+      break;
     case Ahead::Kind::none:
       when = b.state.time;
       if (b.particle.omega != 0.0 && b.state.wall < 0)
@@ -94,7 +101,8 @@ class FreeFlights {
   bodies_.schedule(index, when, kind);
 }
 
-[[gnu::always_inline]] inline bool FreeFlights::reflect(int index, Body& b, Time now, Observer& observer,
+[[gnu::always_inline]] inline bool FreeFlights::reflect(int index, Body& b, Time now,
+                                                        Observer& observer,
                                                         const HitFinder::Landing& landing) {
   const geometry::Vector before = landing.velocity;
   const geometry::Vector normal = landing.at.normal;
@@ -105,7 +113,8 @@ class FreeFlights {
     reflections = corners_[static_cast<std::size_t>(landing.wall)];
     if (reflections == 0) return bodies_.end(index, Fate::singular, now, observer), true;
     const int previous = finder_.table().walls[static_cast<std::size_t>(landing.wall)].previous;
-    after = (1.0 + step) * reflected_at_corner(before, finder_.normal_at_end(previous), normal, reflections);
+    after = (1.0 + step) *
+            reflected_at_corner(before, finder_.normal_at_end(previous), normal, reflections);
   } else {
     after = geometry::reflected(before, normal, landing.at.factor, step);
   }
@@ -125,7 +134,8 @@ class FreeFlights {
   b.state.cell.second += landing.cell.second;
   b.state.time.high = now.high;
   b.state.time.low = now.low;
-  finder_.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point, after);
+  finder_.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
+                        after);
   const HitEvent& hit = bodies_.count_hit(index, b, before, b.ahead.duration, reflections);
   if (bodies_.reaches_limit(b)) {
     observer.hit(hit);
@@ -144,17 +154,23 @@ class FreeFlights {
   Body& b = bodies_[index];
   const EventKind kind = bodies_.what(index);
   if (kind != EventKind::hit) switch (kind) {
-    case EventKind::pinned: return bodies_.end(index, Fate::pinned, now, observer), true;
-    case EventKind::unbounded: return bodies_.end(index, Fate::unbounded, b.state.time, observer), true;
-    case EventKind::cell_edge:
-      finder_.cross(b.flight, b.ahead);
-      return predict(index, b), true;
-    case EventKind::hit:
-    case EventKind::singular: break;
-    case EventKind::group: return false;
-    default: return bodies_.end(index, Fate::lost, b.state.time, observer), true;
-  }
-  if (b.ahead.kind == Ahead::Kind::cusp) return bodies_.end(index, Fate::singular, now, observer), true;
+      case EventKind::pinned:
+        return bodies_.end(index, Fate::pinned, now, observer), true;
+      case EventKind::unbounded:
+        return bodies_.end(index, Fate::unbounded, b.state.time, observer), true;
+      case EventKind::cell_edge:
+        finder_.cross(b.flight, b.ahead);
+        return predict(index, b), true;
+      case EventKind::hit:
+      case EventKind::singular:
+        break;
+      case EventKind::group:
+        return false;
+      default:
+        return bodies_.end(index, Fate::lost, b.state.time, observer), true;
+    }
+  if (b.ahead.kind == Ahead::Kind::cusp)
+    return bodies_.end(index, Fate::singular, now, observer), true;
   HitFinder::Landing landing;
   finder_.land(b.flight, b.ahead, landing, counts_);
   if (regions_.is_edge(landing.wall)) [[unlikely]] {

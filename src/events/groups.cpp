@@ -10,12 +10,16 @@ namespace carom {
 
 using geometry::Vector;
 
-Groups::Groups(const Table& table, const Dynamics& dynamics, const ForceRegions& regions, FreeFlights& flights,
-               Bodies& bodies, Interrupt& interrupt)
-    : regions_(regions), bodies_(bodies), interrupt_(interrupt), energies_(bodies, regions.interact()) {
+Groups::Groups(const Table& table, const Dynamics& dynamics, const ForceRegions& regions,
+               FreeFlights& flights, Bodies& bodies, Interrupt& interrupt)
+    : regions_(regions),
+      bodies_(bodies),
+      interrupt_(interrupt),
+      energies_(bodies, regions.interact()) {
   if (!regions.any()) return;
   surroundings_.interrupt = &interrupt;
-  surroundings_.forces = dynamics.forces && !dynamics.forces->empty() ? dynamics.forces.get() : nullptr;
+  surroundings_.forces =
+      dynamics.forces && !dynamics.forces->empty() ? dynamics.forces.get() : nullptr;
   surroundings_.plan = dynamics.integrator;
   if (surroundings_.forces) surroundings_.maps = std::make_shared<ForceMaps>(*surroundings_.forces);
   surroundings_.counts = &steps_;
@@ -26,7 +30,8 @@ Groups::Groups(const Table& table, const Dynamics& dynamics, const ForceRegions&
   if (!flights.finder().table().walls.empty()) surroundings_.longest_way = longest_way(table);
   surroundings_.barriers = barriers_of(table);
   surroundings_.supports = regions.edges();
-  surroundings_.barriers.insert(surroundings_.barriers.end(), regions.edges().begin(), regions.edges().end());
+  surroundings_.barriers.insert(surroundings_.barriers.end(), regions.edges().begin(),
+                                regions.edges().end());
   if (table.extent == Extent::bounded)
     surroundings_.inside = [this, &flights](Vector x) {
       return on_some_wall(surroundings_.barriers, regions_.wall_count(), x) || flights.contains(x);
@@ -80,7 +85,8 @@ void Groups::predict(Group& group) {
   if (regions_.interact())
     for (int i = 0; i < bodies_.size(); ++i) {
       const Body& b = bodies_[i];
-      if (!b.finished && b.group == nullptr && b.state.time > group.time()) until = std::min(until, b.state.time);
+      if (!b.finished && b.group == nullptr && b.state.time > group.time())
+        until = std::min(until, b.state.time);
     }
   energies_.before_step(group);
   if (surroundings_.remember_energy && !group.has_energy()) group.change_of_energy();
@@ -97,7 +103,8 @@ void Groups::predict_again() {
   if (!unpredicted_) return;
   unpredicted_ = false;
   for (int i = 0; i < bodies_.size() && !interrupt_.stopped(); ++i)
-    if (Group* group = bodies_[i].group; group != nullptr && group->bodies().front() == i) predict(*group);
+    if (Group* group = bodies_[i].group; group != nullptr && group->bodies().front() == i)
+      predict(*group);
   unpredicted_ = interrupt_.stopped();
 }
 

@@ -15,13 +15,13 @@
 
 namespace carom {
 
-/// Forms groups, takes bodies out of them, and predicts and takes their steps. A group has one entry in the queue, that of
-/// its first member. While a body is in a group, the group moves it, and Body::state is a copy that is made after each of the
-/// group's events.
+/// Forms groups, takes bodies out of them, and predicts and takes their steps. A group has one
+/// entry in the queue, that of its first member. While a body is in a group, the group moves it,
+/// and Body::state is a copy that is made after each of the group's events.
 class Groups {
  public:
-  Groups(const Table& table, const Dynamics& dynamics, const ForceRegions& regions, FreeFlights& flights, Bodies& bodies,
-         Interrupt& interrupt);
+  Groups(const Table& table, const Dynamics& dynamics, const ForceRegions& regions,
+         FreeFlights& flights, Bodies& bodies, Interrupt& interrupt);
   Groups(const Groups&) = delete;
   Groups& operator=(const Groups&) = delete;
   void clear();
@@ -43,7 +43,8 @@ class Groups {
   Group* ending_at(const Time& now) const;
   /// A body's state between its last event and the next.
   State state_at(int body, const Time& t) const;
-  /// Has the body's group failed to make a step that begins before that time? There are no states within it.
+  /// Has the body's group failed to make a step that begins before that time? There are no states
+  /// within it.
   bool fails_before(int body, const Time& t) const;
 
   /// Walls and edges of supports.
@@ -63,8 +64,8 @@ class Groups {
   Group::Surroundings surroundings_;
   EnergyWatch energies_;
   std::vector<std::unique_ptr<Group>> groups_;
-  std::vector<Group*> idle_;     ///< kept for the next body that comes under a force
-  bool unpredicted_ = false;     ///< the last run was interrupted within a prediction
+  std::vector<Group*> idle_;  ///< kept for the next body that comes under a force
+  bool unpredicted_ = false;  ///< the last run was interrupted within a prediction
 };
 
 }  // namespace carom

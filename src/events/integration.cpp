@@ -11,8 +11,8 @@ namespace carom {
 using geometry::Cell;
 using geometry::Vector;
 
-Integration::Integration(const Table& table, const Dynamics& dynamics, const ForceRegions& regions, Bodies& bodies,
-                         FreeFlights& flights, Groups& groups, SectionWatch& watch)
+Integration::Integration(const Table& table, const Dynamics& dynamics, const ForceRegions& regions,
+                         Bodies& bodies, FreeFlights& flights, Groups& groups, SectionWatch& watch)
     : table_(table),
       regions_(regions),
       bodies_(bodies),
@@ -51,7 +51,8 @@ void Integration::start(int index, Observer& observer) {
   while (first < bodies_.size() && bodies_[first].group == nullptr) ++first;
   if (first < bodies_.size()) {
     Group& group = *bodies_[first].group;
-    // The step under way was cut to end now; without those that left the table in it, it is another one.
+    // The step under way was cut to end now; without those that left the table in it, it is another
+    // one.
     while (!group.bodies().empty() && group.time() < now) {
       step(group, observer);
       settle(observer);
@@ -82,12 +83,14 @@ void Integration::join(std::vector<int> members, const Time& now) {
   form(members);
 }
 
-/// Lets those look that look for neighbours. Where particles meet within a range, all groups end the steps that end now first,
-/// for a group is not seen within its step. These groups look before those that were to look, and may take them in.
+/// Lets those look that look for neighbours. Where particles meet within a range, all groups end
+/// the steps that end now first, for a group is not seen within its step. These groups look before
+/// those that were to look, and may take them in.
 void Integration::settle(Observer& observer) {
   while (!looking_.empty()) {
     const Looking looking = looking_.back();
-    const bool taken_in = looking.group ? looking.group->bodies().empty() : bodies_[looking.body].group != nullptr;
+    const bool taken_in =
+        looking.group ? looking.group->bodies().empty() : bodies_[looking.body].group != nullptr;
     Group* ending = regions_.by_range() && !taken_in ? groups_.ending_at(looking.now) : nullptr;
     if (ending) {
       step(*ending, observer);
@@ -106,7 +109,8 @@ void Integration::settle(Observer& observer) {
 void Integration::look_around(const Looking& looking) {
   if (!regions_.by_range()) return join({looking.body}, looking.now);
   Neighbours::Found near = neighbours_.around({looking.body}, looking.now);
-  if (looking.integrated || near.members.size() > 1) return join(std::move(near.members), looking.now);
+  if (looking.integrated || near.members.size() > 1)
+    return join(std::move(near.members), looking.now);
   bodies_[looking.body].check = looking.now + near.free_for;
   flights_.schedule(looking.body);
 }
@@ -138,8 +142,8 @@ bool Integration::split(const Group& group) {
   std::vector<Looking> freed;
   for (const std::vector<int>& part : parts) {
     const State& first = bodies_[part.front()].state;
-    // One that rests does not fly. On a wall to rounding a flight would not know its side: then the step after the next one
-    // asks again.
+    // One that rests does not fly. On a wall to rounding a flight would not know its side: then the
+    // step after the next one asks again.
     if (part.size() > 1 || first.velocity == Vector{} || regions_.hold(first.position) ||
         !flights_.contains(first.position)) {
       form(part);
@@ -152,13 +156,15 @@ bool Integration::split(const Group& group) {
   return true;
 }
 
-/// A lone particle that ends a step outside of all supports has crossed an edge where it could not leave: along it to
-/// rounding, or where it meets another edge or a wall. True if it flies freely from here on.
+/// A lone particle that ends a step outside of all supports has crossed an edge where it could not
+/// leave: along it to rounding, or where it meets another edge or a wall. True if it flies freely
+/// from here on.
 bool Integration::leave_between_supports(const Group& group) {
   if (group.bodies().size() > 1 || regions_.edges().empty()) return false;
   const int index = group.bodies().front();
   const State& s = bodies_[index].state;
-  if (s.velocity == Vector{} || regions_.hold(s.position) || !flights_.contains(s.position)) return false;
+  if (s.velocity == Vector{} || regions_.hold(s.position) || !flights_.contains(s.position))
+    return false;
   groups_.take_out(index);
   set_free(index);
   if (regions_.by_range()) looking_.push_back({nullptr, index, s.time, false});
@@ -191,24 +197,29 @@ void Integration::step(Group& group, Observer& observer) {
   groups_.predict(group);
 }
 
-/// The step under way could not be made: its particles are lost where it begins, or the one that has left the table is.
+/// The step under way could not be made: its particles are lost where it begins, or the one that
+/// has left the table is.
 void Integration::give_up(Group& group, Observer& observer) {
   const Group::Next next = group.next();
   if (next.outside >= 0) {
-    end(group.bodies()[static_cast<std::size_t>(next.outside)], Fate::unresolved, group, observer, next.fault);
+    end(group.bodies()[static_cast<std::size_t>(next.outside)], Fate::unresolved, group, observer,
+        next.fault);
     if (!group.bodies().empty()) groups_.predict(group);
     return;
   }
-  while (!group.bodies().empty()) end(group.bodies().front(), Fate::unresolved, group, observer, next.fault);
+  while (!group.bodies().empty())
+    end(group.bodies().front(), Fate::unresolved, group, observer, next.fault);
 }
 
-void Integration::end(int index, Fate fate, const Group& group, Observer& observer, std::string_view why) {
+void Integration::end(int index, Fate fate, const Group& group, Observer& observer,
+                      std::string_view why) {
   bodies_.end(index, fate, group.time(), observer, why);
   groups_.take_out(index);
 }
 
 /// A particle of a group is at a wall: it leaves through a hole or is reflected.
-void Integration::hit(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer) {
+void Integration::hit(Group& group, std::size_t member, const Barrier<double>& barrier,
+                      Observer& observer) {
   const int index = group.bodies()[member];
   Body& b = bodies_[index];
   const GroupHit hit = hit_of(flights_.finder(), table_, group, member, barrier, flights_.counts());
@@ -238,12 +249,16 @@ bool Integration::leave_support(Group& group, const Barrier<double>& barrier) {
   cell.second += barrier.cell.second;
   const Vector own = table_.lattice ? x - table_.lattice->translation(barrier.cell) : x;
   const geometry::PreparedCurve::Frame frame = curve.settle(own);
-  const Vector settled = table_.lattice ? frame.point + table_.lattice->translation(barrier.cell) : frame.point;
+  const Vector settled =
+      table_.lattice ? frame.point + table_.lattice->translation(barrier.cell) : frame.point;
   // Where a wall meets the edge it comes first: beyond it, or on it, there is no flight.
-  if (group.supported(settled, &barrier) || meets_some_wall(groups_.barriers(), regions_.wall_count(), x, settled))
+  if (group.supported(settled, &barrier) ||
+      meets_some_wall(groups_.barriers(), regions_.wall_count(), x, settled))
     return false;
   const double u = curve.parameter(frame.point);
-  if (flights_.finder().inward(barrier.wall, u, velocity, frame.normal, flights_.counts()) != Sign::positive) return false;
+  if (flights_.finder().inward(barrier.wall, u, velocity, frame.normal, flights_.counts()) !=
+      Sign::positive)
+    return false;
   Body& b = bodies_[index];
   b.state = {-1, 0.0, frame.point, velocity, cell, group.time()};
   flights_.begin_on_wall(b, barrier.wall, u);
@@ -266,7 +281,8 @@ bool Integration::end_failed_steps(Time t_end, Observer& observer) {
 
 void Integration::watch_steps(Time until, Observer& observer) {
   for (const auto& group : groups_.all())
-    if (!group->bodies().empty() && group->time() < until) watch_.watch_step(*group, until, observer);
+    if (!group->bodies().empty() && group->time() < until)
+      watch_.watch_step(*group, until, observer);
 }
 
 }  // namespace carom

@@ -16,18 +16,18 @@ namespace carom {
 
 class Integration {
  public:
-  Integration(const Table& table, const Dynamics& dynamics, const ForceRegions& regions, Bodies& bodies,
-              FreeFlights& flights, Groups& groups, SectionWatch& watch);
+  Integration(const Table& table, const Dynamics& dynamics, const ForceRegions& regions,
+              Bodies& bodies, FreeFlights& flights, Groups& groups, SectionWatch& watch);
 
   /// A body is to be integrated from its state on.
   void add(int index);
   void clear();
 
-  /// Applies what comes first for a body that does not fly on by itself: it is in a group, or is to be integrated, or another
-  /// body may be near.
+  /// Applies what comes first for a body that does not fly on by itself: it is in a group, or is to
+  /// be integrated, or another body may be near.
   void apply(int index, Time now, Observer& observer);
-  /// Ends every particle whose step under way failed where that step begins, also if it would end later than the run. True
-  /// if others go on from there.
+  /// Ends every particle whose step under way failed where that step begins, also if it would end
+  /// later than the run. True if others go on from there.
   bool end_failed_steps(Time t_end, Observer& observer);
   /// Reports crossings of the watched surface within steps that go on beyond the end of a run.
   void watch_steps(Time until, Observer& observer);

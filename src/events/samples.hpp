@@ -26,7 +26,8 @@ class Samples {
   void restart() { next_ = 0; }
   bool any() const { return any_; }
 
-  /// The samples that are due before `until`, or (`inclusive`) at it. All of an instant, or nothing if interrupted.
+  /// The samples that are due before `until`, or (`inclusive`) at it. All of an instant, or nothing
+  /// if interrupted.
   void emit(Time until, bool inclusive, Observer& observer);
 
  private:

@@ -17,7 +17,8 @@ Vector SectionWatch::in_plane(Vector position, const geometry::Cell& cell) const
 }
 
 SectionWatch::Seen& SectionWatch::seen(int index) {
-  if (static_cast<int>(seen_.size()) <= index) seen_.resize(static_cast<std::size_t>(bodies_.size()));
+  if (static_cast<int>(seen_.size()) <= index)
+    seen_.resize(static_cast<std::size_t>(bodies_.size()));
   return seen_[static_cast<std::size_t>(index)];
 }
 
@@ -67,7 +68,8 @@ void SectionWatch::after_event(int index, Time when, Observer& observer) {
 }
 
 void SectionWatch::watch_step(Group& group, Time until, Observer& observer) {
-  // The end of a step is a multiple of its length; it may differ from start and duration by rounding.
+  // The end of a step is a multiple of its length; it may differ from start and duration by
+  // rounding.
   const double to = until == group.next_time() ? group.next().duration : until - group.time();
   for (std::size_t k = 0; k < group.bodies().size(); ++k) {
     const int index = group.bodies()[k];

@@ -17,7 +17,8 @@ class SectionWatch {
  public:
   SectionWatch(const Table& table, const Bodies& bodies) : table_(table), bodies_(bodies) {}
 
-  /// Null: nothing is watched, and no other function may be called. `most`: crossings of one flight.
+  /// Null: nothing is watched, and no other function may be called. `most`: crossings of one
+  /// flight.
   void watch(const Surface* surface, std::size_t most);
   bool active() const { return surface_ != nullptr; }
 
@@ -47,7 +48,7 @@ class SectionWatch {
   const Bodies& bodies_;
   const Surface* surface_ = nullptr;
   std::size_t most_ = 0;
-  std::vector<Seen> seen_;               ///< one a body
+  std::vector<Seen> seen_;  ///< one a body
   std::vector<SurfaceCrossing> found_;
 };
 

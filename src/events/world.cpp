@@ -27,13 +27,16 @@ namespace {
 /// Tables from files were asked when they were built; this one may be made by hand.
 const Table& with_bent_arcs(const Table& table) {
   for (const Wall& wall : table.walls)
-    if (const std::string fault = flat_arc(wall); !fault.empty()) throw InputError(Place{}, fault, bent_enough);
+    if (const std::string fault = flat_arc(wall); !fault.empty())
+      throw InputError(Place{}, fault, bent_enough);
   return table;
 }
 
-/// What free flights meet beyond the user's walls, or in their place; without walls if there is no such thing.
+/// What free flights meet beyond the user's walls, or in their place; without walls if there is no
+/// such thing.
 Table walls_of_flights(const Table& table, const Dynamics& dynamics) {
-  return has_discs(dynamics) ? table_of_discs(table, dynamics) : table_with_supports(table, dynamics);
+  return has_discs(dynamics) ? table_of_discs(table, dynamics)
+                             : table_with_supports(table, dynamics);
 }
 
 }  // namespace
@@ -42,7 +45,10 @@ Table walls_of_flights(const Table& table, const Dynamics& dynamics) {
 class World::Implementation {
  public:
   Implementation(const Table& the_table, const Dynamics& how, DecisionOptions options)
-      : table(with_bent_arcs(the_table)), scales(the_table), dynamics(how), own_walls(walls_of_flights(table, dynamics)),
+      : table(with_bent_arcs(the_table)),
+        scales(the_table),
+        dynamics(how),
+        own_walls(walls_of_flights(table, dynamics)),
         flights(walls(), has_discs(dynamics) ? walls() : table, regions, bodies, options) {
     if (has_discs(dynamics)) discs.emplace(table, dynamics, bodies, flights, watch, interrupt);
   }
@@ -57,12 +63,12 @@ class World::Implementation {
   }
   void apply(int index, Time when, Observer& observer);
 
-  const Table& table;             ///< the user's
-  const DecisionRange scales;     ///< of it
+  const Table& table;          ///< the user's
+  const DecisionRange scales;  ///< of it
   const Dynamics dynamics;
   const Table own_walls;
-  Interrupt interrupt;            ///< of the run under way
-  std::function<bool()> enough;   ///< ends a run, or is empty
+  Interrupt interrupt;           ///< of the run under way
+  std::function<bool()> enough;  ///< ends a run, or is empty
   Bodies bodies;
   ForceRegions regions{table, walls(), dynamics};
   FreeFlights flights;
@@ -73,7 +79,8 @@ class World::Implementation {
   Samples samples{bodies, groups, interrupt};
 };
 
-[[gnu::always_inline]] inline void World::Implementation::apply(int index, Time when, Observer& observer) {
+[[gnu::always_inline]] inline void World::Implementation::apply(int index, Time when,
+                                                                Observer& observer) {
   if (discs) [[unlikely]]
     discs->apply(index, observer);
   else if (bodies[index].group != nullptr || !flights.apply(index, when, observer))
@@ -81,7 +88,8 @@ class World::Implementation {
   if (watch.active()) watch.after_event(index, when, observer);
 }
 
-std::uint64_t World::run_until(double t_end, Observer& observer, const std::function<bool()>& interrupted) {
+std::uint64_t World::run_until(double t_end, Observer& observer,
+                               const std::function<bool()>& interrupted) {
   Implementation& w = *implementation_;
   std::uint64_t events = 0;
   w.interrupt = Interrupt(&interrupted);
@@ -141,9 +149,11 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
   if (forces) b.particle.speed = std::sqrt(dot(state.velocity, state.velocity));
   if (w.discs) w.discs->check(b);
   if (!forces)
-    if (const std::string fault = w.scales.fault(b.particle); !fault.empty()) throw std::invalid_argument(fault);
+    if (const std::string fault = w.scales.fault(b.particle); !fault.empty())
+      throw std::invalid_argument(fault);
   if (!integrated) {
-    if (rests && !w.discs) throw std::invalid_argument("the velocity is zero and no force acts there");
+    if (rests && !w.discs)
+      throw std::invalid_argument("the velocity is zero and no force acts there");
     w.flights.check_speed(b);
     if (!w.discs || b.particle.speed > 0.0) w.flights.begin(b);
     if (by_range) b.check = state.time;
@@ -173,7 +183,9 @@ void World::stop_when(std::function<bool()> enough) { implementation_->enough = 
 void World::limit_hits(std::uint64_t hits) { implementation_->bodies.limit_hits(hits); }
 void World::sample_at(std::vector<double> times) { implementation_->samples.at(std::move(times)); }
 void World::sample_every(double interval) { implementation_->samples.every(interval); }
-void World::watch(const Surface* surface, std::size_t most) { implementation_->watch.watch(surface, most); }
+void World::watch(const Surface* surface, std::size_t most) {
+  implementation_->watch.watch(surface, most);
+}
 
 int World::size() const { return implementation_->bodies.size(); }
 bool World::finished(int p) const { return implementation_->bodies.at(p).finished; }
@@ -192,7 +204,9 @@ const DecisionCounts& World::decisions() const { return implementation_->flights
 const StepCounts& World::step_counts() const { return implementation_->groups.steps(); }
 
 void World::watch_energy() { implementation_->groups.watch_energy(); }
-const EnergyBalance& World::energy_balance(int p) const { return implementation_->groups.energies().balance(p); }
+const EnergyBalance& World::energy_balance(int p) const {
+  return implementation_->groups.energies().balance(p);
+}
 void World::set_energy_balance(int p, const EnergyBalance& before) {
   implementation_->groups.energies().set_balance(p, before);
 }
