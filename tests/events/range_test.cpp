@@ -125,6 +125,17 @@ TEST(Range, AChainStartsAsOneGroup) {
   }
 }
 
+// Three pairs, each of them a group, fly towards each other.
+TEST(Range, GroupsTakeInGroups) {
+  const LoadedSystem loaded =
+      read_system(list_of("kind = \"yukawa\"\nstrength = 0.05\nrange = 0.02",
+                          "[[-1, 0.1, 1, 0], [-1, -0.1, 1, 0], [1, 0.12, -1, 0], [1, -0.11, -1, 0], [0.13, 1, 0, -1], "
+                          "[-0.14, 1, 0, -1]]", 6),
+                  "pairs");
+  ASSERT_LT(loaded.system.dynamics.forces->pair_range(), 1.0);
+  expect_as_in_one_group(loaded.system, 2.0, 1e-9);
+}
+
 // Two that enter within a step of a group, one free and one under a force: the group's step ends then.
 TEST(Range, LateParticlesInteractAtOnce) {
   for (const bool trap : {false, true}) {

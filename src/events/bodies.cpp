@@ -1,0 +1,30 @@
+#include "events/bodies.hpp"
+
+#include <utility>
+
+#include "carom/events/report.hpp"
+
+namespace carom {
+
+int Bodies::add(Body body) {
+  bodies_.push_back(std::move(body));
+  queue_.push({});
+  return size() - 1;
+}
+
+void Bodies::clear() {
+  bodies_.clear();
+  queue_.clear();
+}
+
+void Bodies::end(int i, Fate fate, Time time, Observer& observer, std::string_view why) {
+  Body& b = (*this)[i];
+  b.fate = fate;
+  b.finished = true;
+  queue_.remove(i);
+  if (fate == Fate::lost || fate == Fate::singular || fate == Fate::unresolved)
+    b.report = report_of(b.particle, b.state, fate, why);
+  observer.end({i, fate, time, b.state, b.hole, b.hits});
+}
+
+}  // namespace carom

@@ -1,0 +1,106 @@
+// The particles of a world: where each of them is, when something happens to it next, and how it
+// ends.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "carom/events/observer.hpp"
+#include "carom/geometry/formulas.hpp"
+#include "carom/motion/state.hpp"
+#include "events/next_hit.hpp"
+#include "events/queue.hpp"
+
+namespace carom {
+
+class Group;
+
+inline constexpr Time never{std::numeric_limits<double>::infinity()};
+
+/// A particle. It flies freely, or belongs to a group.
+struct Body {
+  Particle particle;
+  geometry::EnergyShell<double> shell;
+  State state;    ///< after its last event
+  Flight flight;  ///< free: from that state on
+  Ahead ahead;
+  std::uint64_t hits = 0;
+  int last_wall = -1;
+  int hole = -1;
+  Fate fate = Fate::survived;
+  bool finished = false;
+  Group* group = nullptr;  ///< null: free
+  Time last_event;         ///< integrated: its last hit or start
+  Time check = never;      ///< free: when another particle may be near at the earliest
+  std::string report;
+};
+
+/// Bodies are numbered 0 … size-1. Each has one entry in the queue until it has ended.
+class Bodies {
+ public:
+  /// Returns its number. It is due at once, until scheduled.
+  int add(Body body);
+  void clear();
+
+  int size() const { return static_cast<int>(bodies_.size()); }
+  Body& operator[](int i) { return bodies_[static_cast<std::size_t>(i)]; }
+  const Body& operator[](int i) const { return bodies_[static_cast<std::size_t>(i)]; }
+  /// Throws std::out_of_range.
+  const Body& at(int i) const { return bodies_.at(static_cast<std::size_t>(i)); }
+
+  /// Has every body ended?
+  bool all_ended() const { return queue_.empty(); }
+  /// The body to which something happens first.
+  int first() const { return queue_.top(); }
+  const Time& when(int i) const { return queue_.key(i).time; }
+  EventKind what(int i) const { return static_cast<EventKind>(queue_.key(i).kind); }
+  void schedule(int i, const Time& when, EventKind kind) {
+    queue_.update(i, when, static_cast<int>(kind));
+  }
+
+  /// Most hits a body may make.
+  void limit_hits(std::uint64_t most) { limit_ = most; }
+  bool reaches_limit(const Body& b) const { return b.hits >= limit_; }
+  /// Counts a hit after which the body has its present state, on the wall. `flight_time`: since its
+  /// last event.
+  const HitEvent& count_hit(int i, Body& b, const geometry::Vector& before, double flight_time,
+                            int reflections);
+  /// Ends the trajectory of a body. `why`: for its report.
+  void end(int i, Fate fate, Time time, Observer& observer, std::string_view why = {});
+
+ private:
+  std::vector<Body> bodies_;
+  EventQueue queue_;
+  HitEvent event_;  // kept, and filled in place
+  std::uint64_t limit_ = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// Number by number, so that no number waits for another.
+[[gnu::always_inline]] inline const HitEvent& Bodies::count_hit(int i, Body& b,
+                                                                const geometry::Vector& before,
+                                                                double flight_time,
+                                                                int reflections) {
+  b.hits += static_cast<std::uint64_t>(reflections);
+  b.last_wall = b.state.wall;
+  event_.particle = i;
+  event_.wall = b.state.wall;
+  event_.u = b.state.u;
+  event_.time.high = b.state.time.high;
+  event_.time.low = b.state.time.low;
+  event_.flight_time = flight_time;
+  event_.position.x = b.state.position.x;
+  event_.position.y = b.state.position.y;
+  event_.cell.first = b.state.cell.first;
+  event_.cell.second = b.state.cell.second;
+  event_.before.x = before.x;
+  event_.before.y = before.y;
+  event_.after.x = b.state.velocity.x;
+  event_.after.y = b.state.velocity.y;
+  event_.reflections = reflections;
+  return event_;
+}
+
+}  // namespace carom
