@@ -41,7 +41,17 @@ class Dice {
   std::mt19937_64 random_;
 };
 
-enum class Shape { polygon, arcs, stadium, mushroom, discs, annulus, ellipse, elliptic_arcs, count };
+enum class Shape {
+  polygon,
+  arcs,
+  stadium,
+  mushroom,
+  discs,
+  annulus,
+  ellipse,
+  elliptic_arcs,
+  count
+};
 
 /// A valid table of that shape, of that size, about `at`.
 /// `flattest`: largest distance of an arc's centre from its chord, in chords.
@@ -104,7 +114,9 @@ inline Table random_table(Shape shape, double size, Vector at, Dice& dice, doubl
       for (const double x : {-0.5, 0.5})
         for (const double y : {-0.5, 0.5})
           if (dice.coin())
-            add_loop(t, {Circle{{at.x + x * size, at.y + y * size}, size * dice.spread(1e-3, 0.49), false}});
+            add_loop(
+                t, {Circle{
+                       {at.x + x * size, at.y + y * size}, size * dice.spread(1e-3, 0.49), false}});
       return t;
     }
     case Shape::annulus: {
@@ -120,27 +132,33 @@ inline Table random_table(Shape shape, double size, Vector at, Dice& dice, doubl
       Table t = loop({Ellipse{at, axis, dice.spread(0.1, 1.0), true}});
       if (dice.coin()) {  // with an elliptic obstacle inside
         const double r = std::get<Ellipse>(t.walls[0].curve).ratio;
-        add_loop(t, {Ellipse{at, r * dice.between(0.1, 0.9) * size * dice.direction(), dice.between(0.1, 1.0),
-                             false}});
+        add_loop(t, {Ellipse{at, r * dice.between(0.1, 0.9) * size * dice.direction(),
+                             dice.between(0.1, 1.0), false}});
       }
       return t;
     }
   }
 }
 
-/// A table whose outer wall, or an obstacle in a disc, is an ellipse, and the same with the ellipse cut into 2 to 6 arcs. `exactly`:
-/// into two arcs of exactly one ellipse; else each, through rounded joints, is of one of its own.
+/// A table whose outer wall, or an obstacle in a disc, is an ellipse, and the same with the ellipse
+/// cut into 2 to 6 arcs. `exactly`: into two arcs of exactly one ellipse; else each, through
+/// rounded joints, is of one of its own.
 struct CutEllipse {
   Table whole, cut;
 };
-inline CutEllipse cut_ellipse(double size, bool obstacle, bool exactly, double thinnest, Dice& dice) {
+inline CutEllipse cut_ellipse(double size, bool obstacle, bool exactly, double thinnest,
+                              Dice& dice) {
   constexpr double turn = 6.283185307179586;
   const int count = exactly ? 2 : dice.whole(2, 6);
-  const Vector centre = exactly ? Vector{} : size * dice.between(0.0, 0.2) * dice.direction(), major = size * dice.direction();
+  const Vector centre = exactly ? Vector{} : size * dice.between(0.0, 0.2) * dice.direction(),
+               major = size * dice.direction();
   const double ratio = dice.spread(thinnest, 1.0), first = dice.between(0.0, turn);
-  const auto point = [&](double angle) { return centre + std::cos(angle) * major + (ratio * std::sin(angle)) * left(major); };
+  const auto point = [&](double angle) {
+    return centre + std::cos(angle) * major + (ratio * std::sin(angle)) * left(major);
+  };
   std::vector<double> angles;
-  for (int i = 0; i < count; ++i) angles.push_back(first + turn / count * (i + dice.between(-0.3, 0.3)));
+  for (int i = 0; i < count; ++i)
+    angles.push_back(first + turn / count * (i + dice.between(-0.3, 0.3)));
   angles.push_back(angles[0] + turn);
   std::vector<Vector> joints;
   for (int i = 0; i < count; ++i) joints.push_back(point(angles[static_cast<std::size_t>(i)]));
@@ -149,7 +167,9 @@ inline CutEllipse cut_ellipse(double size, bool obstacle, bool exactly, double t
   std::vector<Curve> arcs;
   for (std::size_t i = 0; i + 1 < joints.size(); ++i)
     arcs.push_back(exactly ? EllipticArc{joints[i], joints[i + 1], major, ratio, 0.0, true}
-                           : geometry::elliptic_arc_through(joints[i], point(0.5 * (angles[i] + angles[i + 1])), joints[i + 1], major, ratio));
+                           : geometry::elliptic_arc_through(
+                                 joints[i], point(0.5 * (angles[i] + angles[i + 1])), joints[i + 1],
+                                 major, ratio));
   if (!obstacle) return {loop({Ellipse{centre, major, ratio, true}}), loop(arcs)};
   std::reverse(arcs.begin(), arcs.end());
   for (Curve& arc : arcs) arc = geometry::reversed(arc);

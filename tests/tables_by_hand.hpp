@@ -44,8 +44,8 @@ inline Table rectangle(double a, double b) { return polygon({{0, 0}, {a, 0}, {a,
 inline Table square() { return rectangle(1, 1); }
 inline Table stadium(double half = 1.0, double radius = 1.0, Vector at = {}) {
   const double l = at.x - half, r = at.x + half, b = at.y - radius, t = at.y + radius;
-  return loop({Segment{{l, b}, {r, b}}, CircularArc{{r, b}, {r, t}, 0.0, true}, Segment{{r, t}, {l, t}},
-               CircularArc{{l, t}, {l, b}, 0.0, true}});
+  return loop({Segment{{l, b}, {r, b}}, CircularArc{{r, b}, {r, t}, 0.0, true},
+               Segment{{r, t}, {l, t}}, CircularArc{{l, t}, {l, b}, 0.0, true}});
 }
 inline Table mushroom(double cap, double half, double height) {
   return loop({Segment{{-half, -height}, {half, -height}}, Segment{{half, -height}, {half, 0}},

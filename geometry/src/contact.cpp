@@ -63,8 +63,8 @@ std::vector<Contact> contacts_of_segments(const ExactCurve& a, const ExactCurve&
   } else if (on_b != Where::inside) {
     at = rounded(point_of(on_b == Where::start ? b.from : b.to));
   } else {
-    const double share =
-        cross(b.direction, b.from - a.from).approximate() / cross(b.direction, a.direction).approximate();
+    const double share = cross(b.direction, b.from - a.from).approximate() /
+                         cross(b.direction, a.direction).approximate();
     at = rounded(point_of(a.from + Dyadic(share) * a.direction));
   }
   const bool inner = on_a == Where::inside && on_b == Where::inside;
@@ -80,7 +80,8 @@ std::vector<Contact> contacts(const ExactPiece& first, const ExactPiece& second)
     for (Contact& c : found) c = swapped(c);
     return found;
   }
-  if (vanishes(second.equation(first.stretches().front()))) return contacts_on_one_carrier(first, second);
+  if (vanishes(second.equation(first.stretches().front())))
+    return contacts_on_one_carrier(first, second);
   if (first.curve().segment && second.curve().segment)
     return contacts_of_segments(first.curve(), second.curve());
   std::vector<Contact> found;

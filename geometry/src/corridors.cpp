@@ -1,6 +1,6 @@
-// Projections of the obstacles across a lattice vector p are intervals [a - sqrt(d), a + sqrt(d)] in
-// units of 1/|p|: with the numbers of the table also a and d are dyadic, and the period is the area of
-// the cell, whatever p is.
+// Projections of the obstacles across a lattice vector p are intervals [a - sqrt(d), a + sqrt(d)]
+// in units of 1/|p|: with the numbers of the table also a and d are dyadic, and the period is the
+// area of the cell, whatever p is.
 #include "carom/geometry/corridors.hpp"
 
 #include <algorithm>
@@ -47,10 +47,11 @@ Interval between(const Dyadic& one, const Dyadic& other) {
   return {{ordered ? one : other, zero, -1}, {ordered ? other : one, zero, 1}};
 }
 
-// Does the arc hold the farthest point of its circle in direction d, that is, does d come after `from`
-// and before `to` on the way counter-clockwise? All as seen from the centre.
+// Does the arc hold the farthest point of its circle in direction d, that is, does d come after
+// `from` and before `to` on the way counter-clockwise? All as seen from the centre.
 bool within(const Exact& from, const Exact& to, const Exact& d) {
-  const int whole = cross(from, to).sign(), first = cross(from, d).sign(), second = cross(d, to).sign();
+  const int whole = cross(from, to).sign(), first = cross(from, d).sign(),
+            second = cross(d, to).sign();
   if (whole > 0) return first > 0 && second > 0;
   if (whole < 0) return first > 0 || second > 0;
   // Half a circle.
@@ -90,7 +91,8 @@ std::optional<Interval> projection(const Curve& curve, const Exact& p) {
 double least_width(const std::vector<Curve>& walls) {
   double width = 0.0;
   for (std::size_t first = 0; first < walls.size();) {
-    if (const auto* circle = std::get_if<Circle>(&walls[first])) width = std::max(width, 2.0 * circle->radius);
+    if (const auto* circle = std::get_if<Circle>(&walls[first]))
+      width = std::max(width, 2.0 * circle->radius);
     double area = 0.0;
     Box box = bounding_box(walls[first]);
     std::size_t next = first;
@@ -113,14 +115,17 @@ struct Direction {
 };
 
 // One of each pair of opposite primitive vectors not longer than `longest`, shortest first.
-std::vector<Direction> directions(const Lattice& lattice, double longest, std::size_t walls, bool& complete) {
-  const double most = static_cast<double>(std::clamp<std::size_t>(most_projections / walls, 1, most_directions));
+std::vector<Direction> directions(const Lattice& lattice, double longest, std::size_t walls,
+                                  bool& complete) {
+  const double most =
+      static_cast<double>(std::clamp<std::size_t>(most_projections / walls, 1, most_directions));
   const double area = lattice.cell_area();
   const double a = std::sqrt(dot(lattice.first, lattice.first));
   const double b = std::sqrt(dot(lattice.second, lattice.second));
   std::vector<Direction> result;
   // |m| = |cross(p, second)| / area and |n| = |cross(first, p)| / area.
-  double most_first = std::floor(longest * b / area + 1.0), most_second = std::floor(longest * a / area + 1.0);
+  double most_first = std::floor(longest * b / area + 1.0),
+         most_second = std::floor(longest * a / area + 1.0);
   // Twice or more where one of the numbers has come down to its least, 1.
   while ((most_first + 1) * (2 * most_second + 1) > std::max(most, 6.0)) {
     complete = false;
@@ -129,7 +134,8 @@ std::vector<Direction> directions(const Lattice& lattice, double longest, std::s
     most_second = std::floor(longest * a / area + 1.0);
   }
   for (std::int64_t m = 0; m <= static_cast<std::int64_t>(most_first); ++m) {
-    for (auto n = -static_cast<std::int64_t>(most_second); n <= static_cast<std::int64_t>(most_second); ++n) {
+    for (auto n = -static_cast<std::int64_t>(most_second);
+         n <= static_cast<std::int64_t>(most_second); ++n) {
       if (std::gcd(m, n) != 1 || (m == 0 && n != 1)) continue;
       const Vector p = lattice.translation({m, n});
       if (dot(p, p) <= longest * longest) result.push_back({{m, n}, dot(p, p)});
@@ -137,7 +143,8 @@ std::vector<Direction> directions(const Lattice& lattice, double longest, std::s
   }
   std::sort(result.begin(), result.end(), [](const Direction& x, const Direction& y) {
     if (x.square != y.square) return x.square < y.square;
-    return x.cell.first != y.cell.first ? x.cell.first < y.cell.first : x.cell.second < y.cell.second;
+    return x.cell.first != y.cell.first ? x.cell.first < y.cell.first
+                                        : x.cell.second < y.cell.second;
   });
   return result;
 }
@@ -155,8 +162,8 @@ double width_of(const End& low, const End& high, const Exact& p) {
 }
 
 // Adds the gaps that the intervals leave modulo the period.
-void add_gaps(std::vector<Interval>& intervals, const Dyadic& period, const Cell& cell, const Exact& p,
-              const Vector& along, std::vector<Corridor>& corridors) {
+void add_gaps(std::vector<Interval>& intervals, const Dyadic& period, const Cell& cell,
+              const Exact& p, const Vector& along, std::vector<Corridor>& corridors) {
   const End zero{Dyadic(), Dyadic(), 1};
   for (Interval& i : intervals) {
     // By whole periods until it starts in the first one.
@@ -198,7 +205,8 @@ Corridors free_corridors(const Lattice& lattice, const std::vector<Curve>& walls
   const double longest = 1.001 * lattice.cell_area() / least_width(walls);
   for (const Direction& direction : directions(lattice, longest, walls.size(), result.complete)) {
     const Cell& c = direction.cell;
-    const Exact p = Dyadic(static_cast<double>(c.first)) * first + Dyadic(static_cast<double>(c.second)) * second;
+    const Exact p = Dyadic(static_cast<double>(c.first)) * first +
+                    Dyadic(static_cast<double>(c.second)) * second;
     std::vector<Interval> intervals;
     for (const Curve& wall : walls) intervals.push_back(*projection(wall, p));
     add_gaps(intervals, period, c, p, lattice.translation(c), result.list);
@@ -211,7 +219,8 @@ Corridors free_corridors(const Lattice& lattice, const std::vector<Curve>& walls
 double flight_tail(const Corridors& corridors, double free_area) {
   constexpr double pi = 3.141592653589793;
   double sum = 0.0;
-  for (const Corridor& c : corridors.list) sum += c.width * c.width * std::sqrt(dot(c.along, c.along));
+  for (const Corridor& c : corridors.list)
+    sum += c.width * c.width * std::sqrt(dot(c.along, c.along));
   return sum / (pi * free_area);
 }
 

@@ -36,10 +36,10 @@ double angle_minus_sine(double u) {
   return angle - (n == 0.0 ? y : n == 1.0 ? x : n == 2.0 ? -y : -x);
 }
 
-/// One coordinate of a conic: origin + (x - start) a + y b with (x, y) on the unit circle up to `end`.
-/// Widens [low, high] by its extremes inside, and outwards by the rounding: with U = 2^-53, a and b
-/// carry U, the squares, their sum and the root 4U, sum or quotient below another 6U, the last sum U
-/// of the result: at most 12 U (|origin| + |step|); 16 are taken.
+/// One coordinate of a conic: origin + (x - start) a + y b with (x, y) on the unit circle up to
+/// `end`. Widens [low, high] by its extremes inside, and outwards by the rounding: with U = 2^-53,
+/// a and b carry U, the squares, their sum and the root 4U, sum or quotient below another 6U, the
+/// last sum U of the result: at most 12 U (|origin| + |step|); 16 are taken.
 void widen(double& low, double& high, double origin, double start, double a, double b, double end) {
   const double extent = std::sqrt(a * a + b * b);
   if (!(extent > 0.0)) return;
@@ -73,19 +73,19 @@ bool is_closed(const Curve& curve) {
 }
 
 Vector start_point(const Curve& curve) {
-  return std::visit(
-      Overloaded{[](const Circle& c) {
-                   return Vector{c.centre.x + c.radius, c.centre.y};
-                 },
-                 [](const Ellipse& c) { return c.centre + c.axis; }, [](const auto& c) { return c.from; }},
-      curve);
+  return std::visit(Overloaded{[](const Circle& c) {
+                                 return Vector{c.centre.x + c.radius, c.centre.y};
+                               },
+                               [](const Ellipse& c) { return c.centre + c.axis; },
+                               [](const auto& c) { return c.from; }},
+                    curve);
 }
 
 Vector end_point(const Curve& curve) {
-  return std::visit(
-      Overloaded{[](const Circle& c) { return start_point(c); },
-                 [](const Ellipse& c) { return start_point(c); }, [](const auto& c) { return c.to; }},
-      curve);
+  return std::visit(Overloaded{[](const Circle& c) { return start_point(c); },
+                               [](const Ellipse& c) { return start_point(c); },
+                               [](const auto& c) { return c.to; }},
+                    curve);
 }
 
 double end_parameter(const Curve& curve) {
@@ -116,10 +116,14 @@ Vector point_at(const Curve& curve, double u) { return point_at(frame_of(curve),
 Vector tangent_at(const Curve& curve, double u) { return tangent_at(frame_of(curve), u); }
 Vector normal_at(const Curve& curve, double u) { return normal_at(frame_of(curve), u); }
 double curvature_at(const Curve& curve, double u) { return curvature_at(frame_of(curve), u); }
-double parameter_of(const Curve& curve, Vector point) { return parameter_of(frame_of(curve), point); }
+double parameter_of(const Curve& curve, Vector point) {
+  return parameter_of(frame_of(curve), point);
+}
 double length(const Curve& curve) { return length(frame_of(curve)); }
 double arc_length_at(const Curve& curve, double u) { return arc_length_at(frame_of(curve), u); }
-double parameter_at_length(const Curve& curve, double s) { return parameter_at_length(frame_of(curve), s); }
+double parameter_at_length(const Curve& curve, double s) {
+  return parameter_at_length(frame_of(curve), s);
+}
 Vector centre(const Curve& curve) { return frame_of(curve).middle; }
 
 Box bounding_box(const Curve& curve) {
@@ -136,7 +140,8 @@ Box bounding_box(const Curve& curve) {
 double area_beyond_chord(const CurveFrame& f) {
   if (f.kind == Kind::segment) return 0.0;
   const double product = f.turn * (f.major * f.minor);
-  return f.kind == Kind::closed ? product * std::numbers::pi : 0.5 * product * angle_minus_sine(f.end);
+  return f.kind == Kind::closed ? product * std::numbers::pi
+                                : 0.5 * product * angle_minus_sine(f.end);
 }
 
 double area_integral(const Curve& curve) {

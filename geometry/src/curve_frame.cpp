@@ -14,7 +14,9 @@ namespace {
 using Kind = CurveFrame::Kind;
 
 double quotient(const Dyadic& a, const Dyadic& b) { return nearest(a.rational() / b.rational()); }
-Vector quotient(const DyadicVector& a, const Dyadic& b) { return {quotient(a.x, b), quotient(a.y, b)}; }
+Vector quotient(const DyadicVector& a, const Dyadic& b) {
+  return {quotient(a.x, b), quotient(a.y, b)};
+}
 double rounded(const Dyadic& a) { return nearest(a.rational()); }
 Vector rounded(const DyadicVector& a) { return {rounded(a.x), rounded(a.y)}; }
 

@@ -48,8 +48,8 @@ double carlson_second(double x, double y, double z) {
       const double xy = dx * dy, zz = dz * dz;
       const double e2 = xy - 6.0 * zz, e3 = (3.0 * xy - 8.0 * zz) * dz, e4 = 3.0 * (xy - zz) * zz,
                    e5 = xy * dz * zz;
-      const double series = 1.0 - 3.0 * e2 / 14.0 + e3 / 6.0 + 9.0 * e2 * e2 / 88.0 - 3.0 * e4 / 22.0 -
-                            9.0 * e2 * e3 / 52.0 + 3.0 * e5 / 26.0;
+      const double series = 1.0 - 3.0 * e2 / 14.0 + e3 / 6.0 + 9.0 * e2 * e2 / 88.0 -
+                            3.0 * e4 / 22.0 - 9.0 * e2 * e3 / 52.0 + 3.0 * e5 / 26.0;
       return 3.0 * sum + weight * series / (mean * std::sqrt(mean));
     }
     const double rx = std::sqrt(x), ry = std::sqrt(y), rz = std::sqrt(z);
@@ -63,12 +63,14 @@ double carlson_second(double x, double y, double z) {
 }
 
 /// Length of an ellipse from an end of its minor axis over an eccentric angle of at most a right
-/// angle, given by its cosine and sine: major E(angle | m) in the form whose terms are all positive.
+/// angle, given by its cosine and sine: major E(angle | m) in the form whose terms are all
+/// positive.
 double from_minor_axis(const CurveFrame& f, double c, double s) {
   const double ratio = f.minor / f.major;
   const double m = (f.major - f.minor) * (f.major + f.minor) / (f.major * f.major);
   const double c2 = c * c, s2 = s * s, d2 = c2 + ratio * ratio * s2;
-  const double inner = s * carlson_first(c2, d2, 1.0) + m * s2 * s * carlson_second(c2, 1.0, d2) / 3.0;
+  const double inner =
+      s * carlson_first(c2, d2, 1.0) + m * s2 * s * carlson_second(c2, 1.0, d2) / 3.0;
   return f.major * (ratio * ratio * inner + m * c * s / std::sqrt(d2));
 }
 
@@ -94,13 +96,14 @@ double speed(const CurveFrame& f, double u) {
 }
 
 /// Length from the start over a short way, where a difference of elliptic integrals would be as
-/// inaccurate as the whole ellipse is large: Gauss and Legendre with 8 points. The speed is analytic
-/// up to |w| of about minor/(2 major); on a sixteenth of that the rule leaves less than 2^-53.
+/// inaccurate as the whole ellipse is large: Gauss and Legendre with 8 points. The speed is
+/// analytic up to |w| of about minor/(2 major); on a sixteenth of that the rule leaves less than
+/// 2^-53.
 double short_length(const CurveFrame& f, double u) {
-  constexpr double node[4] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959,
-                              0.96028985649753623168};
-  constexpr double weight[4] = {0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054,
-                                0.10122853629037625915};
+  constexpr double node[4] = {0.18343464249564980494, 0.52553240991632898582,
+                              0.79666647741362673959, 0.96028985649753623168};
+  constexpr double weight[4] = {0.36268378337836198297, 0.31370664587788728734,
+                                0.22238103445337447054, 0.10122853629037625915};
   const double half = 0.5 * u;
   double sum = 0.0;
   for (int i = 3; i >= 0; --i)
@@ -120,8 +123,8 @@ double elliptic_length(const CurveFrame& f, double u) {
   const double x = q.x * along - q.y * across, y = q.y * along + q.x * across;
   const Vector now{f.phase.x * x - f.phase.y * y, f.phase.y * x + f.phase.x * y};
   const Place first = place(f, f.phase.x, f.phase.y), second = place(f, now.x, now.y);
-  // The place has passed n or n + 1 ends of quarters since the start. Rounding does not blur that: the
-  // coordinate that changes sign at the n-th is a sum of two terms of one sign.
+  // The place has passed n or n + 1 ends of quarters since the start. Rounding does not blur that:
+  // the coordinate that changes sign at the n-th is a sum of two terms of one sign.
   int turned = second.quarters - first.quarters;
   while (turned < n) turned += 4;
   return turned * quarter + (second.within - first.within);

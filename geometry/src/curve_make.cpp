@@ -11,7 +11,8 @@ namespace {
 
 double rounded_offset(const Dyadic& numerator, const Dyadic& denominator) {
   const double offset = nearest(numerator.rational() / denominator.rational());
-  if (!std::isfinite(offset)) throw std::invalid_argument("the three points of an arc lie on a line");
+  if (!std::isfinite(offset))
+    throw std::invalid_argument("the three points of an arc lie on a line");
   return offset;
 }
 
@@ -37,7 +38,8 @@ CircularArc arc_through(Vector from, Vector via, Vector to) {
 }
 
 EllipticArc elliptic_arc_through(Vector from, Vector via, Vector to, Vector axis, double ratio) {
-  if (!(ratio > 0.0)) throw std::invalid_argument("the ratio of an ellipse's axes must be positive");
+  if (!(ratio > 0.0))
+    throw std::invalid_argument("the ratio of an ellipse's axes must be positive");
   if (axis == Vector{}) throw std::invalid_argument("an ellipse needs the direction of an axis");
   Metric m;
   m.euclidean = false;
@@ -55,7 +57,8 @@ CircularArc arc_about(Vector from, Vector to, Vector centre, bool counterclockwi
   const Dyadic squared = dot(c, c);
   if (squared.sign() == 0) throw std::invalid_argument("an arc starts and ends at the same point");
   const DyadicVector middle = Dyadic(0.5) * (exact(from) + exact(to));
-  return {from, to, rounded_offset(dot(exact(centre) - middle, left(c)), squared), counterclockwise};
+  return {from, to, rounded_offset(dot(exact(centre) - middle, left(c)), squared),
+          counterclockwise};
 }
 
 Curve reversed(const Curve& curve) {
@@ -64,7 +67,9 @@ Curve reversed(const Curve& curve) {
     Curve operator()(const CircularArc& a) const {
       return CircularArc{a.to, a.from, -a.offset, !a.counterclockwise};
     }
-    Curve operator()(const Circle& c) const { return Circle{c.centre, c.radius, !c.counterclockwise}; }
+    Curve operator()(const Circle& c) const {
+      return Circle{c.centre, c.radius, !c.counterclockwise};
+    }
     Curve operator()(const EllipticArc& a) const {
       return EllipticArc{a.to, a.from, a.axis, a.ratio, -a.offset, !a.counterclockwise};
     }

@@ -35,6 +35,7 @@ inline Sign sign_of(const Dyadic& a) { return static_cast<Sign>(a.sign()); }
 /// Sign of a + b sqrt(d), d >= 0.
 int sign_with_root(const Dyadic& a, const Dyadic& b, const Dyadic& d);
 /// Sign of a + b sqrt(d) + c sqrt(e), d, e >= 0.
-int sign_with_two_roots(const Dyadic& a, const Dyadic& b, const Dyadic& d, const Dyadic& c, const Dyadic& e);
+int sign_with_two_roots(const Dyadic& a, const Dyadic& b, const Dyadic& d, const Dyadic& c,
+                        const Dyadic& e);
 
 }  // namespace carom::geometry

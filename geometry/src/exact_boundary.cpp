@@ -41,9 +41,12 @@ ExactBoundary::Corner ExactBoundary::corner(int previous, int next) const {
 bool ExactBoundary::same_ellipse(int first, int second) const {
   const ExactCurve& a = data_->curve(first);
   const ExactCurve& b = data_->curve(second);
-  const auto same = [](const DyadicVector& x, const DyadicVector& y) { return (x.x - y.x).sign() == 0 && (x.y - y.y).sign() == 0; };
-  return !a.metric.euclidean && !b.metric.euclidean && same(a.metric.p, b.metric.p) && (a.metric.k - b.metric.k).sign() == 0 &&
-         same(a.centre, b.centre) && (a.r2 - b.r2).sign() == 0;
+  const auto same = [](const DyadicVector& x, const DyadicVector& y) {
+    return (x.x - y.x).sign() == 0 && (x.y - y.y).sign() == 0;
+  };
+  return !a.metric.euclidean && !b.metric.euclidean && same(a.metric.p, b.metric.p) &&
+         (a.metric.k - b.metric.k).sign() == 0 && same(a.centre, b.centre) &&
+         (a.r2 - b.r2).sign() == 0;
 }
 
 }  // namespace carom::geometry

@@ -17,7 +17,8 @@ struct ExactBoundary::Data {
 
   const ExactCurve& curve(int piece) const {
     auto& made = curves[static_cast<std::size_t>(piece)];
-    if (!made) made = std::make_unique<const ExactCurve>(pieces[static_cast<std::size_t>(piece)].curve);
+    if (!made)
+      made = std::make_unique<const ExactCurve>(pieces[static_cast<std::size_t>(piece)].curve);
     return *made;
   }
 

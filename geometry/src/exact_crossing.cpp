@@ -6,7 +6,8 @@ namespace carom::geometry {
 
 AlgebraicRoot Crossing::algebraic() const {
   if (root) return *root;
-  if (q.sign() != 0) return rising_roots({quadratic.c, Dyadic(2) * quadratic.b, quadratic.a}).front();
+  if (q.sign() != 0)
+    return rising_roots({quadratic.c, Dyadic(2) * quadratic.b, quadratic.a}).front();
   return rising_roots({-p, r * Dyadic(r.sign())}).front();  // r kappa - p, rising
 }
 

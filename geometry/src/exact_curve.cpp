@@ -50,9 +50,7 @@ struct Builder {
     c.metric = metric_of(a.axis, a.ratio);
     arc(a.from, a.to, a.offset, a.counterclockwise);
   }
-  void operator()(const Circle& o) const {
-    full(o.centre, {o.radius, 0.0}, o.counterclockwise);
-  }
+  void operator()(const Circle& o) const { full(o.centre, {o.radius, 0.0}, o.counterclockwise); }
   void operator()(const Ellipse& o) const {
     c.metric = metric_of(o.axis, o.ratio);
     full(o.centre, o.axis, o.counterclockwise);

@@ -30,7 +30,7 @@ struct ExactCurve {
   bool closed = false;
   int orientation = 1;  ///< +1 counter-clockwise (domain inside), -1 clockwise
   DyadicVector from, to;
-  DyadicVector direction;  ///< segment: to - from
+  DyadicVector direction;           ///< segment: to - from
   DyadicVector centre, start, end;  ///< conics: from and to seen from the centre
   Dyadic r2;                        ///< M(start, start)
   Metric metric;

@@ -60,7 +60,8 @@ struct ExactFlight::Data {
     const Dyadic h = one_half() * omega;
     if (c.segment) {
       const Dyadic a = cross(c.direction, e);
-      return {a, one_half() * s.w * cross(c.direction, v), a * h * h - h * s.w * dot(c.direction, v)};
+      return {a, one_half() * s.w * cross(c.direction, v),
+              a * h * h - h * s.w * dot(c.direction, v)};
     }
     const Dyadic a = c.metric(e, e) - s.w * s.w * c.r2;
     Quadratic<Dyadic> f;
@@ -77,7 +78,8 @@ struct ExactFlight::Data {
     const Dyadic n = one_half() * omega * one_half() * omega;
     const Dyadic ev = s.w * c.metric(e, v), ew = omega * s.w * c.metric(e, jv);
     const Dyadic w2 = s.w * s.w, two(2);
-    Polynomial f{n * (n * h + ew + w2 * c.metric(jv, jv)), two * n * ev + omega * w2 * c.metric(v, jv),
+    Polynomial f{n * (n * h + ew + w2 * c.metric(jv, jv)),
+                 two * n * ev + omega * w2 * c.metric(v, jv),
                  two * n * h + ew + w2 * c.metric(v, v), two * ev, h};
     if (c.orientation > 0)
       for (Dyadic& q : f) q = -q;
@@ -88,7 +90,8 @@ struct ExactFlight::Data {
   }
 
   /// Sign of cross(b - a, x - a) at a crossing, for two exact points of the plane.
-  int side_of_chord(const View& s, const ExactPoint& a, const ExactPoint& b, const Crossing& k) const {
+  int side_of_chord(const View& s, const ExactPoint& a, const ExactPoint& b,
+                    const Crossing& k) const {
     const DyadicVector chord{b.x * a.w - a.x * b.w, b.y * a.w - a.y * b.w};
     const DyadicVector e{s.x * a.w - a.x * s.w, s.y * a.w - a.y * s.w};  // (P - a) s.w a.w
     const Dyadic f = s.w * a.w, h = one_half() * omega;
@@ -101,25 +104,27 @@ struct ExactFlight::Data {
     return side_of_chord(s, a, b, k) * c.orientation < 0;
   }
 
-  std::vector<Crossing> exits(int piece, Cell cell, bool starts_here, bool ends_here, bool start_at_joint,
-                              std::vector<int>* zero_joints) const;
+  std::vector<Crossing> exits(int piece, Cell cell, bool starts_here, bool ends_here,
+                              bool start_at_joint, std::vector<int>* zero_joints) const;
   std::vector<Crossing> touches(int piece, Cell cell) const;
-  bool segment_crossed_twice(const ExactCurve& c, const View& s, int side, const Quadratic<Dyadic>& f) const;
+  bool segment_crossed_twice(const ExactCurve& c, const View& s, int side,
+                             const Quadratic<Dyadic>& f) const;
   /// Is the foot of the Larmor circle's centre strictly between the ends of a segment?
   bool foot_between_ends(const ExactCurve& c, const View& s) const;
-  /// On which side of a piece's carrier the flight is just before and after it meets it at k (rational).
+  /// On which side of a piece's carrier the flight is just before and after it meets it at k
+  /// (rational).
   struct Around {
     int before, after;
     bool tangent;
   };
   Around around(int piece, Cell cell, const Crossing& k) const;
-  /// Does the flight, which passes through the start of a piece at k, come to it through the domain and not
-  /// merely touch?
+  /// Does the flight, which passes through the start of a piece at k, come to it through the domain
+  /// and not merely touch?
   bool hits_joint(int piece, Cell cell, const Crossing& k) const;
 };
 
-ExactFlight::ExactFlight(const ExactBoundary& boundary, int piece, double u, Vector point, Vector velocity,
-                         double omega)
+ExactFlight::ExactFlight(const ExactBoundary& boundary, int piece, double u, Vector point,
+                         Vector velocity, double omega)
     : data_(new Data{boundary.data(), {}, exact(velocity), Dyadic(omega)}) {
   if (piece >= 0) {
     data_->start = data_->curve(piece).point(u);
@@ -133,7 +138,8 @@ ExactFlight::ExactFlight(const ExactBoundary& boundary, int piece, double u, Vec
 }
 ExactFlight::~ExactFlight() = default;
 
-bool ExactFlight::Data::segment_crossed_twice(const ExactCurve& c, const View& s, int side_of_joints,
+bool ExactFlight::Data::segment_crossed_twice(const ExactCurve& c, const View& s,
+                                              int side_of_joints,
                                               const Quadratic<Dyadic>& f) const {
   // Both ends outside the Larmor circle, the foot of its centre between them, the line cut.
   if (omega.sign() == 0 || side_of_joints * omega.sign() < 0) return false;
@@ -149,8 +155,9 @@ bool ExactFlight::Data::foot_between_ends(const ExactCurve& c, const View& s) co
          (omega * dot(to, c.direction) + common).sign() * omega.sign() < 0;
 }
 
-std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts_here, bool ends_here,
-                                               bool start_at_joint, std::vector<int>* zero_joints) const {
+std::vector<Crossing> ExactFlight::Data::exits(int piece, Cell cell, bool starts_here,
+                                               bool ends_here, bool start_at_joint,
+                                               std::vector<int>* zero_joints) const {
   const ExactCurve& c = curve(piece);
   const View s = view(piece, cell);
   std::vector<Crossing> found;
@@ -261,18 +268,20 @@ bool ExactFlight::Data::hits_joint(int piece, Cell cell, const Crossing& k) cons
   if (turn < 0) return first.before > 0 || second.before > 0;
   if (dot(in, out).sign() < 0) return true;  // the tip of a cusp
   if (!second.tangent) return second.before > 0;
-  // Along the common tangent: it comes beside one wall and goes on beside the other, or through the joint.
+  // Along the common tangent: it comes beside one wall and goes on beside the other, or through the
+  // joint.
   const Dyadic h = one_half() * omega;
   const Dyadic cosine = k.p * k.p - h * h * k.r * k.r, sine = Dyadic(2) * k.p * k.r * h;
   const DyadicVector jv = right(v);  // the velocity there, times a positive factor:
   const DyadicVector w{cosine * v.x + sine * jv.x, cosine * v.y + sine * jv.y};
   const bool forwards = dot(w, out).sign() > 0;
-  const int comes = forwards ? first.before : second.before, goes = forwards ? second.after : first.after;
+  const int comes = forwards ? first.before : second.before,
+            goes = forwards ? second.after : first.after;
   return comes > 0 && goes <= 0;
 }
 
-ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell, int entry, int start,
-                                      int start_previous) const {
+ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell, int entry,
+                                      int start, int start_previous) const {
   const Data& d = *data_;
   const bool at_joint = start_previous >= 0;
   std::optional<Crossing> entered;
@@ -283,8 +292,8 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
   std::vector<int> zero_joints;
   for (const int piece : pieces) {
     const bool edge = d.boundary.pieces[static_cast<std::size_t>(piece)].edge;
-    std::vector<Crossing> exits =
-        d.exits(piece, cell, piece == start, piece == start_previous, at_joint, edge ? nullptr : &zero_joints);
+    std::vector<Crossing> exits = d.exits(piece, cell, piece == start, piece == start_previous,
+                                          at_joint, edge ? nullptr : &zero_joints);
     for (std::size_t i = 0; i < exits.size(); ++i) {
       if (edge && entered) {
         const int order = compare(exits[i], *entered);
@@ -292,8 +301,7 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
       }
       const int order = best_crossing ? compare(exits[i], *best_crossing) : 1;
       if (order < 0) continue;
-      const First candidate{First::Kind::exit, piece, static_cast<int>(i),
-                            approximate(exits[i])};
+      const First candidate{First::Kind::exit, piece, static_cast<int>(i), approximate(exits[i])};
       if (order == 0) {
         // Walls before edges; two walls at one point that is no joint are a cusp.
         const bool best_edge = d.boundary.pieces[static_cast<std::size_t>(best.piece)].edge;
@@ -340,10 +348,12 @@ ExactFlight::First ExactFlight::first(const std::vector<int>& pieces, Cell cell,
 
 Sign ExactFlight::side(int piece, double u, Cell cell) const {
   const ExactCurve& c = data_->curve(piece);
-  return static_cast<Sign>(data_->side(data_->view(piece, cell), u < 0 ? c.end_point() : c.point(u)));
+  return static_cast<Sign>(
+      data_->side(data_->view(piece, cell), u < 0 ? c.end_point() : c.point(u)));
 }
 
-bool ExactFlight::exit_within(int piece, int root, Cell cell, double from, double to, bool start) const {
+bool ExactFlight::exit_within(int piece, int root, Cell cell, double from, double to,
+                              bool start) const {
   const Data& d = *data_;
   const ExactCurve& c = d.curve(piece);
   const Data::View s = d.view(piece, cell);
@@ -370,7 +380,8 @@ bool ExactFlight::exit_within(int piece, int root, Cell cell, double from, doubl
   // A crossing exactly at `from` is inside, at `to` outside.
   const auto at = [&](const ExactPoint& p) {
     const DyadicVector offset = Data::offset(s, p).first;
-    if (dot(offset, offset).sign() == 0) return false;  // where the particle stands it does not arrive
+    if (dot(offset, offset).sign() == 0)
+      return false;  // where the particle stands it does not arrive
     if (d.side(s, p) != 0) return false;
     return compare(d.through(s, p), *k) == 0;
   };

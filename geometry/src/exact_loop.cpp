@@ -24,12 +24,14 @@ bool may_meet(const Rounded& origin, Vector d, const Box& box) {
   const double reach = std::fmax(std::fmax(std::fabs(box.low.x), std::fabs(box.high.x)),
                                  std::fmax(std::fabs(box.low.y), std::fabs(box.high.y)));
   const double size = std::fabs(d.x) + std::fabs(d.y);
-  // A difference of coordinates, a product and a sum: 4 roundings of 2^-53 of the numbers in them; 32 are
-  // taken.
+  // A difference of coordinates, a product and a sum: 4 roundings of 2^-53 of the numbers in them;
+  // 32 are taken.
   const double margin =
-      size * (0x1p-48 * (reach + std::fabs(origin.at.x) + std::fabs(origin.at.y)) + 2.0 * origin.error);
+      size *
+      (0x1p-48 * (reach + std::fabs(origin.at.x) + std::fabs(origin.at.y)) + 2.0 * origin.error);
   double low = HUGE_VAL, high = -HUGE_VAL, ahead = -HUGE_VAL;
-  for (const Vector corner : {box.low, box.high, {box.low.x, box.high.y}, {box.high.x, box.low.y}}) {
+  for (const Vector corner :
+       {box.low, box.high, {box.low.x, box.high.y}, {box.high.x, box.low.y}}) {
     const Vector e = corner - origin.at;
     low = std::fmin(low, cross(d, e));
     high = std::fmax(high, cross(d, e));
@@ -76,7 +78,8 @@ bool ExactLoop::on_boundary(const ExactPoint& point) const {
   const Rounded at = rounded(point);
   const Box box{{at.at.x - at.error, at.at.y - at.error}, {at.at.x + at.error, at.at.y + at.error}};
   for (std::size_t i = 0; i < size(); ++i)
-    if (overlap(box, boxes_[i]) && pieces_[i].side(point) == 0 && pieces_[i].where(point) != Where::outside)
+    if (overlap(box, boxes_[i]) && pieces_[i].side(point) == 0 &&
+        pieces_[i].where(point) != Where::outside)
       return true;
   return false;
 }
@@ -84,7 +87,8 @@ bool ExactLoop::on_boundary(const ExactPoint& point) const {
 namespace {
 
 /// 1, 0: the ray crosses the segment or not; -1: it passes through an end of it.
-int crosses_segment(const ExactCurve& c, const ExactPoint& origin, const DyadicVector& d, bool own) {
+int crosses_segment(const ExactCurve& c, const ExactPoint& origin, const DyadicVector& d,
+                    bool own) {
   const auto seen = [&](const DyadicVector& p) {
     return DyadicVector{p.x * origin.w - origin.x, p.y * origin.w - origin.y};
   };

@@ -132,7 +132,9 @@ Polynomial ExactPiece::equation(const Stretch& s) const {
               times(-c.r2, times(s.weight, s.weight)));
 }
 
-int ExactPiece::side(const ExactPoint& p) const { return equation({{p.x}, {p.y}, {p.w}})[0].sign(); }
+int ExactPiece::side(const ExactPoint& p) const {
+  return equation({{p.x}, {p.y}, {p.w}})[0].sign();
+}
 
 Where ExactPiece::where(const Spot& spot) const {
   return place_on(curve_, [&](const DyadicVector& a, const ExactPoint& p) {
@@ -142,7 +144,8 @@ Where ExactPiece::where(const Spot& spot) const {
 
 Where ExactPiece::where(const ExactPoint& point) const {
   return place_on(curve_, [&](const DyadicVector& a, const ExactPoint& p) {
-    return dot(a, DyadicVector{point.x * p.w - p.x * point.w, point.y * p.w - p.y * point.w}).sign();
+    return dot(a, DyadicVector{point.x * p.w - p.x * point.w, point.y * p.w - p.y * point.w})
+        .sign();
   });
 }
 

@@ -8,8 +8,8 @@
 
 namespace carom::geometry {
 
-/// The homogeneous point (x, y, weight)(w) of a stretch of the curve, w in [0, last]: a segment, or a
-/// quarter turn of a conic.
+/// The homogeneous point (x, y, weight)(w) of a stretch of the curve, w in [0, last]: a segment, or
+/// a quarter turn of a conic.
 struct Stretch {
   Polynomial x, y, weight;
 };
@@ -32,8 +32,8 @@ class ExactPiece {
   /// Parameter of the end, rounded.
   double end() const { return static_cast<double>(stretches_.size() - 1) + last_.get_d(); }
 
-  /// The implicit equation of the carrier along a stretch of another piece: identically zero exactly
-  /// when both have one carrier.
+  /// The implicit equation of the carrier along a stretch of another piece: identically zero
+  /// exactly when both have one carrier.
   Polynomial equation(const Stretch& other) const;
   /// The carrier's equation at a point.
   int side(const ExactPoint& point) const;

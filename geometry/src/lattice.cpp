@@ -19,7 +19,9 @@ using Fraction = BasicVector<mpq_class>;
 struct Member {
   Whole vector, coefficients;
   Member operator-() const { return {-vector, -coefficients}; }
-  Member operator+(const Member& o) const { return {vector + o.vector, coefficients + o.coefficients}; }
+  Member operator+(const Member& o) const {
+    return {vector + o.vector, coefficients + o.coefficients};
+  }
 };
 
 Cell cell_of(const Member& m) {
@@ -35,7 +37,8 @@ mpz_class nearest_integer(const mpq_class& q) {
   return result;
 }
 
-/// Lagrange and Gauss: afterwards 2 |a.b| <= a.a <= b.b. Turned so that a.b <= 0 and b is to the left.
+/// Lagrange and Gauss: afterwards 2 |a.b| <= a.a <= b.b. Turned so that a.b <= 0 and b is to the
+/// left.
 void reduce(Member& a, Member& b) {
   for (;;) {
     if (dot(a.vector, a.vector) > dot(b.vector, b.vector)) std::swap(a, b);
@@ -76,23 +79,29 @@ class Grid {
   }
   mpq_class scaled(double v) const {
     mpq_class q(v);
-    if (exponent_ < 0) mpq_mul_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<unsigned long>(-exponent_));
-    if (exponent_ > 0) mpq_div_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<unsigned long>(exponent_));
+    if (exponent_ < 0)
+      mpq_mul_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<unsigned long>(-exponent_));
+    if (exponent_ > 0)
+      mpq_div_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<unsigned long>(exponent_));
     return q;
   }
-  Whole round(Vector v) const { return {nearest_integer(scaled(v.x)), nearest_integer(scaled(v.y))}; }
+  Whole round(Vector v) const {
+    return {nearest_integer(scaled(v.x)), nearest_integer(scaled(v.y))};
+  }
   Vector position(const Whole& w) const { return {position(w.x), position(w.y)}; }
 
  private:
   double position(const mpz_class& w) const {
-    if (mpz_sizeinbase(w.get_mpz_t(), 2) > 53) throw std::invalid_argument("lattice cell beyond its grid");
+    if (mpz_sizeinbase(w.get_mpz_t(), 2) > 53)
+      throw std::invalid_argument("lattice cell beyond its grid");
     return std::ldexp(w.get_d(), exponent_);
   }
   int exponent_ = 0;
 };
 
-/// Corners of the hexagon of the neighbours a, a + b, b, -a, -a - b, -b. Opposite edges are translates
-/// by a neighbour, which leaves two corners free: the third and following are translates of these.
+/// Corners of the hexagon of the neighbours a, a + b, b, -a, -a - b, -b. Opposite edges are
+/// translates by a neighbour, which leaves two corners free: the third and following are translates
+/// of these.
 std::vector<Whole> hexagon(const Member& a, const Member& b, const Fraction& centre) {
   const Whole sum = a.vector + b.vector;
   const Whole first = corner(a.vector, sum, centre), second = corner(sum, b.vector, centre);
@@ -133,7 +142,8 @@ Lattice make_lattice(Vector first, Vector second, Vector centre) {
     corners = quadrilateral(a, b, middle);
     beyond = {b, -a, -b, a};
   }
-  if (!strictly_convex(corners)) throw std::invalid_argument("lattice vectors that are nearly parallel");
+  if (!strictly_convex(corners))
+    throw std::invalid_argument("lattice vectors that are nearly parallel");
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Segment edge{grid.position(corners[i]), grid.position(corners[(i + 1) % corners.size()])};
     lattice.edges.push_back({edge, cell_of(beyond[i])});

@@ -24,8 +24,9 @@ void overlapping_boxes(const std::vector<Box>& boxes, const Report& report) {
   };
   std::vector<std::size_t> order(boxes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t j) { return low(i) < low(j) || (low(i) == low(j) && i < j); });
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return low(i) < low(j) || (low(i) == low(j) && i < j);
+  });
   for (std::size_t m = 0; m < order.size(); ++m)
     for (std::size_t n = m + 1; n < order.size() && low(order[n]) <= high(order[m]); ++n)
       if (beside(order[m], order[n]) && !report(order[m], order[n])) return;

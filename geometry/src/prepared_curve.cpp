@@ -23,15 +23,17 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   to = rounded(exact_curve.to);
   parametrisation = frame_of(curve);
   const Box box = bounding_box(curve);
-  extent = std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)});
+  extent = std::max(
+      {std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)});
   if (exact_curve.segment) {
     kind = CurveKind::segment;
     direction = rounded(exact_curve.direction);
     length = std::sqrt(dot(direction, direction));
     inverse_length = 1.0 / length;
     tangent = {direction.x / length, direction.y / length};
-    // settle: x - from (u), the normal (4u), product and sum (2u) of a length <= 2.83 extent, the last sum: 21u of the extent;
-    // parameter and point: as much along the wall, and the product with the direction (5u) and its sum.
+    // settle: x - from (u), the normal (4u), product and sum (2u) of a length <= 2.83 extent, the
+    // last sum: 21u of the extent; parameter and point: as much along the wall, and the product
+    // with the direction (5u) and its sum.
     point_error = 64.0 * unit_roundoff * extent;
     normal_error = 4.0 * unit_roundoff;
     normal_bound = 1.42 * normal_error;  // of a unit vector
@@ -64,17 +66,19 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
   const Vector a = parametrisation.a, b = parametrisation.b;
   const auto norm_1 = [](Vector v) { return std::fabs(v.x) + std::fabs(v.y); };
   parameter_stretch = norm_1(parametrisation.along) + norm_1(parametrisation.across);
-  // In the plane of the unit circle (X, Y): a coordinate moves by at most `row` times a displacement in the
-  // table's plane, which moves by at most `size` times an angle. Half the angle's tangent w = Y/(1 + X) turns
-  // a displacement D of (X, Y) into an angle of at most sqrt(2)|D|, so twice its larger coordinate.
+  // In the plane of the unit circle (X, Y): a coordinate moves by at most `row` times a
+  // displacement in the table's plane, which moves by at most `size` times an angle. Half the
+  // angle's tangent w = Y/(1 + X) turns a displacement D of (X, Y) into an angle of at most
+  // sqrt(2)|D|, so twice its larger coordinate.
   constexpr double u = unit_roundoff;
   const double size = std::max(std::fabs(a.x) + std::fabs(b.x), std::fabs(a.y) + std::fabs(b.y));
-  const double row = std::max(norm_1(parametrisation.along), norm_1(parametrisation.across)), k = row * size;
-  // A settled point misses the curve by the centre's error, its last sum and e = x - centre: `placed`; and
-  // along e by the rounding of its squared length, circle: below 10u of the square, 5u of the length (r2 2u, weight u,
-  // products, difference); ellipse: each axis times e 5u 2k, half of the squares' sum: below 18u k + 3u.
-  // X and Y of the point: its difference from the origin, row, product, sum: 4u of 2k, and u.
-  // w and u below 4: 5u, an angle of 10u.
+  const double row = std::max(norm_1(parametrisation.along), norm_1(parametrisation.across)),
+               k = row * size;
+  // A settled point misses the curve by the centre's error, its last sum and e = x - centre:
+  // `placed`; and along e by the rounding of its squared length, circle: below 10u of the square,
+  // 5u of the length (r2 2u, weight u, products, difference); ellipse: each axis times e 5u 2k,
+  // half of the squares' sum: below 18u k + 3u. X and Y of the point: its difference from the
+  // origin, row, product, sum: 4u of 2k, and u. w and u below 4: 5u, an angle of 10u.
   const double placed = centre_error + u * (extent + 2.0 * size);
   if (kind == CurveKind::circle) {
     point_error = (1.0 + 2.0 * k) * placed + u * size * (16.0 * k + 40.0);
@@ -83,8 +87,8 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     normal_bound = normal_error * 1.43 * std::sqrt(r2);
   } else {
     point_error = (1.0 + 2.0 * k) * placed + u * size * (61.0 * k + 20.0);
-    // The gradient is the transposed map of (X, Y): relative to its length an error of (X, Y) grows by at most
-    // 2 row times sqrt(2) size; its own products add 12u k + 6u.
+    // The gradient is the transposed map of (X, Y): relative to its length an error of (X, Y) grows
+    // by at most 2 row times sqrt(2) size; its own products add 12u k + 6u.
     normal_error = 2.85 * k * (2.0 * row * placed + u * (28.0 * k + 18.0));
     // The gradient has the rows as weights of X and Y, which lie on the unit circle.
     normal_bound = normal_error * 1.01 * (norm_1(first_axis) + norm_1(second_axis));

@@ -48,19 +48,22 @@ double value_at(const Bernstein& p, int degree, double t, double& error) {
     for (int i = 0; i < k; ++i) {
       // 1 - t is rounded once, two products, one sum.
       const double x = (1.0 - t) * b[i], y = t * b[i + 1];
-      e[i] = (1.0 - t) * e[i] + t * e[i + 1] + 3.1 * u * (std::fabs(x) + std::fabs(y)) + 3.1 * u * (e[i] + e[i + 1]);
+      e[i] = (1.0 - t) * e[i] + t * e[i + 1] + 3.1 * u * (std::fabs(x) + std::fabs(y)) +
+             3.1 * u * (e[i] + e[i + 1]);
       b[i] = x + y;
     }
   error = e[0];
   return b[0];
 }
 
-/// The one root of p in (0, 1), at whose ends p has opposite certain signs: t and an interval about it.
+/// The one root of p in (0, 1), at whose ends p has opposite certain signs: t and an interval about
+/// it.
 bool refine(const Bernstein& p, int degree, double& t, double& low, double& high) {
   double l = 0.0, h = 1.0, error = 0.0;
   const bool rises = p.b[0] < 0.0;
   t = p.b[0] / (p.b[0] - p.b[degree]);
-  // Newton, guarded by the bracket. What is less than its error is still nearly right: one step more.
+  // Newton, guarded by the bracket. What is less than its error is still nearly right: one step
+  // more.
   double last = 1.0;
   bool closing = false;
   for (int i = 0; i < 100 && !closing; ++i) {
@@ -103,16 +106,17 @@ bool refine(const Bernstein& p, int degree, double& t, double& low, double& high
 
 /// One of the four parts of the line: kappa = to_kappa(t) on t in [0, 1].
 struct Part {
-  bool outer;     // kappa = sigma K / t, else sigma K t
+  bool outer;  // kappa = sigma K / t, else sigma K t
   double sigma;
   double scale;
   double passed;  // nobody asks for t below
   double kappa(double t) const { return outer ? sigma * (scale / t) : sigma * (scale * t); }
 };
 
-/// Reports the roots of p on (0, 1) mapped to [from, to] of the part, in the order of falling kappa.
-bool isolate(const Bernstein& p, int degree, double from, double to, const Part& part, bool ascending, int depth,
-             RisingRoots& out, int most) {
+/// Reports the roots of p on (0, 1) mapped to [from, to] of the part, in the order of falling
+/// kappa.
+bool isolate(const Bernstein& p, int degree, double from, double to, const Part& part,
+             bool ascending, int depth, RisingRoots& out, int most) {
   if (out.count >= most || to <= part.passed) return true;
   // An end among what nobody asks for need not be certain: until it is cut off.
   const bool cut = from < part.passed && sign_of(p.b[0], p.e[0]) == 2;
@@ -151,7 +155,8 @@ bool isolate(const Bernstein& p, int degree, double from, double to, const Part&
     const double k1 = part.kappa(from + width * l), k2 = part.kappa(from + width * h);
     CertifiedRoot& r = out.roots[out.count++];
     r.kappa = k;
-    r.error = std::fmax(std::fabs(k1 - k), std::fabs(k2 - k)) + 6.1 * u * (std::fabs(k1) + std::fabs(k2));
+    r.error =
+        std::fmax(std::fabs(k1 - k), std::fabs(k2 - k)) + 6.1 * u * (std::fabs(k1) + std::fabs(k2));
     return true;
   }
   if (depth == 0) return false;
@@ -174,8 +179,8 @@ bool isolate(const Bernstein& p, int degree, double from, double to, const Part&
          isolate(first, degree, from, middle, part, ascending, depth - 1, out, most);
 }
 
-RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most,
-                           double farthest) {
+RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, int degree,
+                           double scale, int most, double farthest) {
   RisingRoots out;
   // kappa = K x: coefficients and errors of the polynomial in x.
   double c[5], e[5];
@@ -213,7 +218,8 @@ struct Taylor {
 };
 Taylor cubic_at(const Quartic<double>& f, const QuarticError& error, double x) {
   Taylor t;
-  double v = 0.0, d = 0.0, s = 0.0;  // the same of the coefficients' errors, those of 3 roundings a step included
+  double v = 0.0, d = 0.0,
+         s = 0.0;  // the same of the coefficients' errors, those of 3 roundings a step included
   const double size = std::fabs(x);
   for (int i = 3; i >= 0; --i) {
     t.second = t.second * x + t.first;
@@ -229,15 +235,19 @@ Taylor cubic_at(const Quartic<double>& f, const QuarticError& error, double x) {
   return t;
 }
 
-/// Is x certain to be the largest root of a cubic? It is if f < 0 closely below, and closely above f > 0, f' > 0, and
-/// f' + f'' s/2 + q3 s^2, by which it grows from there, has no root s > 0.
-bool is_largest(const Quartic<double>& f, const QuarticError& error, double x, CertifiedRoot& root) {
+/// Is x certain to be the largest root of a cubic? It is if f < 0 closely below, and closely above
+/// f > 0, f' > 0, and f' + f'' s/2 + q3 s^2, by which it grows from there, has no root s > 0.
+bool is_largest(const Quartic<double>& f, const QuarticError& error, double x,
+                CertifiedRoot& root) {
   const Taylor at = cubic_at(f, error, x);
-  const double width = 2.0 * (std::fabs(at.value) + at.value_error) / at.first + 8.0 * u * std::fabs(x);
+  const double width =
+      2.0 * (std::fabs(at.value) + at.value_error) / at.first + 8.0 * u * std::fabs(x);
   if (!(at.first > at.first_error) || !(width < HUGE_VAL)) return false;
   const Taylor below = cubic_at(f, error, x - width), above = cubic_at(f, error, x + width);
   const double lead = f.q[3] - error.q[3], rise = above.first - above.first_error;
-  if (!(below.value < -below.value_error && above.value > above.value_error && rise > 0.0 && lead > 0.0)) return false;
+  if (!(below.value < -below.value_error && above.value > above.value_error && rise > 0.0 &&
+        lead > 0.0))
+    return false;
   const double bend = above.second_error - above.second;  // bounds how far it bends down
   if (!(bend < 0.0) && !(bend * bend < 3.99 * lead * rise)) return false;
   root = {x, 1.01 * width};
@@ -247,11 +257,12 @@ bool is_largest(const Quartic<double>& f, const QuarticError& error, double x, C
 }  // namespace
 
 double likely_root(const Quartic<double>& f, int degree) {
-  return degree == 3 ? largest_root(f.q[3], f.q[2], f.q[1], f.q[0], RoughCubeRoot{}) : first_rising_root(f, RoughCubeRoot{});
+  return degree == 3 ? largest_root(f.q[3], f.q[2], f.q[1], f.q[0], RoughCubeRoot{})
+                     : first_rising_root(f, RoughCubeRoot{});
 }
 
-RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree, double scale, int most,
-                         double farthest) {
+RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, int degree,
+                         double scale, int most, double farthest) {
   const double likely = likely_root(f, f.q[4] == 0.0 ? 3 : degree);
   RisingRoots out;
   if (degree == 3 && most == 1 && is_largest(f, error, likely, out.roots[0])) {
@@ -271,7 +282,8 @@ RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, in
   return out;
 }
 
-QuarticError quartic_error(const FlightScale& f, double e1, double centre_error, double row, bool stands) {
+QuarticError quartic_error(const FlightScale& f, double e1, double centre_error, double row,
+                           bool stands) {
   const double eta = row * (f.delta + centre_error + 7.1 * u * e1);
   const double m = 2.01 * row * e1, n1 = 2.01 * row * f.speed_1;
   const double nu = 6.1 * u * row * f.speed_1;
@@ -281,7 +293,8 @@ QuarticError quartic_error(const FlightScale& f, double e1, double centre_error,
   const double vv = 2.01 * n1 * nu + 2.01 * nu * nu + 2.1 * u * n1 * n1;
   const double n = 0.2501 * f.omega * f.omega;
   const double me = m * n1, mv = n1 * n1;
-  const double constant = n * (h + 5.1 * u * h_size) + f.omega * (ev + 3.1 * u * me) + vv + 3.1 * u * mv;
+  const double constant =
+      n * (h + 5.1 * u * h_size) + f.omega * (ev + 3.1 * u * me) + vv + 3.1 * u * mv;
   QuarticError q;
   q.q[4] = h;
   q.q[3] = 2.0 * ev;

@@ -74,9 +74,9 @@ class Check {
 
   Vector translation(std::size_t copy) const { return displacement(*lattice_, copies_[copy]); }
 
-  /// Half of the cells that could bring something of the whole onto itself: c and -c tell the same. Obstacles that
-  /// are wide for their cell meet the nearest copies, too: these are asked first, so that the others need not be
-  /// counted one by one.
+  /// Half of the cells that could bring something of the whole onto itself: c and -c tell the same.
+  /// Obstacles that are wide for their cell meet the nearest copies, too: these are asked first, so
+  /// that the others need not be counted one by one.
   void find_copies() {
     std::size_t pieces = 0;
     for (const Loop& loop : loops_) pieces += loop.size();
@@ -116,7 +116,9 @@ class Check {
   }
 
   const std::string& name(const Item& i) const { return loops_[i.loop][i.piece].name; }
-  bool is_disc(const Item& i) const { return std::holds_alternative<Circle>(loops_[i.loop][i.piece].curve); }
+  bool is_disc(const Item& i) const {
+    return std::holds_alternative<Circle>(loops_[i.loop][i.piece].curve);
+  }
   bool is_obstacle(const Item& i) const {
     const auto* circle = std::get_if<Circle>(&loops_[i.loop][i.piece].curve);
     return kind_ != RegionKind::bounded || (circle && !circle->counterclockwise);
@@ -129,8 +131,8 @@ class Check {
   }
   void meet(const Item& a, const Item& b, const std::string& verb, Vector place) {
     faults_.add(Kind::crossing, name(a), name(b), place,
-                (is_disc(a) && is_disc(b) ? "discs " : "walls ") + quoted(a) + " and " + quoted(b) + " " +
-                    verb + " near " + place_text(place));
+                (is_disc(a) && is_disc(b) ? "discs " : "walls ") + quoted(a) + " and " + quoted(b) +
+                    " " + verb + " near " + place_text(place));
   }
 
   void meetings() {
@@ -140,7 +142,8 @@ class Check {
       if (std::tie(b.copy, b.loop, b.piece) < std::tie(a.copy, a.loop, a.piece)) std::swap(a, b);
       if (is_disc(a) && is_disc(b)) {
         discs(a, b);
-      } else if (b.copy != 0 || !segments_apart(loops_[a.loop][a.piece].curve, loops_[b.loop][b.piece].curve)) {
+      } else if (b.copy != 0 ||
+                 !segments_apart(loops_[a.loop][a.piece].curve, loops_[b.loop][b.piece].curve)) {
         pieces(a, b);
       }
       return !faults_.full();
@@ -158,8 +161,9 @@ class Check {
     const double distance = std::sqrt(dot(between, between));
     // Where the common chord cuts the line of the centres, and half of that chord.
     const double r = first.radius;
-    const double share =
-        distance > 0.0 ? 0.5 + 0.5 * (r - second.radius) * (r + second.radius) / (distance * distance) : 0.0;
+    const double share = distance > 0.0 ? 0.5 + 0.5 * (r - second.radius) * (r + second.radius) /
+                                                    (distance * distance)
+                                        : 0.0;
     const double squared = r * r - share * distance * (share * distance);
     const double half = squared > 0.0 ? std::sqrt(squared) / distance : 0.0;
     const Vector chord = first.centre + share * between;
@@ -171,7 +175,8 @@ class Check {
       }
     }
     if (how == Discs::equal) meet(a, b, "run along each other", start_point(first));
-    if ((how == Discs::nested || how == Discs::touching_nested) && is_obstacle(a) && is_obstacle(b)) {
+    if ((how == Discs::nested || how == Discs::touching_nested) && is_obstacle(a) &&
+        is_obstacle(b)) {
       const bool second_inside = first.radius > second.radius;
       const Item &inner = second_inside ? b : a, &outer = second_inside ? a : b;
       faults_.add(Kind::nesting, name(inner), name(outer), second_inside ? there : first.centre,
@@ -190,8 +195,8 @@ class Check {
       } else if (c.kind == Contact::Kind::touch) {
         if (same_loop) meet(a, b, "of one loop touch", c.place);
       } else if (c.on_first != Where::end && c.on_second != Where::end) {
-        // A joint belongs to the wall that begins there, so the joint that neighbours share has been
-        // passed over: one of them ends in it.
+        // A joint belongs to the wall that begins there, so the joint that neighbours share has
+        // been passed over: one of them ends in it.
         if (same_loop) {
           meet(a, b, "of one loop meet", c.place);
         } else {
@@ -211,7 +216,8 @@ class Check {
       const ExactCurve& in = on == Where::start ? loop.piece(loop.previous(piece)).curve() : out;
       return rays_at(in, out, {at.x, at.y, Dyadic(1)});
     };
-    const Sign passes = pass_through(rays(first, a.piece, c.on_first), rays(second, b.piece, c.on_second));
+    const Sign passes =
+        pass_through(rays(first, a.piece, c.on_first), rays(second, b.piece, c.on_second));
     if (passes == Sign::positive) meet(a, b, "cross", c.place);
     if (passes == Sign::zero) meet(a, b, "touch with the same tangent and curvature", c.place);
   }
@@ -234,7 +240,8 @@ class Check {
     };
     for (std::size_t l = 0; l < loops_.size(); ++l) {
       if (!counterclockwise(l)) continue;
-      if (kind_ == RegionKind::bounded && (!outer_ || extent_of(l) > extent_of(*outer_))) outer_ = l;
+      if (kind_ == RegionKind::bounded && (!outer_ || extent_of(l) > extent_of(*outer_)))
+        outer_ = l;
       turning_left_.push_back(l);
     }
     if (kind_ == RegionKind::bounded && !outer_) {
@@ -246,16 +253,18 @@ class Check {
         return;
       }
       const NamedCurve& c = loops_[widest][0];
-      faults_.add(Kind::orientation, c.name, "", start_point(c.curve),
-                  "the outer loop " + loop_text(widest) +
-                      " runs clockwise: it must run counter-clockwise, with the domain on its left");
+      faults_.add(
+          Kind::orientation, c.name, "", start_point(c.curve),
+          "the outer loop " + loop_text(widest) +
+              " runs clockwise: it must run counter-clockwise, with the domain on its left");
     }
     for (const std::size_t l : turning_left_) {
       if (outer_ && l == *outer_) continue;
       const NamedCurve& c = loops_[l][0];
       faults_.add(Kind::orientation, c.name, "", start_point(c.curve),
                   "the obstacle " + loop_text(l) +
-                      " runs counter-clockwise: an obstacle must run clockwise, with the domain on its left");
+                      " runs counter-clockwise: an obstacle must run clockwise, with the domain on "
+                      "its left");
     }
   }
 
@@ -293,7 +302,8 @@ class Check {
       return !faults_.full();
     });
     // Obstacles wider than the cell could also hold copies of others.
-    for (std::size_t copy = 1; copy < copies_.size() && !faults_.full(); ++copy) copies_inside(copy);
+    for (std::size_t copy = 1; copy < copies_.size() && !faults_.full(); ++copy)
+      copies_inside(copy);
   }
 
   void copies_inside(std::size_t copy) {
@@ -316,9 +326,9 @@ class Check {
     if (!within(loop_boxes_[inner], moved(loop_boxes_[outer], by))) return;
     if (!lies_inside(inner, ExactLoop(loops_[outer], exact_by))) return;
     const NamedCurve& c = loops_[inner][0];
-    faults_.add(
-        Kind::nesting, c.name, loops_[outer][0].name, start_point(c.curve),
-        "the obstacle " + loop_text(inner) + " lies inside a copy of the obstacle " + loop_text(outer));
+    faults_.add(Kind::nesting, c.name, loops_[outer][0].name, start_point(c.curve),
+                "the obstacle " + loop_text(inner) + " lies inside a copy of the obstacle " +
+                    loop_text(outer));
   }
 
   const std::vector<Loop>& loops_;

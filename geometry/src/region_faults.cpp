@@ -15,12 +15,16 @@ using Kind = RegionFault::Kind;
 struct Finite {
   static bool all(auto... v) { return (std::isfinite(v) && ...); }
   bool operator()(const Segment& s) const { return all(s.from.x, s.from.y, s.to.x, s.to.y); }
-  bool operator()(const CircularArc& a) const { return all(a.from.x, a.from.y, a.to.x, a.to.y, a.offset); }
+  bool operator()(const CircularArc& a) const {
+    return all(a.from.x, a.from.y, a.to.x, a.to.y, a.offset);
+  }
   bool operator()(const Circle& c) const { return all(c.centre.x, c.centre.y, c.radius); }
   bool operator()(const EllipticArc& a) const {
     return all(a.from.x, a.from.y, a.to.x, a.to.y, a.axis.x, a.axis.y, a.ratio, a.offset);
   }
-  bool operator()(const Ellipse& e) const { return all(e.centre.x, e.centre.y, e.axis.x, e.axis.y, e.ratio); }
+  bool operator()(const Ellipse& e) const {
+    return all(e.centre.x, e.centre.y, e.axis.x, e.axis.y, e.ratio);
+  }
 };
 
 }  // namespace
@@ -34,13 +38,15 @@ std::string place_text(Vector place, int digits) {
 void check_extent(const Loop& loop, RegionFaults& faults) {
   for (const NamedCurve& c : loop) {
     if (!std::visit(Finite{}, c.curve)) {
-      faults.add(Kind::no_extent, c.name, "", {}, "wall '" + c.name + "' has a number that is not finite");
+      faults.add(Kind::no_extent, c.name, "", {},
+                 "wall '" + c.name + "' has a number that is not finite");
       continue;
     }
     try {
       frame_of(c.curve);
     } catch (const std::invalid_argument& e) {
-      faults.add(Kind::no_extent, c.name, "", start_point(c.curve), "wall '" + c.name + "': " + e.what());
+      faults.add(Kind::no_extent, c.name, "", start_point(c.curve),
+                 "wall '" + c.name + "': " + e.what());
     }
   }
 }
@@ -58,8 +64,8 @@ void check_closed(const Loop& loop, RegionFaults& faults) {
       // As many digits as it takes to see the difference.
       const int digits = place_text(end) != place_text(start) ? 4 : 17;
       faults.add(Kind::open_loop, c.name, next.name, end,
-                 "the loop is open: wall '" + c.name + "' ends at " + place_text(end, digits) + ", but '" +
-                     next.name + "' starts at " + place_text(start, digits));
+                 "the loop is open: wall '" + c.name + "' ends at " + place_text(end, digits) +
+                     ", but '" + next.name + "' starts at " + place_text(start, digits));
     }
   }
 }

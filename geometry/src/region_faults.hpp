@@ -13,14 +13,15 @@ namespace carom::geometry {
 class RegionFaults {
  public:
   explicit RegionFaults(std::size_t limit) : limit_(limit) {}
-  void add(RegionFault::Kind kind, const std::string& first, const std::string& second, Vector place,
-           const std::string& sentence) {
+  void add(RegionFault::Kind kind, const std::string& first, const std::string& second,
+           Vector place, const std::string& sentence) {
     if (!full()) list_.push_back({kind, first, second, place, sentence});
   }
   bool none() const { return list_.empty(); }
   bool full() const { return list_.size() >= limit_; }
   bool any(RegionFault::Kind kind) const {
-    return std::any_of(list_.begin(), list_.end(), [&](const RegionFault& f) { return f.kind == kind; });
+    return std::any_of(list_.begin(), list_.end(),
+                       [&](const RegionFault& f) { return f.kind == kind; });
   }
   std::vector<RegionFault> take() { return std::move(list_); }
 

@@ -16,7 +16,8 @@ Vector turned(Vector v, double angle) {
 
 }  // namespace
 
-bool ErrorEdges::begin(const Particle& particle, const State& start, const Deviation& d, Flight& flight) {
+bool ErrorEdges::begin(const Particle& particle, const State& start, const Deviation& d,
+                       Flight& flight) {
   flight.omega = particle.omega;
   flight.square_speed = particle.speed * particle.speed;
   const Vector v = start.velocity;
@@ -35,18 +36,20 @@ bool ErrorEdges::begin(const Particle& particle, const State& start, const Devia
   if (!wall.closed && !(u > geometry::first_parameter && u < wall.last())) return false;
   const auto [point, normal_there, square, k] = wall.frame(u);
   const Vector velocity = turned(v, dot(at.angle, d));
-  if (finder_.inward(start.wall, u, velocity, normal_there, counts_) != Sign::positive) return false;
+  if (finder_.inward(start.wall, u, velocity, normal_there, counts_) != Sign::positive)
+    return false;
   finder_.begin_on_wall(flight, start.wall, u, point, velocity);
   return true;
 }
 
-bool ErrorEdges::land(const Particle& particle, const State& start, const Deviation& d, double latest,
-                      HitFinder::Landing& landing) {
+bool ErrorEdges::land(const Particle& particle, const State& start, const Deviation& d,
+                      double latest, HitFinder::Landing& landing) {
   Flight flight;
   if (!begin(particle, start, d, flight)) return false;
   Ahead ahead;
   // In a corridor of a lattice it might fly for ever.
-  for (finder_.next(flight, ahead, counts_); ahead.kind == Ahead::Kind::edge && ahead.duration <= latest;
+  for (finder_.next(flight, ahead, counts_);
+       ahead.kind == Ahead::Kind::edge && ahead.duration <= latest;
        finder_.next(flight, ahead, counts_))
     finder_.cross(flight, ahead);
   if (ahead.kind != Ahead::Kind::wall || !(ahead.duration <= latest)) return false;
@@ -58,14 +61,15 @@ bool ErrorEdges::same_arrival(const Particle& particle, const State& start, cons
                               const Arrival& arrival, double farthest, double latest) {
   HitFinder::Landing landing;
   if (!land(particle, start, d, latest, landing)) return false;
-  const geometry::Cell cell{start.cell.first + landing.cell.first, start.cell.second + landing.cell.second};
+  const geometry::Cell cell{start.cell.first + landing.cell.first,
+                            start.cell.second + landing.cell.second};
   const Vector away = landing.at.point - arrival.position;
   return landing.wall == arrival.wall && cell == arrival.cell && landing.hole < 0 &&
          dot(away, away) <= farthest * farthest;
 }
 
-bool ErrorEdges::same_hole(const Particle& particle, const State& start, const Deviation& d, int hole,
-                           double latest) {
+bool ErrorEdges::same_hole(const Particle& particle, const State& start, const Deviation& d,
+                           int hole, double latest) {
   HitFinder::Landing landing;
   return land(particle, start, d, latest, landing) && landing.hole == hole;
 }

@@ -1,5 +1,5 @@
-// The two edges of a beam of orbits: what the engine does with them tells whether an error can change a
-// decision.
+// The two edges of a beam of orbits: what the engine does with them tells whether an error can
+// change a decision.
 #pragma once
 
 #include "carom/events/decisions.hpp"
@@ -21,10 +21,10 @@ class ErrorEdges {
     geometry::Vector position;
   };
 
-  /// Does the orbit that deviates by d from `start` arrive at the same copy of the same wall, not farther
-  /// than `farthest` from there, beside its holes, and after at most `latest`?
-  bool same_arrival(const Particle&, const State& start, const Deviation& d, const Arrival&, double farthest,
-                    double latest);
+  /// Does the orbit that deviates by d from `start` arrive at the same copy of the same wall, not
+  /// farther than `farthest` from there, beside its holes, and after at most `latest`?
+  bool same_arrival(const Particle&, const State& start, const Deviation& d, const Arrival&,
+                    double farthest, double latest);
   /// Does it leave through that hole?
   bool same_hole(const Particle&, const State& start, const Deviation& d, int hole, double latest);
 

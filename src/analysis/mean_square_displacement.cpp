@@ -19,7 +19,8 @@ struct Line {
 };
 
 // Weighted least squares about the weighted means, which keeps the digits.
-Line line_through(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& w) {
+Line line_through(const std::vector<double>& x, const std::vector<double>& y,
+                  const std::vector<double>& w) {
   double sum = 0, mean_x = 0, mean_y = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     sum += w[i];
@@ -37,13 +38,14 @@ Line line_through(const std::vector<double>& x, const std::vector<double>& y, co
   return {slope, mean_y - slope * mean_x};
 }
 
-// Exponent a of the best y = A t^a + c: for each a the best A and c are a line in t^a. NaN where the best lies at the
-// edge of what is searched: then this form does not describe the points.
+// Exponent a of the best y = A t^a + c: for each a the best A and c are a line in t^a. NaN where
+// the best lies at the edge of what is searched: then this form does not describe the points.
 double exponent_beyond_offset(const std::vector<double>& log_t, const std::vector<double>& y,
                               const std::vector<double>& w) {
   std::vector<double> power(log_t.size());
   const auto misfit = [&](double a) {
-    for (std::size_t i = 0; i < power.size(); ++i) power[i] = elementary::exp(a * (log_t[i] - log_t.back()));
+    for (std::size_t i = 0; i < power.size(); ++i)
+      power[i] = elementary::exp(a * (log_t[i] - log_t.back()));
     const Line line = line_through(power, y, w);
     double sum = 0;
     for (std::size_t i = 0; i < power.size(); ++i) {
@@ -152,13 +154,14 @@ std::vector<MomentPoint> DisplacementMoments::points() const {
     MomentPoint point;
     point.t = times_[k];
     point.count = counts_[k];
-    // The exact variance of the squares is at hand; that of the fourth powers is not. It makes an error where
-    // all that was summed is independent, which particles of one trajectory are not.
+    // The exact variance of the squares is at hand; that of the fourth powers is not. It makes an
+    // error where all that was summed is independent, which particles of one trajectory are not.
     const auto count = static_cast<double>(counts_[k]);
     const double square = whole_.square[k], fourth = whole_.fourth[k];
     const double variance = std::max(0.0, fourth - square * square);
     point.square.value = square;
-    point.square.error = particles_ > 1    ? error_of([k](const Means& m) { return m.square[k]; }, square)
+    point.square.error = particles_ > 1
+                             ? error_of([k](const Means& m) { return m.square[k]; }, square)
                          : counts_[k] > 1 ? std::sqrt(variance / (count - 1))
                                           : nan;
     point.fourth = {fourth, error_of([k](const Means& m) { return m.fourth[k]; }, fourth)};
@@ -166,7 +169,9 @@ std::vector<MomentPoint> DisplacementMoments::points() const {
     point.exponent = {nan, nan};
     if (k > 0 && times_[k - 1] > 0) {
       const double step = elementary::log(times_[k] / times_[k - 1]);
-      const auto exponent = [k, step](const Means& m) { return elementary::log(m.square[k] / m.square[k - 1]) / step; };
+      const auto exponent = [k, step](const Means& m) {
+        return elementary::log(m.square[k] / m.square[k - 1]) / step;
+      };
       point.middle = std::sqrt(times_[k - 1]) * std::sqrt(times_[k]);
       point.exponent.value = exponent(whole_);
       point.exponent.error = error_of(exponent, point.exponent.value);
@@ -227,7 +232,8 @@ std::optional<DiffusionFit> DisplacementMoments::fit(const TimeWindow& window) c
   const Line whole = line(whole_);
   const auto coefficient = [&](const Means& m) { return line(m).slope / 4; };
   fit.D = {whole.slope / 4, error_of(coefficient, whole.slope / 4)};
-  fit.offset = {whole.offset, error_of([&](const Means& m) { return line(m).offset; }, whole.offset)};
+  fit.offset = {whole.offset,
+                error_of([&](const Means& m) { return line(m).offset; }, whole.offset)};
   fit.local_exponent.value = local_exponent(whole_);
   fit.local_exponent.error = error_of(local_exponent, fit.local_exponent.value);
   fit.exponent = {nan, nan};

@@ -9,10 +9,11 @@ namespace carom {
 
 namespace {
 
-constexpr double four_in_five = 0.8416212335729143, both_sides = 1.959963984540054;  // normal quantiles
+constexpr double four_in_five = 0.8416212335729143,
+                 both_sides = 1.959963984540054;  // normal quantiles
 
-// The bias, in pairs, beside n pairs that disagree by chance: it lies `threshold` and some more of its own errors from
-// zero, and its pairs disagree too.
+// The bias, in pairs, beside n pairs that disagree by chance: it lies `threshold` and some more of
+// its own errors from zero, and its pairs disagree too.
 double found_in_four_of_five(double n, double threshold) {
   const double k = std::max(threshold, both_sides) + four_in_five;
   return 0.5 * (k * k + std::sqrt(k * k * (k * k + 4.0 * n)));
@@ -45,7 +46,8 @@ void PairedSurvival::add(const PairedEnd& first, const PairedEnd& second) {
     ++other_time_;
   // Who is gone exactly at t is gone.
   const auto index = [&](double t) {
-    return static_cast<std::uint32_t>(std::lower_bound(times_.begin(), times_.end(), t) - times_.begin());
+    return static_cast<std::uint32_t>(std::lower_bound(times_.begin(), times_.end(), t) -
+                                      times_.begin());
   };
   const std::uint32_t a = index(first.time), b = index(second.time);
   ++gone_first_[a];
@@ -62,9 +64,12 @@ PairedResult PairedSurvival::result(std::uint64_t seed, std::uint64_t swaps) con
   r.swaps = swaps;
   if (pairs_ == 0) return r;
   const double all = static_cast<double>(pairs_);
-  std::vector<std::int64_t> difference(times_.size() + 1), number(times_.size() + 1), swapped(times_.size() + 1);
-  sum_signs(disagreements_, [](const Disagreement& d) { return d.first ? 1 : -1; }, difference);
-  sum_signs(disagreements_, [](const Disagreement&) { return 1; }, number);
+  std::vector<std::int64_t> difference(times_.size() + 1), number(times_.size() + 1),
+      swapped(times_.size() + 1);
+  sum_signs(
+      disagreements_, [](const Disagreement& d) { return d.first ? 1 : -1; }, difference);
+  sum_signs(
+      disagreements_, [](const Disagreement&) { return 1; }, number);
 
   // The spread of a difference under swaps is the root of the number that can be swapped.
   std::vector<double> weight;
@@ -98,7 +103,8 @@ PairedResult PairedSurvival::result(std::uint64_t seed, std::uint64_t swaps) con
   r.p_value = static_cast<double>(1 + as_large) / static_cast<double>(1 + swaps);
   std::sort(most.begin(), most.end());
   if (!most.empty())
-    r.threshold = most[std::min(most.size() - 1, static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(most.size()))))];
+    r.threshold = most[std::min(most.size() - 1, static_cast<std::size_t>(std::ceil(
+                                                     0.95 * static_cast<double>(most.size()))))];
 
   std::uint64_t gone_first = 0, gone_second = 0;
   for (std::size_t k = 0; k < times_.size(); ++k) {

@@ -13,7 +13,8 @@ std::vector<geometry::CurveFrame> frames_of(const Table& table) {
 }
 
 Vector SectionRecorder::unwrapped(const State& state) const {
-  return table_->lattice ? state.position + table_->lattice->translation(state.cell) : state.position;
+  return table_->lattice ? state.position + table_->lattice->translation(state.cell)
+                         : state.position;
 }
 
 void SectionRecorder::begin(std::uint64_t orbit, std::span<const State> starts) {
@@ -30,17 +31,19 @@ void SectionRecorder::hit(int particle, const State& state) {
   const geometry::CurveFrame& frame = (*frames_)[static_cast<std::size_t>(state.wall)];
   const Vector position = unwrapped(state), velocity = state.velocity;
   points_.push_back({orbit_, orbit.count++, particle, state.wall, 0, state.time.value(),
-                     geometry::arc_length_at(frame, state.u), dot(geometry::tangent_at(frame, state.u), velocity),
-                     position.x, position.y, velocity.x, velocity.y});
+                     geometry::arc_length_at(frame, state.u),
+                     dot(geometry::tangent_at(frame, state.u), velocity), position.x, position.y,
+                     velocity.x, velocity.y});
 }
 
 void SectionRecorder::crossing(int particle, const State& state, int direction) {
   Orbit& orbit = orbits_[static_cast<std::size_t>(particle)];
-  if (plan_->boundary || full(orbit) || (plan_->direction != 0 && direction != plan_->direction)) return;
+  if (plan_->boundary || full(orbit) || (plan_->direction != 0 && direction != plan_->direction))
+    return;
   const Vector position = unwrapped(state);
   const auto [s, v_parallel] = surface_coordinates(plan_->surface, position, state.velocity);
-  points_.push_back({orbit_, orbit.count++, particle, -1, direction, state.time.value(), s, v_parallel, position.x,
-                     position.y, state.velocity.x, state.velocity.y});
+  points_.push_back({orbit_, orbit.count++, particle, -1, direction, state.time.value(), s,
+                     v_parallel, position.x, position.y, state.velocity.x, state.velocity.y});
 }
 
 void SectionRecorder::end(int particle, Fate fate) {
@@ -50,7 +53,8 @@ void SectionRecorder::end(int particle, Fate fate) {
 }
 
 bool SectionRecorder::done() const {
-  return std::all_of(orbits_.begin(), orbits_.end(), [this](const Orbit& o) { return full(o) || !o.moving; });
+  return std::all_of(orbits_.begin(), orbits_.end(),
+                     [this](const Orbit& o) { return full(o) || !o.moving; });
 }
 
 }  // namespace carom

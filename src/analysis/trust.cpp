@@ -25,7 +25,8 @@ Box box_of(const Table& table) {
   const auto take = [&](Vector p) {
     if (first) b = {p.x, p.x, p.y, p.y};
     first = false;
-    b = {std::min(b.left, p.x), std::max(b.right, p.x), std::min(b.bottom, p.y), std::max(b.top, p.y)};
+    b = {std::min(b.left, p.x), std::max(b.right, p.x), std::min(b.bottom, p.y),
+         std::max(b.top, p.y)};
   };
   for (const Wall& wall : table.walls) {
     const geometry::Box box = geometry::bounding_box(wall.curve);
@@ -42,17 +43,21 @@ double length_of(Vector v) { return std::sqrt(dot(v, v)); }
 }  // namespace
 
 double size_of(const Table& table) {
-  if (table.lattice) return std::max(length_of(table.lattice->first), length_of(table.lattice->second));
+  if (table.lattice)
+    return std::max(length_of(table.lattice->first), length_of(table.lattice->second));
   const Box b = box_of(table);
   return std::max(b.right - b.left, b.top - b.bottom);
 }
 
 class TrustRecorder::Implementation {
  public:
-  Implementation(const Table& the_table, double the_tolerance, std::shared_ptr<const WrittenSystem> written)
-      : table(the_table), tolerance(the_tolerance), size(size_of(the_table)), as_written(std::move(written)),
-        edges(the_table) {
-  }
+  Implementation(const Table& the_table, double the_tolerance,
+                 std::shared_ptr<const WrittenSystem> written)
+      : table(the_table),
+        tolerance(the_tolerance),
+        size(size_of(the_table)),
+        as_written(std::move(written)),
+        edges(the_table) {}
 
   struct Track {
     Particle particle;
@@ -66,13 +71,15 @@ class TrustRecorder::Implementation {
     const Vector v = state.velocity;
     return {e.position - e.time * v, e.velocity - (particle.omega * e.time) * right(v)};
   }
-  /// Beyond the true orbit: a neighbour as far as the margin says, and a few roundings more across the flight.
+  /// Beyond the true orbit: a neighbour as far as the margin says, and a few roundings more across
+  /// the flight.
   Deviation edge_of(const Track& track) const {
     const Vector v = track.state.velocity, side = left(v);
     const Deviation e = at_one_time(track.particle, track.state, track.trust.error);
     const double sign = dot(side, e.position) < 0.0 ? -1.0 : 1.0;
     Deviation edge = margin * e;
-    edge.position = edge.position + (sign * 4.0 * geometry::unit_roundoff * size / length_of(v)) * side;
+    edge.position =
+        edge.position + (sign * 4.0 * geometry::unit_roundoff * size / length_of(v)) * side;
     return edge;
   }
   /// A neighbour that arrives later than this arrives elsewhere.
@@ -101,7 +108,8 @@ bool TrustRecorder::Implementation::hit(Track& track, const HitEvent& event) {
                           latest(particle, event.flight_time)))
     return false;
 
-  const std::optional<OrbitError> e = error_after(*track.system, track.state, track.trust.error, event);
+  const std::optional<OrbitError> e =
+      error_after(*track.system, track.state, track.trust.error, event);
   if (!e) return false;
   const auto within = [](double error, double bound) { return margin * error <= bound; };
   if (!(within(length_of(e->position), tolerance * size) &&
@@ -119,16 +127,19 @@ bool TrustRecorder::Implementation::left_in_time(const Track& track, const EndEv
   const State& from = track.state;
   const FlightTangent flight = flight_tangent(particle.omega, event.time - from.time);
   const Deviation there = flight({from.position, from.velocity});  // the flight itself is as linear
-  const Wall& wall = table.walls[static_cast<std::size_t>(table.holes[static_cast<std::size_t>(event.hole)].wall)];
+  const Wall& wall =
+      table.walls[static_cast<std::size_t>(table.holes[static_cast<std::size_t>(event.hole)].wall)];
   const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
   const Vector normal = geometry::normal_at(frame, geometry::parameter_of(frame, there.position));
   const AtWall at = at_wall(normal, there.velocity, particle.omega);
   const Deviation e = flight(at_one_time(particle, from, track.trust.error));
-  const double farthest = std::max(std::fabs(dot(at.arc, e)), std::fabs(dot(at.delay, e)) * particle.speed);
+  const double farthest =
+      std::max(std::fabs(dot(at.arc, e)), std::fabs(dot(at.delay, e)) * particle.speed);
   return margin * farthest <= tolerance * size && margin * std::fabs(dot(at.angle, e)) <= tolerance;
 }
 
-TrustRecorder::TrustRecorder(const Table& table, double tolerance, std::shared_ptr<const WrittenSystem> written)
+TrustRecorder::TrustRecorder(const Table& table, double tolerance,
+                             std::shared_ptr<const WrittenSystem> written)
     : implementation_(std::make_unique<Implementation>(table, tolerance, std::move(written))) {}
 TrustRecorder::~TrustRecorder() = default;
 
@@ -195,8 +206,8 @@ Trust TrustRecorder::at_end(const Particle& particle, const State& state, const 
   Trust trust = before;
   const double duration = end - state.time;
   if (!trust.open || !(duration > 0.0)) return trust;
-  const Deviation e =
-      flight_tangent(particle.omega, duration)(Implementation::at_one_time(particle, state, trust.error));
+  const Deviation e = flight_tangent(
+      particle.omega, duration)(Implementation::at_one_time(particle, state, trust.error));
   if (margin * length_of(e.position) <= a.tolerance * a.size &&
       margin * length_of(e.velocity) <= a.tolerance * particle.speed)
     trust.time = end;

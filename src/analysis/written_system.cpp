@@ -20,21 +20,25 @@ struct AsStored {
     return certify::circle_wall(exactly(s.centre), Twofold(s.radius), s.counterclockwise);
   }
   WallOf<Twofold> operator()(const geometry::Ellipse& s) const {
-    return certify::ellipse_wall(exactly(s.centre), exactly(s.axis), Twofold(s.ratio), s.counterclockwise);
+    return certify::ellipse_wall(exactly(s.centre), exactly(s.axis), Twofold(s.ratio),
+                                 s.counterclockwise);
   }
   WallOf<Twofold> operator()(const geometry::CircularArc& s) const {
     const TwofoldVector from = exactly(s.from), chord = exactly(s.to) - from;
     const TwofoldVector to_centre = Twofold(0.5) * chord + Twofold(s.offset) * left(chord);
-    return certify::arc_wall(from, exactly(s.to), from + to_centre, dot(to_centre, to_centre), s.counterclockwise);
+    return certify::arc_wall(from, exactly(s.to), from + to_centre, dot(to_centre, to_centre),
+                             s.counterclockwise);
   }
   WallOf<Twofold> operator()(const geometry::EllipticArc& s) const {
-    const TwofoldVector from = exactly(s.from), chord = exactly(s.to) - from, p = exactly(s.axis), q = left(p);
+    const TwofoldVector from = exactly(s.from), chord = exactly(s.to) - from, p = exactly(s.axis),
+                        q = left(p);
     const Twofold k(s.ratio);
     const TwofoldVector turned = -dot(chord, q) * p + (k * k * dot(chord, p)) * q;
     const TwofoldVector to_centre = Twofold(0.5) * chord + Twofold(s.offset) * turned;
     const Twofold x = k * dot(p, to_centre), y = dot(q, to_centre);
     const TwofoldVector semi_axis = (sqrt(x * x + y * y) / (k * dot(p, p))) * p;
-    return certify::elliptic_arc_wall(from, exactly(s.to), from + to_centre, semi_axis, k, s.counterclockwise);
+    return certify::elliptic_arc_wall(from, exactly(s.to), from + to_centre, semi_axis, k,
+                                      s.counterclockwise);
   }
 };
 
@@ -42,8 +46,10 @@ struct AsStored {
 
 WrittenSystem as_stored(const Table& table, const Particle& particle) {
   WrittenSystem written;
-  for (const Wall& wall : table.walls) written.table.walls.push_back(std::visit(AsStored{}, wall.curve));
-  if (table.lattice) written.table.lattice = {exactly(table.lattice->first), exactly(table.lattice->second)};
+  for (const Wall& wall : table.walls)
+    written.table.walls.push_back(std::visit(AsStored{}, wall.curve));
+  if (table.lattice)
+    written.table.lattice = {exactly(table.lattice->first), exactly(table.lattice->second)};
   written.omega = particle.omega;
   written.speed = particle.speed;
   return written;

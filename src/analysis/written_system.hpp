@@ -1,5 +1,5 @@
-// What a run is compared with when its errors are estimated: the system as it was written, in twice the
-// digits of a double.
+// What a run is compared with when its errors are estimated: the system as it was written, in twice
+// the digits of a double.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ using TwofoldVector = geometry::BasicVector<Twofold>;
 
 /// Numbers that doubles have rounded.
 struct WrittenSystem {
-  certify::TableOf<Twofold> table;      ///< walls in the order of the Table's
+  certify::TableOf<Twofold> table;  ///< walls in the order of the Table's
   Twofold omega, speed{1.0};
   /// Where the first particle starts, if not where its state says.
   std::optional<TwofoldVector> position, velocity;

@@ -12,7 +12,8 @@ std::size_t bits(const mpq_class& q) {
 }
 
 bool is_square(const mpq_class& q) {
-  return mpz_perfect_square_p(q.get_num_mpz_t()) != 0 && mpz_perfect_square_p(q.get_den_mpz_t()) != 0;
+  return mpz_perfect_square_p(q.get_num_mpz_t()) != 0 &&
+         mpz_perfect_square_p(q.get_den_mpz_t()) != 0;
 }
 
 mpq_class square_root(const mpq_class& square) {
@@ -85,7 +86,8 @@ NodePointer root(const NodePointer& x) {
   if (s < 0) throw NoValue("square root of a negative number");
   if (s == 0) return leaf({});
   const ClosedForm* c = closed(x);
-  if (c != nullptr && c->radicand == 1 && c->power % 2 == 0) return leaf({1, c->coefficient, c->power / 2});
+  if (c != nullptr && c->radicand == 1 && c->power % 2 == 0)
+    return leaf({1, c->coefficient, c->power / 2});
   return operation(Node::Operation::root, x);
 }
 

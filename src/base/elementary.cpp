@@ -21,7 +21,9 @@ SinCos sincos(double x) {
   const auto both = Sleef_cinz_sincosd2_u10sse2(_mm_set1_pd(x));
   return {first(both.x), first(both.y)};
 }
-double atan2(double y, double x) { return first(Sleef_cinz_atan2d2_u10sse2(_mm_set1_pd(y), _mm_set1_pd(x))); }
+double atan2(double y, double x) {
+  return first(Sleef_cinz_atan2d2_u10sse2(_mm_set1_pd(y), _mm_set1_pd(x)));
+}
 double exp(double x) { return first(Sleef_cinz_expd2_u10sse2(_mm_set1_pd(x))); }
 double log(double x) { return first(Sleef_cinz_logd2_u10sse2(_mm_set1_pd(x))); }
 

@@ -49,7 +49,9 @@ void exp(std::span<double> x) {
   for (double& one : x.subspan(whole)) one = exp(one);
 }
 
-ExpOfMany exp_by(int width) { return width >= 8 ? exp_by_eight : width >= 4 ? exp_by_four : exp_by_two; }
+ExpOfMany exp_by(int width) {
+  return width >= 8 ? exp_by_eight : width >= 4 ? exp_by_four : exp_by_two;
+}
 
 #else
 

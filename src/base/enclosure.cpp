@@ -12,7 +12,9 @@ namespace {
 class Real {
  public:
   explicit Real(mpfr_prec_t precision) { mpfr_init2(value_, precision); }
-  Real(const Real& other) : Real(mpfr_get_prec(other.value_)) { mpfr_set(value_, other.value_, MPFR_RNDN); }
+  Real(const Real& other) : Real(mpfr_get_prec(other.value_)) {
+    mpfr_set(value_, other.value_, MPFR_RNDN);
+  }
   Real& operator=(const Real& other) {
     if (this == &other) return *this;
     mpfr_set_prec(value_, mpfr_get_prec(other.value_));
@@ -153,7 +155,8 @@ int sign(const Node& x) {
 std::optional<double> nearest_double(const Node& x) {
   // A rational number is told from every tie by some finite precision: a tie has at most 1076 bits.
   const bool rational = x.operation == Node::Operation::leaf && x.closed.is_rational();
-  const mpfr_prec_t most = rational ? static_cast<mpfr_prec_t>(2 * most_bits + 4096) : most_precision;
+  const mpfr_prec_t most =
+      rational ? static_cast<mpfr_prec_t>(2 * most_bits + 4096) : most_precision;
   for (mpfr_prec_t precision = 96;; precision *= 2) {
     const Enclosure e = enclose(x, precision);
     const double low = mpfr_get_d(e.low, MPFR_RNDN);

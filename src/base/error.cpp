@@ -34,8 +34,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const bool same = lower(a[i - 1]) == lower(b[j - 1]);
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same ? 0 : 1)});
-      const bool swapped =
-          i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
+                           lower(a[i - 2]) == lower(b[j - 1]);
       if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
@@ -46,7 +46,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string describe(const Place& place) {
   std::string text = place.file;
-  const auto append = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  const auto append = [&text](const std::string& part) {
+    text += (text.empty() ? "" : ", ") + part;
+  };
   if (place.line > 0) append("line " + std::to_string(place.line));
   if (place.line > 0 && place.column > 0) append("column " + std::to_string(place.column));
   if (place.key.empty()) return text;

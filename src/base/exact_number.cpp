@@ -19,7 +19,8 @@ ExactNumber::ExactNumber(double value) {
 }
 
 // Rounding here and not when asked keeps const access free of writes, so that threads may share it.
-ExactNumber::ExactNumber(std::string_view text, Place place) : text_(text), place_(std::move(place)) {
+ExactNumber::ExactNumber(std::string_view text, Place place)
+    : text_(text), place_(std::move(place)) {
   expression_ = expression::parse(text_, place_);
   try {
     rounded_ = expression::nearest_double(*expression_);

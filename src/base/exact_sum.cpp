@@ -5,9 +5,9 @@
 
 #include "carom/base/error.hpp"
 
-// Bit 0 of digit 0 weighs 2^-1074, the smallest double. The largest double reaches bit 2097, in digit
-// 65; four digits more take the carries of 2^142 additions. Between normalisations a digit grows by
-// less than 2^32 an addition, so 2^30 of them fit into its 63 bits.
+// Bit 0 of digit 0 weighs 2^-1074, the smallest double. The largest double reaches bit 2097, in
+// digit 65; four digits more take the carries of 2^142 additions. Between normalisations a digit
+// grows by less than 2^32 an addition, so 2^30 of them fit into its 63 bits.
 namespace carom {
 namespace {
 
@@ -70,7 +70,8 @@ double ExactSum::value() const {
   const auto word = [&magnitude](int i) {
     return i < 0 ? 0u : static_cast<std::uint64_t>(magnitude.digits_[static_cast<std::size_t>(i)]);
   };
-  const int highest = 32 * top + static_cast<int>(std::bit_width(word(top))) - 1;  // index of the highest bit
+  const int highest =
+      32 * top + static_cast<int>(std::bit_width(word(top))) - 1;  // index of the highest bit
   const std::uint64_t sign = negative ? std::uint64_t{1} << 63 : 0u;
   if (highest > 2097) return std::bit_cast<double>(sign | (std::uint64_t{0x7ff} << 52));
   // Up to bit 52 the number is a multiple of the smallest double that fits into 53 bits.

@@ -13,8 +13,9 @@
 
 namespace carom {
 
-/// A number in closed form, coefficient * sqrt(radicand) * pi^power: what most numbers of a table are.
-/// Kept so that radicand is 1 where the root is rational, and radicand and power are 1 and 0 for zero.
+/// A number in closed form, coefficient * sqrt(radicand) * pi^power: what most numbers of a table
+/// are. Kept so that radicand is 1 where the root is rational, and radicand and power are 1 and 0
+/// for zero.
 struct ClosedForm {
   mpq_class coefficient = 0;
   mpq_class radicand = 1;  // > 0

@@ -15,7 +15,8 @@
 namespace carom::expression {
 namespace {
 
-// Sizes no honest number needs; beyond them time, memory or the stack would be at the writer's mercy.
+// Sizes no honest number needs; beyond them time, memory or the stack would be at the writer's
+// mercy.
 constexpr std::size_t most_characters = 4096;
 constexpr int most_depth = 200;
 constexpr long most_decimal_exponent = 5000;
@@ -34,7 +35,8 @@ class Parser {
                        "at most " + std::to_string(most_characters) + " characters");
     }
     skip_blanks();
-    if (at_end()) throw InputError(place_, "the number is empty", "a number such as 0.5, 1/3 or sqrt(3)/2");
+    if (at_end())
+      throw InputError(place_, "the number is empty", "a number such as 0.5, 1/3 or sqrt(3)/2");
     NodePointer result = parse_sum();
     if (!at_end()) {
       if (peek() == ')') fail(at_, "')' without '('");
@@ -69,8 +71,8 @@ class Parser {
     return count;
   }
 
-  [[noreturn]] void fail(std::size_t at, const std::string& problem, const std::string& expected = {},
-                         const std::string& nearest = {}) const {
+  [[noreturn]] void fail(std::size_t at, const std::string& problem,
+                         const std::string& expected = {}, const std::string& nearest = {}) const {
     throw InputError(place_, at_character(problem, character(at), text_), expected, nearest);
   }
 
@@ -128,11 +130,14 @@ class Parser {
     const NodePointer exponent = parse_signed();
     --depth_;
     const ClosedForm& n = exponent->closed;
-    if (exponent->operation != Node::Operation::leaf || !n.is_rational() || n.coefficient.get_den() != 1) {
-      fail(exponent_at, "the exponent is not an integer", "an integer; sqrt(...) for a square root");
+    if (exponent->operation != Node::Operation::leaf || !n.is_rational() ||
+        n.coefficient.get_den() != 1) {
+      fail(exponent_at, "the exponent is not an integer",
+           "an integer; sqrt(...) for a square root");
     }
     if (abs(n.coefficient) > most_exponent) {
-      fail(exponent_at, "the exponent is too large", "at most " + std::to_string(most_exponent) + " in size");
+      fail(exponent_at, "the exponent is too large",
+           "at most " + std::to_string(most_exponent) + " in size");
     }
     return evaluate(at, [&] { return power(value, n.coefficient.get_num().get_si()); });
   }
@@ -156,7 +161,8 @@ class Parser {
     if (const std::string w = lowered(word); w == "nan" || w == "inf" || w == "infinity") {
       fail(at, "'" + word + "' is not a finite number");
     }
-    fail(at, "unknown word '" + word + "'", "a number, pi or sqrt(...)", nearest_name(word, {"pi", "sqrt"}));
+    fail(at, "unknown word '" + word + "'", "a number, pi or sqrt(...)",
+         nearest_name(word, {"pi", "sqrt"}));
   }
 
   // What follows an opening parenthesis that stands at `open`.
@@ -193,8 +199,8 @@ class Parser {
     while (!at_end()) {
       if (is_digit(peek())) {
         found += text_[at_++];
-      } else if (peek() == '_' && !found.empty() && is_digit(text_[at_ - 1]) && at_ + 1 < text_.size() &&
-                 is_digit(text_[at_ + 1])) {
+      } else if (peek() == '_' && !found.empty() && is_digit(text_[at_ - 1]) &&
+                 at_ + 1 < text_.size() && is_digit(text_[at_ + 1])) {
         ++at_;
       } else {
         break;
@@ -219,7 +225,8 @@ class Parser {
     mpz_class power_of_ten;
     mpz_ui_pow_ui(power_of_ten.get_mpz_t(), 10, static_cast<unsigned long>(std::labs(exponent)));
     const mpz_class digits(mantissa, 10);
-    mpq_class value = exponent < 0 ? mpq_class(digits, power_of_ten) : mpq_class(digits * power_of_ten);
+    mpq_class value =
+        exponent < 0 ? mpq_class(digits, power_of_ten) : mpq_class(digits * power_of_ten);
     value.canonicalize();
     return evaluate(start, [&] { return leaf({value, 1, 0}); });
   }

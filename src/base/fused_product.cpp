@@ -29,10 +29,13 @@ double odd_sum(double a, double b) {
 
 }  // namespace
 
-// A sum of three doubles is rounded right if what two of them leave is rounded to odd before the last sum (Boldo and Melquiond 2008):
-// so no middle between two doubles is met by chance. Twenty times as fast as the C library's, which changes the rounding of the processor.
+// A sum of three doubles is rounded right if what two of them leave is rounded to odd before the
+// last sum (Boldo and Melquiond 2008): so no middle between two doubles is met by chance. Twenty
+// times as fast as the C library's, which changes the rounding of the processor.
 double fused_in_software(double a, double b, double c) {
-  const auto moderate = [](double x, double least, double largest) { return std::fabs(x) > least && std::fabs(x) < largest; };
+  const auto moderate = [](double x, double least, double largest) {
+    return std::fabs(x) > least && std::fabs(x) < largest;
+  };
   if (a == 0.0 || b == 0.0) return a * b + c;
   if (!moderate(a, 0x1p-400, 0x1p400) || !moderate(b, 0x1p-400, 0x1p400)) return std::fma(a, b, c);
   if (c == 0.0) return a * b;

@@ -9,9 +9,11 @@ namespace carom {
 class Interrupt {
  public:
   /// `asked` must live as long; empty or null: nothing stops it.
-  explicit Interrupt(const std::function<bool()>* asked = nullptr) : asked_(asked && *asked ? asked : nullptr) {}
+  explicit Interrupt(const std::function<bool()>* asked = nullptr)
+      : asked_(asked && *asked ? asked : nullptr) {}
 
-  /// Adds work, in nanoseconds roughly. True: stop; what has been computed since this was false is worth nothing.
+  /// Adds work, in nanoseconds roughly. True: stop; what has been computed since this was false is
+  /// worth nothing.
   bool after(double work) {
     work_ += work;
     return work_ < between_questions ? stopped_ : ask();

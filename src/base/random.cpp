@@ -6,7 +6,9 @@ namespace carom {
 
 RandomStream::RandomStream(std::uint64_t seed, Purpose purpose, std::uint64_t trajectory,
                            std::uint64_t particle)
-    : key_{seed, static_cast<std::uint64_t>(purpose)}, trajectory_(trajectory), particle_(particle) {}
+    : key_{seed, static_cast<std::uint64_t>(purpose)},
+      trajectory_(trajectory),
+      particle_(particle) {}
 
 std::uint64_t RandomStream::word() {
   const std::uint64_t place = draw_ % 4;
@@ -22,7 +24,8 @@ std::uint64_t RandomStream::word() {
 
 double RandomStream::uniform() { return static_cast<double>(word() >> 11) * 0x1p-53; }
 
-// (2k + 1 - 2^53) 2^-53 for 0 <= k < 2^53: an odd integer below 2^53 in size, so every step is exact.
+// (2k + 1 - 2^53) 2^-53 for 0 <= k < 2^53: an odd integer below 2^53 in size, so every step is
+// exact.
 double RandomStream::symmetric() {
   const auto k = static_cast<std::int64_t>(word() >> 11);
   return static_cast<double>(2 * k + 1 - (std::int64_t{1} << 53)) * 0x1p-53;

@@ -21,7 +21,8 @@ inline std::string shown_character(std::string_view text, std::size_t at) {
 }
 
 /// "PROBLEM at character N of "TEXT"": the text if it is short and can be printed.
-inline std::string at_character(const std::string& problem, std::size_t character, std::string_view text) {
+inline std::string at_character(const std::string& problem, std::size_t character,
+                                std::string_view text) {
   std::string message = problem + " at character " + std::to_string(character);
   const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   const bool printable = std::none_of(text.begin(), text.end(), control);

@@ -25,14 +25,23 @@ BallVector before_reflection(const WallOf<Ball>& w, const BallVector& P, const B
 
 }  // namespace
 
-Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const KnownTies& ties, long bits, long reading)
-    : system_(system), task_(task), ties_(ties), first_bits_(bits), bits_(bits), table_bits_(bits), reading_bits_(reading) {
+Attempt::Attempt(const ExactSystem& system, const CertifiedTask& task, const KnownTies& ties,
+                 long bits, long reading)
+    : system_(system),
+      task_(task),
+      ties_(ties),
+      first_bits_(bits),
+      bits_(bits),
+      table_bits_(bits),
+      reading_bits_(reading) {
   const Precision precision(bits);
   set_arena(ball_table(*system.spec));
   if (task.t_max) t_max_ = value_of(*task.t_max);
   if (LineTable::holds(arena_.scene)) {
-    // Few bits: the digits asked for, and somewhat more in each attempt, should the last time be a close call.
-    lines_.emplace(arena_.scene, static_cast<long>(bits_of(task.digits)) + reading + (t_max_ ? bits / 16 : 0));
+    // Few bits: the digits asked for, and somewhat more in each attempt, should the last time be a
+    // close call.
+    lines_.emplace(arena_.scene,
+                   static_cast<long>(bits_of(task.digits)) + reading + (t_max_ ? bits / 16 : 0));
     if (bits > 1000) lines_->shorten(system);
   }
   now_.standing = system.start.wall;
@@ -79,15 +88,19 @@ std::unique_ptr<StateEnclosure> Attempt::start_enclosure(const ExactSystem& syst
 
 // Bits far below the error that is already there are of no use.
 void Attempt::trim_precision() {
-  bits_ = std::min(first_bits_, static_cast<long>(std::clamp(now_.state->useful_bits(), 64.0, 1e15)));
+  bits_ =
+      std::min(first_bits_, static_cast<long>(std::clamp(now_.state->useful_bits(), 64.0, 1e15)));
   if (arena_.scene.motion.turns) {
-    const double time = now_.state->time().to_double(), size = std::max(1.0, time / arena_.time_unit);
-    const long digits = static_cast<long>(bits_of(task_.digits) + std::log2(size)) + reading_bits_ - 32;
+    const double time = now_.state->time().to_double(),
+                 size = std::max(1.0, time / arena_.time_unit);
+    const long digits =
+        static_cast<long>(bits_of(task_.digits) + std::log2(size)) + reading_bits_ - 32;
     arena_.scene.motion.time_bits = digits + first_bits_ / 16;
   }
   if (bits_ + 32 < table_bits_ - table_bits_ / 16) {
     const Precision precision(bits_ + 32);
-    arena_.scene = converted<Ball>(arena_.scene, [](const Ball& x) { return x.rounded(); });  // nothing is passed by
+    arena_.scene = converted<Ball>(
+        arena_.scene, [](const Ball& x) { return x.rounded(); });  // nothing is passed by
     if (lines_) lines_->round();
     table_bits_ = bits_ + 32;
   }
@@ -102,11 +115,13 @@ void Attempt::move_to(const Copy& copy) {
 
 double Attempt::needed_bits() const {
   const StateEnclosure& s = *now_.state;
-  const double error = std::max({s.position_error().log2(), s.velocity_error().log2(), s.time_error().log2()});
+  const double error =
+      std::max({s.position_error().log2(), s.velocity_error().log2(), s.time_error().log2()});
   return std::max(error + bits_of(task_.digits) + 2.0, linear_bits());
 }
 
-// Errors by first order have room for the second one in their constants (1.0001 and the like) while they are small parts.
+// Errors by first order have room for the second one in their constants (1.0001 and the like) while
+// they are small parts.
 double Attempt::linear_bits() const { return now_.state->error().log2() + 20.0; }
 
 Outcome Attempt::step() {
@@ -121,7 +136,8 @@ Outcome Attempt::step() {
     const auto known = ties_.passed_by.find(now_.hits + 1);
     if (known != ties_.passed_by.end()) touched = known->second;
     std::vector<Copy> passed_by = touched;
-    if (at_joint) passed_by.insert(passed_by.end(), joint->second.of.begin(), joint->second.of.end());
+    if (at_joint)
+      passed_by.insert(passed_by.end(), joint->second.of.begin(), joint->second.of.end());
     arena_.fast.passed_by = arena_.scene.passed_by = std::move(passed_by);
   }
   const Choice choice = at_joint ? choose_at(joint->second) : choose();
@@ -138,11 +154,13 @@ Outcome Attempt::step() {
     case Choice::wall:
       break;
   }
-  const bool here = at_joint && choice.first == joint->second.hit, in_joint = here && joint->second.of.empty();
+  const bool here = at_joint && choice.first == joint->second.hit,
+             in_joint = here && joint->second.of.empty();
   if (!in_joint && !touched.empty())
     look_behind(touched, here ? passing_time(joint->second.at) : meeting_time(choice.first));
   if (here && !joint->second.dead_end.empty()) {
-    if (ties_.at_last_time != now_.hits + 1 && order_with_last_time(passing_time(joint->second.at)) == Sign::undecided)
+    if (ties_.at_last_time != now_.hits + 1 &&
+        order_with_last_time(passing_time(joint->second.at)) == Sign::undecided)
       return {Outcome::undecided, needed_bits(), {Doubt::last_time, choice.first, {}, -1}};
     return {Outcome::dead_end, 0.0, {}};
   }
@@ -161,7 +179,8 @@ Outcome Attempt::arrive(const Copy& copy, const std::optional<Now>& before) {
   if (!t_max_) return landed(copy, before);
   Sign late = sign(now_.state->time() - *t_max_);
   if (late == Sign::undecided && ties_.at_last_time == now_.hits + 1) late = Sign::zero;
-  if (late == Sign::undecided) return {Outcome::undecided, needed_bits(), {Doubt::last_time, copy, {}, -1}};
+  if (late == Sign::undecided)
+    return {Outcome::undecided, needed_bits(), {Doubt::last_time, copy, {}, -1}};
   if (late != Sign::positive) return landed(copy, before);
   now_ = before->copy();
   if (const auto touched = ties_.passed_by.find(now_.hits + 1); touched != ties_.passed_by.end())
@@ -218,7 +237,8 @@ Outcome Attempt::stop_at_last_time() {
   BallState s = enclosed();
   fly_for(*t_max_ - s.time, s.position, s.velocity, arena_.scene.motion);
   s.time = *t_max_;
-  const double needed = std::max(radius(s.position).log2(), radius(s.velocity).log2()) + bits_of(task_.digits) + 2.0;
+  const double needed =
+      std::max(radius(s.position).log2(), radius(s.velocity).log2()) + bits_of(task_.digits) + 2.0;
   if (!(needed <= 0.0)) return {Outcome::inaccurate, needed, {}};
   stopped_ = std::move(s);
   return {Outcome::stopped, 0.0, {}};
@@ -250,12 +270,14 @@ std::string Attempt::description(const Doubt& doubt) const {
       return event + "whether " + first + " is met before the last time";
     case Doubt::hole:
       return event + "on which side of an end of '" +
-             system_.table->holes[static_cast<std::size_t>(doubt.hole_index)].name + "' " + first + " is met";
+             system_.table->holes[static_cast<std::size_t>(doubt.hole_index)].name + "' " + first +
+             " is met";
     case Doubt::choice:
       break;
   }
-  return doubt.second.wall < 0 ? event + "whether the flight meets " + first
-                               : event + "which comes first, " + first + " or " + name(doubt.second);
+  return doubt.second.wall < 0
+             ? event + "whether the flight meets " + first
+             : event + "which comes first, " + first + " or " + name(doubt.second);
 }
 
 double Attempt::missing_bits(const BallState& s) const {
@@ -269,14 +291,17 @@ double Attempt::lost_bits() const {
   return std::max(0.0, now_.state->error().log2() + static_cast<double>(first_bits_));
 }
 
-double Attempt::spare_bits() const { return -now_.state->error().log2() - bits_of(task_.digits) - size_bits() - 2.0; }
+double Attempt::spare_bits() const {
+  return -now_.state->error().log2() - bits_of(task_.digits) - size_bits() - 2.0;
+}
 
 double Attempt::size_bits() const {
   return std::max(0.0, std::log2(std::max({arena_.unit, arena_.speed, arena_.time_unit})));
 }
 double Attempt::size_bits(const Forecast& f, double more) const {
   const double time = t_max_ ? t_max_->to_double() : f.time * more;
-  return std::max({size_bits(), std::log2(arena_.unit * (1.0 + f.cells * more)), std::log2(1.0 + time)});
+  return std::max(
+      {size_bits(), std::log2(arena_.unit * (1.0 + f.cells * more)), std::log2(1.0 + time)});
 }
 
 // Measured. The errors of a line are only two, and roundings do not feed each other.
@@ -293,7 +318,8 @@ Forecast Attempt::look_ahead(const std::function<bool()>& interrupted) const {
   horizon.bits = static_cast<double>(task_.most_bits);
   horizon.interrupted = &interrupted;
   const BallState s = now_.state->state(64);
-  return forecast(scene, where_, near(s.position), near(s.velocity), now_.standing, horizon, arena_.unit);
+  return forecast(scene, where_, near(s.position), near(s.velocity), now_.standing, horizon,
+                  arena_.unit);
 }
 
 }  // namespace carom::certify

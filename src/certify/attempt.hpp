@@ -18,7 +18,7 @@ namespace carom::certify {
 struct Outcome {
   enum Kind : unsigned char {
     hit,
-    stopped,     ///< t_max comes before the next hit
+    stopped,  ///< t_max comes before the next hit
     escaped,
     unbounded,   ///< no wall follows
     dead_end,    ///< a tie at which the orbit ends (KnownTies::Joint)
@@ -43,7 +43,8 @@ class Attempt {
 
   /// The state after the last event (or at t_max), unwrapped, in balls.
   BallState enclosed() const;
-  /// How many more are needed until each number of that state is off by less than half a unit of the last digit.
+  /// How many more are needed until each number of that state is off by less than half a unit of
+  /// the last digit.
   double missing_bits(const BallState&) const;
   int wall() const { return now_.wall; }
   int hole() const { return hole_; }
@@ -56,7 +57,8 @@ class Attempt {
 
   /// The direction of the start was longer or shorter than the speed.
   bool rescaled() const { return rescaled_; }
-  /// The walls met so far, each copy seen from the last one; of long orbits only the beginning is kept.
+  /// The walls met so far, each copy seen from the last one; of long orbits only the beginning is
+  /// kept.
   const std::vector<Copy>& path() const { return path_; }
   /// What cannot be told at the next event.
   std::string description(const Doubt&) const;
@@ -84,8 +86,8 @@ class Attempt {
   /// All that the future depends on.
   struct Now {
     std::unique_ptr<StateEnclosure> state;
-    int wall = -1;     ///< of the last hit
-    int standing = -1; ///< the wall it lies on: also that of the start
+    int wall = -1;      ///< of the last hit
+    int standing = -1;  ///< the wall it lies on: also that of the start
     geometry::Cell cell;
     std::uint64_t hits = 0;
 

@@ -3,7 +3,8 @@
 
 namespace carom::certify {
 
-// What is in doubt after the last time is of no interest. On a lattice, lines are followed no longer than to there.
+// What is in doubt after the last time is of no interest. On a lattice, lines are followed no
+// longer than to there.
 Choice Attempt::choose() const {
   const bool bounded = t_max_ && arena_.scene.lattice && !arena_.scene.motion.turns;
   const Choice choice = choose(bounded ? last_time() : std::nullopt);
@@ -17,12 +18,15 @@ Choice Attempt::choose(const std::optional<Ball>& last) const {
   const VectorOf<Interval> P = now_.state->position(), v = now_.state->velocity();
   const geometry::Vector P0{P.x.middle(), P.y.middle()}, v0{v.x.middle(), v.y.middle()};
   const Interval fast_last = last ? interval_of(*last) : Interval();
-  const Choice fast = arena_.fast.next(where_, P, v, now_.standing, P0, v0, last ? &fast_last : nullptr);
-  const bool unclear = fast.answer == Choice::too_far && fast.first.wall >= 0;  // whether that wall is met
+  const Choice fast =
+      arena_.fast.next(where_, P, v, now_.standing, P0, v0, last ? &fast_last : nullptr);
+  const bool unclear =
+      fast.answer == Choice::too_far && fast.first.wall >= 0;  // whether that wall is met
   if (fast.answer != Choice::undecided && !unclear) return fast;
   const Precision precision(bits_);
   const BallState s = now_.state->state(bits_);
-  return arena_.scene.next(where_, s.position, s.velocity, now_.standing, P0, v0, last ? &*last : nullptr);
+  return arena_.scene.next(where_, s.position, s.velocity, now_.standing, P0, v0,
+                           last ? &*last : nullptr);
 }
 
 // The joint, unless one of the other walls or the last time comes before it.
@@ -34,13 +38,16 @@ Choice Attempt::choose_at(const KnownTies::Joint& joint) const {
   if (other.answer == Choice::too_far) return {Choice::undecided, joint.hit, other.first};
   const Precision precision(bits_);
   const Ball passing = passing_time(joint.at);
-  const auto is_late = [&](const Ball& time) { return order_with_last_time(time) == Sign::positive; };
+  const auto is_late = [&](const Ball& time) {
+    return order_with_last_time(time) == Sign::positive;
+  };
   const bool late = is_late(passing);
   if (other.answer == Choice::wall) {
     const Ball time = meeting_time(other.first);
     const Sign order = sign(time - passing);
     if (order == Sign::negative) return other;
-    if (order != Sign::positive && !(late && is_late(time))) return {Choice::undecided, joint.hit, other.first};
+    if (order != Sign::positive && !(late && is_late(time)))
+      return {Choice::undecided, joint.hit, other.first};
   }
   return late ? Choice{Choice::last_time, {}, {}} : at_joint;
 }
@@ -73,14 +80,17 @@ Ball Attempt::meeting_time(const Copy& copy) const {
   const Precision precision(bits_);
   const BallState s = now_.state->state(bits_);
   const bool standing = copy.wall == now_.standing && copy.cell == geometry::Cell{};
-  return meeting_with(arena_.wall(copy.wall), seen(copy, s.position), s.velocity, arena_.scene.motion, standing).time;
+  return meeting_with(arena_.wall(copy.wall), seen(copy, s.position), s.velocity,
+                      arena_.scene.motion, standing)
+      .time;
 }
 
 Ball Attempt::passing_time(const WallEnd& end) const {
   const Precision precision(bits_);
   const BallState s = now_.state->state(bits_);
   const WallOf<Ball>& w = arena_.wall(end.copy.wall);
-  return dot(s.velocity, (end.last ? w.to : w.from) - seen(end.copy, s.position)) / dot(s.velocity, s.velocity);
+  return dot(s.velocity, (end.last ? w.to : w.from) - seen(end.copy, s.position)) /
+         dot(s.velocity, s.velocity);
 }
 
 // Which of the walls that the flight touches come after its end?

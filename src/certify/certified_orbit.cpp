@@ -29,10 +29,12 @@ void fill(CertifiedState& state, BallState s) {
 
 class CertifiedOrbit::Implementation {
  public:
-  Implementation(const ExactSystem& system, const CertifiedTask& task, std::function<bool()> interrupted)
+  Implementation(const ExactSystem& system, const CertifiedTask& task,
+                 std::function<bool()> interrupted)
       : system_(system), task_(task), interrupted_(std::move(interrupted)) {
     if (task.collisions == 0 && !task.t_max)
-      throw InputError(Place{}, "a certified orbit without an end", "a number of collisions or a last time");
+      throw InputError(Place{}, "a certified orbit without an end",
+                       "a number of collisions or a last time");
     check_digits(static_cast<std::uint64_t>(std::max(task.digits, 0)), *system.table);
     check_field();
     certify::check_system(system_);
@@ -55,9 +57,11 @@ class CertifiedOrbit::Implementation {
       loss_a_hit_ = forecast.bits / seen;
       spread_a_hit_ = forecast.spread / std::sqrt(seen);
     }
-    reading_bits_ = usual_reading_bits + static_cast<long>(std::ceil(scout.size_bits(forecast, more)));
+    reading_bits_ =
+        usual_reading_bits + static_cast<long>(std::ceil(scout.size_bits(forecast, more)));
     restart(static_cast<long>(lost + margin(lost, forecast.spread * std::sqrt(more)) +
-                              static_cast<double>(task_.digits) * 3.3219280948873626 + 3.0 + scout.size_bits()));
+                              static_cast<double>(task_.digits) * 3.3219280948873626 + 3.0 +
+                              scout.size_bits()));
   }
 
   std::optional<CertifiedHit> next() {
@@ -85,18 +89,23 @@ class CertifiedOrbit::Implementation {
           hit.cell = attempt_->cell();
           last_ = hit;  // the end, should what follows not be enclosed
           if (given_ % 32 == 0 && hopeless())
-            restart(effort_.bits + std::max(still_needed({Outcome::inaccurate, -attempt_->spare_bits(), {}}), 4L));
+            restart(effort_.bits +
+                    std::max(still_needed({Outcome::inaccurate, -attempt_->spare_bits(), {}}), 4L));
           return hit;
         }
         case Outcome::inaccurate:
-          if (!std::isfinite(outcome.missing_bits) && (32L << undecided_) > task_.most_bits_a_doubt) {
-            finish_as_given(CertifiedFate::undecided, "event " + std::to_string(attempt_->hits()) + " is not enclosed by " +
+          if (!std::isfinite(outcome.missing_bits) &&
+              (32L << undecided_) > task_.most_bits_a_doubt) {
+            finish_as_given(CertifiedFate::undecided, "event " + std::to_string(attempt_->hits()) +
+                                                          " is not enclosed by " +
                                                           std::to_string(effort_.bits) + " bits");
             return std::nullopt;
           }
-          // The missing bits may be lost while the result is read, not along the orbit: raise the reading precision as well.
+          // The missing bits may be lost while the result is read, not along the orbit: raise the
+          // reading precision as well.
           if (std::isfinite(outcome.missing_bits))
-            lacked_ = std::min(2 * lacked_ + static_cast<long>(outcome.missing_bits) + 1, effort_.bits);
+            lacked_ =
+                std::min(2 * lacked_ + static_cast<long>(outcome.missing_bits) + 1, effort_.bits);
           restart(effort_.bits + std::max(still_needed(outcome), 4L) +
                   (std::isfinite(outcome.missing_bits) ? 0L : 32L << undecided_++));
           if (done_) return std::nullopt;
@@ -142,34 +151,41 @@ class CertifiedOrbit::Implementation {
   void check_field() {
     const certify::Precision precision(1024);
     const double speed = certify::value_of(system_.speed).to_double();
-    if (!(speed > 1e-120 && speed < 1e120))  // beyond, squares leave the range of doubles, in which errors are followed
+    if (!(speed > 1e-120 &&
+          speed <
+              1e120))  // beyond, squares leave the range of doubles, in which errors are followed
       throw InputError(system_.speed.place(), "a speed that certified orbits do not follow",
                        "a speed between 10^-120 and 10^120");
     const Sign turns = certify::sign(certify::value_of(system_.omega));
     turns_ = turns != Sign::zero;
     if (!turns_) return;
     if (turns == Sign::undecided)
-      throw InputError(system_.omega.place(), "the magnetic field cannot be told from zero", "0, or another number");
+      throw InputError(system_.omega.place(), "the magnetic field cannot be told from zero",
+                       "0, or another number");
   }
 
-  // A flight from inside a bounded table meets a wall, and a Larmor circle comes back to a wall that it has left.
+  // A flight from inside a bounded table meets a wall, and a Larmor circle comes back to a wall
+  // that it has left.
   void check_domain() const {
     const bool may_end = turns_ ? attempt_->hits() == 0 : system_.table->extent != Extent::bounded;
     if (!may_end)
-      throw InternalError("a certified orbit has left its table after collision " + std::to_string(attempt_->hits()));
+      throw InternalError("a certified orbit has left its table after collision " +
+                          std::to_string(attempt_->hits()));
   }
 
-  // What is added to the bits that will be lost as far as a forecast knows. An attempt with too few bits is repeated,
-  // one with too many has more than the tangent map asks for: 1.03 times its norm's logarithm and 30 + log2 n bits.
+  // What is added to the bits that will be lost as far as a forecast knows. An attempt with too few
+  // bits is repeated, one with too many has more than the tangent map asks for: 1.03 times its
+  // norm's logarithm and 30 + log2 n bits.
   double margin(double lost, double spread) const {
     const double all = std::sqrt(16.0 + spread * spread);
     const double room = 0.03 * lost + 28.0 + std::log2(hits_ + 1.0) - rounding_loss_;
     // Another attempt has been paid for already: it has more than the forecast says.
-    return std::clamp(room - 1.65 * all, effort_.attempts > 0 ? 0.5 * all : -0.5 * all, 3.0 * all + 4.0);
+    return std::clamp(room - 1.65 * all, effort_.attempts > 0 ? 0.5 * all : -0.5 * all,
+                      3.0 * all + 4.0);
   }
 
-  // An attempt whose bits will hardly last is given up as soon as this is more likely to save time than not: what
-  // is flown already must be flown again.
+  // An attempt whose bits will hardly last is given up as soon as this is more likely to save time
+  // than not: what is flown already must be flown again.
   bool hopeless() const {
     const auto flown = static_cast<double>(attempt_->hits());
     const double rest = hits_ - flown;
@@ -178,8 +194,8 @@ class CertifiedOrbit::Implementation {
     return attempt_->spare_bits() < expected - spread * hopeless_spreads;
   }
 
-  // What this attempt lacks now, and what the rest of the orbit will lose: seen from here, for the first
-  // look ahead may have left through a hole that the orbit misses.
+  // What this attempt lacks now, and what the rest of the orbit will lose: seen from here, for the
+  // first look ahead may have left through a hole that the orbit misses.
   long still_needed(const Outcome& outcome) const {
     const double lacks = std::isfinite(outcome.missing_bits) ? outcome.missing_bits : 64.0;
     const certify::Forecast forecast = attempt_->look_ahead(interrupted_);
@@ -190,11 +206,13 @@ class CertifiedOrbit::Implementation {
       const auto unseen = static_cast<double>(task_.collisions - forecast.hits) - flown;
       rest += std::max(0.0, unseen) * lost / flown;
     }
-    return static_cast<long>(lacks + rest + margin(lost + rest, rest > 0.0 ? forecast.spread : 0.0)) + 1;
+    return static_cast<long>(lacks + rest +
+                             margin(lost + rest, rest > 0.0 ? forecast.spread : 0.0)) +
+           1;
   }
 
-  // Lists what rational numbers have told, up to the event that the orbit has come to: all of it, or only what was
-  // touched where it ends before the event.
+  // Lists what rational numbers have told, up to the event that the orbit has come to: all of it,
+  // or only what was touched where it ends before the event.
   enum class Listed : unsigned char { all, touched };
   void list_ties(std::uint64_t event, Listed listed) {
     for (const WaitingTie& tie : waiting_) {
@@ -209,30 +227,38 @@ class CertifiedOrbit::Implementation {
   bool decide(const Outcome& outcome) {
     const std::uint64_t event = attempt_->hits() + 1;
     const auto joint = ties_.joints.find(event);  // what is in doubt may be what comes before it
-    const bool known = joint != ties_.joints.end() && outcome.doubt.kind == certify::Doubt::choice &&
+    const bool known = joint != ties_.joints.end() &&
+                       outcome.doubt.kind == certify::Doubt::choice &&
                        outcome.doubt.first == joint->second.hit;
-    if (!known && (undecided_ == 1 || ties_found_ > 0)) {        // one tie is seldom alone
+    if (!known && (undecided_ == 1 || ties_found_ > 0)) {  // one tie is seldom alone
       if (const auto tie = tie_at(outcome)) {
-        if (!tie->goes_on() && tie->at && joint == ties_.joints.end()) {  // if no other wall comes before
+        if (!tie->goes_on() && tie->at &&
+            joint == ties_.joints.end()) {  // if no other wall comes before
           ties_.joints[event] = {tie->joint.front(), tie->joint, *tie->at, tie->text};
           undecided_ = 0;
           return true;
         }
-        // Along the edge of a corridor discs are touched without end: on one flight that meets nothing else, or on many.
-        const bool again = outcome.kind == Outcome::too_far && tie->kind == certify::Tie::tangency &&
-                           ties_.passed_by.count(event) > 0;
+        // Along the edge of a corridor discs are touched without end: on one flight that meets
+        // nothing else, or on many.
+        const bool again = outcome.kind == Outcome::too_far &&
+                           tie->kind == certify::Tie::tangency && ties_.passed_by.count(event) > 0;
         if (!tie->goes_on() || again || ties_found_ >= 1000) {
           finish_at_tie(tie->text);
           return false;
         }
         ++ties_found_;
-        waiting_.push_back({event, tie->text, tie->kind == certify::Tie::tangency ? tie->walls.front() : certify::Copy{}});
-        if (tie->kind == certify::Tie::tangency) ties_.passed_by[event].push_back(tie->walls.front());
+        waiting_.push_back(
+            {event, tie->text,
+             tie->kind == certify::Tie::tangency ? tie->walls.front() : certify::Copy{}});
+        if (tie->kind == certify::Tie::tangency)
+          ties_.passed_by[event].push_back(tie->walls.front());
         if (tie->kind == certify::Tie::reflection) {
-          for (std::size_t i = 0; i < tie->walls.size(); ++i) 
-            ties_.joints[event + i] = {tie->walls[i], i == 0 ? tie->joint : std::vector<certify::Copy>(),
+          for (std::size_t i = 0; i < tie->walls.size(); ++i)
+            ties_.joints[event + i] = {tie->walls[i],
+                                       i == 0 ? tie->joint : std::vector<certify::Copy>(),
                                        i == 0 ? *tie->at : certify::WallEnd(), ""};
-          if (tie->beside >= 0) ties_.passed_by[event + tie->walls.size()].push_back({tie->beside, {}});
+          if (tie->beside >= 0)
+            ties_.passed_by[event + tie->walls.size()].push_back({tie->beside, {}});
         }
         if (tie->kind == certify::Tie::last_time) ties_.at_last_time = event;
         if (tie->kind == certify::Tie::hole_start) ties_.holes[event] = tie->hole;
@@ -243,8 +269,9 @@ class CertifiedOrbit::Implementation {
     }
     const long more = 32L << undecided_++;
     if (more > task_.most_bits_a_doubt) {
-      finish_with(CertifiedFate::undecided,
-                  attempt_->description(outcome.doubt) + "; not decided by " + std::to_string(effort_.bits) + " bits");
+      finish_with(CertifiedFate::undecided, attempt_->description(outcome.doubt) +
+                                                "; not decided by " + std::to_string(effort_.bits) +
+                                                " bits");
       return false;
     }
     restart(effort_.bits + std::max(still_needed(outcome), 0L) + more);
@@ -258,11 +285,14 @@ class CertifiedOrbit::Implementation {
     return tie_finder_.find(walls, outcome.doubt);
   }
 
-  long bits_of_digits() const { return static_cast<long>(static_cast<double>(task_.digits) * 3.33) + 64; }
+  long bits_of_digits() const {
+    return static_cast<long>(static_cast<double>(task_.digits) * 3.33) + 64;
+  }
 
   void restart(long bits) {
     if (bits > task_.most_bits) {
-      finish_as_given(CertifiedFate::undecided, "the digits asked for need " + std::to_string(bits) + " bits");
+      finish_as_given(CertifiedFate::undecided,
+                      "the digits asked for need " + std::to_string(bits) + " bits");
       return;
     }
     effort_.bits = bits;
@@ -298,7 +328,8 @@ class CertifiedOrbit::Implementation {
     fill(end_, std::move(s));
   }
 
-  // With the last hit that was given out: the present attempt may not have come back to it, or not be accurate where it is.
+  // With the last hit that was given out: the present attempt may not have come back to it, or not
+  // be accurate where it is.
   void finish_as_given(CertifiedFate fate, std::string reason) {
     finish(fate, std::move(reason));
     if (given_ > 0) {
@@ -341,7 +372,8 @@ class CertifiedOrbit::Implementation {
   int ties_found_ = 0;
   double hits_ = 0.0;  ///< expected
   double rounding_loss_ = 0.0;
-  double loss_a_hit_ = 0.0, spread_a_hit_ = 0.0;  ///< by the first forecast, bits; of n hits sqrt(n) times the latter
+  double loss_a_hit_ = 0.0,
+         spread_a_hit_ = 0.0;  ///< by the first forecast, bits; of n hits sqrt(n) times the latter
   static constexpr double hopeless_spreads = 1.0;
   std::optional<certify::Attempt> attempt_;
   std::uint64_t given_ = 0;
@@ -351,13 +383,14 @@ class CertifiedOrbit::Implementation {
   static constexpr long usual_reading_bits = 96;
   long reading_bits_ = usual_reading_bits;  ///< Attempt's, by the sizes that are expected
   long lacked_ = 0;                         ///< more of them, by what attempts have lacked
-  bool turns_ = false;  ///< in a magnetic field
+  bool turns_ = false;                      ///< in a magnetic field
   bool done_ = false;
   CertifiedEnd end_;
   CertifiedEffort effort_;
 };
 
-CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task, std::function<bool()> interrupted)
+CertifiedOrbit::CertifiedOrbit(const ExactSystem& system, const CertifiedTask& task,
+                               std::function<bool()> interrupted)
     : implementation_(std::make_unique<Implementation>(system, task, std::move(interrupted))) {}
 CertifiedOrbit::~CertifiedOrbit() = default;
 CertifiedOrbit::CertifiedOrbit(CertifiedOrbit&&) noexcept = default;
@@ -377,8 +410,8 @@ CertifiedOrbit certified_orbit(const ExactSystem& system, std::uint64_t collisio
   return CertifiedOrbit(system, task);
 }
 
-CertifiedOrbit certified_orbit(const TableSpec& spec, const ExactStart& start, std::uint64_t collisions,
-                               int digits) {
+CertifiedOrbit certified_orbit(const TableSpec& spec, const ExactStart& start,
+                               std::uint64_t collisions, int digits) {
   ExactSystem system;
   system.spec = std::make_shared<const TableSpec>(spec);
   system.table = std::make_shared<const Table>(build_table(spec));

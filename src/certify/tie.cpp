@@ -13,7 +13,8 @@ using Vector = VectorOf<Rational>;
 void check_length(const Rational& x) {
   constexpr std::size_t most_bits = 1u << 16;
   const auto bits = [](const mpz_class& n) { return mpz_sizeinbase(n.get_mpz_t(), 2); };
-  if (x.value() == nullptr || bits(x.value()->get_num()) + bits(x.value()->get_den()) > most_bits) throw NotRational();
+  if (x.value() == nullptr || bits(x.value()->get_num()) + bits(x.value()->get_den()) > most_bits)
+    throw NotRational();
 }
 
 // Along the wall, of any length.
@@ -23,12 +24,14 @@ Vector tangent_at(const WallOf<Rational>& w, const Vector& P) {
   return w.turn > 0 ? left(outwards) : -left(outwards);
 }
 
-// How a flight with that velocity passes a wall at a point of it: negative: it leaves the domain there.
+// How a flight with that velocity passes a wall at a point of it: negative: it leaves the domain
+// there.
 Sign passes(const WallOf<Rational>& w, const Vector& P, const Vector& velocity) {
   return sign(cross(tangent_at(w, P), velocity));
 }
 
-// The n of an interior angle pi/n between two walls with these tangents, or 0. Between rational tangents n is 2 or 4.
+// The n of an interior angle pi/n between two walls with these tangents, or 0. Between rational
+// tangents n is 2 or 4.
 int parts_of_half_turn(const Vector& before, const Vector& after) {
   if (sign(cross(before, after)) != Sign::positive) return 0;
   const Rational cosine = -dot(before, after);
@@ -81,11 +84,11 @@ void TieFinder::prepare() {
 
 void TieFinder::fly_to(Flight& flight, const Copy& copy) const {
   const bool same = copy.wall == flight.standing && copy.cell == geometry::Cell{};
-  const LandingOf<Rational> landing = fly<Rational, Rational>(wall(copy.wall), seen(flight.position, copy),
-                                                              flight.velocity, motion_, same);
+  const LandingOf<Rational> landing = fly<Rational, Rational>(
+      wall(copy.wall), seen(flight.position, copy), flight.velocity, motion_, same);
   flight = {landing.position, landing.velocity, flight.time + landing.time, copy.wall};
-  for (const Rational* x :
-       {&flight.position.x, &flight.position.y, &flight.velocity.x, &flight.velocity.y, &flight.time})
+  for (const Rational* x : {&flight.position.x, &flight.position.y, &flight.velocity.x,
+                            &flight.velocity.y, &flight.time})
     check_length(*x);
 }
 
@@ -115,14 +118,16 @@ std::optional<Tie> TieFinder::with_wall(const Copy& copy) const {
   return along != nullptr ? at_joint(*along, copy) : std::nullopt;
 }
 
-std::optional<Tie> TieFinder::touching(const Wall& w, const Vector& P, const Copy& copy, bool standing) const {
+std::optional<Tie> TieFinder::touching(const Wall& w, const Vector& P, const Copy& copy,
+                                       bool standing) const {
   const Vector& v = now_.velocity;
   if (w.form == Form::segment) {
     if (!is_zero(cross(v, w.chord)) || !is_zero(dot(P - w.from, w.normal))) return std::nullopt;
     const Rational from = dot(v, w.from - P), to = dot(v, w.to - P);
     const bool from_ahead = sign(from) == Sign::positive, to_ahead = sign(to) == Sign::positive;
     if (!from_ahead && !to_ahead)
-      return Tie{Tie::tangency, "exactly in line with " + name(copy.wall) + ", which lies behind", {copy}};
+      return Tie{
+          Tie::tangency, "exactly in line with " + name(copy.wall) + ", which lies behind", {copy}};
     Tie tie{Tie::along_wall, "exactly along " + name(copy.wall)};
     tie.joint = {copy};
     if (from_ahead && to_ahead) tie.at = WallEnd{copy, sign(to - from) == Sign::negative};
@@ -136,7 +141,8 @@ std::optional<Tie> TieFinder::touching(const Wall& w, const Vector& P, const Cop
   }
   const Rational c = level_at(w, P);
   if (!is_zero(square(b) - a * c)) return std::nullopt;
-  if (is_zero(c)) return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall)};  // where it is
+  if (is_zero(c))
+    return Tie{Tie::along_wall, "exactly tangent to " + name(copy.wall)};  // where it is
   return Tie{Tie::tangency, "exactly tangent to " + name(copy.wall) + ", which is no hit", {copy}};
 }
 
@@ -156,7 +162,8 @@ bool TieFinder::opens_at(int index, bool at_its_end) const {
 std::optional<Tie> TieFinder::at_joint(const Vector& J, const Copy& met) const {
   const Vector& v = now_.velocity;
   int ends = -1, begins = -1, meeting = 0;
-  std::vector<Copy> walls_there;  // a wall into whose domain the flight comes there may be met before
+  std::vector<Copy>
+      walls_there;  // a wall into whose domain the flight comes there may be met before
   for (std::size_t k = 0; k < table_.walls.size(); ++k) {
     const Wall& w = table_.walls[k];
     if (w.closed) continue;
@@ -174,24 +181,28 @@ std::optional<Tie> TieFinder::at_joint(const Vector& J, const Copy& met) const {
     tie.at = WallEnd{met, is_zero(wall(met.wall).to - J)};
     return tie;
   };
-  if (ends < 0 || begins < 0 || meeting > 2) return corner("exactly into an end of " + name(met.wall));
+  if (ends < 0 || begins < 0 || meeting > 2)
+    return corner("exactly into an end of " + name(met.wall));
   const Form form_before = wall(ends).form, form_after = wall(begins).form;
   const Vector before = tangent_at(wall(ends), J), after = tangent_at(wall(begins), J);
-  const bool across = sign(cross(before, v)) == Sign::negative && sign(cross(after, v)) == Sign::negative;
+  const bool across =
+      sign(cross(before, v)) == Sign::negative && sign(cross(after, v)) == Sign::negative;
   const bool smooth = is_zero(cross(before, after)) && sign(dot(before, after)) == Sign::positive;
-  const std::string text =
-      std::string("exactly into the ") + (smooth ? "joint" : "corner") + " between " + name(ends) + " and " + name(begins);
+  const std::string text = std::string("exactly into the ") + (smooth ? "joint" : "corner") +
+                           " between " + name(ends) + " and " + name(begins);
   const int n = across && !smooth ? parts_of_half_turn(before, after) : 0;
   if (smooth ? !across : n == 0) return corner(text);
   // Orbits beside one that meets a hole there leave through it.
   if (opens_at(ends, true) || opens_at(begins, false)) return corner(text + ", at a hole");
-  // A straight flight does not meet a segment through the joint again; it may meet a curve elsewhere.
+  // A straight flight does not meet a segment through the joint again; it may meet a curve
+  // elsewhere.
   const auto beside = [this](int other) { return wall(other).form == Form::segment ? other : -1; };
   Tie tie{Tie::reflection, text};
   tie.joint = {{ends, met.cell}, {begins, met.cell}};
   tie.at = WallEnd{tie.joint.front(), true};
   if (smooth) {
-    // It leaves the joint from a curve, where there is one: from there a segment beside it is not met.
+    // It leaves the joint from a curve, where there is one: from there a segment beside it is not
+    // met.
     const bool from_end = form_after == Form::segment && form_before != Form::segment;
     tie.text += ", where they have one tangent";
     tie.walls = {{from_end ? ends : begins, met.cell}};
@@ -212,9 +223,11 @@ bool TieFinder::is_at(const Flight& there, const HoleSpec& spec, int side) const
   const Rational s = Rational(spec.center) + Rational(side) * Rational(spec.width) / Rational(2);
   // Arc lengths squared: so the length of the wall costs no root.
   if (w.form == Form::segment)
-    return is_zero(square(dot(there.position - w.from, w.chord)) - square(s) * dot(w.chord, w.chord));
+    return is_zero(square(dot(there.position - w.from, w.chord)) -
+                   square(s) * dot(w.chord, w.chord));
   if (is_zero(s)) return is_zero(there.position - w.from);
-  // The cosine of an algebraic angle s/r that is not zero is transcendental (Lindemann): no rational point lies there.
+  // The cosine of an algebraic angle s/r that is not zero is transcendental (Lindemann): no
+  // rational point lies there.
   if (w.form == Form::circle) return false;
   throw NotRational();
 }
@@ -226,13 +239,16 @@ std::optional<Tie> TieFinder::with_hole(const Flight& there, int index) const {
   for (std::size_t k = 0; k < specs.size(); ++k) {
     if (name_of_hole(specs, k) != called) continue;
     if (is_at(there, specs[k], -1))
-      return at_hole(Tie::hole_start, "exactly at the start of hole" + hole + ", which belongs to it", index);
+      return at_hole(Tie::hole_start,
+                     "exactly at the start of hole" + hole + ", which belongs to it", index);
     if (!is_at(there, specs[k], +1)) continue;
     for (std::size_t next = 0; next < specs.size(); ++next)
       if (next != k && specs[next].wall == specs[k].wall && is_at(there, specs[next], -1))
-        return at_hole(Tie::hole_start, "exactly at the end of hole" + hole + ", where the next one starts",
+        return at_hole(Tie::hole_start,
+                       "exactly at the end of hole" + hole + ", where the next one starts",
                        system_.table->hole_index(name_of_hole(specs, next)));
-    return at_hole(Tie::hole_end, "exactly at the end of hole" + hole + ", which does not belong to it", index);
+    return at_hole(Tie::hole_end,
+                   "exactly at the end of hole" + hole + ", which does not belong to it", index);
   }
   return std::nullopt;
 }
@@ -241,7 +257,8 @@ std::optional<Tie> TieFinder::with_hole(const Flight& there, int index) const {
 std::optional<Tie> TieFinder::with_last_time(const Flight& there) const {
   const Rational last = Rational(system_.speed) * Rational(*task_.t_max);
   if (!is_zero(square(there.time) * motion_.speed2 - square(last))) return std::nullopt;
-  return Tie{Tie::last_time, name(there.standing) + " is met exactly at the last time: the hit counts"};
+  return Tie{Tie::last_time,
+             name(there.standing) + " is met exactly at the last time: the hit counts"};
 }
 
 }  // namespace carom::certify

@@ -1,5 +1,6 @@
-// Exact ties of straight flights: an orbit that runs exactly into a corner, touches a disc, meets the end of a hole. No
-// precision tells them. Where start, direction and table are rational numbers as written, rational arithmetic does.
+// Exact ties of straight flights: an orbit that runs exactly into a corner, touches a disc, meets
+// the end of a hole. No precision tells them. Where start, direction and table are rational numbers
+// as written, rational arithmetic does.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ namespace carom::certify {
 /// What balls could not tell at an event.
 struct Doubt {
   enum Kind : unsigned char {
-    choice,    ///< which of `first` and `second` is met first; without a second, whether `first` is met
+    choice,    ///< which of `first` and `second` is met first; without a second, whether `first` is
+               ///< met
     hole,      ///< on which side of an end of `hole` the wall `first` is met
     last_time  ///< whether `first` is met before the last time
   } kind = choice;
@@ -43,10 +45,12 @@ struct Tie {
   } kind = corner;
   std::string text;
   std::vector<Copy> walls{};
-  std::vector<Copy> joint{};  ///< the walls that are met there: that which ends and that which begins
+  std::vector<Copy>
+      joint{};  ///< the walls that are met there: that which ends and that which begins
   std::optional<WallEnd> at{};  ///< balls have to prove that no other wall comes before this
-  int hole = -1;              ///< in Table::holes, of an end of a hole
-  int beside = -1;  ///< of a reflection: the segment that is not met when the flight leaves the joint
+  int hole = -1;                ///< in Table::holes, of an end of a hole
+  int beside =
+      -1;  ///< of a reflection: the segment that is not met when the flight leaves the joint
   bool goes_on() const { return kind != corner && kind != along_wall; }
 };
 
@@ -56,8 +60,9 @@ class TieFinder {
   TieFinder(const ExactSystem& system, const CertifiedTask& task) : system_(system), task_(task) {}
   TieFinder(const TieFinder&) = delete;
   TieFinder& operator=(const TieFinder&) = delete;
-  /// The tie at the event after the walls `path` were met (each call with a longer path of the same orbit). Nothing where
-  /// there is none, in a field, and where a number is not rational or longer than 65536 bits.
+  /// The tie at the event after the walls `path` were met (each call with a longer path of the same
+  /// orbit). Nothing where there is none, in a field, and where a number is not rational or longer
+  /// than 65536 bits.
   std::optional<Tie> find(const std::vector<Copy>& path, const Doubt&);
 
  private:
@@ -102,8 +107,8 @@ struct KnownTies {
   std::map<std::uint64_t, int> holes;                    ///< the hole that is left through, or -1
   std::map<std::uint64_t, std::vector<Copy>> passed_by;  ///< walls that are touched and not hit
   struct Joint {
-    Copy hit;               ///< the wall that is hit there
-    std::vector<Copy> of;   ///< Tie::joint, or nothing where the particle is in the joint already
+    Copy hit;              ///< the wall that is hit there
+    std::vector<Copy> of;  ///< Tie::joint, or nothing where the particle is in the joint already
     WallEnd at{};
     std::string dead_end{};  ///< why the orbit ends there, if it does
   };

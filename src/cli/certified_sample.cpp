@@ -33,7 +33,8 @@ OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
     if (!written) system.start = exact_start(start);
     std::optional<CertifiedOrbit> orbit;
     try {
-      orbit.emplace(system, task, [&stop = catch_interrupts()] { return stop.load(std::memory_order_relaxed); });
+      orbit.emplace(system, task,
+                    [&stop = catch_interrupts()] { return stop.load(std::memory_order_relaxed); });
     } catch (const InputError&) {  // next to a wall, and outside of the table as it was written
       return {};
     }
@@ -60,7 +61,8 @@ OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
 int digits_of(const Options& options) {
   if (options.digits.empty()) return 10;
   const std::uint64_t digits = whole_number(options.digits, "--digits", 1);
-  if (digits > 1000) throw InputError(place_of("--digits"), "a sample needs few digits", "at most 1000");
+  if (digits > 1000)
+    throw InputError(place_of("--digits"), "a sample needs few digits", "at most 1000");
   return static_cast<int>(digits);
 }
 
@@ -82,7 +84,9 @@ void add_result(Json& json, const PairedEscapeResult& result, int digits) {
   json.set("pairs", r.pairs).set("digits", digits).set("singular", result.singular);
   json.set("unresolved", result.unresolved).set("lost", result.lost);
   json.set("certified_singular", result.other_singular).set("undecided", result.unknown);
-  json.set("other_hole", r.other_hole).set("other_hits", r.other_hits).set("other_time", r.other_time);
+  json.set("other_hole", r.other_hole)
+      .set("other_hits", r.other_hits)
+      .set("other_time", r.other_time);
   const auto of_pairs = [&](double x) { return r.pairs > 0 ? Json(x) : Json(); };
   json.set("statistic", of_pairs(r.statistic)).set("threshold", of_pairs(r.threshold));
   json.set("p_value", of_pairs(r.p_value)).set("swaps", r.swaps);
@@ -106,24 +110,32 @@ std::string text_of(const PairedEscapeResult& result, int digits) {
   const auto share = [&](std::uint64_t n) {
     return fmt::format("{:>10}  {:>7.3f} %", grouped(n), 100.0 * static_cast<double>(n) / all);
   };
-  std::string text = fmt::format("The same starts in doubles and certified, {} decimals: {} pairs{}\n", digits, grouped(r.pairs),
-                                 result.complete ? "" : " (interrupted)");
+  std::string text =
+      fmt::format("The same starts in doubles and certified, {} decimals: {} pairs{}\n", digits,
+                  grouped(r.pairs), result.complete ? "" : " (interrupted)");
   text += fmt::format("  escape otherwise      {}\n", share(r.different()));
   text += fmt::format("    elsewhere or not    {}\n", share(r.other_hole));
   text += fmt::format("    after other hits    {}\n", share(r.other_hits));
   text += fmt::format("    at another time     {}\n", share(r.other_time));
-  if (result.singular + result.unresolved + result.lost + result.other_singular + result.unknown > 0)
-    text += fmt::format("  not compared          {} singular in doubles, {} certified as singular, {} unresolved, {} lost, {} undecided\n",
-                        result.singular, result.other_singular, result.unresolved, result.lost, result.unknown);
+  if (result.singular + result.unresolved + result.lost + result.other_singular + result.unknown >
+      0)
+    text += fmt::format(
+        "  not compared          {} singular in doubles, {} certified as singular, {} unresolved, "
+        "{} lost, {} undecided\n",
+        result.singular, result.other_singular, result.unresolved, result.lost, result.unknown);
   if (r.pairs == 0)
-    return text + fmt::format("  no pair was compared: nothing is known of the curves\n  computed in           {:.3g} s\n",
-                              result.seconds);
+    return text + fmt::format(
+                      "  no pair was compared: nothing is known of the curves\n  computed in       "
+                      "    {:.3g} s\n",
+                      result.seconds);
   text += "\n           t      double   certified   difference      error   detectable\n";
   for (const PairedPoint& p : r.points)
-    text += fmt::format("{:>12.6g}  {:>10.6f}  {:>10.6f}   {:>+10.6f}   {:.6f}     {:.6f}\n", p.t, p.first, p.second,
-                        p.difference, p.error, p.detectable);
-  text += fmt::format("  largest difference    {:.2f} standard errors; {} random swaps of pairs exceed {:.2f} in 5 %\n",
-                      r.statistic, grouped(r.swaps), r.threshold);
+    text += fmt::format("{:>12.6g}  {:>10.6f}  {:>10.6f}   {:>+10.6f}   {:.6f}     {:.6f}\n", p.t,
+                        p.first, p.second, p.difference, p.error, p.detectable);
+  text += fmt::format(
+      "  largest difference    {:.2f} standard errors; {} random swaps of pairs exceed {:.2f} in 5 "
+      "%\n",
+      r.statistic, grouped(r.swaps), r.threshold);
   text += fmt::format("  swap test             p = {:.4f}: the curves {}\n", r.p_value,
                       r.p_value > 0.05 ? "do not differ" : "differ");
   return text + fmt::format("  computed in           {:.3g} s\n", result.seconds);
@@ -133,7 +145,8 @@ std::string text_of(const PairedEscapeResult& result, int digits) {
 
 int certified_sample(const Options& options) {
   if (!options.output.empty())
-    throw InputError(place_of("--output"), "a certified sample writes no archive", "--json, or no -o");
+    throw InputError(place_of("--output"), "a certified sample writes no archive",
+                     "--json, or no -o");
   check_engine(options);
   PairedEscapeOptions how;
   how.sample = whole_number(options.certify_sample, "--certify-sample", 1);
@@ -144,7 +157,8 @@ int certified_sample(const Options& options) {
   how.interrupted = &catch_interrupts();
   const System& system = loaded.system;
   if (how.sample > system.run.trajectories)
-    throw InputError(place_of("--certify-sample"), fmt::format("the ensemble has {} trajectories", system.run.trajectories),
+    throw InputError(place_of("--certify-sample"),
+                     fmt::format("the ensemble has {} trajectories", system.run.trajectories),
                      "a sample of at most these, or more --trajectories");
   check(loaded);
   PairedEscapeResult result;
@@ -153,10 +167,12 @@ int certified_sample(const Options& options) {
     const double all = static_cast<double>(how.sample);
     how.progress = [&](std::uint64_t done) {
       if (progress.due())
-        progress.show(static_cast<double>(done) / all,
-                      with_prefix(static_cast<double>(done) / progress.seconds()) + "certified orbits/s");
+        progress.show(
+            static_cast<double>(done) / all,
+            with_prefix(static_cast<double>(done) / progress.seconds()) + "certified orbits/s");
     };
-    result = compare_escapes(system, [&] { return certified_flight(loaded, digits); }, how);
+    result = compare_escapes(
+        system, [&] { return certified_flight(loaded, digits); }, how);
   }
   if (options.json) {
     Json json = Json::object();
@@ -164,7 +180,8 @@ int certified_sample(const Options& options) {
     add_result(json, result, digits);
     print(json.text() + "\n");
   } else {
-    print(fmt::format("{}\n", system.title.empty() ? system.name : system.title) + text_of(result, digits));
+    print(fmt::format("{}\n", system.title.empty() ? system.name : system.title) +
+          text_of(result, digits));
   }
   if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;

@@ -31,8 +31,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 std::atomic<std::int64_t> first_signal{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
-// timeout and mpirun send a signal to the process and then to its group: the second one, at once, is not that of someone who
-// does not want to wait.
+// timeout and mpirun send a signal to the process and then to its group: the second one, at once,
+// is not that of someone who does not want to wait.
 extern "C" void on_interrupt(int) {
   constexpr std::int64_t patience = 500'000'000;  // ns
   timespec time{};
@@ -43,10 +43,12 @@ extern "C" void on_interrupt(int) {
   interrupted = true;
 }
 
-// The soft limit of CPU time is told of again every second until the hard one: none of these is meant to be the second signal.
+// The soft limit of CPU time is told of again every second until the hard one: none of these is
+// meant to be the second signal.
 extern "C" void on_limit(int) { interrupted = true; }
 
-// In one piece, so that lines of several processes do not mix; whether it is read is nobody's fault.
+// In one piece, so that lines of several processes do not mix; whether it is read is nobody's
+// fault.
 void write_message(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
 
 Place option_place(const char* option) { return Place{"command line", 0, 0, option}; }
@@ -57,7 +59,8 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
   const Place place = option_place(option);
   const std::string expected = fmt::format("a whole number from {} on", least);
   const auto number = carom::whole_number(ExactNumber(text, place));
-  if (!number) throw InputError(place, fmt::format("'{}' is not a whole number below 2^64", text), expected);
+  if (!number)
+    throw InputError(place, fmt::format("'{}' is not a whole number below 2^64", text), expected);
   if (*number < least) throw InputError(place, fmt::format("{} is too small", text), expected);
   return *number;
 }
@@ -73,8 +76,8 @@ int threads_of(const Options& options) {
 
 namespace {
 
-[[noreturn]] void refuse_name(const char* option, const std::string& value, const char* problem, const std::string& expected,
-                              const std::string& nearest = {}) {
+[[noreturn]] void refuse_name(const char* option, const std::string& value, const char* problem,
+                              const std::string& expected, const std::string& nearest = {}) {
   throw InputError(option_place(option), fmt::format("'{}' {}", value, problem), expected, nearest);
 }
 
@@ -85,8 +88,8 @@ void check_instruction_set(const Options& options) {
   std::vector<std::string> here{"auto"};
   for (const InstructionSet set : available_instruction_sets()) here.emplace_back(name_of(set));
   if (std::find(here.begin(), here.end(), options.isa) == here.end())
-    refuse_name("--isa", options.isa, "is not an instruction set of this machine", fmt::format("{}", fmt::join(here, ", ")),
-                nearest_name(options.isa, here));
+    refuse_name("--isa", options.isa, "is not an instruction set of this machine",
+                fmt::format("{}", fmt::join(here, ", ")), nearest_name(options.isa, here));
   // Of plain ensembles some fly in lanes: they say so when they have flown.
   if (is_plain_ensemble(options)) return;
   warn(fmt::format("--isa changed nothing: carom {}{} uses no lanes", options.command,
@@ -110,7 +113,8 @@ void choose_engine(const std::string& engine, System& system) {
   const Dynamics& dynamics = system.dynamics;
   const bool forces = dynamics.forces && !dynamics.forces->empty();
   if (engine == "events" && forces)
-    throw InputError(option_place("--engine"), "'events' cannot move particles under forces", "auto or steps");
+    throw InputError(option_place("--engine"), "'events' cannot move particles under forces",
+                     "auto or steps");
   system.dynamics.everywhere = engine == "steps";
   if (!forces && engine != "steps") return;
   if (!(dynamics.integrator.step > 0.0) && !is_adaptive(dynamics.integrator.scheme))
@@ -118,8 +122,8 @@ void choose_engine(const std::string& engine, System& system) {
                      "[integrator] step, or --set integrator.step=0.01");
   double omega = 0.0;
   for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
-  const std::string warning =
-      check_turn(dynamics.integrator, omega, !system.table->walls.empty(), {system.name, 0, 0, "integrator"});
+  const std::string warning = check_turn(dynamics.integrator, omega, !system.table->walls.empty(),
+                                         {system.name, 0, 0, "integrator"});
   if (!warning.empty()) write_message("warning: " + warning);
 }
 
@@ -133,8 +137,10 @@ std::string engine_of(const System& system) {
 std::string repeated_starts(const System& system) {
   const std::uint64_t listed = listed_trajectories(system), all = system.run.trajectories;
   if (listed == 0 || listed >= all || !system.injections.empty()) return {};
-  return fmt::format("{} trajectories repeat {} listed one{}: they are not independent, and errors and intervals too small",
-                     grouped(all), grouped(listed), listed == 1 ? "" : "s");
+  return fmt::format(
+      "{} trajectories repeat {} listed one{}: they are not independent, and errors and intervals "
+      "too small",
+      grouped(all), grouped(listed), listed == 1 ? "" : "s");
 }
 
 void follow_links(Options& options) {
@@ -146,7 +152,9 @@ ArchiveLock lock_output(const std::string& file) {
   refuse_inside(file);
   ArchiveLock lock = lock_archive(file);
   if (const std::string weakness = weakness_of(lock); !weakness.empty())
-    warn(fmt::format("no other process is kept from writing '{}': its file system gives no locks ({})", file, weakness));
+    warn(fmt::format(
+        "no other process is kept from writing '{}': its file system gives no locks ({})", file,
+        weakness));
   return lock;
 }
 
@@ -154,8 +162,8 @@ Provenance provenance_of(const Options& options, const System& system, int threa
   return {options.line, engine_of(system), "baseline", threads, {}};
 }
 
-void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds,
-                     const char* isa) {
+void add_common_keys(Json& json, const System& system, int threads, double seconds,
+                     double cpu_seconds, const char* isa) {
   json.set("version", version);
   json.set("system", system.name);
   json.set("seed", system.run.seed);
@@ -186,18 +194,21 @@ std::string decisions_text(const DecisionCounts& decisions) {
   return fmt::format("decisions beyond double precision: {:.2g} %", 100.0 * exact_share(decisions));
 }
 
-std::string lanes_text(const std::string& none, std::optional<InstructionSet> lanes, const LaneEffort& effort) {
+std::string lanes_text(const std::string& none, std::optional<InstructionSet> lanes,
+                       const LaneEffort& effort) {
   if (!none.empty()) return fmt::format("lanes: none: {}\n", none);
   const char* const set = name_of(lanes.value_or(InstructionSet::baseline));
   if (effort.steps == 0) return fmt::format("lanes: {}\n", set);
-  return fmt::format("lanes: {}, {:.1f} % busy, {:.2g} % of events left to the scalar engine\n", set, 100.0 * effort.busy(),
-                     100.0 * effort.left());
+  return fmt::format("lanes: {}, {:.1f} % busy, {:.2g} % of events left to the scalar engine\n",
+                     set, 100.0 * effort.busy(), 100.0 * effort.left());
 }
 
 void print(const std::string& text) {
   errno = 0;
-  const bool ok = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-  if (!ok) throw InputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+  const bool ok =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!ok)
+    throw InputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
 
 void warn(const std::string& text) { write_message("carom: " + text); }
@@ -210,7 +221,8 @@ const std::atomic<bool>& catch_interrupts() {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   struct sigaction before {};
-  const bool no_hangup = sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;  // nohup
+  const bool no_hangup =
+      sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;  // nohup
   if (!no_hangup) sigaction(SIGHUP, &action, nullptr);
   action.sa_handler = on_limit;
   sigaction(SIGXCPU, &action, nullptr);

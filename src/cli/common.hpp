@@ -16,7 +16,8 @@
 
 namespace carom::cli {
 
-/// A whole number written in any way ("1e3"), at least `least`. Throws InputError naming the option.
+/// A whole number written in any way ("1e3"), at least `least`. Throws InputError naming the
+/// option.
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least);
 /// Threads asked for; 0: all.
 int threads_of(const Options&);
@@ -33,7 +34,8 @@ std::string engine_of(const System&);
 /// What becomes of trajectories that failed, as a note to their number.
 inline constexpr const char* why_unresolved = "integration could not follow: see the messages";
 inline constexpr const char* why_lost = "an internal error: please report it";
-/// A doubt about an ensemble's errors: "" unless its trajectories repeat the starts that are listed.
+/// A doubt about an ensemble's errors: "" unless its trajectories repeat the starts that are
+/// listed.
 std::string repeated_starts(const System&);
 /// From here on archives and drawings have the names of the files, whatever links lead to them.
 void follow_links(Options&);
@@ -42,21 +44,24 @@ ArchiveLock lock_output(const std::string& file);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.
-void add_common_keys(Json& json, const System& system, int threads, double seconds, double cpu_seconds,
-                     const char* isa = "baseline");
+void add_common_keys(Json& json, const System& system, int threads, double seconds,
+                     double cpu_seconds, const char* isa = "baseline");
 /// {filter, exact, share}: how many decisions each stage took, and the share that left the filter.
 Json decisions_json(const DecisionCounts&);
 /// "decisions beyond double precision: 0.0001 %".
 std::string decisions_text(const DecisionCounts&);
-/// "lanes: " and what becomes of them: `none`, why nothing flies in lanes, or if that is "" the instruction set and how busy they were.
-std::string lanes_text(const std::string& none, std::optional<InstructionSet> lanes, const LaneEffort& effort = {});
+/// "lanes: " and what becomes of them: `none`, why nothing flies in lanes, or if that is "" the
+/// instruction set and how busy they were.
+std::string lanes_text(const std::string& none, std::optional<InstructionSet> lanes,
+                       const LaneEffort& effort = {});
 /// Writes to standard output; an output that cannot be written is an InputError.
 void print(const std::string& text);
-/// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing else.
+/// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing
+/// else.
 void warn(const std::string& text);
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP (unless it was ignored) set a flag; a second one ends the program at once. So does SIGXCPU,
-/// however often it comes.
+/// From now on Ctrl-C, SIGTERM and SIGHUP (unless it was ignored) set a flag; a second one ends the
+/// program at once. So does SIGXCPU, however often it comes.
 const std::atomic<bool>& catch_interrupts();
 
 /// "9 012 345".

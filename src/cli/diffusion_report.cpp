@@ -20,16 +20,23 @@ constexpr std::size_t corridors_in_text = 6, corridors_in_json = 1000;
 
 const char* name_of(Kind kind) {
   switch (kind) {
-    case Kind::finite: return "finite";
-    case Kind::infinite: return "infinite";
-    case Kind::bounded: return "bounded";
-    case Kind::open_plane: return "open plane";
-    case Kind::unknown: break;
+    case Kind::finite:
+      return "finite";
+    case Kind::infinite:
+      return "infinite";
+    case Kind::bounded:
+      return "bounded";
+    case Kind::open_plane:
+      return "open plane";
+    case Kind::unknown:
+      break;
   }
   return "unknown";
 }
 
-Json json_of(const Estimate& e) { return Json::object().set("value", e.value).set("stderr", e.error); }
+Json json_of(const Estimate& e) {
+  return Json::object().set("value", e.value).set("stderr", e.error);
+}
 
 // "0.16993 +- 0.00031": as many digits as the error allows, the error with two.
 std::string with_error(const Estimate& e) {
@@ -40,7 +47,8 @@ std::string with_error(const Estimate& e) {
 
 std::string moments_table(const std::vector<MomentPoint>& points) {
   std::string text =
-      "\n           t           MSD        +-       MSD/4t         <r^4>        +-   local exponent\n";
+      "\n           t           MSD        +-       MSD/4t         <r^4>        +-   local "
+      "exponent\n";
   for (const MomentPoint& p : points) {
     text += fmt::format("{:>12.6g}  {:>12.6g}  {:>8.2g}", p.t, p.square.value, p.square.error);
     text += p.t > 0 ? fmt::format("  {:>11.6g}", p.square.value / (4 * p.t)) : std::string(13, ' ');
@@ -55,8 +63,9 @@ std::string moments_table(const std::vector<MomentPoint>& points) {
 std::string horizon_text(const Horizon& horizon) {
   if (horizon.corridors.list.empty()) return {};
   const auto& list = horizon.corridors.list;
-  std::string text = fmt::format("\nFree corridors: {}{}\n   along                          width\n", list.size(),
-                                 horizon.corridors.complete ? "" : " found, not all directions looked at");
+  std::string text =
+      fmt::format("\nFree corridors: {}{}\n   along                          width\n", list.size(),
+                  horizon.corridors.complete ? "" : " found, not all directions looked at");
   for (std::size_t i = 0; i < std::min(list.size(), corridors_in_text); ++i)
     text += fmt::format("   [{}, {}] = ({:.6g}, {:.6g}){:>{}}\n", list[i].direction.first,
                         list[i].direction.second, list[i].along.x, list[i].along.y,
@@ -73,12 +82,15 @@ std::string fit_text(const DiffusionSummary& summary) {
   std::string text = "\n";
   const auto& fit = summary.fit;
   if (!summary.no_D.empty())
-    text += fmt::format("D {}: {}.\n", summary.estimable ? "does not exist" : "cannot be estimated", summary.no_D);
+    text += fmt::format("D {}: {}.\n", summary.estimable ? "does not exist" : "cannot be estimated",
+                        summary.no_D);
   if (fit && summary.no_D.empty())
-    text += fmt::format("D = {}   from MSD = 4 D t + c, c = {}\n", with_error(fit->D), with_error(fit->offset));
+    text += fmt::format("D = {}   from MSD = 4 D t + c, c = {}\n", with_error(fit->D),
+                        with_error(fit->offset));
   if (!summary.note.empty()) text += fmt::format("    {}\n", summary.note);
   if (summary.horizon.machta_zwanzig)
-    text += fmt::format("    {:.6g} by Machta and Zwanzig, for narrow gaps\n", *summary.horizon.machta_zwanzig);
+    text += fmt::format("    {:.6g} by Machta and Zwanzig, for narrow gaps\n",
+                        *summary.horizon.machta_zwanzig);
   if (!fit) return text;
   if (std::isfinite(fit->exponent.value))
     text += fmt::format("exponent a = {}   from MSD = A t^a + c;", with_error(fit->exponent));
@@ -88,7 +100,8 @@ std::string fit_text(const DiffusionSummary& summary) {
     text += "MSD = A t^a + c has no best exponent a between 0.05 and 4;";
   text += fmt::format(
       "  slope of ln MSD against ln t {}\n"
-      "window {:.6g} <= t <= {:.6g}, {} times; errors by the jackknife over groups of trajectories\n",
+      "window {:.6g} <= t <= {:.6g}, {} times; errors by the jackknife over groups of "
+      "trajectories\n",
       with_error(fit->local_exponent), fit->window.from, fit->window.to, fit->points);
   return text;
 }
@@ -108,8 +121,8 @@ std::string ends_text(const DiffusionResult& result) {
   return text.empty() ? text : "\nof the particles: " + text + "\n";
 }
 
-Json diffusion_json(const System& system, const DiffusionResult& result, const DiffusionSummary& summary,
-                    const EnsembleContext& context) {
+Json diffusion_json(const System& system, const DiffusionResult& result,
+                    const DiffusionSummary& summary, const EnsembleContext& context) {
   Json json = Json::object();
   add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
                   result.lanes ? carom::name_of(*result.lanes) : "baseline");
@@ -126,19 +139,26 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   json.set("unresolved", result.unresolved);
   json.set("lost", result.lost);
   json.set("collisions", result.collisions);
-  if (engine_of(system) != "events") json.set("energy_change", result.energy_change).set("energy_error", energy_json(result.energy_error));
+  if (engine_of(system) != "events")
+    json.set("energy_change", result.energy_change)
+        .set("energy_error", energy_json(result.energy_error));
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
   if (const std::string none = why_one_by_one(system); !none.empty()) json.set("no_lanes", none);
-  Json msd = Json::array(), fourth = Json::array(), local = Json::array(), corridors = Json::array();
+  Json msd = Json::array(), fourth = Json::array(), local = Json::array(),
+       corridors = Json::array();
   for (const MomentPoint& p : summary.points) {
-    msd.push(Json::object().set("t", p.t).set("value", p.square.value).set("stderr", p.square.error));
-    fourth.push(Json::object().set("t", p.t).set("value", p.fourth.value).set("stderr", p.fourth.error));
+    msd.push(
+        Json::object().set("t", p.t).set("value", p.square.value).set("stderr", p.square.error));
+    fourth.push(
+        Json::object().set("t", p.t).set("value", p.fourth.value).set("stderr", p.fourth.error));
     if (std::isfinite(p.exponent.value))
-      local.push(
-          Json::object().set("t", p.middle).set("value", p.exponent.value).set("stderr", p.exponent.error));
+      local.push(Json::object()
+                     .set("t", p.middle)
+                     .set("value", p.exponent.value)
+                     .set("stderr", p.exponent.error));
   }
   json.set("msd", std::move(msd));
   json.set("fourth_moment", std::move(fourth));
@@ -162,8 +182,10 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
     Json cell = Json::array(), along = Json::array();
     cell.push(c.direction.first).push(c.direction.second);
     along.push(c.along.x).push(c.along.y);
-    corridors.push(
-        Json::object().set("direction", std::move(cell)).set("along", std::move(along)).set("width", c.width));
+    corridors.push(Json::object()
+                       .set("direction", std::move(cell))
+                       .set("along", std::move(along))
+                       .set("width", c.width));
   }
   json.set("corridors", std::move(corridors));
   if (horizon.kind == Kind::infinite) json.set("flight_tail", horizon.flight_tail);
@@ -172,13 +194,15 @@ Json diffusion_json(const System& system, const DiffusionResult& result, const D
   return json;
 }
 
-std::string diffusion_text(const System& system, const DiffusionResult& result, const DiffusionSummary& summary,
-                           const EnsembleContext& context) {
-  std::string text = doubts_of(system, result).text() + fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(result.trajectories),
-                      system.run.times.back(), system.run.seed,
-                      context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
-                      result.complete ? "" : "  (" + context.status + ": those that were finished)");
+std::string diffusion_text(const System& system, const DiffusionResult& result,
+                           const DiffusionSummary& summary, const EnsembleContext& context) {
+  std::string text = doubts_of(system, result).text() +
+                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text +=
+      fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(result.trajectories),
+                  system.run.times.back(), system.run.seed,
+                  context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
+                  result.complete ? "" : "  (" + context.status + ": those that were finished)");
   text += moments_table(summary.points);
   text += fit_text(summary);
   text += horizon_text(summary.horizon);
@@ -187,8 +211,8 @@ std::string diffusion_text(const System& system, const DiffusionResult& result, 
   const std::string steps = steps_text(system, result.steps);
   text += fmt::format("\n{} collisions{} in {:.3g} s on {}{} thread{}: {}\n{}   digest {:016x}\n",
                       grouped(result.collisions), steps.empty() ? "" : ", " + steps, result.seconds,
-                      result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "", result.threads,
-                      result.threads == 1 ? "" : "s",
+                      result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
+                      result.threads, result.threads == 1 ? "" : "s",
                       pace_text(system, result.collisions, result.steps, result.seconds),
                       decisions_text(result.decisions), result.digest);
   text += lanes_text(why_one_by_one(system), result.lanes);
@@ -208,7 +232,8 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
   const DisplacementMoments moments(result.sums, system.particles.size());
   summary.points = moments.points();
   const auto& window = system.run.window;
-  const TimeWindow asked = window ? TimeWindow{window->first, window->second} : moments.default_window();
+  const TimeWindow asked =
+      window ? TimeWindow{window->first, window->second} : moments.default_window();
   summary.fit = moments.fit(asked);
   if (summary.fit && summary.no_D.empty()) {
     // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
@@ -219,20 +244,24 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
   }
   // Those that hit often are the first to be ended by a cap.
   if (result.capped > 0 && summary.fit && summary.no_D.empty()) {
-    const auto last = std::find_if(summary.points.rbegin(), summary.points.rend(),
-                                   [&](const MomentPoint& p) { return p.t <= summary.fit->window.to; });
+    const auto last =
+        std::find_if(summary.points.rbegin(), summary.points.rend(),
+                     [&](const MomentPoint& p) { return p.t <= summary.fit->window.to; });
     if (last != summary.points.rend() && last->count < result.trajectories)
-      add(summary.note, "the cap on hits ended particles before the window's end: those that hit least are left");
+      add(summary.note,
+          "the cap on hits ended particles before the window's end: those that hit least are left");
   }
   add(summary.note, repeated_starts(system));
   if (!summary.fit && summary.no_D.empty()) {
     summary.estimable = false;
     const auto times = std::count_if(summary.points.begin(), summary.points.end(),
                                      [&](const MomentPoint& p) { return asked.holds(p.t); });
-    summary.no_D = result.trajectories == 0 ? "no trajectory was followed"
-                   : times < 2              ? "fewer than two report times > 0 in the window"
-                                            : "nobody was there, nobody had moved, or squares of displacements are too small for "
-                                              "doubles, at the times of the window";
+    summary.no_D =
+        result.trajectories == 0 ? "no trajectory was followed"
+        : times < 2
+            ? "fewer than two report times > 0 in the window"
+            : "nobody was there, nobody had moved, or squares of displacements are too small for "
+              "doubles, at the times of the window";
   }
   return summary;
 }

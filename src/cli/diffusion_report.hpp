@@ -17,7 +17,7 @@ struct DiffusionSummary {
   std::optional<DiffusionFit> fit;
   std::string no_D;       ///< why there is no D; "" where there is one
   bool estimable = true;  ///< false where D may exist and only what was followed does not show it
-  std::string note;  ///< a doubt about D, or ""
+  std::string note;       ///< a doubt about D, or ""
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 

@@ -16,21 +16,25 @@ namespace {
 bool integrated(const System& system) { return engine_of(system) != "events"; }
 
 // `all`: of that many, each of them `what`.
-Doubts doubts(const System& system, std::uint64_t all, const char* what, std::uint64_t unresolved, std::uint64_t lost,
-              const Reports& reports, const EnergyError& energy) {
+Doubts doubts(const System& system, std::uint64_t all, const char* what, std::uint64_t unresolved,
+              std::uint64_t lost, const Reports& reports, const EnergyError& energy) {
   Doubts doubts;
   if (lost > 0)
-    doubts.lines.push_back(fmt::format("internal error, please report it: {} of {} {}s are lost", grouped(lost), grouped(all), what));
+    doubts.lines.push_back(fmt::format("internal error, please report it: {} of {} {}s are lost",
+                                       grouped(lost), grouped(all), what));
   if (unresolved + lost > 0 && !reports.empty()) {
     const auto& [index, report] = reports.front();
-    const std::string others = all > 1 ? fmt::format(" ({} {}, the first of {} of {} that could not be followed)", what, index,
-                                                     grouped(unresolved + lost), grouped(all))
-                                       : "";
+    const std::string others =
+        all > 1 ? fmt::format(" ({} {}, the first of {} of {} that could not be followed)", what,
+                              index, grouped(unresolved + lost), grouped(all))
+                : "";
     doubts.lines.push_back(std::string(shown(report)) + others);
   } else if (unresolved > 0) {
-    doubts.lines.push_back(fmt::format("{} of {} {}s could not be followed", grouped(unresolved), grouped(all), what));
+    doubts.lines.push_back(
+        fmt::format("{} of {} {}s could not be followed", grouped(unresolved), grouped(all), what));
   }
-  if (std::string doubt = energy_doubt(system, energy); !doubt.empty()) doubts.lines.push_back(std::move(doubt));
+  if (std::string doubt = energy_doubt(system, energy); !doubt.empty())
+    doubts.lines.push_back(std::move(doubt));
   return doubts;
 }
 
@@ -47,18 +51,24 @@ int Doubts::status(bool complete) const { return any() ? untrusted : complete ? 
 std::string energy_doubt(const System& system, const EnergyError& error) {
   const IntegratorPlan& plan = system.dynamics.integrator;
   if (!integrated(system) || error.largest <= plan.energy_tolerance) return {};
-  return fmt::format("the energy changed by {:.2g} of the largest kinetic energy, more than integrator.energy_tolerance = {}: take a {}",
-                     error.largest, plan.energy_tolerance, is_adaptive(plan.scheme) ? "smaller tolerance" : "shorter step");
+  return fmt::format(
+      "the energy changed by {:.2g} of the largest kinetic energy, more than "
+      "integrator.energy_tolerance = {}: take a {}",
+      error.largest, plan.energy_tolerance,
+      is_adaptive(plan.scheme) ? "smaller tolerance" : "shorter step");
 }
 
 Doubts doubts_of(const System& system, const EscapeResult& r) {
-  return doubts(system, r.counts.trajectories, "trajectory", r.counts.unresolved, r.counts.lost, r.reports, r.energy_error);
+  return doubts(system, r.counts.trajectories, "trajectory", r.counts.unresolved, r.counts.lost,
+                r.reports, r.energy_error);
 }
 Doubts doubts_of(const System& system, const DiffusionResult& r) {
-  return doubts(system, r.trajectories, "particle", r.unresolved, r.lost, r.reports, r.energy_error);
+  return doubts(system, r.trajectories, "particle", r.unresolved, r.lost, r.reports,
+                r.energy_error);
 }
 Doubts doubts_of(const System& system, const SectionResult& r) {
-  return doubts(system, r.orbits * system.particles.size(), "particle", r.unresolved, r.lost, r.reports, r.energy_error);
+  return doubts(system, r.orbits * system.particles.size(), "particle", r.unresolved, r.lost,
+                r.reports, r.energy_error);
 }
 Doubts doubts_of(const System& system, const SingleRunResult& r) {
   std::uint64_t unresolved = 0, lost = 0;
@@ -74,7 +84,9 @@ Doubts doubts_of(const System& system, const SingleRunResult& r) {
   return doubts(system, r.particles.size(), "particle", unresolved, lost, reports, energy);
 }
 
-Json energy_json(const EnergyError& error) { return Json::object().set("end", error.end).set("largest", error.largest); }
+Json energy_json(const EnergyError& error) {
+  return Json::object().set("end", error.end).set("largest", error.largest);
+}
 
 void add_report(Json& json, const std::string& report) {
   json.set("reason", shown(report)).set("state", bits_in(report));
@@ -110,24 +122,29 @@ std::string steps_text(const System& system, const StepCounts& steps) {
   if (!integrated(system)) return {};
   const IntegratorPlan& plan = system.dynamics.integrator;
   std::string text = fmt::format("{} steps", grouped(steps.steps));
-  if (plan.step > 0.0) text += fmt::format(" of {}{}", plan.step, plan.step_chosen ? " (chosen)" : "");
+  if (plan.step > 0.0)
+    text += fmt::format(" of {}{}", plan.step, plan.step_chosen ? " (chosen)" : "");
   text += fmt::format(", {} force evaluations", grouped(steps.force_evaluations));
   if (system.dynamics.integrator.count_unresolved)
     text += steps.unresolved == 0 ? std::string(", no step unresolved")
-                                  : fmt::format(", {} steps unresolved, the first at t = {:.6g}", grouped(steps.unresolved),
-                                                steps.first_unresolved);
+                                  : fmt::format(", {} steps unresolved, the first at t = {:.6g}",
+                                                grouped(steps.unresolved), steps.first_unresolved);
   return text;
 }
 
-std::string pace_text(const System& system, std::uint64_t hits, const StepCounts& steps, double seconds) {
+std::string pace_text(const System& system, std::uint64_t hits, const StepCounts& steps,
+                      double seconds) {
   const bool by_steps = hits == 0 && integrated(system);
-  return with_prefix(static_cast<double>(by_steps ? steps.steps : hits) / std::max(seconds, 1e-9)) + (by_steps ? "steps/s" : "hits/s");
+  return with_prefix(static_cast<double>(by_steps ? steps.steps : hits) / std::max(seconds, 1e-9)) +
+         (by_steps ? "steps/s" : "hits/s");
 }
 
 std::string energy_text(const System& system, const EnergyError& error) {
   if (!integrated(system)) return {};
-  return fmt::format("largest change of a trajectory's energy {:.2g} at the end, {:.2g} at most, relative to its largest kinetic energy\n",
-                     error.end, error.largest);
+  return fmt::format(
+      "largest change of a trajectory's energy {:.2g} at the end, {:.2g} at most, relative to its "
+      "largest kinetic energy\n",
+      error.end, error.largest);
 }
 
 }  // namespace carom::cli

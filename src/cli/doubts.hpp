@@ -1,4 +1,5 @@
-// Why a result cannot be trusted, which a report says before all else; and what integration has cost.
+// Why a result cannot be trusted, which a report says before all else; and what integration has
+// cost.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@ namespace carom::cli {
 
 using Reports = std::vector<std::pair<std::uint64_t, std::string>>;
 
-/// Trajectories that failed, and energies that changed by more than integrator.energy_tolerance; a line each.
+/// Trajectories that failed, and energies that changed by more than integrator.energy_tolerance; a
+/// line each.
 struct Doubts {
   std::vector<std::string> lines;
   bool any() const { return !lines.empty(); }
@@ -32,17 +34,19 @@ Doubts doubts_of(const System&, const SingleRunResult&);
 std::string energy_doubt(const System&, const EnergyError&);
 
 Json energy_json(const EnergyError&);
-/// `reports` of those that failed, if there are any: index, reason, and state in hexadecimal numbers.
+/// `reports` of those that failed, if there are any: index, reason, and state in hexadecimal
+/// numbers.
 void add_reports(Json&, const Reports&);
 /// `reason` and `state` of a report.
 void add_report(Json&, const std::string& report);
 /// On standard error: what those that failed died of, for people.
 void warn_of(const Reports&);
 
-/// Where motion is integrated: `steps`, `force_evaluations`, and with unresolved = "count" `unresolved_steps` and
-/// `first_unresolved`.
+/// Where motion is integrated: `steps`, `force_evaluations`, and with unresolved = "count"
+/// `unresolved_steps` and `first_unresolved`.
 void add_steps(Json&, const System&, const StepCounts&);
-/// The same as a text that goes on a sentence: "1 200 steps, 13 200 force evaluations"; "" where nothing is integrated.
+/// The same as a text that goes on a sentence: "1 200 steps, 13 200 force evaluations"; "" where
+/// nothing is integrated.
 std::string steps_text(const System&, const StepCounts&);
 /// "1.2M hits/s", or steps where nothing hits.
 std::string pace_text(const System&, std::uint64_t hits, const StepCounts&, double seconds);

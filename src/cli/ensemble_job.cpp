@@ -26,28 +26,36 @@ SystemOverrides overrides_of(const Options& options) {
   return overrides;
 }
 
-// Loads the system that is stored, and refuses another one. The window may be another: the report alone asks for it.
+// Loads the system that is stored, and refuses another one. The window may be another: the report
+// alone asks for it.
 LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(Place{stored.file, 0, 0, ""}, "what is asked for is not what is stored: " + what,
+    throw InputError(Place{stored.file, 0, 0, ""},
+                     "what is asked for is not what is stored: " + what,
                      "the same system and options, or none");
   };
-  LoadedSystem loaded = options.system.empty()
-                            ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
-                            : load_system(options.system, overrides_of(options));
+  LoadedSystem loaded =
+      options.system.empty()
+          ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
+          : load_system(options.system, overrides_of(options));
   const std::string differs = difference(stored.system_toml, loaded.resolved_toml, "run.window");
   if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
-    refuse(fmt::format("the system is {}, not {}: {}", options.system, stored.system_name, differs));
+    refuse(
+        fmt::format("the system is {}, not {}: {}", options.system, stored.system_name, differs));
   if (!differs.empty()) refuse(differs);
   System& system = loaded.system;
   system.name = stored.system_name;
-  if (!system.run.window) system.run.window = read_system(stored.system_toml, stored.file + ": /system").system.run.window;
+  if (!system.run.window)
+    system.run.window =
+        read_system(stored.system_toml, stored.file + ": /system").system.run.window;
   loaded.resolved_toml = stored.system_toml;
   if (options.engine != "auto" && (options.engine == "steps") != stored.everywhere)
-    refuse(fmt::format("--engine is {}, not {}", options.engine, stored.everywhere ? "steps" : "auto"));
+    refuse(fmt::format("--engine is {}, not {}", options.engine,
+                       stored.everywhere ? "steps" : "auto"));
   choose_engine(options.engine == "auto" && stored.everywhere ? "steps" : options.engine, system);
   if (engine_of(system) != stored.engine || system.dynamics.everywhere != stored.everywhere)
-    refuse(fmt::format("--engine is {}, not {}", options.engine, stored.everywhere ? "steps" : "auto"));
+    refuse(fmt::format("--engine is {}, not {}", options.engine,
+                       stored.everywhere ? "steps" : "auto"));
   if (options.per_trajectory && !stored.per_trajectory) refuse("it has no --per-trajectory");
   if (!options.shard.empty() && shard_of(options) != stored.shard)
     refuse(fmt::format("--shard is {}, not {}", options.shard, text_of(stored.shard)));
@@ -65,7 +73,8 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   }
   job.stored = read_ensemble<Result>(job.output);
   if (!options.output.empty() && options.output != job.output)
-    throw InputError(place_of("--output"), "an ensemble goes on in the same archive", "no -o beside --resume");
+    throw InputError(place_of("--output"), "an ensemble goes on in the same archive",
+                     "no -o beside --resume");
   if (!job.stored->result.complete) refuse_other_version(*job.stored);
   job.loaded = loaded_of(*job.stored, options);
   check_stored(*job.stored, job.loaded.system);
@@ -99,7 +108,8 @@ bool is_plain_ensemble(const Options& options) {
 void refuse_parts_of_others(const Options& options) {
   if (is_plain_ensemble(options)) return;
   const char* const only = "a plain ensemble: neither --splitting nor --certify-sample";
-  if (!options.resume.empty()) throw InputError(place_of("--resume"), "this cannot be continued", only);
+  if (!options.resume.empty())
+    throw InputError(place_of("--resume"), "this cannot be continued", only);
   if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be parted", only);
 }
 
@@ -117,7 +127,8 @@ CheckpointInterval checkpoint_interval(const std::string& text) {
     interval.seconds = 0;  // no number: the message below names both forms
   }
   if (!(interval.seconds > 0.0 && interval.seconds < 1e9))
-    throw InputError(place_of(option), fmt::format("'{}' is neither a time between checkpoints nor blocks:N", text),
+    throw InputError(place_of(option),
+                     fmt::format("'{}' is neither a time between checkpoints nor blocks:N", text),
                      "seconds, more than 0 and less than 1e9, or blocks:N");
   return interval;
 }

@@ -20,9 +20,11 @@ std::string survival_table(const SurvivalCounts& counts) {
   const auto points = survival(counts);
   const auto rates = escape_rate(counts);
   auto rate = rates.begin();  // both lists in the order of time
-  std::string text = "\n           t        p(t)   95 % interval            rate -dP/dt   95 % interval\n";
+  std::string text =
+      "\n           t        p(t)   95 % interval            rate -dP/dt   95 % interval\n";
   for (const SurvivalPoint& point : points) {
-    text += fmt::format("{:>12.6g}  {:>10.6f}   {:.6f} .. {:.6f}", point.t, point.p, point.low, point.high);
+    text += fmt::format("{:>12.6g}  {:>10.6f}   {:.6f} .. {:.6f}", point.t, point.p, point.low,
+                        point.high);
     while (rate != rates.end() && rate->to < point.t) ++rate;
     if (rate != rates.end() && rate->to == point.t)
       text += fmt::format("   {:>12.4e}   {:.3e} .. {:.3e}", rate->value, rate->low, rate->high);
@@ -34,7 +36,8 @@ std::string survival_table(const SurvivalCounts& counts) {
 std::string fates(const System& system, const SurvivalCounts& counts) {
   const double all = static_cast<double>(std::max<std::uint64_t>(1, counts.trajectories));
   std::string text = "\nFates\n";
-  const auto line = [&](const std::string& name, std::uint64_t number, const char* note, bool always) {
+  const auto line = [&](const std::string& name, std::uint64_t number, const char* note,
+                        bool always) {
     if (number == 0 && !always) return;
     text += fmt::format("  {:<22}{:>16}  {:>9.5f} %{}{}\n", name, grouped(number),
                         100.0 * static_cast<double>(number) / all, *note ? "   " : "", note);
@@ -74,7 +77,9 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   json.set("lost", counts.lost);
   json.set("collisions", counts.collisions);
   if (system.of_discs()) json.set("contacts", counts.contacts);
-  if (engine_of(system) != "events") json.set("energy_change", counts.energy_change).set("energy_error", energy_json(result.energy_error));
+  if (engine_of(system) != "events")
+    json.set("energy_change", counts.energy_change)
+        .set("energy_error", energy_json(result.energy_error));
   add_steps(json, system, result.steps);
   add_reports(json, result.reports);
   json.set("digest", fmt::format("{:016x}", result.digest));
@@ -112,25 +117,29 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   return json;
 }
 
-std::string escape_text(const System& system, const EscapeResult& result, const EnsembleContext& context) {
+std::string escape_text(const System& system, const EscapeResult& result,
+                        const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
-  std::string text = doubts_of(system, result).text() + fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(counts.trajectories),
-                      system.run.t_max, system.run.seed,
-                      context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
-                      result.complete ? "" : "  (" + context.status + ": those that were finished)");
+  std::string text = doubts_of(system, result).text() +
+                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text +=
+      fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(counts.trajectories),
+                  system.run.t_max, system.run.seed,
+                  context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
+                  result.complete ? "" : "  (" + context.status + ": those that were finished)");
   if (const std::string note = repeated_starts(system); !note.empty()) text += note + '\n';
   text += survival_table(counts);
   text += fates(system, counts);
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   const double hits = static_cast<double>(counts.collisions);
   const std::string steps = steps_text(system, result.steps);
-  text += fmt::format("\n{} collisions{}{} in {:.3g} s on {}{} thread{}: {}", grouped(counts.collisions),
-                      system.of_discs() ? fmt::format(" and {} contacts", grouped(counts.contacts)) : "",
-                      steps.empty() ? "" : ", " + steps,
-                      result.seconds, result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
-                      result.threads, result.threads == 1 ? "" : "s",
-                      pace_text(system, counts.collisions, result.steps, result.seconds));
+  text += fmt::format(
+      "\n{} collisions{}{} in {:.3g} s on {}{} thread{}: {}", grouped(counts.collisions),
+      system.of_discs() ? fmt::format(" and {} contacts", grouped(counts.contacts)) : "",
+      steps.empty() ? "" : ", " + steps, result.seconds,
+      result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "", result.threads,
+      result.threads == 1 ? "" : "s",
+      pace_text(system, counts.collisions, result.steps, result.seconds));
   if (counts.collisions > 0)
     text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
   text += fmt::format("\n{}   digest {:016x}\n", decisions_text(result.decisions), result.digest);

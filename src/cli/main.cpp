@@ -18,11 +18,13 @@
 
 namespace {
 
-// Where a standard stream is closed, the next file that is opened gets its number, and messages go into it. Standard output
-// is opened for reading: results that nobody gets are an error.
+// Where a standard stream is closed, the next file that is opened gets its number, and messages go
+// into it. Standard output is opened for reading: results that nobody gets are an error.
 void reserve_standard_streams() {
   for (const int stream : {0, 1, 2})
-    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", stream == 2 ? O_WRONLY : O_RDONLY) < 0) return;
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF &&
+        ::open("/dev/null", stream == 2 ? O_WRONLY : O_RDONLY) < 0)
+      return;
 }
 
 }  // namespace
@@ -33,7 +35,9 @@ int main(int argc, char** argv) {
   try {
     // Of processes that were started together, the first one speaks.
     const bool silent = rank_by_environment() > 0;
-    if (silent && (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr))) return bad_input;
+    if (silent &&
+        (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)))
+      return bad_input;
     std::signal(SIGPIPE, SIG_IGN);  // whoever does not read on is told of as an error of the write
     carom::prepare_archives();
     Parsed parsed = parse(argc, argv);

@@ -24,18 +24,21 @@ void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
                      grouped(system.run.trajectories), gaps.front().first));
 }
 
-int print_sum(const Options& options, const System& system, const EscapeResult& result, const EnsembleContext& context) {
-  print(options.json ? escape_json(system, result, context).text() + "\n" : escape_text(system, result, context));
+int print_sum(const Options& options, const System& system, const EscapeResult& result,
+              const EnsembleContext& context) {
+  print(options.json ? escape_json(system, result, context).text() + "\n"
+                     : escape_text(system, result, context));
   return doubts_of(system, result).status(true);
 }
-int print_sum(const Options& options, const System& system, const DiffusionResult& result, const EnsembleContext& context) {
+int print_sum(const Options& options, const System& system, const DiffusionResult& result,
+              const EnsembleContext& context) {
   print_diffusion(options, system, result, context);
   return doubts_of(system, result).status(true);
 }
 
 template <class Result>
-int merge_parts(const Options& options, const std::string& output, const std::vector<std::string>& files,
-                ArchiveLock lock) {
+int merge_parts(const Options& options, const std::string& output,
+                const std::vector<std::string>& files, ArchiveLock lock) {
   SumOfParts<Result> sum = sum_of<Result>(files);
   sum.merged.clear();
   for (const EnsemblePart& part : sum.parts) sum.merged.push_back(part.file);
@@ -59,7 +62,8 @@ int merge(const Options& options) {
     files.erase(files.begin());
   }
   if (files.empty())
-    throw InputError(Place{"command line", 0, 0, "merge"}, "there is nothing to merge", "OUT.h5 PART.h5 PART.h5 …");
+    throw InputError(Place{"command line", 0, 0, "merge"}, "there is nothing to merge",
+                     "OUT.h5 PART.h5 PART.h5 …");
   ArchiveLock lock = lock_output(output);
   refuse_existing(output, options.force);
   if (kind_of_ensemble(files.front()) == kind_of(DiffusionResult()))

@@ -21,7 +21,8 @@ namespace carom::cli {
 
 namespace {
 
-// As Open MPI, PMIx (srun) and MPICH with its kin say it; null where none of them started this process.
+// As Open MPI, PMIx (srun) and MPICH with its kin say it; null where none of them started this
+// process.
 const char* rank_in_environment() {
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
     if (const char* text = std::getenv(name)) return text;
@@ -36,9 +37,10 @@ int number_in_environment() {
 // Otherwise each process would run the whole by itself, into one file.
 void refuse_strangers(int known) {
   if (number_in_environment() > known)
-    throw InputError(fmt::format("{} processes were started together, but this carom knows {} of them (expected the mpirun "
-                                 "that it was built with, or one process)",
-                                 number_in_environment(), known));
+    throw InputError(fmt::format(
+        "{} processes were started together, but this carom knows {} of them (expected the mpirun "
+        "that it was built with, or one process)",
+        number_in_environment(), known));
 }
 
 #ifdef CAROM_MPI
@@ -48,7 +50,8 @@ class MpiRanks : public Ranks {
   MpiRanks() {
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-    if (provided < MPI_THREAD_SERIALIZED) throw std::runtime_error("this MPI is not made for threads");
+    if (provided < MPI_THREAD_SERIALIZED)
+      throw std::runtime_error("this MPI is not made for threads");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
     refuse_strangers(size_);
@@ -76,7 +79,8 @@ class MpiRanks : public Ranks {
     wait(request);
     return said;
   }
-  void gather(const std::string& text, const std::function<void(int, const std::string&)>& take) noexcept override {
+  void gather(const std::string& text,
+              const std::function<void(int, const std::string&)>& take) noexcept override {
     if (rank_ == 0) {
       take(0, text);
       for (int from = 1; from < size_; ++from) take(from, receive(from));
@@ -87,7 +91,8 @@ class MpiRanks : public Ranks {
     MPI_Isend(&size, 1, MPI_UINT64_T, 0, 0, MPI_COMM_WORLD, &request);
     wait(request);
     for (std::size_t at = 0; at < text.size(); at += most) {
-      MPI_Isend(text.data() + at, length(text.size() - at), MPI_BYTE, 0, 0, MPI_COMM_WORLD, &request);
+      MPI_Isend(text.data() + at, length(text.size() - at), MPI_BYTE, 0, 0, MPI_COMM_WORLD,
+                &request);
       wait(request);
     }
   }
@@ -103,7 +108,8 @@ class MpiRanks : public Ranks {
     wait(request);
     std::string text(size, '\0');
     for (std::size_t at = 0; at < text.size(); at += most) {
-      MPI_Irecv(text.data() + at, length(text.size() - at), MPI_BYTE, from, 0, MPI_COMM_WORLD, &request);
+      MPI_Irecv(text.data() + at, length(text.size() - at), MPI_BYTE, from, 0, MPI_COMM_WORLD,
+                &request);
       wait(request);
     }
     return text;

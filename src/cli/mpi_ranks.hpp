@@ -8,8 +8,8 @@
 
 namespace carom::cli {
 
-/// Processes that share a run, numbered from 0. Each of them makes every call, in the same order. A call waits, asleep, until
-/// all have made it; where one of them dies, mpirun ends the others.
+/// Processes that share a run, numbered from 0. Each of them makes every call, in the same order. A
+/// call waits, asleep, until all have made it; where one of them dies, mpirun ends the others.
 class Ranks {
  public:
   /// Of one process, or of all together.
@@ -25,19 +25,23 @@ class Ranks {
   /// The text that rank 0 gives.
   virtual std::string tell(const std::string& text) = 0;
   /// Rank 0 takes the texts of all ranks, in order, its own too.
-  virtual void gather(const std::string& text, const std::function<void(int rank, const std::string& text)>& take) = 0;
+  virtual void gather(const std::string& text,
+                      const std::function<void(int rank, const std::string& text)>& take) = 0;
 };
 
-/// Number of this process among those started together; 0 where it was started alone. MPI is not started.
+/// Number of this process among those started together; 0 where it was started alone. MPI is not
+/// started.
 int rank_by_environment();
-/// Starts MPI; null where this process was started alone, or built without MPI. MPI ends with the process, after its
-/// last word: mpirun ends all processes as soon as one of them has ended with an error.
+/// Starts MPI; null where this process was started alone, or built without MPI. MPI ends with the
+/// process, after its last word: mpirun ends all processes as soon as one of them has ended with an
+/// error.
 Ranks* start_ranks();
 
 /// While the ranks compute: where one of them fails or is interrupted, all of them stop.
 class Meeting {
  public:
-  Meeting(Ranks& ranks, const std::atomic<bool>& interrupted) : ranks_(ranks), interrupted_(interrupted) {}
+  Meeting(Ranks& ranks, const std::atomic<bool>& interrupted)
+      : ranks_(ranks), interrupted_(interrupted) {}
   Meeting(const Meeting&) = delete;
   ~Meeting() { end(true); }
   /// Listens to the others from now on, in a thread of its own.

@@ -17,18 +17,22 @@ namespace carom::cli {
 namespace {
 
 constexpr const char* introduction =
-    "carom: classical particles in two dimensions. Between walls they fly freely, with or without a\n"
-    "magnetic field: every wall is met exactly, nothing is stepped over. Where potentials or other\n"
+    "carom: classical particles in two dimensions. Between walls they fly freely, with or without "
+    "a\n"
+    "magnetic field: every wall is met exactly, nothing is stepped over. Where potentials or "
+    "other\n"
     "particles act, motion is integrated.";
 
 constexpr const char* examples =
     "Examples:\n"
-    "  carom escape magnetic-square               survival in a square with a hole, in a few seconds\n"
+    "  carom escape magnetic-square               survival in a square with a hole, in a few "
+    "seconds\n"
     "  carom run stadium --set 'table.hole=[]' --collisions 1000 -o orbit.h5\n"
     "                                             one orbit, every hit in Birkhoff coordinates\n"
     "  carom table mushroom -o mushroom.svg       area, perimeter, walls; a drawing\n"
     "\n"
-    "SYSTEM is a built-in name (carom systems) or a TOML file (my.toml, ./my). Any key of it can be\n"
+    "SYSTEM is a built-in name (carom systems) or a TOML file (my.toml, ./my). Any key of it can "
+    "be\n"
     "changed: --set table.width=2 --set \"field.B=1/3\". carom COMMAND --help explains a command.";
 
 constexpr const char* times_help = "Report times: a,b,c or log:from:to:count or lin:from:to:count";
@@ -91,17 +95,21 @@ class Command {
     text("--times", o.times, "TIMES", times_help);
     text("--trajectories", o.trajectories, "N", "Size of the ensemble (1e6 is a number)");
     text("--position", o.position, "X,Y", "Start; exact: 1/10,-1/5");
-    text("--velocity", o.velocity, "U,V", "Velocity of the start; its direction where a speed is set");
+    text("--velocity", o.velocity, "U,V",
+         "Velocity of the start; its direction where a speed is set");
     text("--engine", options_.engine, "NAME", "auto, events or steps");
     text("--isa", options_.isa, "NAME", "Instruction set of lanes: auto, baseline, avx2 or avx512");
     return *this;
   }
   /// Of ensembles that can be continued, parted and shared.
   Command& parts() {
-    text("--resume", options_.resume, "FILE.h5", "Go on with a stored ensemble; SYSTEM may be left out");
-    text("--checkpoint", options_.checkpoint, "SECONDS|blocks:N", "Time, or number of blocks, between checkpoints of an archive (default 10 s)");
+    text("--resume", options_.resume, "FILE.h5",
+         "Go on with a stored ensemble; SYSTEM may be left out");
+    text("--checkpoint", options_.checkpoint, "SECONDS|blocks:N",
+         "Time, or number of blocks, between checkpoints of an archive (default 10 s)");
     text("--shard", options_.shard, "K/N", "Only part K (from 1) of N parts of the trajectories");
-    text("--block", options_.block, "N", "Trajectories a block (default 1024); the result does not depend on it");
+    text("--block", options_.block, "N",
+         "Trajectories a block (default 1024); the result does not depend on it");
     return *this;
   }
 
@@ -111,7 +119,8 @@ class Command {
 };
 
 std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$&|;<>()*?[]{}!#`") == std::string::npos;
+  const bool plain =
+      !word.empty() && word.find_first_of(" \t\n'\"\\$&|;<>()*?[]{}!#`") == std::string::npos;
   if (plain) return word;
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -125,27 +134,35 @@ void define(CLI::App& app, Options& o) {
           "  carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
           "  carom escape stadium --trajectories 1e5 --per-trajectory -o basins.h5\n"
           "\n"
-          "What -o writes is kept every ten seconds: carom escape --resume FILE.h5 goes on after Ctrl-C, a kill\n"
+          "What -o writes is kept every ten seconds: carom escape --resume FILE.h5 goes on after "
+          "Ctrl-C, a kill\n"
           "or a full disk, and ends with the same bits.\n"
-          "A closed table is legal: nothing escapes. Exit status 3 if a trajectory could not be followed.")
+          "A closed table is legal: nothing escapes. Exit status 3 if a trajectory could not be "
+          "followed.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .flag("--per-trajectory", o.per_trajectory,
             "Store start, fate, hole, time and hits of each trajectory in the archive")
       .parts()
-      .text("--splitting", o.splitting, "LEVELS", "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")
-      .text("--population", o.population, "N", "With --splitting: trajectories of a population (default 20000)")
+      .text("--splitting", o.splitting, "LEVELS",
+            "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")
+      .text("--population", o.population, "N",
+            "With --splitting: trajectories of a population (default 20000)")
       .text("--certify-sample", o.certify_sample, "M",
             "Compare the survival of the first M trajectories in doubles and certified")
       .text("--digits", o.digits, "D", "With --certify-sample: guaranteed decimals (default 10)")
-      .text("--repetitions", o.repetitions, "N", "With --splitting: populations for each kick (default 16)")
-      .text("--kick", o.kick, "DELTA", "With --splitting: the largest kick (default: chosen by a first population)")
-      .text("--lookback", o.lookback, "N", "With --splitting: hits that a copy goes back (default 6)");
+      .text("--repetitions", o.repetitions, "N",
+            "With --splitting: populations for each kick (default 16)")
+      .text("--kick", o.kick, "DELTA",
+            "With --splitting: the largest kick (default: chosen by a first population)")
+      .text("--lookback", o.lookback, "N",
+            "With --splitting: hits that a copy goes back (default 6)");
   Command(app, o, "run", "One trajectory, followed closely",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
-          "  carom run circle --set 'table.hole=[]' --position 1/10,0 --velocity 1,2 --collisions 1e4 -o orbit.h5\n"
+          "  carom run circle --set 'table.hole=[]' --position 1/10,0 --velocity 1,2 --collisions "
+          "1e4 -o orbit.h5\n"
           "  carom run --resume orbit.h5 --collisions 2e4     goes on from where the archive ends\n"
           "\n"
           "With --collisions and without --t-max the run has no last time.")
@@ -165,35 +182,40 @@ void define(CLI::App& app, Options& o) {
           "  carom diffusion lorentz-triangular --set field.B=0.5 --window 20,200 --json\n"
           "  carom diffusion soft-lorentz --t-max 100 -o msd.h5\n"
           "\n"
-          "D is a quarter of the slope of the MSD in a window of report times (default: the last decade).\n"
+          "D is a quarter of the slope of the MSD in a window of report times (default: the last "
+          "decade).\n"
           "Checkpoints, --resume, --shard and mpirun as with carom escape.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .parts()
       .text("--window", o.window, "FROM,TO", "Report times that D and the exponent are taken from");
-  Command(app, o, "section", "Boundary map, or section by a line, a circle or a velocity, of many orbits",
+  Command(app, o, "section",
+          "Boundary map, or section by a line, a circle or a velocity, of many orbits",
           "Examples:\n"
           "  carom section ellipse-magnetic --orbits 20 --points 2000 -o section.h5\n"
           "  carom section stadium --set 'table.hole=[]' --on line:0,-1:0,1 --direction positive\n"
           "  carom section henon-heiles --on x=0 --direction positive --points 500 --json\n"
           "\n"
           "WHERE is boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r,\n"
-          "x=c, y=c, vx=c or vy=c. With --points and without --t-max a boundary section has no last time.")
+          "x=c, y=c, vx=c or vy=c. With --points and without --t-max a boundary section has no "
+          "last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .text("--on", o.on, "WHERE", "Where the section is taken (default: boundary)")
       .text("--direction", o.direction, "NAME", "Crossings that count: both, positive or negative")
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
-      .text("--orbits", o.orbits, "N", "Number of orbits (default: the listed starts, else at most 50)");
-  Command(app, o, "merge", "Parts of an ensemble become one archive",
-          "Examples:\n"
-          "  carom escape stadium --shard 1/2 -o a.h5\n"
-          "  carom escape stadium --shard 2/2 -o b.h5\n"
-          "  carom merge all.h5 a.h5 b.h5     the archive that the whole ensemble would have written\n"
-          "\n"
-          "Parts that overlap or do not match are refused.")
+      .text("--orbits", o.orbits, "N",
+            "Number of orbits (default: the listed starts, else at most 50)");
+  Command(
+      app, o, "merge", "Parts of an ensemble become one archive",
+      "Examples:\n"
+      "  carom escape stadium --shard 1/2 -o a.h5\n"
+      "  carom escape stadium --shard 2/2 -o b.h5\n"
+      "  carom merge all.h5 a.h5 b.h5     the archive that the whole ensemble would have written\n"
+      "\n"
+      "Parts that overlap or do not match are refused.")
       .files("FILES", "The archive to be written (or -o FILE.h5), then the parts")
       .text("-o,--output", o.output, "FILE.h5", "The archive to be written")
       .flag("--force", o.force, "Replace an output file that exists");
@@ -213,7 +235,8 @@ void define(CLI::App& app, Options& o) {
       .system("NAME", "Built-in system to print");
   Command(app, o, "validate", "Checks the engine against identities and published values",
           "Examples:\n"
-          "  carom validate                  10^7 hits in each of five closed tables, published values\n"
+          "  carom validate                  10^7 hits in each of five closed tables, published "
+          "values\n"
           "  carom validate --scale 0.01     a quick look\n"
           "  carom validate --soak --json    the long runs\n"
           "\n"
@@ -226,7 +249,8 @@ void define(CLI::App& app, Options& o) {
 std::string unknown_word(const std::vector<std::string>& remaining) {
   for (const std::string& word : remaining) {
     if (word.empty() || word[0] == '-') continue;
-    const std::string near = nearest_name(word, {"escape", "run", "diffusion", "section", "merge", "table", "systems", "validate"});
+    const std::string near = nearest_name(
+        word, {"escape", "run", "diffusion", "section", "merge", "table", "systems", "validate"});
     return "there is no command '" + word + "'" +
            (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   }
@@ -237,7 +261,8 @@ std::string unknown_word(const std::vector<std::string>& remaining) {
 std::string unknown_option(const CLI::App& command, int argc, char** argv) {
   const std::vector<std::string> remaining = command.remaining();
   const auto is_option = [](const std::string& word) {
-    return word.size() > 1 && word[0] == '-' && std::string("0123456789.").find(word[1]) == std::string::npos;
+    return word.size() > 1 && word[0] == '-' &&
+           std::string("0123456789.").find(word[1]) == std::string::npos;
   };
   std::string first;
   for (int i = 1; i < argc; ++i) {
@@ -250,7 +275,8 @@ std::string unknown_option(const CLI::App& command, int argc, char** argv) {
     for (const CLI::Option* option : command.get_options())
       for (const std::string& one : option->get_lnames()) known.push_back("--" + one);
     const std::string near = nearest_name(name, known);
-    return "there is no option '" + name + "'" + (near.empty() ? std::string() : "; did you mean '" + near + "'?");
+    return "there is no option '" + name + "'" +
+           (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   }
   return "'" + (first.empty() ? remaining.front() : first) + "' is not expected";
 }
@@ -272,7 +298,8 @@ Parsed parse(int argc, char** argv) {
   const auto complain = [&](const std::string& message) {
     const auto chosen = app.get_subcommands();
     const std::string command = chosen.empty() ? "carom" : "carom " + chosen.front()->get_name();
-    std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", command.c_str(), message.c_str(), command.c_str());
+    std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", command.c_str(), message.c_str(),
+                 command.c_str());
     parsed.exit = usage;
   };
   try {
@@ -304,13 +331,15 @@ Parsed parse(int argc, char** argv) {
   }
   options.command = app.get_subcommands().front()->get_name();
   const bool resumes = !options.resume.empty();
-  if (options.command != "systems" && options.command != "validate" && options.command != "merge" && options.system.empty() && !resumes)
+  if (options.command != "systems" && options.command != "validate" && options.command != "merge" &&
+      options.system.empty() && !resumes)
     complain("SYSTEM is missing: a built-in name (carom systems) or a TOML file");
   else if (options.command == "run" && resumes && !options.system.empty())
     complain("--resume takes the system from the archive: leave SYSTEM out");
   else if (options.per_trajectory && options.output.empty() && !resumes)
     complain("--per-trajectory writes to an archive: add -o FILE.h5");
-  else if (!options.checkpoint.empty() && options.output.empty() && !resumes && options.splitting.empty())
+  else if (!options.checkpoint.empty() && options.output.empty() && !resumes &&
+           options.splitting.empty())
     complain("--checkpoint writes to an archive: add -o FILE.h5");
   return parsed;
 }

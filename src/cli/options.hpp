@@ -14,11 +14,11 @@ struct Options {
   std::string line;     ///< the whole command line, for provenance
   std::string system;   ///< SYSTEM, or NAME of `carom systems`
   bool json = false, force = false, quiet = false, per_trajectory = false, soak = false;
-  std::string window;  ///< of carom diffusion
-  std::string on, direction, points, orbits;  ///< of carom section
+  std::string window;                                              ///< of carom diffusion
+  std::string on, direction, points, orbits;                       ///< of carom section
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
-  std::vector<std::string> files;        ///< of carom merge
-  std::string shard, block, checkpoint;  ///< of carom escape
+  std::vector<std::string> files;                                  ///< of carom merge
+  std::string shard, block, checkpoint;                            ///< of carom escape
   std::string output, threads, trajectory, resume, scale;
   std::string engine = "auto", isa = "auto", precision = "double", digits;
   std::string certify_sample;  ///< of carom escape

@@ -64,20 +64,23 @@ namespace {
 void refuse_going_back(const System& system, const StoredRun& stored) {
   const bool more_hits = system.run.collisions == 0;
   for (const ParticleProgress& p : stored.particles) {
-    if (p.state.time > Time(system.run.t_max) || (p.fate == Fate::survived && p.end > Time(system.run.t_max)))
+    if (p.state.time > Time(system.run.t_max) ||
+        (p.fate == Fate::survived && p.end > Time(system.run.t_max)))
       throw InputError(Place{"command line", 0, 0, "--t-max"},
                        fmt::format("the stored run has already reached t = {}", p.end.value()),
                        "a later time");
     if (!more_hits && p.hits > system.run.collisions)
       throw InputError(Place{"command line", 0, 0, "--collisions"},
-                       fmt::format("the stored run has already {} collisions", p.hits), "a larger number");
+                       fmt::format("the stored run has already {} collisions", p.hits),
+                       "a larger number");
   }
 }
 
 // The archive stays as it is, and the result is printed again; that nothing was added must be said.
 void say_if_ended(const StoredRun& stored) {
   const auto ended = [](const ParticleProgress& p) {
-    return p.fate == Fate::escaped || p.fate == Fate::unbounded || p.fate == Fate::singular || is_failure(p.fate);
+    return p.fate == Fate::escaped || p.fate == Fate::unbounded || p.fate == Fate::singular ||
+           is_failure(p.fate);
   };
   if (!std::all_of(stored.particles.begin(), stored.particles.end(), ended)) return;
   const Fate fate = stored.particles.front().fate;
@@ -99,7 +102,8 @@ int run(const Options& options) {
   check_engine(options);
   threads_of(options);  // one trajectory takes one thread; a wrong number is an error all the same
   SingleRunOptions how;
-  if (!options.trajectory.empty()) how.trajectory = whole_number(options.trajectory, "--trajectory", 0);
+  if (!options.trajectory.empty())
+    how.trajectory = whole_number(options.trajectory, "--trajectory", 0);
 
   LoadedSystem loaded;
   std::optional<Progress> preparing(std::in_place, !options.quiet);
@@ -109,28 +113,31 @@ int run(const Options& options) {
     loaded = load_system(options.system, run_overrides(options));
     choose_engine(options.engine, loaded.system);
     check_start(loaded.system);  // a start that is impossible must not cost an old archive
-    // From here on a signal must leave a valid archive. Before, it simply ends the program, whatever that computes.
+    // From here on a signal must leave a valid archive. Before, it simply ends the program,
+    // whatever that computes.
     catch_interrupts();
-    if (!output.empty()) archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1), options.force,
-                                                      how.trajectory, lock_output(output));
+    if (!output.empty())
+      archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1),
+                                   options.force, how.trajectory, lock_output(output));
   } else {
     if (output.empty()) output = options.resume;
     const ArchiveLock lock = lock_output(output);
     const StoredRun stored = read_run(options.resume);
     loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
     loaded.system.name = stored.system_name;
-    choose_engine(options.engine == "auto" && stored.engine == "steps" ? "steps" : options.engine, loaded.system);
+    choose_engine(options.engine == "auto" && stored.engine == "steps" ? "steps" : options.engine,
+                  loaded.system);
     refuse_injections(loaded.system, "a run that is continued");
     if (!options.overrides.trust_tolerance.empty())
-      throw InputError(Place{"command line", 0, 0, "--trust-tolerance"}, "the stored run has its own tolerance",
-                       "a new run");
+      throw InputError(Place{"command line", 0, 0, "--trust-tolerance"},
+                       "the stored run has its own tolerance", "a new run");
     catch_interrupts();
     how.resume = stored.particles;
     how.steps = stored.steps;
     refuse_going_back(loaded.system, stored);
     say_if_ended(stored);
-    archive = RunArchive::extend(options.resume, output, loaded, provenance_of(options, loaded.system, 1),
-                                 options.force, lock);
+    archive = RunArchive::extend(options.resume, output, loaded,
+                                 provenance_of(options, loaded.system, 1), options.force, lock);
   }
   const std::atomic<bool>& interrupted = catch_interrupts();
   const System& system = loaded.system;
@@ -145,14 +152,16 @@ int run(const Options& options) {
     how.interrupted = [&] {
       if (progress.due()) {
         const double by_time = counting.time / system.run.t_max;
-        const double by_hits =
-            system.run.collisions == 0
-                ? 0.0
-                : static_cast<double>(counting.hits) / (static_cast<double>(system.run.collisions) *
-                                                        static_cast<double>(system.particles.size()));
-        progress.show(by_time > by_hits ? by_time : by_hits,
-                      counting.hits > 0 ? with_prefix(static_cast<double>(counting.hits) / progress.seconds()) + "hits/s"
-                                        : fmt::format("t = {:.4g}", counting.time));
+        const double by_hits = system.run.collisions == 0
+                                   ? 0.0
+                                   : static_cast<double>(counting.hits) /
+                                         (static_cast<double>(system.run.collisions) *
+                                          static_cast<double>(system.particles.size()));
+        progress.show(
+            by_time > by_hits ? by_time : by_hits,
+            counting.hits > 0
+                ? with_prefix(static_cast<double>(counting.hits) / progress.seconds()) + "hits/s"
+                : fmt::format("t = {:.4g}", counting.time));
       }
       return interrupted.load(std::memory_order_relaxed);
     };
@@ -162,7 +171,8 @@ int run(const Options& options) {
   if (archive) archive->finish(result, status);
 
   for (const RunEnd& particle : result.particles)
-    if (is_failure(particle.progress.fate) && !particle.report.empty()) warn(std::string(shown(particle.report)));
+    if (is_failure(particle.progress.fate) && !particle.report.empty())
+      warn(std::string(shown(particle.report)));
   print(options.json ? run_json(system, result, status, output).text() + "\n"
                      : run_text(system, result, status, output));
   return doubts_of(system, result).status(!result.interrupted);

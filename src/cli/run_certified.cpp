@@ -30,12 +30,15 @@ void check_options(const Options& options) {
                      "--precision certified beside --digits");
   if (options.precision == "certified") return;
   const bool bits = options.precision.find_first_not_of("0123456789.e+") == std::string::npos;
-  throw InputError(place_of("--precision"), "'" + options.precision + "' is no precision",
-                   bits ? "certified with --digits D: the program chooses the bits that D decimals need" : "double or certified",
-                   nearest_name(options.precision, {"double", "certified"}));
+  throw InputError(
+      place_of("--precision"), "'" + options.precision + "' is no precision",
+      bits ? "certified with --digits D: the program chooses the bits that D decimals need"
+           : "double or certified",
+      nearest_name(options.precision, {"double", "certified"}));
 }
 
-// A start that was drawn. Of one that was written, the orbit itself asks whether it lies in the table.
+// A start that was drawn. Of one that was written, the orbit itself asks whether it lies in the
+// table.
 void draw_start(const Options& options, LoadedSystem& loaded) {
   const System& system = loaded.system;
   if (system.initial.kind == InitialCondition::Kind::point) return;
@@ -67,8 +70,9 @@ bool says_rescaled(const System& system, const CertifiedEffort& effort) {
   return effort.rescaled && system.initial.kind == InitialCondition::Kind::point;
 }
 
-Json end_json(const System& system, const CertifiedEnd& end, const CertifiedTask& task, const CertifiedEffort& effort,
-              const std::string& output, double seconds, double cpu_seconds) {
+Json end_json(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
+              const CertifiedEffort& effort, const std::string& output, double seconds,
+              double cpu_seconds) {
   Json json = Json::object();
   add_common_keys(json, system, 1, seconds, cpu_seconds);
   json.set("status", name_of(end.fate));
@@ -99,7 +103,8 @@ std::string end_text(const System& system, const CertifiedEnd& end, const Certif
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("  status        {}", name_of(end.fate));
   if (end.hole >= 0)
-    text += fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
+    text +=
+        fmt::format(" through '{}'", system.table->holes[static_cast<std::size_t>(end.hole)].name);
   if (!end.reason.empty()) text += ": " + end.reason;
   if (says_rescaled(system, effort))
     text += "\n  velocity      gave the direction; its length was made the speed, exactly";
@@ -107,12 +112,15 @@ std::string end_text(const System& system, const CertifiedEnd& end, const Certif
   text += fmt::format("\n  collisions    {}", grouped(end.collisions));
   const std::string wall = wall_of(system, end.wall);
   if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
-  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t.text(digits), end.x.text(digits),
-                      end.y.text(digits));
-  if (system.table->lattice) text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
+  text += fmt::format("\n  t             {}\n  position      {}, {}", end.t.text(digits),
+                      end.x.text(digits), end.y.text(digits));
+  if (system.table->lattice)
+    text += fmt::format("   in cell {}, {}", end.cell.first, end.cell.second);
   text += fmt::format("\n  velocity      {}, {}\n", end.vx.text(digits), end.vy.text(digits));
-  text += fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n", digits, effort.bits,
-                      static_cast<long>(effort.tangent_bits), effort.attempts, effort.attempts == 1 ? "" : "s");
+  text +=
+      fmt::format("  guaranteed    {} decimals, by {} bits ({} lost on the way, {} attempt{})\n",
+                  digits, effort.bits, static_cast<long>(effort.tangent_bits), effort.attempts,
+                  effort.attempts == 1 ? "" : "s");
   text += fmt::format("  computed in   {:.3g} s\n", seconds);
   return output.empty() ? text : text + fmt::format("  archive       {}\n", output);
 }
@@ -123,9 +131,9 @@ void follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& 
   while (const auto hit = orbit.next()) {
     if (archive) archive->hit(*hit);
     if (progress.due()) {
-      const double by_hits = task.collisions == 0
-                                 ? 0.0
-                                 : static_cast<double>(hit->number) / static_cast<double>(task.collisions);
+      const double by_hits = task.collisions == 0 ? 0.0
+                                                  : static_cast<double>(hit->number) /
+                                                        static_cast<double>(task.collisions);
       const double by_time = task.t_max ? hit->t.to_double() / task.t_max->to_double() : 0.0;
       progress.show(std::max(by_hits, by_time),
                     with_prefix(static_cast<double>(hit->number) / progress.seconds()) + "hits/s");
@@ -137,14 +145,16 @@ void follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& 
 
 void check_form(const System& system, const char* option) {
   const auto refuse = [&](const char* what, const char* expected) {
-    throw InputError(Place{"command line", 0, 0, option}, std::string(what) + " no exact form", expected);
+    throw InputError(Place{"command line", 0, 0, option}, std::string(what) + " no exact form",
+                     expected);
   };
   if (system.dynamics.forces && !system.dynamics.forces->empty())
     refuse("[[potential]] and [interaction] have", "a system without forces, or double precision");
   if (system.of_discs()) refuse("hard discs have", "point particles, or double precision");
   if (system.particles.size() > 1)
     refuse("several particles have", "particles.count = 1, or double precision");
-  if (!system.injections.empty()) refuse("[[injection]] has", "a system without it, or double precision");
+  if (!system.injections.empty())
+    refuse("[[injection]] has", "a system without it, or double precision");
 }
 
 ExactStart exact_start(const State& state) {
@@ -164,11 +174,13 @@ int run_certified(const Options& options) {
   const CertifiedTask task = task_of(options, loaded);
   const Stopwatch watch;
   const std::atomic<bool>& signal = catch_interrupts();
-  CertifiedOrbit orbit(loaded.exact, task, [&signal] { return signal.load(std::memory_order_relaxed); });
+  CertifiedOrbit orbit(loaded.exact, task,
+                       [&signal] { return signal.load(std::memory_order_relaxed); });
   std::unique_ptr<CertifiedArchive> archive;
   if (!options.output.empty())
-    archive = std::make_unique<CertifiedArchive>(
-        options.output, loaded, provenance_of(options, loaded.system, 1), task, options.force, lock_output(options.output));
+    archive = std::make_unique<CertifiedArchive>(options.output, loaded,
+                                                 provenance_of(options, loaded.system, 1), task,
+                                                 options.force, lock_output(options.output));
   follow(orbit, options, task, archive.get());
   const CertifiedEnd& end = orbit.end_state();
   const bool interrupted = end.fate == CertifiedFate::interrupted;
@@ -176,7 +188,9 @@ int run_certified(const Options& options) {
   if (archive) archive->finish(end, orbit.effort(), name_of(end.fate), !interrupted);
   const CertifiedEffort& effort = orbit.effort();
   print(options.json
-            ? end_json(loaded.system, end, task, effort, options.output, seconds, cpu_seconds).text() + "\n"
+            ? end_json(loaded.system, end, task, effort, options.output, seconds, cpu_seconds)
+                      .text() +
+                  "\n"
             : end_text(loaded.system, end, task, effort, options.output, seconds));
   return interrupted ? stopped : done;
 }

@@ -48,19 +48,23 @@ Provenance origin_of(const Options& options, const EnsembleJob<Result>& job) {
 
 // The archive that the ensemble goes into, or null.
 template <class Result>
-std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options, const EnsembleJob<Result>& job) {
+std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options,
+                                                    const EnsembleJob<Result>& job) {
   using Archive = EnsembleArchive<Result>;
   if (job.output.empty()) return nullptr;
-  const typename Archive::Plan plan{options.force, options.per_trajectory, job.shard, warn, job.lock};
+  const typename Archive::Plan plan{options.force, options.per_trajectory, job.shard, warn,
+                                    job.lock};
   const Provenance origin = origin_of(options, job);
-  if (job.stored) return std::make_unique<Archive>(job.output, job.loaded, origin, *job.stored, plan);
+  if (job.stored)
+    return std::make_unique<Archive>(job.output, job.loaded, origin, *job.stored, plan);
   return std::make_unique<Archive>(job.output, job.loaded, origin, plan);
 }
 
 inline const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
 
 template <class Result>
-int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, const Result& result, const std::string& status) {
+int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, const Result& result,
+           const std::string& status) {
   warn_of(result.reports);
   kind.print(job, result, status);
   return doubts_of(job.loaded.system, result).status(result.complete);
@@ -69,19 +73,22 @@ int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, con
 template <class Result>
 void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, std::uint64_t kept) {
   if (job.output.empty() || kept == 0) return;
-  warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}", grouped(kept), options.command,
-                   job.output));
+  warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}",
+                   grouped(kept), options.command, job.output));
 }
 
 template <class Result>
-void say_what_became_of_it(const Options& options, const EnsembleJob<Result>& job, const Result& result) {
-  if (options.isa != "auto" && !result.lanes) warn("--isa changed nothing: these particles fly one after the other, in no lanes");
+void say_what_became_of_it(const Options& options, const EnsembleJob<Result>& job,
+                           const Result& result) {
+  if (options.isa != "auto" && !result.lanes)
+    warn("--isa changed nothing: these particles fly one after the other, in no lanes");
   if (!result.complete) say_how_to_go_on(options, job, result.done.size());
 }
 
 // What `how` asks for, with the progress of this process.
 template <class Result>
-Result fly(const Options& options, const EnsembleKind<Result>& kind, const System& system, EnsembleOptions<Result> how) {
+Result fly(const Options& options, const EnsembleKind<Result>& kind, const System& system,
+           EnsembleOptions<Result> how) {
   const double all = static_cast<double>(how.part.last - how.part.first);
   const std::uint64_t before = how.before ? how.before->done.size() : 0;
   Progress progress(!options.quiet, all > 0 ? static_cast<double>(before) / all : 0.0);
@@ -89,8 +96,10 @@ Result fly(const Options& options, const EnsembleKind<Result>& kind, const Syste
     how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
       if (progress.due())
         progress.show(static_cast<double>(trajectories) / all,
-                      hits > 0 ? with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
-                               : with_prefix(static_cast<double>(trajectories) / progress.seconds()) + "trajectories/s");
+                      hits > 0
+                          ? with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
+                          : with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
+                                "trajectories/s");
     };
   return kind.run(system, how);
 }
@@ -102,9 +111,11 @@ int run_alone(const Options& options, const EnsembleKind<Result>& kind) {
   std::optional<Progress> preparing(std::in_place, !options.quiet);
   EnsembleJob<Result> job = job_of<Result>(options);
   preparing.reset();
-  how.interrupted = &catch_interrupts();  // until here a signal ends the program, whatever it computes
+  how.interrupted =
+      &catch_interrupts();  // until here a signal ends the program, whatever it computes
   if (job.stored && job.stored->result.complete) {
-    if (job.lock) remove_checkpoint(job.output);  // left by a process that was killed at its last step
+    if (job.lock)
+      remove_checkpoint(job.output);  // left by a process that was killed at its last step
     job.lock.reset();
     return report(kind, job, job.stored->result, job.stored->status);
   }

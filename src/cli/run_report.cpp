@@ -39,7 +39,8 @@ void add_end(Json& json, const System& system, const RunEnd& particle) {
   json.set("vy", particle.vy);
   json.set("cell", Json::array().push(particle.cell.first).push(particle.cell.second));
   json.set("energy_error", energy_json(particle.energy_error));
-  if (is_failure(particle.progress.fate) && !particle.report.empty()) add_report(json, particle.report);
+  if (is_failure(particle.progress.fate) && !particle.report.empty())
+    add_report(json, particle.report);
   const Trust& trust = particle.trust;
   json.set("trusted_collisions", trust.known ? Json(trust.hits) : Json());
   json.set("trusted_time", trust.known ? Json(trust.time.value()) : Json());
@@ -52,9 +53,11 @@ std::string trust_text(const System& system, const RunEnd& particle) {
   const Trust& trust = particle.trust;
   if (!trust.known) return "not estimated where motion is integrated or discs meet";
   if (trust.open && trust.time == particle.progress.end)
-    return fmt::format("to the end: errors below {} of the table's size", system.run.trust_tolerance);
-  return fmt::format("{} collisions, until t = {:.6g}; then errors exceed {} of the table's size or change a wall",
-                     grouped(trust.hits), trust.time.value(), system.run.trust_tolerance);
+    return fmt::format("to the end: errors below {} of the table's size",
+                       system.run.trust_tolerance);
+  return fmt::format(
+      "{} collisions, until t = {:.6g}; then errors exceed {} of the table's size or change a wall",
+      grouped(trust.hits), trust.time.value(), system.run.trust_tolerance);
 }
 
 std::string end_text(const System& system, const RunEnd& particle, bool interrupted) {
@@ -65,13 +68,16 @@ std::string end_text(const System& system, const RunEnd& particle, bool interrup
   text += fmt::format("\n  collisions    {}", grouped(particle.progress.hits));
   const std::string wall = wall_of(system, particle);
   if (!wall.empty()) text += fmt::format(", the last on '{}'", wall);
-  if (system.of_discs()) text += fmt::format("\n  contacts      {}", grouped(particle.progress.contacts));
-  text += fmt::format("\n  t             {}\n  position      {}, {}", particle.t, particle.x, particle.y);
+  if (system.of_discs())
+    text += fmt::format("\n  contacts      {}", grouped(particle.progress.contacts));
+  text += fmt::format("\n  t             {}\n  position      {}, {}", particle.t, particle.x,
+                      particle.y);
   if (system.table->lattice)
     text += fmt::format("   in cell {}, {}", particle.cell.first, particle.cell.second);
   const EnergyError& error = particle.energy_error;
-  text += fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g} at the end, {:.2g} at most\n", particle.vx, particle.vy,
-                      error.end, error.largest);
+  text +=
+      fmt::format("\n  velocity      {}, {}\n  energy error  {:.2g} at the end, {:.2g} at most\n",
+                  particle.vx, particle.vy, error.end, error.largest);
   if (!system.dynamics.forces || system.dynamics.forces->empty())
     text += fmt::format("  trusted       {}\n", trust_text(system, particle));
   return text;
@@ -79,9 +85,12 @@ std::string end_text(const System& system, const RunEnd& particle, bool interrup
 
 std::string state_error_text(const System& system, const StateError& error, double end) {
   const bool adaptive = is_adaptive(system.dynamics.integrator.scheme);
-  std::string text = fmt::format("  state error   {:.2g} in position, {:.2g} in velocity, by {}\n", error.position, error.velocity,
-                                 adaptive ? "a finer tolerance" : "half the step");
-  if (error.until < end) text += fmt::format("                at t = {:.6g}: no later times are compared\n", error.until);
+  std::string text =
+      fmt::format("  state error   {:.2g} in position, {:.2g} in velocity, by {}\n", error.position,
+                  error.velocity, adaptive ? "a finer tolerance" : "half the step");
+  if (error.until < end)
+    text +=
+        fmt::format("                at t = {:.6g}: no later times are compared\n", error.until);
   return text;
 }
 
@@ -143,22 +152,26 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
 
 std::string run_text(const System& system, const SingleRunResult& result, const std::string& status,
                      const std::string& output) {
-  std::string text = doubts_of(system, result).text() + fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  std::string text = doubts_of(system, result).text() +
+                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   for (std::size_t i = 0; i < result.particles.size(); ++i) {
     if (result.particles.size() > 1) text += fmt::format("particle {}\n", i);
     text += end_text(system, result.particles[i], result.interrupted);
   }
   if (result.particles.size() > 1)
-    text += fmt::format("{}: {} collisions{}\n", status, grouped(result.collisions),
-                        system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "");
+    text += fmt::format(
+        "{}: {} collisions{}\n", status, grouped(result.collisions),
+        system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "");
   if (const std::string steps = steps_text(system, result.steps); !steps.empty())
     text += fmt::format("  integration   {}\n", steps);
   if (result.state_error) {
     double end = 0.0;
-    for (const RunEnd& particle : result.particles) end = std::max(end, particle.progress.end.value());
+    for (const RunEnd& particle : result.particles)
+      end = std::max(end, particle.progress.end.value());
     text += state_error_text(system, *result.state_error, end);
   }
-  text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds, decisions_text(result.decisions));
+  text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds,
+                      decisions_text(result.decisions));
   if (!output.empty()) text += fmt::format("  archive       {}\n", output);
   return text;
 }

@@ -8,10 +8,11 @@
 
 namespace carom::cli {
 
-/// completed, escaped, singular, unbounded, pinned, interrupted, unresolved or lost; of several particles, lost or unresolved
-/// if one is, else completed.
+/// completed, escaped, singular, unbounded, pinned, interrupted, unresolved or lost; of several
+/// particles, lost or unresolved if one is, else completed.
 std::string run_status(const SingleRunResult&);
-Json run_json(const System&, const SingleRunResult&, const std::string& status, const std::string& output);
+Json run_json(const System&, const SingleRunResult&, const std::string& status,
+              const std::string& output);
 std::string run_text(const System&, const SingleRunResult&, const std::string& status,
                      const std::string& output);
 

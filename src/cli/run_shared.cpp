@@ -23,18 +23,21 @@ ShareEnd share_end_of(const std::function<void(ShareEnd&)>& work) {
 
 std::vector<ShareEnd> gather_ends(Ranks& ranks, const ShareEnd& mine) {
   std::vector<ShareEnd> ends;
-  ranks.gather(fmt::format("{} {:d}\n{}", mine.kept, mine.stopped, mine.error), [&](int rank, const std::string& text) {
-    ShareEnd end = rank == 0 ? mine : ShareEnd();
-    std::istringstream in(text);
-    in >> end.kept >> end.stopped;
-    in.ignore();
-    end.error.assign(std::istreambuf_iterator<char>(in), {});
-    ends.push_back(end);
-  });
-  ranks.gather(fmt::format("{}", fmt::join(mine.warnings, "\n")), [](int rank, const std::string& text) {
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) warn(fmt::format("rank {}: {}", rank, line));
-  });
+  ranks.gather(fmt::format("{} {:d}\n{}", mine.kept, mine.stopped, mine.error),
+               [&](int rank, const std::string& text) {
+                 ShareEnd end = rank == 0 ? mine : ShareEnd();
+                 std::istringstream in(text);
+                 in >> end.kept >> end.stopped;
+                 in.ignore();
+                 end.error.assign(std::istreambuf_iterator<char>(in), {});
+                 ends.push_back(end);
+               });
+  ranks.gather(fmt::format("{}", fmt::join(mine.warnings, "\n")),
+               [](int rank, const std::string& text) {
+                 std::istringstream in(text);
+                 for (std::string line; std::getline(in, line);)
+                   warn(fmt::format("rank {}: {}", rank, line));
+               });
   return ends;
 }
 

@@ -1,5 +1,5 @@
-// A command that runs an ensemble on several ranks: each flies its share into an archive of its own, as --shard does, and
-// the first rank adds them up.
+// A command that runs an ensemble on several ranks: each flies its share into an archive of its
+// own, as --shard does, and the first rank adds them up.
 //
 // (1) Every rank ends, whatever fails, and none with status 0 where one has failed.
 // (2) What went wrong is said once, by the first rank.
@@ -42,21 +42,25 @@ void send_parts(Ranks&, const std::string& part, const std::string& first_file);
 
 // Flies this rank's share into the archive `part`.
 template <class Result>
-void fly_share(const Options& options, const EnsembleKind<Result>& kind, EnsembleJob<Result>& job, const Ranks& ranks,
-               const std::string& part, const std::atomic<bool>& stopped, ShareEnd& end) {
+void fly_share(const Options& options, const EnsembleKind<Result>& kind, EnsembleJob<Result>& job,
+               const Ranks& ranks, const std::string& part, const std::atomic<bool>& stopped,
+               ShareEnd& end) {
   const System& system = job.loaded.system;
   EnsembleOptions<Result> how = how_to_run<Result>(options);
   how.interrupted = &stopped;
   if (job.stored) how.elsewhere = job.stored->result.done;
-  how.part = shard(static_cast<std::uint64_t>(ranks.rank()) + 1, static_cast<std::uint64_t>(ranks.size()),
-                   how.elsewhere.missing_from(job.shard.range(system.run.trajectories)));
+  how.part =
+      shard(static_cast<std::uint64_t>(ranks.rank()) + 1, static_cast<std::uint64_t>(ranks.size()),
+            how.elsewhere.missing_from(job.shard.range(system.run.trajectories)));
   typename EnsembleArchive<Result>::Plan plan;
   plan.force = true;
   plan.per_trajectory = job.stored ? job.stored->per_trajectory : options.per_trajectory;
   plan.shard = job.shard;
   plan.warn = warn;
-  if (ranks.rank() > 0) plan.warn = [&end](const std::string& text) { end.warnings.push_back(text); };
-  EnsembleArchive<Result> archive(part, job.loaded, provenance_of(options, system, threads_of(options)), plan);
+  if (ranks.rank() > 0)
+    plan.warn = [&end](const std::string& text) { end.warnings.push_back(text); };
+  EnsembleArchive<Result> archive(part, job.loaded,
+                                  provenance_of(options, system, threads_of(options)), plan);
   how.journal = &archive;
   try {
     Result result = fly(options, kind, system, how);
@@ -72,8 +76,8 @@ void fly_share(const Options& options, const EnsembleKind<Result>& kind, Ensembl
 
 // The first rank adds up what there is.
 template <class Result>
-int add_up(const Options& options, const EnsembleKind<Result>& kind, EnsembleJob<Result>& job, const Ranks& ranks,
-           const std::string& file, const std::vector<ShareEnd>& ends) {
+int add_up(const Options& options, const EnsembleKind<Result>& kind, EnsembleJob<Result>& job,
+           const Ranks& ranks, const std::string& file, const std::vector<ShareEnd>& ends) {
   std::uint64_t kept = job.stored ? job.stored->result.done.size() : 0;
   for (const ShareEnd& end : ends) kept += end.kept;
   std::optional<SumOfParts<Result>> sum;
@@ -133,13 +137,16 @@ int run_shared(const Options& options, const EnsembleKind<Result>& kind, Ranks& 
       if (job.output.empty()) temporary.emplace();
       file = temporary ? temporary->file("sum") : job.output;
       if (temporary) std::filesystem::create_directory(folder_of(file));
-      fly_share(options, kind, job, ranks, part_of_rank(file, ranks.rank()), meeting.stopped(), end);
+      fly_share(options, kind, job, ranks, part_of_rank(file, ranks.rank()), meeting.stopped(),
+                end);
     });
     meeting.end(mine.exception != nullptr);
   }
   const std::vector<ShareEnd> ends = gather_ends(ranks, mine);
-  const bool failed = share_end_of([&](ShareEnd&) { throw_first_error(ends); }).exception != nullptr;
-  if (ranks.tell(failed ? "failed" : go) == go && temporary) send_parts(ranks, part_of_rank(file, ranks.rank()), file);
+  const bool failed =
+      share_end_of([&](ShareEnd&) { throw_first_error(ends); }).exception != nullptr;
+  if (ranks.tell(failed ? "failed" : go) == go && temporary)
+    send_parts(ranks, part_of_rank(file, ranks.rank()), file);
 
   int status = bad_input;
   const ShareEnd last = share_end_of([&](ShareEnd&) {

@@ -42,10 +42,11 @@ void add(std::vector<OrbitLine>& lines, const std::vector<SectionPoint>& points)
 
 SystemOverrides section_overrides(const Options& options) {
   SystemOverrides overrides = options.overrides;
-  const std::pair<const char*, const std::string*> keys[] = {{"section.on", &options.on},
-                                                             {"section.direction", &options.direction},
-                                                             {"section.points", &options.points},
-                                                             {"section.orbits", &options.orbits}};
+  const std::pair<const char*, const std::string*> keys[] = {
+      {"section.on", &options.on},
+      {"section.direction", &options.direction},
+      {"section.points", &options.points},
+      {"section.orbits", &options.orbits}};
   for (const auto& [key, text] : keys)
     if (!text->empty()) overrides.set.emplace_back(key, *text);
   if (options.orbits.empty() && !overrides.trajectories.empty())
@@ -53,8 +54,9 @@ SystemOverrides section_overrides(const Options& options) {
   return overrides;
 }
 
-// Every hit is a point: orbits that are asked for a number of points have no last time. On one wall, on a line or
-// at a velocity they may never have so many. Where the section is taken the command line or the file says.
+// Every hit is a point: orbits that are asked for a number of points have no last time. On one
+// wall, on a line or at a velocity they may never have so many. Where the section is taken the
+// command line or the file says.
 LoadedSystem load_section(const Options& options) {
   SystemOverrides overrides = section_overrides(options);
   const bool last_time = !overrides.t_max.empty() ||
@@ -93,16 +95,17 @@ Json section_json(const System& system, const SectionResult& result, const std::
   return json;
 }
 
-std::string section_text(const System& system, const SectionResult& result, const std::vector<OrbitLine>& lines,
-                         const std::string& output) {
-  std::string text = doubts_of(system, result).text() + fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+std::string section_text(const System& system, const SectionResult& result,
+                         const std::vector<OrbitLine>& lines, const std::string& output) {
+  std::string text = doubts_of(system, result).text() +
+                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("{} points of {} orbit{}{}\n", grouped(result.points), grouped(result.orbits),
                       result.orbits == 1 ? "" : "s",
                       result.complete ? "" : "  (interrupted: those that were finished)");
   if (!lines.empty()) text += "\n   orbit       points     last time   v_parallel\n";
   for (const OrbitLine& line : lines)
-    text += fmt::format("{:>8}  {:>11}  {:>12.6g}   {:+.4f} .. {:+.4f}\n", line.orbit, grouped(line.points),
-                        line.last_time, line.from, line.to);
+    text += fmt::format("{:>8}  {:>11}  {:>12.6g}   {:+.4f} .. {:+.4f}\n", line.orbit,
+                        grouped(line.points), line.last_time, line.from, line.to);
   if (result.orbits > lines.size() && !lines.empty()) text += "     ...\n";
   std::string ends;
   const auto end = [&](std::uint64_t number, const char* what) {
@@ -116,12 +119,14 @@ std::string section_text(const System& system, const SectionResult& result, cons
   end(result.unresolved, fmt::format("unresolved: {}", why_unresolved).c_str());
   end(result.lost, fmt::format("lost: {}", why_lost).c_str());
   if (result.incomplete > 0)
-    text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n", grouped(result.incomplete),
-                        grouped(system.section.points), system.run.t_max, ends.empty() ? "" : " (" + ends + ")");
+    text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n",
+                        grouped(result.incomplete), grouped(system.section.points),
+                        system.run.t_max, ends.empty() ? "" : " (" + ends + ")");
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   const std::string steps = steps_text(system, result.steps);
-  text += fmt::format("\n{} collisions{} in {:.3g} s on {} thread{}\n{}   digest {:016x}\n", grouped(result.collisions),
-                      steps.empty() ? "" : ", " + steps, result.seconds, result.threads, result.threads == 1 ? "" : "s",
+  text += fmt::format("\n{} collisions{} in {:.3g} s on {} thread{}\n{}   digest {:016x}\n",
+                      grouped(result.collisions), steps.empty() ? "" : ", " + steps, result.seconds,
+                      result.threads, result.threads == 1 ? "" : "s",
                       decisions_text(result.decisions), result.digest);
   text += output.empty() ? "-o FILE.h5 stores the points\n" : fmt::format("archive: {}\n", output);
   return text;
@@ -142,7 +147,8 @@ int section(const Options& options) {
   how.interrupted = &catch_interrupts();  // before there is an archive
   std::unique_ptr<SectionArchive> archive;
   if (!options.output.empty())
-    archive = std::make_unique<SectionArchive>(options.output, loaded, provenance_of(options, system, how.threads),
+    archive = std::make_unique<SectionArchive>(options.output, loaded,
+                                               provenance_of(options, system, how.threads),
                                                options.force, lock_output(options.output));
   std::vector<OrbitLine> lines;
   how.points = [&](const std::vector<SectionPoint>& points) {

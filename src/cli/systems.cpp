@@ -12,8 +12,8 @@ namespace carom::cli {
 int systems(const Options& options) {
   const std::vector<BuiltinSystem>& all = builtin_systems();
   if (!options.system.empty()) {
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const BuiltinSystem& s) { return s.name == options.system; });
+    const auto found = std::find_if(
+        all.begin(), all.end(), [&](const BuiltinSystem& s) { return s.name == options.system; });
     if (found == all.end()) {
       std::vector<std::string> names;
       for (const BuiltinSystem& s : all) names.emplace_back(s.name);

@@ -21,7 +21,8 @@ namespace carom::cli {
 namespace {
 
 const char* kind_of(const geometry::Curve& curve) {
-  static constexpr const char* names[] = {"segment", "circular arc", "circle", "elliptic arc", "ellipse"};
+  static constexpr const char* names[] = {"segment", "circular arc", "circle", "elliptic arc",
+                                          "ellipse"};
   return names[curve.index()];
 }
 
@@ -62,19 +63,24 @@ Json holes_json(const Table& table) {
   return holes;
 }
 
-std::string number(double value) { return std::isinf(value) ? "infinite" : fmt::format("{:.12g}", value); }
+std::string number(double value) {
+  return std::isinf(value) ? "infinite" : fmt::format("{:.12g}", value);
+}
 
-std::string table_text(const System& system, const TableMeasure& measured, const std::string& output) {
+std::string table_text(const System& system, const TableMeasure& measured,
+                       const std::string& output) {
   const Table& table = *system.table;
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("  shape        {}\n  area         {}\n  perimeter    {}\n  mean flight  {}\n\n",
-                      table.shape, number(measured.area), number(measured.perimeter),
-                      number(measured.mean_flight));
+  text += fmt::format(
+      "  shape        {}\n  area         {}\n  perimeter    {}\n  mean flight  {}\n\n", table.shape,
+      number(measured.area), number(measured.perimeter), number(measured.mean_flight));
   text += "  wall                  kind                 length   from -> to\n";
   for (const Wall& wall : table.walls) {
-    const geometry::Vector a = geometry::start_point(wall.curve), b = geometry::end_point(wall.curve);
-    text += fmt::format("  {:<20}  {:<12} {:>14.9g}   ({:.6g}, {:.6g}) -> ({:.6g}, {:.6g})\n", wall.name,
-                        kind_of(wall.curve), geometry::length(wall.curve), a.x, a.y, b.x, b.y);
+    const geometry::Vector a = geometry::start_point(wall.curve),
+                           b = geometry::end_point(wall.curve);
+    text += fmt::format("  {:<20}  {:<12} {:>14.9g}   ({:.6g}, {:.6g}) -> ({:.6g}, {:.6g})\n",
+                        wall.name, kind_of(wall.curve), geometry::length(wall.curve), a.x, a.y, b.x,
+                        b.y);
   }
   for (const Hole& hole : table.holes) {
     const auto [from, to] = measure_hole(table, hole);
@@ -105,7 +111,8 @@ int table(const Options& options) {
   ArchiveLock lock;
   if (!options.output.empty()) {
     if (!options.output.ends_with(".svg"))
-      throw InputError(Place{options.output, 0, 0, ""}, "a table is drawn as SVG", "a name ending in .svg");
+      throw InputError(Place{options.output, 0, 0, ""}, "a table is drawn as SVG",
+                       "a name ending in .svg");
     lock = lock_output(options.output);
     refuse_existing(options.output, options.force);
   }

@@ -35,8 +35,10 @@ View view_of(const Table& table) {
   std::vector<geometry::Box> boxes;
   for (const Wall& wall : table.walls) boxes.push_back(geometry::bounding_box(wall.curve));
   if (table.lattice)
-    for (const auto& edge : table.lattice->edges) boxes.push_back({edge.segment.from, edge.segment.from});
-  if (boxes.empty()) throw InputError({"command line", 0, 0, "-o"}, "a table without walls cannot be drawn");
+    for (const auto& edge : table.lattice->edges)
+      boxes.push_back({edge.segment.from, edge.segment.from});
+  if (boxes.empty())
+    throw InputError({"command line", 0, 0, "-o"}, "a table without walls cannot be drawn");
   View view;
   view.box = geometry::hull_of(boxes);
   const double size = std::max(view.box.high.x - view.box.low.x, view.box.high.y - view.box.low.y);
@@ -68,7 +70,8 @@ double axis_angle(const geometry::Curve& curve, bool& axis_is_major) {
 // quarter turn is one arc, so that which arc is meant is never in doubt.
 std::string piece(const View& view, const geometry::Curve& curve, const CurveFrame& frame, double u,
                   double v) {
-  if (frame.kind == CurveFrame::Kind::segment) return " L " + point(view, geometry::point_at(frame, v));
+  if (frame.kind == CurveFrame::Kind::segment)
+    return " L " + point(view, geometry::point_at(frame, v));
   bool axis_is_major = true;
   const double angle = axis_angle(curve, axis_is_major);
   const double along = axis_is_major ? frame.major : frame.minor;
@@ -79,8 +82,8 @@ std::string piece(const View& view, const geometry::Curve& curve, const CurveFra
     const double to = std::min(v, std::floor(from) + 1.0);
     // The end of a closed curve is its start.
     const Vector end = to >= 4.0 ? geometry::start_point(curve) : geometry::point_at(frame, to);
-    path += fmt::format(" A {:.3f} {:.3f} {:.3f} 0 {} {}", view.scale * along, view.scale * across, angle,
-                        sweep, point(view, end));
+    path += fmt::format(" A {:.3f} {:.3f} {:.3f} 0 {} {}", view.scale * along, view.scale * across,
+                        angle, sweep, point(view, end));
     from = to;
   }
   return path;
@@ -105,8 +108,9 @@ std::string label(const View& view, const CurveFrame& frame, double u, const std
   Vector at = view(geometry::point_at(frame, u));
   at = {at.x - 16.0 * normal.x, at.y + 16.0 * normal.y + 4.0};
   const char* anchor = normal.x > 0.5 ? "end" : normal.x < -0.5 ? "start" : "middle";
-  return fmt::format("  <text class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\">{}</text>\n", kind,
-                     at.x, at.y, anchor, escaped(name));
+  return fmt::format(
+      "  <text class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\">{}</text>\n", kind, at.x,
+      at.y, anchor, escaped(name));
 }
 
 // All loops as one path; the domain is where the winding leaves it filled.
@@ -122,7 +126,8 @@ std::string domain(const View& view, const Table& table, const std::vector<Curve
   for (std::size_t first = 0; first < table.walls.size(); ++first) {
     if (drawn[first]) continue;
     path += "M " + point(view, geometry::start_point(table.walls[first].curve));
-    for (std::size_t wall = first; !drawn[wall]; wall = static_cast<std::size_t>(table.walls[wall].next)) {
+    for (std::size_t wall = first; !drawn[wall];
+         wall = static_cast<std::size_t>(table.walls[wall].next)) {
       drawn[wall] = true;
       path += whole(view, table.walls[wall], frames[wall]);
     }
@@ -150,31 +155,34 @@ std::string table_svg(const Table& table, const std::string& title) {
   for (const Wall& wall : table.walls) frames.push_back(geometry::frame_of(wall.curve));
 
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 "
+      "0 {0:.0f} "
       "{1:.0f}\">\n",
       view.width(), view.height());
   svg += style;
   svg += "  <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   if (!title.empty()) {
     svg += fmt::format("  <title>{}</title>\n", escaped(title));
-    svg += fmt::format("  <text class=\"title\" x=\"{:.2f}\" y=\"24\" text-anchor=\"middle\">{}</text>\n",
-                       view.width() / 2, escaped(title));
+    svg += fmt::format(
+        "  <text class=\"title\" x=\"{:.2f}\" y=\"24\" text-anchor=\"middle\">{}</text>\n",
+        view.width() / 2, escaped(title));
   }
   if (table.extent != Extent::open_plane)
     svg += fmt::format("  <path class=\"domain\" d=\"{}\"/>\n", domain(view, table, frames));
   if (table.lattice)
     for (const auto& edge : table.lattice->edges)
-      svg += fmt::format("  <path class=\"cell\" d=\"M {} L {}\"/>\n", point(view, edge.segment.from),
-                         point(view, edge.segment.to));
+      svg += fmt::format("  <path class=\"cell\" d=\"M {} L {}\"/>\n",
+                         point(view, edge.segment.from), point(view, edge.segment.to));
   for (std::size_t i = 0; i < table.walls.size(); ++i)
     svg += fmt::format("  <path class=\"wall\" d=\"M {}{}\"/>\n",
                        point(view, geometry::start_point(table.walls[i].curve)),
                        whole(view, table.walls[i], frames[i]));
   for (const Hole& hole : table.holes) {
     const CurveFrame& frame = frames[static_cast<std::size_t>(hole.wall)];
-    svg += fmt::format(
-        "  <path class=\"hole\" d=\"M {}{}\"/>\n", point(view, geometry::point_at(frame, hole.from)),
-        piece(view, table.walls[static_cast<std::size_t>(hole.wall)].curve, frame, hole.from, hole.to));
+    svg += fmt::format("  <path class=\"hole\" d=\"M {}{}\"/>\n",
+                       point(view, geometry::point_at(frame, hole.from)),
+                       piece(view, table.walls[static_cast<std::size_t>(hole.wall)].curve, frame,
+                             hole.from, hole.to));
   }
   for (std::size_t i = 0; i < table.walls.size(); ++i) {
     // A wall's name stands at its middle, or before the hole that is there.
@@ -187,8 +195,8 @@ std::string table_svg(const Table& table, const std::string& title) {
     svg += label(view, frames[i], u, table.walls[i].name, "name");
   }
   for (const Hole& hole : table.holes)
-    svg += label(view, frames[static_cast<std::size_t>(hole.wall)], (hole.from + hole.to) / 2, hole.name,
-                 "opening");
+    svg += label(view, frames[static_cast<std::size_t>(hole.wall)], (hole.from + hole.to) / 2,
+                 hole.name, "opening");
   return svg + "</svg>\n";
 }
 

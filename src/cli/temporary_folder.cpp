@@ -15,7 +15,8 @@ namespace carom::cli {
 TemporaryFolder::TemporaryFolder() {
   const char* const folder = ::getenv("TMPDIR");
   path_ = fmt::format("{}/carom-XXXXXX", folder ? folder : "/tmp");
-  if (!::mkdtemp(path_.data())) throw InputError(fmt::format("cannot make the folder '{}': {}", path_, std::strerror(errno)));
+  if (!::mkdtemp(path_.data()))
+    throw InputError(fmt::format("cannot make the folder '{}': {}", path_, std::strerror(errno)));
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -27,21 +27,26 @@ double scale_of(const Options& options) {
 }
 
 /// Seven decimals, or as many digits of large numbers.
-std::string number_text(double value) { return value < 10.0 ? fmt::format("{:.7f}", value) : fmt::format("{:.7g}", value); }
+std::string number_text(double value) {
+  return value < 10.0 ? fmt::format("{:.7f}", value) : fmt::format("{:.7g}", value);
+}
 
 std::string line_of(const ValidationCase& c, Allowance allowance) {
   std::string line =
-      fmt::format("{}  {:<34} seed {}  {:>12.4g} hits {:>7.2f} s  ", c.passed ? "passed" : "FAILED", c.name,
-                  c.seed, static_cast<double>(c.hits), c.seconds);
+      fmt::format("{}  {:<34} seed {}  {:>12.4g} hits {:>7.2f} s  ", c.passed ? "passed" : "FAILED",
+                  c.name, c.seed, static_cast<double>(c.hits), c.seconds);
   if (c.error > 0.0)
-    line += fmt::format("{} +- {}  expected {}{}  {:+.1f} sigma", number_text(c.value), number_text(c.error), number_text(c.expected),
-                        c.expected_error > 0.0 ? " +- " + number_text(c.expected_error) : "", c.distance);
+    line += fmt::format("{} +- {}  expected {}{}  {:+.1f} sigma", number_text(c.value),
+                        number_text(c.error), number_text(c.expected),
+                        c.expected_error > 0.0 ? " +- " + number_text(c.expected_error) : "",
+                        c.distance);
   else if (c.digest != 0)
     line += fmt::format("{} lost, {}{} singular, filter share {:.9f}, digest {:016x}", c.lost,
-                        c.unresolved > 0 ? fmt::format("{} unresolved, ", c.unresolved) : "", c.singular,
-                        c.filter_share, c.digest);
+                        c.unresolved > 0 ? fmt::format("{} unresolved, ", c.unresolved) : "",
+                        c.singular, c.filter_share, c.digest);
   else
-    line += fmt::format("{:.15f}  expected {:.15f}  difference {:+.2g}", c.value, c.expected, c.distance);
+    line += fmt::format("{:.15f}  expected {:.15f}  difference {:+.2g}", c.value, c.expected,
+                        c.distance);
   if (allowance.below > 0.0 || allowance.above > 0.0)
     line += fmt::format(" (allowed -{:g}, +{:g})", allowance.below, allowance.above);
   return line + (c.report.empty() ? "" : "\n        " + std::string(shown(c.report))) + "\n";
@@ -52,8 +57,13 @@ Json json_of(const ValidationCase& c, Allowance allowance) {
   json.set("name", c.name).set("passed", c.passed).set("seed", c.seed).set("value", c.value);
   json.set("error", c.error).set("expected", c.expected);
   json.set("expected_error", c.expected_error).set("sigma", c.distance);
-  json.set("allowed_below", allowance.below).set("allowed_above", allowance.above).set("source", c.source);
-  json.set("hits", c.hits).set("unresolved", c.unresolved).set("lost", c.lost).set("singular", c.singular);
+  json.set("allowed_below", allowance.below)
+      .set("allowed_above", allowance.above)
+      .set("source", c.source);
+  json.set("hits", c.hits)
+      .set("unresolved", c.unresolved)
+      .set("lost", c.lost)
+      .set("singular", c.singular);
   json.set("filter_share", c.filter_share).set("digest", fmt::format("{:016x}", c.digest));
   if (!c.report.empty()) json.set("report", c.report);
   return json.set("seconds", c.seconds).set("cpu_seconds", c.cpu_seconds);
@@ -92,7 +102,8 @@ int validate(const Options& options) {
     json.set("passed", passed).set("failed", failed).set("cases", std::move(list));
     print(json.text() + "\n");
   } else {
-    print(fmt::format("\n{} passed, {} failed{}\n", passed, failed, complete ? "" : ", interrupted"));
+    print(
+        fmt::format("\n{} passed, {} failed{}\n", passed, failed, complete ? "" : ", interrupted"));
   }
   if (failed > 0) return untrusted;
   return complete ? done : stopped;

@@ -10,7 +10,8 @@ System make_system(const MadeTable& made, RunPlan run) {
   System system;
   system.table = made.table;
   system.particles = {Particle{}};
-  if (!(run.t_max > 0.0)) throw InputError(Place{"", 0, 0, "run.t_max"}, "must be positive", "a number > 0");
+  if (!(run.t_max > 0.0))
+    throw InputError(Place{"", 0, 0, "run.t_max"}, "must be positive", "a number > 0");
   if (run.times.empty()) run.times = default_report_times(run.t_max);
   system.run = std::move(run);
   return system;

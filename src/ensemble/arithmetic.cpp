@@ -21,8 +21,10 @@ namespace {
 
 using Numbers = std::map<std::string, ExactNumber>;
 
-// A point with the speed 1 in a table of that shape, with these numbers and words of its specification.
-System in_table(const char* shape, Numbers numbers, double omega, double t_max, std::map<std::string, std::string> words = {}) {
+// A point with the speed 1 in a table of that shape, with these numbers and words of its
+// specification.
+System in_table(const char* shape, Numbers numbers, double omega, double t_max,
+                std::map<std::string, std::string> words = {}) {
   TableSpec spec;
   spec.shape = shape;
   spec.numbers = std::move(numbers);
@@ -52,14 +54,17 @@ System with_forces() {
   return system;
 }
 
-// What moves particles in another way: lines and Larmor circles among segments, arcs, ellipses and copies on a lattice; steps.
-// Each of the free ones makes some twenty hits.
+// What moves particles in another way: lines and Larmor circles among segments, arcs, ellipses and
+// copies on a lattice; steps. Each of the free ones makes some twenty hits.
 std::vector<System> systems() {
   std::vector<System> all;
   all.push_back(in_table("stadium", {{"half_length", 2.0}, {"radius", 1.0}}, 0.0, 40.0));
   all.push_back(in_table("rectangle", {{"width", 1.0}, {"height", 1.0}}, 1.96875, 16.0));
-  all.push_back(in_table("mushroom", {{"cap_radius", 1.0}, {"stem_width", 1.0}, {"stem_height", 1.0}, {"offset", 0.0}}, 0.0, 24.0));
-  all.push_back(in_table("lorentz", {{"spacing", 2.1875}, {"radius", 1.0}}, 0.0, 8.0, {{"lattice", "triangular"}}));
+  all.push_back(in_table(
+      "mushroom", {{"cap_radius", 1.0}, {"stem_width", 1.0}, {"stem_height", 1.0}, {"offset", 0.0}},
+      0.0, 24.0));
+  all.push_back(in_table("lorentz", {{"spacing", 2.1875}, {"radius", 1.0}}, 0.0, 8.0,
+                         {{"lattice", "triangular"}}));
   all.push_back(in_table("ellipse", {{"a", 1.0}, {"b", 0.75}}, 0.375, 20.0));
   all.push_back(with_forces());
   return all;
@@ -80,9 +85,11 @@ std::uint64_t computed() {
       for (int particle = 0; particle < world.size(); ++particle) {
         const State& end = world.state(particle);
         sum = mix(mix(sum ^ static_cast<std::uint64_t>(std::int64_t{end.wall}), end.u), end);
-        // As an ensemble's digest would hold it, with a sample: builds that make these in another way do not add up, either.
-        sum = mix(sum ^ share(trajectory, world.fate(particle), system.run.t_max, world.hits(particle), world.last_wall(particle),
-                              end, std::span(&end.position.x, 1)));
+        // As an ensemble's digest would hold it, with a sample: builds that make these in another
+        // way do not add up, either.
+        sum = mix(sum ^ share(trajectory, world.fate(particle), system.run.t_max,
+                              world.hits(particle), world.last_wall(particle), end,
+                              std::span(&end.position.x, 1)));
       }
     }
   }

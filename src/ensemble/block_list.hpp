@@ -13,7 +13,8 @@ namespace carom {
 /// Numbers blocks of at most `block` trajectories through several ranges, in order.
 class BlockList {
  public:
-  BlockList(std::vector<TrajectoryRange> ranges, std::uint64_t block) : ranges_(std::move(ranges)), block_(block) {
+  BlockList(std::vector<TrajectoryRange> ranges, std::uint64_t block)
+      : ranges_(std::move(ranges)), block_(block) {
     for (const TrajectoryRange& range : ranges_) {
       first_.push_back(size_);
       const std::uint64_t trajectories = range.last - range.first;

@@ -24,10 +24,11 @@ constexpr double wanted_energy_error = 1e-10;
 constexpr int most_pilots = 16, steps_of_a_pilot = 100, looks = 10;
 /// Evaluations of pair forces that all pilots of one step may cost.
 constexpr double affordable = 2e7;
-/// Meshes of forces that are bounded for all steps together; no step needs as many, but a force of thousands of narrow parts may.
+/// Meshes of forces that are bounded for all steps together; no step needs as many, but a force of
+/// thousands of narrow parts may.
 constexpr int most_meshes = 250000;
-/// The shortest step that is tried, against the longest that is resolved at the start, and against the longest that is resolved
-/// all along.
+/// The shortest step that is tried, against the longest that is resolved at the start, and against
+/// the longest that is resolved all along.
 constexpr double shortest_resolved = 1e-3, shortest = 1e-2;
 
 /// 1, 2, 5, 10, ...: number 3 k is 10^k, exactly as it is read from a file.
@@ -39,14 +40,18 @@ double step_number(int n) {
 
 class Pilots {
  public:
-  Pilots(const System& system, const std::function<bool()>& stopped) : system_(system), stopped_(stopped), sampler_(system_, stopped) {
+  Pilots(const System& system, const std::function<bool()>& stopped)
+      : system_(system), stopped_(stopped), sampler_(system_, stopped) {
     const double n = static_cast<double>(system.particles.size());
     const double each = 11.0 * n * std::max(1.0, 0.5 * (n - 1.0));
-    count_ = std::clamp(static_cast<int>(affordable / (each * 10.0 * steps_of_a_pilot)), 1, most_pilots);
-    length_ = std::clamp(static_cast<int>(affordable / (each * 10.0 * count_)), 10, steps_of_a_pilot);
+    count_ =
+        std::clamp(static_cast<int>(affordable / (each * 10.0 * steps_of_a_pilot)), 1, most_pilots);
+    length_ =
+        std::clamp(static_cast<int>(affordable / (each * 10.0 * count_)), 10, steps_of_a_pilot);
   }
 
-  /// The largest error of the energy within many steps of h0, with steps of h; nothing where a step is not resolved.
+  /// The largest error of the energy within many steps of h0, with steps of h; nothing where a step
+  /// is not resolved.
   std::optional<double> energy_error(double h, double h0) { return follow(h, length_ * h0); }
   /// Are steps of h resolved until a time?
   bool resolve(double h, double until) { return follow(h, until).has_value(); }
@@ -106,20 +111,29 @@ class Pilots {
   std::string report_;
 };
 
-/// Does a step resolve the external forces wherever a particle of that energy can be? True where that is not known
-/// beforehand: in the open plane, where particles interact, and where all `meshes` are used up.
-bool resolves_region(const System& system, const World& world, double energy, double h, int& meshes) {
+/// Does a step resolve the external forces wherever a particle of that energy can be? True where
+/// that is not known beforehand: in the open plane, where particles interact, and where all
+/// `meshes` are used up.
+bool resolves_region(const System& system, const World& world, double energy, double h,
+                     int& meshes) {
   const Table& table = *system.table;
   const ForceField& forces = *system.dynamics.forces;
-  if (!forces.external() || system.particles.size() > 1 || table.extent == Extent::open_plane) return true;
+  if (!forces.external() || system.particles.size() > 1 || table.extent == Extent::open_plane)
+    return true;
   const geometry::Box box =
-      table.lattice
-          ? geometry::hull_of(table.lattice->edges, [](const auto& e) { return geometry::Box{e.segment.from, e.segment.from}; })
-          : geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
+      table.lattice ? geometry::hull_of(table.lattice->edges,
+                                        [](const auto& e) {
+                                          return geometry::Box{e.segment.from, e.segment.from};
+                                        })
+                    : geometry::hull_of(table.walls, [](const Wall& wall) {
+                        return geometry::bounding_box(wall.curve);
+                      });
   ForceMap map(forces, system.particles.front());
   const auto inside = [&](Vector x) { return table.lattice || world.contains(x); };
-  return map.resolves_everywhere(box.low, box.high, energy, inside,
-                                 resolution::span_of(h / resolution::steps_a_radius, system.particles.front().omega), meshes) ||
+  return map.resolves_everywhere(
+             box.low, box.high, energy, inside,
+             resolution::span_of(h / resolution::steps_a_radius, system.particles.front().omega),
+             meshes) ||
          meshes <= 0;
 }
 
@@ -132,7 +146,8 @@ double largest_turn(const System& system) {
 }  // namespace
 
 bool needs_step(const System& system) {
-  return system.dynamics.forces && !system.dynamics.forces->empty() && !is_adaptive(system.dynamics.integrator.scheme) &&
+  return system.dynamics.forces && !system.dynamics.forces->empty() &&
+         !is_adaptive(system.dynamics.integrator.scheme) &&
          !(system.dynamics.integrator.step > 0.0);
 }
 
@@ -152,7 +167,9 @@ ChosenStep choose_step(const System& system, const std::function<bool()>& stoppe
     const double h = step_number(n);
     if (h > longest || largest_turn(system) * h > most_turn) continue;
     if (!(at_start > 0.0)) {
-      if (!pilots.resolve(h, h) || !resolves_region(system, world, pilots.highest_energy(), h, meshes)) continue;
+      if (!pilots.resolve(h, h) ||
+          !resolves_region(system, world, pilots.highest_energy(), h, meshes))
+        continue;
       at_start = h;
     }
     if (h < shortest_resolved * at_start || h < shortest * resolved) break;
@@ -163,7 +180,8 @@ ChosenStep choose_step(const System& system, const std::function<bool()>& stoppe
     if (*error <= wanted_energy_error) break;
   }
   if (!(best.step > 0.0))
-    throw InputError(Place{{}, 0, 0, "integrator.step"}, "no step resolves the forces: " + pilots.report(),
+    throw InputError(Place{{}, 0, 0, "integrator.step"},
+                     "no step resolves the forces: " + pilots.report(),
                      "a softer potential, or a step that you choose");
   return best;
 }

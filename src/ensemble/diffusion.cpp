@@ -21,7 +21,8 @@ DiffusionResult nothing(const System& system) {
 }
 
 // What one thread does.
-void work(const System& system, const Sampler& sampler, const DiffusionOptions& options, DiffusionListener::Thread& thread) {
+void work(const System& system, const Sampler& sampler, const DiffusionOptions& options,
+          DiffusionListener::Thread& thread) {
   const auto engine = make_engine(system, {.t_end = system.run.times.back(),
                                            .times = system.run.times,
                                            .decisions = options.decisions,
@@ -42,7 +43,8 @@ void refuse_impossible(const System& system) {
                      "at most " + std::to_string(most_times) + " report times");
   if (const auto& window = system.run.window) {
     const TimeWindow asked{window->first, window->second};
-    if (std::count_if(system.run.times.begin(), system.run.times.end(), [&](double t) { return asked.holds(t); }) < 2)
+    if (std::count_if(system.run.times.begin(), system.run.times.end(),
+                      [&](double t) { return asked.holds(t); }) < 2)
       throw InputError(Place{"", 0, 0, "run.window"}, "it holds fewer than two report times > 0",
                        "a window of two report times at least; four give the exponent, too");
   }
@@ -74,7 +76,8 @@ DiffusionResult run_diffusion(const System& system, const DiffusionOptions& opti
   const Sampler sampler(system, options.interrupted);
   EnsembleRun<DiffusionResult> run(system, options, nothing(system));
   if (why_one_by_one(system).empty()) run.lanes = options.lanes;
-  return run.run([&](DiffusionListener::Thread& thread) { work(system, sampler, options, thread); });
+  return run.run(
+      [&](DiffusionListener::Thread& thread) { work(system, sampler, options, thread); });
 }
 
 }  // namespace carom

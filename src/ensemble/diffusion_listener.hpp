@@ -65,49 +65,69 @@ class DiffusionListener : public Listener {
  private:
   /// What is known of a trajectory.
   struct UnderWay {
-    std::vector<std::vector<double>> squares;  ///< |r - r(0)|^2 of each particle at the report times it reached
+    std::vector<std::vector<double>>
+        squares;  ///< |r - r(0)|^2 of each particle at the report times it reached
     EnergyWatch energies;
   };
 
   double square_of_displacement(const State& start, const State& now) const {
     geometry::Vector displacement = now.position - start.position;
     if (const auto& lattice = system_.table->lattice)
-      displacement = displacement +
-                     lattice->translation({now.cell.first - start.cell.first, now.cell.second - start.cell.second});
+      displacement = displacement + lattice->translation({now.cell.first - start.cell.first,
+                                                          now.cell.second - start.cell.second});
     return dot(displacement, displacement);
   }
 
-  void add(DiffusionResult& sum, std::uint64_t trajectory, std::uint64_t index, const ParticleEnd& end,
-           const std::vector<double>& squares) const {
+  void add(DiffusionResult& sum, std::uint64_t trajectory, std::uint64_t index,
+           const ParticleEnd& end, const std::vector<double>& squares) const {
     Fate fate = end.fate;
     double time = end.time;
     std::string report = end.report;
     // A particle so far away that |r - r(0)|^4 is no number ends there as unresolved.
-    const auto beyond = std::find_if(squares.begin(), squares.end(), [](double s) { return !std::isfinite(s * s); });
+    const auto beyond = std::find_if(squares.begin(), squares.end(),
+                                     [](double s) { return !std::isfinite(s * s); });
     const auto samples = static_cast<std::size_t>(beyond - squares.begin());
     if (beyond != squares.end()) {
       fate = Fate::unresolved;
       time = sum.sums.times()[samples];
-      report = report_of({}, end.state, fate, "it is so far away that |r - r(0)|^4 is not a number");
+      report =
+          report_of({}, end.state, fate, "it is so far away that |r - r(0)|^4 is not a number");
     }
     count(sum, fate);
     for (std::size_t k = 0; k < samples; ++k) sum.sums.add(trajectory, k, squares[k]);
     sum.collisions += end.hits;
-    sum.digest += hash_(index, fate, time, end.hits, end.last_wall, end.state, std::span(squares).first(samples));
+    sum.digest += hash_(index, fate, time, end.hits, end.last_wall, end.state,
+                        std::span(squares).first(samples));
     if (is_failure(fate)) keep_first(sum.reports, index, report);
   }
 
   static void count(DiffusionResult& sum, Fate fate) {
     ++sum.trajectories;
     switch (fate) {
-      case Fate::survived: ++sum.survived; break;
-      case Fate::pinned: ++sum.survived, ++sum.pinned; break;
-      case Fate::capped: ++sum.capped; break;
-      case Fate::escaped: ++sum.escaped; break;
-      case Fate::singular: ++sum.singular; break;
-      case Fate::unbounded: ++sum.unbounded; break;
-      case Fate::unresolved: ++sum.unresolved; break;
-      case Fate::lost: ++sum.lost; break;
+      case Fate::survived:
+        ++sum.survived;
+        break;
+      case Fate::pinned:
+        ++sum.survived, ++sum.pinned;
+        break;
+      case Fate::capped:
+        ++sum.capped;
+        break;
+      case Fate::escaped:
+        ++sum.escaped;
+        break;
+      case Fate::singular:
+        ++sum.singular;
+        break;
+      case Fate::unbounded:
+        ++sum.unbounded;
+        break;
+      case Fate::unresolved:
+        ++sum.unresolved;
+        break;
+      case Fate::lost:
+        ++sum.lost;
+        break;
     }
   }
 

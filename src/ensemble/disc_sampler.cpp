@@ -15,7 +15,8 @@ namespace {
 
 // All discs are drawn again so often until none overlap, each of them so often until it finds room.
 constexpr int draws_of_all = 10'000, draws_of_one = 100'000;
-// Most pairs that are compared before that is given up; those of an arrangement that is found do not count.
+// Most pairs that are compared before that is given up; those of an arrangement that is found do
+// not count.
 constexpr double most_pairs = 2e8;
 
 bool overlap(const System& system, const State& a, const State& b, double reach) {
@@ -26,8 +27,8 @@ bool overlap(const System& system, const State& a, const State& b, double reach)
 
 }  // namespace
 
-/// Where the discs are that are drawn until none overlap, every allowed arrangement is as likely as any
-/// other. Where so many are so large that this finds none, they are placed one after the other.
+/// Where the discs are that are drawn until none overlap, every allowed arrangement is as likely as
+/// any other. Where so many are so large that this finds none, they are placed one after the other.
 std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t trajectory) const {
   const std::size_t count = system_.particles.size();
   Interrupt interrupt(&stopped_);
@@ -67,7 +68,8 @@ std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t traject
     pairs = 0.0;
     while (states.size() < count) {
       State next = draw_next(states);
-      for (int draw = 0; draw < draws_of_one && pairs < most_pairs && !fits(states, next); ++draw) next = draw_next(states);
+      for (int draw = 0; draw < draws_of_one && pairs < most_pairs && !fits(states, next); ++draw)
+        next = draw_next(states);
       if (!fits(states, next)) break;
       states.push_back(next);
     }
@@ -75,8 +77,10 @@ std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t traject
   }
   Place place = system_.initial.place;
   place.key = "particles.count";
-  throw InputError(place, fmt::format("no room was found for disc {} of {} beside the others", states.size(), count),
-                   "fewer or smaller discs, or kind = \"list\" with their places");
+  throw InputError(
+      place,
+      fmt::format("no room was found for disc {} of {} beside the others", states.size(), count),
+      "fewer or smaller discs, or kind = \"list\" with their places");
 }
 
 }  // namespace carom

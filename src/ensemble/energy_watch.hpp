@@ -25,8 +25,9 @@ struct EnergiesSeen {
   }
 };
 
-/// Of one trajectory at its start, at its samples and at its end: the energy of each particle, or of all together where they
-/// interact; none where no force acts, or where particles that interact enter later.
+/// Of one trajectory at its start, at its samples and at its end: the energy of each particle, or
+/// of all together where they interact; none where no force acts, or where particles that interact
+/// enter later.
 class EnergyWatch {
  public:
   explicit EnergyWatch(const System& system) : system_(&system) {
@@ -50,7 +51,8 @@ class EnergyWatch {
     together_.push_back(state);
     if (together_.size() == t.particles.size()) see(0, energy(t.particles, together_).total());
   }
-  /// Of a particle that failed nothing is known; of particles that share their energy, all must be left.
+  /// Of a particle that failed nothing is known; of particles that share their energy, all must be
+  /// left.
   EnergiesSeen end(const Trajectory& t, const TrajectoryEnd& end) {
     EnergiesSeen seen;
     if (start_.empty()) return seen;
@@ -67,7 +69,8 @@ class EnergyWatch {
       EnergyBalance balance;
       balance.largest = largest_[i];
       balance.kinetic = p.energy.kinetic;
-      seen += {std::fabs(last.total() - start_[i]), balance.error_at_end(last.total() - start_[i], last.kinetic)};
+      seen += {std::fabs(last.total() - start_[i]),
+               balance.error_at_end(last.total() - start_[i], last.kinetic)};
     }
     return seen;
   }
@@ -79,7 +82,9 @@ class EnergyWatch {
   Energy now(const Trajectory& t, std::size_t i, std::span<const State> states) const {
     return of_all_ ? energy(t.particles, states) : energy({&t.particles[i], 1}, {&states[i], 1});
   }
-  void see(std::size_t i, double energy) { largest_[i] = larger(largest_[i], std::fabs(energy - start_[i])); }
+  void see(std::size_t i, double energy) {
+    largest_[i] = larger(largest_[i], std::fabs(energy - start_[i]));
+  }
 
   const System* system_;
   bool of_each_ = false, of_all_ = false;

@@ -49,12 +49,15 @@ std::string why_one_by_one(const System& system, const EngineOptions& options) {
 }
 
 std::unique_ptr<Engine> make_engine(const System& system, const EngineOptions& options) {
-  if (!options.lanes || !why_one_by_one(system, options).empty()) return std::make_unique<OneByOne>(system, options);
+  if (!options.lanes || !why_one_by_one(system, options).empty())
+    return std::make_unique<OneByOne>(system, options);
   std::unique_ptr<Lanes> lanes;
   if (is_free(system))
-    lanes = std::make_unique<FreeLanes>(*system.table, system.particles, *options.lanes, options.decisions);
+    lanes = std::make_unique<FreeLanes>(*system.table, system.particles, *options.lanes,
+                                        options.decisions);
   else
-    lanes = std::make_unique<SoftLanes>(*system.table, system.dynamics, system.particles.at(0), *options.lanes, options.decisions);
+    lanes = std::make_unique<SoftLanes>(*system.table, system.dynamics, system.particles.at(0),
+                                        *options.lanes, options.decisions);
   return std::make_unique<InLanes>(system, options, std::move(lanes));
 }
 

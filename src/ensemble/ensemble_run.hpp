@@ -1,4 +1,5 @@
-// An ensemble on threads: blocks, sums, checkpoints, interruptions. What is flown, and what it adds up, is its user's.
+// An ensemble on threads: blocks, sums, checkpoints, interruptions. What is flown, and what it adds
+// up, is its user's.
 #pragma once
 
 #include <omp.h>
@@ -72,11 +73,13 @@ class EnsembleRun {
     constexpr std::uint64_t most_particles = std::uint64_t{1} << 62;
     const std::uint64_t each = std::max<std::uint64_t>(1, system.particles.size());
     if (system.run.trajectories > most_particles / each)
-      throw InputError(Place{"", 0, 0, "run.trajectories"}, "more than 2^62 particles cannot be numbered",
-                       "fewer trajectories");
-    if (options.before && !total_.add(*options.before)) throw InternalError("what was done overlaps itself");
+      throw InputError(Place{"", 0, 0, "run.trajectories"},
+                       "more than 2^62 particles cannot be numbered", "fewer trajectories");
+    if (options.before && !total_.add(*options.before))
+      throw InternalError("what was done overlaps itself");
     trajectories_ = total_.done.size();
-    threads_ = static_cast<int>(std::max<std::uint64_t>(1, std::min(wanted_threads(), blocks_.size())));
+    threads_ =
+        static_cast<int>(std::max<std::uint64_t>(1, std::min(wanted_threads(), blocks_.size())));
     for (int i = 0; i < threads_; ++i) sums_.emplace_back(*this);
   }
 
@@ -85,10 +88,12 @@ class EnsembleRun {
 
   /// Every thread works until there are no blocks left.
   Result run(const Work& work) {
-    if (options_.journal) options_.journal->save(snapshot());  // a run that cannot be saved is not begun
+    if (options_.journal)
+      options_.journal->save(snapshot());  // a run that cannot be saved is not begun
     {
       std::optional<Periodic> saver;
-      if (options_.journal && !saves_by_count()) saver.emplace(options_.save_every, [this] { save(); });
+      if (options_.journal && !saves_by_count())
+        saver.emplace(options_.save_every, [this] { save(); });
       work_in_threads(work);
     }
     if (error_) std::rethrow_exception(error_);
@@ -140,8 +145,8 @@ class EnsembleRun {
     failed_ = true;
   }
 
-  // The sum of all that is done. What the threads have done since the last time is added to the total under all their
-  // locks; the journal's mark belongs to that moment.
+  // The sum of all that is done. What the threads have done since the last time is added to the
+  // total under all their locks; the journal's mark belongs to that moment.
   Result snapshot() {
     std::vector<Result> parts(sums_.size(), nothing_);
     const std::lock_guard lock(total_mutex_);

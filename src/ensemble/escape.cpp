@@ -14,9 +14,10 @@ EscapeResult nothing(const System& system) {
 }
 
 // What one thread does.
-void work(const System& system, const Sampler& sampler, const EscapeOptions& options, EscapeListener::Thread& thread,
-          BlockOrder* order) {
-  const auto engine = make_engine(system, {.t_end = system.run.t_max, .decisions = options.decisions, .lanes = options.lanes});
+void work(const System& system, const Sampler& sampler, const EscapeOptions& options,
+          EscapeListener::Thread& thread, BlockOrder* order) {
+  const auto engine = make_engine(
+      system, {.t_end = system.run.t_max, .decisions = options.decisions, .lanes = options.lanes});
   EscapeListener listener(system, *engine, thread, order);
   DrawnStarts starts(sampler, [&](TrajectoryRange& block) { return listener.claim(block); });
   while (engine->run(starts, listener, [&] { return thread.stopped(); }) && listener.go_on()) {

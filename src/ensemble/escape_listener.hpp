@@ -18,15 +18,21 @@
 
 namespace carom {
 
-/// One thread's. Lanes go from block to block without a pause, so several are under way at once; where records are wanted in
-/// order, one block after the other: a thread that waits for its turn must not keep others waiting.
+/// One thread's. Lanes go from block to block without a pause, so several are under way at once;
+/// where records are wanted in order, one block after the other: a thread that waits for its turn
+/// must not keep others waiting.
 class EscapeListener : public Listener {
  public:
   using Thread = EnsembleRun<EscapeResult>::Thread;
 
   /// `order`: of records, or null.
   EscapeListener(const System& system, const Engine& engine, Thread& thread, BlockOrder* order)
-      : system_(system), engine_(engine), thread_(thread), order_(order), wants_records_(order || thread.wants_records()), hash_(system) {}
+      : system_(system),
+        engine_(engine),
+        thread_(thread),
+        order_(order),
+        wants_records_(order || thread.wants_records()),
+        hash_(system) {}
 
   /// The next block, as DrawnStarts asks for it.
   bool claim(TrajectoryRange& block) {
@@ -36,7 +42,8 @@ class EscapeListener : public Listener {
     if (order_) order_->await_turn(number);
     pause_ = order_ != nullptr;
     blocks_.push_back({block, number, block.last - block.first, {}, {}});
-    blocks_.back().part.counts = SurvivalCounts(system_.run.times, hole_names(*system_.table).size());
+    blocks_.back().part.counts =
+        SurvivalCounts(system_.run.times, hole_names(*system_.table).size());
     return true;
   }
   /// After a pause; false if there are no blocks left.
@@ -46,7 +53,8 @@ class EscapeListener : public Listener {
   }
 
   void begin(const Trajectory& t) override {
-    if (under_way_.size() <= t.slot) under_way_.resize(t.slot + 1, {blocks_.end(), EnergyWatch(system_)});
+    if (under_way_.size() <= t.slot)
+      under_way_.resize(t.slot + 1, {blocks_.end(), EnergyWatch(system_)});
     under_way_[t.slot].block = std::prev(blocks_.end());
     under_way_[t.slot].energies.begin(t);
   }
@@ -66,7 +74,8 @@ class EscapeListener : public Listener {
       const std::uint64_t index = particle_index(system_, t.number, p);
       const int hole = particle.hole < 0 ? -1 : holes_[static_cast<std::size_t>(particle.hole)];
       sum.counts.add(particle.fate, particle.time, particle.hits, hole);
-      sum.digest += hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall, particle.state);
+      sum.digest += hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall,
+                          particle.state);
       if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
       if (wants_records_) block.records.push_back(record_of(index, t.starts[p], particle, hole));
       hits += particle.hits;
@@ -90,15 +99,18 @@ class EscapeListener : public Listener {
     EnergyWatch energies;
   };
 
-  TrajectoryRecord record_of(std::uint64_t index, const State& start, const ParticleEnd& end, int hole) const {
+  TrajectoryRecord record_of(std::uint64_t index, const State& start, const ParticleEnd& end,
+                             int hole) const {
     geometry::Vector position = start.position;
-    if (system_.table->lattice) position = position + system_.table->lattice->translation(start.cell);
-    return {index,    position.x, position.y, start.velocity.x, start.velocity.y, end.fate, hole,
-            end.time, end.hits};
+    if (system_.table->lattice)
+      position = position + system_.table->lattice->translation(start.cell);
+    return {index,    position.x, position.y, start.velocity.x, start.velocity.y,
+            end.fate, hole,       end.time,   end.hits};
   }
 
   void deliver(Block& block) {
-    std::sort(block.records.begin(), block.records.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+    std::sort(block.records.begin(), block.records.end(),
+              [](const auto& a, const auto& b) { return a.index < b.index; });
     if (order_) order_->deliver(block.number, block.records);
     const DecisionCounts decisions = engine_.decisions();
     const LaneEffort effort = engine_.effort();

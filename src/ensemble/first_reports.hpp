@@ -11,9 +11,10 @@
 
 namespace carom {
 
-/// Keeps the reports of the lowest indices, sorted: in whichever order they come, the same are kept.
-inline void keep_first(std::vector<std::pair<std::uint64_t, std::string>>& reports, std::uint64_t index,
-                       const std::string& report) {
+/// Keeps the reports of the lowest indices, sorted: in whichever order they come, the same are
+/// kept.
+inline void keep_first(std::vector<std::pair<std::uint64_t, std::string>>& reports,
+                       std::uint64_t index, const std::string& report) {
   constexpr std::size_t most = EnsembleResult::most_reports;
   if (reports.size() == most && index > reports.back().first) return;
   std::pair<std::uint64_t, std::string> one(index, report);

@@ -32,11 +32,12 @@ std::optional<double> machta_zwanzig(const Table& table, double speed) {
 }  // namespace
 
 Horizon horizon_of(const System& system) {
-  // A hard disc flies as its centre does: among the curves at its radius from the walls. Several also meet each
-  // other, and what corridors there are is not where they fly freely.
+  // A hard disc flies as its centre does: among the curves at its radius from the walls. Several
+  // also meet each other, and what corridors there are is not where they fly freely.
   const bool of_discs = system.of_discs(), one_disc = of_discs && system.particles.size() == 1;
   const bool inset = one_disc && system.table->extent == Extent::lattice;
-  const Table table = inset ? inset_table(*system.table, system.particles.front().radius) : *system.table;
+  const Table table =
+      inset ? inset_table(*system.table, system.particles.front().radius) : *system.table;
   Horizon horizon;
   const bool bent = std::all_of(system.particles.begin(), system.particles.end(),
                                 [](const Particle& p) { return p.omega != 0.0; });
@@ -48,7 +49,8 @@ Horizon horizon_of(const System& system) {
     case Extent::open_plane:
       horizon.kind = bent || forces ? Horizon::Kind::unknown : Horizon::Kind::open_plane;
       return horizon;
-    case Extent::lattice: break;
+    case Extent::lattice:
+      break;
   }
   if (of_discs && !one_disc) return horizon;
   std::vector<geometry::Curve> curves;
@@ -60,18 +62,23 @@ Horizon horizon_of(const System& system) {
   if (open) horizon.flight_tail = geometry::flight_tail(horizon.corridors, measure(table).area);
   const bool straight = std::all_of(system.particles.begin(), system.particles.end(),
                                     [](const Particle& p) { return p.omega == 0.0; });
-  if (!open && straight) horizon.machta_zwanzig = machta_zwanzig(table, system.particles.front().speed);
+  if (!open && straight)
+    horizon.machta_zwanzig = machta_zwanzig(table, system.particles.front().speed);
   return horizon;
 }
 
 std::string no_diffusion(const Horizon& horizon) {
   switch (horizon.kind) {
     case Horizon::Kind::infinite:
-      return "infinite horizon: particles fly freely along corridors and the MSD grows faster than t";
-    case Horizon::Kind::bounded: return "the table is bounded: the MSD ends at a constant";
-    case Horizon::Kind::open_plane: return "open plane: particles leave for good and the MSD ends as t^2";
+      return "infinite horizon: particles fly freely along corridors and the MSD grows faster than "
+             "t";
+    case Horizon::Kind::bounded:
+      return "the table is bounded: the MSD ends at a constant";
+    case Horizon::Kind::open_plane:
+      return "open plane: particles leave for good and the MSD ends as t^2";
     case Horizon::Kind::finite:
-    case Horizon::Kind::unknown: break;
+    case Horizon::Kind::unknown:
+      break;
   }
   return {};
 }

@@ -5,12 +5,16 @@
 namespace carom {
 
 InLanes::InLanes(const System& system, const EngineOptions& options, std::unique_ptr<Lanes> lanes)
-    : system_(system), options_(options), world_(*system.table, options.decisions), lanes_(std::move(lanes)) {
+    : system_(system),
+      options_(options),
+      world_(*system.table, options.decisions),
+      lanes_(std::move(lanes)) {
   if (system.run.collisions > 0) lanes_->limit_hits(system.run.collisions);
   if (!options_.times.empty())
-    lanes_->sample_at(options_.times, [this](std::uint64_t tag, std::size_t number, const State& state) {
-      listener_->sample(flight(tag).trajectory, static_cast<int>(tag % each()), number, state);
-    });
+    lanes_->sample_at(
+        options_.times, [this](std::uint64_t tag, std::size_t number, const State& state) {
+          listener_->sample(flight(tag).trajectory, static_cast<int>(tag % each()), number, state);
+        });
   if (options_.hits)
     lanes_->report_hits([this](std::uint64_t tag, const State& state) {
       const Trajectory& trajectory = flight(tag).trajectory;
@@ -32,7 +36,8 @@ bool InLanes::run(Starts& starts, Listener& listener, const std::function<bool()
     start.hits = 0;
     return true;
   };
-  lanes_->run_until(options_.t_end, next, [this](const LaneEnd& end) { note(end); }, stopped);
+  lanes_->run_until(
+      options_.t_end, next, [this](const LaneEnd& end) { note(end); }, stopped);
   return free_.size() == flights_.size();
 }
 

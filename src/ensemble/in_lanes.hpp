@@ -11,7 +11,8 @@
 
 namespace carom {
 
-/// Puts the particles of trajectories into lanes, and the ends of particles together to ends of trajectories.
+/// Puts the particles of trajectories into lanes, and the ends of particles together to ends of
+/// trajectories.
 class InLanes : public Engine {
  public:
   InLanes(const System&, const EngineOptions&, std::unique_ptr<Lanes>);
@@ -41,7 +42,8 @@ class InLanes : public Engine {
   Listener* listener_ = nullptr;
   std::deque<Flight> flights_;
   std::vector<std::size_t> free_;
-  std::size_t latest_ = 0, begun_ = 0;  ///< the latest flight, and how many of its particles are in lanes
+  std::size_t latest_ = 0,
+              begun_ = 0;  ///< the latest flight, and how many of its particles are in lanes
 };
 
 }  // namespace carom

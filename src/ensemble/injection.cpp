@@ -14,7 +14,8 @@ namespace {
 constexpr std::uint64_t most_in_a_trajectory = std::uint64_t{1} << 20;
 
 InputError too_many(const Injection& injection) {
-  return InputError(injection.place, "too many particles enter", "at most 1000000 particles in a trajectory");
+  return InputError(injection.place, "too many particles enter",
+                    "at most 1000000 particles in a trajectory");
 }
 
 }  // namespace
@@ -72,12 +73,14 @@ std::vector<InjectedParticle> Injector::add(World& world, std::uint64_t trajecto
   return all;
 }
 
-void add_injected(World& world, const System& system, const InjectedParticle& one, std::uint64_t trajectory) {
+void add_injected(World& world, const System& system, const InjectedParticle& one,
+                  std::uint64_t trajectory) {
   try {
     world.add(one.particle, one.state);
   } catch (const std::invalid_argument& error) {
-    throw InputError(system.injections.front().place,
-                     "a particle of trajectory " + std::to_string(trajectory) + " cannot enter: " + error.what());
+    throw InputError(system.injections.front().place, "a particle of trajectory " +
+                                                          std::to_string(trajectory) +
+                                                          " cannot enter: " + error.what());
   }
 }
 
@@ -85,13 +88,16 @@ std::size_t injected_count(const System& system, std::uint64_t trajectory) {
   return Injector(system).draw(trajectory).size();
 }
 
-std::uint64_t particle_index(const System& system, std::uint64_t trajectory, std::uint64_t particle) {
-  return trajectory * (system.injections.empty() ? system.particles.size() : most_in_a_trajectory) + particle;
+std::uint64_t particle_index(const System& system, std::uint64_t trajectory,
+                             std::uint64_t particle) {
+  return trajectory * (system.injections.empty() ? system.particles.size() : most_in_a_trajectory) +
+         particle;
 }
 
 void refuse_injections(const System& system, const char* what) {
   if (system.injections.empty()) return;
-  throw InputError(system.injections.front().place, std::string("particles cannot be injected in ") + what,
+  throw InputError(system.injections.front().place,
+                   std::string("particles cannot be injected in ") + what,
                    "a system without [[injection]]");
 }
 

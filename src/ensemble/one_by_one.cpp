@@ -16,7 +16,8 @@ OneByOne::OneByOne(const System& system, const EngineOptions& options)
   if (!options_.times.empty()) world_.sample_at(options_.times);
   if (options_.energy) world_.watch_energy();
   if (options_.surface) world_.watch(options_.surface, options_.most_crossings);
-  if (options_.hits || options_.surface) world_.stop_when([this] { return listener_->enough(trajectory_); });
+  if (options_.hits || options_.surface)
+    world_.stop_when([this] { return listener_->enough(trajectory_); });
 }
 
 bool OneByOne::run(Starts& starts, Listener& listener, const std::function<bool()>& stopped) {
@@ -53,7 +54,8 @@ void OneByOne::add_particles() {
     if (p < at_start)
       add_start(world_, system_, trajectory_.starts[p], trajectory_.number, static_cast<int>(p));
     else
-      add_injected(world_, system_, {trajectory_.particles[p], trajectory_.starts[p]}, trajectory_.number);
+      add_injected(world_, system_, {trajectory_.particles[p], trajectory_.starts[p]},
+                   trajectory_.number);
     trajectory_.starts[p] = world_.state(static_cast<int>(p));
   }
 }
@@ -70,7 +72,9 @@ void OneByOne::hit(const HitEvent& event) {
   listener_->hit(trajectory_, event.particle, state);
 }
 
-void OneByOne::sample(int particle, Time, const State& state) { listener_->sample(trajectory_, particle, samples_, state); }
+void OneByOne::sample(int particle, Time, const State& state) {
+  listener_->sample(trajectory_, particle, samples_, state);
+}
 
 void OneByOne::crossing(int particle, Time, const State& state, int direction) {
   listener_->crossing(trajectory_, particle, state, direction);

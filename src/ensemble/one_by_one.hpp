@@ -1,4 +1,5 @@
-// The engine that flies one trajectory after the other in a World: whatever particles do to each other.
+// The engine that flies one trajectory after the other in a World: whatever particles do to each
+// other.
 #pragma once
 
 #include "carom/ensemble/engine.hpp"

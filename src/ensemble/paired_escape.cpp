@@ -19,7 +19,15 @@ namespace {
 
 struct Pair {
   PairedEnd first, second;
-  enum class State : unsigned char { open, known, singular, unresolved, lost, other_singular, unknown } state = State::open;
+  enum class State : unsigned char {
+    open,
+    known,
+    singular,
+    unresolved,
+    lost,
+    other_singular,
+    unknown
+  } state = State::open;
 };
 
 /// One thread's: flies the trajectories of a block, and each one in the other way as it ends.
@@ -34,11 +42,13 @@ class Worker : public Listener {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+  bool run(std::uint64_t, std::uint64_t first, std::uint64_t end,
+           const std::function<bool()>& stopped) {
     stopped_ = &stopped;
     DrawnStarts starts(sampler_, TrajectoryRange{first, end});
     return engine_->run(starts, *this, stopped) &&
-           std::none_of(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.begin() + static_cast<std::ptrdiff_t>(end),
+           std::none_of(pairs_.begin() + static_cast<std::ptrdiff_t>(first),
+                        pairs_.begin() + static_cast<std::ptrdiff_t>(end),
                         [](const Pair& pair) { return pair.state == Pair::State::open; });
   }
 
@@ -94,7 +104,8 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
     const std::function<void(std::uint64_t)>& progress;
     std::uint64_t& done;
     std::mutex& mutex;
-    bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+    bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end,
+             const std::function<bool()>& stopped) {
       if (!worker.run(block, first, end, stopped)) return false;
       const std::lock_guard lock(mutex);
       done += end - first;
@@ -106,11 +117,14 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
   result.threads = plan.threads;
   result.complete = run_blocks(
       plan, options.interrupted,
-      [&] { return Reporting{Worker(system, sampler, make(), pairs), options.progress, done, mutex}; },
+      [&] {
+        return Reporting{Worker(system, sampler, make(), pairs), options.progress, done, mutex};
+      },
       [](const Reporting&) {});
 
   // In the order of trajectories, whoever flew them.
-  PairedSurvival survival(system.run.times, options.tolerance * size_of(*system.table) / system.particles.front().speed);
+  PairedSurvival survival(system.run.times, options.tolerance * size_of(*system.table) /
+                                                system.particles.front().speed);
   for (const Pair& pair : pairs) {
     if (pair.state == Pair::State::known) survival.add(pair.first, pair.second);
     if (pair.state == Pair::State::singular) ++result.singular;

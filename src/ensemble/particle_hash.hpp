@@ -9,24 +9,30 @@
 
 namespace carom {
 
-/// The bits of a state: where in the plane, how fast and when it is. Not the wall: that of a particle in a step is none.
+/// The bits of a state: where in the plane, how fast and when it is. Not the wall: that of a
+/// particle in a step is none.
 inline std::uint64_t mix(std::uint64_t so_far, const State& state) {
-  for (const std::int64_t number : {state.cell.first, state.cell.second}) so_far = mix(so_far ^ static_cast<std::uint64_t>(number));
-  for (const double value : {state.position.x, state.position.y, state.velocity.x, state.velocity.y, state.time.high, state.time.low})
+  for (const std::int64_t number : {state.cell.first, state.cell.second})
+    so_far = mix(so_far ^ static_cast<std::uint64_t>(number));
+  for (const double value : {state.position.x, state.position.y, state.velocity.x, state.velocity.y,
+                             state.time.high, state.time.low})
     so_far = mix(so_far, value);
   return so_far;
 }
 
-/// Its end and its hits tell free flights apart. Who is integrated, or touches others, may never hit a wall: there the state
-/// after its last event belongs to it, and what is sampled of it.
+/// Its end and its hits tell free flights apart. Who is integrated, or touches others, may never
+/// hit a wall: there the state after its last event belongs to it, and what is sampled of it.
 class ParticleHash {
  public:
   explicit ParticleHash(const System& system) : of_states_(has_states(system)) {}
 
-  /// `end_time`: t_max of survivors; `state`: after the last event; `samples`: at report times, of those who were there.
-  std::uint64_t operator()(std::uint64_t index, Fate fate, double end_time, std::uint64_t hits, int last_wall, const State& state,
+  /// `end_time`: t_max of survivors; `state`: after the last event; `samples`: at report times, of
+  /// those who were there.
+  std::uint64_t operator()(std::uint64_t index, Fate fate, double end_time, std::uint64_t hits,
+                           int last_wall, const State& state,
                            std::span<const double> samples = {}) const {
-    std::uint64_t h = trajectory_hash(index, static_cast<std::uint64_t>(fate), end_time, hits, last_wall);
+    std::uint64_t h =
+        trajectory_hash(index, static_cast<std::uint64_t>(fate), end_time, hits, last_wall);
     if (!of_states_) return h;
     h = mix(h, state);
     for (const double sample : samples) h = mix(h, sample);

@@ -73,8 +73,9 @@ Population::Population(const System& system, const Sampler& sampler, const Kick&
       plan_(plan),
       reports_(reports),
       world_(*system.table, decisions) {
-  // Where the start is fewer hits away than a copy goes back, a kick there has fewer to grow in and is
-  // larger. Starts by the cosine law bear a kick of any size; others one as small as is chosen elsewhere.
+  // Where the start is fewer hits away than a copy goes back, a kick there has fewer to grow in and
+  // is larger. Starts by the cosine law bear a kick of any size; others one as small as is chosen
+  // elsewhere.
   using Kind = InitialCondition::Kind;
   const bool any = system.initial.kind == Kind::boundary || system.initial.kind == Kind::hole;
   const double most = any ? 0.5 : SplittingPlan::largest_choice;
@@ -88,13 +89,15 @@ Population::Population(const System& system, const Sampler& sampler, const Kick&
 }
 
 /// Follows one walker through a stage.
-Population::Way Population::fly(Walker& walker, const Stage& stage, const std::function<bool()>& stopped) {
+Population::Way Population::fly(Walker& walker, const Stage& stage,
+                                const std::function<bool()>& stopped) {
   const Particle& particle = system_.particles.front();
   Recorder end(walker.memory, walker.hits);
   const bool by_time = plan_.by == SplittingPlan::Level::time;
   const auto hits_wanted = by_time ? no_limit : static_cast<std::uint64_t>(stage.level) + 1;
   // A corner may have counted several hits, a long flight have passed several times.
-  if (walker.hits >= hits_wanted || (by_time && !stage.last && walker.state.time > Time(stage.level)))
+  if (walker.hits >= hits_wanted ||
+      (by_time && !stage.last && walker.state.time > Time(stage.level)))
     return Way::reached;
   world_.limit_hits(hits_wanted);
   world_.clear();
@@ -132,17 +135,18 @@ void Population::count_if_lost(PopulationRun& result, std::vector<std::string>& 
   if (reports.size() < most_reports) reports.push_back(world_.report(0));
 }
 
-/// Parts a copy from its like: a step of a Metropolis walk among the states that lie `lookback` hits before
-/// the level (or at the start). A kick keeps the invariant measure, so every new way that reaches the level
-/// after as many hits is taken, and no other: one with more or fewer would never be kicked back to where it
-/// came from.
+/// Parts a copy from its like: a step of a Metropolis walk among the states that lie `lookback`
+/// hits before the level (or at the start). A kick keeps the invariant measure, so every new way
+/// that reaches the level after as many hits is taken, and no other: one with more or fewer would
+/// never be kicked back to where it came from.
 void Population::part(Walker& walker, const Stage& stage, double shrink, RandomStream& random,
                       const std::function<bool()>& stopped, PopulationRun& result,
                       std::vector<std::string>& reports) {
   if (walker.memory.size == 0) return;
   const double speed = system_.particles.front().speed;
   Walker other = walker;
-  const auto back = static_cast<std::size_t>(std::min(plan_.lookback, walker.memory.since_start - 1));
+  const auto back =
+      static_cast<std::size_t>(std::min(plan_.lookback, walker.memory.since_start - 1));
   const Moment& before = walker.memory.ago(back);
   other.memory.forget(back + 1);
   other.state = kick_(before.state, speed, shrink * kicks_[back], random);
@@ -157,20 +161,23 @@ void Population::part(Walker& walker, const Stage& stage, double shrink, RandomS
   walker = other;
 }
 
-/// Fills the population again: as many copies of each survivor as of any other, by a comb with one random offset, so that
-/// the mean number of copies is exact. All copies have the same share.
+/// Fills the population again: as many copies of each survivor as of any other, by a comb with one
+/// random offset, so that the mean number of copies is exact. All copies have the same share.
 void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double shrink,
                                 const std::function<bool()>& stopped, PopulationRun& result,
                                 std::vector<std::string>& reports) {
   walkers_.clear();
   if (survivors_.empty()) return;
-  const double copies = static_cast<double>(plan_.population) / static_cast<double>(survivors_.size());
-  const double offset = RandomStream(system_.run.seed, Purpose::splitting, stream, comb_stream).uniform();
+  const double copies =
+      static_cast<double>(plan_.population) / static_cast<double>(survivors_.size());
+  const double offset =
+      RandomStream(system_.run.seed, Purpose::splitting, stream, comb_stream).uniform();
   for (std::size_t i = 0; i < survivors_.size(); ++i) {
     // Rounding must not change the size of the population.
     const double teeth = i + 1 == survivors_.size() ? static_cast<double>(plan_.population)
                                                     : static_cast<double>(i + 1) * copies - offset;
-    for (int copy = 0; static_cast<double>(walkers_.size()) < teeth && walkers_.size() < plan_.population;
+    for (int copy = 0;
+         static_cast<double>(walkers_.size()) < teeth && walkers_.size() < plan_.population;
          ++copy) {
       Walker walker = survivors_[i];
       walker.kicked = copy > 0;
@@ -220,7 +227,8 @@ void Population::start(std::uint64_t repetition) {
 }
 
 PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
-                              const std::function<bool()>& stopped, std::vector<std::string>& reports) {
+                              const std::function<bool()>& stopped,
+                              std::vector<std::string>& reports) {
   const double shrink = std::ldexp(1.0, -static_cast<int>(kick_number));
   const std::uint64_t number = repetition * kick_sizes + kick_number;
   const bool by_time = plan_.by == SplittingPlan::Level::time;
@@ -252,15 +260,17 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
       if (stopped()) return {};
       result.collisions += walker.hits - hits;
       const double time = walker.state.time.value();
-      result.digest += trajectory_hash(mix(stream) + i, static_cast<std::uint64_t>(way), time, walker.hits,
-                                       walker.state.wall);
+      result.digest += trajectory_hash(mix(stream) + i, static_cast<std::uint64_t>(way), time,
+                                       walker.hits, walker.state.wall);
       if (way != Way::ended) {
         Staying& like = walker.kicked ? copies.kicked : copies.first;
         ++like.followed;
         if (way != Way::gone) ++like.stayed;
       }
       const auto report_of = [&] {
-        return by_time ? static_cast<std::size_t>(std::lower_bound(reports_.begin(), reports_.end(), time) - reports_.begin())
+        return by_time ? static_cast<std::size_t>(
+                             std::lower_bound(reports_.begin(), reports_.end(), time) -
+                             reports_.begin())
                        : k;
       };
       switch (way) {

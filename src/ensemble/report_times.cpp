@@ -10,7 +10,8 @@ std::vector<double> spaced(double first, double last, std::uint64_t count, bool 
   const double range = logarithmic ? elementary::log(last) - low : 0.0;
   for (std::uint64_t k = 0; k < count; ++k) {
     const double part = static_cast<double>(k) / static_cast<double>(count - 1);
-    double value = logarithmic ? elementary::exp(low + range * part) : first + (last - first) * part;
+    double value =
+        logarithmic ? elementary::exp(low + range * part) : first + (last - first) * part;
     if (k == 0) value = first;
     if (k + 1 == count) value = last;
     values.push_back(value);
@@ -18,6 +19,8 @@ std::vector<double> spaced(double first, double last, std::uint64_t count, bool 
   return values;
 }
 
-std::vector<double> default_report_times(double t_max) { return spaced(t_max / 1000.0, t_max, 31, true); }
+std::vector<double> default_report_times(double t_max) {
+  return spaced(t_max / 1000.0, t_max, 31, true);
+}
 
 }  // namespace carom

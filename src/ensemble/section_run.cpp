@@ -49,14 +49,18 @@ std::uint64_t hash_of(std::uint64_t so_far, const SectionPoint& p) {
 }
 
 EngineOptions asked_for(const System& system, const SectionOptions& options) {
-  EngineOptions asked{.t_end = system.run.t_max, .energy = true, .decisions = options.decisions, .lanes = options.lanes};
+  EngineOptions asked{.t_end = system.run.t_max,
+                      .energy = true,
+                      .decisions = options.decisions,
+                      .lanes = options.lanes};
   if (system.section.boundary) {
     asked.hits = true;
   } else {
     // One direction takes at least every other crossing.
     const std::uint64_t points = system.section.points;
     asked.surface = &system.section.surface;
-    if (points > 0 && points <= SIZE_MAX / 4) asked.most_crossings = static_cast<std::size_t>(2 * points + 2);
+    if (points > 0 && points <= SIZE_MAX / 4)
+      asked.most_crossings = static_cast<std::size_t>(2 * points + 2);
   }
   // All particles of an orbit stop when the last one has its points.
   if (system.particles.size() > 1) asked.lanes.reset();
@@ -66,8 +70,8 @@ EngineOptions asked_for(const System& system, const SectionOptions& options) {
 /// One thread's: flies blocks of orbits, and keeps their points until all of a block are there.
 class Follower : public Listener {
  public:
-  Follower(const System& system, const Sampler& sampler, const SectionOptions& options, Order& order,
-           const std::function<void(std::uint64_t)>& done)
+  Follower(const System& system, const Sampler& sampler, const SectionOptions& options,
+           Order& order, const std::function<void(std::uint64_t)>& done)
       : system_(system),
         sampler_(sampler),
         options_(options),
@@ -78,7 +82,8 @@ class Follower : public Listener {
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
-  bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+  bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end,
+           const std::function<bool()>& stopped) {
     bool complete = false;
     try {
       if (options_.points) order_.await_turn(block);
@@ -95,20 +100,26 @@ class Follower : public Listener {
       return false;
     }
     std::vector<SectionPoint> all;
-    for (const std::vector<SectionPoint>& points : points_) all.insert(all.end(), points.begin(), points.end());
+    for (const std::vector<SectionPoint>& points : points_)
+      all.insert(all.end(), points.begin(), points.end());
     if (options_.points) order_.deliver(block, std::move(all));
     return true;
   }
 
   void begin(const Trajectory& t) override {
-    if (recorders_.size() <= t.slot) recorders_.resize(t.slot + 1, {*system_.table, system_.section, frames_});
+    if (recorders_.size() <= t.slot)
+      recorders_.resize(t.slot + 1, {*system_.table, system_.section, frames_});
     recorders_[t.slot].begin(t.number, t.starts);
   }
-  void hit(const Trajectory& t, int particle, const State& state) override { recorders_[t.slot].hit(particle, state); }
+  void hit(const Trajectory& t, int particle, const State& state) override {
+    recorders_[t.slot].hit(particle, state);
+  }
   void crossing(const Trajectory& t, int particle, const State& state, int direction) override {
     recorders_[t.slot].crossing(particle, state, direction);
   }
-  void particle_end(const Trajectory& t, int particle, Fate fate) override { recorders_[t.slot].end(particle, fate); }
+  void particle_end(const Trajectory& t, int particle, Fate fate) override {
+    recorders_[t.slot].end(particle, fate);
+  }
   bool enough(const Trajectory& t) override { return recorders_[t.slot].done(); }
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     const std::vector<SectionPoint>& points = recorders_[t.slot].points();
@@ -122,7 +133,8 @@ class Follower : public Listener {
   Tally tally;
 
  private:
-  void count(std::uint64_t orbit, const std::vector<SectionPoint>& points, const TrajectoryEnd& end) {
+  void count(std::uint64_t orbit, const std::vector<SectionPoint>& points,
+             const TrajectoryEnd& end) {
     SectionResult& r = tally.result;
     ++r.orbits;
     r.steps += end.steps;
@@ -141,14 +153,29 @@ class Follower : public Listener {
       r.incomplete += counts[p] < system_.section.points;
       r.collisions += particle.hits;
       switch (particle.fate) {
-        case Fate::survived: break;
-        case Fate::pinned: ++r.pinned; break;
-        case Fate::escaped: ++r.escaped; break;
-        case Fate::capped: ++r.capped; break;
-        case Fate::singular: ++r.singular; break;
-        case Fate::unbounded: ++r.unbounded; break;
-        case Fate::unresolved: ++r.unresolved; break;
-        case Fate::lost: ++r.lost; break;
+        case Fate::survived:
+          break;
+        case Fate::pinned:
+          ++r.pinned;
+          break;
+        case Fate::escaped:
+          ++r.escaped;
+          break;
+        case Fate::capped:
+          ++r.capped;
+          break;
+        case Fate::singular:
+          ++r.singular;
+          break;
+        case Fate::unbounded:
+          ++r.unbounded;
+          break;
+        case Fate::unresolved:
+          ++r.unresolved;
+          break;
+        case Fate::lost:
+          ++r.lost;
+          break;
       }
       if (is_failure(particle.fate))
         keep_first(r.reports, orbit * particles + p, particle.report);
@@ -164,8 +191,8 @@ class Follower : public Listener {
   const std::unique_ptr<Engine> engine_;
   Order& order_;
   const std::function<void(std::uint64_t)>& done_;
-  std::vector<SectionRecorder> recorders_;  ///< by slot
-  std::uint64_t first_ = 0;                 ///< orbit of the block, …
+  std::vector<SectionRecorder> recorders_;         ///< by slot
+  std::uint64_t first_ = 0;                        ///< orbit of the block, …
   std::vector<std::vector<SectionPoint>> points_;  ///< … and the points of each from it on
 };
 
@@ -181,7 +208,8 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
   const Stopwatch watch;
   refuse_injections(system, "sections");
   if (system.section.boundary && system.table->walls.empty())
-    throw InputError(Place{{}, 0, 0, "section.on"}, "there are no walls where the section could be taken",
+    throw InputError(Place{{}, 0, 0, "section.on"},
+                     "there are no walls where the section could be taken",
                      "line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, x=c, y=c, vx=c or vy=c");
   check_start(system, options.interrupted);
   const Sampler sampler(system, options.interrupted);
@@ -193,7 +221,8 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
   std::mutex progress_mutex;
   const std::function<void(std::uint64_t)> report = [&](std::uint64_t new_points) {
     const std::uint64_t all = orbits.fetch_add(1, std::memory_order_relaxed) + 1;
-    const std::uint64_t all_points = points.fetch_add(new_points, std::memory_order_relaxed) + new_points;
+    const std::uint64_t all_points =
+        points.fetch_add(new_points, std::memory_order_relaxed) + new_points;
     const std::unique_lock lock(progress_mutex, std::try_to_lock);
     if (lock) options.progress(all, all_points);
   };

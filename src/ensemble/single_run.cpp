@@ -24,7 +24,10 @@ class FreeEnergies {
  public:
   /// `shared`: contacts pass energy on.
   FreeEnergies(const std::vector<Particle>& particles, bool shared)
-      : particles_(particles), shared_(shared), seen_(particles.size()), changes_(particles.size()) {}
+      : particles_(particles),
+        shared_(shared),
+        seen_(particles.size()),
+        changes_(particles.size()) {}
 
   void begin(int particle, const EnergyBalance& before, const State& state) {
     EnergyBalance& seen = seen_[at(particle)];
@@ -38,16 +41,19 @@ class FreeEnergies {
       goes_on_ = before.kinetic > 0.0;
     }
     begun_ = true;
-    // A part that goes on begins where an undisturbed run has no beginning: its energy there is that of before, but rounded anew.
+    // A part that goes on begins where an undisturbed run has no beginning: its energy there is
+    // that of before, but rounded anew.
     if (!goes_on_) seen.kinetic = larger(seen.kinetic, sum_);
   }
   void hit(const HitEvent& event) {
     if (shared_) return pass({{event.particle, event.before, event.after}});
     const Particle& p = particles_[static_cast<std::size_t>(event.particle)];
-    see(event.particle, kinetic_energy(event.particle, event.after) - 0.5 * p.mass * (p.speed * p.speed));
+    see(event.particle,
+        kinetic_energy(event.particle, event.after) - 0.5 * p.mass * (p.speed * p.speed));
   }
   void contact(const ContactEvent& event) {
-    pass({{event.first, event.first_before, event.first_after}, {event.second, event.second_before, event.second_after}});
+    pass({{event.first, event.first_before, event.first_after},
+          {event.second, event.second_before, event.second_after}});
   }
   const EnergyBalance& of(int particle) const { return seen_[at(particle)]; }
 
@@ -56,10 +62,12 @@ class FreeEnergies {
     int particle;
     geometry::Vector before, after;
   };
-  /// Differences are added without rounding, so that nothing but the energies' own roundings is left of them.
+  /// Differences are added without rounding, so that nothing but the energies' own roundings is
+  /// left of them.
   void pass(std::initializer_list<Change> all) {
     for (const Change& one : all)
-      changes_[0] = changes_[0] + Twofold::sum(kinetic_energy(one.particle, one.after), -kinetic_energy(one.particle, one.before));
+      changes_[0] = changes_[0] + Twofold::sum(kinetic_energy(one.particle, one.after),
+                                               -kinetic_energy(one.particle, one.before));
     see(0, changes_[0].value());
   }
   void see(int particle, double change) {
@@ -139,11 +147,12 @@ class Renumbering : public Observer {
 // Has the particle ended for good? A cap on hits may have been raised since, and a pinned or
 // surviving particle goes on.
 bool gone(Fate fate) {
-  return fate == Fate::escaped || fate == Fate::singular || fate == Fate::unbounded || is_failure(fate);
+  return fate == Fate::escaped || fate == Fate::singular || fate == Fate::unbounded ||
+         is_failure(fate);
 }
 
 RunEnd as_seen(const System& system, const ParticleProgress& progress, State state,
-                    const EnergyError& energy_error) {
+               const EnergyError& energy_error) {
   RunEnd end;
   end.progress = progress;
   end.t = state.time.value();
@@ -165,7 +174,8 @@ double speed_error(const Particle& particle, const State& state) {
   return dot(v, v) - 1.0;
 }
 
-// The state at the end of a particle that is not in the world any more: a flight after the last event.
+// The state at the end of a particle that is not in the world any more: a flight after the last
+// event.
 State moved_on(const Particle& particle, const ParticleProgress& progress) {
   State state = progress.state;
   const double duration = progress.end - state.time;
@@ -184,7 +194,8 @@ bool estimates_trust(const System& system) {
          (!system.dynamics.forces || system.dynamics.forces->empty());
 }
 
-SingleRunResult run_single(const System& system, Observer& observer, const SingleRunOptions& options) {
+SingleRunResult run_single(const System& system, Observer& observer,
+                           const SingleRunOptions& options) {
   const Stopwatch watch;
   World world(*system.table, system.dynamics, options.decisions);
   std::vector<Particle> all = system.particles;
@@ -241,9 +252,12 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     std::vector<Energy> energies;
     std::vector<State> states;
     for (std::size_t i = 0; i < numbers.size(); ++i) states.push_back(state_of(i));
-    if (shared) return std::vector<Energy>(numbers.size(), energy_of(particles, states, system.dynamics, *system.table));
+    if (shared)
+      return std::vector<Energy>(numbers.size(),
+                                 energy_of(particles, states, system.dynamics, *system.table));
     for (std::size_t i = 0; i < numbers.size(); ++i)
-      energies.push_back(energy_of({&particles[i], 1}, {&states[i], 1}, system.dynamics, *system.table));
+      energies.push_back(
+          energy_of({&particles[i], 1}, {&states[i], 1}, system.dynamics, *system.table));
     return energies;
   };
   const auto state_now = [&](std::size_t i) { return world.state(static_cast<int>(i)); };
@@ -264,12 +278,13 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     result.interrupted = result.interrupted || (options.interrupted && options.interrupted());
     return result.interrupted;
   };
-  // Pinned particles are known at the start: without a last time nothing more is to come of them, and
-  // their samples would have no end.
+  // Pinned particles are known at the start: without a last time nothing more is to come of them,
+  // and their samples would have no end.
   const bool without_end = system.run.t_max >= no_last_time;
   if (without_end && options.resume.empty()) world.run_until(0.0, passed_on, interrupted);
   bool moving = false;
-  for (std::size_t i = 0; i < numbers.size(); ++i) moving = moving || !world.finished(static_cast<int>(i));
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    moving = moving || !world.finished(static_cast<int>(i));
   if (moving || !without_end) world.run_until(system.run.t_max, passed_on, interrupted);
 
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -288,10 +303,13 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     const bool until_stop = now.fate == Fate::survived || now.fate == Fate::pinned;
     // What is pinned without a last time has been followed to its end.
     const bool endless = without_end && now.fate == Fate::pinned;
-    now.end = !until_stop ? end->time : result.interrupted || endless ? now.state.time : Time(system.run.t_max);
+    now.end = !until_stop                     ? end->time
+              : result.interrupted || endless ? now.state.time
+                                              : Time(system.run.t_max);
   }
   if (shared && !numbers.empty())
-    for (ParticleProgress& one : progress) one.energy = progress[static_cast<std::size_t>(numbers.front())].energy;
+    for (ParticleProgress& one : progress)
+      one.energy = progress[static_cast<std::size_t>(numbers.front())].energy;
   std::vector<State> last(count);
   for (std::size_t p = 0; p < count; ++p) last[p] = moved_on(all[p], progress[p]);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -299,18 +317,23 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
     last[p] = world.state_at(static_cast<int>(i), progress[p].end);
   }
   // Particles that share their energy are all there until the first of them is gone.
-  const bool everybody = numbers.size() == count && std::none_of(progress.begin(), progress.end(), [](const ParticleProgress& one) {
-    return gone(one.fate) || one.fate == Fate::capped;
-  });
-  const std::vector<Energy> at_end = energies_now([&](std::size_t i) { return last[static_cast<std::size_t>(numbers[i])]; });
+  const bool everybody =
+      numbers.size() == count &&
+      std::none_of(progress.begin(), progress.end(), [](const ParticleProgress& one) {
+        return gone(one.fate) || one.fate == Fate::capped;
+      });
+  const std::vector<Energy> at_end =
+      energies_now([&](std::size_t i) { return last[static_cast<std::size_t>(numbers[i])]; });
   std::vector<EnergyError> errors;
-  for (const ParticleProgress& one : progress) errors.push_back(one.energy.error_at_end(one.energy.change, 0.0));
+  for (const ParticleProgress& one : progress)
+    errors.push_back(one.energy.error_at_end(one.energy.change, 0.0));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::size_t p = static_cast<std::size_t>(numbers[i]);
     const EnergyBalance& seen = progress[p].energy;
     if (shared ? everybody : integrated) {
       const double before = options.resume.empty() ? 0.0 : options.resume[p].energy.change;
-      errors[p] = seen.error_at_end(before + (at_end[i].total() - at_start[i].total()), at_end[i].kinetic);
+      errors[p] =
+          seen.error_at_end(before + (at_end[i].total() - at_start[i].total()), at_end[i].kinetic);
     } else if (!shared) {
       const double error = speed_error(all[p], last[p]);
       errors[p] = {error, larger(errors[p].largest, std::fabs(error))};
@@ -327,7 +350,8 @@ SingleRunResult run_single(const System& system, Observer& observer, const Singl
   }
   result.contacts /= 2;
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    result.particles[static_cast<std::size_t>(numbers[i])].report = world.report(static_cast<int>(i));
+    result.particles[static_cast<std::size_t>(numbers[i])].report =
+        world.report(static_cast<int>(i));
   result.decisions = world.decisions();
   result.steps = options.steps;
   result.steps += world.step_counts();

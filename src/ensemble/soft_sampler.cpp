@@ -35,9 +35,11 @@ Vector with_speed(Vector velocity, double speed) {
 InputError too_little_energy(const System& system, double energy, double lowest) {
   Place place = system.initial.place;
   place.key = "particles.energy";
-  return InputError(place, fmt::format("no start has less potential energy than {:.6g}: the lowest seen is {:.6g}",
-                                       energy, lowest),
-                    "an energy above the potential's minimum, or another region to start from");
+  return InputError(
+      place,
+      fmt::format("no start has less potential energy than {:.6g}: the lowest seen is {:.6g}",
+                  energy, lowest),
+      "an energy above the potential's minimum, or another region to start from");
 }
 
 InputError at_a_pole(const System& system, Vector x) {
@@ -87,7 +89,8 @@ std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajector
   std::vector<State> states;
   if (system_.of_discs()) return draw_discs(world, trajectory);
   if (!dynamics.forces || !dynamics.forces->interacts() || count == 1) {
-    for (std::size_t p = 0; p < count; ++p) states.push_back(draw(world, trajectory, static_cast<int>(p)));
+    for (std::size_t p = 0; p < count; ++p)
+      states.push_back(draw(world, trajectory, static_cast<int>(p)));
     return states;
   }
   std::vector<RandomStream> random;
@@ -118,7 +121,8 @@ std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajector
     if (!(potential < energy)) continue;
     const double each = (energy - potential) / static_cast<double>(count);
     for (std::size_t p = 0; p < count; ++p)
-      states[p].velocity = with_speed(states[p].velocity, std::sqrt(2.0 * each / system_.particles[p].mass));
+      states[p].velocity =
+          with_speed(states[p].velocity, std::sqrt(2.0 * each / system_.particles[p].mass));
     return states;
   }
   throw too_little_energy(system_, energy, lowest);

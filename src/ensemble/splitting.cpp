@@ -52,18 +52,21 @@ void check(const System& system, const SplittingPlan& plan) {
 
 // A population is kept whole by the thread that follows it.
 void check_memory(const SplittingPlan& plan, int threads) {
-  const double here = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double here =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   const double each = static_cast<double>(Population::bytes_a_walker()) * threads;
   if (static_cast<double>(plan.population) * each <= here) return;
   const auto most = static_cast<std::uint64_t>(here / each);
-  throw InputError(Place{{}, 0, 0, "population"}, "the population does not fit into the memory of this machine",
-                   "at most " + std::to_string(most) + " trajectories on " + std::to_string(threads) +
-                       (threads == 1 ? " thread" : " threads"));
+  throw InputError(Place{{}, 0, 0, "population"},
+                   "the population does not fit into the memory of this machine",
+                   "at most " + std::to_string(most) + " trajectories on " +
+                       std::to_string(threads) + (threads == 1 ? " thread" : " threads"));
 }
 
 // Populations that are wanted, those that there are, and what else the threads share.
 struct Shared {
-  Shared(std::uint64_t repetitions, std::size_t kicks) : runs(kicks, std::vector<PopulationRun>(repetitions)) {}
+  Shared(std::uint64_t repetitions, std::size_t kicks)
+      : runs(kicks, std::vector<PopulationRun>(repetitions)) {}
   std::uint64_t first = 0;                       // repetition
   std::vector<std::vector<PopulationRun>> runs;  // by kick and repetition
   std::mutex mutex;
@@ -78,17 +81,20 @@ class Worker {
   Worker(Population population, const SplittingOptions& options, Shared& shared)
       : population_(std::move(population)), options_(options), shared_(shared) {}
 
-  bool run(std::uint64_t, std::uint64_t first, std::uint64_t end, const std::function<bool()>& stopped) {
+  bool run(std::uint64_t, std::uint64_t first, std::uint64_t end,
+           const std::function<bool()>& stopped) {
     const std::size_t kicks = shared_.runs.size();
     for (std::uint64_t i = first; i < end; ++i) {
-      // Every kick of a repetition starts from the same states, so neighbours in order share the work fairly.
+      // Every kick of a repetition starts from the same states, so neighbours in order share the
+      // work fairly.
       PopulationRun one = population_.run(shared_.first + i / kicks, i % kicks, stopped, reports_);
       if (!one.done) return false;
       const std::lock_guard lock(shared_.mutex);
       ++shared_.done;
       shared_.hits += one.collisions;
       shared_.runs[i % kicks][i / kicks] = std::move(one);
-      if (options_.progress) options_.progress(shared_.done, kicks * shared_.runs.front().size(), shared_.hits);
+      if (options_.progress)
+        options_.progress(shared_.done, kicks * shared_.runs.front().size(), shared_.hits);
     }
     return true;
   }
@@ -114,16 +120,21 @@ struct Setting {
 };
 
 /// False: it was stopped on the way.
-bool follow(const Setting& s, const SplittingPlan& plan, const BlockPlan& blocks, const SplittingOptions& options,
-            Shared& shared) {
+bool follow(const Setting& s, const SplittingPlan& plan, const BlockPlan& blocks,
+            const SplittingOptions& options, Shared& shared) {
   return run_blocks(
       blocks, options.interrupted,
-      [&] { return Worker(Population(s.system, s.sampler, s.kick, plan, s.at, options.decisions), options, shared); },
+      [&] {
+        return Worker(Population(s.system, s.sampler, s.kick, plan, s.at, options.decisions),
+                      options, shared);
+      },
       [](Worker& worker) { worker.finish(); });
 }
 
-/// The kick of a plan that leaves it open (docs/physics/rare-events.md), by small populations. What they lose counts.
-double chosen_kick(const Setting& setting, SplittingPlan plan, SplittingOptions options, SplittingResult& result) {
+/// The kick of a plan that leaves it open (docs/physics/rare-events.md), by small populations. What
+/// they lose counts.
+double chosen_kick(const Setting& setting, SplittingPlan plan, SplittingOptions options,
+                   SplittingResult& result) {
   constexpr double least = 0x1p-40;
   constexpr std::uint64_t judges = 16;
   const std::uint64_t starts = plan.repetitions * plan.population, population = plan.population;
@@ -133,7 +144,8 @@ double chosen_kick(const Setting& setting, SplittingPlan plan, SplittingOptions 
     Shared shared(repetitions, 1);
     // The first repetition of this size behind all starts: its random numbers are no other's.
     shared.first = (starts + plan.population - 1) / plan.population;
-    const bool all = follow(setting, plan, BlockPlan(repetitions, options.threads, 1), options, shared);
+    const bool all =
+        follow(setting, plan, BlockPlan(repetitions, options.threads, 1), options, shared);
     result.reports.insert(result.reports.end(), shared.reports.begin(), shared.reports.end());
     for (const PopulationRun& one : shared.runs.front()) {
       result.unresolved += one.unresolved;
@@ -143,8 +155,10 @@ double chosen_kick(const Setting& setting, SplittingPlan plan, SplittingOptions 
   };
   for (plan.kick = SplittingPlan::largest_choice; plan.kick > least; plan.kick /= 2) {
     const std::vector<PopulationRun> one = follow_some(1, 1000);
-    if (one.empty() || one.front().tried == 0) return SplittingPlan::largest_choice;  // nothing is copied, or nearly
-    const auto tried = static_cast<double>(one.front().tried), parted = static_cast<double>(one.front().parted);
+    if (one.empty() || one.front().tried == 0)
+      return SplittingPlan::largest_choice;  // nothing is copied, or nearly
+    const auto tried = static_cast<double>(one.front().tried),
+               parted = static_cast<double>(one.front().parted);
     if (tried - parted <= SplittingPlan::most_kept * tried) break;
   }
   for (; plan.kick > least; plan.kick /= 4) {
@@ -182,7 +196,8 @@ SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
   result.reports = std::move(shared.reports);
   // An interrupted run keeps the repetitions that were finished at every kick.
   for (std::size_t r = plan.repetitions; r-- > 0;) {
-    if (std::all_of(result.runs.begin(), result.runs.end(), [&](const auto& runs) { return runs[r].done; }))
+    if (std::all_of(result.runs.begin(), result.runs.end(),
+                    [&](const auto& runs) { return runs[r].done; }))
       continue;
     for (auto& runs : result.runs) runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(r));
   }

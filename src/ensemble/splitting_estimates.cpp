@@ -13,8 +13,8 @@ namespace carom {
 
 namespace {
 
-// Intercept of the least-squares line in delta^2 through the values at delta, delta / 2, delta / 4: -a/6 + b/2 + 2c/3,
-// written so that equal values have themselves as their limit.
+// Intercept of the least-squares line in delta^2 through the values at delta, delta / 2, delta / 4:
+// -a/6 + b/2 + 2c/3, written so that equal values have themselves as their limit.
 double intercept(double a, double b, double c) { return c + (b - c) / 2 - (a - c) / 6; }
 
 Mean mean_of(const std::vector<double>& values) {
@@ -38,18 +38,22 @@ Extrapolated extrapolated(const SplittingResult& result,
     out.at_kick[k] = mean_of(values);
     common = std::min(common, result.runs[k].size());
   }
-  // The populations of one repetition start from the same states: their line is drawn before the mean.
+  // The populations of one repetition start from the same states: their line is drawn before the
+  // mean.
   std::vector<double> limits;
-  for (std::size_t r = 0; r < common; ++r) limits.push_back(intercept(of(0, r), of(1, r), of(2, r)));
+  for (std::size_t r = 0; r < common; ++r)
+    limits.push_back(intercept(of(0, r), of(1, r), of(2, r)));
   out.limit = mean_of(limits);
   out.repetitions = common;
   out.extrapolation = std::fabs(out.limit.value - out.at_kick.back().value);
   return out;
 }
 
-// That none of so many has gone does not say that none does. Populations at the three kicks share their starts.
+// That none of so many has gone does not say that none does. Populations at the three kicks share
+// their starts.
 double unseen_share(const SplittingResult& result) {
-  const auto starts = static_cast<std::uint64_t>(result.runs.front().size()) * result.plan.population;
+  const auto starts =
+      static_cast<std::uint64_t>(result.runs.front().size()) * result.plan.population;
   return wilson_interval(0, starts).high;
 }
 
@@ -67,13 +71,16 @@ Mean cost_of_kicks(const std::vector<PopulationRun>& runs, std::size_t stages) {
     double followed = 0.0, stayed = 0.0;
     for (const PopulationRun& run : runs)
       if (k < run.copies.size()) {
-        followed += static_cast<double>(run.copies[k].first.followed + run.copies[k].kicked.followed);
+        followed +=
+            static_cast<double>(run.copies[k].first.followed + run.copies[k].kicked.followed);
         stayed += static_cast<double>(run.copies[k].first.stayed + run.copies[k].kicked.stayed);
       }
     // Divided by what all of them say: by a population's own share it would be off where few stay.
     for (std::size_t r = 0; r < runs.size() && stayed > 0.0; ++r) {
       if (!(k < runs[r].copies.size())) continue;
-      const auto share = [](const Staying& s) { return static_cast<double>(s.stayed) / static_cast<double>(s.followed); };
+      const auto share = [](const Staying& s) {
+        return static_cast<double>(s.stayed) / static_cast<double>(s.followed);
+      };
       const CopiesOfStage& copies = runs[r].copies[k];
       if (copies.first.followed == 0 || copies.kicked.followed == 0) continue;
       const double of_all = static_cast<double>(copies.kicked.followed) /
@@ -90,26 +97,36 @@ Mean cost_of_kicks(const SplittingResult& result, std::size_t report) {
   // Stage k begins at level k - 1.
   std::size_t stages = report + 1;
   if (by_time)
-    stages = static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), result.at[report]) - levels.begin()) + 1;
+    stages =
+        static_cast<std::size_t>(std::lower_bound(levels.begin(), levels.end(), result.at[report]) -
+                                 levels.begin()) +
+        1;
   return cost_of_kicks(result.runs.back(), stages);
 }
 
 namespace {
 
 bool exceeds(const Mean& cost, std::size_t repetitions, double quantile) {
-  return repetitions >= 2 && std::fabs(cost.value) > student_quantile(quantile, static_cast<double>(repetitions - 1)) * cost.error;
+  return repetitions >= 2 &&
+         std::fabs(cost.value) >
+             student_quantile(quantile, static_cast<double>(repetitions - 1)) * cost.error;
 }
 
 }  // namespace
 
-bool is_likely(const Mean& cost, std::size_t repetitions) { return exceeds(cost, repetitions, 0.975); }
+bool is_likely(const Mean& cost, std::size_t repetitions) {
+  return exceeds(cost, repetitions, 0.975);
+}
 
-bool is_certain(const Mean& cost, std::size_t repetitions) { return exceeds(cost, repetitions, 0.999); }
+bool is_certain(const Mean& cost, std::size_t repetitions) {
+  return exceeds(cost, repetitions, 0.999);
+}
 
 namespace {
 
-// What is certain of the difference between the kicks' cost by two reports; the first may be the start. The copies of a stage
-// tell of those alone that are gone before the next one: of half, where that was measured.
+// What is certain of the difference between the kicks' cost by two reports; the first may be the
+// start. The copies of a stage tell of those alone that are gone before the next one: of half,
+// where that was measured.
 double kick_error(const SplittingResult& result, std::size_t from, std::size_t to) {
   const Mean cost = cost_of_kicks(result, to);
   if (!is_certain(cost, result.runs.back().size())) return 0.0;
@@ -120,7 +137,8 @@ double kick_error(const SplittingResult& result, std::size_t from, std::size_t t
 
 double Extrapolated::band() const {
   if (repetitions < 2) return std::nan("");
-  return student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error + extrapolation + kick_error + unseen;
+  return student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error +
+         extrapolation + kick_error + unseen;
 }
 
 double Extrapolated::low() const {
@@ -132,7 +150,8 @@ double Extrapolated::low() const {
 double Extrapolated::high() const {
   const double v = limit.value;
   const bool by_logarithm = least == 0.0 && v > 0.0 && limit.error > 0.0;
-  return std::min(most, by_logarithm ? v * elementary::exp(band() / v) : std::max(v, least) + band());
+  return std::min(most,
+                  by_logarithm ? v * elementary::exp(band() / v) : std::max(v, least) + band());
 }
 
 std::vector<SplitPoint> survival(const SplittingResult& result) {
@@ -140,8 +159,8 @@ std::vector<SplitPoint> survival(const SplittingResult& result) {
   for (std::size_t i = 0; i < result.at.size(); ++i) {
     SplitPoint point;
     point.at = result.at[i];
-    point.p =
-        extrapolated(result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
+    point.p = extrapolated(
+        result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
     point.p.least = 0.0;
     point.p.most = 1.0;
     point.p.kick_error = kick_error(result, i, i) * point.p.limit.value;
@@ -149,7 +168,8 @@ std::vector<SplitPoint> survival(const SplittingResult& result) {
     point.equivalent = p.error > 0.0 ? p.value * (1.0 - p.value) / (p.error * p.error) : 0.0;
     if (all_are(point.p, 1.0)) {
       point.p.unseen = unseen_share(result);
-      point.equivalent = static_cast<double>(result.runs.front().size()) * static_cast<double>(result.plan.population);
+      point.equivalent = static_cast<double>(result.runs.front().size()) *
+                         static_cast<double>(result.plan.population);
     }
     points.push_back(point);
   }
@@ -168,12 +188,14 @@ std::vector<SplitRate> escape_rate(const SplittingResult& result) {
       point.from = from;
       point.to = to;
       point.t = from > 0.0 ? std::sqrt(from) * std::sqrt(to) : to / 2;
-      point.value = extrapolated(
-          result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].gone[i] / (to - from); });
+      point.value = extrapolated(result, [&](std::size_t k, std::size_t r) {
+        return result.runs[k][r].gone[i] / (to - from);
+      });
       point.value.least = 0.0;
       point.value.most = 1.0 / (to - from);
       point.value.kick_error = kick_error(result, i, i) * point.value.limit.value;
-      if (all_are(point.value, 0.0)) point.value.unseen = there * unseen_share(result) / (to - from);
+      if (all_are(point.value, 0.0))
+        point.value.unseen = there * unseen_share(result) / (to - from);
       points.push_back(point);
     }
     from = to;
@@ -183,17 +205,20 @@ std::vector<SplitRate> escape_rate(const SplittingResult& result) {
 }
 
 Extrapolated decay_rate(const SplittingResult& result, std::size_t first, std::size_t last) {
-  // Logarithms of means, and to first order the part of each repetition in them: a mean of logarithms would
-  // be off by the variance of a population.
+  // Logarithms of means, and to first order the part of each repetition in them: a mean of
+  // logarithms would be off by the variance of a population.
   const auto at = [&](std::size_t i) {
-    return extrapolated(result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
+    return extrapolated(
+        result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
   };
   const Extrapolated a = at(first), b = at(last);
   const double width = result.at[last] - result.at[first];
   Extrapolated out = extrapolated(result, [&](std::size_t k, std::size_t r) {
     const PopulationRun& run = result.runs[k][r];
     const double mean_a = a.at_kick[k].value, mean_b = b.at_kick[k].value;
-    return (elementary::log(mean_a / mean_b) + run.survival[first] / mean_a - run.survival[last] / mean_b) / width;
+    return (elementary::log(mean_a / mean_b) + run.survival[first] / mean_a -
+            run.survival[last] / mean_b) /
+           width;
   });
   out.kick_error = kick_error(result, first, last) / width;
   return out;

@@ -17,27 +17,32 @@ using geometry::Vector;
 namespace {
 
 constexpr int looks = 64;
-/// Runs have parted where they are further from each other than this share of the way that they have gone.
+/// Runs have parted where they are further from each other than this share of the way that they
+/// have gone.
 constexpr double parted = 0.1;
-/// The distance leaves out a quarter of the error at order 2, and more where the steps are too long for their order. With a
-/// tolerance the error falls less regularly.
+/// The distance leaves out a quarter of the error at order 2, and more where the steps are too long
+/// for their order. With a tolerance the error falls less regularly.
 constexpr double margin = 2.0, margin_of_adaptive = 3.0;
 /// At one look a distance may happen to be small: the largest of so many is taken.
 constexpr int latest = 8;
-/// Both runs are rounded, by a few units a step: what they have in common of it is not seen in their distance.
+/// Both runs are rounded, by a few units a step: what they have in common of it is not seen in
+/// their distance.
 constexpr double rounding = 0x1p-51;
-/// How errors grow is seen from a start displaced by this share of positions and velocities: far above what rounding does to
-/// them, and far below what a run can be believed with.
+/// How errors grow is seen from a start displaced by this share of positions and velocities: far
+/// above what rounding does to them, and far below what a run can be believed with.
 constexpr double displacement = 0x1p-40;
-/// Each evaluation of a force, and the sums made with it, displace a run by about so much of its size, in directions of their own.
+/// Each evaluation of a force, and the sums made with it, displace a run by about so much of its
+/// size, in directions of their own.
 constexpr double rounding_of_evaluation = 0x1.8p-50;
-/// A pass through the outermost part of a bump, which is left out, turns a velocity v by this times tail/(m v^2) at most: a
-/// force of tail/w in units of the width w, times the distance in units of w (8.6), over a way of 2.5 w, for a Gaussian.
+/// A pass through the outermost part of a bump, which is left out, turns a velocity v by this times
+/// tail/(m v^2) at most: a force of tail/w in units of the width w, times the distance in units of
+/// w (8.6), over a way of 2.5 w, for a Gaussian.
 constexpr double turn_by_tail = 32.0;
 
 IntegratorPlan finer(IntegratorPlan plan) {
   if (is_adaptive(plan.scheme))
-    plan.tolerance = std::max(least_tolerance, (plan.tolerance > 0.0 ? plan.tolerance : default_tolerance) / 64.0);
+    plan.tolerance = std::max(least_tolerance,
+                              (plan.tolerance > 0.0 ? plan.tolerance : default_tolerance) / 64.0);
   plan.step *= 0.5;
   return plan;
 }
@@ -83,7 +88,9 @@ void add_displaced(World& world, const World& others, double size) {
 
 std::optional<StateError> state_error(const System& system, std::uint64_t trajectory, double t_end,
                                       const std::function<bool()>& stopped) {
-  if (!system.dynamics.forces || system.dynamics.forces->empty() || !(t_end > 0.0) || !std::isfinite(t_end)) return {};
+  if (!system.dynamics.forces || system.dynamics.forces->empty() || !(t_end > 0.0) ||
+      !std::isfinite(t_end))
+    return {};
   const Table& table = *system.table;
   Dynamics fine = system.dynamics;
   fine.integrator = finer(fine.integrator);
@@ -91,7 +98,8 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
   const Sampler sampler(system, stopped);
   add_starts(as_run, sampler, trajectory);
   add_starts(finely, sampler, trajectory);
-  const double size = size_of_positions(system, as_run, t_end), tail = system.dynamics.forces->tail_bound();
+  const double size = size_of_positions(system, as_run, t_end),
+               tail = system.dynamics.forces->tail_bound();
   add_displaced(displaced, as_run, size);
   const int count = as_run.size();
   const double n = static_cast<double>(count);
@@ -106,7 +114,8 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
   std::array<StateError, latest> apart;  // distances from the finer run
   StateError grown;                      // the largest from the displaced one so far
   double growth = 1.0;                   // that, in units of the displacement
-  double evaluated = 0.0, rounded = 0.0;  // evaluations; each over the square of the growth before it
+  double evaluated = 0.0,
+         rounded = 0.0;  // evaluations; each over the square of the growth before it
   Observer observer;
   for (int look = 1; look <= looks; ++look) {
     const double t = t_end * look / looks;
@@ -117,7 +126,8 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
     StateError& now = apart[static_cast<std::size_t>(look % latest)] = {};
     for (int i = 0; i < count; ++i) {
       if (as_run.fate(i) == Fate::unresolved) return {};
-      const State a = state_of(as_run, i, t), b = state_of(finely, i, t), c = state_of(displaced, i, t);
+      const State a = state_of(as_run, i, t), b = state_of(finely, i, t),
+                  c = state_of(displaced, i, t);
       now.position = std::max(now.position, length(plane(a) - plane(b)));
       now.velocity = std::max(now.velocity, length(a.velocity - b.velocity));
       grown.position = std::max(grown.position, length(plane(a) - plane(c)));
@@ -131,9 +141,12 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
     const double evaluations = static_cast<double>(as_run.step_counts().force_evaluations);
     rounded += (evaluations - evaluated) / (growth * growth);
     evaluated = evaluations;
-    growth = std::max({growth, grown.position / (displacement * size), grown.velocity / (displacement * fastest)});
+    growth = std::max({growth, grown.position / (displacement * size),
+                       grown.velocity / (displacement * fastest)});
     double share = rounding_of_evaluation * std::sqrt(rounded) * std::max(1.0, farthest / size);
-    if (tail > 0.0) share += turn_by_tail * tail / (lightest * fastest * fastest) * std::sqrt(1.0 + fastest * t / size);
+    if (tail > 0.0)
+      share += turn_by_tail * tail / (lightest * fastest * fastest) *
+               std::sqrt(1.0 + fastest * t / size);
     error = {share / displacement * grown.position + rounding * steps * (farthest + fastest * t),
              share / displacement * grown.velocity + rounding * steps * fastest, t};
     StateError most;
@@ -141,7 +154,8 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
       most.position = std::max(most.position, one.position);
       most.velocity = std::max(most.velocity, one.velocity);
     }
-    const double times = is_adaptive(system.dynamics.integrator.scheme) ? margin_of_adaptive : margin;
+    const double times =
+        is_adaptive(system.dynamics.integrator.scheme) ? margin_of_adaptive : margin;
     error.position += times * most.position;
     error.velocity += times * most.velocity;
     if (error.position > parted * way || compared > most_compared) break;

@@ -23,7 +23,10 @@ void for_each_trajectory(const System& system, TrajectoryRange range, Observer& 
     world.run_until(system.run.t_max, observer);
     for (int p = 0; p < world.size(); ++p)
       if (!world.finished(p))
-        observer.end({.particle = p, .time = system.run.t_max, .state = world.state(p), .hits = world.hits(p)});
+        observer.end({.particle = p,
+                      .time = system.run.t_max,
+                      .state = world.state(p),
+                      .hits = world.hits(p)});
   }
 }
 

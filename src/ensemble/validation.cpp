@@ -28,7 +28,8 @@ constexpr double most_errors = 4.0;
 bool agrees(const ValidationCase& c, double error, Allowance allowance) {
   const double rounding = 1e-12 * std::fabs(c.expected);
   const double reach = most_errors * error + rounding;
-  return c.value >= c.expected - reach - allowance.below && c.value <= c.expected + reach + allowance.above;
+  return c.value >= c.expected - reach - allowance.below &&
+         c.value <= c.expected + reach + allowance.above;
 }
 
 void judge(ValidationCase& c, Allowance allowance) {
@@ -65,8 +66,9 @@ double binomial_error(double k, double n) {
   return std::sqrt(p * (1.0 - p) / n);
 }
 
-// Follows the trajectories by themselves: what one of them is does not depend on the thread that runs it.
-// A probe observes one trajectory after the other; at the end of its thread it hands in what it has kept.
+// Follows the trajectories by themselves: what one of them is does not depend on the thread that
+// runs it. A probe observes one trajectory after the other; at the end of its thread it hands in
+// what it has kept.
 template <class Probe>
 class Follower {
  public:
@@ -81,7 +83,8 @@ class Follower {
     c.seconds = watch_.seconds();
     c.cpu_seconds = watch_.cpu_seconds();
     // In the order of the trajectories, so that threads change no bit of a sum.
-    std::sort(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+    std::sort(kept_.begin(), kept_.end(),
+              [](const auto& a, const auto& b) { return a.index < b.index; });
   }
   const std::vector<typename Probe::Kept>& kept() const { return kept_; }
 
@@ -185,7 +188,8 @@ struct LastHits : Observer {
 
 }  // namespace
 
-ValidationCase check_mean_flight(const System& system, double no_hit_area, const ValidationOptions& options) {
+ValidationCase check_mean_flight(const System& system, double no_hit_area,
+                                 const ValidationOptions& options) {
   if (system.run.trajectories < 2 || system.run.collisions == 0)
     throw InternalError("a mean flight needs trajectories and a number of hits");
   const TableMeasure size = measure(*system.table);
@@ -213,7 +217,8 @@ ValidationCase check_nothing_lost(const System& system, const ValidationOptions&
   return c;
 }
 
-ValidationCase check_survival_per_hit(const System& system, double expected, const ValidationOptions& options) {
+ValidationCase check_survival_per_hit(const System& system, double expected,
+                                      const ValidationOptions& options) {
   ValidationCase c;
   c.expected = expected;
   const Follower<LastHits> walkers(system, options, c);
@@ -226,7 +231,8 @@ ValidationCase check_survival_per_hit(const System& system, double expected, con
   return c;
 }
 
-ValidationCase check_escape_rate(const System& system, double expected, const ValidationOptions& options) {
+ValidationCase check_escape_rate(const System& system, double expected,
+                                 const ValidationOptions& options) {
   ValidationCase c;
   c.expected = expected;
   const Follower<LastHits> walkers(system, options, c);
@@ -246,7 +252,8 @@ ValidationCase check_escape_rate(const System& system, double expected, const Va
     const double slope = last_time / last - before_time / before;
     step = -elementary::log(last / before) / slope;
     rate += step;
-    // At the root the terms b - a have the mean 0; their sum's error is that of the logarithm, times `before`.
+    // At the root the terms b - a have the mean 0; their sum's error is that of the logarithm,
+    // times `before`.
     c.error = std::sqrt(squares) / (before * slope);
   }
   c.value = rate;
@@ -254,8 +261,8 @@ ValidationCase check_escape_rate(const System& system, double expected, const Va
   return c;
 }
 
-ValidationCase check_survivors(const System& system, double factor, Estimate expected, Allowance allowance,
-                               const ValidationOptions& options) {
+ValidationCase check_survivors(const System& system, double factor, Estimate expected,
+                               Allowance allowance, const ValidationOptions& options) {
   ValidationCase c;
   c.expected = expected.value;
   c.expected_error = expected.error;
@@ -268,7 +275,8 @@ ValidationCase check_survivors(const System& system, double factor, Estimate exp
   return c;
 }
 
-ValidationCase check_displacement(const System& system, Estimate expected, const ValidationOptions& options) {
+ValidationCase check_displacement(const System& system, Estimate expected,
+                                  const ValidationOptions& options) {
   ValidationCase c;
   c.expected = expected.value;
   c.expected_error = expected.error;

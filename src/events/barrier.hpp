@@ -1,8 +1,9 @@
-// A curve seen from integrated motion: the sign of a gap, which the path of a particle must not change.
+// A curve seen from integrated motion: the sign of a gap, which the path of a particle must not
+// change.
 //
-// Free flights meet curves by algebra (next_hit.hpp). A path that is only known step by step meets the
-// zero of a gap function: the distance from a line, or (1 - |y|^2)/2 where y is the point seen from a
-// conic in units of its axes. The gap is positive on the domain's side.
+// Free flights meet curves by algebra (next_hit.hpp). A path that is only known step by step meets
+// the zero of a gap function: the distance from a line, or (1 - |y|^2)/2 where y is the point seen
+// from a conic in units of its axes. The gap is positive on the domain's side.
 #pragma once
 
 #include <cmath>
@@ -19,19 +20,21 @@ struct Barrier {
   using Vector = geometry::BasicVector<Real>;
 
   bool conic = false;
-  Vector origin;         ///< a point of the line; centre of the conic
-  Vector first, second;  ///< line: unit normal into the domain, and unused; conic: rows of the map to y
-  Real orientation{1};   ///< conic: +1 domain inside, -1 outside
-  bool closed = false;   ///< every point of the carrier belongs to the piece
-  Vector from, to;       ///< ends of the piece, if it has any
+  Vector origin;  ///< a point of the line; centre of the conic
+  Vector first,
+      second;  ///< line: unit normal into the domain, and unused; conic: rows of the map to y
+  Real orientation{1};              ///< conic: +1 domain inside, -1 outside
+  bool closed = false;              ///< every point of the carrier belongs to the piece
+  Vector from, to;                  ///< ends of the piece, if it has any
   Real reach_from{0}, reach_to{0};  ///< there, reach_of_wall of the walls that meet it
-  Real zone_from{0}, zone_to{0};    ///< how far from there a particle on those may be beyond this wall
-  Real thin_from{0}, thin_to{0};    ///< how far from there both sides of a needle are one to rounding
-  Real side{1};          ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
-  Vector low, high;      ///< a box about the piece, larger than any rounding
-  int wall = -1;         ///< which wall or support it is
-  geometry::Cell cell;   ///< the cell whose copy of it this is
-  Real slack{0};         ///< at least on_wall() roundings of the gap, everywhere on the piece
+  Real zone_from{0},
+      zone_to{0};  ///< how far from there a particle on those may be beyond this wall
+  Real thin_from{0}, thin_to{0};  ///< how far from there both sides of a needle are one to rounding
+  Real side{1};         ///< conic: the piece lies where side * cross(to - from, x - from) <= 0
+  Vector low, high;     ///< a box about the piece, larger than any rounding
+  int wall = -1;        ///< which wall or support it is
+  geometry::Cell cell;  ///< the cell whose copy of it this is
+  Real slack{0};        ///< at least on_wall() roundings of the gap, everywhere on the piece
 
   Real gap(const Vector& x) const {
     const Vector e = x - origin;
@@ -39,8 +42,9 @@ struct Barrier {
     const Real p = dot(first, e), q = dot(second, e);
     return orientation * (Real(1) - (p * p + q * q)) / Real(2);
   }
-  /// Bound on the rounding error of gap(x): differences, two products and two sums a coordinate, each
-  /// within half an epsilon of what it is made of; for a conic |y| is about 1 where it matters.
+  /// Bound on the rounding error of gap(x): differences, two products and two sums a coordinate,
+  /// each within half an epsilon of what it is made of; for a conic |y| is about 1 where it
+  /// matters.
   Real rounding(const Vector& x) const {
     const Real half = std::numeric_limits<Real>::epsilon() / Real(2);
     const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
@@ -48,21 +52,26 @@ struct Barrier {
     const Real largest = size(first.x) + size(first.y) + size(second.x) + size(second.y);
     return Real(conic ? 8 : 4) * half * largest * reach;
   }
-  /// How many roundings a particle on the wall may be from it: the search for a hit leaves it within one,
-  /// another wall of the corner moves it onto itself by two, the next cell of a lattice has it within one more.
+  /// How many roundings a particle on the wall may be from it: the search for a hit leaves it
+  /// within one, another wall of the corner moves it onto itself by two, the next cell of a lattice
+  /// has it within one more.
   static Real on_wall() { return Real(4); }
   /// Is the particle on the piece, or beyond it, to rounding?
   bool stands_on(const Vector& x) const {
     const Real g = gap(x);
-    return !(g > Real(0)) && !(g < -off_wall(x)) && (covers(x) || is_at(End::from, x) || is_at(End::to, x));
+    return !(g > Real(0)) && !(g < -off_wall(x)) &&
+           (covers(x) || is_at(End::from, x) || is_at(End::to, x));
   }
-  /// How far below 0 the gap of a particle may be that is on this wall, or at a joint on the one that it meets there.
+  /// How far below 0 the gap of a particle may be that is on this wall, or at a joint on the one
+  /// that it meets there.
   Real off_wall(const Vector& x) const {
     Real most = on_wall() * rounding(x);
     if (closed) return most;
     for (const End end : {End::from, End::to}) {
       const Real other = stretch() * (end == End::from ? reach_from : reach_to);
-      if (most < other && (is_at(end, x) || is_within(end == End::from ? zone_from : zone_to, end, x))) most = other;
+      if (most < other &&
+          (is_at(end, x) || is_within(end == End::from ? zone_from : zone_to, end, x)))
+        most = other;
     }
     return most;
   }
@@ -77,8 +86,9 @@ struct Barrier {
     const Vector e = x - origin;
     return -orientation * (dot(first, e) * dot(first, v) + dot(second, e) * dot(second, v));
   }
-  /// Bound on what rate(x, v) errs against the exact normal by, in epsilon halves. Line: the unit normal 5,
-  /// products and sum 3. Conic: a map to y 9, twice; its rows 5, twice; the point and the centre 4 together.
+  /// Bound on what rate(x, v) errs against the exact normal by, in epsilon halves. Line: the unit
+  /// normal 5, products and sum 3. Conic: a map to y 9, twice; its rows 5, twice; the point and the
+  /// centre 4 together.
   Real rate_rounding(const Vector& x, const Vector& v) const {
     const Real half = std::numeric_limits<Real>::epsilon() / Real(2);
     const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
@@ -102,9 +112,9 @@ struct Barrier {
     const Real p = norm(first), q = norm(second);
     return on_wall() * rounding(x) / (!conic || p < q ? p : q);
   }
-  /// Does a point on the carrier lie on the piece, ends included? A path through the end of one piece, which is
-  /// where the next begins, is found beyond either by no more than a particle on the wall is off it: both pieces
-  /// reach as far beyond their ends.
+  /// Does a point on the carrier lie on the piece, ends included? A path through the end of one
+  /// piece, which is where the next begins, is found beyond either by no more than a particle on
+  /// the wall is off it: both pieces reach as far beyond their ends.
   bool covers(const Vector& x) const {
     if (closed) return true;
     const Vector chord = to - from, e = x - from;
@@ -114,7 +124,8 @@ struct Barrier {
     const Real along = dot(chord, e);
     return !(along < -beyond) && !(along > dot(chord, chord) + beyond);
   }
-  /// One of the ends: its point, and how far from it particles may be that are on this wall, or on the one that it meets there.
+  /// One of the ends: its point, and how far from it particles may be that are on this wall, or on
+  /// the one that it meets there.
   enum class End { from, to };
   const Vector& point(End end) const { return end == End::from ? from : to; }
   Real reach_of_joint(End end, const Real& reach) const {
@@ -139,10 +150,11 @@ struct Barrier {
   void meet(End end, const Barrier& other);
 };
 
-// A particle on the other wall is within its reach R of it. Along that wall, a way s from the joint, the two are apart
-// by s sin(angle) - k s^2 / 2, or more, k being the sum of their curvatures: so the particle is beyond this wall where s is
-// less than the smaller root of R = s sin(angle) - k s^2 / 2, and nowhere by more than R. Likewise a needle between the
-// two is thinner than the reaches of both together.
+// A particle on the other wall is within its reach R of it. Along that wall, a way s from the
+// joint, the two are apart by s sin(angle) - k s^2 / 2, or more, k being the sum of their
+// curvatures: so the particle is beyond this wall where s is less than the smaller root of R = s
+// sin(angle) - k s^2 / 2, and nowhere by more than R. Likewise a needle between the two is thinner
+// than the reaches of both together.
 template <class Real>
 void Barrier<Real>::meet(End end, const Barrier& other) {
   using std::sqrt;
@@ -158,13 +170,17 @@ void Barrier<Real>::meet(End end, const Barrier& other) {
     return b.conic ? (dot(b.first, b.first) + dot(b.second, b.second)) / length(n) : Real(0);
   };
   const Real curvatures = curvature(*this, own) + curvature(other, others);
-  // A reach grows along the walls as the size of their points does, whose 1-norm is less than twice the way.
-  const auto norm = [](const Vector& a) { return (a.x < Real(0) ? -a.x : a.x) + (a.y < Real(0) ? -a.y : a.y); };
+  // A reach grows along the walls as the size of their points does, whose 1-norm is less than twice
+  // the way.
+  const auto norm = [](const Vector& a) {
+    return (a.x < Real(0) ? -a.x : a.x) + (a.y < Real(0) ? -a.y : a.y);
+  };
   const auto grows = [&](const Barrier& b, const Real& at_joint) {
     const Real size = norm(joint) + norm(b.origin);
     return size > Real(0) ? Real(2) * at_joint / size : Real(0);
   };
-  // Twice the way to where the walls are `apart`, or 0 if they need not come to be. The 1-norm is less than that.
+  // Twice the way to where the walls are `apart`, or 0 if they need not come to be. The 1-norm is
+  // less than that.
   const auto way = [&](const Real& sine, const Real& apart) {
     const Real square = sine * sine - Real(2) * curvatures * apart;
     return sine > Real(0) && square > Real(0) ? Real(4) * apart / (sine + sqrt(square)) : Real(0);
@@ -176,11 +192,12 @@ void Barrier<Real>::meet(End end, const Barrier& other) {
     zone = std::numeric_limits<Real>::infinity();  // a cusp, or too sharp to be told from one
   const Real here = reach_of_wall(joint);
   if (sharp)
-    (begins ? thin_from : thin_to) =
-        way((-turn - turn_error) / lengths - grows(other, reach) - grows(*this, here), reach + here);
+    (begins ? thin_from : thin_to) = way(
+        (-turn - turn_error) / lengths - grows(other, reach) - grows(*this, here), reach + here);
 }
 
-/// The barrier of a curve displaced by `shift`. Its numbers are those of the curve, computed in Real.
+/// The barrier of a curve displaced by `shift`. Its numbers are those of the curve, computed in
+/// Real.
 template <class Real>
 Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVector<Real>& shift) {
   using Vector = geometry::BasicVector<Real>;
@@ -192,10 +209,12 @@ Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVect
   b.low = exact(box.low) + shift;
   b.high = exact(box.high) + shift;
   const auto size = [](const Real& a) { return a < Real(0) ? -a : a; };
-  const Real slack = Real(0x1p-20) * (size(b.low.x) + size(b.low.y) + size(b.high.x) + size(b.high.y));
+  const Real slack =
+      Real(0x1p-20) * (size(b.low.x) + size(b.low.y) + size(b.high.x) + size(b.high.y));
   b.low = b.low - Vector{slack, slack};
   b.high = b.high + Vector{slack, slack};
-  const auto conic = [&](const Vector& centre, const Vector& along, const Real& a, const Real& ratio, bool ccw) {
+  const auto conic = [&](const Vector& centre, const Vector& along, const Real& a,
+                         const Real& ratio, bool ccw) {
     const Vector unit = (Real(1) / length(along)) * along;
     b.conic = true;
     b.origin = centre + shift;
@@ -215,10 +234,12 @@ Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVect
     b.first = left((Real(1) / length(chord)) * chord);
   } else if (const auto* c = std::get_if<geometry::Circle>(&curve)) {
     b.closed = true;
-    conic(exact(c->centre), Vector{Real(1), Real(0)}, Real(c->radius), Real(1), c->counterclockwise);
+    conic(exact(c->centre), Vector{Real(1), Real(0)}, Real(c->radius), Real(1),
+          c->counterclockwise);
   } else if (const auto* e = std::get_if<geometry::Ellipse>(&curve)) {
     b.closed = true;
-    conic(exact(e->centre), exact(e->axis), length(exact(e->axis)), Real(e->ratio), e->counterclockwise);
+    conic(exact(e->centre), exact(e->axis), length(exact(e->axis)), Real(e->ratio),
+          e->counterclockwise);
   } else if (const auto* a = std::get_if<geometry::CircularArc>(&curve)) {
     const Vector from = exact(a->from), to = exact(a->to);
     const Vector centre = Real(0.5) * (from + to) + Real(a->offset) * left(to - from);
@@ -230,14 +251,19 @@ Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVect
     const Vector q = left(axis), chord = to - from;
     const Real k = Real(l->ratio);
     const Vector centre =
-        Real(0.5) * (from + to) + Real(l->offset) * ((-dot(chord, q)) * axis + (k * k * dot(chord, axis)) * q);
+        Real(0.5) * (from + to) +
+        Real(l->offset) * ((-dot(chord, q)) * axis + (k * k * dot(chord, axis)) * q);
     const Vector r = from - centre;
     const Real along = dot(r, axis), across = dot(r, q) / k;
-    conic(centre, axis, sqrt((along * along + across * across) / dot(axis, axis)), k, l->counterclockwise);
+    conic(centre, axis, sqrt((along * along + across * across) / dot(axis, axis)), k,
+          l->counterclockwise);
     ends(l->from, l->to);
   }
-  const auto larger = [&](const Real& p, const Real& q) { return size(p) < size(q) ? size(q) : size(p); };
-  b.slack = Barrier<Real>::on_wall() * b.rounding({larger(b.low.x, b.high.x), larger(b.low.y, b.high.y)});
+  const auto larger = [&](const Real& p, const Real& q) {
+    return size(p) < size(q) ? size(q) : size(p);
+  };
+  b.slack =
+      Barrier<Real>::on_wall() * b.rounding({larger(b.low.x, b.high.x), larger(b.low.y, b.high.y)});
   return b;
 }
 

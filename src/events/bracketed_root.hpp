@@ -1,4 +1,5 @@
-// The zero between two points of a path on different sides of a surface, to the last digit of its time.
+// The zero between two points of a path on different sides of a surface, to the last digit of its
+// time.
 #pragma once
 
 #include <cmath>
@@ -6,10 +7,10 @@
 
 namespace carom {
 
-/// `path` tells of a point its time(), its function g() and the rate() of that, and gives the point at() a time.
-/// Of g it is known that low and high are on different sides: g > 0, or not. Newton's steps from the nearer
-/// point, halves where they leave the bracket or do not help. It ends at g = 0, or where no double is left
-/// between the two sides; of these the one with the smaller |g|.
+/// `path` tells of a point its time(), its function g() and the rate() of that, and gives the point
+/// at() a time. Of g it is known that low and high are on different sides: g > 0, or not. Newton's
+/// steps from the nearer point, halves where they leave the bracket or do not help. It ends at g =
+/// 0, or where no double is left between the two sides; of these the one with the smaller |g|.
 template <class Path, class Point>
 Point bracketed_root(Path& path, Point low, Point high) {
   const bool rising = path.g(high) > 0.0;
@@ -18,7 +19,8 @@ Point bracketed_root(Path& path, Point low, Point high) {
   bool helps = true;
   double least = 0.0;  // a step that Newton's would not make, so that the far side closes up, too
   while (path.g(best) != 0.0) {
-    const double from = path.time(low), to = path.time(high), now = path.time(best), g = path.g(best);
+    const double from = path.time(low), to = path.time(high), now = path.time(best),
+                 g = path.g(best);
     double time = now - g / path.rate(best);
     const double digit = std::numeric_limits<double>::epsilon() * std::fabs(now);
     if (std::fabs(time - now) <= digit) {

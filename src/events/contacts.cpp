@@ -102,15 +102,17 @@ void Contacts::first_contact(int i, int j, const Time& now, const Time& until) {
   double way = reach_within(a, left) + reach_within(b, left);
   if (a.omega == b.omega) {
     const double relative = length(v);
-    way = std::min(way, a.omega == 0.0 ? relative * left
-                                       : std::min(relative * left, 2.0 * relative / std::fabs(a.omega)));
+    way = std::min(way, a.omega == 0.0
+                            ? relative * left
+                            : std::min(relative * left, 2.0 * relative / std::fabs(a.omega)));
     if (!(relative > 0.0)) way = 0.0;
   }
-  // The nearest copy is at most half a cell's diameter away: farther copies only as far as they are reached.
+  // The nearest copy is at most half a cell's diameter away: farther copies only as far as they are
+  // reached.
   const Vector rest = separation(d, {}, near);
   const double reach = (a.radius + b.radius + way) * (1.0 + 0x1p-40);
-  // Row by row along the shortest lattice vector p, as far as a row comes near enough: e = rest - m p - n q.
-  // What may lie in reach by rounding is asked too; the distance decides.
+  // Row by row along the shortest lattice vector p, as far as a row comes near enough: e = rest - m
+  // p - n q. What may lie in reach by rounding is asked too; the distance decides.
   const Vector p = lattice_->translation(along_), q = lattice_->translation(beyond_);
   const double p2 = dot(p, p), width = std::sqrt(p2), area = geometry::cross(p, q);
   const double row = geometry::cross(p, rest) / area, rows = reach * width / std::fabs(area);
@@ -239,10 +241,12 @@ void Contacts::choose_bins(const Time& now) {
     across = lattice_->cell_area() / length(lattice_->second);
     up = lattice_->cell_area() / length(lattice_->first);
   }
-  // The wider the bins, the more neighbours in them; the narrower, the sooner a disc must be anchored anew.
+  // The wider the bins, the more neighbours in them; the narrower, the sooner a disc must be
+  // anchored anew.
   const double spacing = std::sqrt(across * up / count);
   slack_ = std::max(0.5 * radius, 0.5 * spacing);
-  const double wide = (2.0 * radius + 2.0 * slack_) * (1.0 + 0x1p-20);  // more than any rounding of positions
+  const double wide =
+      (2.0 * radius + 2.0 * slack_) * (1.0 + 0x1p-20);  // more than any rounding of positions
   columns_ = static_cast<int>(std::min(std::floor(across / wide), 1024.0));
   rows_ = static_cast<int>(std::min(std::floor(up / wide), 1024.0));
   binned_ = columns_ >= 3 && rows_ >= 3;
@@ -265,7 +269,8 @@ bool Contacts::tell_partner(int i) {
   return true;
 }
 
-Contacts::Contacts(const geometry::Lattice* lattice) : lattice_(lattice), unique_(largest_radius()) {
+Contacts::Contacts(const geometry::Lattice* lattice)
+    : lattice_(lattice), unique_(largest_radius()) {
   if (lattice == nullptr) return;
   // Two neighbours of a cell side by side are a basis.
   const std::vector<geometry::CellEdge>& edges = lattice->edges;

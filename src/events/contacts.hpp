@@ -12,13 +12,14 @@ namespace carom {
 
 struct PairStart;
 
-/// The discs of a world. Every contact time is a function of the two states alone, the same whichever of
-/// the two asks and whenever, so that a run that was interrupted repeats its bits.
+/// The discs of a world. Every contact time is a function of the two states alone, the same
+/// whichever of the two asks and whenever, so that a run that was interrupted repeats its bits.
 ///
-/// Neighbours. Each disc has an anchor, from which it is never farther than `slack_` until `check`, when it
-/// must be anchored anew. Whoever it touches before that is anchored within the sum of the radii and twice
-/// the slack, that is in one of the nine bins around its own, if bins are that wide. Where fewer than three
-/// bins fit side by side, all discs are asked, on a lattice in all copies that can be reached.
+/// Neighbours. Each disc has an anchor, from which it is never farther than `slack_` until `check`,
+/// when it must be anchored anew. Whoever it touches before that is anchored within the sum of the
+/// radii and twice the slack, that is in one of the nine bins around its own, if bins are that
+/// wide. Where fewer than three bins fit side by side, all discs are asked, on a lattice in all
+/// copies that can be reached.
 class Contacts {
  public:
   struct Disc {
@@ -29,8 +30,8 @@ class Contacts {
     // Its own next event, and until when its anchor holds.
     Time own, check;
     int own_kind = 0;
-    // Its first contact before both, with its partner. `copy`: lattice vector from the partner to the copy
-    // that is touched.
+    // Its first contact before both, with its partner. `copy`: lattice vector from the partner to
+    // the copy that is touched.
     Time meeting;
     geometry::Cell copy;
     int bin = -1;
@@ -51,22 +52,24 @@ class Contacts {
   const Disc& disc(int i) const { return discs_[static_cast<std::size_t>(i)]; }
   int partner(int i) const { return partners_[static_cast<std::size_t>(i)]; }  ///< -1: none
 
-  /// Prepares bins for the discs there are and anchors all of them at `now`, or at their start if later.
+  /// Prepares bins for the discs there are and anchors all of them at `now`, or at their start if
+  /// later.
   void prepare(const Time& now);
   /// Anchors a disc where it is at `now`.
   void anchor(int i, const Time& now);
   void leave(int i);
-  /// Finds the first contact of i before its own next event and its check, and before the partner's: then
-  /// the partner looks again.
+  /// Finds the first contact of i before its own next event and its check, and before the
+  /// partner's: then the partner looks again.
   void predict(int i, const Time& now);
-  /// Makes the contact of i its partner's, if it is the partner's first. Then both stand in the queue, and
-  /// the order of simultaneous contacts does not depend on who found them.
+  /// Makes the contact of i its partner's, if it is the partner's first. Then both stand in the
+  /// queue, and the order of simultaneous contacts does not depend on who found them.
   bool tell_partner(int i);
   /// All whose first contact is with i.
   void partners_of(int i, std::vector<int>& found) const;
 
   /// x_i - x_j for the copy of j that is displaced by `copy`.
-  geometry::Vector separation(geometry::Vector x, geometry::Vector y, const geometry::Cell& copy) const {
+  geometry::Vector separation(geometry::Vector x, geometry::Vector y,
+                              const geometry::Cell& copy) const {
     const geometry::Vector d = x - y;
     return lattice_ != nullptr && !(copy == geometry::Cell{}) ? d - lattice_->translation(copy) : d;
   }

@@ -1,4 +1,5 @@
-// The polynomial in kappa of a flight against one wall, and its error: what the choosing files share.
+// The polynomial in kappa of a flight against one wall, and its error: what the choosing files
+// share.
 #pragma once
 
 #include <algorithm>
@@ -11,21 +12,21 @@ namespace carom {
 inline double norm_1(geometry::Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
 /// An ellipse without field. `stands`: as below.
-[[gnu::always_inline]] inline geometry::Quadratic<double> ellipse_quadratic(const geometry::PreparedCurve& w,
-                                                                            geometry::Vector e,
-                                                                            geometry::Vector v, bool stands) {
-  geometry::Quadratic<double> q = geometry::ellipse_quadratic(e, v, w.first_direction, w.first_weight, w.second_weight);
+[[gnu::always_inline]] inline geometry::Quadratic<double> ellipse_quadratic(
+    const geometry::PreparedCurve& w, geometry::Vector e, geometry::Vector v, bool stands) {
+  geometry::Quadratic<double> q =
+      geometry::ellipse_quadratic(e, v, w.first_direction, w.first_weight, w.second_weight);
   if (stands) q.a = 0.0;
   return q;
 }
 
 /// All but Larmor circles against ellipses. `stands`: the start lies on the wall, and the leading
-/// coefficient is zero by algebra. Without field the terms with omega, which are exact zeros, are left out.
+/// coefficient is zero by algebra. Without field the terms with omega, which are exact zeros, are
+/// left out.
 template <bool larmor>
-[[gnu::always_inline]] inline geometry::Quadratic<double> quadratic(const geometry::PreparedCurve& w,
-                                                                    geometry::Vector origin,
-                                                                    geometry::Vector v, double v2,
-                                                                    double omega, bool stands) {
+[[gnu::always_inline]] inline geometry::Quadratic<double> quadratic(
+    const geometry::PreparedCurve& w, geometry::Vector origin, geometry::Vector v, double v2,
+    double omega, bool stands) {
   using namespace geometry;
   if (w.kind == CurveKind::segment) {
     const Vector e = stands ? Vector{} : origin - w.from;
@@ -44,10 +45,9 @@ template <bool larmor>
   return w.orientation > 0 ? -q : q;
 }
 
-[[gnu::always_inline]] inline geometry::QuadraticError quadratic_error(const geometry::PreparedCurve& w,
-                                                                       geometry::Vector origin,
-                                                                       const geometry::FlightScale& scale,
-                                                                       bool stands) {
+[[gnu::always_inline]] inline geometry::QuadraticError quadratic_error(
+    const geometry::PreparedCurve& w, geometry::Vector origin, const geometry::FlightScale& scale,
+    bool stands) {
   using namespace geometry;
   QuadraticError error{};
   if (w.kind == CurveKind::segment) {
@@ -62,10 +62,12 @@ template <bool larmor>
   return error;
 }
 
-/// In a field: is the sign of the rising root certain where it goes through infinity? There a flight of no length passes
-/// into a full turn. Falling towards the curve the root is a quotient by a, the distance of the start; standing on it
-/// one by b, which is positive, but may have been rounded away.
-[[gnu::always_inline]] inline bool far_root_certain(const geometry::Quadratic<double>& q, const geometry::QuadraticError& e,
+/// In a field: is the sign of the rising root certain where it goes through infinity? There a
+/// flight of no length passes into a full turn. Falling towards the curve the root is a quotient by
+/// a, the distance of the start; standing on it one by b, which is positive, but may have been
+/// rounded away.
+[[gnu::always_inline]] inline bool far_root_certain(const geometry::Quadratic<double>& q,
+                                                    const geometry::QuadraticError& e,
                                                     bool stands) {
   return stands ? q.b > 0.0 : q.b > e.b || std::fabs(q.a) > e.a;
 }
@@ -74,7 +76,8 @@ template <bool larmor>
 struct Quotient {
   double time, unit;
 };
-[[gnu::always_inline]] inline Quotient straight_time(const geometry::Quadratic<double>& q, double root) {
+[[gnu::always_inline]] inline Quotient straight_time(const geometry::Quadratic<double>& q,
+                                                     double root) {
   return q.b <= 0.0 ? Quotient{q.a, root - q.b} : Quotient{-(q.b + root), q.c};
 }
 

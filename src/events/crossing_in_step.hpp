@@ -1,16 +1,17 @@
-// The first time within a step at which a particle passes from a barrier's positive side to the other.
+// The first time within a step at which a particle passes from a barrier's positive side to the
+// other.
 //
-// The gap along the path is bounded by its Bernstein coefficients between two knots. Where they show
-// that the gap keeps its sign, or only grows, there is no crossing; where it only falls, the signs at
-// the ends tell; where it is convex or concave, the knot of its minimum or maximum decides. Otherwise
-// the interval is halved by another knot of the path itself. So a path that leaves and returns within a
-// step is found, and a path that just fails to touch is told from one that touches by the gap at its
-// minimum, computed with the scheme's own partial step.
+// The gap along the path is bounded by its Bernstein coefficients between two knots. Where they
+// show that the gap keeps its sign, or only grows, there is no crossing; where it only falls, the
+// signs at the ends tell; where it is convex or concave, the knot of its minimum or maximum
+// decides. Otherwise the interval is halved by another knot of the path itself. So a path that
+// leaves and returns within a step is found, and a path that just fails to touch is told from one
+// that touches by the gap at its minimum, computed with the scheme's own partial step.
 //
-// A particle that stands on a wall to rounding and moves outwards hits it at once: several hit theirs at
-// the same time, or it is in a corner. One that falls beyond the wall without having moved outwards or
-// having come off it, both to rounding, moves along the wall. Parts of a path on which the gap changes by no
-// more than its rounding are told by their ends.
+// A particle that stands on a wall to rounding and moves outwards hits it at once: several hit
+// theirs at the same time, or it is in a corner. One that falls beyond the wall without having
+// moved outwards or having come off it, both to rounding, moves along the wall. Parts of a path on
+// which the gap changes by no more than its rounding are told by their ends.
 #pragma once
 
 #include <algorithm>
@@ -55,15 +56,16 @@ class CrossingSearch {
 
   explicit CrossingSearch(Path& path) : path_(path) {}
 
-  /// Knot of the first crossing of `barrier` by particle `i` between two knots, or nullptr. There the
-  /// particle is on the barrier to rounding.
+  /// Knot of the first crossing of `barrier` by particle `i` between two knots, or nullptr. There
+  /// the particle is on the barrier to rounding.
   Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to) {
     begin(true, nullptr);
     if (hits_at_once(barrier, i, from)) return &from;
     return crossing(barrier, i, from, to);
   }
-  /// Likewise of a barrier that is no wall: who starts beyond it has left it. If the particle is on it at `from` and goes
-  /// on (`passes`), it has, too: it crosses again once it was inside by more than rounding.
+  /// Likewise of a barrier that is no wall: who starts beyond it has left it. If the particle is on
+  /// it at `from` and goes on (`passes`), it has, too: it crosses again once it was inside by more
+  /// than rounding.
   Knot* first_exit(const Barrier<Real>& edge, std::size_t i, Knot& from, Knot& to, bool passes) {
     begin(false, passes ? &from : nullptr);
     return crossing(edge, i, from, to);
@@ -74,8 +76,8 @@ class CrossingSearch {
   bool gave_up() const { return gave_up_; }
 
  private:
-  // Smooth paths need a few, those that graze some tens. Near a pole of a potential every part would be
-  // halved down to rounding. All parts may be halved depth_for_all times.
+  // Smooth paths need a few, those that graze some tens. Near a pole of a potential every part
+  // would be halved down to rounding. All parts may be halved depth_for_all times.
   static constexpr int depth_for_all = 10;
   static constexpr int most_splits = 2 << depth_for_all;
   // Half a step, halved this often, is less than rounding of its ends.
@@ -93,14 +95,16 @@ class CrossingSearch {
     if (&from == &to) return nullptr;
     Knot* found = search(b, i, from, to, 0);
     if (splits_ <= most_splits) return found;
-    // Velocities that are not quite the derivative of the positions leave paths nearly along a wall unclear however
-    // short their parts are. So only what they err by across it counts, and parts of a thousandth are told by the
-    // positions at their ends.
+    // Velocities that are not quite the derivative of the positions leave paths nearly along a wall
+    // unclear however short their parts are. So only what they err by across it counts, and parts
+    // of a thousandth are told by the positions at their ends.
     last_depth_ = depth_for_all;
     return search(b, i, from, to, 0);
   }
 
-  Real gap(const Barrier<Real>& b, std::size_t i, const Knot& k) const { return b.gap(k.phase.position[i]); }
+  Real gap(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    return b.gap(k.phase.position[i]);
+  }
   Real rate(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
     return b.rate(k.phase.position[i], k.phase.velocity[i]);
   }
@@ -132,11 +136,13 @@ class CrossingSearch {
       shape = shape_of(g, only_across() ? arc.error_along(b.first) : arc.error, noise(b, i, from));
     }
     switch (shape) {
-      case Shape::none: break;
+      case Shape::none:
+        break;
       case Shape::falling:
-      case Shape::level: return root(b, i, from, to);
+      case Shape::level:
+        return root(b, i, from, to);
       case Shape::convex: {
-        const bool falls = rate(b, i, from) < Real(0), rises = rate(b, i, to) > Real(0);
+        const bool falls = rate(b, i, from)<Real(0), rises = rate(b, i, to)> Real(0);
         if (!falls) break;
         if (!rises) return root(b, i, from, to);
         Knot& lowest = extremum(b, i, from, to);
@@ -149,10 +155,12 @@ class CrossingSearch {
         Knot& highest = extremum(b, i, from, to);
         return root(b, i, highest, to);
       }
-      case Shape::unknown: break;
+      case Shape::unknown:
+        break;
     }
-    // A scheme's velocity is not quite the derivative of its positions. Where these lead from the inner side to
-    // certainly beyond, there is a crossing, however the velocities at the ends point.
+    // A scheme's velocity is not quite the derivative of its positions. Where these lead from the
+    // inner side to certainly beyond, there is a crossing, however the velocities at the ends
+    // point.
     if (shape != Shape::unknown) {
       if (!wall_ || beyond(b, i, from) || !beyond(b, i, to)) return nullptr;
       if (gap(b, i, from) > Real(0)) return root(b, i, from, to);
@@ -177,8 +185,9 @@ class CrossingSearch {
     return Real(4) * b.rounding(k.phase.position[i]);
   }
 
-  // `error` is that of the gap; its derivatives err by what the coefficients of a polynomial that small
-  // may differ by. Coefficients that differ by less than `noise` tell nothing, nor do those within it of the wall.
+  // `error` is that of the gap; its derivatives err by what the coefficients of a polynomial that
+  // small may differ by. Coefficients that differ by less than `noise` tell nothing, nor do those
+  // within it of the wall.
   template <std::size_t size>
   static Shape shape_of(const Bernstein<Real, size>& g, const Real& error, const Real& noise) {
     if (g.lowest() > error || g.highest() < -(error + noise)) return Shape::none;
@@ -223,8 +232,8 @@ class CrossingSearch {
     return shape_of(g, size * error + error * error, noise);
   }
 
-  // The gap falls from a point at or beyond the barrier. Where walls meet smoothly that may be the highest point of a path along
-  // both, just before this one begins.
+  // The gap falls from a point at or beyond the barrier. Where walls meet smoothly that may be the
+  // highest point of a path along both, just before this one begins.
   Knot* from_the_wall(const Barrier<Real>& b, std::size_t i, Knot& from, const Knot& to) {
     if (!wall_ || !beyond(b, i, to) || beyond(b, i, from)) return nullptr;
     if (!b.covers(from.phase.position[i])) return at_either_end(b, i, from, from, to);
@@ -232,8 +241,8 @@ class CrossingSearch {
     return &from;
   }
 
-  // The gap falls from `from` to `to`: its zero, if it has one there and on the piece, to the rounding
-  // of the gap. Newton's steps, kept between the best knots on either side.
+  // The gap falls from `from` to `to`: its zero, if it has one there and on the piece, to the
+  // rounding of the gap. Newton's steps, kept between the best knots on either side.
   Knot* root(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
     if (gap(b, i, to) > Real(0)) return nullptr;
     if (!inside(b, i, from)) return from_the_wall(b, i, from, to);
@@ -257,20 +266,24 @@ class CrossingSearch {
     return at_either_end(b, i, *inside, from, to);
   }
 
-  Knot* at_either_end(const Barrier<Real>& b, std::size_t i, Knot& found, const Knot& from, const Knot& to) {
+  Knot* at_either_end(const Barrier<Real>& b, std::size_t i, Knot& found, const Knot& from,
+                      const Knot& to) {
     if (b.closed) return nullptr;
     Knot* joint = at_end(b, Barrier<Real>::End::from, i, found, from, to);
     return joint ? joint : at_end(b, Barrier<Real>::End::to, i, found, from, to);
   }
 
-  // The path crosses the carrier beyond the piece. If it also passes that end of the piece, to rounding, the gap changes
-  // by no more than rounding between the two, and they cannot be told apart: nearly along a wall, that may be many
-  // roundings of the point. The wall beyond the joint may find its crossing before it, so neither would be hit. Points
-  // of the path are rounded as its start is, be they nearer to the origin.
-  Knot* at_end(const Barrier<Real>& b, typename Barrier<Real>::End which, std::size_t i, Knot& found, const Knot& from,
-               const Knot& to) {
-    const auto &x = found.phase.position[i], &start = path_.start().phase.position[i], &end = b.point(which);
-    const Real near = b.reach_of_joint(which, b.reach_of_wall(b.rounding(x) < b.rounding(start) ? start : x));
+  // The path crosses the carrier beyond the piece. If it also passes that end of the piece, to
+  // rounding, the gap changes by no more than rounding between the two, and they cannot be told
+  // apart: nearly along a wall, that may be many roundings of the point. The wall beyond the joint
+  // may find its crossing before it, so neither would be hit. Points of the path are rounded as its
+  // start is, be they nearer to the origin.
+  Knot* at_end(const Barrier<Real>& b, typename Barrier<Real>::End which, std::size_t i,
+               Knot& found, const Knot& from, const Knot& to) {
+    const auto &x = found.phase.position[i], &start = path_.start().phase.position[i],
+               &end = b.point(which);
+    const Real near =
+        b.reach_of_joint(which, b.reach_of_wall(b.rounding(x) < b.rounding(start) ? start : x));
     Knot* there = &found;
     for (int n = 0; n < 3; ++n) {  // the path is nearly straight, so nearly at once
       const auto &y = there->phase.position[i], &v = there->phase.velocity[i];
@@ -290,7 +303,8 @@ class CrossingSearch {
     for (int n = 0; n < 4 * deepest; ++n) {
       const Real width = high->time - low->time;
       Real next = low->time + width * (at_low / (at_low - at_high));
-      if (n % 4 == 3 || !(low->time < next) || !(next < high->time)) next = low->time + width / Real(2);
+      if (n % 4 == 3 || !(low->time < next) || !(next < high->time))
+        next = low->time + width / Real(2);
       if (!(low->time < next) || !(next < high->time)) break;
       Knot& middle = path_.at(next);
       const Real r = rate(b, i, middle);
@@ -317,7 +331,7 @@ class CrossingSearch {
   int splits_ = 0;  ///< of the search under way
   int last_depth_ = deepest;
   bool gave_up_ = false;
-  bool wall_ = true;      ///< the barrier under way is one
+  bool wall_ = true;  ///< the barrier under way is one
   bool slides_ = false;
   const Knot* passed_ = nullptr;  ///< where the particle has just crossed the barrier and went on
 };

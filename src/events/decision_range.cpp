@@ -21,13 +21,14 @@ std::string shown(double x) {
 
 std::string outside(const char* what, const char* where, double value, double low, double high) {
   if (value >= low && value <= high) return "";
-  return std::string(what) + where + " is " + shown(value) + ": flights are decided between " + shown(low) + " and " +
-         shown(high);
+  return std::string(what) + where + " is " + shown(value) + ": flights are decided between " +
+         shown(low) + " and " + shown(high);
 }
 
 }  // namespace
 
-DecisionRange::DecisionRange(const Table& table) : shortest_(std::numeric_limits<double>::infinity()) {
+DecisionRange::DecisionRange(const Table& table)
+    : shortest_(std::numeric_limits<double>::infinity()) {
   for (const Wall& wall : table.walls) {
     const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
     const bool segment = frame.kind == geometry::CurveFrame::Kind::segment;
@@ -45,23 +46,29 @@ DecisionRange::DecisionRange(const Table& table) : shortest_(std::numeric_limits
   }
 }
 
-void DecisionRange::reach(Vector x) { largest_ = std::max({largest_, std::fabs(x.x), std::fabs(x.y)}); }
+void DecisionRange::reach(Vector x) {
+  largest_ = std::max({largest_, std::fabs(x.x), std::fabs(x.y)});
+}
 
 std::string DecisionRange::fault(const Particle& p) const {
   const double omega = std::fabs(p.omega), speed = p.speed;
   if (!(speed > 0.0)) return "";  // a disc at rest: it takes part of another's speed
   if (std::string s = outside("the speed", "", speed, 0x1p-200, 0x1p200); !s.empty()) return s;
   if (omega > 0.0)
-    if (std::string s = outside("the cyclotron frequency", "", omega, 0x1p-200, 0x1p200); !s.empty()) return s;
+    if (std::string s = outside("the cyclotron frequency", "", omega, 0x1p-200, 0x1p200);
+        !s.empty())
+      return s;
   if (!(largest_ > 0.0)) return "";
   // Squares of rates for all walls; an ellipse in a field takes their tenth powers.
   const bool quartics = ellipses_ && omega > 0.0;
   const double most = quartics ? 0x1p60 : 0x1p300;
   const char* const where = quartics ? " beside an ellipse in a magnetic field" : "";
-  if (std::string s = outside("the speed over the shortest length", where, speed / shortest_, 1.0 / most, most);
+  if (std::string s =
+          outside("the speed over the shortest length", where, speed / shortest_, 1.0 / most, most);
       !s.empty())
     return s;
-  if (std::string s = outside("the speed over the table's size", where, speed / largest_, 1.0 / most, most);
+  if (std::string s =
+          outside("the speed over the table's size", where, speed / largest_, 1.0 / most, most);
       !s.empty())
     return s;
   return quartics ? outside("the cyclotron frequency", where, omega, 1.0 / most, most) : "";

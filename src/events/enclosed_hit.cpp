@@ -1,5 +1,5 @@
-// Convex enclosures: a convex table, or the cell of a lattice, that holds nothing but discs. Here: which they
-// are, and straight flights among discs.
+// Convex enclosures: a convex table, or the cell of a lattice, that holds nothing but discs. Here:
+// which they are, and straight flights among discs.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,8 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-/// A table is enclosed if one loop of convex pieces, in their order, holds everything else, which is discs.
+/// A table is enclosed if one loop of convex pieces, in their order, holds everything else, which
+/// is discs.
 void HitFinder::find_enclosure(bool complement) {
   if (complement || offsets_.size() > 1) return;  // a displaced wall reaches into the cell
   if (table_.crossing) return;                    // then a disc may reach beyond the loop
@@ -37,7 +38,9 @@ void HitFinder::find_enclosure(bool complement) {
     const PieceData& p = data_[at(loop[k])];
     if (loop[k] != loop[0] + static_cast<int>(k)) return;
     if (p.closed && loop.size() == 1) break;
-    if (p.closed || p.next != loop[(k + 1) % loop.size()] || exact_->corner(loop[k], p.next).turn < 0) return;
+    if (p.closed || p.next != loop[(k + 1) % loop.size()] ||
+        exact_->corner(loop[k], p.next).turn < 0)
+      return;
   }
   enclosure_first_ = loop.front();
   enclosure_size_ = static_cast<int>(loop.size());
@@ -71,15 +74,17 @@ bool HitFinder::surely_inside(Vector point) const {
   for (int i = 0; i < enclosure_size_; ++i) {
     const PreparedCurve& w = curves_[at(i)];
     const Vector chord = w.to - w.from, e = point - w.from;
-    // Each coordinate of e and chord errs by enclosure_rounding_ and its own last digit; products and difference 2u.
-    const double bound = (norm_1(chord) + norm_1(e)) * enclosure_rounding_ + 4.1 * unit_roundoff * norm_1(chord) * norm_1(e);
+    // Each coordinate of e and chord errs by enclosure_rounding_ and its own last digit; products
+    // and difference 2u.
+    const double bound = (norm_1(chord) + norm_1(e)) * enclosure_rounding_ +
+                         4.1 * unit_roundoff * norm_1(chord) * norm_1(e);
     if (!(geometry::cross(chord, e) > options_.filter_inflation * bound)) return false;
   }
   return true;
 }
 
-/// A line leaves a convex region once: between a joint on its right and the next one on its left, or, with
-/// all joints on one side, through the arc that it stands on. -1: not decided.
+/// A line leaves a convex region once: between a joint on its right and the next one on its left,
+/// or, with all joints on one side, through the arc that it stands on. -1: not decided.
 [[gnu::always_inline]] inline int HitFinder::exit_of_enclosure(const Flight& f, Vector origin,
                                                                const FlightScale& scale) const {
   const int n = enclosure_size_;
@@ -105,7 +110,9 @@ bool HitFinder::surely_inside(Vector point) const {
   }
   if (exit >= 0) return enclosure_first_ + exit;
   const int start = f.start_piece - enclosure_first_;
-  return start >= 0 && start < n && data_[at(f.start_piece)].kind != CurveKind::segment ? f.start_piece : -1;
+  return start >= 0 && start < n && data_[at(f.start_piece)].kind != CurveKind::segment
+             ? f.start_piece
+             : -1;
 }
 
 /// A disc that the line meets comes before the enclosure.
@@ -140,7 +147,8 @@ bool HitFinder::filtered_enclosed(const Flight& f, Ahead& ahead) const {
     if (best < 0) return false;
     const PreparedCurve& w = *data_[at(best)].shape;
     if (w.kind == CurveKind::segment) {
-      first = {geometry::fused_cross(w.tangent, origin - w.from), -geometry::fused_cross(w.tangent, v)};
+      first = {geometry::fused_cross(w.tangent, origin - w.from),
+               -geometry::fused_cross(w.tangent, v)};
     } else {
       const bool stands = best == f.start_piece;
       const Quadratic<double> q = quadratic<false>(w, origin, v, f.square_speed, 0.0, stands);

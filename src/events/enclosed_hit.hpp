@@ -1,4 +1,5 @@
-// Flights in a convex table without obstacles: the frequent case, in which signs alone name the wall.
+// Flights in a convex table without obstacles: the frequent case, in which signs alone name the
+// wall.
 #pragma once
 
 #include <cmath>
@@ -23,13 +24,15 @@ inline constexpr double least_square = 0x1p-900;
 }  // namespace detail
 
 /// Without field.
-[[gnu::always_inline]] inline bool HitFinder::line_in_enclosure(const Flight& f, Ahead& ahead) const {
+[[gnu::always_inline]] inline bool HitFinder::line_in_enclosure(const Flight& f,
+                                                                Ahead& ahead) const {
   using geometry::Vector;
   const Vector v = f.velocity, origin = f.start;
   int wall = 0;
   if (enclosure_.size() > 1) {
     // Half the error of side_of_flight, for the distance of the farthest joint.
-    const double bound = options_.filter_inflation * 1.005 * norm_1(v) * (f.start_error + enclosure_rounding_);
+    const double bound =
+        options_.filter_inflation * 1.005 * norm_1(v) * (f.start_error + enclosure_rounding_);
     wall = enclosure_.exit_of_line(origin, v, bound);
     if (wall < 0) return false;
     if (wall == enclosure_.size()) {  // all joints on one side: through the arc that it stands on
@@ -40,7 +43,8 @@ inline constexpr double least_square = 0x1p-900;
   const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
   Pair found;  // duration and kappa
   if (w.kind == geometry::CurveKind::segment) {
-    const Pair p{geometry::fused_cross(w.tangent, origin - w.from), -geometry::fused_cross(w.tangent, v)};
+    const Pair p{geometry::fused_cross(w.tangent, origin - w.from),
+                 -geometry::fused_cross(w.tangent, v)};
     found = p / Pair{p[1], p[0]};
   } else {
     // A conic about the domain: all signs turned.
@@ -66,15 +70,18 @@ inline constexpr double least_square = 0x1p-900;
 }
 
 /// A Larmor circle against segments and circular arcs.
-[[gnu::always_inline]] inline bool HitFinder::circle_in_enclosure(const Flight& f, Ahead& ahead) const {
+[[gnu::always_inline]] inline bool HitFinder::circle_in_enclosure(const Flight& f,
+                                                                  Ahead& ahead) const {
   using geometry::Vector;
   const Vector v = f.velocity, origin = f.start;
   int wall = f.start_piece;
   if (wall < 0) return false;
   if (enclosure_.size() > 1) {
     const geometry::CentreError error = geometry::centre_error(
-        {f.start_error, norm_1(v), std::fabs(f.omega), options_.filter_inflation}, enclosure_.diameter());
-    const Enclosure::Order order = enclosure_.exits_of_circle(wall, origin, v, f.omega, f.square_speed, error);
+        {f.start_error, norm_1(v), std::fabs(f.omega), options_.filter_inflation},
+        enclosure_.diameter());
+    const Enclosure::Order order =
+        enclosure_.exits_of_circle(wall, origin, v, f.omega, f.square_speed, error);
     if (!order.decided) return false;
     for (std::uint64_t walls = order.walls;;) {
       const int first = enclosure_.first_of(walls, wall, f.omega);
@@ -104,11 +111,15 @@ inline constexpr double least_square = 0x1p-900;
   const bool stands = wall == f.start_piece;
   if (!stands && w.kind == geometry::CurveKind::segment) {
     // Twice the rounding of lengths exceeds 8u of them.
-    const double bound = options_.filter_inflation * (1.42 * f.start_error + 2.0 * enclosure_rounding_);
-    if (!(std::fabs(q.a) > bound)) [[unlikely]] return false;
+    const double bound =
+        options_.filter_inflation * (1.42 * f.start_error + 2.0 * enclosure_rounding_);
+    if (!(std::fabs(q.a) > bound)) [[unlikely]]
+      return false;
   } else {
-    const geometry::FlightScale scale{f.start_error, norm_1(v), std::fabs(f.omega), options_.filter_inflation};
-    if (stands ? !(q.b > 0.0) : !far_root_certain(q, quadratic_error(w, origin, scale, false), false)) [[unlikely]]
+    const geometry::FlightScale scale{f.start_error, norm_1(v), std::fabs(f.omega),
+                                      options_.filter_inflation};
+    if (stands ? !(q.b > 0.0)
+               : !far_root_certain(q, quadratic_error(w, origin, scale, false), false)) [[unlikely]]
       return false;
   }
   const double discriminant = discriminant_of(q);
@@ -123,7 +134,8 @@ inline constexpr double least_square = 0x1p-900;
   return true;
 }
 
-[[gnu::always_inline]] inline void HitFinder::next(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const {
+[[gnu::always_inline]] inline void HitFinder::next(const Flight& flight, Ahead& ahead,
+                                                   DecisionCounts& counts) const {
   if (enclosure_.size() > 0) {
     if (flight.start_previous < 0 &&
         (flight.omega == 0.0 ? line_in_enclosure(flight, ahead)

@@ -1,6 +1,6 @@
-// A convex loop of walls, and through which of them a flight leaves it: by signs of joints, two joints at
-// a time and without a branch, for which wall comes next is what a processor guesses worst.
-// docs/physics/exactness.md derives the rules and the bounds.
+// A convex loop of walls, and through which of them a flight leaves it: by signs of joints, two
+// joints at a time and without a branch, for which wall comes next is what a processor guesses
+// worst. docs/physics/exactness.md derives the rules and the bounds.
 #pragma once
 
 #include <bit>
@@ -23,7 +23,8 @@ class Enclosure {
     const std::size_t i = static_cast<std::size_t>(size_);
     // A last wall without a neighbour stands there twice.
     if (i % 2 == 0)
-      walls_.push_back({{both(from.x), both(from.y)}, {both(tangent.x), both(tangent.y)}, both(length)});
+      walls_.push_back(
+          {{both(from.x), both(from.y)}, {both(tangent.x), both(tangent.y)}, both(length)});
     Two& w = walls_.back();
     w.from.x[i % 2] = from.x;
     w.from.y[i % 2] = from.y;
@@ -40,8 +41,10 @@ class Enclosure {
   int size() const { return size_; }
   bool bent(int wall) const { return (bent_ >> wall & 1) != 0; }
 
-  /// A line leaves between a joint on its right and the next one on its left; size(): all lie on one side.
-  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v, double bound) const {
+  /// A line leaves between a joint on its right and the next one on its left; size(): all lie on
+  /// one side.
+  [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v,
+                                          double bound) const {
     const Vectors from{both(origin.x), both(origin.y)}, velocity{both(v.x), both(v.y)};
     Pair least = both(HUGE_VAL);
     std::uint64_t right = 0;
@@ -54,22 +57,28 @@ class Enclosure {
     }
     if (!((least[0] > bound) & (least[1] > bound))) return undecided;
     right &= all_;
-    return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1} << size_);
+    return std::countr_zero((right & ~(right >> 1 | right << (size_ - 1))) | std::uint64_t{1}
+                                                                                 << size_);
   }
 
-  /// The walls that may be the first through which a Larmor circle leaves that starts on the wall `start`, as
-  /// bits; first_of tells in which order they come into question. If none is left through, it is `start`.
+  /// The walls that may be the first through which a Larmor circle leaves that starts on the wall
+  /// `start`, as bits; first_of tells in which order they come into question. If none is left
+  /// through, it is `start`.
   struct Order {
     std::uint64_t walls = 0;   ///< may be left through
     std::uint64_t surely = 0;  ///< are, if none before
     bool decided = false;
   };
-  [[gnu::always_inline]] Order exits_of_circle(int start, geometry::Vector origin, geometry::Vector v, double omega,
-                                               double square_speed, const geometry::CentreError& error) const {
+  [[gnu::always_inline]] Order exits_of_circle(int start, geometry::Vector origin,
+                                               geometry::Vector v, double omega,
+                                               double square_speed,
+                                               const geometry::CentreError& error) const {
     // Run through the other way it is the same circle: with its disc on the right.
     const double turn = omega > 0.0 ? 1.0 : -1.0;
-    const Vectors from{both(origin.x), both(origin.y)}, velocity{both(turn * v.x), both(turn * v.y)};
-    const Pair w0 = both(turn * omega), square = both(square_speed), radius = both(std::sqrt(square_speed));
+    const Vectors from{both(origin.x), both(origin.y)},
+        velocity{both(turn * v.x), both(turn * v.y)};
+    const Pair w0 = both(turn * omega), square = both(square_speed),
+               radius = both(std::sqrt(square_speed));
     const Pair bound = both(error.segment);
     Pair least = both(HUGE_VAL);
     std::uint64_t inside = 0, missed = 0, open = 0;
@@ -79,8 +88,8 @@ class Enclosure {
       const Pair side = dot(centre, centre) - square;
       least = smaller(magnitude(side), least);
       inside |= static_cast<std::uint64_t>(signs(side)) << shift;
-      // The circle cuts the wall twice if its centre is nearer to the line than the radius, and its foot lies
-      // between the ends.
+      // The circle cuts the wall twice if its centre is nearer to the line than the radius, and its
+      // foot lies between the ends.
       const Pair height = cross(w.tangent, centre), foot = dot(w.tangent, centre);
       const Pair cut = smaller(smaller(foot, w0 * w.length - foot), radius - magnitude(height));
       missed |= static_cast<std::uint64_t>(signs(cut)) << shift;
@@ -88,17 +97,19 @@ class Enclosure {
       shift += 2;
     }
     inside &= all_;
-    // A joint inside the circle ends the outer stretch of the boundary that begins at the start: behind it
-    // (omega > 0) or ahead of it.
+    // A joint inside the circle ends the outer stretch of the boundary that begins at the start:
+    // behind it (omega > 0) or ahead of it.
     const std::uint64_t next = rotated(inside, 1), joint = omega > 0.0 ? inside : next;
     const std::uint64_t outside = all_ & ~(inside | next | std::uint64_t{1} << start);
     Order order;
-    order.decided = (least[0] > error.joint) & (least[1] > error.joint) & ((open & outside & ~bent_) == 0);
+    order.decided =
+        (least[0] > error.joint) & (least[1] > error.joint) & ((open & outside & ~bent_) == 0);
     order.surely = joint | (outside & ~bent_ & ~missed);
     order.walls = order.surely | (outside & bent_);
     return order;
   }
-  /// Of the walls in question, the first met on the way from `start`: backwards for omega > 0; size(): none.
+  /// Of the walls in question, the first met on the way from `start`: backwards for omega > 0;
+  /// size(): none.
   [[gnu::always_inline]] int first_of(std::uint64_t walls, int start, double omega) const {
     if (walls == 0) return size_;
     if (omega > 0.0) {
@@ -111,7 +122,9 @@ class Enclosure {
 
  private:
   /// Bit i of the result is bit i + by.
-  std::uint64_t rotated(std::uint64_t bits, int by) const { return (bits >> by | bits << (size_ - by)) & all_; }
+  std::uint64_t rotated(std::uint64_t bits, int by) const {
+    return (bits >> by | bits << (size_ - by)) & all_;
+  }
   using Vectors = geometry::BasicVector<Pair>;
   struct Two {
     Vectors from, tangent;

@@ -30,11 +30,12 @@ EnergyError& EnergyError::operator+=(const EnergyError& o) {
 EnergyError EnergyBalance::error_at_end(double change_at_end, double kinetic_at_end) const {
   const double scale = larger(kinetic, kinetic_at_end);
   const double end = relative_to(scale, change_at_end);
-  return {change_at_end < 0.0 ? -end : end, relative_to(scale, larger(largest, std::fabs(change_at_end)))};
+  return {change_at_end < 0.0 ? -end : end,
+          relative_to(scale, larger(largest, std::fabs(change_at_end)))};
 }
 
-Energy energy_of(std::span<const Particle> particles, std::span<const State> states, const Dynamics& dynamics,
-                 const Table& table, Interrupt* interrupt) {
+Energy energy_of(std::span<const Particle> particles, std::span<const State> states,
+                 const Dynamics& dynamics, const Table& table, Interrupt* interrupt) {
   Energy e;
   for (std::size_t i = 0; i < states.size(); ++i)
     e.kinetic += 0.5 * particles[i].mass * dot(states[i].velocity, states[i].velocity);
@@ -43,7 +44,8 @@ Energy energy_of(std::span<const Particle> particles, std::span<const State> sta
   Vector unused{};
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (interrupt && interrupt->after(10.0 * static_cast<double>(states.size() - i))) return e;
-    if (forces.external()) e.external += forces.add_external(particles[i], states[i].position, unused);
+    if (forces.external())
+      e.external += forces.add_external(particles[i], states[i].position, unused);
     for (std::size_t j = i + 1; j < states.size() && forces.interacts(); ++j) {
       Vector d = states[i].position - states[j].position;
       if (table.lattice) d = nearest_copy(d, *table.lattice);
@@ -55,7 +57,8 @@ Energy energy_of(std::span<const Particle> particles, std::span<const State> sta
 
 Vector momentum_of(std::span<const Particle> particles, std::span<const State> states) {
   Vector sum{};
-  for (std::size_t i = 0; i < states.size(); ++i) sum = sum + particles[i].mass * states[i].velocity;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    sum = sum + particles[i].mass * states[i].velocity;
   return sum;
 }
 

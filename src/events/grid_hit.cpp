@@ -16,13 +16,14 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-/// With edges nothing matters outside the lattice's cell; else a flight may start anywhere, but what does not
-/// reach a wall ends nowhere.
+/// With edges nothing matters outside the lattice's cell; else a flight may start anywhere, but
+/// what does not reach a wall ends nowhere.
 void HitFinder::make_grid(bool edges) {
   if (pieces_.empty()) return;
   std::vector<Box> boxes;
   const Vector none{0.0, 0.0};
-  const Vector first = cells_ ? table_.lattice->first : none, second = cells_ ? table_.lattice->second : none;
+  const Vector first = cells_ ? table_.lattice->first : none,
+               second = cells_ ? table_.lattice->second : none;
   if (cells_ && edges) {
     for (const CellEdge& e : table_.lattice->edges) boxes.push_back(bounding_box(e.segment));
   } else {
@@ -31,10 +32,13 @@ void HitFinder::make_grid(bool edges) {
       if (!(p.offset == Cell{})) {
         // Displaced, with the rounding on the safe side.
         const Vector t = table_.lattice->translation(p.offset);
-        const double m = std::fabs(static_cast<double>(p.offset.first)), n = std::fabs(static_cast<double>(p.offset.second));
-        const double size = std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)});
+        const double m = std::fabs(static_cast<double>(p.offset.first)),
+                     n = std::fabs(static_cast<double>(p.offset.second));
+        const double size = std::max({std::fabs(box.low.x), std::fabs(box.low.y),
+                                      std::fabs(box.high.x), std::fabs(box.high.y)});
         const double margin = 8.0 * unit_roundoff * (m * norm_1(first) + n * norm_1(second) + size);
-        box = {{box.low.x + t.x - margin, box.low.y + t.y - margin}, {box.high.x + t.x + margin, box.high.y + t.y + margin}};
+        box = {{box.low.x + t.x - margin, box.low.y + t.y - margin},
+               {box.high.x + t.x + margin, box.high.y + t.y + margin}};
       }
       boxes.push_back(box);
     }
@@ -46,16 +50,20 @@ void HitFinder::make_grid(bool edges) {
     const PieceData& p = data_[at(piece)];
     const PreparedCurve& w = *p.shape;
     const bool disc = p.closed && p.kind == CurveKind::circle;
-    near_.push_back({w.centre.x, w.centre.y, w.r2, w.centre_error, piece, p.offset, disc, disc && w.orientation < 0});
+    near_.push_back({w.centre.x, w.centre.y, w.r2, w.centre_error, piece, p.offset, disc,
+                     disc && w.orientation < 0});
   }
 }
 
-/// Does a line enter a disc from outside? Negative: it does not, or cannot leave the domain there. Positive:
-/// it does, and `first` has been compared with it. Undecided: this is for the filter to tell.
+/// Does a line enter a disc from outside? Negative: it does not, or cannot leave the domain there.
+/// Positive: it does, and `first` has been compared with it. Undecided: this is for the filter to
+/// tell.
 template <bool cells>
-[[gnu::always_inline]] inline Sign HitFinder::meets_disc(const Flight& f, const Near& disc, FirstDisc& first) const {
+[[gnu::always_inline]] inline Sign HitFinder::meets_disc(const Flight& f, const Near& disc,
+                                                         FirstDisc& first) const {
   const bool stands = disc.piece == f.start_piece;
-  if (stands) return disc.domain_outside ? Sign::negative : Sign::undecided;  // a line leaves a disc for good
+  if (stands)
+    return disc.domain_outside ? Sign::negative : Sign::undecided;  // a line leaves a disc for good
   const Origin& origin = origins_[cells ? at(disc.offset) : 0];
   const Vector e = origin.point - Vector{disc.x, disc.y};
   const Quadratic<double> q = circle_quadratic(e, disc.r2, f.velocity, f.square_speed);
@@ -64,7 +72,8 @@ template <bool cells>
   if (q.b > error.b && (disc.domain_outside || q.a > error.a)) return Sign::negative;
   const double discriminant = discriminant_of(q), margin = discriminant_error(q, error);
   if (discriminant < -margin) return Sign::negative;
-  if (!(disc.domain_outside && q.b < -error.b && q.a > error.a && discriminant > margin)) return Sign::undecided;
+  if (!(disc.domain_outside && q.b < -error.b && q.a > error.a && discriminant > margin))
+    return Sign::undecided;
   if (disc.piece == first.piece) return Sign::positive;  // again, in another cell
   const double root = std::sqrt(discriminant), unit = root - q.b, kappa = unit / q.a;
   const double kappa_spread = kappa_error(q, error, {discriminant, root, kappa});
@@ -107,7 +116,8 @@ void HitFinder::follow(const Flight& f, const Visit& visit, const Passed& passed
   if (f.omega == 0.0)
     grid_->along_line(own.point, delta, f.velocity, visit, passed);
   else
-    grid_->along_circle(own.point, delta, f.velocity, f.omega, std::sqrt(f.square_speed), visit, passed);
+    grid_->along_circle(own.point, delta, f.velocity, f.omega, std::sqrt(f.square_speed), visit,
+                        passed);
 }
 
 /// All pieces that the whole flight may meet, in their order: for the exact stage.
@@ -183,8 +193,10 @@ void HitFinder::next_in_grid(const Flight& f, Ahead& ahead, DecisionCounts& coun
     std::fill(seen_.begin(), seen_.end(), 0);
     flights_ = 0;
   }
-  if (f.omega == 0.0 ? (cells_ ? filtered_in_grid<false, true>(f, ahead) : filtered_in_grid<false, false>(f, ahead))
-                     : (cells_ ? filtered_in_grid<true, true>(f, ahead) : filtered_in_grid<true, false>(f, ahead))) {
+  if (f.omega == 0.0 ? (cells_ ? filtered_in_grid<false, true>(f, ahead)
+                               : filtered_in_grid<false, false>(f, ahead))
+                     : (cells_ ? filtered_in_grid<true, true>(f, ahead)
+                               : filtered_in_grid<true, false>(f, ahead))) {
     ++counts.filter;
   } else {
     ++counts.exact;

@@ -40,8 +40,8 @@ Vector centre_of_cell(const geometry::Lattice& lattice) {
 
 void fold_towards_centre(const geometry::Lattice& lattice, Vector centre, Vector& x, Cell& cell) {
   const auto distance = [&](const Vector& a) { return dot(a - centre, a - centre); };
-  // Cell by cell; after 64 rounds by leaps that grow, then shrink. Beyond the longest leap x has no digit left that says
-  // where in a cell it is, and stays as it is.
+  // Cell by cell; after 64 rounds by leaps that grow, then shrink. Beyond the longest leap x has no
+  // digit left that says where in a cell it is, and stays as it is.
   constexpr std::int64_t longest = std::int64_t{1} << 50;
   std::int64_t leap = 1;
   for (int round = 0;; ++round) {
@@ -69,8 +69,10 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   const auto alike = [](const Particle& a, const Particle& b) {
     return a.mass == b.mass && a.charge == b.charge && a.omega == b.omega;
   };
-  // A stepper may remember accelerations by position: it is kept for particles that are accelerated alike.
-  if (!std::equal(particles.begin(), particles.end(), particles_.begin(), particles_.end(), alike)) stepper_.reset();
+  // A stepper may remember accelerations by position: it is kept for particles that are accelerated
+  // alike.
+  if (!std::equal(particles.begin(), particles.end(), particles_.begin(), particles_.end(), alike))
+    stepper_.reset();
   bodies_ = std::move(bodies);
   particles_ = std::move(particles);
   passed_ = nullptr;
@@ -102,12 +104,14 @@ void Group::accelerations(std::span<const Vector> x, std::span<Vector> a) const 
   const ForceField& forces = *in_.forces;
   double energy = 0.0;
   if (forces.external())
-    for (std::size_t i = 0; i < x.size(); ++i) energy += forces.add_external(particles_[i], x[i], a[i]);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      energy += forces.add_external(particles_[i], x[i], a[i]);
   if (in_.remember_energy) {
     external_.position.assign(x.begin(), x.end());
     external_.energy = energy;
   }
-  if (forces.interacts()) forces.add_pairs(particles_, x, in_.lattice, a, listens_ ? in_.interrupt : nullptr);
+  if (forces.interacts())
+    forces.add_pairs(particles_, x, in_.lattice, a, listens_ ? in_.interrupt : nullptr);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (particles_[i].mass != 1.0) a[i] = (1.0 / particles_[i].mass) * a[i];
 }
@@ -116,9 +120,11 @@ double Group::potential_energy(std::span<const Vector> x) const {
   return in_.forces ? in_.forces->potential_energy(particles_, x, in_.lattice) : 0.0;
 }
 
-/// Tails end at a 1e-16th of a height. Where bumps overlap, many end in one step; their sums are rounded, too.
+/// Tails end at a 1e-16th of a height. Where bumps overlap, many end in one step; their sums are
+/// rounded, too.
 double Group::energy_jumps() const {
-  return in_.forces ? 64.0 * static_cast<double>(particles_.size()) * in_.forces->tail_bound() : 0.0;
+  return in_.forces ? 64.0 * static_cast<double>(particles_.size()) * in_.forces->tail_bound()
+                    : 0.0;
 }
 
 /// Where the step that begins now ends.
@@ -138,7 +144,9 @@ const Group::Next& Group::predict(const Time& limit) {
   between_.duration = -1.0;
   if (in_.plan.step > 0.0 && too_late(time_, in_.plan.step)) {
     whole_step_ = false;
-    next_.fault = "more than 2^52 steps lie behind it, and the next cannot be counted; a longer step goes farther";
+    next_.fault =
+        "more than 2^52 steps lie behind it, and the next cannot be counted; a longer step goes "
+        "farther";
     return next_;
   }
   listens_ = true;
@@ -168,8 +176,9 @@ void Group::find_next(const Time& limit) {
     for (const Barrier<double>& barrier : in_.barriers) {
       if (stays_off(barrier, hull)) continue;
       near_wall = true;
-      StepPath<double>::Knot* found =
-          is_edge(barrier) ? first_exit(search, barrier, *last) : search.first(barrier, i, path_->start(), *last);
+      StepPath<double>::Knot* found = is_edge(barrier)
+                                          ? first_exit(search, barrier, *last)
+                                          : search.first(barrier, i, path_->start(), *last);
       if (!found) continue;
       last = found;
       next_.member = static_cast<int>(i);
@@ -182,17 +191,19 @@ void Group::find_next(const Time& limit) {
   if (in_.interrupt && in_.interrupt->stopped()) return;
   if (search.gave_up())
     next_.fault =
-        "the path of this step is too rough to find walls on it; the step is too long, or a potential has a pole";
+        "the path of this step is too rough to find walls on it; the step is too long, or a "
+        "potential has a pole";
   else if (next_.member >= 0)
     next_.fault = fault_at(last->phase);
   // Near a wall the search had to decide: nobody may have slipped through.
   if (near_wall && next_.fault.empty()) watch(last->phase);
 }
 
-/// Where the lone member flies on freely from the edge. Nothing happens at an edge while others or another support hold
-/// it: a step that were cut there would be cut on the way out and not on the way back.
-StepPath<double>::Knot* Group::first_exit(CrossingSearch<double>& search, const Barrier<double>& edge,
-                                          StepPath<double>::Knot& to) {
+/// Where the lone member flies on freely from the edge. Nothing happens at an edge while others or
+/// another support hold it: a step that were cut there would be cut on the way out and not on the
+/// way back.
+StepPath<double>::Knot* Group::first_exit(CrossingSearch<double>& search,
+                                          const Barrier<double>& edge, StepPath<double>::Knot& to) {
   if (bodies_.size() > 1) return nullptr;
   StepPath<double>::Knot* found = search.first_exit(edge, 0, path_->start(), to, &edge == passed_);
   while (found && supported(found->phase.position.front(), &edge))
@@ -206,7 +217,8 @@ void Group::watch(const Phase<double>& end) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (static_cast<int>(i) == on_a_wall || in_.inside(end.position[i])) continue;
     next_.outside = static_cast<int>(i);
-    next_.fault = "it has left the table within this step and no wall was found; the step is too long";
+    next_.fault =
+        "it has left the table within this step and no wall was found; the step is too long";
     return;
   }
 }
@@ -216,14 +228,17 @@ std::string_view Group::fault_at(const Phase<double>& phase) const {
   constexpr double absurd = 1e100;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Vector &x = phase.position[i], &v = phase.velocity[i];
-    const double way = std::max(std::fabs(x.x - phase_.position[i].x), std::fabs(x.y - phase_.position[i].y));
+    const double way =
+        std::max(std::fabs(x.x - phase_.position[i].x), std::fabs(x.y - phase_.position[i].y));
     const double size = (std::fabs(x.x) + std::fabs(x.y)) + (std::fabs(v.x) + std::fabs(v.y));
     if (std::isnan(size))
       return stepper_->failure().empty() ? "a force or a state is not a number after this step"
                                          : stepper_->failure();
-    if (!(size <= absurd)) return "it runs away: a position or velocity is beyond 1e100 after this step";
+    if (!(size <= absurd))
+      return "it runs away: a position or velocity is beyond 1e100 after this step";
     if (way > in_.longest_way)
-      return "the step is too long for these walls: it leads a thousand times through the table, or beyond the "
+      return "the step is too long for these walls: it leads a thousand times through the table, "
+             "or beyond the "
              "next cell";
   }
   return {};
@@ -272,7 +287,8 @@ double Group::energy() {
     sum += external_.energy;
   } else if (forces.external()) {
     Vector unused{};
-    for (std::size_t i = 0; i < bodies_.size(); ++i) sum += forces.add_external(particles_[i], phase_.position[i], unused);
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      sum += forces.add_external(particles_[i], phase_.position[i], unused);
   }
   return sum + forces.pair_energy(particles_, phase_.position, in_.lattice);
 }

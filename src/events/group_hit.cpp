@@ -9,7 +9,8 @@ using geometry::Vector;
 
 namespace {
 
-/// The corner that begins a wall: one of pi/n leaves a unique direction, which the hits on both walls come to.
+/// The corner that begins a wall: one of pi/n leaves a unique direction, which the hits on both
+/// walls come to.
 bool is_regular(const HitFinder& finder, int wall) {
   const Wall& w = finder.table().walls[static_cast<std::size_t>(wall)];
   if (w.next == wall) return true;
@@ -47,10 +48,12 @@ GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group,
   hit.state.velocity = after;
   const Vector& there = group.phase().position[member];
   using End = Barrier<double>::End;
-  const bool regular = (!barrier.is_at(End::from, there) || is_regular(finder, barrier.wall)) &&
-                       (!barrier.is_at(End::to, there) ||
-                        is_regular(finder, finder.table().walls[static_cast<std::size_t>(barrier.wall)].next));
-  hit.inward = inward == Sign::positive && regular && !barrier.is_thin(there) && !group.next().slides;
+  const bool regular =
+      (!barrier.is_at(End::from, there) || is_regular(finder, barrier.wall)) &&
+      (!barrier.is_at(End::to, there) ||
+       is_regular(finder, finder.table().walls[static_cast<std::size_t>(barrier.wall)].next));
+  hit.inward =
+      inward == Sign::positive && regular && !barrier.is_thin(there) && !group.next().slides;
   return hit;
 }
 
@@ -60,7 +63,8 @@ bool on_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Vecto
   });
 }
 
-bool meets_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Vector from, Vector to) {
+bool meets_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Vector from,
+                     Vector to) {
   return std::any_of(barriers.begin(), barriers.end(), [&](const Barrier<double>& b) {
     if (b.wall >= walls || !(b.covers(from) || b.covers(to))) return false;
     const double first = b.gap(from), last = b.gap(to);

@@ -10,8 +10,8 @@ using geometry::Vector;
 
 namespace {
 
-// Parts a step is looked at in, where it comes near the surface: within each, the surface is met at most
-// twice, as happens where the path turns round.
+// Parts a step is looked at in, where it comes near the surface: within each, the surface is met at
+// most twice, as happens where the path turns round.
 constexpr int parts = 4;
 
 class SectionSearch {
@@ -27,7 +27,8 @@ class SectionSearch {
     const double ga = g(a), gb = g(b);
     // Far from the surface: even twice the larger rate does not reach it.
     const double reach = 2.0 * (to - from) * std::fmax(std::fabs(rate(a)), std::fabs(rate(b)));
-    if ((ga > 0.0) == (gb > 0.0) && std::fmin(std::fabs(ga), std::fabs(gb)) > reach && !turns(a, b)) return;
+    if ((ga > 0.0) == (gb > 0.0) && std::fmin(std::fabs(ga), std::fabs(gb)) > reach && !turns(a, b))
+      return;
     Knot* before = &a;
     for (int i = 1; i <= parts; ++i) {
       const double time = i == parts ? to : from + (to - from) * i / parts;
@@ -45,7 +46,9 @@ class SectionSearch {
 
  private:
   Vector position(const Knot& k) const { return k.phase.position[member_] + origin_; }
-  double g(const Knot& k) const { return surface_function(surface_, position(k), k.phase.velocity[member_]); }
+  double g(const Knot& k) const {
+    return surface_function(surface_, position(k), k.phase.velocity[member_]);
+  }
   double rate(Knot& k) const {
     const Vector a = of_velocity(surface_) ? path_.acceleration(k, member_) : Vector{};
     return surface_rate(surface_, position(k), k.phase.velocity[member_], a);
@@ -65,7 +68,8 @@ class SectionSearch {
     for (int i = 0; i < 60; ++i) {
       const double rl = rate(*low), rh = rate(*high);
       double time = low->time + (high->time - low->time) * (rl / (rl - rh));
-      if (i % 3 == 2 || !(time > low->time && time < high->time)) time = low->time + 0.5 * (high->time - low->time);
+      if (i % 3 == 2 || !(time > low->time && time < high->time))
+        time = low->time + 0.5 * (high->time - low->time);
       if (!(time > low->time && time < high->time)) return;
       Knot& middle = path_.at(time);
       if ((g(middle) > 0.0) != side) {
@@ -82,7 +86,8 @@ class SectionSearch {
   void root(Knot& a, Knot& b) {
     const Knot* found = bracketed_root(*this, &a, &b);
     if (on_surface_part(surface_, position(*found)))
-      found_.push_back({found->time, g(b) > 0.0 ? 1 : -1, position(*found), found->phase.velocity[member_]});
+      found_.push_back(
+          {found->time, g(b) > 0.0 ? 1 : -1, position(*found), found->phase.velocity[member_]});
   }
 
   StepPath<double>& path_;
@@ -94,8 +99,8 @@ class SectionSearch {
 
 }  // namespace
 
-void Group::crossings(const Surface& surface, std::size_t member, double from, double to, Vector origin,
-                      std::vector<SurfaceCrossing>& found) {
+void Group::crossings(const Surface& surface, std::size_t member, double from, double to,
+                      Vector origin, std::vector<SurfaceCrossing>& found) {
   found.clear();
   if (from < to) SectionSearch(*path_, surface, member, origin, found).search(from, to);
 }

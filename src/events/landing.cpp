@@ -21,7 +21,8 @@ double HitFinder::error_of(const Flight& f, const Ahead& ahead) const {
   return kappa_error_of(f, ahead.piece);
 }
 
-int HitFinder::hole_at(const Flight& f, const Ahead& ahead, double u, DecisionCounts& counts) const {
+int HitFinder::hole_at(const Flight& f, const Ahead& ahead, double u,
+                       DecisionCounts& counts) const {
   look_from(f);
   const PieceData& p = data_[at(ahead.piece)];
   const PreparedCurve& w = curves_[at(p.curve)];

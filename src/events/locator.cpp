@@ -27,8 +27,9 @@ bool Locator::contains(Vector point) const {
   Flight flight;
   flight.start = point;
   // Directions of rational slope in different octants; one that meets no tie is enough.
-  for (const Vector& direction : {Vector{0.5625, 0.828125}, Vector{-0.875, 0.484375}, Vector{0.203125, -0.984375},
-                                  Vector{-0.6875, -0.71875}, Vector{0.984375, 0.171875}, Vector{-0.09375, 0.984375}}) {
+  for (const Vector& direction :
+       {Vector{0.5625, 0.828125}, Vector{-0.875, 0.484375}, Vector{0.203125, -0.984375},
+        Vector{-0.6875, -0.71875}, Vector{0.984375, 0.171875}, Vector{-0.09375, 0.984375}}) {
     flight.velocity = direction;
     flight.square_speed = dot(direction, direction);
     // A point on an edge of the cell is in it when one looks inwards.

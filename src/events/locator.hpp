@@ -6,10 +6,10 @@
 
 namespace carom {
 
-/// A straight flight from a point of the domain meets the boundary from inside first; one from outside
-/// meets it from outside first, which is from inside for the table turned inside out. Both first hits
-/// are decided exactly; a direction that cannot tell them apart (both at one joint, a start on a wall)
-/// is replaced by another.
+/// A straight flight from a point of the domain meets the boundary from inside first; one from
+/// outside meets it from outside first, which is from inside for the table turned inside out. Both
+/// first hits are decided exactly; a direction that cannot tell them apart (both at one joint, a
+/// start on a wall) is replaced by another.
 class Locator {
  public:
   explicit Locator(const Table& table, const DecisionOptions& options = {});

@@ -22,9 +22,10 @@ ExactFlight HitFinder::exact_flight(const Flight& f) const {
 
 namespace {
 
-/// Without field: certain that no flight from here leaves through the arc when both its joints lie on one
-/// side. The foot of the centre on the line is the middle of its chord in the circle: if both crossings lay
-/// on the arc, so would the foot lie on the arc's side of the chord of its joints.
+/// Without field: certain that no flight from here leaves through the arc when both its joints lie
+/// on one side. The foot of the centre on the line is the middle of its chord in the circle: if
+/// both crossings lay on the arc, so would the foot lie on the arc's side of the chord of its
+/// joints.
 [[gnu::always_inline]] inline bool foot_off_arc(const PreparedCurve& w, Vector origin, Vector v,
                                                 const FlightScale& s) {
   const Bounded foot = foot_beyond_chord(w, origin, v, s);
@@ -32,8 +33,8 @@ namespace {
 }
 
 /// Is the foot of the Larmor circle's centre on a segment's line between its ends?
-[[gnu::always_inline]] inline Sign foot_between(const PreparedCurve& w, Vector origin, Vector v, double omega,
-                                                const FlightScale& s) {
+[[gnu::always_inline]] inline Sign foot_between(const PreparedCurve& w, Vector origin, Vector v,
+                                                double omega, const FlightScale& s) {
   const Feet feet = feet_of_centre(w, origin, v, omega, s);
   if ((feet.first < -feet.bound) | (feet.last < -feet.bound)) return Sign::negative;
   return (feet.first > feet.bound) & (feet.last > feet.bound) ? Sign::positive : Sign::undecided;
@@ -41,7 +42,8 @@ namespace {
 
 /// Without field: is the rising crossing ahead (kappa > 0)?
 Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
-  // A line's constant coefficient is exactly zero: its other crossing, at kappa = 0, is never reached.
+  // A line's constant coefficient is exactly zero: its other crossing, at kappa = 0, is never
+  // reached.
   if (q.b > e.b) return q.c == 0.0 && e.c == 0.0 ? Sign::negative : -sign_within(q.c, e.c);
   if (q.b < -e.b) return sign_within(q.a, e.a);
   if (q.a > e.a && q.c < -e.c) return Sign::positive;
@@ -52,14 +54,18 @@ Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
 }  // namespace
 
 template <bool larmor, bool cells, bool listed>
-bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> list, double& found_error) const {
+bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> list,
+                            double& found_error) const {
   if (f.start_previous >= 0) return false;  // from a joint: by algebra
   const Vector v = f.velocity;
   const double omega = larmor ? f.omega : 0.0;
   const int start = f.start_piece;
   // Without a lattice there is one origin: kept in registers.
-  const Origin single{f.start, {f.start_error, norm_1(v), std::fabs(omega), options_.filter_inflation}};
-  const auto origin_of = [&](const PieceData& p) -> const Origin& { return cells ? origins_[at(p.offset)] : single; };
+  const Origin single{f.start,
+                      {f.start_error, norm_1(v), std::fabs(omega), options_.filter_inflation}};
+  const auto origin_of = [&](const PieceData& p) -> const Origin& {
+    return cells ? origins_[at(p.offset)] : single;
+  };
 
   if constexpr (listed) {
     if (!see_joints<larmor, cells>(f, list)) return false;
@@ -88,15 +94,17 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
   double best_kappa = 0.0, best_error = -1.0;  // negative: not computed yet
   Quadratic<double> best_q;
   Root best_root;
-  const auto error_of = [&](int piece, const Quadratic<double>& f2, const Root& r, double kappa, double time) {
+  const auto error_of = [&](int piece, const Quadratic<double>& f2, const Root& r, double kappa,
+                            double time) {
     const PieceData& p = data_[at(piece)];
     const Origin& origin = origin_of(p);
     if (!larmor && p.kind == CurveKind::segment)
-          return straight_line_error(*p.shape, origin.point, origin.scale, kappa, time);
+      return straight_line_error(*p.shape, origin.point, origin.scale, kappa, time);
     return kappa_error(f2, quadratic_error(*p.shape, origin.point, origin.scale, piece == start),
                        {r.discriminant, r.root, kappa});
   };
-  double best_time = 0.0, best_unit = 1.0;     // without field: kappa = unit / time, divided only if needed
+  double best_time = 0.0,
+         best_unit = 1.0;  // without field: kappa = unit / time, divided only if needed
   double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
   if (larmor && cells && f.entry >= 0) {
     const Candidate entry = candidate(f, f.entry, false);
@@ -110,7 +118,8 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
     const PieceData& p = data_[at(piece)];
     const bool stands = piece == start;
     bool twice = false;
-    // At most two crossings: the joints' sides tell. (A Larmor circle may cross an ellipse four times.)
+    // At most two crossings: the joints' sides tell. (A Larmor circle may cross an ellipse four
+    // times.)
     if (!p.closed && !(larmor && p.kind == CurveKind::ellipse)) {
       const bool from = left_[at(piece)] != 0, to = left_[at(p.next)] != 0;
       if (from && !to) continue;
@@ -125,7 +134,9 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
       } else if (twice) {
         const PreparedCurve& w = *p.shape;
         const Origin& origin = origin_of(p);
-        if (!larmor && p.kind == CurveKind::circle && foot_off_arc(w, origin.point, v, origin.scale)) continue;
+        if (!larmor && p.kind == CurveKind::circle &&
+            foot_off_arc(w, origin.point, v, origin.scale))
+          continue;
         const Sign leaves = crossed_twice(f, piece);
         if (leaves == Sign::undecided) return false;
         if (leaves != Sign::positive) continue;
@@ -153,11 +164,12 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
       time = a;
       unit = -geometry::fused_cross(w.tangent, v);
     } else {
-      // Standing on the wall, without field: the other crossing of the circle lies ahead exactly when the
-      // particle is inside it.
+      // Standing on the wall, without field: the other crossing of the circle lies ahead exactly
+      // when the particle is inside it.
       if (!larmor && stands && w.orientation < 0) continue;
       q = quadratic<larmor>(w, origin.point, v, f.square_speed, omega, stands);
-      root = stands ? Root{q.b * q.b, std::fabs(q.b), larmor ? -q.c / (2.0 * q.b) : 0.0} : rising_root(q);
+      root = stands ? Root{q.b * q.b, std::fabs(q.b), larmor ? -q.c / (2.0 * q.b) : 0.0}
+                    : rising_root(q);
       kappa = root.kappa;
       if (!larmor) {
         const Quotient quotient = straight_time(q, root.root);
@@ -192,7 +204,8 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
       }
       if (best_error < 0) best_error = error_of(best, best_q, best_root, best_kappa, best_time);
       if (error < 0) error = error_of(piece, q, root, kappa, time);
-      // Two questions, so that the processor need not wait for the errors to go on with the first wall.
+      // Two questions, so that the processor need not wait for the errors to go on with the first
+      // wall.
       const double gap = kappa - best_kappa;
       if (!(std::fabs(gap) > error + best_error)) return false;
       if (gap < 0.0) continue;
@@ -211,7 +224,8 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
     const QuadraticError e = quadratic_error(*p.shape, origin.point, origin.scale, best == start);
     if (!far_root_certain(best_q, e, best == start)) return false;
   }
-  // Bounds are allowed to change where a quartic's root is looked for, not the number that is found.
+  // Bounds are allowed to change where a quartic's root is looked for, not the number that is
+  // found.
   if (larmor && best >= 0 && options_.filter_inflation != 1.0 && is_quartic(f, best)) {
     Candidate c;
     if (quartic_candidate(f, best, 1.0, c) != Sign::positive) return false;
@@ -221,17 +235,24 @@ bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> 
   ahead.root = 0;
   ahead.kappa = larmor ? best_kappa : best_unit / best_time;
   ahead.duration = larmor ? duration_at(best_kappa, f.omega) : best_time / best_unit;
-  ahead.kind = best < 0 ? Ahead::Kind::none : data_[at(best)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
+  ahead.kind = best < 0               ? Ahead::Kind::none
+               : data_[at(best)].edge ? Ahead::Kind::edge
+                                      : Ahead::Kind::wall;
   if constexpr (listed) {
-    if (best >= 0 && best_error < 0) best_error = error_of(best, best_q, best_root, ahead.kappa, best_time);
+    if (best >= 0 && best_error < 0)
+      best_error = error_of(best, best_q, best_root, ahead.kappa, best_time);
     found_error = best_error;
   }
   return true;
 }
-template bool HitFinder::filtered_of<false, false, true>(const Flight&, Ahead&, std::span<const int>, double&) const;
-template bool HitFinder::filtered_of<false, true, true>(const Flight&, Ahead&, std::span<const int>, double&) const;
-template bool HitFinder::filtered_of<true, false, true>(const Flight&, Ahead&, std::span<const int>, double&) const;
-template bool HitFinder::filtered_of<true, true, true>(const Flight&, Ahead&, std::span<const int>, double&) const;
+template bool HitFinder::filtered_of<false, false, true>(const Flight&, Ahead&,
+                                                         std::span<const int>, double&) const;
+template bool HitFinder::filtered_of<false, true, true>(const Flight&, Ahead&, std::span<const int>,
+                                                        double&) const;
+template bool HitFinder::filtered_of<true, false, true>(const Flight&, Ahead&, std::span<const int>,
+                                                        double&) const;
+template bool HitFinder::filtered_of<true, true, true>(const Flight&, Ahead&, std::span<const int>,
+                                                       double&) const;
 
 Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) const {
   look_from(f);
@@ -241,9 +262,14 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
   ahead.piece = first.piece;
   ahead.root = first.root;
   switch (first.kind) {
-    case ExactFlight::First::Kind::none: return ahead;
-    case ExactFlight::First::Kind::joint: ahead.kind = Ahead::Kind::joint; break;
-    case ExactFlight::First::Kind::cusp: ahead.kind = Ahead::Kind::cusp; break;
+    case ExactFlight::First::Kind::none:
+      return ahead;
+    case ExactFlight::First::Kind::joint:
+      ahead.kind = Ahead::Kind::joint;
+      break;
+    case ExactFlight::First::Kind::cusp:
+      ahead.kind = Ahead::Kind::cusp;
+      break;
     case ExactFlight::First::Kind::exit:
       ahead.kind = data_[at(first.piece)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
       break;
@@ -263,17 +289,20 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
       const Quotient quotient = straight_time(c.quadratic, c.root.root);
       ahead.duration = quotient.time / quotient.unit;
     }
-    // A flight along a wall to the last digit, or of no length: the formula in doubles may have lost the sign, and in a
-    // field a full turn with it. Else its number is good enough, if cancelled: a root that errs much belongs to a graze
-    // or to a start beside the wall, and the place of the hit to few ulps either way, as tables have no flat arcs. It must
-    // be the filter's number, as results do not depend on the stage; so this question does not on the inflation.
+    // A flight along a wall to the last digit, or of no length: the formula in doubles may have
+    // lost the sign, and in a field a full turn with it. Else its number is good enough, if
+    // cancelled: a root that errs much belongs to a graze or to a start beside the wall, and the
+    // place of the hit to few ulps either way, as tables have no flat arcs. It must be the filter's
+    // number, as results do not depend on the stage; so this question does not on the inflation.
     const PieceData& p = data_[at(ahead.piece)];
     FlightScale scale = origins_[at(p.offset)].scale;
     scale.inflation = 1.0;
     const bool stands = stands_on(f, ahead.piece);
-    const QuadraticError error = quadratic_error(*p.shape, origins_[at(p.offset)].point, scale, stands);
+    const QuadraticError error =
+        quadratic_error(*p.shape, origins_[at(p.offset)].point, scale, stands);
     const bool lost = f.omega == 0.0 ? !(ahead.duration > 0.0) || !std::isfinite(ahead.duration)
-                                     : !std::isfinite(ahead.kappa) || !far_root_certain(c.quadratic, error, stands);
+                                     : !std::isfinite(ahead.kappa) ||
+                                           !far_root_certain(c.quadratic, error, stands);
     if (lost) ahead.kappa = first.kappa;
     if (f.omega == 0.0 && !lost) return ahead;
   }

@@ -1,8 +1,8 @@
 // Which wall a flight meets first: the choosing driver of the event loop.
 //
 // Decisions are taken in double precision with derived bounds; where one of them cannot tell, the
-// whole flight is decided again in exact arithmetic. Numbers (kappa, time, point) come from the same
-// formulas in double precision either way, so that bounds never show in a result.
+// whole flight is decided again in exact arithmetic. Numbers (kappa, time, point) come from the
+// same formulas in double precision either way, so that bounds never show in a result.
 #pragma once
 
 #include <cmath>
@@ -25,19 +25,19 @@ namespace carom {
 
 /// A flight under way, in the frame of the cell where it started.
 struct Flight {
-  int wall = -1;               ///< start: wall and u, or a free point
+  int wall = -1;  ///< start: wall and u, or a free point
   double u = 0.0;
-  geometry::Vector start;      ///< rounded image (exact for a free point)
+  geometry::Vector start;  ///< rounded image (exact for a free point)
   double start_error = 0.0;
   geometry::Vector velocity;
   double omega = 0.0;
-  /// The squared speed of the energy shell, to which |v|^2 is equal within 64u: a constant, for rounding
-  /// |v|^2 anew about a power of two would bias every flight the same way.
+  /// The squared speed of the energy shell, to which |v|^2 is equal within 64u: a constant, for
+  /// rounding |v|^2 anew about a power of two would bias every flight the same way.
   double square_speed = 1.0;
-  geometry::Cell cell;         ///< the cell it is in, relative to the one of its start
-  int entry = -1;              ///< edge (piece) through which it came into `cell`
-  // Set by HitFinder::begin and cross: the piece the particle stands on, as seen from `cell` (-1: none),
-  // and, at a joint, the piece that ends there.
+  geometry::Cell cell;  ///< the cell it is in, relative to the one of its start
+  int entry = -1;       ///< edge (piece) through which it came into `cell`
+  // Set by HitFinder::begin and cross: the piece the particle stands on, as seen from `cell` (-1:
+  // none), and, at a joint, the piece that ends there.
   int start_piece = -1;
   int start_previous = -1;
 };
@@ -48,7 +48,7 @@ struct Ahead {
   int piece = -1;
   int root = 0;
   double kappa = 0.0;
-  double duration = 0.0;       ///< time from the start of the flight
+  double duration = 0.0;  ///< time from the start of the flight
 };
 
 class HitFinder {
@@ -59,16 +59,18 @@ class HitFinder {
                      bool complement = false);
   ~HitFinder();
 
-  /// Makes a flight ready whose start, velocity and omega are set: for lattices it is put into the cell
-  /// that contains its start, by exact decisions.
+  /// Makes a flight ready whose start, velocity and omega are set: for lattices it is put into the
+  /// cell that contains its start, by exact decisions.
   void begin(Flight& flight) const;
-  /// A flight from the exact point (wall, u), whose rounded image is `point`; omega and speed are kept.
-  void begin_on_wall(Flight& flight, int wall, double u, geometry::Vector point, geometry::Vector velocity) const {
+  /// A flight from the exact point (wall, u), whose rounded image is `point`; omega and speed are
+  /// kept.
+  void begin_on_wall(Flight& flight, int wall, double u, geometry::Vector point,
+                     geometry::Vector velocity) const {
     begin_on_wall(flight, wall, curve(wall), u, point, velocity);
   }
   /// The same for who has the wall's curve at hand.
-  void begin_on_wall(Flight& flight, int wall, const geometry::PreparedCurve& curve, double u, geometry::Vector point,
-                     geometry::Vector velocity) const;
+  void begin_on_wall(Flight& flight, int wall, const geometry::PreparedCurve& curve, double u,
+                     geometry::Vector point, geometry::Vector velocity) const;
 
   void next(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   Ahead next(const Flight& flight, DecisionCounts& counts) const {
@@ -77,7 +79,8 @@ class HitFinder {
     return ahead;
   }
 
-  /// Certainly inside: in a convex table on the left of the chords of all walls, beyond rounding. False: not known.
+  /// Certainly inside: in a convex table on the left of the chords of all walls, beyond rounding.
+  /// False: not known.
   bool surely_inside(geometry::Vector point) const;
 
   /// Follows the flight over the edge that `ahead` names.
@@ -92,7 +95,8 @@ class HitFinder {
     geometry::PreparedCurve::Arrival at;
     const geometry::PreparedCurve* curve = nullptr;
   };
-  void land(const Flight& flight, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const;
+  void land(const Flight& flight, const Ahead& ahead, Landing& landing,
+            DecisionCounts& counts) const;
   Landing land(const Flight& flight, const Ahead& ahead, DecisionCounts& counts) const {
     Landing landing;
     land(flight, ahead, landing, counts);
@@ -101,36 +105,42 @@ class HitFinder {
 
   /// Does v at (wall, u) point into the domain? At u = 0 this is asked of both walls of the joint.
   /// `normal`: a rounded normal there.
-  Sign inward(int wall, double u, geometry::Vector v, geometry::Vector normal, DecisionCounts& counts) const {
+  Sign inward(int wall, double u, geometry::Vector v, geometry::Vector normal,
+              DecisionCounts& counts) const {
     return inward(wall, curve(wall), u, v, normal, counts);
   }
-  Sign inward(int wall, const geometry::PreparedCurve& curve, double u, geometry::Vector v, geometry::Vector normal,
-              DecisionCounts& counts) const;
+  Sign inward(int wall, const geometry::PreparedCurve& curve, double u, geometry::Vector v,
+              geometry::Vector normal, DecisionCounts& counts) const;
   /// Error of kappa of what lies ahead.
   double error_of(const Flight& flight, const Ahead& ahead) const;
   /// Is the start strictly inside the cell (or on its edge, see locate)?
   bool in_cell(const Flight& flight) const;
 
-  const geometry::PreparedCurve& curve(int wall) const { return curves_[static_cast<std::size_t>(wall)]; }
+  const geometry::PreparedCurve& curve(int wall) const {
+    return curves_[static_cast<std::size_t>(wall)];
+  }
   const Table& table() const { return table_; }
   const geometry::ExactBoundary& exact() const { return *exact_; }
-  /// The first of the walls that are arcs of one ellipse with this one, or -1: the wall is no such arc.
+  /// The first of the walls that are arcs of one ellipse with this one, or -1: the wall is no such
+  /// arc.
   int ellipse_of(int wall) const { return data_[static_cast<std::size_t>(wall)].ellipse; }
   int wall_of(int piece) const { return data_[static_cast<std::size_t>(piece)].wall; }
   /// Unit normal at the end of a wall.
-  geometry::Vector normal_at_end(int wall) const { return end_normals_[static_cast<std::size_t>(wall)]; }
+  geometry::Vector normal_at_end(int wall) const {
+    return end_normals_[static_cast<std::size_t>(wall)];
+  }
 
  private:
   struct PieceData {
     const geometry::PreparedCurve* shape = nullptr;
-    int curve = 0;       ///< index into curves_
-    int wall = -1;       ///< -1: edge of the cell
-    int offset = 0;      ///< index into offsets_
+    int curve = 0;   ///< index into curves_
+    int wall = -1;   ///< -1: edge of the cell
+    int offset = 0;  ///< index into offsets_
     int next = 0, previous = 0;
     bool edge = false;
     bool closed = false;
     geometry::CurveKind kind = geometry::CurveKind::segment;
-    int ellipse = -1;    ///< arcs of one: the first of its walls
+    int ellipse = -1;  ///< arcs of one: the first of its walls
   };
   /// The start of a flight seen from its cell, displaced by one offset.
   struct Origin {
@@ -145,8 +155,10 @@ class HitFinder {
     double kappa_error = -1.0;  ///< negative: not computed yet
   };
 
-  void add_piece(const geometry::Curve& curve, int curve_index, int wall, geometry::Cell offset, bool edge);
-  /// Loops of walls, each named by one of its walls, that reach into the cell displaced by `offset`.
+  void add_piece(const geometry::Curve& curve, int curve_index, int wall, geometry::Cell offset,
+                 bool edge);
+  /// Loops of walls, each named by one of its walls, that reach into the cell displaced by
+  /// `offset`.
   struct Images {
     geometry::Cell offset;
     std::vector<int> loops;
@@ -155,8 +167,8 @@ class HitFinder {
   void add_walls(geometry::Cell offset, bool complement, const std::vector<int>& loops);
   std::vector<Images> images() const;
   int edge_crossed_at_start(const Flight& flight) const;
-  /// Sees the walls from the flight's start, in its cell. Number by number: a 16-byte copy of two numbers
-  /// that were just stored one by one would wait for them.
+  /// Sees the walls from the flight's start, in its cell. Number by number: a 16-byte copy of two
+  /// numbers that were just stored one by one would wait for them.
   void look_from(const Flight& f) const {
     Origin& own = origins_[0];
     own.point.x = f.start.x;
@@ -197,7 +209,8 @@ class HitFinder {
   }
   /// The same among some pieces (`listed`), with the error of kappa.
   template <bool larmor, bool cells, bool listed>
-  bool filtered_of(const Flight& flight, Ahead& ahead, std::span<const int> list, double& error) const;
+  bool filtered_of(const Flight& flight, Ahead& ahead, std::span<const int> list,
+                   double& error) const;
   template <bool larmor, bool cells>
   bool see_joints(const Flight& flight, std::span<const int> list) const;
   Sign crossed_twice(const Flight& flight, int piece) const;
@@ -207,14 +220,16 @@ class HitFinder {
   bool filtered_enclosed(const Flight& flight, Ahead& ahead) const;
   bool line_in_enclosure(const Flight& flight, Ahead& ahead) const;
   bool circle_in_enclosure(const Flight& flight, Ahead& ahead) const;
-  int exit_of_enclosure(const Flight& flight, geometry::Vector origin, const geometry::FlightScale& scale) const;
+  int exit_of_enclosure(const Flight& flight, geometry::Vector origin,
+                        const geometry::FlightScale& scale) const;
   Ahead exact_next(const Flight& flight, const std::vector<int>& pieces) const;
   // Tables of many walls (grid_hit.cpp).
   void make_grid(bool edges);
   void next_in_grid(const Flight& flight, Ahead& ahead, DecisionCounts& counts) const;
   template <bool larmor, bool cells>
   bool filtered_in_grid(const Flight& flight, Ahead& ahead) const;
-  /// An entry of a cell's list, with all that a line asks of a disc: one place in memory for what is seldom hit.
+  /// An entry of a cell's list, with all that a line asks of a disc: one place in memory for what
+  /// is seldom hit.
   struct Near {
     double x, y, r2, centre_error;
     int piece, offset;
@@ -239,37 +254,39 @@ class HitFinder {
   DecisionOptions options_;
   std::vector<geometry::PreparedCurve> curves_;  // walls, then edges
   std::vector<PieceData> data_;
-  std::vector<geometry::Vector> joints_;         // start of each piece in its own cell
-  std::vector<int> open_;                        // pieces that have joints
-  std::vector<geometry::Cell> offsets_;          // distinct displacements; the first is zero
-  std::vector<geometry::Piece> pieces_;          // the same pieces for the exact stage
+  std::vector<geometry::Vector> joints_;  // start of each piece in its own cell
+  std::vector<int> open_;                 // pieces that have joints
+  std::vector<geometry::Cell> offsets_;   // distinct displacements; the first is zero
+  std::vector<geometry::Piece> pieces_;   // the same pieces for the exact stage
   std::vector<int> all_;
-  std::vector<geometry::Vector> end_normals_;    // a wall
-  std::vector<signed char> holed_;               // a wall: has it holes?
-  bool cells_ = false;                           // on a lattice
-  bool displaced_ = false;                       // walls of other cells reach into this one
-  double reach_ = 0.0;                           // bounds the l1 norm of every joint
+  std::vector<geometry::Vector> end_normals_;  // a wall
+  std::vector<signed char> holed_;             // a wall: has it holes?
+  bool cells_ = false;                         // on a lattice
+  bool displaced_ = false;                     // walls of other cells reach into this one
+  double reach_ = 0.0;                         // bounds the l1 norm of every joint
   int first_edge_ = 0;
-  int enclosure_first_ = 0, enclosure_size_ = 0; // pieces of a convex loop around discs_; size 0: none
+  int enclosure_first_ = 0,
+      enclosure_size_ = 0;  // pieces of a convex loop around discs_; size 0: none
   std::vector<int> discs_;
-  Enclosure enclosure_;                          // the walls of a convex table with nothing in it, else empty
-  double enclosure_rounding_ = 0.0;              // error of a joint's distance in it
+  Enclosure enclosure_;              // the walls of a convex table with nothing in it, else empty
+  double enclosure_rounding_ = 0.0;  // error of a joint's distance in it
   bool without_ellipses_ = false;
-  bool discs_within_ = false;                    // they touch no edge: who leaves one is in its cell
-  std::vector<int> opposite_;                    // edge through which one comes in who leaves by this one
+  bool discs_within_ = false;  // they touch no edge: who leaves one is in its cell
+  std::vector<int> opposite_;  // edge through which one comes in who leaves by this one
   std::unique_ptr<geometry::ExactBoundary> exact_;
-  std::unique_ptr<const WallGrid> grid_;         // of tables with many walls, else null
-  std::vector<Near> near_;                       // its lists
-  std::unordered_multimap<int, int> images_;     // by wall: its pieces in other cells
+  std::unique_ptr<const WallGrid> grid_;      // of tables with many walls, else null
+  std::vector<Near> near_;                    // its lists
+  std::unordered_multimap<int, int> images_;  // by wall: its pieces in other cells
   // Scratch of one flight; a finder belongs to one thread.
   mutable std::vector<Origin> origins_;
   mutable std::vector<unsigned char> left_;  // is the joint on the left of the flight?
   mutable std::vector<std::uint32_t> seen_;  // a piece: the last flight that came near it
   mutable std::uint32_t flights_ = 0;
-  mutable std::vector<int> list_;            // pieces on the way of a flight
+  mutable std::vector<int> list_;  // pieces on the way of a flight
 };
 
-[[gnu::always_inline]] inline void HitFinder::begin_on_wall(Flight& f, int wall, const geometry::PreparedCurve& w,
+[[gnu::always_inline]] inline void HitFinder::begin_on_wall(Flight& f, int wall,
+                                                            const geometry::PreparedCurve& w,
                                                             double u, geometry::Vector point,
                                                             geometry::Vector velocity) const {
   f.wall = wall;
@@ -284,7 +301,8 @@ class HitFinder {
   f.start_previous = -1;
 }
 
-[[gnu::always_inline]] inline void HitFinder::land(const Flight& f, const Ahead& ahead, Landing& landing, DecisionCounts& counts) const {
+[[gnu::always_inline]] inline void HitFinder::land(const Flight& f, const Ahead& ahead,
+                                                   Landing& landing, DecisionCounts& counts) const {
   geometry::Vector origin = f.start;
   landing.wall = ahead.piece;  // the pieces begin with the walls in their own cell
   landing.cell.first = landing.cell.second = 0;
@@ -317,14 +335,17 @@ class HitFinder {
     return;
   }
   w.arrive(end, landing.velocity, landing.at);
-  if (holed_[static_cast<std::size_t>(landing.wall)] != 0) landing.hole = hole_at(f, ahead, landing.at.u, counts);
+  if (holed_[static_cast<std::size_t>(landing.wall)] != 0)
+    landing.hole = hole_at(f, ahead, landing.at.u, counts);
 }
 
-[[gnu::always_inline]] inline Sign HitFinder::inward(int wall, const geometry::PreparedCurve& w, double u,
-                                                     geometry::Vector v, geometry::Vector normal,
+[[gnu::always_inline]] inline Sign HitFinder::inward(int wall, const geometry::PreparedCurve& w,
+                                                     double u, geometry::Vector v,
+                                                     geometry::Vector normal,
                                                      DecisionCounts& counts) const {
   if (u > 0.0) {
-    const double bound = options_.filter_inflation * w.normal_bound * (std::fabs(v.x) + std::fabs(v.y));
+    const double bound =
+        options_.filter_inflation * w.normal_bound * (std::fabs(v.x) + std::fabs(v.y));
     const Sign sign = sign_within(dot(normal, v), bound);
     if (sign != Sign::undecided) {
       ++counts.filter;

@@ -22,9 +22,11 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 HitFinder::HitFinder(const Table& table, DecisionOptions options, bool edges, bool complement)
     : table_(table), options_(options) {
-  for (const Wall& wall : table.walls) curves_.emplace_back(complement ? reversed(wall.curve) : wall.curve);
   for (const Wall& wall : table.walls)
-    end_normals_.push_back(is_closed(wall.curve) ? Vector{} : normal_at(wall.curve, end_parameter(wall.curve)));
+    curves_.emplace_back(complement ? reversed(wall.curve) : wall.curve);
+  for (const Wall& wall : table.walls)
+    end_normals_.push_back(
+        is_closed(wall.curve) ? Vector{} : normal_at(wall.curve, end_parameter(wall.curve)));
   for (const Wall& wall : table.walls) holed_.push_back(wall.holes.empty() ? 0 : 1);
   cells_ = table.lattice.has_value();
   offsets_.push_back({});
@@ -71,12 +73,15 @@ HitFinder::~HitFinder() = default;
 
 /// Which elliptic arcs are of one ellipse: who stands on one stands on the ellipse of all.
 void HitFinder::find_ellipses() {
-  std::map<std::array<double, 7>, std::vector<int>> alike;  // by numbers, rounded: the first arc of each ellipse
+  std::map<std::array<double, 7>, std::vector<int>>
+      alike;  // by numbers, rounded: the first arc of each ellipse
   for (int i = 0; i < static_cast<int>(table_.walls.size()); ++i) {
     const PreparedCurve& w = curves_[at(i)];
     if (w.kind != CurveKind::ellipse || w.closed) continue;
-    std::vector<int>& others = alike[{w.orientation, w.centre.x, w.centre.y, w.first_axis.x, w.first_axis.y, w.second_axis.x, w.second_axis.y}];
-    const auto same = std::find_if(others.begin(), others.end(), [&](int other) { return exact_->same_ellipse(other, i); });
+    std::vector<int>& others = alike[{w.orientation, w.centre.x, w.centre.y, w.first_axis.x,
+                                      w.first_axis.y, w.second_axis.x, w.second_axis.y}];
+    const auto same = std::find_if(others.begin(), others.end(),
+                                   [&](int other) { return exact_->same_ellipse(other, i); });
     data_[at(i)].ellipse = same == others.end() ? i : *same;
     if (same == others.end()) others.push_back(i);
   }
@@ -84,8 +89,8 @@ void HitFinder::find_ellipses() {
     if (p.wall >= 0) p.ellipse = data_[at(p.wall)].ellipse;
 }
 
-/// Pieces of the walls displaced by an offset; all of them in their own cell, where piece and wall have one
-/// number, else the loops that `loops` names.
+/// Pieces of the walls displaced by an offset; all of them in their own cell, where piece and wall
+/// have one number, else the loops that `loops` names.
 void HitFinder::add_walls(Cell offset, bool complement, const std::vector<int>& loops) {
   const int index = static_cast<int>(offsets_.size()) - 1;
   const auto add = [&](int i, int piece_of_next, int piece_of_previous) {
@@ -115,9 +120,9 @@ void HitFinder::add_walls(Cell offset, bool complement, const std::vector<int>& 
   }
 }
 
-/// The loops of walls that, displaced by a lattice vector, may reach into the cell, by that vector. A loop too
-/// many costs time, one too few would lose walls: so boxes are compared, and circles by their distance from the
-/// edges, with the rounding of this comparison on the safe side.
+/// The loops of walls that, displaced by a lattice vector, may reach into the cell, by that vector.
+/// A loop too many costs time, one too few would lose walls: so boxes are compared, and circles by
+/// their distance from the edges, with the rounding of this comparison on the safe side.
 std::vector<HitFinder::Images> HitFinder::images() const {
   const Lattice& lattice = *table_.lattice;
   double cell_size = 0.0;
@@ -135,7 +140,8 @@ std::vector<HitFinder::Images> HitFinder::images() const {
   /// Largest signed distance of a box, displaced, from an edge's line, inside positive.
   const auto reach_of = [](const Box& box, Vector t, const Edge& e) {
     double reach = -HUGE_VAL;
-    for (const Vector& corner : {box.low, box.high, Vector{box.low.x, box.high.y}, Vector{box.high.x, box.low.y}})
+    for (const Vector& corner :
+         {box.low, box.high, Vector{box.low.x, box.high.y}, Vector{box.high.x, box.low.y}})
       reach = std::max(reach, geometry::cross(e.direction, corner + t - e.from) / e.length);
     return reach;
   };
@@ -161,7 +167,9 @@ std::vector<HitFinder::Images> HitFinder::images() const {
   double wall_size = 0.0;
   for (const PreparedCurve& c : curves_) wall_size = std::max(wall_size, 2.0 * c.extent);
   const Box whole = hull_of(boxes);
-  const Box cell = hull_of(lattice.edges, [](const CellEdge& e) { return Box{e.segment.from, e.segment.from}; });
+  const Box cell = hull_of(lattice.edges, [](const CellEdge& e) {
+    return Box{e.segment.from, e.segment.from};
+  });
   constexpr std::size_t most = 65536;
   const auto copies = cells_that_reach(lattice, whole, cell, most);
   if (!copies)
@@ -180,7 +188,8 @@ std::vector<HitFinder::Images> HitFinder::images() const {
         done[i] = true;
         const PreparedCurve& c = curves_[i];
         if (reaches) continue;
-        reaches = c.kind == CurveKind::circle ? !circle_outside(c, t) : !outside(boxes[i], c.extent, t);
+        reaches =
+            c.kind == CurveKind::circle ? !circle_outside(c, t) : !outside(boxes[i], c.extent, t);
       }
       if (reaches) images.loops.push_back(static_cast<int>(first));
     }
@@ -189,8 +198,8 @@ std::vector<HitFinder::Images> HitFinder::images() const {
   return found;
 }
 
-/// The edge that the flight crosses without moving: its start lies beyond it, or on it and on its way
-/// out. The tie rule is that of the joints: a point on the flight counts as lying on its left.
+/// The edge that the flight crosses without moving: its start lies beyond it, or on it and on its
+/// way out. The tie rule is that of the joints: a point on the flight counts as lying on its left.
 int HitFinder::edge_crossed_at_start(const Flight& f) const {
   for (int i = first_edge_; i < static_cast<int>(data_.size()); ++i) {
     const PreparedCurve& w = curves_[at(data_[at(i)].curve)];

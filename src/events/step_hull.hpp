@@ -1,5 +1,5 @@
-// Where a step's path can be, from positions and velocities at its ends alone, and whether that keeps it off a
-// barrier: for one particle, or for those in the lanes of a register.
+// Where a step's path can be, from positions and velocities at its ends alone, and whether that
+// keeps it off a barrier: for one particle, or for those in the lanes of a register.
 #pragma once
 
 #include <type_traits>
@@ -16,7 +16,9 @@ namespace step_hull {
 
 /// Of lanes a comparison is a mask, which nothing can branch on.
 template <class Number>
-concept Plain = requires(const Number& a) { a < a ? a : a; };
+concept Plain = requires(const Number& a) {
+  a < a ? a : a;
+};
 
 template <class Number>
 CAROM_INLINE Number smaller(const Number& a, const Number& b) {
@@ -52,8 +54,9 @@ CAROM_INLINE bool everywhere(const Truth& t) {
 
 }  // namespace step_hull
 
-/// The hull of the control points of the cubic through both ends, widened by their second differences. These are
-/// of the order h^2 |a|, the cubic errs by h^4 / 384 times the fourth derivative.
+/// The hull of the control points of the cubic through both ends, widened by their second
+/// differences. These are of the order h^2 |a|, the cubic errs by h^4 / 384 times the fourth
+/// derivative.
 template <class Number>
 struct StepHull {
   using Vector = geometry::BasicVector<Number>;
@@ -80,17 +83,19 @@ struct StepHull {
   }
 };
 
-/// Can the path not meet the barrier from its positive side, or from where it stands on it? Of lanes: a mask.
+/// Can the path not meet the barrier from its positive side, or from where it stands on it? Of
+/// lanes: a mask.
 template <class Number, class Real>
 CAROM_INLINE auto stays_off(const Barrier<Real>& b, const StepHull<Number>& hull) {
   using namespace step_hull;
   using Vector = geometry::BasicVector<Number>;
   const auto number = [](const Real& a) { return Number(a); };
   // The piece itself out of reach, wherever the path lies to its curve.
-  auto off = hull.high.x < number(b.low.x) || hull.high.y < number(b.low.y) || number(b.high.x) < hull.low.x ||
-             number(b.high.y) < hull.low.y;
+  auto off = hull.high.x < number(b.low.x) || hull.high.y < number(b.low.y) ||
+             number(b.high.x) < hull.low.x || number(b.high.y) < hull.low.y;
   if (everywhere(off)) return off;
-  const Vector origin{number(b.origin.x), number(b.origin.y)}, along{number(b.first.x), number(b.first.y)};
+  const Vector origin{number(b.origin.x), number(b.origin.y)},
+      along{number(b.first.x), number(b.first.y)};
   if (!b.conic) {
     Number low = dot(along, hull.points[0] - origin), high = low;
     for (int k = 1; k < 4; ++k) {
@@ -117,7 +122,8 @@ CAROM_INLINE auto stays_off(const Barrier<Real>& b, const StepHull<Number>& hull
     lowest = smaller(lowest, dot(sum, y[k]));
   }
   off = off || (margin < one && farthest < (one - margin) * (one - margin));
-  off = off || (lowest > Number(0) && lowest * lowest > (one + margin) * (one + margin) * dot(sum, sum));
+  off = off ||
+        (lowest > Number(0) && lowest * lowest > (one + margin) * (one + margin) * dot(sum, sum));
   return off;
 }
 

@@ -1,9 +1,9 @@
 // The path of a group within one step of its scheme, and its dense output.
 //
-// A point of the path at time t after the start is the scheme's own step of length t from the start.
-// Between two such knots the path is seen as the quintic that has their positions, velocities and
-// accelerations; by how much a cubic without the accelerations differs from it bounds what it errs, as
-// the quintic's own error is of a higher order.
+// A point of the path at time t after the start is the scheme's own step of length t from the
+// start. Between two such knots the path is seen as the quintic that has their positions,
+// velocities and accelerations; by how much a cubic without the accelerations differs from it
+// bounds what it errs, as the quintic's own error is of a higher order.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,8 @@ class StepPath {
   /// A new path from `from`, whose first step takes at most `at_most`. Returns the time it takes.
   Real begin(const Phase<Real>& from, Real at_most) {
     // A path that goes on where the last one ended keeps what is known there.
-    const bool goes_on = used_ > 1 && end().phase.position == from.position && end().phase.velocity == from.velocity;
+    const bool goes_on =
+        used_ > 1 && end().phase.position == from.position && end().phase.velocity == from.velocity;
     if (goes_on) {
       std::swap(knots_[0], knots_[1]);
       used_ = 1;
@@ -65,9 +66,11 @@ class StepPath {
   }
   /// Keeps the start, the end and this knot alone where all of them together are large.
   void keep_few(Knot& one) {
-    constexpr std::size_t most = std::size_t{1} << 20;  // particles at all knots: some tens of megabytes
+    constexpr std::size_t most = std::size_t{1}
+                                 << 20;  // particles at all knots: some tens of megabytes
     if (used_ < 4 || used_ * start().phase.position.size() < most) return;
-    const auto there = std::find_if(knots_.begin(), knots_.end(), [&](const auto& knot) { return knot.get() == &one; });
+    const auto there = std::find_if(knots_.begin(), knots_.end(),
+                                    [&](const auto& knot) { return knot.get() == &one; });
     if (there - knots_.begin() > 2) std::swap(knots_[2], *there);
     used_ = 3;
   }
@@ -114,14 +117,15 @@ template <class Real>
 struct PathHull : StepHull<Real> {
   using Vector = geometry::BasicVector<Real>;
 
-  PathHull(const typename StepPath<Real>::Knot& a, const typename StepPath<Real>::Knot& b, std::size_t i)
-      : StepHull<Real>(a.phase.position[i], a.phase.velocity[i], b.phase.position[i], b.phase.velocity[i],
-                       (b.time - a.time) / Real(3)) {}
+  PathHull(const typename StepPath<Real>::Knot& a, const typename StepPath<Real>::Knot& b,
+           std::size_t i)
+      : StepHull<Real>(a.phase.position[i], a.phase.velocity[i], b.phase.position[i],
+                       b.phase.velocity[i], (b.time - a.time) / Real(3)) {}
   static Real norm(const Vector& a) { return step_hull::norm(a); }
 };
 
-/// One particle's path between two knots as a Bezier curve of degree 5, and how far its control points are from
-/// those of the cubic without the accelerations, raised to that degree.
+/// One particle's path between two knots as a Bezier curve of degree 5, and how far its control
+/// points are from those of the cubic without the accelerations, raised to that degree.
 template <class Real>
 struct PathArc {
   using Vector = geometry::BasicVector<Real>;
@@ -129,15 +133,19 @@ struct PathArc {
   std::array<Vector, 2> difference;  ///< of points 2 and 3; the others agree
   Real error{};                      ///< the larger of them, in the 1-norm
 
-  PathArc(const StepPath<Real>& path, typename StepPath<Real>::Knot& a, typename StepPath<Real>::Knot& b,
-          std::size_t i) {
+  PathArc(const StepPath<Real>& path, typename StepPath<Real>::Knot& a,
+          typename StepPath<Real>::Knot& b, std::size_t i) {
     const Real h = b.time - a.time;
     const Vector &x0 = a.phase.position[i], &x1 = b.phase.position[i];
     const Vector v0 = h * a.phase.velocity[i], v1 = h * b.phase.velocity[i];
     const Vector a0 = (h * h) * path.acceleration(a, i), a1 = (h * h) * path.acceleration(b, i);
     const Real fifth = Real(1) / Real(5), twentieth = Real(1) / Real(20);
-    points = {x0, x0 + fifth * v0, x0 + (Real(2) * fifth) * v0 + twentieth * a0,
-              x1 - (Real(2) * fifth) * v1 + twentieth * a1, x1 - fifth * v1, x1};
+    points = {x0,
+              x0 + fifth * v0,
+              x0 + (Real(2) * fifth) * v0 + twentieth * a0,
+              x1 - (Real(2) * fifth) * v1 + twentieth * a1,
+              x1 - fifth * v1,
+              x1};
     const Real tenth = Real(1) / Real(10), third = Real(1) / Real(3);
     const Vector c1 = x0 + third * v0, c2 = x1 - third * v1;
     difference = {points[2] - tenth * (x0 + Real(6) * c1 + Real(3) * c2),
@@ -149,8 +157,8 @@ struct PathArc {
     const Real low = dot(unit, difference[0]), high = dot(unit, difference[1]);
     return std::max(std::max(low, -low), std::max(high, -high));
   }
-  /// Does the path's derivative err by more than the way, straight or as the velocities at its ends lead? Control points
-  /// that err by `error` make that of degree 5 err by ten times as much.
+  /// Does the path's derivative err by more than the way, straight or as the velocities at its ends
+  /// lead? Control points that err by `error` make that of degree 5 err by ten times as much.
   bool is_rough() const {
     const auto norm = &PathHull<Real>::norm;
     const Real led = Real(5) * std::max(norm(points[1] - points[0]), norm(points[5] - points[4]));

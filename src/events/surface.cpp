@@ -24,15 +24,18 @@ struct Point {
 // A flight as it is seen from a surface.
 class SeenFlight {
  public:
-  SeenFlight(const Surface& surface, const FreeFlight& flight) : surface_(surface), flight_(flight) {}
+  SeenFlight(const Surface& surface, const FreeFlight& flight)
+      : surface_(surface), flight_(flight) {}
   Point at(double time) const {
-    const auto [position, velocity] = moved(flight_.position, flight_.velocity, flight_.omega, time);
+    const auto [position, velocity] =
+        moved(flight_.position, flight_.velocity, flight_.omega, time);
     return {time, surface_function(surface_, position, velocity), position, velocity};
   }
   static double time(const Point& p) { return p.time; }
   static double g(const Point& p) { return p.g; }
   double rate(const Point& p) const {
-    return surface_rate(surface_, p.position, p.velocity, flight_.omega * geometry::right(p.velocity));
+    return surface_rate(surface_, p.position, p.velocity,
+                        flight_.omega * geometry::right(p.velocity));
   }
 
  private:
@@ -40,7 +43,8 @@ class SeenFlight {
   const FreeFlight& flight_;
 };
 
-// The phase in [0, pi) at which dg/dt = 0 for the first time, of a Larmor flight with phase |omega| t.
+// The phase in [0, pi) at which dg/dt = 0 for the first time, of a Larmor flight with phase |omega|
+// t.
 double first_extreme(const Surface& s, const FreeFlight& f) {
   const Vector v = f.velocity, turned = (f.omega > 0.0 ? 1.0 : -1.0) * geometry::right(v);
   // dg/dt = a cos(phase) + b sin(phase): zero at the phase of (b, -a).
@@ -86,15 +90,20 @@ bool of_velocity(const Surface& s) {
 double surface_function(const Surface& s, Vector position, Vector velocity) {
   switch (s.kind) {
     case Surface::Kind::line:
-    case Surface::Kind::segment: return cross(s.to - s.from, position - s.from);
+    case Surface::Kind::segment:
+      return cross(s.to - s.from, position - s.from);
     case Surface::Kind::circle: {
       const Vector d = position - s.from;
       return dot(d, d) - s.radius * s.radius;
     }
-    case Surface::Kind::position_x: return position.x - s.value;
-    case Surface::Kind::position_y: return position.y - s.value;
-    case Surface::Kind::velocity_x: return velocity.x - s.value;
-    case Surface::Kind::velocity_y: break;
+    case Surface::Kind::position_x:
+      return position.x - s.value;
+    case Surface::Kind::position_y:
+      return position.y - s.value;
+    case Surface::Kind::velocity_x:
+      return velocity.x - s.value;
+    case Surface::Kind::velocity_y:
+      break;
   }
   return velocity.y - s.value;
 }
@@ -102,12 +111,18 @@ double surface_function(const Surface& s, Vector position, Vector velocity) {
 double surface_rate(const Surface& s, Vector position, Vector velocity, Vector acceleration) {
   switch (s.kind) {
     case Surface::Kind::line:
-    case Surface::Kind::segment: return cross(s.to - s.from, velocity);
-    case Surface::Kind::circle: return 2.0 * dot(position - s.from, velocity);
-    case Surface::Kind::position_x: return velocity.x;
-    case Surface::Kind::position_y: return velocity.y;
-    case Surface::Kind::velocity_x: return acceleration.x;
-    case Surface::Kind::velocity_y: break;
+    case Surface::Kind::segment:
+      return cross(s.to - s.from, velocity);
+    case Surface::Kind::circle:
+      return 2.0 * dot(position - s.from, velocity);
+    case Surface::Kind::position_x:
+      return velocity.x;
+    case Surface::Kind::position_y:
+      return velocity.y;
+    case Surface::Kind::velocity_x:
+      return acceleration.x;
+    case Surface::Kind::velocity_y:
+      break;
   }
   return acceleration.y;
 }
@@ -134,7 +149,8 @@ SurfaceCoordinates surface_coordinates(const Surface& s, Vector position, Vector
   return {dot(d, along) / length, dot(velocity, along) / length};
 }
 
-void crossings(const Surface& s, const FreeFlight& f, std::size_t most, std::vector<SurfaceCrossing>& found) {
+void crossings(const Surface& s, const FreeFlight& f, std::size_t most,
+               std::vector<SurfaceCrossing>& found) {
   found.clear();
   const SeenFlight seen(s, f);
   Point before{0.0, surface_function(s, f.position, f.velocity), f.position, f.velocity};

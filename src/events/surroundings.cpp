@@ -20,9 +20,9 @@ using geometry::Vector;
 
 namespace {
 
-/// Boxes in which particles begin their steps on a lattice, widened by the way that these may lead. Most begin
-/// near the cell's centre, to which they are folded; but at a hit a particle stays where its wall was written,
-/// be it many cells away. One box for all walls of a cell.
+/// Boxes in which particles begin their steps on a lattice, widened by the way that these may lead.
+/// Most begin near the cell's centre, to which they are folded; but at a hit a particle stays where
+/// its wall was written, be it many cells away. One box for all walls of a cell.
 std::vector<Box> ways_of_steps(const Table& table) {
   const Lattice& lattice = *table.lattice;
   struct Place {
@@ -30,16 +30,17 @@ std::vector<Box> ways_of_steps(const Table& table) {
     Box box;
   };
   std::vector<Place> places;
-  places.push_back(
-      {Cell{}, geometry::hull_of(lattice.edges, [](const auto& e) { return Box{e.segment.from, e.segment.from}; })});
+  places.push_back({Cell{}, geometry::hull_of(lattice.edges, [](const auto& e) {
+                      return Box{e.segment.from, e.segment.from};
+                    })});
   const Vector centre = centre_of_cell(lattice);
   for (const Wall& wall : table.walls) {
     const Box box = geometry::bounding_box(wall.curve);
     Vector middle = 0.5 * (box.low + box.high);
     Cell cell;
     fold_towards_centre(lattice, centre, middle, cell);
-    const auto known =
-        std::find_if(places.begin(), places.end(), [&](const Place& place) { return place.cell == cell; });
+    const auto known = std::find_if(places.begin(), places.end(),
+                                    [&](const Place& place) { return place.cell == cell; });
     if (known == places.end())
       places.push_back({cell, box});
     else
@@ -53,14 +54,17 @@ std::vector<Box> ways_of_steps(const Table& table) {
 }
 
 /// The cells whose copies of the curve reach into one of the boxes, ordered.
-std::vector<Cell> cells_of_copies(const Curve& curve, const Lattice& lattice, const std::vector<Box>& boxes) {
+std::vector<Cell> cells_of_copies(const Curve& curve, const Lattice& lattice,
+                                  const std::vector<Box>& boxes) {
   constexpr std::size_t most = 65536;
   std::vector<Cell> cells;
   for (const Box& box : boxes) {
-    const auto found = geometry::cells_that_reach(lattice, geometry::bounding_box(curve), box, most);
+    const auto found =
+        geometry::cells_that_reach(lattice, geometry::bounding_box(curve), box, most);
     if (!found)
       throw InputError("more than " + std::to_string(most) +
-                       " copies of a wall or support are within one step of a particle: it is too wide for its lattice");
+                       " copies of a wall or support are within one step of a particle: it is too "
+                       "wide for its lattice");
     cells.insert(cells.end(), found->begin(), found->end());
   }
   std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
@@ -80,7 +84,9 @@ std::vector<Barrier<double>> barriers_of(std::span<const Curve> curves, const Ta
     b.wall = static_cast<int>(i);
     b.cell = cell;
     if (b.closed || i >= table.walls.size()) return;
-    const auto neighbour = [&](int wall) { return barrier_of<double>(curves[static_cast<std::size_t>(wall)], shift); };
+    const auto neighbour = [&](int wall) {
+      return barrier_of<double>(curves[static_cast<std::size_t>(wall)], shift);
+    };
     b.meet(Barrier<double>::End::from, neighbour(table.walls[i].previous));
     b.meet(Barrier<double>::End::to, neighbour(table.walls[i].next));
   };
@@ -102,7 +108,8 @@ std::vector<Barrier<double>> barriers_of(const Table& table) {
   return barriers_of(curves, table);
 }
 
-bool in_some_support(std::span<const Barrier<double>> supports, Vector x, const Barrier<double>* except) {
+bool in_some_support(std::span<const Barrier<double>> supports, Vector x,
+                     const Barrier<double>* except) {
   return std::any_of(supports.begin(), supports.end(), [&](const Barrier<double>& b) {
     const bool same = except && b.wall == except->wall && b.cell == except->cell;
     return !same && b.gap(x) > -b.slack;

@@ -14,10 +14,12 @@ namespace {
 
 /// Cells for each piece: a measured compromise between long lists and many cells.
 constexpr double cells_per_piece = 1.0;
-/// Where lists are longer than this for an entry on average, cells are cut in four, as pieces short beside them and
-/// side by side, those of a polygon, ask for. So many entries and blocks for each piece at most.
+/// Where lists are longer than this for an entry on average, cells are cut in four, as pieces short
+/// beside them and side by side, those of a polygon, ask for. So many entries and blocks for each
+/// piece at most.
 constexpr double most_company = 8.0, entries_when_fine = 4.0, blocks_when_fine = 4.0;
-/// Entries of lists for each piece, on average: where pieces are long beside the cells, cells are made larger.
+/// Entries of lists for each piece, on average: where pieces are long beside the cells, cells are
+/// made larger.
 constexpr double most_entries = 32.0;
 
 double size(double a, double b) { return std::fmax(std::fabs(a), std::fabs(b)); }
@@ -28,8 +30,8 @@ CutAxis::CutAxis(double low, double high, int parts) {
   cuts_.assign(static_cast<std::size_t>(parts) + 1, low);
   for (int i = 1; i < parts; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(parts);
-    cuts_[static_cast<std::size_t>(i)] =
-        std::fmin(std::fmax(low + share * (high - low), cuts_[static_cast<std::size_t>(i) - 1]), high);
+    cuts_[static_cast<std::size_t>(i)] = std::fmin(
+        std::fmax(low + share * (high - low), cuts_[static_cast<std::size_t>(i) - 1]), high);
   }
   cuts_.back() = high;
   inverse_ = high > low ? static_cast<double>(parts) / (high - low) : 0.0;
@@ -37,18 +39,20 @@ CutAxis::CutAxis(double low, double high, int parts) {
 
 /// A piece as the grid sees it.
 struct WallGrid::Reach {
-  Box box;                             ///< contains it exactly
-  const Segment* segment = nullptr;    ///< or null
-  Vector by;                           ///< its displacement …
-  double error = 0.0;                  ///< … and the error of each displaced coordinate
+  Box box;                           ///< contains it exactly
+  const Segment* segment = nullptr;  ///< or null
+  Vector by;                         ///< its displacement …
+  double error = 0.0;                ///< … and the error of each displaced coordinate
 };
 
-/// Every cell that a piece may reach into: a segment is followed part by part, others by their boxes.
+/// Every cell that a piece may reach into: a segment is followed part by part, others by their
+/// boxes.
 template <class Visit>
 void WallGrid::cover(const Reach& r, const Visit& visit) const {
   const Course::Range x{r.box.low.x, r.box.high.x}, y{r.box.low.y, r.box.high.y};
   if (r.segment == nullptr) return visit_box(x, y, visit);
-  if (!(x.high >= columns_.low() && x.low <= columns_.high() && y.high >= rows_.low() && y.low <= rows_.high()))
+  if (!(x.high >= columns_.low() && x.low <= columns_.high() && y.high >= rows_.low() &&
+        y.low <= rows_.high()))
     return;
   const Course line(r.segment->from + r.by, r.error, r.segment->to - r.segment->from);
   const Course::Range& a = line.upright ? y : x;
@@ -56,7 +60,8 @@ void WallGrid::cover(const Reach& r, const Visit& visit) const {
   const CutAxis &along = line.upright ? rows_ : columns_, &across = line.upright ? columns_ : rows_;
   const int end = along.part(a.high);
   for (int i = along.part(a.low); i <= end; ++i) {
-    Course::Range here = line.between(std::fmax(along.cut(i), a.low), std::fmin(along.cut(i + 1), a.high));
+    Course::Range here =
+        line.between(std::fmax(along.cut(i), a.low), std::fmin(along.cut(i + 1), a.high));
     here = {std::fmax(here.low, b.low), std::fmin(here.high, b.high)};
     if (!(here.high >= across.low() && here.low <= across.high())) continue;
     const int top = across.part(here.high);
@@ -64,7 +69,8 @@ void WallGrid::cover(const Reach& r, const Visit& visit) const {
   }
 }
 
-WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second, const Box& within) {
+WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second,
+                   const Box& within) {
   std::vector<Reach> reaches;
   reaches.reserve(pieces.size());
   for (const Piece& p : pieces) {
@@ -74,7 +80,8 @@ WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second
     if (!(p.offset == geometry::Cell{})) {
       // Two products and a sum, the displaced coordinate, and its end.
       const auto rounding = [&](double a, double b, double low, double high) {
-        return unit_roundoff * (3.1 * (std::fabs(m * a) + std::fabs(n * b)) + 3.1 * size(low, high));
+        return unit_roundoff *
+               (3.1 * (std::fabs(m * a) + std::fabs(n * b)) + 3.1 * size(low, high));
       };
       const double dx = rounding(first.x, second.x, r.box.low.x, r.box.high.x);
       const double dy = rounding(first.y, second.y, r.box.low.y, r.box.high.y);
@@ -84,7 +91,8 @@ WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second
     }
     // The direction of a segment is rounded as well: 2u of its length.
     if (r.segment != nullptr)
-      r.error += 4.0 * unit_roundoff * std::fmax(r.box.high.x - r.box.low.x, r.box.high.y - r.box.low.y);
+      r.error +=
+          4.0 * unit_roundoff * std::fmax(r.box.high.x - r.box.low.x, r.box.high.y - r.box.low.y);
     reaches.push_back(r);
   }
 
@@ -95,7 +103,8 @@ WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second
     cells = std::fmax(1.0, std::floor(0.5 * cells));
     crowd = cut(reaches, within, cells);
   }
-  while (crowd.company > most_company && 4.0 * cells <= block_side * block_side * blocks_when_fine * count) {
+  while (crowd.company > most_company &&
+         4.0 * cells <= block_side * block_side * blocks_when_fine * count) {
     const Crowd finer = cut(reaches, within, 4.0 * cells);
     if (finer.entries > entries_when_fine * count || finer.company > 0.75 * crowd.company) {
       cut(reaches, within, cells);  // no better: as before
@@ -108,7 +117,9 @@ WallGrid::WallGrid(const std::vector<Piece>& pieces, Vector first, Vector second
   list_.resize(starts_.back());
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
   for (std::size_t p = 0; p < reaches.size(); ++p)
-    cover(reaches[p], [&](int i, int k) { list_[next[static_cast<std::size_t>(place(i, k))]++] = static_cast<int>(p); });
+    cover(reaches[p], [&](int i, int k) {
+      list_[next[static_cast<std::size_t>(place(i, k))]++] = static_cast<int>(p);
+    });
   find_clearances();
 }
 
@@ -132,7 +143,8 @@ WallGrid::Crowd WallGrid::cut(const std::vector<Reach>& reaches, const Box& with
       blocks_[block_of(i, k)] = 0;
       crowd.entries += 1.0;
     });
-    if (crowd.entries > 1024.0 + most_entries * static_cast<double>(reaches.size()) && cells > 1.0) return crowd;
+    if (crowd.entries > 1024.0 + most_entries * static_cast<double>(reaches.size()) && cells > 1.0)
+      return crowd;
   }
   int kept = 0;
   for (int& block : blocks_)
@@ -141,18 +153,21 @@ WallGrid::Crowd WallGrid::cut(const std::vector<Reach>& reaches, const Box& with
   for (const Reach& r : reaches)
     cover(r, [&](int i, int k) { ++starts_[static_cast<std::size_t>(place(i, k)) + 1]; });
   for (const std::uint32_t pieces : starts_)
-    crowd.company += static_cast<double>(pieces) * static_cast<double>(pieces) / std::fmax(crowd.entries, 1.0);
+    crowd.company +=
+        static_cast<double>(pieces) * static_cast<double>(pieces) / std::fmax(crowd.entries, 1.0);
   return crowd;
 }
 
 namespace {
 
-/// Distances to the nearest zero, by the larger of the steps along rows and columns, in a square array. Two sweeps,
-/// each adding 1 to the least of the four neighbours that it has passed: a shortest way from one cell to another
-/// is of steps of the first sweep and then of the second, within the rectangle of both.
+/// Distances to the nearest zero, by the larger of the steps along rows and columns, in a square
+/// array. Two sweeps, each adding 1 to the least of the four neighbours that it has passed: a
+/// shortest way from one cell to another is of steps of the first sweep and then of the second,
+/// within the rectangle of both.
 void sweep(std::vector<int>& distance, int columns, int rows) {
   const auto of = [&](int i, int k) -> int& {
-    return distance[static_cast<std::size_t>(i) + static_cast<std::size_t>(columns) * static_cast<std::size_t>(k)];
+    return distance[static_cast<std::size_t>(i) +
+                    static_cast<std::size_t>(columns) * static_cast<std::size_t>(k)];
   };
   const auto lower = [&](int i, int k, int from_i, int from_k) {
     if (from_i >= 0 && from_i < columns && from_k >= 0 && from_k < rows)
@@ -172,8 +187,8 @@ void sweep(std::vector<int>& distance, int columns, int rows) {
 
 }  // namespace
 
-/// Among blocks, and then in each that has pieces: there the nearest cell with pieces is less than a block away,
-/// in the same block or in one of its eight neighbours.
+/// Among blocks, and then in each that has pieces: there the nearest cell with pieces is less than
+/// a block away, in the same block or in one of its eight neighbours.
 void WallGrid::find_clearances() {
   const int columns = blocks_in_row_, rows = static_cast<int>(blocks_.size()) / columns;
   std::vector<int> distance(blocks_.size());
@@ -188,18 +203,22 @@ void WallGrid::find_clearances() {
   std::vector<int> around(side * side);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (blocks_[b] < 0) continue;
-    const int first = (static_cast<int>(b) % columns - 1) * block_side, low = (static_cast<int>(b) / columns - 1) * block_side;
+    const int first = (static_cast<int>(b) % columns - 1) * block_side,
+              low = (static_cast<int>(b) / columns - 1) * block_side;
     for (int k = 0; k < side; ++k)
       for (int i = 0; i < side; ++i) {
         const int column = first + i, row = low + k;
-        const bool is_cell = column >= 0 && column < columns_.parts() && row >= 0 && row < rows_.parts();
-        around[static_cast<std::size_t>(i + side * k)] = is_cell && !is_empty(column, row) ? 0 : side;
+        const bool is_cell =
+            column >= 0 && column < columns_.parts() && row >= 0 && row < rows_.parts();
+        around[static_cast<std::size_t>(i + side * k)] =
+            is_cell && !is_empty(column, row) ? 0 : side;
       }
     sweep(around, side, side);
     for (int k = 0; k < block_side; ++k)
       for (int i = 0; i < block_side; ++i)
         clearance_[static_cast<std::size_t>(blocks_[b] + within_block(i, k))] =
-            static_cast<std::uint8_t>(around[static_cast<std::size_t>(block_side + i + side * (block_side + k))]);
+            static_cast<std::uint8_t>(
+                around[static_cast<std::size_t>(block_side + i + side * (block_side + k))]);
   }
 }
 

@@ -1,6 +1,6 @@
-// Many walls: the plane cut into cells, each with the pieces that may reach into it, and the cells that a
-// flight may pass. Clearings, squares of empty cells, are passed in one leap. docs/developer/many-walls.md derives
-// the bounds.
+// Many walls: the plane cut into cells, each with the pieces that may reach into it, and the cells
+// that a flight may pass. Clearings, squares of empty cells, are passed in one leap.
+// docs/developer/many-walls.md derives the bounds.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 
 namespace carom {
 
-/// An axis cut into parts at increasing doubles. A number below the first cut is of the first part, one beyond
-/// the last of the last. part() never falls as x grows: so a point that two boxes share is of a part that both
-/// of them reach, however the cuts were rounded.
+/// An axis cut into parts at increasing doubles. A number below the first cut is of the first part,
+/// one beyond the last of the last. part() never falls as x grows: so a point that two boxes share
+/// is of a part that both of them reach, however the cuts were rounded.
 class CutAxis {
  public:
   CutAxis() = default;
@@ -36,7 +36,8 @@ class CutAxis {
   int part(double x) const {
     const int last = parts() - 1;
     // The guess may be wrong, the cuts tell.
-    const double guess = std::min(static_cast<double>(last), std::max(0.0, (x - cuts_.front()) * inverse_));
+    const double guess =
+        std::min(static_cast<double>(last), std::max(0.0, (x - cuts_.front()) * inverse_));
     int i = static_cast<int>(guess);
     while (i > 0 && x < cut(i)) --i;
     while (i < last && x >= cut(i + 1)) ++i;
@@ -48,12 +49,13 @@ class CutAxis {
   double inverse_ = 0.0;
 };
 
-/// A straight line, seen along the axis on which it advances most: b = b0 + (a - a0) slope, |slope| <= 1.
+/// A straight line, seen along the axis on which it advances most: b = b0 + (a - a0) slope, |slope|
+/// <= 1.
 struct Course {
   bool upright = false;  ///< a is y
   double a0 = 0.0, b0 = 0.0, slope = 0.0;
-  double speed = 0.0;    ///< da/dt
-  double margin = 0.0;   ///< what the point's error costs
+  double speed = 0.0;   ///< da/dt
+  double margin = 0.0;  ///< what the point's error costs
 
   /// From a point known to `delta` a coordinate.
   Course(geometry::Vector point, double delta, geometry::Vector direction) {
@@ -62,8 +64,9 @@ struct Course {
     b0 = upright ? point.x : point.y;
     speed = upright ? direction.y : direction.x;
     slope = (upright ? direction.x : direction.y) / speed;
-    // b errs by delta, and by slope delta for the error of a; the part of the line that is looked at begins
-    // up to delta before or after a0: 3 delta. The last digits: b0 itself is rounded in b and in its ends.
+    // b errs by delta, and by slope delta for the error of a; the part of the line that is looked
+    // at begins up to delta before or after a0: 3 delta. The last digits: b0 itself is rounded in b
+    // and in its ends.
     margin = 3.1 * delta + 4.0 * geometry::unit_roundoff * std::fabs(b0);
   }
   struct Range {
@@ -73,7 +76,8 @@ struct Course {
   Range between(double from, double to) const {
     const double p = (from - a0) * slope, q = (to - a0) * slope;
     // p errs by 3u of itself, the sum by u of both, the ends by u of what they are.
-    const double most = margin + 8.0 * geometry::unit_roundoff * std::max(std::fabs(p), std::fabs(q));
+    const double most =
+        margin + 8.0 * geometry::unit_roundoff * std::max(std::fabs(p), std::fabs(q));
     return {b0 + std::min(p, q) - most, b0 + std::max(p, q) + most};
   }
 };
@@ -81,12 +85,13 @@ struct Course {
 class WallGrid {
  public:
   /// The pieces of a boundary within a box: outside of it nothing is looked for.
-  WallGrid(const std::vector<geometry::Piece>& pieces, geometry::Vector first, geometry::Vector second,
-           const geometry::Box& within);
+  WallGrid(const std::vector<geometry::Piece>& pieces, geometry::Vector first,
+           geometry::Vector second, const geometry::Box& within);
 
   /// The pieces of a cell that was visited.
   std::span<const int> pieces(int cell) const {
-    const auto first = starts_[static_cast<std::size_t>(cell)], end = starts_[static_cast<std::size_t>(cell) + 1];
+    const auto first = starts_[static_cast<std::size_t>(cell)],
+               end = starts_[static_cast<std::size_t>(cell) + 1];
     return {list_.data() + first, end - first};
   }
   /// The pieces of the cell of a point.
@@ -103,25 +108,29 @@ class WallGrid {
   /// Has the cell in a column and a row no piece?
   bool is_empty(int column, int row) const {
     const int cell = place(column, row);
-    return cell < 0 || starts_[static_cast<std::size_t>(cell)] == starts_[static_cast<std::size_t>(cell) + 1];
+    return cell < 0 ||
+           starts_[static_cast<std::size_t>(cell)] == starts_[static_cast<std::size_t>(cell) + 1];
   }
-  /// 0: the cell has pieces. Else all cells are empty that are fewer columns and fewer rows than this away.
+  /// 0: the cell has pieces. Else all cells are empty that are fewer columns and fewer rows than
+  /// this away.
   int clearance(int column, int row) const {
     const int block = blocks_[block_of(column, row)];
     if (block >= 0) return clearance_[static_cast<std::size_t>(block + within_block(column, row))];
     // All blocks are empty that are fewer columns and fewer rows of blocks than -block away.
-    const int i = column & block_mask, k = row & block_mask, least = std::min(i, k), most = std::max(i, k);
+    const int i = column & block_mask, k = row & block_mask, least = std::min(i, k),
+              most = std::max(i, k);
     return std::min(-block * block_side - most, (-block - 1) * block_side + least + 1);
   }
 
-  /// Follows a line from a point known to `delta` a coordinate. Calls visit(cell) for every cell with pieces that
-  /// it may pass and then, from time to time, passed(kappa): of the line until then every such cell has been
-  /// visited. Stops where that is true.
+  /// Follows a line from a point known to `delta` a coordinate. Calls visit(cell) for every cell
+  /// with pieces that it may pass and then, from time to time, passed(kappa): of the line until
+  /// then every such cell has been visited. Stops where that is true.
   template <class Visit, class Passed>
-  void along_line(geometry::Vector point, double delta, geometry::Vector velocity, const Visit& visit,
-                  const Passed& passed) const {
+  void along_line(geometry::Vector point, double delta, geometry::Vector velocity,
+                  const Visit& visit, const Passed& passed) const {
     const Course line(point, delta, velocity);
-    const CutAxis &along = line.upright ? rows_ : columns_, &across = line.upright ? columns_ : rows_;
+    const CutAxis &along = line.upright ? rows_ : columns_,
+                  &across = line.upright ? columns_ : rows_;
     const bool forward = line.speed > 0.0;
     const double reach = 1.1 * delta + 2.0 * geometry::unit_roundoff * std::fabs(line.a0);
     if (forward ? line.a0 - reach > along.high() : line.a0 + reach < along.low()) {
@@ -156,15 +165,16 @@ class WallGrid {
       if (i == last) break;
       // kappa = speed / way: two roundings; the way errs by delta and u.
       const double way = std::fabs(end - line.a0) - reach;
-      if (way > 0.0 && passed(std::fabs(line.speed) / way * (1.0 + 8.0 * geometry::unit_roundoff))) return;
+      if (way > 0.0 && passed(std::fabs(line.speed) / way * (1.0 + 8.0 * geometry::unit_roundoff)))
+        return;
     }
     passed(-HUGE_VAL);
   }
 
   /// The same along a Larmor circle, once round. `speed`: |v| to rounding.
   template <class Visit, class Passed>
-  void along_circle(geometry::Vector point, double delta, geometry::Vector velocity, double omega, double speed,
-                    const Visit& visit, const Passed& passed) const {
+  void along_circle(geometry::Vector point, double delta, geometry::Vector velocity, double omega,
+                    double speed, const Visit& visit, const Passed& passed) const {
     using geometry::Vector;
     const double w = std::fabs(omega), h = 0.5 * w;
     const double bend = 1.01 * w / (4.0 * speed);
@@ -172,12 +182,14 @@ class WallGrid {
     Vector from = point;
     bool open = false;  // nothing near the stretch before
     for (;;) {
-      // On to the next kappa: past a chord as long as a cell, or as the way to the box or through a clearing, or
-      // past an eighth of the circle. kappa = h cot(phase), and phases are added. Which numbers these are does not
-      // matter, as long as kappa falls and less than half a turn lies between two.
+      // On to the next kappa: past a chord as long as a cell, or as the way to the box or through a
+      // clearing, or past an eighth of the circle. kappa = h cot(phase), and phases are added.
+      // Which numbers these are does not matter, as long as kappa falls and less than half a turn
+      // lies between two.
       const Clearing clearing = open ? clearing_at(from) : Clearing{};
       // The arc stays within its chord and c^2 / 4R of where it begins.
-      const double clear = 0.99 * clearing.around * narrow_, clear_length = clear * std::max(0.8, 1.0 - clear * bend);
+      const double clear = 0.99 * clearing.around * narrow_,
+                   clear_length = clear * std::max(0.8, 1.0 - clear * bend);
       const double way = std::max(width_, 0.5 * distance(from));
       const bool leap = clear_length > way;
       const double turn = std::max(speed / (leap ? clear_length : way), 2.65 * h);
@@ -190,12 +202,14 @@ class WallGrid {
         to = point + d;
         to_error = delta + 8.1 * geometry::unit_roundoff * (std::fabs(d.x) + std::fabs(d.y));
       }
-      // An arc of at most half a circle of radius R stays within c^2 / 4R of its chord c, and within R. With the
-      // ends' errors e, c^2 / 4R grows by at most 3.2 e: c < 0.8 R, and where e > R, R is below e.
+      // An arc of at most half a circle of radius R stays within c^2 / 4R of its chord c, and
+      // within R. With the ends' errors e, c^2 / 4R grows by at most 3.2 e: c < 0.8 R, and where e
+      // > R, R is below e.
       const Vector chord = to - from;
       const double most = 4.4 * std::max(error, to_error) + bend * dot(chord, chord);
       const auto spread = [&](double a, double b) {
-        const double grown = most + 4.0 * geometry::unit_roundoff * std::max(std::fabs(a), std::fabs(b));
+        const double grown =
+            most + 4.0 * geometry::unit_roundoff * std::max(std::fabs(a), std::fabs(b));
         if (!(grown < HUGE_VAL)) return Course::Range{-HUGE_VAL, HUGE_VAL};
         return Course::Range{std::min(a, b) - grown, std::max(a, b) + grown};
       };
@@ -240,7 +254,9 @@ class WallGrid {
     return static_cast<std::size_t>(column >> block_bits) +
            static_cast<std::size_t>(row >> block_bits) * static_cast<std::size_t>(blocks_in_row_);
   }
-  static int within_block(int column, int row) { return (column & block_mask) | (row & block_mask) << block_bits; }
+  static int within_block(int column, int row) {
+    return (column & block_mask) | (row & block_mask) << block_bits;
+  }
   /// Where the cell is kept; negative: in a block without pieces.
   int place(int column, int row) const {
     const int block = blocks_[block_of(column, row)];
@@ -249,11 +265,11 @@ class WallGrid {
   bool is_empty(int cell) const {
     return starts_[static_cast<std::size_t>(cell)] == starts_[static_cast<std::size_t>(cell) + 1];
   }
-  /// Through how many parts, from part i on, does a line surely stay within the clearing about one of its cells
-  /// there? The cells of the line from `begin` to the end of the last of them are compared with the clearing. Less
-  /// than two are not worth the question: 0.
-  int parts_in_clearing(const Course& line, const CutAxis& along, const CutAxis& across, int i, double begin,
-                        double flatness) const {
+  /// Through how many parts, from part i on, does a line surely stay within the clearing about one
+  /// of its cells there? The cells of the line from `begin` to the end of the last of them are
+  /// compared with the clearing. Less than two are not worth the question: 0.
+  int parts_in_clearing(const Course& line, const CutAxis& along, const CutAxis& across, int i,
+                        double begin, double flatness) const {
     const int k = across.part(line.b0 + (begin - line.a0) * line.slope);  // about: any cell will do
     const int around = (line.upright ? clearance(k, i) : clearance(i, k)) - 1;
     if (around < 2) return 0;
@@ -266,11 +282,13 @@ class WallGrid {
   }
   /// From a point to the box.
   double distance(geometry::Vector x) const {
-    return std::max({0.0, columns_.low() - x.x, x.x - columns_.high(), rows_.low() - x.y, x.y - rows_.high()});
+    return std::max(
+        {0.0, columns_.low() - x.x, x.x - columns_.high(), rows_.low() - x.y, x.y - rows_.high()});
   }
   template <class Visit>
   void visit_box(Course::Range x, Course::Range y, const Visit& visit) const {
-    if (!(x.high >= columns_.low() && x.low <= columns_.high() && y.high >= rows_.low() && y.low <= rows_.high()))
+    if (!(x.high >= columns_.low() && x.low <= columns_.high() && y.high >= rows_.low() &&
+          y.low <= rows_.high()))
       return;
     const int left = columns_.part(x.low), right = columns_.part(x.high), top = rows_.part(y.high);
     for (int k = rows_.part(y.low); k <= top; ++k)
@@ -289,7 +307,8 @@ class WallGrid {
   CutAxis columns_, rows_;
   double width_ = 0.0, narrow_ = 0.0;  ///< of a cell, about: the longer side and the shorter
   int blocks_in_row_ = 0;
-  std::vector<int> blocks_;  ///< where their cells begin; without pieces: minus the clearance among blocks
+  std::vector<int>
+      blocks_;  ///< where their cells begin; without pieces: minus the clearance among blocks
   std::vector<std::uint32_t> starts_;
   std::vector<std::uint8_t> clearance_;  ///< of cells in blocks with pieces
   std::vector<int> list_;

@@ -9,7 +9,8 @@ namespace carom {
 
 using geometry::Vector;
 
-WallTouch::WallTouch(const Table& table, int grid_from) : loop_of_(table.walls.size(), table.walls.size()) {
+WallTouch::WallTouch(const Table& table, int grid_from)
+    : loop_of_(table.walls.size(), table.walls.size()) {
   for (const Wall& wall : table.walls) frames_.push_back(geometry::frame_of(wall.curve));
   for (std::size_t first = 0; first < table.walls.size(); ++first) {
     if (loop_of_[first] < loops_.size()) continue;
@@ -24,17 +25,18 @@ WallTouch::WallTouch(const Table& table, int grid_from) : loop_of_(table.walls.s
   if (table.walls.empty() || static_cast<int>(table.walls.size()) < grid_from) return;
   std::vector<geometry::Piece> pieces;
   for (const Wall& wall : table.walls) pieces.push_back({wall.curve, {}, wall.next, false});
-  const geometry::Box whole =
-      geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
+  const geometry::Box whole = geometry::hull_of(
+      table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
   grid_ = std::make_unique<const WallGrid>(pieces, Vector{}, Vector{}, whole);
 }
 
 bool WallTouch::on(std::size_t i, Vector point) const {
-  // A point of the wall is reproduced by its parameter to some ulps. This asks 2^12 of them, and only
-  // to spare the exact stage the points that are far away.
+  // A point of the wall is reproduced by its parameter to some ulps. This asks 2^12 of them, and
+  // only to spare the exact stage the points that are far away.
   const Vector image = geometry::point_at(frames_[i], geometry::parameter_of(frames_[i], point));
-  const double size = std::max({std::abs(point.x), std::abs(point.y), frames_[i].major, frames_[i].minor,
-                                std::abs(frames_[i].origin.x), std::abs(frames_[i].origin.y)});
+  const double size =
+      std::max({std::abs(point.x), std::abs(point.y), frames_[i].major, frames_[i].minor,
+                std::abs(frames_[i].origin.x), std::abs(frames_[i].origin.y)});
   const double distance = std::max(std::abs(point.x - image.x), std::abs(point.y - image.y));
   return !(distance > 0x1p-40 * size) && geometry::locate(loops_[loop_of_[i]], point) == 0;
 }

@@ -25,13 +25,14 @@ double largest_fermi(const BumpShape& shape, double r, double rho) {
   // |1 + e^w| >= max(1, |e^w|) sin(theta) where |Im w| <= theta, pi/2 <= theta < pi.
   double largest = infinity;
   if (reach < pi) largest = decay / elementary::sin(std::max(reach, 0.5 * pi));
-  // Farther off the axis Re w is at least z - sqrt(reach^2 - theta^2), and |1 + e^w| >= e^(Re w) - 1.
+  // Farther off the axis Re w is at least z - sqrt(reach^2 - theta^2), and |1 + e^w| >= e^(Re w)
+  // - 1.
   for (const double theta : {1.8, 2.2, 2.5, 2.8}) {
     if (!(reach > theta)) continue;
     const double beyond = z - std::sqrt(reach * reach - theta * theta);
     if (!(beyond > 0.0)) continue;
-    largest =
-        std::min(largest, std::max(decay / elementary::sin(theta), 1.0 / (elementary::exp(beyond) - 1.0)));
+    largest = std::min(
+        largest, std::max(decay / elementary::sin(theta), 1.0 / (elementary::exp(beyond) - 1.0)));
   }
   return largest;
 }
@@ -100,9 +101,10 @@ void add_series(const BumpShape& shape, Vector d, Vector a, Vector b, int degree
   const double s0 = dot(d, d);
   const Series g = shape.kind == BumpShape::Kind::fermi ? fermi_series(shape, s0, degree)
                                                         : gaussian_series(shape, s0, degree);
-  // s - s0 = x X + y Y + xx X^2 + xy X Y + yy Y^2, put into the series by Horner's rule. What is to be
-  // multiplied k more times is needed up to degree - k only.
-  const double x = 2.0 * dot(d, a), y = 2.0 * dot(d, b), xx = dot(a, a), xy = 2.0 * dot(a, b), yy = dot(b, b);
+  // s - s0 = x X + y Y + xx X^2 + xy X Y + yy Y^2, put into the series by Horner's rule. What is to
+  // be multiplied k more times is needed up to degree - k only.
+  const double x = 2.0 * dot(d, a), y = 2.0 * dot(d, b), xx = dot(a, a), xy = 2.0 * dot(a, b),
+               yy = dot(b, b);
   std::array<std::array<double, orders>, orders> now{}, next{};  // [power of Y][power of X]
   now[0][0] = g[static_cast<std::size_t>(degree)];
   for (int k = degree - 1; k >= 0; --k) {

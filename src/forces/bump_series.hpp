@@ -20,15 +20,16 @@ struct BumpShape {
   double length() const { return kind == Kind::fermi ? softness : width; }
 };
 
-/// What Taylor's series of V about a point at the distance r from the centre leaves out beyond degrees 0, 1,
-/// ..., at points within `way` of it: upper bounds of the value's error and of length() times the gradient's,
-/// infinite where none is known. They decrease with r.
+/// What Taylor's series of V about a point at the distance r from the centre leaves out beyond
+/// degrees 0, 1,
+/// ..., at points within `way` of it: upper bounds of the value's error and of length() times the
+/// gradient's, infinite where none is known. They decrease with r.
 using SeriesErrors = std::array<double, LatticeSum::most_degree + 1>;
 SeriesErrors series_errors(const BumpShape&, double r, double way);
 
-/// The polynomial of a total degree in X and Y that Taylor's series of V at d + X a + Y b gives, added to
-/// `to`, where the coefficient of X^i Y^j is number i + width j.
-void add_series(const BumpShape&, geometry::Vector d, geometry::Vector a, geometry::Vector b, int degree,
-                std::size_t width, std::vector<double>& to);
+/// The polynomial of a total degree in X and Y that Taylor's series of V at d + X a + Y b gives,
+/// added to `to`, where the coefficient of X^i Y^j is number i + width j.
+void add_series(const BumpShape&, geometry::Vector d, geometry::Vector a, geometry::Vector b,
+                int degree, std::size_t width, std::vector<double>& to);
 
 }  // namespace carom

@@ -15,14 +15,16 @@ using geometry::Vector;
 
 namespace {
 
-// Bumps are taken eight at a time. Eight running sums, added up in one fixed order at the end, make the
-// result the same whatever the width of the machine's vectors.
+// Bumps are taken eight at a time. Eight running sums, added up in one fixed order at the end, make
+// the result the same whatever the width of the machine's vectors.
 constexpr std::size_t lanes = 8;
 using Lanes [[gnu::vector_size(lanes * sizeof(double))]] = double;
 
 CAROM_INLINE void load(Lanes& lane, const double* from) { std::memcpy(&lane, from, sizeof lane); }
 CAROM_INLINE void store(const Lanes& lane, double* to) { std::memcpy(to, &lane, sizeof lane); }
-double total(const Lanes& s) { return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7])); }
+double total(const Lanes& s) {
+  return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
+}
 
 /// Centres in columns, filled up to a multiple of eight with bumps of weight 0.
 struct Centers {
@@ -42,7 +44,8 @@ struct Centers {
   }
 };
 
-/// The largest number of bumps (a multiple of eight) whose distances are kept on the stack at a time.
+/// The largest number of bumps (a multiple of eight) whose distances are kept on the stack at a
+/// time.
 constexpr std::size_t batch = 64;
 
 struct Batch {
@@ -51,7 +54,8 @@ struct Batch {
 
 /// Adds the forces of all bumps of a kind, and returns their potential: of sums of units of each.
 template <class Bumps>
-double add_bumps(const Bumps& bumps, const Centers& centers, Vector x, double height, double slope, Vector& force) {
+double add_bumps(const Bumps& bumps, const Centers& centers, Vector x, double height, double slope,
+                 Vector& force) {
   Lanes value{}, fx{}, fy{};
   Batch b;
   for (std::size_t from = 0; from < centers.x.size(); from += batch) {
@@ -68,7 +72,11 @@ double add_bumps(const Bumps& bumps, const Centers& centers, Vector x, double he
 class FermiBumps final : public Potential {
  public:
   FermiBumps(double height, double radius, double softness, const std::vector<Vector>& centers)
-      : height_(height), radius_(radius), softness_(softness), inverse_(1.0 / softness), centers_(centers) {}
+      : height_(height),
+        radius_(radius),
+        softness_(softness),
+        inverse_(1.0 / softness),
+        centers_(centers) {}
 
   double add_force(const Particle&, Vector x, Vector& force) const override {
     return add_bumps(*this, centers_, x, height_, height_ * inverse_, force);
@@ -76,7 +84,8 @@ class FermiBumps final : public Potential {
   ForceBound bound(const Particle&, const Neighbourhood& n) const override {
     ForceBound sum;
     for (std::size_t i = 0; i < centers_.count; ++i)
-      sum += central::fermi(height_, radius_, softness_, central::distances(n, {centers_.x[i], centers_.y[i]}));
+      sum += central::fermi(height_, radius_, softness_,
+                            central::distances(n, {centers_.x[i], centers_.y[i]}));
     return sum;
   }
   double reach() const override { return radius_ + tail_exponent * softness_; }
@@ -104,8 +113,8 @@ class FermiBumps final : public Potential {
     }
   }
   // With q = 1/(1 + e): V = q and -dV/dr = q^2 e / softness; one division gives q and 1/r.
-  CAROM_VECTORISED void sum(std::size_t from, std::size_t n, const Batch& b, Lanes& value, Lanes& fx,
-                            Lanes& fy) const {
+  CAROM_VECTORISED void sum(std::size_t from, std::size_t n, const Batch& b, Lanes& value,
+                            Lanes& fx, Lanes& fy) const {
     for (std::size_t i = 0; i < n; i += lanes) {
       Lanes e, r, dx, dy, weight;
       load(e, &b.e[i]);
@@ -139,7 +148,8 @@ class GaussianBumps final : public Potential {
   ForceBound bound(const Particle&, const Neighbourhood& n) const override {
     ForceBound sum;
     for (std::size_t i = 0; i < centers_.count; ++i)
-      sum.force += central::gaussian(height_, width_, central::distances(n, {centers_.x[i], centers_.y[i]}));
+      sum.force +=
+          central::gaussian(height_, width_, central::distances(n, {centers_.x[i], centers_.y[i]}));
     return sum;
   }
   double reach() const override { return std::sqrt(2.0 * tail_exponent) * width_; }
@@ -156,8 +166,8 @@ class GaussianBumps final : public Potential {
       store((-0.5 * inverse_square_) * (dx * dx + dy * dy), &b.e[i]);
     }
   }
-  CAROM_VECTORISED void sum(std::size_t from, std::size_t n, const Batch& b, Lanes& value, Lanes& fx,
-                            Lanes& fy) const {
+  CAROM_VECTORISED void sum(std::size_t from, std::size_t n, const Batch& b, Lanes& value,
+                            Lanes& fx, Lanes& fy) const {
     for (std::size_t i = 0; i < n; i += lanes) {
       Lanes e, dx, dy, weight;
       load(e, &b.e[i]);
@@ -178,8 +188,8 @@ class GaussianBumps final : public Potential {
 
 }  // namespace
 
-std::vector<Vector> copies_that_reach(const std::vector<Vector>& centers, const geometry::Lattice& lattice,
-                                      double reach) {
+std::vector<Vector> copies_that_reach(const std::vector<Vector>& centers,
+                                      const geometry::Lattice& lattice, double reach) {
   Vector middle{};
   for (const geometry::CellEdge& e : lattice.edges) middle = middle + e.segment.from;
   middle = (1.0 / static_cast<double>(lattice.edges.size())) * middle;
@@ -195,7 +205,8 @@ std::vector<Vector> copies_that_reach(const std::vector<Vector>& centers, const 
     const Vector offset = center - middle;
     const double far = reach + cell + std::sqrt(dot(offset, offset));
     // |m a + n b| >= max(|m|, |n|) area / longest
-    const auto range = static_cast<std::int64_t>(std::ceil(far * longest / lattice.cell_area())) + 1;
+    const auto range =
+        static_cast<std::int64_t>(std::ceil(far * longest / lattice.cell_area())) + 1;
     for (std::int64_t m = -range; m <= range; ++m)
       for (std::int64_t n = -range; n <= range; ++n) {
         const Vector copy = center + lattice.translation({m, n});
@@ -220,20 +231,24 @@ double inner_radius(const geometry::Lattice& lattice) {
 
 }  // namespace
 
-// Beyond its centre's neighbourhood a bump's tail is subharmonic: its value at a lattice point is at most
-// its mean over a disc of radius s about it. Discs of neighbours do not overlap if s <= inner_radius, so the
-// sum over the points beyond R is at most 1/(pi s^2) times the integral over r > R - s.
+// Beyond its centre's neighbourhood a bump's tail is subharmonic: its value at a lattice point is
+// at most its mean over a disc of radius s about it. Discs of neighbours do not overlap if s <=
+// inner_radius, so the sum over the points beyond R is at most 1/(pi s^2) times the integral over r
+// > R - s.
 double fermi_sum_reach(double radius, double softness, const geometry::Lattice& lattice) {
   const double s = std::min(2.0 * softness, inner_radius(lattice));
   const double single = radius + tail_exponent * softness;
-  // 2 softness (R - s + softness)/s^2 exp(-(R - s - radius)/softness) <= tail_share; R < 2 single + s here.
+  // 2 softness (R - s + softness)/s^2 exp(-(R - s - radius)/softness) <= tail_share; R < 2 single +
+  // s here.
   const double sum = 2.0 * softness * (2.0 * single + softness) / (s * s);
   return single + s + softness * std::max(0.0, elementary::log(sum));
 }
 double gaussian_sum_reach(double width, const geometry::Lattice& lattice) {
   const double s = std::min(0.5 * width, inner_radius(lattice));
   // 2 width^2/s^2 exp(-(R - s)^2/(2 width^2)) <= tail_share
-  return s + width * std::sqrt(2.0 * (tail_exponent + std::max(0.0, elementary::log(2.0 * width * width / (s * s)))));
+  return s +
+         width * std::sqrt(2.0 * (tail_exponent +
+                                  std::max(0.0, elementary::log(2.0 * width * width / (s * s)))));
 }
 
 std::unique_ptr<const Potential> make_fermi_bumps(double height, double radius, double softness,

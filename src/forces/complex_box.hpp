@@ -1,5 +1,6 @@
-// Arithmetic of boxes in the complex plane: each result encloses all values, but for rounding (1e-15 relative), which
-// the bounds made of them do not need. What has no bound has infinite or undefined ends.
+// Arithmetic of boxes in the complex plane: each result encloses all values, but for rounding
+// (1e-15 relative), which the bounds made of them do not need. What has no bound has infinite or
+// undefined ends.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,8 @@ inline Range operator-(Range a, Range b) { return {a.low - b.high, a.high - b.lo
 /// Zero times anything is zero, also of what has no bound.
 inline double times(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
 inline Range operator*(Range a, Range b) {
-  const double p = times(a.low, b.low), q = times(a.low, b.high), r = times(a.high, b.low), s = times(a.high, b.high);
+  const double p = times(a.low, b.low), q = times(a.low, b.high), r = times(a.high, b.low),
+               s = times(a.high, b.high);
   return {std::min({p, q, r, s}), std::max({p, q, r, s})};
 }
 inline Range operator*(double c, Range a) { return Range{c, c} * a; }
@@ -35,8 +37,8 @@ inline Range square(Range a) {
 inline double largest(Range a) { return std::max(a.high, -a.low); }
 inline bool has_zero(Range a) { return !(a.low > 0.0) && !(a.high < 0.0); }
 
-/// Over the angles of a range. Half turns are counted in doubles: there are few in a range, and none is counted where
-/// their number or an angle has no digits behind its point.
+/// Over the angles of a range. Half turns are counted in doubles: there are few in a range, and
+/// none is counted where their number or an angle has no digits behind its point.
 inline Range cosine(Range a) {
   constexpr double pi = 3.141592653589793, most = 0x1p32;
   if (!(a.high - a.low < 2.0 * pi && a.low > -most && a.high < most)) return {-1.0, 1.0};
@@ -74,7 +76,9 @@ struct Box {
 inline Box operator+(const Box& a, const Box& b) { return {a.re + b.re, a.im + b.im}; }
 inline Box operator-(const Box& a) { return {-a.re, -a.im}; }
 inline Box operator-(const Box& a, const Box& b) { return {a.re - b.re, a.im - b.im}; }
-inline Box operator*(const Box& a, const Box& b) { return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
+inline Box operator*(const Box& a, const Box& b) {
+  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
 inline Box hull(const Box& a, const Box& b) { return {hull(a.re, b.re), hull(a.im, b.im)}; }
 inline bool has_zero(const Box& a) { return has_zero(a.re) && has_zero(a.im); }
 /// Of the modulus squared.
@@ -92,13 +96,16 @@ inline Box inverse(const Box& a) {
 inline Box square(const Box& a) { return {square(a.re) - square(a.im), 2.0 * (a.re * a.im)}; }
 
 /// The box about all numbers of these moduli and arguments.
-inline Box of_polar(Range modulus, Range argument) { return {modulus * cosine(argument), modulus * sine(argument)}; }
+inline Box of_polar(Range modulus, Range argument) {
+  return {modulus * cosine(argument), modulus * sine(argument)};
+}
 /// Arguments in (-pi, pi]; all of them where the box touches 0 or the negative axis.
 inline Range argument(const Box& a) {
   constexpr double pi = 3.141592653589793;
   if (!(a.re.low > 0.0) && has_zero(a.im)) return {-pi, pi};
   const double t[] = {elementary::atan2(a.im.low, a.re.low), elementary::atan2(a.im.low, a.re.high),
-                      elementary::atan2(a.im.high, a.re.low), elementary::atan2(a.im.high, a.re.high)};
+                      elementary::atan2(a.im.high, a.re.low),
+                      elementary::atan2(a.im.high, a.re.high)};
   return {*std::min_element(t, t + 4), *std::max_element(t, t + 4)};
 }
 /// Does it touch the negative axis or 0, where roots and logarithms end?
@@ -106,7 +113,8 @@ inline bool is_cut(const Box& a) { return !(a.re.low > 0.0) && has_zero(a.im); }
 
 inline Box root(const Box& a) {
   const Range m = modulus_squared(a), t = argument(a);
-  return of_polar({std::sqrt(std::sqrt(m.low)), std::sqrt(std::sqrt(m.high))}, {0.5 * t.low, 0.5 * t.high});
+  return of_polar({std::sqrt(std::sqrt(m.low)), std::sqrt(std::sqrt(m.high))},
+                  {0.5 * t.low, 0.5 * t.high});
 }
 inline Box logarithm(const Box& a) {
   const Range m = modulus_squared(a);
@@ -151,7 +159,9 @@ inline Box power(const Box& a, int n) {
     return result;
   }
   const Range m = modulus_squared(a);
-  const auto to = [n](double m2) { return m2 > 0.0 ? elementary::exp(0.5 * n * elementary::log(m2)) : 0.0; };
+  const auto to = [n](double m2) {
+    return m2 > 0.0 ? elementary::exp(0.5 * n * elementary::log(m2)) : 0.0;
+  };
   const Range t = argument(a);
   return of_polar({to(m.low), to(m.high)}, {n * t.low, n * t.high});
 }

@@ -1,6 +1,6 @@
-// Eight partners of a particle at a time. Each of the eight lanes has a sum of its own, whatever the machine's
-// vectors are, and only + - * / and sqrt are used, which round alike everywhere: wider vectors change nothing
-// but the time. Products and sums are not fused.
+// Eight partners of a particle at a time. Each of the eight lanes has a sum of its own, whatever
+// the machine's vectors are, and only + - * / and sqrt are used, which round alike everywhere:
+// wider vectors change nothing but the time. Products and sums are not fused.
 #include "forces/coulomb_pairs.hpp"
 
 #include <cmath>
@@ -62,16 +62,19 @@ struct One {
   for (std::size_t i = 0; i < a.size; ++i) {
     const std::size_t next = i + 1, partners = a.size - next;
     if (a.interrupt && a.interrupt->after(static_cast<double>(partners))) return;
-    pull({a.x[i], a.y[i], strength * a.charge[i]}, partners, a.x + next, a.y + next, a.charge + next,
-         a.force_x + next, a.force_y + next, a.pull_x, a.pull_y);
+    pull({a.x[i], a.y[i], strength * a.charge[i]}, partners, a.x + next, a.y + next,
+         a.charge + next, a.force_x + next, a.force_y + next, a.pull_x, a.pull_y);
     a.force_x[i] += sum_of(a.pull_x, partners);
     a.force_y[i] += sum_of(a.pull_y, partners);
   }
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
-[[gnu::target("avx2")]] void sum_pairs_avx2(double strength, const Arrays& a) { sum_pairs(strength, a); }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void sum_pairs_avx512(double strength, const Arrays& a) {
+[[gnu::target("avx2")]] void sum_pairs_avx2(double strength, const Arrays& a) {
+  sum_pairs(strength, a);
+}
+[[gnu::target("avx512f,prefer-vector-width=512")]] void sum_pairs_avx512(double strength,
+                                                                         const Arrays& a) {
   sum_pairs(strength, a);
 }
 #endif
@@ -88,8 +91,9 @@ Sum widest() {
 
 }  // namespace
 
-void add_coulomb_pairs(double strength, std::span<const Particle> particles, std::span<const geometry::Vector> x,
-                       std::span<geometry::Vector> force, Interrupt* interrupt) {
+void add_coulomb_pairs(double strength, std::span<const Particle> particles,
+                       std::span<const geometry::Vector> x, std::span<geometry::Vector> force,
+                       Interrupt* interrupt) {
   static const Sum sum = widest();
   thread_local std::vector<double> columns;
   const std::size_t n = x.size();
@@ -101,8 +105,9 @@ void add_coulomb_pairs(double strength, std::span<const Particle> particles, std
     column[2 * n + i] = particles[i].charge;
   }
   sum(strength, {n, column, column + n, column + 2 * n, column + 3 * n, column + 4 * n,
-           column + 5 * n, column + 6 * n, interrupt});
-  for (std::size_t i = 0; i < n; ++i) force[i] = force[i] + geometry::Vector{column[3 * n + i], column[4 * n + i]};
+                 column + 5 * n, column + 6 * n, interrupt});
+  for (std::size_t i = 0; i < n; ++i)
+    force[i] = force[i] + geometry::Vector{column[3 * n + i], column[4 * n + i]};
 }
 
 }  // namespace carom

@@ -22,7 +22,8 @@ double ForceField::add_external(const Particle& p, Vector x, Vector& force) cons
   return value;
 }
 
-double ForceField::add_pair(const Particle& a, const Particle& b, Vector separation, Vector& force) const {
+double ForceField::add_pair(const Particle& a, const Particle& b, Vector separation,
+                            Vector& force) const {
   return interaction_ ? interaction_->add_force(a, b, separation, force) : 0.0;
 }
 
@@ -32,12 +33,14 @@ ForceBound ForceField::external_bound(const Particle& p, const Neighbourhood& n)
   return sum;
 }
 
-ForceBound ForceField::pair_bound(const Particle& a, const Particle& b, double distance, double rho) const {
+ForceBound ForceField::pair_bound(const Particle& a, const Particle& b, double distance,
+                                  double rho) const {
   return interaction_ ? interaction_->bound(a, b, distance, rho) : ForceBound{};
 }
 
 void ForceField::add_pairs(std::span<const Particle> particles, std::span<const Vector> x,
-                           const geometry::Lattice* lattice, std::span<Vector> force, Interrupt* interrupt) const {
+                           const geometry::Lattice* lattice, std::span<Vector> force,
+                           Interrupt* interrupt) const {
   if (interaction_) interaction_->add_forces(particles, x, lattice, force, interrupt);
 }
 
@@ -68,10 +71,11 @@ void check(const PotentialSpec& s, const std::vector<Particle>& particles, bool 
   if (s.kind != Kind::coulomb) return;
   for (const Particle& p : particles)
     if (p.charge * s.charge < 0.0)
-      throw InputError(s.place,
-                       "the Coulomb centre attracts: a particle that falls into it has no energy bound and no "
-                       "step is short enough",
-                       "charges of the same sign, or a soft potential (gaussian with height < 0)");
+      throw InputError(
+          s.place,
+          "the Coulomb centre attracts: a particle that falls into it has no energy bound and no "
+          "step is short enough",
+          "charges of the same sign, or a soft potential (gaussian with height < 0)");
 }
 
 /// Do the discs of this radius about the lattice points cover the plane?
@@ -95,10 +99,11 @@ double shortest_period(const geometry::Lattice& lattice) {
   return std::sqrt(square);
 }
 
-/// Supports none of which lies in another, but together they cover all. Edges that lie on one another, or within
-/// rounding, could not be told apart by a flight: what stands out of another support by less than a millionth of
-/// its radius makes that one larger instead, which is as right.
-std::vector<Support> outermost(const std::vector<Support>& all, const std::optional<geometry::Lattice>& lattice) {
+/// Supports none of which lies in another, but together they cover all. Edges that lie on one
+/// another, or within rounding, could not be told apart by a flight: what stands out of another
+/// support by less than a millionth of its radius makes that one larger instead, which is as right.
+std::vector<Support> outermost(const std::vector<Support>& all,
+                               const std::optional<geometry::Lattice>& lattice) {
   const auto takes_in = [&](Support& large, const Support& small) {
     Vector d = small.center - large.center;
     if (lattice) d = nearest_copy(d, *lattice);
@@ -109,7 +114,8 @@ std::vector<Support> outermost(const std::vector<Support>& all, const std::optio
   };
   std::vector<Support> found;
   for (Support s : all) {
-    if (std::any_of(found.begin(), found.end(), [&](Support& other) { return takes_in(other, s); })) continue;
+    if (std::any_of(found.begin(), found.end(), [&](Support& other) { return takes_in(other, s); }))
+      continue;
     std::erase_if(found, [&](const Support& other) { return takes_in(s, other); });
     found.push_back(s);
   }
@@ -119,21 +125,25 @@ std::vector<Support> outermost(const std::vector<Support>& all, const std::optio
 /// Pairs feel their nearest copies alone: all others must be out of range.
 void check_range(const InteractionSpec& s, double range, const geometry::Lattice& lattice) {
   if (!std::isfinite(range))
-    throw InputError(s.place, "this interaction reaches infinitely far, which a lattice has no sum for",
+    throw InputError(s.place,
+                     "this interaction reaches infinitely far, which a lattice has no sum for",
                      "yukawa, lennard-jones or soft-sphere");
   const double half = 0.5 * shortest_period(lattice);
   if (range > half)
-    throw InputError(s.place,
-                     fmt::format("the interaction reaches {:.4g}, further than half the lattice's shortest period, "
-                                 "{:.4g}: a particle would feel several copies of another",
-                                 range, half),
-                     "a shorter range, or longer lattice vectors");
+    throw InputError(
+        s.place,
+        fmt::format(
+            "the interaction reaches {:.4g}, further than half the lattice's shortest period, "
+            "{:.4g}: a particle would feel several copies of another",
+            range, half),
+        "a shorter range, or longer lattice vectors");
 }
 
 }  // namespace
 
-std::shared_ptr<const ForceField> ForceField::build(const ForceSpec& spec, const std::vector<Particle>& particles,
-                                                    const std::optional<geometry::Lattice>& lattice) {
+std::shared_ptr<const ForceField> ForceField::build(
+    const ForceSpec& spec, const std::vector<Particle>& particles,
+    const std::optional<geometry::Lattice>& lattice) {
   auto field = std::make_shared<ForceField>();
   for (const PotentialSpec& s : spec.potentials) {
     check(s, particles, lattice.has_value());
@@ -142,8 +152,10 @@ std::shared_ptr<const ForceField> ForceField::build(const ForceSpec& spec, const
     field->tail_bound_ = std::max(field->tail_bound_, p.tail());
     // On a lattice a potential that is not repeated would depend on the cell.
     if (lattice && !s.lattice)
-      throw InputError(s.place, "on a lattice every potential has to be repeated", "lattice = true");
-    if (!std::isfinite(p.reach()) || (lattice && covers(*lattice, p.reach()))) field->everywhere_ = true;
+      throw InputError(s.place, "on a lattice every potential has to be repeated",
+                       "lattice = true");
+    if (!std::isfinite(p.reach()) || (lattice && covers(*lattice, p.reach())))
+      field->everywhere_ = true;
     for (const Vector& center : s.centers) field->supports_.push_back({center, p.reach()});
   }
   if (spec.interaction) {
@@ -163,7 +175,8 @@ std::shared_ptr<const ForceField> ForceField::build(const ForceSpec& spec, const
       double charge = 1.0;
       for (const Particle& p : particles)
         if (s.kind == InteractionSpec::Kind::yukawa) charge = std::max(charge, std::fabs(p.charge));
-      field->tail_bound_ = std::max(field->tail_bound_, charge * charge * field->interaction_->tail());
+      field->tail_bound_ =
+          std::max(field->tail_bound_, charge * charge * field->interaction_->tail());
       if (lattice) check_range(s, field->pair_range_, *lattice);
     }
   }

@@ -30,7 +30,8 @@ inline Dual<n> chain(double value, double slope, const Dual<n>& a) {
 
 /// f(a, b): value and both slopes.
 template <std::size_t n>
-inline Dual<n> chain(double value, double slope_a, const Dual<n>& a, double slope_b, const Dual<n>& b) {
+inline Dual<n> chain(double value, double slope_a, const Dual<n>& a, double slope_b,
+                     const Dual<n>& b) {
   Dual<n> out;
   out.v = value;
   for (std::size_t k = 0; k < n; ++k) out.d[k] = slope_a * a.d[k] + slope_b * b.d[k];
@@ -203,7 +204,9 @@ double run(const TypedExpression::Formula& f, const double* at, double* gradient
 
 }  // namespace
 
-double TypedExpression::Formula::value(const double* at) const { return run<0>(*this, at, nullptr); }
+double TypedExpression::Formula::value(const double* at) const {
+  return run<0>(*this, at, nullptr);
+}
 
 double TypedExpression::Formula::value_and_gradient(const double* at, double* gradient) const {
   switch (variables) {

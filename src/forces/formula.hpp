@@ -83,8 +83,8 @@ using Formula = TypedExpression::Formula;
 /// Too many operations.
 struct TooLong {};
 
-/// Writes the list: operations on numbers are done at once, by the same code that runs the list; what
-/// occurs twice is computed once.
+/// Writes the list: operations on numbers are done at once, by the same code that runs the list;
+/// what occurs twice is computed once.
 class Builder {
  public:
   explicit Builder(std::size_t variables) { formula_.variables = variables; }

@@ -48,7 +48,8 @@ class Evaluation {
     for (std::size_t k = 0; k < n; ++k) out.d[k] = slope * a.d[k];
     return out;
   }
-  static Number chain(const Box& value, const Box& slope_a, const Number& a, const Box& slope_b, const Number& b) {
+  static Number chain(const Box& value, const Box& slope_a, const Number& a, const Box& slope_b,
+                      const Number& b) {
     Number out;
     out.v = value;
     for (std::size_t k = 0; k < n; ++k) out.d[k] = slope_a * a.d[k] + slope_b * b.d[k];
@@ -69,7 +70,8 @@ class Evaluation {
   const Instruction* made_by(std::uint16_t slot) const {
     return slot < formula_.variables ? nullptr : &formula_.instructions[slot - formula_.variables];
   }
-  /// The slots of a and b where a slot holds a^2 + b^2; a root of it is a distance, whose slopes are at most 1.
+  /// The slots of a and b where a slot holds a^2 + b^2; a root of it is a distance, whose slopes
+  /// are at most 1.
   bool is_square_of_distance(std::uint16_t slot, std::uint16_t& a, std::uint16_t& b) const {
     const Instruction* sum = made_by(slot);
     if (!sum || sum->operation != Operation::sum) return false;
@@ -91,7 +93,8 @@ class Evaluation {
     if (!is_square_of_distance(i.a, first, second)) return chain(Box::all(), Box::all(), a);
     kinked = true;
     const Box slope({-1.0, 1.0}, {0.0, 0.0});
-    return chain(complex_box::disc(std::sqrt(complex_box::size(a.v))), slope, slots_[first], slope, slots_[second]);
+    return chain(complex_box::disc(std::sqrt(complex_box::size(a.v))), slope, slots_[first], slope,
+                 slots_[second]);
   }
 
   Number apply(const Instruction& i) {
@@ -103,20 +106,27 @@ class Evaluation {
         out.v = Box(i.c);
         return out;
       }
-      case Operation::negative: return chain(-a.v, Box(-1.0), a);
-      case Operation::sum: return chain(a.v + b.v, Box(1.0), a, Box(1.0), b);
-      case Operation::shifted: return chain(a.v + Box(i.c), Box(1.0), a);
-      case Operation::difference: return chain(a.v - b.v, Box(1.0), a, Box(-1.0), b);
-      case Operation::number_minus: return chain(Box(i.c) - a.v, Box(-1.0), a);
+      case Operation::negative:
+        return chain(-a.v, Box(-1.0), a);
+      case Operation::sum:
+        return chain(a.v + b.v, Box(1.0), a, Box(1.0), b);
+      case Operation::shifted:
+        return chain(a.v + Box(i.c), Box(1.0), a);
+      case Operation::difference:
+        return chain(a.v - b.v, Box(1.0), a, Box(-1.0), b);
+      case Operation::number_minus:
+        return chain(Box(i.c) - a.v, Box(-1.0), a);
       case Operation::product:
         if (i.a == i.b) return chain(square(a.v), Box(2.0) * a.v, a);
         return chain(a.v * b.v, b.v, a, a.v, b);
-      case Operation::multiple: return chain(Box(i.c) * a.v, Box(i.c), a);
+      case Operation::multiple:
+        return chain(Box(i.c) * a.v, Box(i.c), a);
       case Operation::quotient: {
         const Box over = inverse(b.v), value = a.v * over;
         return chain(value, over, a, -(value * over), b);
       }
-      case Operation::share: return chain(a.v * Box(1.0 / i.c), Box(1.0 / i.c), a);
+      case Operation::share:
+        return chain(a.v * Box(1.0 / i.c), Box(1.0 / i.c), a);
       case Operation::number_over: {
         const Box over = inverse(a.v);
         return chain(Box(i.c) * over, Box(-i.c) * square(over), a);
@@ -125,12 +135,14 @@ class Evaluation {
         return chain(power(a.v, i.n), Box(i.n) * (i.n == 2 ? a.v : power(a.v, i.n - 1)), a);
       case Operation::half_power:
       case Operation::real_power: {
-        if (const double c = i.operation == Operation::half_power ? i.n + 0.5 : i.c; !is_cut(a.v) || c < 1.0)
+        if (const double c = i.operation == Operation::half_power ? i.n + 0.5 : i.c;
+            !is_cut(a.v) || c < 1.0)
           return power_of(a, Box(c));
         else {
           // A power above 1 of what reaches 0: bounded, with a branch there.
           kinked = kinked || c < 2.0;
-          const double m = complex_box::size(a.v), above = elementary::exp((c - 1.0) * elementary::log(m));
+          const double m = complex_box::size(a.v),
+                       above = elementary::exp((c - 1.0) * elementary::log(m));
           return chain(complex_box::disc(above * m), complex_box::disc(c * above), a);
         }
       }
@@ -139,7 +151,8 @@ class Evaluation {
         const Box logarithm_a = logarithm(a.v), value = exponential(b.v * logarithm_a);
         return chain(value, b.v * (value * inverse(a.v)), a, value * logarithm_a, b);
       }
-      case Operation::root: return root_of(i, a);
+      case Operation::root:
+        return root_of(i, a);
       case Operation::exp: {
         const Box value = exponential(a.v);
         return chain(value, value, a);
@@ -147,18 +160,24 @@ class Evaluation {
       case Operation::log:
         if (is_cut(a.v)) return chain(Box::all(), Box::all(), a);
         return chain(logarithm(a.v), inverse(a.v), a);
-      case Operation::sin: return chain(sine(a.v), cosine(a.v), a);
-      case Operation::cos: return chain(cosine(a.v), -sine(a.v), a);
+      case Operation::sin:
+        return chain(sine(a.v), cosine(a.v), a);
+      case Operation::cos:
+        return chain(cosine(a.v), -sine(a.v), a);
       case Operation::tan: {
         const Box over = inverse(cosine(a.v));
         return chain(sine(a.v) * over, square(over), a);
       }
-      case Operation::sinh: return chain(hyperbolic_sine(a.v), hyperbolic_cosine(a.v), a);
-      case Operation::cosh: return chain(hyperbolic_cosine(a.v), hyperbolic_sine(a.v), a);
+      case Operation::sinh:
+        return chain(hyperbolic_sine(a.v), hyperbolic_cosine(a.v), a);
+      case Operation::cosh:
+        return chain(hyperbolic_cosine(a.v), hyperbolic_sine(a.v), a);
       case Operation::tanh: {
         const Box value = hyperbolic_tangent(a.v), by_value = Box(1.0) - square(value);
         const Box by_cosine = inverse(square(hyperbolic_cosine(a.v)));
-        return chain(value, complex_box::size(by_cosine) < complex_box::size(by_value) ? by_cosine : by_value, a);
+        return chain(
+            value,
+            complex_box::size(by_cosine) < complex_box::size(by_value) ? by_cosine : by_value, a);
       }
       case Operation::abs:
         if (a.v.re.low > 0.0) return a;

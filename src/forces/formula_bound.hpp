@@ -1,4 +1,5 @@
-// How large the force of a typed formula can be near a place: its exact derivatives over complex boxes.
+// How large the force of a typed formula can be near a place: its exact derivatives over complex
+// boxes.
 #pragma once
 
 #include "carom/forces/typed_expression.hpp"

@@ -18,7 +18,8 @@ Part Builder::append(Instruction i) {
   const bool commutes = i.operation == Operation::sum || i.operation == Operation::product;
   if (commutes && i.b < i.a) std::swap(i.a, i.b);
   const Key key{i.operation, i.a, i.b, std::bit_cast<std::uint64_t>(i.c)};
-  if (const auto found = known_.find(key); found != known_.end()) return {false, 0.0, found->second};
+  if (const auto found = known_.find(key); found != known_.end())
+    return {false, 0.0, found->second};
   const std::size_t slot = formula_.variables + formula_.instructions.size();
   if (slot >= most_slots) throw TooLong{};
   formula_.instructions.push_back(i);
@@ -48,7 +49,8 @@ Part Builder::sum(Part a, Part b) {
 
 Part Builder::difference(Part a, Part b) {
   if (a.is_number == b.is_number) return binary(Operation::difference, a, b);
-  if (a.is_number) return append({.c = a.number, .a = b.slot, .operation = Operation::number_minus});
+  if (a.is_number)
+    return append({.c = a.number, .a = b.slot, .operation = Operation::number_minus});
   return append({.c = -b.number, .a = a.slot, .operation = Operation::shifted});
 }
 

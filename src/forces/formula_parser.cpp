@@ -1,12 +1,12 @@
-// Recursive descent over the grammar of numbers (base/expression_parser.cpp), wider by names, functions
-// and exponents of any kind:
+// Recursive descent over the grammar of numbers (base/expression_parser.cpp), wider by names,
+// functions and exponents of any kind:
 //   sum     = product { ("+" | "-") product }
 //   product = signed { ("*" | "/") signed }
 //   signed  = { "+" | "-" } power
 //   power   = primary [ "^" signed ]
 //   primary = decimal | name | name "(" sum { "," sum } ")" | "(" sum ")"
-// A parser of its own: that one folds exact closed forms as it reads and allows what stays exact; this one
-// writes operations on doubles. Decimals are read by ExactNumber.
+// A parser of its own: that one folds exact closed forms as it reads and allows what stays exact;
+// this one writes operations on doubles. Decimals are read by ExactNumber.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,7 +19,8 @@
 namespace carom::formula {
 namespace {
 
-// Sizes no honest formula needs; beyond them time, memory or the stack would be at the writer's mercy.
+// Sizes no honest formula needs; beyond them time, memory or the stack would be at the writer's
+// mercy.
 constexpr std::size_t most_characters = 4096;
 constexpr int most_depth = 200;
 
@@ -85,7 +86,8 @@ class Parser {
   // A name that means two things would be read as one of them in silence.
   void check_parameters() const {
     for (const auto& [name, value] : parameters_) {
-      const bool variable = std::find(variables_.begin(), variables_.end(), name) != variables_.end();
+      const bool variable =
+          std::find(variables_.begin(), variables_.end(), name) != variables_.end();
       if (variable || is_constant(name) || function_named(name)) {
         throw InputError(place_, "the name of parameter '" + name + "' is taken", "another name");
       }
@@ -96,14 +98,17 @@ class Parser {
         throw InputError(place_, "a parameter cannot be called '" + name + "'",
                          "letters, digits and '_', a letter first");
       }
-      if (!std::isfinite(value)) throw InputError(place_, "parameter '" + name + "' is not a finite number");
+      if (!std::isfinite(value))
+        throw InputError(place_, "parameter '" + name + "' is not a finite number");
     }
   }
   static bool is_constant(const std::string& word) {
     return std::any_of(std::begin(constants), std::end(constants),
                        [&](const auto& c) { return c.first == word; });
   }
-  static std::vector<std::string> names(std::span<const std::string> of) { return {of.begin(), of.end()}; }
+  static std::vector<std::string> names(std::span<const std::string> of) {
+    return {of.begin(), of.end()};
+  }
 
   bool at_end() const { return at_ == text_.size(); }
   char peek() const { return at_end() ? '\0' : text_[at_]; }
@@ -119,7 +124,9 @@ class Parser {
   }
 
   std::string shown(std::size_t at) const { return shown_character(text_, at); }
-  std::string found() const { return at_end() ? "the formula ends too early" : "unexpected " + shown(at_); }
+  std::string found() const {
+    return at_end() ? "the formula ends too early" : "unexpected " + shown(at_);
+  }
 
   // Characters are counted from 1. Bytes serve: the first that is not ASCII is itself to blame.
   static std::size_t character(std::size_t at) { return 1 + at; }
@@ -139,8 +146,8 @@ class Parser {
     return place;
   }
 
-  [[noreturn]] void fail(std::size_t at, const std::string& problem, const std::string& expected = {},
-                         const std::string& nearest = {}) const {
+  [[noreturn]] void fail(std::size_t at, const std::string& problem,
+                         const std::string& expected = {}, const std::string& nearest = {}) const {
     throw InputError(place_of(at), at_character(problem, character(at), text_), expected, nearest);
   }
 
@@ -149,7 +156,8 @@ class Parser {
     const bool operand =
         !at_end() && (is_letter(peek()) || is_digit(peek()) || peek() == '(' || peek() == '.');
     fail(at_, found(),
-         std::string(operand ? "an operator (* for a product)" : operators) + " or " + else_expected);
+         std::string(operand ? "an operator (* for a product)" : operators) + " or " +
+             else_expected);
   }
 
   // A part that is a number has to be finite; `at` is the character to blame.
@@ -174,7 +182,8 @@ class Parser {
       const bool plus = peek() == '+';
       take(peek());
       const Part right = parse_product();
-      left = checked(at, [&] { return plus ? builder_.sum(left, right) : builder_.difference(left, right); });
+      left = checked(
+          at, [&] { return plus ? builder_.sum(left, right) : builder_.difference(left, right); });
     }
     return left;
   }
@@ -187,8 +196,9 @@ class Parser {
       take(peek());
       if (times && peek() == '*' && at_ == at + 1) fail(at, "unexpected '**'", "'^' for a power");
       const Part right = parse_signed();
-      left =
-          checked(at, [&] { return times ? builder_.product(left, right) : builder_.quotient(left, right); });
+      left = checked(at, [&] {
+        return times ? builder_.product(left, right) : builder_.quotient(left, right);
+      });
     }
     return left;
   }
@@ -241,7 +251,8 @@ class Parser {
   std::optional<Part> part_named(const std::string& word) const {
     for (std::size_t v = 0; v < variables_.size(); ++v)
       if (variables_[v] == word) return builder_.variable(v);
-    if (const auto p = parameters_.find(word); p != parameters_.end()) return Builder::number(p->second);
+    if (const auto p = parameters_.find(word); p != parameters_.end())
+      return Builder::number(p->second);
     for (const auto& [name, value] : constants)
       if (name == word) return Builder::number(value);
     return {};
@@ -262,14 +273,16 @@ class Parser {
     values.insert(values.end(), of_parameters.begin(), of_parameters.end());
     values.insert(values.end(), of_constants.begin(), of_constants.end());
     all.insert(all.begin(), values.begin(), values.end());
-    fail(at, "unknown name '" + word + "'", joined(values) + " or a function", nearest_name(word, all));
+    fail(at, "unknown name '" + word + "'", joined(values) + " or a function",
+         nearest_name(word, all));
   }
 
   Part parse_call(const Function& function, std::size_t at) {
     const std::string name = function.name;
     const std::size_t open = at_;
     const std::string takes =
-        name + (function.arguments == 1 ? " takes one argument" : " takes two arguments, separated by ','");
+        name + (function.arguments == 1 ? " takes one argument"
+                                        : " takes two arguments, separated by ','");
     if (!take('(')) fail(at_, found(), "'(' after " + name);
     if (peek() == ')') fail(at_, found(), "an argument: " + takes);
     const Part first = parse_inside(open);
@@ -301,7 +314,8 @@ class Parser {
       fail(at, "nested too deeply", "at most " + std::to_string(most_depth) + " levels");
   }
 
-  // digits [ "." digits ] [ "e" [sign] digits ]; 2exp(x) is no exponent, and a product lacks its sign.
+  // digits [ "." digits ] [ "e" [sign] digits ]; 2exp(x) is no exponent, and a product lacks its
+  // sign.
   Part parse_decimal() {
     const std::size_t start = at_;
     const auto skip_digits = [this] {
@@ -322,7 +336,8 @@ class Parser {
     try {
       return Builder::number(ExactNumber(written, Place{}).to_double());
     } catch (const InputError& error) {
-      fail(start, "'" + std::string(written) + "' is no double: " + error.problem(), error.expected());
+      fail(start, "'" + std::string(written) + "' is no double: " + error.problem(),
+           error.expected());
     }
   }
 

@@ -11,7 +11,8 @@ struct Hyperbolic {
   double sine, cosine;
 };
 
-/// sinh x for |x| <= 1: Taylor's series; the first term left out, x^19/19!, is below 2^-56 x. Within 1.5 ulp.
+/// sinh x for |x| <= 1: Taylor's series; the first term left out, x^19/19!, is below 2^-56 x.
+/// Within 1.5 ulp.
 inline double sinh_by_series(double x) {
   constexpr double divisors[] = {17.0 * 16.0, 15.0 * 14.0, 13.0 * 12.0, 11.0 * 10.0,
                                  9.0 * 8.0,   7.0 * 6.0,   5.0 * 4.0,   3.0 * 2.0};

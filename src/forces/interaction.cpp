@@ -28,30 +28,35 @@ double whole_power(double x, int n) {
   return result;
 }
 
-/// `law` gives W and -W'/r at a squared distance, for unit charges where `charged`; `bound` bounds the force.
+/// `law` gives W and -W'/r at a squared distance, for unit charges where `charged`; `bound` bounds
+/// the force.
 template <class Law, class Bound>
 class Central final : public Interaction {
  public:
-  Central(Law law, Bound bound, bool charged, double reach, double tail, std::optional<double> coulomb_strength)
+  Central(Law law, Bound bound, bool charged, double reach, double tail,
+          std::optional<double> coulomb_strength)
       : law_(std::move(law)),
         bound_(std::move(bound)),
         charged_(charged),
         reach_(reach),
         tail_(tail),
         coulomb_strength_(coulomb_strength) {}
-  ForceBound bound(const Particle& a, const Particle& b, double distance, double rho) const override {
+  ForceBound bound(const Particle& a, const Particle& b, double distance,
+                   double rho) const override {
     const ForceBound unit = bound_(central::Distances{distance, distance, rho});
     const double charges = charged_ ? std::fabs(a.charge * b.charge) : 1.0;
     return charges == 0.0 ? ForceBound{} : ForceBound{charges * unit.force, charges * unit.jump};
   }
-  double add_force(const Particle& a, const Particle& b, Vector separation, Vector& force) const override {
+  double add_force(const Particle& a, const Particle& b, Vector separation,
+                   Vector& force) const override {
     const auto [w, over_r] = law_(dot(separation, separation));
     const double charges = charged_ ? a.charge * b.charge : 1.0;
     force = force + (charges * over_r) * separation;
     return charges * w;
   }
-  void add_forces(std::span<const Particle> particles, std::span<const Vector> x, const geometry::Lattice* lattice,
-                  std::span<Vector> force, Interrupt* interrupt) const override {
+  void add_forces(std::span<const Particle> particles, std::span<const Vector> x,
+                  const geometry::Lattice* lattice, std::span<Vector> force,
+                  Interrupt* interrupt) const override {
     if (!lattice && coulomb_strength_ && x.size() >= worth_lanes)
       return add_coulomb_pairs(*coulomb_strength_, particles, x, force, interrupt);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -89,14 +94,16 @@ class Central final : public Interaction {
   Bound bound_;
   bool charged_;
   double reach_, tail_;
-  std::optional<double> coulomb_strength_;  ///< of a Coulomb law, whose sums have a loop of their own
+  std::optional<double>
+      coulomb_strength_;  ///< of a Coulomb law, whose sums have a loop of their own
 };
 
 template <class Law, class Bound>
-std::unique_ptr<const Interaction> central_law(Law law, Bound bound, bool charged, double reach, double tail,
+std::unique_ptr<const Interaction> central_law(Law law, Bound bound, bool charged, double reach,
+                                               double tail,
                                                std::optional<double> coulomb_strength = {}) {
-  return std::make_unique<Central<Law, Bound>>(std::move(law), std::move(bound), charged, reach, tail,
-                                               coulomb_strength);
+  return std::make_unique<Central<Law, Bound>>(std::move(law), std::move(bound), charged, reach,
+                                               tail, coulomb_strength);
 }
 
 constexpr double everywhere = std::numeric_limits<double>::infinity();
@@ -115,7 +122,9 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
             const double inverse = 1.0 / std::sqrt(r2), w = k * inverse;
             return Pair{w, w * (inverse * inverse)};
           },
-          [k = s.strength](const central::Distances& d) { return ForceBound{central::falling(k, 2.0, d), 0.0}; },
+          [k = s.strength](const central::Distances& d) {
+            return ForceBound{central::falling(k, 2.0, d), 0.0};
+          },
           true, everywhere, 0.0, s.strength);
     case Kind::yukawa:
       // Beyond r the potential is below its value at the range times exp(-(r/range - 1)).
@@ -129,7 +138,9 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
             const double r = d.near - d.rho;
             if (!(r > 0.0)) return ForceBound{central::none, 0.0};
             const double ratio = std::sqrt((d.near + d.rho) / r);  // of |p|/|sqrt(p q)|
-            return ForceBound{std::fabs(k) * ratio * elementary::exp(-r / range) * (1.0 / r + 1.0 / range) / r, 0.0};
+            return ForceBound{
+                std::fabs(k) * ratio * elementary::exp(-r / range) * (1.0 / r + 1.0 / range) / r,
+                0.0};
           },
           true, (tail_exponent + 1.0) * s.range, tail_share * std::fabs(s.strength) / s.range);
     case Kind::lennard_jones:
@@ -159,7 +170,8 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
             if (!(r > 0.0)) return ForceBound{central::none, 0.0};
             return ForceBound{std::fabs(k) * n * whole_power(diameter / r, n) / r, 0.0};
           },
-          false, s.diameter * elementary::exp(tail_exponent / s.exponent), tail_share * std::fabs(s.strength));
+          false, s.diameter * elementary::exp(tail_exponent / s.exponent),
+          tail_share * std::fabs(s.strength));
     case Kind::expression:
       return central_law(
           [v = s.expression](double r2) {
@@ -170,7 +182,8 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
           },
           [v = s.expression](const central::Distances& d) { return bound_of(*v, d.near, d.rho); },
           false, everywhere, 0.0);
-    case Kind::hard_discs: break;
+    case Kind::hard_discs:
+      break;
   }
   return nullptr;
 }

@@ -23,8 +23,8 @@ struct Eight {
   alignas(64) std::array<double, 8> dx, dy, r, e;
 };
 
-/// Of the first n, whose number the compiler must not know: it would unroll the loop and forget about
-/// vectors.
+/// Of the first n, whose number the compiler must not know: it would unroll the loop and forget
+/// about vectors.
 CAROM_INLINE void find_exponents(const LatticeSum& t, const GridPoint<double>& p, const double* x,
                                  std::size_t n, Eight& to) {
   const double* y = x + t.padded_near;
@@ -33,9 +33,11 @@ CAROM_INLINE void find_exponents(const LatticeSum& t, const GridPoint<double>& p
     to.dy[k] = p.dy + y[k];
   }
   if (t.fermi) {
-    for (std::size_t k = 0; k < n; ++k) lattice_sum::fermi_exponent(t, to.dx[k], to.dy[k], to.r[k], to.e[k]);
+    for (std::size_t k = 0; k < n; ++k)
+      lattice_sum::fermi_exponent(t, to.dx[k], to.dy[k], to.r[k], to.e[k]);
   } else {
-    for (std::size_t k = 0; k < n; ++k) to.e[k] = lattice_sum::gaussian_exponent(t, to.dx[k], to.dy[k]);
+    for (std::size_t k = 0; k < n; ++k)
+      to.e[k] = lattice_sum::gaussian_exponent(t, to.dx[k], to.dy[k]);
   }
 }
 
@@ -75,7 +77,8 @@ CAROM_INLINE Sums sums_at(const LatticeField& field, Vector x, elementary::ExpOf
   const GridPoint<double> p = lattice_sum::locate(t, x.x, x.y);
   const double* node = lattice_sum::node_at(t, p.i, p.j);
   lattice_sum::Slopes slopes{};
-  if (t.degree >= 0) slopes = lattice_sum::polynomial<W>(node + 2 * t.padded_near, t.degree, p.X, p.Y);
+  if (t.degree >= 0)
+    slopes = lattice_sum::polynomial<W>(node + 2 * t.padded_near, t.degree, p.X, p.Y);
   Running<W> running;
   Eight n{};
   for (int from = 0; from < t.near; from += 8) {
@@ -99,14 +102,17 @@ CAROM_INLINE Sums sums_at(const LatticeField& field, Vector x, elementary::ExpOf
 }
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-[[gnu::target("avx512f,prefer-vector-width=512")]] Sums sums_by_eight(const LatticeField& field, Vector x) {
+[[gnu::target("avx512f,prefer-vector-width=512")]] Sums sums_by_eight(const LatticeField& field,
+                                                                      Vector x) {
   return sums_at<8>(field, x, elementary::exp_by(8));
 }
 [[gnu::target("avx2")]] Sums sums_by_four(const LatticeField& field, Vector x) {
   return sums_at<4>(field, x, elementary::exp_by(4));
 }
 #endif
-Sums sums_by_two(const LatticeField& field, Vector x) { return sums_at<2>(field, x, elementary::exp_by(2)); }
+Sums sums_by_two(const LatticeField& field, Vector x) {
+  return sums_at<2>(field, x, elementary::exp_by(2));
+}
 
 using SumsAt = Sums (*)(const LatticeField&, Vector);
 SumsAt widest() {
@@ -121,11 +127,16 @@ class LatticeBumps final : public Potential {
  public:
   LatticeBumps(const BumpShape& shape, double height, const std::vector<Vector>& centers,
                const geometry::Lattice& lattice, double reach)
-      : shape_(shape), centers_(centers), lattice_(lattice), table_(shape, centers, lattice, reach), sums_at_(widest()) {
+      : shape_(shape),
+        centers_(centers),
+        lattice_(lattice),
+        table_(shape, centers, lattice, reach),
+        sums_at_(widest()) {
     const bool fermi = shape.kind == BumpShape::Kind::fermi;
-    reach_ =
-        fermi ? shape.radius + tail_exponent * shape.softness : std::sqrt(2.0 * tail_exponent) * shape.width;
-    field_ = {table_.sum(), height, fermi ? 1.0 / shape.softness : 1.0 / (shape.width * shape.width)};
+    reach_ = fermi ? shape.radius + tail_exponent * shape.softness
+                   : std::sqrt(2.0 * tail_exponent) * shape.width;
+    field_ = {table_.sum(), height,
+              fermi ? 1.0 / shape.softness : 1.0 / (shape.width * shape.width)};
   }
 
   double add_force(const Particle&, Vector x, Vector& force) const override {
@@ -138,8 +149,8 @@ class LatticeBumps final : public Potential {
   ForceBound bound(const Particle&, const Neighbourhood& n) const override {
     constexpr double most = 4096.0;
     const Vector middle = 0.5 * (n.low + n.high), half = n.high - middle;
-    const auto seen =
-        seen_from_copies(middle, centers_, lattice_, reach_ + 3.0 * n.rho + std::sqrt(dot(half, half)), most);
+    const auto seen = seen_from_copies(middle, centers_, lattice_,
+                                       reach_ + 3.0 * n.rho + std::sqrt(dot(half, half)), most);
     if (!seen) return {central::none, 0.0};
     ForceBound sum;
     for (const Vector& d : *seen) {
@@ -169,7 +180,8 @@ class LatticeBumps final : public Potential {
 
 std::unique_ptr<const Potential> make_lattice_bumps(const BumpShape& shape, double height,
                                                     const std::vector<Vector>& centers,
-                                                    const geometry::Lattice& lattice, double reach) {
+                                                    const geometry::Lattice& lattice,
+                                                    double reach) {
   return std::make_unique<LatticeBumps>(shape, height, centers, lattice, reach);
 }
 

@@ -12,15 +12,15 @@
 
 namespace carom {
 
-/// The sum of all copies nearer than `reach`, which leaves out less than tail_share, by a table whose own
-/// error is below tail_share, too (times height; for the force: times height/length()).
+/// The sum of all copies nearer than `reach`, which leaves out less than tail_share, by a table
+/// whose own error is below tail_share, too (times height; for the force: times height/length()).
 class LatticeTable {
  public:
-  LatticeTable(const BumpShape&, const std::vector<geometry::Vector>& centers, const geometry::Lattice&,
-               double reach);
+  LatticeTable(const BumpShape&, const std::vector<geometry::Vector>& centers,
+               const geometry::Lattice&, double reach);
   const LatticeSum& sum() const { return sum_; }
-  /// The bound of the polynomials' error, and the copies that polynomials and near lists sum at a node at
-  /// most.
+  /// The bound of the polynomials' error, and the copies that polynomials and near lists sum at a
+  /// node at most.
   double error() const { return error_; }
   std::size_t copies() const { return copies_; }
 
@@ -34,11 +34,11 @@ class LatticeTable {
   std::vector<Line> lines_;
 };
 
-/// The point as seen from each copy, on the lattice, of the centres that is nearer than `reach`; nothing where these
-/// are more than `most`.
-std::optional<std::vector<geometry::Vector>> seen_from_copies(geometry::Vector point,
-                                                              const std::vector<geometry::Vector>& centers,
-                                                              const geometry::Lattice&, double reach, double most);
+/// The point as seen from each copy, on the lattice, of the centres that is nearer than `reach`;
+/// nothing where these are more than `most`.
+std::optional<std::vector<geometry::Vector>> seen_from_copies(
+    geometry::Vector point, const std::vector<geometry::Vector>& centers, const geometry::Lattice&,
+    double reach, double most);
 
 std::unique_ptr<const Potential> make_lattice_bumps(const BumpShape&, double height,
                                                     const std::vector<geometry::Vector>& centers,

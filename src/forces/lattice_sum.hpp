@@ -1,9 +1,9 @@
-// The sum of a bump's copies on a lattice, as a table: near each node of a grid over the cell the nearest
-// copies are added one by one, and all others together are one polynomial (docs/physics/forces.md bounds its
-// error).
+// The sum of a bump's copies on a lattice, as a table: near each node of a grid over the cell the
+// nearest copies are added one by one, and all others together are one polynomial
+// (docs/physics/forces.md bounds its error).
 //
-// One formula for one point and for many at once: each function maps columns of numbers, always with the same
-// operations in the same order, whatever the width of the machine's vectors.
+// One formula for one point and for many at once: each function maps columns of numbers, always
+// with the same operations in the same order, whatever the width of the machine's vectors.
 #pragma once
 
 #include <cmath>
@@ -25,20 +25,23 @@ struct Register {
   using Masks [[gnu::vector_size(W * sizeof(double))]] = std::int64_t;
 };
 
-/// Plain data, of the period 1/K in both lattice directions that the grid has: nodes at (i a + j b)/K.
+/// Plain data, of the period 1/K in both lattice directions that the grid has: nodes at (i a + j
+/// b)/K.
 struct LatticeSum {
   static constexpr int most_degree = 15;
 
-  double to_first_x = 0, to_first_y = 0, to_second_x = 0, to_second_y = 0;  ///< from x to grid units
-  double first_x = 0, first_y = 0, second_x = 0, second_y = 0;              ///< a/K and b/K
-  std::int64_t mask = 0;                                                    ///< K - 1; K is a power of two
-  int shift = 0;                                                            ///< log2 K
+  double to_first_x = 0, to_first_y = 0, to_second_x = 0,
+         to_second_y = 0;                                       ///< from x to grid units
+  double first_x = 0, first_y = 0, second_x = 0, second_y = 0;  ///< a/K and b/K
+  std::int64_t mask = 0;                                        ///< K - 1; K is a power of two
+  int shift = 0;                                                ///< log2 K
   int near = 0;            ///< copies added one by one at each node
   int padded_near = 0;     ///< the same up to a multiple of eight
   int degree = -1;         ///< of the polynomial; -1: there is none
   std::size_t stride = 0;  ///< numbers of a node: see `nodes`
-  /// Of each node: x, then y, of the node seen from each near copy; then the polynomial's rows. Row j holds
-  /// the coefficients of X^i Y^j, i = 0 ... 7; after all of these the rows with i = 8 ... 15.
+  /// Of each node: x, then y, of the node seen from each near copy; then the polynomial's rows. Row
+  /// j holds the coefficients of X^i Y^j, i = 0 ... 7; after all of these the rows with i = 8
+  /// ... 15.
   const double* nodes = nullptr;
   bool fermi = false;
   double radius = 0, inverse_softness = 0;  ///< fermi
@@ -82,7 +85,8 @@ CAROM_INLINE const double* node_at(const LatticeSum& t, double i, double j) {
   std::int64_t bits_i, bits_j;
   std::memcpy(&bits_i, &i, sizeof i);
   std::memcpy(&bits_j, &j, sizeof j);
-  return t.nodes + static_cast<std::size_t>(((bits_i & t.mask) << t.shift) | (bits_j & t.mask)) * t.stride;
+  return t.nodes +
+         static_cast<std::size_t>(((bits_i & t.mask) << t.shift) | (bits_j & t.mask)) * t.stride;
 }
 
 template <class Numbers>
@@ -90,8 +94,8 @@ CAROM_INLINE void load(Numbers& to, const double* from) {
   std::memcpy(&to, from, sizeof to);
 }
 
-/// Two times eight numbers in registers, each eight added up: halves to halves, so that the width of
-/// registers does not matter.
+/// Two times eight numbers in registers, each eight added up: halves to halves, so that the width
+/// of registers does not matter.
 template <int W>
 CAROM_INLINE void totals(const typename Register<W>::Type* a, const typename Register<W>::Type* b,
                          double& total_a, double& total_b) {
@@ -105,16 +109,20 @@ CAROM_INLINE void totals(const typename Register<W>::Type* a, const typename Reg
       s = a[0] + a[1];
       t = b[0] + b[1];
     } else {
-      s = __builtin_shufflevector(a[0], a[0], 0, 1, 2, 3) + __builtin_shufflevector(a[0], a[0], 4, 5, 6, 7);
-      t = __builtin_shufflevector(b[0], b[0], 0, 1, 2, 3) + __builtin_shufflevector(b[0], b[0], 4, 5, 6, 7);
+      s = __builtin_shufflevector(a[0], a[0], 0, 1, 2, 3) +
+          __builtin_shufflevector(a[0], a[0], 4, 5, 6, 7);
+      t = __builtin_shufflevector(b[0], b[0], 0, 1, 2, 3) +
+          __builtin_shufflevector(b[0], b[0], 4, 5, 6, 7);
     }
-    const auto sum = __builtin_shufflevector(s, t, 0, 1, 4, 5) + __builtin_shufflevector(s, t, 2, 3, 6, 7);
+    const auto sum =
+        __builtin_shufflevector(s, t, 0, 1, 4, 5) + __builtin_shufflevector(s, t, 2, 3, 6, 7);
     total_a = sum[0] + sum[1];
     total_b = sum[2] + sum[3];
   }
 }
 
-/// Sixteen masks of which the first eight are set: eight from number 8 - n on choose the first n of eight.
+/// Sixteen masks of which the first eight are set: eight from number 8 - n on choose the first n of
+/// eight.
 alignas(64) inline constexpr std::int64_t first_masks[16] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                              0,  0,  0,  0,  0,  0,  0,  0};
 /// Which factors X, X^2, X^4 the powers X^0 ... X^7 have, and the powers of their slopes.
@@ -132,8 +140,8 @@ CAROM_INLINE void products(const std::int64_t masks[3][8], int from, double x, d
   typename Register<W>::Masks with[3];
   for (int k = 0; k < 3; ++k) std::memcpy(&with[k], masks[k] + from, sizeof with[k]);
   const Numbers one = Numbers{} + 1.0;
-  product =
-      ((with[0] ? Numbers{} + x : one) * (with[1] ? Numbers{} + x2 : one)) * (with[2] ? Numbers{} + x4 : one);
+  product = ((with[0] ? Numbers{} + x : one) * (with[1] ? Numbers{} + x2 : one)) *
+            (with[2] ? Numbers{} + x4 : one);
 }
 
 template <class Number>
@@ -163,7 +171,8 @@ CAROM_INLINE Number gaussian_exponent(const LatticeSum& t, const Number& dx, con
   return (-0.5 * t.inverse_square_width) * (dx * dx + dy * dy);
 }
 
-/// The bump's value q = 1/(1 + e), and f = q^2 e/r: its force is f d/softness. One division serves both.
+/// The bump's value q = 1/(1 + e), and f = q^2 e/r: its force is f d/softness. One division serves
+/// both.
 template <class Number>
 CAROM_INLINE void fermi_bump(const Number& r, const Number& e, Number& q, Number& f) {
   const Number one = 1.0 + e;
@@ -225,8 +234,8 @@ CAROM_INLINE Slopes polynomial(const double* rows, int degree, double X, double 
 
 /// -gradient, from the slopes in units of the grid.
 template <class Number>
-CAROM_INLINE void add_slopes(const LatticeSum& t, const Number& by_X, const Number& by_Y, Number& fx,
-                             Number& fy) {
+CAROM_INLINE void add_slopes(const LatticeSum& t, const Number& by_X, const Number& by_Y,
+                             Number& fx, Number& fy) {
   fx = fx - (by_X * t.to_first_x + by_Y * t.to_second_x);
   fy = fy - (by_X * t.to_first_y + by_Y * t.to_second_y);
 }

@@ -11,7 +11,8 @@ using geometry::Vector;
 
 namespace {
 
-constexpr std::size_t most_numbers = std::size_t{1} << 16;  // half a megabyte: what a core keeps near
+constexpr std::size_t most_numbers = std::size_t{1}
+                                     << 16;  // half a megabyte: what a core keeps near
 constexpr int most_near_beside_a_polynomial = 8;
 constexpr std::size_t orders = LatticeSum::most_degree + 1;
 
@@ -23,7 +24,8 @@ struct Basis {
 Basis shortest(const geometry::Lattice& lattice) {
   std::vector<Vector> over;
   for (const geometry::CellEdge& e : lattice.edges) over.push_back(lattice.translation(e.beyond));
-  std::stable_sort(over.begin(), over.end(), [](Vector a, Vector b) { return dot(a, a) < dot(b, b); });
+  std::stable_sort(over.begin(), over.end(),
+                   [](Vector a, Vector b) { return dot(a, a) < dot(b, b); });
   const Vector first = over.front();
   const auto other = std::find_if(over.begin(), over.end(), [&](Vector v) {
     const double area = cross(first, v);
@@ -91,7 +93,8 @@ struct Choice {
 
 /// About what a point costs, in units of a near copy: measured for one point and for many.
 double cost_of(int near, int degree) {
-  return near + 2.5 * (padded(near) / 8) + (degree < 0 ? 0.0 : 1.5 + numbers_of_polynomial(degree) / 14.0);
+  return near + 2.5 * (padded(near) / 8) +
+         (degree < 0 ? 0.0 : 1.5 + numbers_of_polynomial(degree) / 14.0);
 }
 
 /// Errors by distance: of the lower end of the bin that the distance is in.
@@ -100,10 +103,12 @@ class ErrorsByDistance {
   /// Errors fall with distance: wider bins, where there would be very many, only enlarge the bound.
   ErrorsByDistance(const BumpShape& shape, double way, double reach)
       : bin_(std::max(shape.length() / 8.0, (reach + way) / 65536.0)) {
-    for (double r = 0.0; r <= reach + way; r += bin_) errors_.push_back(series_errors(shape, r, way));
+    for (double r = 0.0; r <= reach + way; r += bin_)
+      errors_.push_back(series_errors(shape, r, way));
   }
   const SeriesErrors& at(const Copy& copy) const {
-    return errors_[std::min(static_cast<std::size_t>(std::sqrt(copy.square) / bin_), errors_.size() - 1)];
+    return errors_[std::min(static_cast<std::size_t>(std::sqrt(copy.square) / bin_),
+                            errors_.size() - 1)];
   }
 
  private:
@@ -111,12 +116,13 @@ class ErrorsByDistance {
   std::vector<SeriesErrors> errors_;
 };
 
-/// The share of tail_share that is kept for copies whose series ends before the polynomial's degree.
+/// The share of tail_share that is kept for copies whose series ends before the polynomial's
+/// degree.
 constexpr double early_share = 1.0 / 16.0;
 
 /// The cheapest table on that grid whose error is below the bound.
-Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& centers, const Basis& basis,
-               double reach) {
+Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& centers,
+               const Basis& basis, double reach) {
   const double way = way_in_mesh(basis, grid);
   const ErrorsByDistance errors(shape, way, reach);
   std::array<std::array<double, orders>, most_near_beside_a_polynomial + 1> largest{};
@@ -134,14 +140,17 @@ Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& cent
         for (std::size_t n = 0; n < orders; ++n) sum[n] += errors.at(copies[k - 1])[n];
       }
     }
-  Choice best{grid, static_cast<int>(most_copies), -1, cost_of(static_cast<int>(most_copies), -1), 0.0};
+  Choice best{grid, static_cast<int>(most_copies), -1, cost_of(static_cast<int>(most_copies), -1),
+              0.0};
   const auto nodes = static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid);
   // A large table is slow, and a coarser one of many copies is not much larger than they are.
   if (nodes * 2 * static_cast<std::size_t>(padded(best.near)) > most_numbers)
     best.cost *= grid == coarsest ? 1.5 : std::numeric_limits<double>::infinity();
-  for (int near = 0; near <= most_near_beside_a_polynomial && near < static_cast<int>(most_copies); ++near)
+  for (int near = 0; near <= most_near_beside_a_polynomial && near < static_cast<int>(most_copies);
+       ++near)
     for (int degree = 1; degree <= LatticeSum::most_degree; ++degree) {
-      const double error = largest[static_cast<std::size_t>(near)][static_cast<std::size_t>(degree)];
+      const double error =
+          largest[static_cast<std::size_t>(near)][static_cast<std::size_t>(degree)];
       if (!(error <= (1.0 - early_share) * tail_share)) continue;
       const Choice choice{grid, near, degree, cost_of(near, degree), error};
       const auto each = static_cast<std::size_t>(2 * padded(near) + numbers_of_polynomial(degree));
@@ -153,12 +162,18 @@ Choice best_on(int grid, const BumpShape& shape, const std::vector<Vector>& cent
 
 }  // namespace
 
-std::optional<std::vector<Vector>> seen_from_copies(Vector point, const std::vector<Vector>& centers,
-                                                    const geometry::Lattice& lattice, double reach, double most) {
+std::optional<std::vector<Vector>> seen_from_copies(Vector point,
+                                                    const std::vector<Vector>& centers,
+                                                    const geometry::Lattice& lattice, double reach,
+                                                    double most) {
   constexpr double square_about_disc = 4.0;
-  if (!(square_about_disc * reach * reach / lattice.cell_area() * static_cast<double>(centers.size()) <= most)) return {};
+  if (!(square_about_disc * reach * reach / lattice.cell_area() *
+            static_cast<double>(centers.size()) <=
+        most))
+    return {};
   std::vector<Vector> seen;
-  for (const Copy& copy : copies_about(point, centers, shortest(lattice), reach, 0)) seen.push_back(copy.d);
+  for (const Copy& copy : copies_about(point, centers, shortest(lattice), reach, 0))
+    seen.push_back(copy.d);
   return seen;
 }
 
@@ -194,7 +209,8 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
   t.inverse_square_width = 1.0 / (shape.width * shape.width);
 
   const double way = way_in_mesh(basis, choice.grid), far = 2.0 * (reach + way);
-  const auto near = static_cast<std::size_t>(t.near), columns = static_cast<std::size_t>(t.padded_near);
+  const auto near = static_cast<std::size_t>(t.near),
+             columns = static_cast<std::size_t>(t.padded_near);
   const auto width = static_cast<std::size_t>(t.degree + 1);
   const auto count = static_cast<std::size_t>(choice.grid) * static_cast<std::size_t>(choice.grid);
   lines_.resize(count * t.stride / 8);
@@ -205,7 +221,8 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
   std::size_t node = 0;
   for (int i = 0; i < choice.grid; ++i)
     for (int j = 0; j < choice.grid; ++j, ++node) {
-      const auto copies = copies_about(node_at(basis, choice.grid, i, j), centers, basis, reach + way, near);
+      const auto copies =
+          copies_about(node_at(basis, choice.grid, i, j), centers, basis, reach + way, near);
       copies_ = std::max(copies_, copies.size());
       const auto number = [&](std::size_t k) -> double& {
         const std::size_t all = node * t.stride + k;

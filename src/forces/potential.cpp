@@ -27,7 +27,8 @@ double whole_power(double x, int n) {
 
 double square(const Vector& a) { return dot(a, a); }
 
-/// A potential of one place, repeated at each centre. `Bound`: of its force near a place, as seen from the centre.
+/// A potential of one place, repeated at each centre. `Bound`: of its force near a place, as seen
+/// from the centre.
 template <class Formula, class Bound>
 class AtCenters final : public Potential {
  public:
@@ -44,8 +45,9 @@ class AtCenters final : public Potential {
     return value;
   }
   // A loop around the formula itself, which the compiler may turn into vectors.
-  void add_forces(const Particle& p, int count, const double* __restrict x, const double* __restrict y,
-                  double* __restrict force_x, double* __restrict force_y) const override {
+  void add_forces(const Particle& p, int count, const double* __restrict x,
+                  const double* __restrict y, double* __restrict force_x,
+                  double* __restrict force_y) const override {
     for (const Vector& c : centers_)
       for (int i = 0; i < count; ++i) {
         Vector force{force_x[i], force_y[i]};
@@ -62,8 +64,10 @@ class AtCenters final : public Potential {
 };
 
 template <class Formula, class Bound>
-std::unique_ptr<const Potential> at_centers(Formula formula, Bound bound, const PotentialSpec& spec) {
-  return std::make_unique<AtCenters<Formula, Bound>>(std::move(formula), std::move(bound), spec.centers);
+std::unique_ptr<const Potential> at_centers(Formula formula, Bound bound,
+                                            const PotentialSpec& spec) {
+  return std::make_unique<AtCenters<Formula, Bound>>(std::move(formula), std::move(bound),
+                                                     spec.centers);
 }
 
 central::Distances from_origin(const Neighbourhood& n) { return central::distances(n, {}); }
@@ -79,9 +83,12 @@ std::unique_ptr<const Potential> on_lattice(const PotentialSpec& s, const BumpSh
     throw InputError(s.place, "more than 100000 bumps overlap: the potential is as good as flat",
                      "a softness or width of a few cells at most");
   // The table's coarsest meshes are a quarter of the cell wide; what lies about one is listed.
-  const double square = std::max(dot(lattice.first, lattice.first), dot(lattice.second, lattice.second));
+  const double square =
+      std::max(dot(lattice.first, lattice.first), dot(lattice.second, lattice.second));
   if (!(square / lattice.cell_area() * static_cast<double>(s.centers.size()) < most_copies))
-    throw InputError(s.place, "the lattice vectors are too unequal: more than 100000 bumps lie in a line within one cell's length",
+    throw InputError(s.place,
+                     "the lattice vectors are too unequal: more than 100000 bumps lie in a line "
+                     "within one cell's length",
                      "vectors more alike in length");
   return make_lattice_bumps(shape, s.height, s.centers, lattice, reach);
 }
@@ -113,12 +120,14 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
     }
     case Kind::harmonic:
       return at_centers(
-          [x2 = s.omega_x * s.omega_x, y2 = s.omega_y * s.omega_y](const Particle& p, Vector d, Vector& force) {
+          [x2 = s.omega_x * s.omega_x, y2 = s.omega_y * s.omega_y](const Particle& p, Vector d,
+                                                                   Vector& force) {
             const Vector f{p.mass * x2 * d.x, p.mass * y2 * d.y};
             force = force - f;
             return 0.5 * dot(f, d);
           },
-          [most = std::max(s.omega_x * s.omega_x, s.omega_y * s.omega_y)](const Particle& p, const Neighbourhood& n) {
+          [most = std::max(s.omega_x * s.omega_x, s.omega_y * s.omega_y)](const Particle& p,
+                                                                          const Neighbourhood& n) {
             return ForceBound{central::rising(p.mass * most, 1.0, from_origin(n)), 0.0};
           },
           s);
@@ -140,8 +149,9 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             // A whole even power is a product; another one goes through the logarithm.
             const double half = 0.5 * n;
             const bool whole = half == std::floor(half) && half > 0.0 && half <= 64.0;
-            const double lower = whole ? whole_power(r2, static_cast<int>(half) - 1)
-                                       : elementary::exp((half - 1.0) * elementary::log(r2));  // r^(n - 2)
+            const double lower =
+                whole ? whole_power(r2, static_cast<int>(half) - 1)
+                      : elementary::exp((half - 1.0) * elementary::log(r2));  // r^(n - 2)
             force = force - (k * n * lower) * d;
             return k * lower * r2;
           },
@@ -176,7 +186,8 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           },
           [](const Particle&, const Neighbourhood& n) {
             const central::Distances d = from_origin(n);
-            return ForceBound{central::rising(1.0, 1.0, d) * (1.0 + d.far + d.rho), 0.0};  // p + i q^2
+            return ForceBound{central::rising(1.0, 1.0, d) * (1.0 + d.far + d.rho),
+                              0.0};  // p + i q^2
           },
           s);
     case Kind::linear:
@@ -212,9 +223,11 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           },
           [s](const Particle&, const Neighbourhood& n) {
             // Distances from the segment between the caps' centres.
-            const double out_x = std::max({n.low.x - s.half_length, -n.high.x - s.half_length, 0.0});
+            const double out_x =
+                std::max({n.low.x - s.half_length, -n.high.x - s.half_length, 0.0});
             const double out_y = std::max({n.low.y, -n.high.y, 0.0});
-            const double far_x = std::max({n.high.x - s.half_length, -n.low.x - s.half_length, 0.0});
+            const double far_x =
+                std::max({n.high.x - s.half_length, -n.low.x - s.half_length, 0.0});
             const double far_y = std::max(n.high.y, -n.low.y);
             const central::Distances d{std::sqrt(out_x * out_x + out_y * out_y),
                                        std::sqrt(far_x * far_x + far_y * far_y), n.rho};
@@ -227,7 +240,8 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             const double at[] = {d.x, d.y};
             double gradient[2];
             const double value = v->value_and_gradient(at, gradient);
-            // Where there is no value there is no force, even where its formula has one, as 1/x for log(x) has.
+            // Where there is no value there is no force, even where its formula has one, as 1/x for
+            // log(x) has.
             const double none = value - value;
             force.x -= gradient[0] + none;
             force.y -= gradient[1] + none;

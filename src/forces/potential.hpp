@@ -23,8 +23,8 @@ class Potential {
   /// Adds -grad V to `force`, returns V.
   virtual double add_force(const Particle&, geometry::Vector x, geometry::Vector& force) const = 0;
   /// The same forces on many particles alike, to the bit: columns of `count` numbers.
-  virtual void add_forces(const Particle& p, int count, const double* x, const double* y, double* force_x,
-                          double* force_y) const {
+  virtual void add_forces(const Particle& p, int count, const double* x, const double* y,
+                          double* force_x, double* force_y) const {
     for (int i = 0; i < count; ++i) {
       geometry::Vector force{force_x[i], force_y[i]};
       add_force(p, {x[i], y[i]}, force);
@@ -37,7 +37,8 @@ class Potential {
   /// Distance from a centre beyond which |V| is below `tail`; infinity if there is none.
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
-  /// The table that add_force sums, for those who sum it for many points at once; null if there is none.
+  /// The table that add_force sums, for those who sum it for many points at once; null if there is
+  /// none.
   virtual const LatticeField* lattice_field() const { return nullptr; }
 };
 
@@ -48,17 +49,22 @@ class Interaction {
   virtual double add_force(const Particle& a, const Particle& b, geometry::Vector separation,
                            geometry::Vector& force) const = 0;
   /// The same for all pairs at once; half done where `interrupt`, if there is one, says so.
-  virtual void add_forces(std::span<const Particle>, std::span<const geometry::Vector> x, const geometry::Lattice*,
-                          std::span<geometry::Vector> force, Interrupt* interrupt) const = 0;
-  /// How large the force of a pair can be whose separation is displaced by at most `rho` from one of that length.
-  virtual ForceBound bound(const Particle& a, const Particle& b, double distance, double rho) const = 0;
+  virtual void add_forces(std::span<const Particle>, std::span<const geometry::Vector> x,
+                          const geometry::Lattice*, std::span<geometry::Vector> force,
+                          Interrupt* interrupt) const = 0;
+  /// How large the force of a pair can be whose separation is displaced by at most `rho` from one
+  /// of that length.
+  virtual ForceBound bound(const Particle& a, const Particle& b, double distance,
+                           double rho) const = 0;
   /// The sum of W over all pairs.
-  virtual double energy(std::span<const Particle>, std::span<const geometry::Vector> x, const geometry::Lattice*) const = 0;
+  virtual double energy(std::span<const Particle>, std::span<const geometry::Vector> x,
+                        const geometry::Lattice*) const = 0;
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
 };
 
-std::unique_ptr<const Potential> make_potential(const PotentialSpec&, const std::optional<geometry::Lattice>&);
+std::unique_ptr<const Potential> make_potential(const PotentialSpec&,
+                                                const std::optional<geometry::Lattice>&);
 std::unique_ptr<const Interaction> make_interaction(const InteractionSpec&);
 
 /// Where exp(-t) = tail_share, rounded up.

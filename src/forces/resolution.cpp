@@ -16,16 +16,19 @@ resolution::Span resolution::span_of(double time, double omega) {
 ForceMap::ForceMap(const ForceField& forces, const Particle& kind)
     : forces_(forces), kind_(kind), entries_(kept_entries) {}
 
-const ForceMap::Entry& ForceMap::compute(Entry& kept, std::uint64_t key, int exponent, double i, double j) const {
+const ForceMap::Entry& ForceMap::compute(Entry& kept, std::uint64_t key, int exponent, double i,
+                                         double j) const {
   const double mesh = power_of_two(exponent);
   const Vector low{i * mesh, j * mesh};
-  const ForceBound bound = forces_.external_bound(kind_, {low, low + Vector{mesh, mesh}, 2.0 * mesh});
+  const ForceBound bound =
+      forces_.external_bound(kind_, {low, low + Vector{mesh, mesh}, 2.0 * mesh});
   const auto up = [&](double x) { return static_cast<float>(x / kind_.mass * (1.0 + 0x1p-20)); };
   kept = {key, up(bound.force), up(bound.jump)};
   return kept;
 }
 
-void ForceMap::resolve_known(const Motions& motions, const resolution::Span& span, bool* known) const {
+void ForceMap::resolve_known(const Motions& motions, const resolution::Span& span,
+                             bool* known) const {
   int which[most_at_once] = {}, count = 0;
   for (int k = 0; k < motions.count; ++k) which[k] = k;
   resolve_known(motions, first_finer, which, motions.count, span, known);
@@ -37,8 +40,8 @@ void ForceMap::resolve_known(const Motions& motions, const resolution::Span& spa
 }
 
 // The arithmetic of resolves() and stays().
-void ForceMap::resolve_known(const Motions& motions, int finer, const int* which, int count, const resolution::Span& span,
-                             bool* known) const {
+void ForceMap::resolve_known(const Motions& motions, int finer, const int* which, int count,
+                             const resolution::Span& span, bool* known) const {
   std::uint64_t key[most_at_once];
   std::uint32_t slot[most_at_once];
   double most[most_at_once];  // without force
@@ -59,12 +62,15 @@ void ForceMap::resolve_known(const Motions& motions, int finer, const int* which
     const int k = which[n];
     const Entry& kept = entries_[slot[n]];
     const double left = most[n] - 0.5 * static_cast<double>(kept.force) * span.time;
-    known[k] = known[k] & (kept.key == key[n]) & (left >= 0.0) & (motions.square_speed[k] <= left * left) & (kept.jump == 0.0f);
+    known[k] = known[k] & (kept.key == key[n]) & (left >= 0.0) &
+               (motions.square_speed[k] <= left * left) & (kept.jump == 0.0f);
   }
 }
 
-/// With finer meshes, down to those of half the way; and, for motions that force keeps slow, with coarser ones.
-bool ForceMap::resolves_closely(Vector x, double square_speed, int coarsest, const resolution::Span& span) {
+/// With finer meshes, down to those of half the way; and, for motions that force keeps slow, with
+/// coarser ones.
+bool ForceMap::resolves_closely(Vector x, double square_speed, int coarsest,
+                                const resolution::Span& span) {
   if (!std::isfinite(x.x + x.y + square_speed + span.growth)) return false;
   const auto any = [&](int from, int to) {
     for (int e = from; e >= to; --e)
@@ -74,19 +80,23 @@ bool ForceMap::resolves_closely(Vector x, double square_speed, int coarsest, con
   // At rest where no force acts, as at an equilibrium, any displacement may serve.
   if (coarsest == no_exponent) return any(40, -400);
   constexpr int levels = 6, coarser = 20;
-  return any(coarsest - first_finer - 1, coarsest - levels) || any(coarsest + coarser, coarsest - first_finer + 1);
+  return any(coarsest - first_finer - 1, coarsest - levels) ||
+         any(coarsest + coarser, coarsest - first_finer + 1);
 }
 
 ForceBound ForceMap::about(Vector x, double rho) {
-  if (!(rho < 0x1p900) || !std::isfinite(x.x + x.y)) return {std::numeric_limits<double>::infinity(), 0.0};
+  if (!(rho < 0x1p900) || !std::isfinite(x.x + x.y))
+    return {std::numeric_limits<double>::infinity(), 0.0};
   // A mesh of at least half of rho.
-  const int e = rho > 0x1p-900 ? static_cast<int>(std::bit_cast<std::uint64_t>(rho) >> 52) - 1023 : -900;
+  const int e =
+      rho > 0x1p-900 ? static_cast<int>(std::bit_cast<std::uint64_t>(rho) >> 52) - 1023 : -900;
   const double over = power_of_two(-e);
   const Entry& found = entry(e, x.x * over, x.y * over);
   return {static_cast<double>(found.force), static_cast<double>(found.jump)};
 }
 
-bool ForceMap::resolves_everywhere(Vector low, Vector high, double energy, const std::function<bool(Vector)>& inside,
+bool ForceMap::resolves_everywhere(Vector low, Vector high, double energy,
+                                   const std::function<bool(Vector)>& inside,
                                    const resolution::Span& span, int& left) {
   const double side = std::max(high.x - low.x, high.y - low.y);
   if (!(side > 0x1p-900 && side < 0x1p900)) return true;
@@ -99,7 +109,8 @@ bool ForceMap::resolves_everywhere(Vector low, Vector high, double energy, const
   return true;
 }
 
-bool ForceMap::resolves_mesh(int exponent, double i, double j, double energy, const std::function<bool(Vector)>& inside,
+bool ForceMap::resolves_mesh(int exponent, double i, double j, double energy,
+                             const std::function<bool(Vector)>& inside,
                              const resolution::Span& span, int& left) {
   if (--left < 0) return false;
   const double mesh = power_of_two(exponent);
@@ -119,13 +130,15 @@ bool ForceMap::resolves_mesh(int exponent, double i, double j, double energy, co
   if (!(2.0 * mesh > least) || exponent < -900) return false;
   for (const double p : {0.0, 1.0})
     for (const double q : {0.0, 1.0})
-      if (!resolves_mesh(exponent - 1, 2.0 * i + p, 2.0 * j + q, energy, inside, span, left)) return false;
+      if (!resolves_mesh(exponent - 1, 2.0 * i + p, 2.0 * j + q, energy, inside, span, left))
+        return false;
   return true;
 }
 
 ForceMap& ForceMaps::of(const Particle& kind) {
   for (const auto& map : maps_)
-    if (map->kind().mass == kind.mass && map->kind().charge == kind.charge && map->kind().omega == kind.omega)
+    if (map->kind().mass == kind.mass && map->kind().charge == kind.charge &&
+        map->kind().omega == kind.omega)
       return *map;
   return *maps_.emplace_back(std::make_unique<ForceMap>(forces_, kind));
 }

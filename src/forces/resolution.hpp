@@ -1,8 +1,9 @@
 // How long a step may be where forces act, known before it is taken: docs/physics/resolution.md.
 //
-// Where the force is bounded by F over all complex displacements of size rho from a place, the motion that starts there
-// with speed v is analytic for complex times |t| <= T, if v T + F T^2/(2 m) <= rho (times exp(omega T) in a field).
-// What a scheme's few stages see of such a motion is all there is to it; a narrower force would make T shorter.
+// Where the force is bounded by F over all complex displacements of size rho from a place, the
+// motion that starts there with speed v is analytic for complex times |t| <= T, if v T + F T^2/(2
+// m) <= rho (times exp(omega T) in a field). What a scheme's few stages see of such a motion is all
+// there is to it; a narrower force would make T shorter.
 #pragma once
 
 #include <bit>
@@ -20,9 +21,11 @@ namespace carom {
 
 namespace resolution {
 
-/// A step is resolved if the motion is analytic for complex times up to half of it about both of its ends.
+/// A step is resolved if the motion is analytic for complex times up to half of it about both of
+/// its ends.
 inline constexpr double steps_a_radius = 2.0;
-/// Where pieces of a force meet, a step may change the velocity by this share of itself through the difference.
+/// Where pieces of a force meet, a step may change the velocity by this share of itself through the
+/// difference.
 inline constexpr double kick_share = 0.25;
 
 /// Complex times up to `time`, and what a magnetic field multiplies displacements with by then.
@@ -44,9 +47,10 @@ struct Chain {
   int wait = 0;   ///< ends of steps until a longer span is tried again
 };
 
-/// Checks at the ends of steps of one length. A motion that is analytic for longer complex times than a step asks for is so
-/// at the ends of the next steps, too; these are then not asked for. docs/physics/resolution.md shows that each of them
-/// would be found resolved, so that this saves time and changes no answer.
+/// Checks at the ends of steps of one length. A motion that is analytic for longer complex times
+/// than a step asks for is so at the ends of the next steps, too; these are then not asked for.
+/// docs/physics/resolution.md shows that each of them would be found resolved, so that this saves
+/// time and changes no answer.
 class Checks {
  public:
   Checks() = default;
@@ -88,8 +92,9 @@ class Checks {
 
 }  // namespace resolution
 
-/// Bounds of the external force on one kind of particle, over the meshes of grids and displacements of two meshes:
-/// computed where they are asked for, and kept for a while. The answers depend on the arguments alone.
+/// Bounds of the external force on one kind of particle, over the meshes of grids and displacements
+/// of two meshes: computed where they are asked for, and kept for a while. The answers depend on
+/// the arguments alone.
 class ForceMap {
  public:
   /// Refers to `forces`.
@@ -97,13 +102,15 @@ class ForceMap {
   const Particle& kind() const { return kind_; }
 
   /// Is the motion from x analytic over the span? `square_way`: of about how far it leads, a hint.
-  bool resolves(geometry::Vector x, double square_speed, double square_way, const resolution::Span& span) {
+  bool resolves(geometry::Vector x, double square_speed, double square_way,
+                const resolution::Span& span) {
     const int coarsest = exponent_for(square_speed, square_way, span);
-    if (coarsest != no_exponent && stays(x, square_speed, coarsest - first_finer, span)) [[likely]] return true;
+    if (coarsest != no_exponent && stays(x, square_speed, coarsest - first_finer, span)) [[likely]]
+      return true;
     return resolves_closely(x, square_speed, coarsest, span);
   }
-  /// As resolves() for many motions at once, by the bounds that are kept now: true is its answer, false is none. Loops without
-  /// branches take half the time.
+  /// As resolves() for many motions at once, by the bounds that are kept now: true is its answer,
+  /// false is none. Loops without branches take half the time.
   static constexpr int most_at_once = 64;
   struct Motions {
     int count = 0;
@@ -113,19 +120,23 @@ class ForceMap {
   void resolve_known(const Motions&, const resolution::Span&, bool* known) const;
 
  private:
-  void resolve_known(const Motions&, int finer, const int* which, int count, const resolution::Span&, bool* known) const;
+  void resolve_known(const Motions&, int finer, const int* which, int count,
+                     const resolution::Span&, bool* known) const;
 
  public:
   /// Bounds of the acceleration within displacements of rho or a little more, a power of two.
   ForceBound about(geometry::Vector x, double rho);
-  /// Is every motion of that total energy which starts in the box, where `inside` holds, analytic over the span? Energies
-  /// are looked at in nine points of each mesh: for choosing a step, which is checked again when it is taken. Meshes are taken
-  /// from `left`; a force that needs more of them is too narrow.
+  /// Is every motion of that total energy which starts in the box, where `inside` holds, analytic
+  /// over the span? Energies are looked at in nine points of each mesh: for choosing a step, which
+  /// is checked again when it is taken. Meshes are taken from `left`; a force that needs more of
+  /// them is too narrow.
   bool resolves_everywhere(geometry::Vector low, geometry::Vector high, double energy,
-                           const std::function<bool(geometry::Vector)>& inside, const resolution::Span&, int& left);
+                           const std::function<bool(geometry::Vector)>& inside,
+                           const resolution::Span&, int& left);
 
  private:
-  /// Of the meshes that may answer, those that mostly do come first: of half the coarsest size. Which are first changes no answer.
+  /// Of the meshes that may answer, those that mostly do come first: of half the coarsest size.
+  /// Which are first changes no answer.
   static constexpr int first_finer = 1;
   static constexpr int no_exponent = std::numeric_limits<int>::min();
   /// Of an acceleration, over the mesh that the key tells.
@@ -134,11 +145,14 @@ class ForceMap {
     float force = 0.0f, jump = 0.0f;
   };
 
-  static double power_of_two(int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); }
+  static double power_of_two(int e) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+  }
   /// The coarsest meshes to try, 2^exponent: 4 to 32 times as large as the way.
   static int exponent_for(double square_speed, double square_way, const resolution::Span& span) {
     const double by_speed = square_speed * (span.time * span.time);
-    const double square = span.growth * span.growth * (square_way > by_speed ? square_way : by_speed);
+    const double square =
+        span.growth * span.growth * (square_way > by_speed ? square_way : by_speed);
     return square > 0x1p-1000 && square < 0x1p1000 ? exponent_of(square) : no_exponent;
   }
   static int exponent_of(double square) {
@@ -149,10 +163,13 @@ class ForceMap {
   bool stays(geometry::Vector x, double square_speed, int exponent, const resolution::Span& span) {
     const double over = power_of_two(-exponent);
     const Entry& e = entry(exponent, x.x * over, x.y * over);
-    const double most = power_of_two(exponent + 1) * span.over_time - 0.5 * static_cast<double>(e.force) * span.time;
+    const double most = power_of_two(exponent + 1) * span.over_time -
+                        0.5 * static_cast<double>(e.force) * span.time;
     if (!(most >= 0.0 && square_speed <= most * most)) return false;
-    if (e.jump == 0.0f) [[likely]] return true;
-    const double kick = static_cast<double>(e.jump) * resolution::steps_a_radius * span.time / resolution::kick_share;
+    if (e.jump == 0.0f) [[likely]]
+      return true;
+    const double kick = static_cast<double>(e.jump) * resolution::steps_a_radius * span.time /
+                        resolution::kick_share;
     return square_speed >= kick * kick;
   }
   /// Of the mesh from the whole numbers below i and j on; a whole one may belong to either mesh.
@@ -160,7 +177,9 @@ class ForceMap {
     if (!has_key(i, j)) return compute(beyond_, 0, exponent, std::floor(i), std::floor(j));
     const Place place = place_of(exponent, i, j);
     Entry& kept = entries_[place.slot];
-    return kept.key == place.key ? kept : compute(kept, place.key, exponent, place.i - whole, place.j - whole);
+    return kept.key == place.key
+               ? kept
+               : compute(kept, place.key, exponent, place.i - whole, place.j - whole);
   }
   /// Where an entry is kept. i, j: whole numbers, in the lowest bits.
   struct Place {
@@ -168,22 +187,26 @@ class ForceMap {
     std::uint64_t key;
     std::size_t slot;
   };
-  static constexpr double most_meshes = 0x1p25, whole = 0x1.8p52;  // adding it leaves a whole number in the lowest bits
+  static constexpr double most_meshes = 0x1p25,
+                          whole = 0x1.8p52;  // adding it leaves a whole number in the lowest bits
   static bool has_key(double i, double j) {
     return (i < most_meshes) & (i > -most_meshes) & (j < most_meshes) & (j > -most_meshes);
   }
   static Place place_of(int exponent, double i, double j) {
     const double rounded_i = (i - 0.5) + whole, rounded_j = (j - 0.5) + whole;
-    const std::uint64_t a = std::bit_cast<std::uint64_t>(rounded_i), b = std::bit_cast<std::uint64_t>(rounded_j);
+    const std::uint64_t a = std::bit_cast<std::uint64_t>(rounded_i),
+                        b = std::bit_cast<std::uint64_t>(rounded_j);
     const std::uint64_t of_exponent = static_cast<std::uint64_t>(exponent + 2048);
     // Neighbours lie side by side in squares of 128 times 128.
     return {rounded_i, rounded_j, of_exponent << 52 | (a & 0x3ffffff) << 26 | (b & 0x3ffffff),
             ((a & 127) + 128 * (b & 127) + 16384 * of_exponent) & (kept_entries - 1)};
   }
   const Entry& compute(Entry&, std::uint64_t key, int exponent, double i, double j) const;
-  bool resolves_mesh(int exponent, double i, double j, double energy, const std::function<bool(geometry::Vector)>& inside,
-                     const resolution::Span&, int& left);
-  bool resolves_closely(geometry::Vector x, double square_speed, int coarsest, const resolution::Span&);
+  bool resolves_mesh(int exponent, double i, double j, double energy,
+                     const std::function<bool(geometry::Vector)>& inside, const resolution::Span&,
+                     int& left);
+  bool resolves_closely(geometry::Vector x, double square_speed, int coarsest,
+                        const resolution::Span&);
 
   static constexpr std::size_t kept_entries = 65536;
   const ForceField& forces_;

@@ -27,22 +27,24 @@ OwnTable table_of(const EmbeddedTable& from) {
     return list;
   };
   const std::size_t stages = from.time.size();
-  std::vector<double> time = numbers(from.time), weight = numbers(from.weight), embedded = numbers(from.embedded), a;
+  std::vector<double> time = numbers(from.time), weight = numbers(from.weight),
+                      embedded = numbers(from.embedded), a;
   for (const std::vector<std::string_view>& row : from.stage) {
     std::vector<double> values = numbers(row);
     values.resize(stages, 0.0);
     a.insert(a.end(), values.begin(), values.end());
   }
-  return OwnTable(ARKodeButcherTable_Create(static_cast<int>(stages), from.order, from.embedded_order, time.data(),
-                                            a.data(), weight.data(), embedded.data()));
+  return OwnTable(ARKodeButcherTable_Create(static_cast<int>(stages), from.order,
+                                            from.embedded_order, time.data(), a.data(),
+                                            weight.data(), embedded.data()));
 }
 
 }  // namespace
 
-// ARKStep, not ERKStep: that one (6.4) takes the last stage for the next first one wherever it lies at the
-// end of the step, and so loses the order of most tables.
-ArkodeStepper::ArkodeStepper(const ForceLaw<double>& law, std::span<const double> omega, double tolerance,
-                             ARKodeButcherTable table)
+// ARKStep, not ERKStep: that one (6.4) takes the last stage for the next first one wherever it lies
+// at the end of the step, and so loses the order of most tables.
+ArkodeStepper::ArkodeStepper(const ForceLaw<double>& law, std::span<const double> omega,
+                             double tolerance, ARKodeButcherTable table)
     : problem_(law, omega, tolerance), energy_(law, tolerance) {
   OwnTable own;
   if (table == nullptr) {
@@ -52,7 +54,8 @@ ArkodeStepper::ArkodeStepper(const ForceLaw<double>& law, std::span<const double
   if (table == nullptr) throw InternalError("ARKODE has no memory");
   order_ = table->q;
   N_VConst(0.0, problem_.state());
-  memory_ = ARKStepCreate(OdeProblem::derivative, nullptr, 0.0, problem_.state(), problem_.context());
+  memory_ =
+      ARKStepCreate(OdeProblem::derivative, nullptr, 0.0, problem_.state(), problem_.context());
   if (memory_ == nullptr) throw InternalError("ARKODE has no memory");
   ARKStepSetErrHandlerFn(memory_, OdeProblem::no_message, nullptr);
   ARKStepSetUserData(memory_, &problem_);
@@ -70,7 +73,8 @@ double ArkodeStepper::step(const Phase<double>& from, double at_most, Phase<doub
     if (at_most < duration_) {
       part(at_most, to);
       if (!failure().empty()) return at_most;
-      if (energy_.allows_part({start_, start_energy_}, {to, energy_.at(to)}, scale_, at_most)) return at_most;
+      if (energy_.allows_part({start_, start_energy_}, {to, energy_.at(to)}, scale_, at_most))
+        return at_most;
       problem_.set_failure("the energy is not kept within a step: its stages have missed a force");
       problem_.unload(to, false);
       return at_most;
@@ -115,11 +119,13 @@ void ArkodeStepper::whole(double at_most) {
   problem_.set_scale(scale_);
   problem_.set_failure({});
   bool ok = true;
-  for (double length = problem_.resolved(start_, std::min(guess_, at_most));; length = 0.5 * duration_) {
+  for (double length = problem_.resolved(start_, std::min(guess_, at_most));;
+       length = 0.5 * duration_) {
     ok = length > 0.0 && take(length, at_most);
     if (!ok) break;
     end_energy_ = energy_.at(end_);
-    if (energy_.allows({start_, start_energy_}, {end_, end_energy_}, problem_.scale(), duration_)) break;
+    if (energy_.allows({start_, start_energy_}, {end_, end_energy_}, problem_.scale(), duration_))
+      break;
     ok = !scale_.is_least(duration_);
     if (!ok) problem_.set_failure(EnergyCheck::failure);
     if (!ok) break;
@@ -131,9 +137,11 @@ void ArkodeStepper::whole(double at_most) {
   proposed_ = std::min(proposed_, problem_.longest_step());
 }
 
-/// From start to end, by `length` or as little as the error control wants. False: there is no such step.
+/// From start to end, by `length` or as little as the error control wants. False: there is no such
+/// step.
 bool ArkodeStepper::take(double length, double at_most) {
-  if (length == at_most && at_most < guess_ / 1024.0) {  // its error is nothing, and ARKODE's checks fear so short a way
+  if (length == at_most &&
+      at_most < guess_ / 1024.0) {  // its error is nothing, and ARKODE's checks fear so short a way
     part(at_most, end_);
     duration_ = at_most;
     proposed_ = guess_;

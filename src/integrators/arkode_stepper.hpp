@@ -13,10 +13,11 @@
 namespace carom {
 
 /// One call is one step of the method. A shorter one
-/// from the same start is the same method's step of that length, so that a path may be cut anywhere. A chain
-/// of steps, each from where the last one ended, takes over the length that the error control proposes; any
-/// other start begins with a guess. So the path is a function of where its chain began, and parts of steps in
-/// between change nothing. A step is shortened until it resolves the forces and keeps the energy.
+/// from the same start is the same method's step of that length, so that a path may be cut
+/// anywhere. A chain of steps, each from where the last one ended, takes over the length that the
+/// error control proposes; any other start begins with a guess. So the path is a function of where
+/// its chain began, and parts of steps in between change nothing. A step is shortened until it
+/// resolves the forces and keeps the energy.
 class ArkodeStepper final : public Stepper<double> {
  public:
   /// Without a table: verner_9_8().

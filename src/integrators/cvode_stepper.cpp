@@ -18,8 +18,8 @@ constexpr double far = std::numeric_limits<double>::max();
 
 }  // namespace
 
-CvodeStepper::CvodeStepper(const ForceLaw<double>& law, std::span<const double> omega, double tolerance,
-                           double longest)
+CvodeStepper::CvodeStepper(const ForceLaw<double>& law, std::span<const double> omega,
+                           double tolerance, double longest)
     : problem_(law, omega, tolerance), energy_(law, tolerance), longest_(longest) {
   N_VConst(0.0, problem_.state());
   memory_ = CVodeCreate(CV_ADAMS, problem_.context());
@@ -29,7 +29,8 @@ CvodeStepper::CvodeStepper(const ForceLaw<double>& law, std::span<const double> 
   CVodeSetUserData(memory_, &problem_);
   CVodeSetMaxErrTestFails(memory_, 20);
   CVodeWFtolerances(memory_, OdeProblem::weights);
-  const SUNNonlinearSolver solver = SUNNonlinSol_FixedPoint(problem_.state(), 0, problem_.context());
+  const SUNNonlinearSolver solver =
+      SUNNonlinSol_FixedPoint(problem_.state(), 0, problem_.context());
   solver_ = solver;
   CVodeSetNonlinearSolver(memory_, solver);
 }
@@ -60,7 +61,8 @@ double CvodeStepper::step(const Phase<double>& from, double at_most, Phase<doubl
     time = reached_;
     duration = reached_ - start_time_;
   }
-  const bool ok = problem_.failure().empty() && CVodeGetDky(memory_, time, 0, problem_.state()) >= 0;
+  const bool ok =
+      problem_.failure().empty() && CVodeGetDky(memory_, time, 0, problem_.state()) >= 0;
   problem_.unload(to, ok);
   if (!ok) return at_most;
   if (!again || time > end_time_) {
@@ -110,7 +112,8 @@ bool CvodeStepper::take() {
   if (status < 0 || !problem_.leads_on(reached_ - before)) return false;
   stopped_ = status == CV_TSTOP_RETURN;
   CVodeGetCurrentStep(memory_, &planned_);
-  // After a stop CVODE keeps its plan to itself. A step is at most 10 times the last one, the second 10000 times.
+  // After a stop CVODE keeps its plan to itself. A step is at most 10 times the last one, the
+  // second 10000 times.
   if (stopped_) planned_ = std::min(longest(), (steps_ == 1 ? 1e4 : 10.0) * (reached_ - before));
   problem_.unload(ahead_, true);
   return true;

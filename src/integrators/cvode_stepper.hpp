@@ -10,10 +10,11 @@
 
 namespace carom {
 
-/// One call is one internal step of CVODE, or a part of it: between the ends the path is the polynomial of
-/// the method, which is continuous. A chain of steps goes on with CVODE's memory; any other start begins
-/// anew at order 1, so that this method is for long ways between walls. Parts of steps change nothing. A step that does
-/// not keep the energy is undone: the chain begins anew where it began, with a shorter one.
+/// One call is one internal step of CVODE, or a part of it: between the ends the path is the
+/// polynomial of the method, which is continuous. A chain of steps goes on with CVODE's memory; any
+/// other start begins anew at order 1, so that this method is for long ways between walls. Parts of
+/// steps change nothing. A step that does not keep the energy is undone: the chain begins anew
+/// where it began, with a shorter one.
 class CvodeStepper final : public Stepper<double> {
  public:
   /// No internal step is longer than `longest`.
@@ -42,8 +43,8 @@ class CvodeStepper final : public Stepper<double> {
   double reached_ = 0.0;                      ///< by the last internal step
   Phase<double> ahead_;                       ///< there
   double reached_energy_ = 0.0;
-  double planned_ = 0.0;                      ///< length of the next internal step; at most that after a stop
-  bool stopped_ = false;                      ///< the last one ended where the forces asked it to
+  double planned_ = 0.0;  ///< length of the next internal step; at most that after a stop
+  bool stopped_ = false;  ///< the last one ended where the forces asked it to
   int steps_ = 0;
 };
 

@@ -1,7 +1,8 @@
 // The energy as a second estimate of a step's error, where the exact motion keeps it.
 //
-// An error estimate compares formulas that see the same few points of a step. The energy sees where the step has led:
-// a particle that comes out of a step inside a bump, at full speed, has an energy it cannot have.
+// An error estimate compares formulas that see the same few points of a step. The energy sees where
+// the step has led: a particle that comes out of a step inside a bump, at full speed, has an energy
+// it cannot have.
 #pragma once
 
 #include <string_view>
@@ -29,7 +30,8 @@ class EnergyCheck {
   /// May the energy change by so much in an accepted step?
   bool allows(const End& from, const End& to, const OdeProblem::Scale& scale, double duration);
   /// The same for a part of a step, which leaves no trace.
-  bool allows_part(const End& from, const End& to, const OdeProblem::Scale& scale, double duration) const;
+  bool allows_part(const End& from, const End& to, const OdeProblem::Scale& scale,
+                   double duration) const;
   static constexpr std::string_view failure =
       "the energy changes however short the step: the potential jumps here, or has a pole";
 

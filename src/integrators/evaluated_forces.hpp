@@ -12,8 +12,9 @@
 namespace carom {
 
 /// Remembers the accelerations at the start under way and at the ends of two steps from it: of the
-/// first, which is the whole step as a rule, and of the latest, which may be a part of it. A remembered
-/// value is used only for positions of the same bits, so that it changes nothing but the cost.
+/// first, which is the whole step as a rule, and of the latest, which may be a part of it. A
+/// remembered value is used only for positions of the same bits, so that it changes nothing but the
+/// cost.
 template <class Real>
 class EvaluatedForces {
  public:
@@ -35,8 +36,8 @@ class EvaluatedForces {
     return start_.acceleration;
   }
   std::span<const Vector> at_end(std::span<const Vector> position) {
-    // A part that ends where the whole step does, to rounding, is evaluated as any other: what a path costs depends on how
-    // it is cut alone.
+    // A part that ends where the whole step does, to rounding, is evaluated as any other: what a
+    // path costs depends on how it is cut alone.
     Known& end = whole_.position.empty() ? whole_ : part_;
     if (!matches(end, position)) evaluate(end, position);
     return end.acceleration;

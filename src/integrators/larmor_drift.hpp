@@ -1,8 +1,8 @@
 // Free motion under a uniform magnetic field for a given time.
 //
-// With J v = (v_y, -v_x) and theta = omega t the velocity turns clockwise by theta, and the particle moves
-// along a chord: u, the velocity turned by theta/2, times (2/omega) sin(theta/2). Neither cancels for
-// small theta, and nothing is chosen by size; omega = 0 is the straight line.
+// With J v = (v_y, -v_x) and theta = omega t the velocity turns clockwise by theta, and the
+// particle moves along a chord: u, the velocity turned by theta/2, times (2/omega) sin(theta/2).
+// Neither cancels for small theta, and nothing is chosen by size; omega = 0 is the straight line.
 #pragma once
 
 #include <utility>
@@ -12,10 +12,11 @@
 
 namespace carom {
 
-/// A turn clockwise as three shears, each of determinant 1 whatever its coefficient is rounded to: many
-/// turns by one angle neither shrink nor stretch a velocity (a rounded sine and cosine do, by 1e-16 a turn).
-/// Beyond a quarter the velocity is turned round first, which keeps the shears small and is exact. Quarter
-/// turns would be exact, too, but with them roundings have a trend of 1e-18 a turn (measured).
+/// A turn clockwise as three shears, each of determinant 1 whatever its coefficient is rounded to:
+/// many turns by one angle neither shrink nor stretch a velocity (a rounded sine and cosine do, by
+/// 1e-16 a turn). Beyond a quarter the velocity is turned round first, which keeps the shears small
+/// and is exact. Quarter turns would be exact, too, but with them roundings have a trend of 1e-18 a
+/// turn (measured).
 template <class Real>
 class ShearTurn {
  public:
@@ -28,7 +29,8 @@ class ShearTurn {
 
   /// Of one velocity, or of the velocities of many particles.
   template <class Number>
-  [[gnu::always_inline]] geometry::BasicVector<Number> operator()(geometry::BasicVector<Number> v) const {
+  [[gnu::always_inline]] geometry::BasicVector<Number> operator()(
+      geometry::BasicVector<Number> v) const {
     if (round_) v = -v;
     v.x = v.x + half_tangent_ * v.y;
     v.y = v.y - sine_ * v.x;

@@ -10,7 +10,8 @@
 
 namespace carom {
 
-std::unique_ptr<Stepper<double>> make_stepper(const IntegratorPlan& plan, const ForceLaw<double>& law,
+std::unique_ptr<Stepper<double>> make_stepper(const IntegratorPlan& plan,
+                                              const ForceLaw<double>& law,
                                               std::span<const double> omega) {
   check_plan(plan);
   check_step(plan);

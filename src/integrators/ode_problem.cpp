@@ -63,7 +63,8 @@ double OdeProblem::resolved(const Phase<double>& from, double asked) {
   const double allowed = law_.longest_step(from, asked);
   if (allowed >= asked) return asked;
   if (allowed > 0.0 && !scale_.is_short(allowed)) return allowed;
-  failure_ = fmt::format("the force cannot be resolved at ({:.6g}, {:.6g})", from.position[0].x, from.position[0].y);
+  failure_ = fmt::format("the force cannot be resolved at ({:.6g}, {:.6g})", from.position[0].x,
+                         from.position[0].y);
   if (from.position.size() > 1) failure_ += ", or where another of its group is";
   return 0.0;
 }
@@ -126,7 +127,10 @@ int OdeProblem::derivative(double, N_Vector y, N_Vector dy, void* self) {
     return -1;
   }
   // Where a force is not a number a smaller step may still do.
-  return std::all_of(out, out + 4 * problem.omega_.size(), [](double a) { return std::isfinite(a); }) ? 0 : 1;
+  return std::all_of(out, out + 4 * problem.omega_.size(),
+                     [](double a) { return std::isfinite(a); })
+             ? 0
+             : 1;
 }
 
 int OdeProblem::weights(N_Vector y, N_Vector weight, void* self) {

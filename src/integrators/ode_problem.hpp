@@ -1,5 +1,5 @@
-// The motion of a group as a system of ordinary differential equations for SUNDIALS: the vector is all
-// positions, then all velocities.
+// The motion of a group as a system of ordinary differential equations for SUNDIALS: the vector is
+// all positions, then all velocities.
 #pragma once
 
 #include <nvector/nvector_serial.h>
@@ -40,29 +40,33 @@ class OdeProblem {
     /// A step that leads a few units in the last place on cannot be cut.
     bool is_least(double duration) const { return duration < 0x1p-48 * time(); }
   };
-  /// Those at the beginning of a chain of steps; along it weights() lets them grow with the motion, and
-  /// they never shrink, so
-  /// that a particle that passes the origin or turns round asks for no more than others.
+  /// Those at the beginning of a chain of steps; along it weights() lets them grow with the motion,
+  /// and they never shrink, so that a particle that passes the origin or turns round asks for no
+  /// more than others.
   Scale first_scale(const Phase<double>& from);
   void set_scale(const Scale& scale) { scale_ = scale; }
   const Scale& scale() const { return scale_; }
-  /// No step is longer: where no force acts the error control would let steps grow without bound, and over the next
-  /// force.
+  /// No step is longer: where no force acts the error control would let steps grow without bound,
+  /// and over the next force.
   double longest_step() const { return scale_.time(); }
-  /// How long a step of at most `asked` may be by the law; 0, and a failure, if it is too short to lead anywhere.
+  /// How long a step of at most `asked` may be by the law; 0, and a failure, if it is too short to
+  /// lead anywhere.
   double resolved(const Phase<double>& from, double asked);
-  /// Counts a step of that duration, shorter than asked for. False if it is the last of too many in a row
-  /// that lead nowhere: the error control shrinks its steps towards a singular point and never gets there.
+  /// Counts a step of that duration, shorter than asked for. False if it is the last of too many in
+  /// a row that lead nowhere: the error control shrinks its steps towards a singular point and
+  /// never gets there.
   bool leads_on(double duration);
   /// Why the last step failed; "" if it did not.
   std::string_view failure() const { return failure_; }
   void set_failure(std::string_view why) { failure_ = why; }
-  static constexpr std::string_view no_step = "the adaptive scheme finds no step that keeps to its tolerance";
+  static constexpr std::string_view no_step =
+      "the adaptive scheme finds no step that keeps to its tolerance";
   /// A guess of a step that an error estimate of order p accepts.
   double first_step(const Phase<double>& from, int order);
 
   void load(const Phase<double>& phase);
-  /// Takes over the state of SUNDIALS. `ok` false: the motion could not be computed, and all is NaN.
+  /// Takes over the state of SUNDIALS. `ok` false: the motion could not be computed, and all is
+  /// NaN.
   void unload(Phase<double>& to, bool ok) const;
   /// Throws what a force law has thrown inside a callback.
   void rethrow();

@@ -24,37 +24,44 @@ std::string shown(double x) {
 
 void check_plan(const IntegratorPlan& plan, const Place& place) {
   if (plan.step != 0.0 && !(plan.step > 0.0 && std::isfinite(plan.step))) {
-    throw InputError(key(place, "step"), "a step of " + shown(plan.step) + " leads nowhere", "a time > 0");
+    throw InputError(key(place, "step"), "a step of " + shown(plan.step) + " leads nowhere",
+                     "a time > 0");
   }
   if (is_adaptive(plan.scheme)) {
     if (plan.tolerance != 0.0 && !(plan.tolerance >= least_tolerance && plan.tolerance < 1.0)) {
-      throw InputError(key(place, "tolerance"), "a tolerance of " + shown(plan.tolerance) + " cannot be met",
+      throw InputError(key(place, "tolerance"),
+                       "a tolerance of " + shown(plan.tolerance) + " cannot be met",
                        "a number from " + shown(least_tolerance) + " to below 1");
     }
     return;
   }
   const Scheme& scheme = find_scheme(plan.scheme, key(place, "scheme"));
   if (plan.tolerance != 0.0) {
-    throw InputError(key(place, "tolerance"),
-                     "the scheme '" + std::string(scheme.name) + "' has fixed steps and takes no tolerance",
-                     "step; or one of the adaptive schemes, arkode or cvode");
+    throw InputError(
+        key(place, "tolerance"),
+        "the scheme '" + std::string(scheme.name) + "' has fixed steps and takes no tolerance",
+        "step; or one of the adaptive schemes, arkode or cvode");
   }
 }
 
 void check_step(const IntegratorPlan& plan, const Place& place) {
   if (is_adaptive(plan.scheme) || plan.step > 0.0) return;
   throw InputError(
-      key(place, "step"), "the scheme '" + std::string(find_scheme(plan.scheme).name) + "' needs a step",
+      key(place, "step"),
+      "the scheme '" + std::string(find_scheme(plan.scheme).name) + "' needs a step",
       "a time > 0, about 1/50 of the shortest period; or scheme = \"arkode\" with a tolerance");
 }
 
-std::string check_turn(const IntegratorPlan& plan, double largest_omega, bool walls, const Place& place) {
-  if (is_adaptive(plan.scheme)) return "";  // the step is only the longest: the error control sees the turn
+std::string check_turn(const IntegratorPlan& plan, double largest_omega, bool walls,
+                       const Place& place) {
+  if (is_adaptive(plan.scheme))
+    return "";  // the step is only the longest: the error control sees the turn
   const double angle = std::fabs(largest_omega) * plan.step;
   if (walls && angle > 1.0) {
-    throw InputError(key(place, "step"),
-                     "the magnetic field turns the velocity by " + shown(angle) + " within a step",
-                     "a step of at most " + shown(1.0 / std::fabs(largest_omega)) + " where there are walls");
+    throw InputError(
+        key(place, "step"),
+        "the magnetic field turns the velocity by " + shown(angle) + " within a step",
+        "a step of at most " + shown(1.0 / std::fabs(largest_omega)) + " where there are walls");
   }
   if (!(angle > 2.0)) return "";
   return "the magnetic field turns the velocity by " + shown(angle) +

@@ -22,7 +22,11 @@ class SplittingStepper final : public Stepper<Real> {
 
   /// `omega`: one entry a particle. Refers to `law`.
   SplittingStepper(const Scheme& scheme, const ForceLaw<Real>& law, std::span<const Real> omega)
-      : stages_(stages_of<Real>(scheme)), law_(law), known_(law), drifts_(omega), scratch_(omega.size()) {}
+      : stages_(stages_of<Real>(scheme)),
+        law_(law),
+        known_(law),
+        drifts_(omega),
+        scratch_(omega.size()) {}
 
   Real step(const Phase<Real>& from, Real time, Phase<Real>& to) override {
     to = from;
@@ -37,12 +41,14 @@ class SplittingStepper final : public Stepper<Real> {
       if (stage.kind == Kind::kick) {
         if (acceleration.empty()) acceleration = accelerations(k, to.position);
         const Real duration = stage.coefficient * time;
-        for (std::size_t i = 0; i < n; ++i) to.velocity[i] = to.velocity[i] + duration * acceleration[i];
+        for (std::size_t i = 0; i < n; ++i)
+          to.velocity[i] = to.velocity[i] + duration * acceleration[i];
         continue;
       }
       if (stage.kind == Kind::straight) {
         const Real duration = stage.coefficient * time;
-        for (std::size_t i = 0; i < n; ++i) to.position[i] = to.position[i] + duration * to.velocity[i];
+        for (std::size_t i = 0; i < n; ++i)
+          to.position[i] = to.position[i] + duration * to.velocity[i];
         acceleration = {};
         continue;
       }

@@ -1,6 +1,6 @@
-// The scheme of Spreiter & Walter (1999): the motion under magnetic field and a force that is frozen for
-// the positions, and goes linearly from its old to its new value for the velocities. Without field it is
-// velocity Verlet. Formulas: docs/physics/integrators.md.
+// The scheme of Spreiter & Walter (1999): the motion under magnetic field and a force that is
+// frozen for the positions, and goes linearly from its old to its new value for the velocities.
+// Without field it is velocity Verlet. Formulas: docs/physics/integrators.md.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace carom {
 
-/// (theta - sin theta)/theta^2, odd in theta. Its series for |theta| < 1, where the difference cancels; both
-/// are good to rounding there.
+/// (theta - sin theta)/theta^2, odd in theta. Its series for |theta| < 1, where the difference
+/// cancels; both are good to rounding there.
 template <class Real>
 Real sine_deficit(const Real& theta) {
   const Real square = theta * theta;
@@ -49,7 +49,8 @@ class SpreiterWalterStepper final : public Stepper<Real> {
   Real step(const Phase<Real>& from, Real time, Phase<Real>& to) override {
     to = from;
     const std::vector<Motion>& motions = motions_.of_step(
-        time, [&](const Real& omega, std::vector<Motion>& list) { list.push_back(motion(omega, time)); });
+        time,
+        [&](const Real& omega, std::vector<Motion>& list) { list.push_back(motion(omega, time)); });
     const std::span<const Vector> before = known_.at_start(from.position);
     const std::size_t n = to.position.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -69,7 +70,8 @@ class SpreiterWalterStepper final : public Stepper<Real> {
  private:
   struct Motion {
     LarmorDrift<Real> free;
-    TurnAndStretch<Real> once, twice;  ///< mean of the turns by omega s, 0 <= s <= t; and their mean again
+    TurnAndStretch<Real> once,
+        twice;  ///< mean of the turns by omega s, 0 <= s <= t; and their mean again
   };
 
   static Motion motion(const Real& omega, const Real& time) {

@@ -21,7 +21,8 @@ namespace stages {
 template <class Real>
 std::vector<Real> parsed(const std::vector<std::string_view>& decimals) {
   std::vector<Real> numbers;
-  for (const std::string_view decimal : decimals) numbers.push_back(Arithmetic<Real>::parse(decimal));
+  for (const std::string_view decimal : decimals)
+    numbers.push_back(Arithmetic<Real>::parse(decimal));
   return numbers;
 }
 
@@ -44,7 +45,8 @@ std::vector<Real> mirrored(std::vector<Real> half, bool single_middle) {
 
 /// Two motions of one kind after each other are one.
 template <class Real>
-void append(std::vector<Stage<Real>>& list, typename Stage<Real>::Kind kind, const Real& coefficient) {
+void append(std::vector<Stage<Real>>& list, typename Stage<Real>::Kind kind,
+            const Real& coefficient) {
   if (!list.empty() && list.back().kind == kind) {
     list.back().coefficient = list.back().coefficient + coefficient;
   } else {
@@ -71,15 +73,18 @@ std::vector<Stage<Real>> stages_of(const Scheme& scheme) {
     }
     return list;
   }
-  std::vector<Real> drift = stages::parsed<Real>(scheme.drift), kick = stages::parsed<Real>(scheme.kick);
+  std::vector<Real> drift = stages::parsed<Real>(scheme.drift),
+                    kick = stages::parsed<Real>(scheme.kick);
   if (scheme.form == Form::symmetric) {
     drift = stages::mirrored(drift, scheme.middle == Scheme::Motion::drift);
     kick = stages::mirrored(kick, scheme.middle == Scheme::Motion::kick);
   }
   for (std::size_t i = 0; i < drift.size() || i < kick.size(); ++i) {
-    if (scheme.first == Scheme::Motion::drift && i < drift.size()) list.push_back({Kind::drift, drift[i]});
+    if (scheme.first == Scheme::Motion::drift && i < drift.size())
+      list.push_back({Kind::drift, drift[i]});
     if (i < kick.size()) list.push_back({Kind::kick, kick[i]});
-    if (scheme.first == Scheme::Motion::kick && i < drift.size()) list.push_back({Kind::drift, drift[i]});
+    if (scheme.first == Scheme::Motion::kick && i < drift.size())
+      list.push_back({Kind::drift, drift[i]});
   }
   return list;
 }

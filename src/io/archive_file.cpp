@@ -47,7 +47,9 @@ void refuse_open_elsewhere(const std::string& path, const std::string& name) {
   if (descriptor < 0) return;  // it is not there, or cannot be written: that is said later
   const bool is_open = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(descriptor);
-  if (is_open) throw InputError(Place{name, 0, 0, ""}, "another program has it open", "another name, or the end of that program");
+  if (is_open)
+    throw InputError(Place{name, 0, 0, ""}, "another program has it open",
+                     "another name, or the end of that program");
 }
 
 Handle latest_format(const std::string& name) {
@@ -61,7 +63,8 @@ std::string numbered(const char* what, std::size_t part) {
   return part == 1 ? what : fmt::format("{}_{}", what, part);
 }
 
-void write_origin(hid_t provenance, std::size_t part, const Origin& origin, const std::string& name) {
+void write_origin(hid_t provenance, std::size_t part, const Origin& origin,
+                  const std::string& name) {
   const auto write = [&](const char* what, const std::string& text) {
     hdf5::write_attribute(provenance, numbered(what, part).c_str(), std::string_view(text), name);
   };
@@ -77,15 +80,17 @@ void prepare_archives() { hdf5::prepare(); }
 void refuse_existing(const std::string& file, bool force) {
   refuse_no_file(file);
   if (!force && exists(file))
-    throw InputError(Place{file, 0, 0, ""}, "the output file exists already", "another name, or --force");
+    throw InputError(Place{file, 0, 0, ""}, "the output file exists already",
+                     "another name, or --force");
   if (force || (!has_checkpoint(file) && parts_of_ranks(file).empty())) return;
   std::string command = "carom";
   try {
     command += " " + kind_of_ensemble(file);
   } catch (const InputError&) {  // it is damaged: --resume says in what
   }
-  throw InputError(Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
-                   fmt::format("{} --resume {} to go on with it, another name, or --force", command, file));
+  throw InputError(
+      Place{file, 0, 0, ""}, "a run that has not ended left a checkpoint of this name",
+      fmt::format("{} --resume {} to go on with it, another name, or --force", command, file));
 }
 
 ArchiveFile::ArchiveFile(Handle file, std::string path, std::string name)
@@ -135,7 +140,8 @@ Handle ArchiveFile::open_group(const char* path) const {
   return hdf5::checked(H5Gopen2(id(), path, H5P_DEFAULT), H5Gclose, name_);
 }
 
-void ArchiveFile::write_head(const char* kind, const LoadedSystem& loaded, const Provenance& origin) const {
+void ArchiveFile::write_head(const char* kind, const LoadedSystem& loaded,
+                             const Provenance& origin) const {
   hdf5::write_attribute(id(), "schema", std::int64_t{archive_schema}, name_);
   hdf5::write_attribute(id(), "kind", std::string_view(kind), name_);
   hdf5::write_attribute(id(), "complete", std::int64_t{0}, name_);
@@ -169,14 +175,16 @@ void ArchiveFile::extend_head(const LoadedSystem& loaded, const Provenance& orig
   const Handle provenance = open_group("provenance");
   const std::int64_t times = 1 + hdf5::read_integer_attribute(provenance.get(), "continued", name_);
   hdf5::change_attribute(provenance.get(), "continued", times, name_);
-  write_origin(provenance.get(), static_cast<std::size_t>(times) + 1, {origin.command, version, utc_now()}, name_);
+  write_origin(provenance.get(), static_cast<std::size_t>(times) + 1,
+               {origin.command, version, utc_now()}, name_);
 }
 
 std::vector<Origin> ArchiveFile::read_origins(hid_t provenance, const std::string& name) {
   std::vector<Origin> parts;
   const std::int64_t continued = hdf5::read_integer_attribute(provenance, "continued", name);
   if (continued < 0)
-    throw InputError(Place{name, 0, 0, ""}, "'/provenance/continued' is negative", "an archive as carom wrote it");
+    throw InputError(Place{name, 0, 0, ""}, "'/provenance/continued' is negative",
+                     "an archive as carom wrote it");
   const auto times = static_cast<std::size_t>(continued);
   for (std::size_t part = 1; part <= times + 1; ++part) {
     const auto text = [&](const char* what) {
@@ -201,7 +209,8 @@ void ArchiveFile::add_decisions(const DecisionCounts& counts) const {
   const Handle provenance = open_group("provenance");
   const auto add = [&](const char* name, std::uint64_t number) {
     const std::int64_t before = hdf5::read_integer_attribute(provenance.get(), name, name_);
-    hdf5::change_attribute(provenance.get(), name, before + static_cast<std::int64_t>(number), name_);
+    hdf5::change_attribute(provenance.get(), name, before + static_cast<std::int64_t>(number),
+                           name_);
   };
   add("decisions_filter", counts.filter);
   add("decisions_exact", counts.exact);

@@ -35,7 +35,8 @@ class ArchiveFile {
   /// Where decisions were taken: to what /provenance holds of earlier parts of the run.
   void add_decisions(const DecisionCounts&) const;
 
-  /// Writes the checksums of all it holds, closes, syncs and renames to `target` (may be the path itself).
+  /// Writes the checksums of all it holds, closes, syncs and renames to `target` (may be the path
+  /// itself).
   void keep_as(const std::string& target);
 
  private:

@@ -29,11 +29,12 @@ const std::array<Coordinate, 5> coordinates{{
     {"vy", "vy_decimals", &CertifiedState::vy, {"length/time", "Velocity after the event"}},
 }};
 
-// Texts of one length, padded with zeros, row by row in batches of about a megabyte. A longer one makes all of
-// them longer.
+// Texts of one length, padded with zeros, row by row in batches of about a megabyte. A longer one
+// makes all of them longer.
 class TextColumn {
  public:
-  TextColumn(hid_t group, const char* name, std::size_t length, Description description, const std::string& file)
+  TextColumn(hid_t group, const char* name, std::size_t length, Description description,
+             const std::string& file)
       : group_(group), name_(name), description_(description), file_(file) {
     begin(name_, length);
   }
@@ -76,7 +77,8 @@ class TextColumn {
       flush();
     }
     hdf5::check(H5Ldelete(group_, name_.c_str(), H5P_DEFAULT) >= 0, file_);
-    hdf5::check(H5Lmove(group_, wide.c_str(), group_, name_.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, file_);
+    hdf5::check(H5Lmove(group_, wide.c_str(), group_, name_.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0,
+                file_);
   }
 
   void flush() {
@@ -102,26 +104,31 @@ class CertifiedArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
                  const CertifiedTask& task)
-      : target(path), digits(task.digits), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
+      : target(path),
+        digits(task.digits),
+        file(ArchiveFile::create(aside_of(path), path)),
+        rows(path) {
     file.write_head("certified", loaded, origin);
     for (const Wall& w : loaded.system.table->walls) walls.push_back(w.name);
     for (const Hole& h : loaded.system.table->holes) holes.push_back(h.name);
     collisions = file.group("collisions", "Reflections in order of time: the states after them");
     const hid_t to = collisions.get();
     rows.add<std::uint64_t>(to, "number", {"1", "Number of the collision, from 1"});
-    const hid_t wall = rows.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
+    const hid_t wall =
+        rows.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
     if (!walls.empty()) hdf5::write_attribute(wall, "names", walls, target);
     rows.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
     rows.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
     for (const Coordinate& c : coordinates) rows.add<double>(to, c.name, c.description);
     // Twenty digits before the point, a sign and the point: more as they come.
     const std::size_t length = static_cast<std::size_t>(digits) + 22;
-    for (const Coordinate& c : coordinates) texts.emplace_back(to, c.decimals, length, c.description, target);
+    for (const Coordinate& c : coordinates)
+      texts.emplace_back(to, c.decimals, length, c.description, target);
   }
 
   void write_end(const CertifiedEnd& end) {
-    const Handle group =
-        file.group("state", "Where the orbit ended: after the last event, at the last time or in a hole");
+    const Handle group = file.group(
+        "state", "Where the orbit ended: after the last event, at the last time or in a hole");
     const hid_t to = group.get();
     const auto integer = [&](const char* name, std::int64_t value, const char* text) {
       hdf5::write_column(to, name, std::span<const std::int64_t>(&value, 1), {"1", text}, target);
@@ -150,7 +157,8 @@ class CertifiedArchive::Implementation {
 };
 
 CertifiedArchive::CertifiedArchive(const std::string& file, const LoadedSystem& loaded,
-                                   const Provenance& origin, const CertifiedTask& task, bool force, ArchiveLock lock) {
+                                   const Provenance& origin, const CertifiedTask& task, bool force,
+                                   ArchiveLock lock) {
   if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
   implementation_ = std::make_unique<Implementation>(file, loaded, origin, task);
@@ -174,12 +182,14 @@ void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& ef
   hdf5::check(a.collisions.close(), a.target);
   a.write_end(end);
   {
-    const Handle group = a.file.group("guarantee", "Every decimal is right: errors are below 10^-digits");
+    const Handle group =
+        a.file.group("guarantee", "Every decimal is right: errors are below 10^-digits");
     const hid_t to = group.get();
     hdf5::write_attribute(to, "digits", std::int64_t{a.digits}, a.target);
     hdf5::write_attribute(to, "bits", std::int64_t{effort.bits}, a.target);
     hdf5::write_attribute(to, "attempts", std::int64_t{effort.attempts}, a.target);
-    hdf5::write_attribute(to, "lost_bits", static_cast<std::int64_t>(effort.tangent_bits), a.target);
+    hdf5::write_attribute(to, "lost_bits", static_cast<std::int64_t>(effort.tangent_bits),
+                          a.target);
     hdf5::write_attribute(to, "reason", std::string_view(end.reason), a.target);
     if (!end.ties.empty()) hdf5::write_attribute(to, "ties", end.ties, a.target);
     if (!a.holes.empty()) hdf5::write_attribute(to, "holes", a.holes, a.target);

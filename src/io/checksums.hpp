@@ -12,15 +12,18 @@ namespace carom::hdf5 {
 /// CRC-32 as zlib has it, so that others can compute it. Goes on from the sum of the bytes before.
 std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before = 0);
 
-/// Lists everything that the file holds in the attribute `checksums` of /provenance: a line with the CRC-32 of the lines
-/// that follow, then a line for each dataset and attribute with the CRC-32 of its bytes, its type, number of values and
-/// path. All these have a fixed length: the attribute is written again in place as long as nothing new is in the file.
+/// Lists everything that the file holds in the attribute `checksums` of /provenance: a line with
+/// the CRC-32 of the lines that follow, then a line for each dataset and attribute with the CRC-32
+/// of its bytes, its type, number of values and path. All these have a fixed length: the attribute
+/// is written again in place as long as nothing new is in the file.
 void write_checksums(hid_t file, const std::string& name);
-/// Makes room for that list before readers come (SWMR): nothing can be created afterwards. The sums are zeros.
+/// Makes room for that list before readers come (SWMR): nothing can be created afterwards. The sums
+/// are zeros.
 void reserve_checksums(hid_t file, const std::string& name);
 
-/// Reads everything that is listed. Throws InputError where there is no such list, and where something is missing, cannot be
-/// read or is not what was written, with its path. What was added to the file later is not looked at.
+/// Reads everything that is listed. Throws InputError where there is no such list, and where
+/// something is missing, cannot be read or is not what was written, with its path. What was added
+/// to the file later is not looked at.
 void verify(hid_t file, const std::string& name);
 
 }  // namespace carom::hdf5

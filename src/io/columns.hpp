@@ -18,7 +18,8 @@ class Columns {
   /// Adds a column; rows are pushed in the order in which columns were added.
   template <class T>
   hid_t add(hid_t group, const char* name, Description description) {
-    return take(create_growing(group, name, native_type<T>(), chunk, description, file_), native_type<T>());
+    return take(create_growing(group, name, native_type<T>(), chunk, description, file_),
+                native_type<T>());
   }
   /// The same for a column that is in the file already; new rows follow the old ones.
   template <class T>
@@ -53,8 +54,8 @@ class Columns {
   }
 
  private:
-  // Rows written at a time, and rows stored together: short runs make small files. A batch fills its chunks, so that those
-  // who read while rows are written never meet one that is written again.
+  // Rows written at a time, and rows stored together: short runs make small files. A batch fills
+  // its chunks, so that those who read while rows are written never meet one that is written again.
   static constexpr std::size_t batch = 4096, chunk = 1024;
   static_assert(batch % chunk == 0);
   struct Column {

@@ -25,8 +25,9 @@ class ContactColumns {
     };
     const geometry::Vector x = unwrapped(e.first_position, e.first_cell),
                            y = unwrapped(e.second_position, e.second_cell);
-    rows_.row(std::int32_t{e.first}, std::int32_t{e.second}, e.time.value(), x.x, x.y, y.x, y.y, e.separation.x,
-              e.separation.y, e.first_after.x, e.first_after.y, e.second_after.x, e.second_after.y, e.transfer);
+    rows_.row(std::int32_t{e.first}, std::int32_t{e.second}, e.time.value(), x.x, x.y, y.x, y.y,
+              e.separation.x, e.separation.y, e.first_after.x, e.first_after.y, e.second_after.x,
+              e.second_after.y, e.transfer);
   }
   void close() { rows_.close(); }
 
@@ -36,7 +37,7 @@ class ContactColumns {
     hdf5::Description description;
   };
   static constexpr Column integers[] = {{"first", {"1", "Index of one disc, the smaller"}},
-                                         {"second", {"1", "Index of the other"}}};
+                                        {"second", {"1", "Index of the other"}}};
   static constexpr Column reals[] = {
       {"t", {"time", "Time of the contact"}},
       {"first_x", {"length", "Centre of the first, unwrapped"}},

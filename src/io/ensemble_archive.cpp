@@ -22,15 +22,19 @@ namespace {
 // A full disk may get room again; after so many checkpoints in a row that failed the run ends.
 constexpr int most_failures = 6;
 
-// The records of a piece are those of its trajectories, each once: what was read from the disk may be anything.
+// The records of a piece are those of its trajectories, each once: what was read from the disk may
+// be anything.
 void check_records(const RecordLog::Piece& piece, const std::vector<TrajectoryRecord>& records,
-                   std::optional<std::uint64_t>& before, const System& system, const std::string& target) {
-  const std::uint64_t first = particle_index(system, piece.first, 0), end = particle_index(system, piece.last, 0);
+                   std::optional<std::uint64_t>& before, const System& system,
+                   const std::string& target) {
+  const std::uint64_t first = particle_index(system, piece.first, 0),
+                      end = particle_index(system, piece.last, 0);
   for (const TrajectoryRecord& record : records) {
     const bool in_order = !before || record.index > *before;
     if (!in_order || record.index < first || record.index - first >= end - first)
-      damaged(records_of(target), fmt::format("a record of the trajectories {} to {} was changed: its index is {}", piece.first,
-                                              piece.last - 1, record.index));
+      damaged(records_of(target),
+              fmt::format("a record of the trajectories {} to {} was changed: its index is {}",
+                          piece.first, piece.last - 1, record.index));
     before = record.index;
   }
 }
@@ -40,7 +44,8 @@ void check_records(const RecordLog::Piece& piece, const std::vector<TrajectoryRe
 template <class Result>
 class EnsembleArchive<Result>::Implementation {
  public:
-  Implementation(const std::string& path, const LoadedSystem& system, const Provenance& provenance, const Plan& the_plan)
+  Implementation(const std::string& path, const LoadedSystem& system, const Provenance& provenance,
+                 const Plan& the_plan)
       : target(path), loaded(system), origin(provenance), plan(the_plan) {}
   ~Implementation() {
     if (saved && !finished && kept == 0) std::remove(checkpoint_of(target).c_str());
@@ -53,7 +58,7 @@ class EnsembleArchive<Result>::Implementation {
   LoadedSystem loaded;
   Provenance origin;
   std::vector<std::string> merged;  // into what is gone on with
-  Plan plan;  // first of those that let go of files: its lock is the last
+  Plan plan;                        // first of those that let go of files: its lock is the last
   std::optional<RecordLog> log;
   std::uint64_t kept = 0;
   std::optional<InputError> unwritten;  // records that belong to the next checkpoint
@@ -61,12 +66,14 @@ class EnsembleArchive<Result>::Implementation {
   int failures = 0;
 };
 
-void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Shard& shard, bool everywhere,
-                 const std::string& arithmetic) {
+void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Shard& shard,
+                 bool everywhere, const std::string& arithmetic) {
   const Handle provenance = file.open_group("provenance");
   hdf5::write_attribute(provenance.get(), "shard", text_of(shard), file.name());
   hdf5::write_attribute(provenance.get(), "everywhere", std::int64_t{everywhere}, file.name());
-  if (!arithmetic.empty()) hdf5::write_attribute(provenance.get(), arithmetic_key, std::string_view(arithmetic), file.name());
+  if (!arithmetic.empty())
+    hdf5::write_attribute(provenance.get(), arithmetic_key, std::string_view(arithmetic),
+                          file.name());
   hdf5::write_attribute(provenance.get(), "seconds", result.seconds, file.name());
   hdf5::write_attribute(provenance.get(), "cpu_seconds", result.cpu_seconds, file.name());
   file.add_decisions(result.decisions);
@@ -75,15 +82,18 @@ void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Sh
 
 // Aside, synced, renamed: under its name a file is whole or is not there.
 template <class Result>
-void EnsembleArchive<Result>::Implementation::write(const Result& result, const std::string& status, bool last) {
+void EnsembleArchive<Result>::Implementation::write(const Result& result, const std::string& status,
+                                                    bool last) {
   if (unwritten) throw *unwritten;  // what is counted and what is recorded would differ
   ArchiveFile file = ArchiveFile::create(aside_of(target), target);
   Provenance now = origin;
   now.threads = result.threads;
   if (result.lanes) now.isa = name_of(*result.lanes);
   file.write_head(kind_of(result), loaded, now);
-  write_parts(file, result, plan.shard, loaded.system.dynamics.everywhere, arithmetic_fingerprint());
-  if (!merged.empty()) hdf5::write_attribute(file.open_group("provenance").get(), "merged", merged, target);
+  write_parts(file, result, plan.shard, loaded.system.dynamics.everywhere,
+              arithmetic_fingerprint());
+  if (!merged.empty())
+    hdf5::write_attribute(file.open_group("provenance").get(), "merged", merged, target);
   write_counts(file, result, loaded.system);
   if (log && last) {
     hdf5::Columns columns = create_records(file, loaded.system);
@@ -101,8 +111,8 @@ void EnsembleArchive<Result>::Implementation::write(const Result& result, const 
 }
 
 template <class Result>
-EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
-                                         const Plan& plan) {
+EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSystem& loaded,
+                                         const Provenance& origin, const Plan& plan) {
   Plan locked = plan;
   if (!locked.lock) locked.lock = lock_archive(file);
   refuse_existing(file, plan.force);
@@ -112,8 +122,9 @@ EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSy
 }
 
 template <class Result>
-EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSystem& loaded, const Provenance& origin,
-                                         const Stored<Result>& stored, const Plan& plan) {
+EnsembleArchive<Result>::EnsembleArchive(const std::string& file, const LoadedSystem& loaded,
+                                         const Provenance& origin, const Stored<Result>& stored,
+                                         const Plan& plan) {
   Plan locked = plan;
   if (!locked.lock) locked.lock = lock_archive(file);
   const bool goes_on = stored.file == checkpoint_of(file);
@@ -137,10 +148,13 @@ template <class Result>
 EnsembleArchive<Result>::~EnsembleArchive() = default;
 
 template <class Result>
-bool EnsembleArchive<Result>::wants_records() const { return implementation_->plan.per_trajectory; }
+bool EnsembleArchive<Result>::wants_records() const {
+  return implementation_->plan.per_trajectory;
+}
 
 template <class Result>
-void EnsembleArchive<Result>::block(TrajectoryRange range, std::vector<TrajectoryRecord>&& records) {
+void EnsembleArchive<Result>::block(TrajectoryRange range,
+                                    std::vector<TrajectoryRecord>&& records) {
   if (implementation_->log) implementation_->log->add(range, std::move(records));
 }
 
@@ -193,7 +207,9 @@ void EnsembleArchive<Result>::finish(const Result& result, const std::string& st
 }
 
 template <class Result>
-std::uint64_t EnsembleArchive<Result>::kept() const { return implementation_->kept; }
+std::uint64_t EnsembleArchive<Result>::kept() const {
+  return implementation_->kept;
+}
 
 template class EnsembleArchive<EscapeResult>;
 template class EnsembleArchive<DiffusionResult>;

@@ -13,7 +13,8 @@ namespace carom {
 
 /// Throws InputError: what an archive holds cannot be.
 [[noreturn]] void damaged(const std::string& name, const std::string& problem);
-/// Does what was read belong to the system that it was read with? Throws InputError where it does not.
+/// Does what was read belong to the system that it was read with? Throws InputError where it does
+/// not.
 void check_stored(const StoredEnsemble&, const EscapeResult&, const System&);
 void check_stored(const StoredEnsemble&, const DiffusionResult&, const System&);
 
@@ -32,7 +33,8 @@ inline bool is_integrated(const System& system) {
   const Dynamics& d = system.dynamics;
   return d.everywhere || (d.forces && !d.forces->empty());
 }
-/// What integration has cost, and how well energies were kept; archives of earlier builds have none of it.
+/// What integration has cost, and how well energies were kept; archives of earlier builds have none
+/// of it.
 void write_integration(hid_t fates, const EnsembleResult&, const std::string& name);
 void read_integration(hid_t fates, const std::string& name, EnsembleResult&);
 /// 0 in archives of earlier builds, which called these particles lost.

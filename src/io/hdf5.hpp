@@ -36,7 +36,8 @@ class Handle {
 };
 
 /// Must be called before any other use of HDF5: after a failed close its own exit handler crashes.
-/// Also ignores SIGXFSZ, so that a limit on file sizes is an error of the write, and calls silence().
+/// Also ignores SIGXFSZ, so that a limit on file sizes is an error of the write, and calls
+/// silence().
 void prepare();
 
 /// Stops HDF5 from printing errors of its own in this thread (each thread has its own setting).
@@ -53,17 +54,20 @@ struct Description {
   const char* text;
 };
 
-void write_attribute(hid_t object, const char* name, std::string_view value, const std::string& file);
+void write_attribute(hid_t object, const char* name, std::string_view value,
+                     const std::string& file);
 void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
 void write_attribute(hid_t object, const char* name, double value, const std::string& file);
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
                      const std::string& file);
 /// Overwrites the value of an existing attribute; a string is cut or padded to its length.
-void change_attribute(hid_t object, const char* name, std::string_view value, const std::string& file);
+void change_attribute(hid_t object, const char* name, std::string_view value,
+                      const std::string& file);
 void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
 std::string read_string_attribute(hid_t object, const char* name, const std::string& file);
 /// None where there is no such attribute.
-std::vector<std::string> read_string_list_attribute(hid_t object, const char* name, const std::string& file);
+std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
+                                                    const std::string& file);
 std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file);
 double read_real_attribute(hid_t object, const char* name, const std::string& file);
 
@@ -87,11 +91,13 @@ inline hid_t native_type<std::uint64_t>() {
 }
 
 /// A text as a scalar dataset.
-void write_text(hid_t parent, const char* name, std::string_view text, Description, const std::string& file);
+void write_text(hid_t parent, const char* name, std::string_view text, Description,
+                const std::string& file);
 std::string read_text(hid_t parent, const char* name, const std::string& file);
 
-/// A dataset of fixed size, with HDF5's own checksums (Fletcher-32): no reader gets damaged rows, but for words of zeros
-/// that became words of ones, which it takes for the same. See checksums.hpp.
+/// A dataset of fixed size, with HDF5's own checksums (Fletcher-32): no reader gets damaged rows,
+/// but for words of zeros that became words of ones, which it takes for the same. See
+/// checksums.hpp.
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description,
                     const std::string& file);
 /// A dataset that grows by rows, with the same.
@@ -102,11 +108,11 @@ void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, 
                  const std::string& file);
 
 template <class T>
-void write_column(hid_t parent, const char* name, std::span<const T> values, Description description,
-                  const std::string& file) {
+void write_column(hid_t parent, const char* name, std::span<const T> values,
+                  Description description, const std::string& file) {
   Handle dataset = create_fixed(parent, name, native_type<T>(), values.size(), description, file);
-  check(values.empty() ||
-            H5Dwrite(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+  check(values.empty() || H5Dwrite(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                   values.data()) >= 0,
         file);
   check(dataset.close(), file);
 }
@@ -115,6 +121,7 @@ std::vector<T> read_column(hid_t parent, const char* name, const std::string& fi
 /// Opens a dataset of an archive that is read.
 Handle open_column(hid_t parent, const char* name, const std::string& file);
 /// Reads rows row … row + count - 1.
-void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, void* values, const std::string& file);
+void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, void* values,
+               const std::string& file);
 
 }  // namespace carom::hdf5

@@ -79,7 +79,8 @@ void Json::print(std::string& out, int depth) const {
   }
   const bool object = kind_ == Kind::object;
   const bool lines = !members_.empty() && depth < 2 && ((object && depth == 0) || holds_objects());
-  const std::string indent = lines ? '\n' + std::string(2 * static_cast<std::size_t>(depth) + 2, ' ') : "";
+  const std::string indent =
+      lines ? '\n' + std::string(2 * static_cast<std::size_t>(depth) + 2, ' ') : "";
   out += object ? '{' : '[';
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (i > 0) out += lines ? "," : ", ";

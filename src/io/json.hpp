@@ -23,8 +23,8 @@ class Json {
   template <std::integral Integer>
   requires(!std::same_as<Integer, bool>) Json(Integer value) {  // NOLINT
     if constexpr (std::signed_integral<Integer>)
-      set_integer(value < 0,
-                  value < 0 ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value));
+      set_integer(value < 0, value < 0 ? 0 - static_cast<std::uint64_t>(value)
+                                       : static_cast<std::uint64_t>(value));
     else
       set_integer(false, value);
   }

@@ -27,15 +27,18 @@ std::optional<TrajectoryRange> common(const TrajectoryRanges& a, const Trajector
 }
 
 std::uint64_t lowest(const TrajectoryRanges& done) {
-  return done.ranges().empty() ? std::numeric_limits<std::uint64_t>::max() : done.ranges().front().first;
+  return done.ranges().empty() ? std::numeric_limits<std::uint64_t>::max()
+                               : done.ranges().front().first;
 }
 
 void refuse_others(const StoredEnsemble& part, const StoredEnsemble& first) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(Place{part.file, 0, 0, ""}, fmt::format("it does not match '{}': {}", first.file, what),
+    throw InputError(Place{part.file, 0, 0, ""},
+                     fmt::format("it does not match '{}': {}", first.file, what),
                      "parts of one ensemble");
   };
-  if (part.version != first.version) refuse(fmt::format("its version is {}, not {}", part.version, first.version));
+  if (part.version != first.version)
+    refuse(fmt::format("its version is {}, not {}", part.version, first.version));
   const std::string differs = difference(first.system_toml, part.system_toml);
   if (!differs.empty()) refuse(differs);
   if (part.engine != first.engine || part.everywhere != first.everywhere)
@@ -50,7 +53,8 @@ void refuse_others(const StoredEnsemble& part, const StoredEnsemble& first) {
 // The records of one part, in order of index; its file is open only while they are read.
 class Source {
  public:
-  Source(const std::string& file, const TrajectoryRanges& done, const System& system) : file_(file) {
+  Source(const std::string& file, const TrajectoryRanges& done, const System& system)
+      : file_(file) {
     if (done.size() > 0) head_ = particle_index(system, done.ranges().front().first, 0);
   }
   /// No record has a lower index; the largest number at the end.
@@ -62,8 +66,9 @@ class Source {
       load();
     }
     if (head_ >= end) return;
-    const auto stop = std::lower_bound(batch_.begin() + at_, batch_.end(), end,
-                                       [](const TrajectoryRecord& r, std::uint64_t index) { return r.index < index; });
+    const auto stop = std::lower_bound(
+        batch_.begin() + at_, batch_.end(), end,
+        [](const TrajectoryRecord& r, std::uint64_t index) { return r.index < index; });
     records.insert(records.end(), batch_.begin() + at_, stop);
     at_ = stop - batch_.begin();
     if (stop == batch_.end())
@@ -125,7 +130,8 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& sh
     for (const EnsemblePart& other : sum.parts)
       if (const auto both = common(part.result.done, other.done))
         throw InputError(Place{part.file, 0, 0, ""},
-                         fmt::format("trajectories {} to {} are in '{}', too", both->first, both->last - 1, other.file),
+                         fmt::format("trajectories {} to {} are in '{}', too", both->first,
+                                     both->last - 1, other.file),
                          "parts that do not overlap");
     sum.parts.push_back({part.file, part.result.done, part.result.seconds});
     refuse_other_version(part);
@@ -137,12 +143,14 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& sh
       static_cast<Stored<Result>&>(sum) = std::move(part);
       continue;
     }
-    // Of several ways to write a number that of the lowest trajectory: the order of the parts cannot matter.
+    // Of several ways to write a number that of the lowest trajectory: the order of the parts
+    // cannot matter.
     if (lowest(part.result.done) < lowest(sum.result.done)) sum.system_toml = part.system_toml;
     if (!sum.result.add(part.result)) throw InternalError("parts overlap");
     if (sum.arithmetic.empty()) sum.arithmetic = part.arithmetic;
     sum.result.threads = std::max(sum.result.threads, part.result.threads);
-    sum.result.lanes = std::max(sum.result.lanes, part.result.lanes);  // as with threads: the most of any part
+    sum.result.lanes =
+        std::max(sum.result.lanes, part.result.lanes);  // as with threads: the most of any part
   }
   sum.shard = shard;
   sum.file.clear();
@@ -152,15 +160,16 @@ SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& sh
 }
 
 template <class Result>
-void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin, const SumOfParts<Result>& sum,
-               ArchiveLock lock) {
+void write_sum(const std::string& path, const LoadedSystem& loaded, const Provenance& origin,
+               const SumOfParts<Result>& sum, ArchiveLock lock) {
   hdf5::silence();
   if (!lock) lock = lock_archive(path);
   const System& system = loaded.system;
   ArchiveFile file = ArchiveFile::create(aside_of(path), path);
   file.write_head(kind_of(sum.result), loaded, origin);
   write_parts(file, sum.result, sum.shard, sum.everywhere, sum.arithmetic);
-  if (!sum.merged.empty()) hdf5::write_attribute(file.open_group("provenance").get(), "merged", sum.merged, path);
+  if (!sum.merged.empty())
+    hdf5::write_attribute(file.open_group("provenance").get(), "merged", sum.merged, path);
   write_counts(file, sum.result, system);
   if (sum.per_trajectory) {
     std::vector<Source> sources;
@@ -174,9 +183,9 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
 
 template SumOfParts<EscapeResult> sum_of(const std::vector<std::string>&, const Shard&);
 template SumOfParts<DiffusionResult> sum_of(const std::vector<std::string>&, const Shard&);
-template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<EscapeResult>&,
-                        ArchiveLock);
-template void write_sum(const std::string&, const LoadedSystem&, const Provenance&, const SumOfParts<DiffusionResult>&,
-                        ArchiveLock);
+template void write_sum(const std::string&, const LoadedSystem&, const Provenance&,
+                        const SumOfParts<EscapeResult>&, ArchiveLock);
+template void write_sum(const std::string&, const LoadedSystem&, const Provenance&,
+                        const SumOfParts<DiffusionResult>&, ArchiveLock);
 
 }  // namespace carom

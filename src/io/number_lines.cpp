@@ -64,7 +64,8 @@ Value numbers_of_line(std::string line, const Place& place) {
     Place here = place;
     here.column = static_cast<int>(begin) + 1;
     std::string text = line.substr(begin, i - begin);
-    row.items.push_back(is_decimal(text) ? number_value(std::move(text), here) : parse_value(text, here));
+    row.items.push_back(is_decimal(text) ? number_value(std::move(text), here)
+                                         : parse_value(text, here));
   }
   return row;
 }
@@ -74,8 +75,9 @@ Value rows_of_file(const std::string& name, const Place& key, const Row& row) {
   std::ifstream file(name);
   const std::string numbers(row.numbers);
   if (!file || std::filesystem::is_directory(name, none)) {
-    throw InputError(key, "'" + name + "' cannot be read: " + (file ? "it is a folder" : std::strerror(errno)),
-                     "a text file with " + numbers + " in each line");
+    throw InputError(
+        key, "'" + name + "' cannot be read: " + (file ? "it is a folder" : std::strerror(errno)),
+        "a text file with " + numbers + " in each line");
   }
   Value rows;
   rows.kind = Value::Kind::list;
@@ -88,19 +90,22 @@ Value rows_of_file(const std::string& name, const Place& key, const Row& row) {
     const std::size_t count = one.items.size();
     if (count == 0) continue;
     if (count < row.least || count > row.most) {
-      const std::string range = row.least == row.most ? counted(row.least)
-                                                      : counted(row.least) + " or " + counted(row.most);
+      const std::string range = row.least == row.most
+                                    ? counted(row.least)
+                                    : counted(row.least) + " or " + counted(row.most);
       throw InputError(one.place,
-                       "a " + std::string(row.name) + " has " + range + " numbers, but the line has " +
-                           std::to_string(count),
+                       "a " + std::string(row.name) + " has " + range +
+                           " numbers, but the line has " + std::to_string(count),
                        numbers);
     }
     if (rows.items.size() == most_rows)
-      throw InputError(one.place, "too many " + std::string(row.name) + "s", "at most " + std::to_string(most_rows));
+      throw InputError(one.place, "too many " + std::string(row.name) + "s",
+                       "at most " + std::to_string(most_rows));
     rows.items.push_back(std::move(one));
   }
   if (rows.items.empty())
-    throw InputError({name, 0, 0, ""}, "the file holds no " + std::string(row.name), numbers + " in each line");
+    throw InputError({name, 0, 0, ""}, "the file holds no " + std::string(row.name),
+                     numbers + " in each line");
   return rows;
 }
 

@@ -13,8 +13,8 @@ std::string located(const Value& path);
 /// The numbers of a line, parted by blanks or commas; # begins a comment. Each keeps its place.
 Value numbers_of_line(std::string line, const Place& place);
 
-/// The rows that a file holds, each with at least `least` and at most `most` numbers. `row` names a row ("start"),
-/// `numbers` its numbers ("x y vx vy"), for messages.
+/// The rows that a file holds, each with at least `least` and at most `most` numbers. `row` names a
+/// row ("start"), `numbers` its numbers ("x y vx vy"), for messages.
 struct Row {
   const char *name, *numbers;
   std::size_t least, most;

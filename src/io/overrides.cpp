@@ -60,13 +60,15 @@ void drop_rival(Value& section, const std::string& key) {
 }
 
 // "x,y" of --position and --velocity, "from,to" of --window.
-Value pair_of(const std::string& text, const Place& place, const char* expected = "x,y such as 0.5,1/3") {
+Value pair_of(const std::string& text, const Place& place,
+              const char* expected = "x,y such as 0.5,1/3") {
   const std::size_t comma = text.find(',');
   if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos) {
     throw InputError(place, "'" + text + "' is not a pair of numbers", expected);
   }
   Value value = empty(Value::Kind::list, place);
-  value.items = {parse_value(text.substr(0, comma), place), parse_value(text.substr(comma + 1), place)};
+  value.items = {parse_value(text.substr(0, comma), place),
+                 parse_value(text.substr(comma + 1), place)};
   return value;
 }
 
@@ -75,7 +77,8 @@ void place_start(const SystemOverrides& overrides, Value& root) {
   const Place place = command_line(overrides.position.empty() ? "--velocity" : "--position");
   Value* old = root.find("initial");
   const Value* kind = old == nullptr ? nullptr : old->find("kind");
-  Value initial = kind != nullptr && kind->text == "point" ? *old : empty(Value::Kind::table, place);
+  Value initial =
+      kind != nullptr && kind->text == "point" ? *old : empty(Value::Kind::table, place);
   // What --set says of the start counts whatever kind the file has.
   for (const char* key : {"position", "velocity", "angle"}) {
     const Value* typed = old == nullptr ? nullptr : old->find(key);
@@ -95,13 +98,14 @@ void place_start(const SystemOverrides& overrides, Value& root) {
     throw InputError(place, "no position is given", "--position x,y beside --velocity");
   }
   if (initial.find("velocity") == nullptr && initial.find("angle") == nullptr) {
-    throw InputError(place, "no velocity is given", "--velocity u,v or --set initial.angle=A beside --position");
+    throw InputError(place, "no velocity is given",
+                     "--velocity u,v or --set initial.angle=A beside --position");
   }
   root.set("initial", std::move(initial));
 }
 
-// Are the report times those that a system with this t_max and without times is given? A stored system has them
-// written out.
+// Are the report times those that a system with this t_max and without times is given? A stored
+// system has them written out.
 bool has_default_times(const Value& root, const Value& t_max) {
   const Value* run = root.find("run");
   const Value* times = run == nullptr ? nullptr : run->find("times");
@@ -122,8 +126,8 @@ void set_path(Value& root, const std::string& path, Value value) {
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const Step& step = steps[k];
     if (at->kind != Value::Kind::table) {
-      throw InputError(
-          place, "'" + steps[k - 1].key + "' is " + name_of(at->kind) + ", it has no key '" + step.key + "'");
+      throw InputError(place, "'" + steps[k - 1].key + "' is " + name_of(at->kind) +
+                                  ", it has no key '" + step.key + "'");
     }
     const bool last = k + 1 == steps.size();
     if (last && step.indices.empty()) drop_rival(*at, step.key);
@@ -137,8 +141,9 @@ void set_path(Value& root, const std::string& path, Value value) {
         throw InputError(place, "'" + step.key + "' is " + name_of(next->kind) + ", not a list");
       }
       if (index > next->items.size()) {
-        throw InputError(place, "there is no '" + step.key + "[" + std::to_string(index) + "]'",
-                         "an index below " + std::to_string(next->items.size()) + ", or that to append");
+        throw InputError(
+            place, "there is no '" + step.key + "[" + std::to_string(index) + "]'",
+            "an index below " + std::to_string(next->items.size()) + ", or that to append");
       }
       if (index == next->items.size()) next->items.push_back(empty(Value::Kind::table, place));
       next = &next->items[index];
@@ -154,27 +159,29 @@ void set_path(Value& root, const std::string& path, Value value) {
 void apply(const SystemOverrides& overrides, Value& root) {
   const Value* written = root.find("run") == nullptr ? nullptr : root.find("run")->find("t_max");
   const Value old_t_max = written == nullptr ? Value{} : *written;
-  for (const auto& [path, text] : overrides.set) set_path(root, path, parse_value(text, command_line(path)));
-  const std::pair<const char*, const std::string*> options[] = {{"seed", &overrides.seed},
-                                                                {"trajectories", &overrides.trajectories},
-                                                                {"t_max", &overrides.t_max},
-                                                                {"collisions", &overrides.collisions},
-                                                                {"times", &overrides.times},
-                                                                {"trust_tolerance", &overrides.trust_tolerance}};
+  for (const auto& [path, text] : overrides.set)
+    set_path(root, path, parse_value(text, command_line(path)));
+  const std::pair<const char*, const std::string*> options[] = {
+      {"seed", &overrides.seed},   {"trajectories", &overrides.trajectories},
+      {"t_max", &overrides.t_max}, {"collisions", &overrides.collisions},
+      {"times", &overrides.times}, {"trust_tolerance", &overrides.trust_tolerance}};
   for (const auto& [key, text] : options) {
     if (text->empty()) continue;
     std::string option = std::string("--") + key;
     std::replace(option.begin(), option.end(), '_', '-');
     const Place place = command_line(option);
     // Times have a notation of their own, which read_run takes apart.
-    const Value value = std::string(key) == "times" ? text_value(*text, place) : parse_value(*text, place);
+    const Value value =
+        std::string(key) == "times" ? text_value(*text, place) : parse_value(*text, place);
     set_path(root, std::string("run.") + key, value);
   }
   // Default times go along with t_max.
-  if (!old_t_max.text.empty() && has_default_times(root, old_t_max) && root.find("run")->find("t_max")->text != old_t_max.text)
+  if (!old_t_max.text.empty() && has_default_times(root, old_t_max) &&
+      root.find("run")->find("t_max")->text != old_t_max.text)
     root.find("run")->erase("times");
   if (!overrides.window.empty())
-    set_path(root, "run.window", pair_of(overrides.window, command_line("--window"), "from,to such as 20,200"));
+    set_path(root, "run.window",
+             pair_of(overrides.window, command_line("--window"), "from,to such as 20,200"));
   place_start(overrides, root);
 }
 

@@ -37,7 +37,8 @@ void take_points_from_file(Value& table) {
   if (numbers == 3) {
     for (const char* other : {"radius", "radii"})
       if (const Value* written = table.find(other))
-        throw InputError(written->place, "the file '" + path.text + "' has the discs' radii already",
+        throw InputError(written->place,
+                         "the file '" + path.text + "' has the discs' radii already",
                          "x y in each line of the file, or no " + std::string(other) + " here");
     table.set("radii", std::move(radii));
   }

@@ -9,7 +9,10 @@
 namespace carom {
 
 Progress::Progress(bool wanted, double done)
-    : enabled_(wanted && isatty(STDERR_FILENO) != 0), done_(done), start_(Clock::now()), last_(start_) {
+    : enabled_(wanted && isatty(STDERR_FILENO) != 0),
+      done_(done),
+      start_(Clock::now()),
+      last_(start_) {
   if (enabled_) clock_ = std::jthread([this](const std::stop_token& stop) { tell_time(stop); });
 }
 
@@ -18,9 +21,13 @@ Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
 }
 
-bool Progress::due() const { return enabled_ && Clock::now() - last_ >= std::chrono::milliseconds(200); }
+bool Progress::due() const {
+  return enabled_ && Clock::now() - last_ >= std::chrono::milliseconds(200);
+}
 
-double Progress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+double Progress::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
 
 void Progress::show(double share, const std::string& rate) {
   if (!enabled_) return;
@@ -28,7 +35,8 @@ void Progress::show(double share, const std::string& rate) {
   last_ = Clock::now();
   shown_ = true;
   const double left = seconds_left(seconds(), done_, share);
-  line_ = fmt::format("\r{:5.1f} %  {}  {}", 100.0 * share, rate, left > 0.0 ? as_duration(left) + " left" : std::string());
+  line_ = fmt::format("\r{:5.1f} %  {}  {}", 100.0 * share, rate,
+                      left > 0.0 ? as_duration(left) + " left" : std::string());
   std::fputs((line_ + "\033[K").c_str(), stderr);
   std::fflush(stderr);
 }

@@ -9,8 +9,8 @@
 
 namespace carom {
 
-/// Rewrites one line a few times a second while standard error is a terminal. Where nothing is shown for some seconds, as while a
-/// system is prepared, the line tells how long it has taken.
+/// Rewrites one line a few times a second while standard error is a terminal. Where nothing is
+/// shown for some seconds, as while a system is prepared, the line tells how long it has taken.
 class Progress {
  public:
   /// `done`: the share of the work that others have done before.
@@ -38,10 +38,12 @@ class Progress {
   std::jthread clock_;  ///< last: it uses what stands above
 };
 
-/// How long the rest will take after `seconds` took the work from the share `from` to `share`. Negative: unknown.
+/// How long the rest will take after `seconds` took the work from the share `from` to `share`.
+/// Negative: unknown.
 double seconds_left(double seconds, double from, double share);
 
-/// "950", "12.3 k", "4.56 M", "7.89 G": three digits and a prefix, with a blank for a unit to follow.
+/// "950", "12.3 k", "4.56 M", "7.89 G": three digits and a prefix, with a blank for a unit to
+/// follow.
 std::string with_prefix(double value);
 /// "4 s", "3 min 20 s", "2 h 5 min".
 std::string as_duration(double seconds);

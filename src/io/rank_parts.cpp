@@ -41,12 +41,15 @@ void finish_checkpoint(const std::string& file, ArchiveLock lock) {
   typename EnsembleArchive<Result>::Plan plan;
   plan.force = true;
   plan.lock = std::move(lock);
-  EnsembleArchive<Result>(file, loaded, origin_of(stored, stored.result), stored, plan).finish(stored.result, "interrupted");
+  EnsembleArchive<Result>(file, loaded, origin_of(stored, stored.result), stored, plan)
+      .finish(stored.result, "interrupted");
 }
 
 }  // namespace
 
-std::string part_of_rank(const std::string& file, int rank) { return fmt::format("{}{}", begin_of_parts(file), rank); }
+std::string part_of_rank(const std::string& file, int rank) {
+  return fmt::format("{}{}", begin_of_parts(file), rank);
+}
 
 std::vector<std::string> parts_of_ranks(const std::string& file) {
   std::vector<std::string> parts;
@@ -54,12 +57,14 @@ std::vector<std::string> parts_of_ranks(const std::string& file) {
   const std::string begin = begin_of_parts(file);
   const fs::path folder = fs::path(begin).parent_path();
   std::error_code error;
-  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end;
+       !error && entry != end; entry.increment(error)) {
     std::string part = (folder / entry->path().filename()).string();
     if (!part.starts_with(begin)) continue;
     if (part.ends_with(folder_of(""))) part.resize(part.size() - folder_of("").size());
     const std::string number = part.substr(begin.size());
-    if (!number.empty() && number.find_first_not_of("0123456789") == std::string::npos) parts.push_back(part);
+    if (!number.empty() && number.find_first_not_of("0123456789") == std::string::npos)
+      parts.push_back(part);
   }
   std::sort(parts.begin(), parts.end());
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
@@ -67,7 +72,8 @@ std::vector<std::string> parts_of_ranks(const std::string& file) {
 }
 
 template <class Result>
-SumOfParts<Result> sum_of_ranks(const std::string& file, const std::vector<std::string>& files, const Shard& shard) {
+SumOfParts<Result> sum_of_ranks(const std::string& file, const std::vector<std::string>& files,
+                                const Shard& shard) {
   SumOfParts<Result> sum = sum_of<Result>(files, shard);
   double before = 0, together = 0;
   for (const EnsemblePart& part : sum.parts) {
@@ -79,8 +85,10 @@ SumOfParts<Result> sum_of_ranks(const std::string& file, const std::vector<std::
   sum.result.seconds = before + together;
   return sum;
 }
-template SumOfParts<EscapeResult> sum_of_ranks(const std::string&, const std::vector<std::string>&, const Shard&);
-template SumOfParts<DiffusionResult> sum_of_ranks(const std::string&, const std::vector<std::string>&, const Shard&);
+template SumOfParts<EscapeResult> sum_of_ranks(const std::string&, const std::vector<std::string>&,
+                                               const Shard&);
+template SumOfParts<DiffusionResult> sum_of_ranks(const std::string&,
+                                                  const std::vector<std::string>&, const Shard&);
 
 template <class Result>
 void gather_parts(const std::string& file, bool whole, ArchiveLock lock) {
@@ -98,7 +106,8 @@ void gather_parts(const std::string& file, bool whole, ArchiveLock lock) {
     files.push_back(part);
     one = stored;
   }
-  // FILE may be what the ranks went on with; hold the sum already; or be another archive, which --force gave up.
+  // FILE may be what the ranks went on with; hold the sum already; or be another archive, which
+  // --force gave up.
   if (one && exists(file)) {
     std::optional<Stored<Result>> there;
     try {

@@ -13,12 +13,14 @@ std::string part_of_rank(const std::string& file, int rank);
 /// Those that are there, finished or as checkpoints.
 std::vector<std::string> parts_of_ranks(const std::string& file);
 
-/// The sum of the shares, and of FILE where it is one of the files. `seconds` is the time that passed: shares run side by side.
+/// The sum of the shares, and of FILE where it is one of the files. `seconds` is the time that
+/// passed: shares run side by side.
 template <class Result>
-SumOfParts<Result> sum_of_ranks(const std::string& file, const std::vector<std::string>& files, const Shard&);
+SumOfParts<Result> sum_of_ranks(const std::string& file, const std::vector<std::string>& files,
+                                const Shard&);
 
-/// For the process that holds the lock of FILE: what ranks have left goes into FILE, and so does the checkpoint of FILE where
-/// there are such parts, or where `whole` asks for it.
+/// For the process that holds the lock of FILE: what ranks have left goes into FILE, and so does
+/// the checkpoint of FILE where there are such parts, or where `whole` asks for it.
 template <class Result>
 void gather_parts(const std::string& file, bool whole, ArchiveLock);
 

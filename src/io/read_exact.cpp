@@ -14,7 +14,8 @@ std::string in_brackets(const ExactNumber& n) { return "(" + n.text() + ")"; }
 ExactNumber speed_of(const Value& particles, const Value& initial) {
   if (const Value* speed = particles.find("speed")) return first_of(*speed);
   if (const Value* energy = particles.find("energy"))
-    return {"sqrt(2*" + in_brackets(first_of(*energy)) + "/" + in_brackets(first_of(*particles.find("mass"))) + ")",
+    return {"sqrt(2*" + in_brackets(first_of(*energy)) + "/" +
+                in_brackets(first_of(*particles.find("mass"))) + ")",
             energy->place};
   const Value* velocity = initial.find("velocity");
   if (velocity == nullptr) return {1.0};

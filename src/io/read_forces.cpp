@@ -43,7 +43,8 @@ std::pair<std::string, Kind> kind_in(Value& value, const char* section,
   return {word, kinds[0].second};
 }
 
-std::shared_ptr<const TypedExpression> expression_in(Section& section, std::vector<std::string> variables) {
+std::shared_ptr<const TypedExpression> expression_in(Section& section,
+                                                     std::vector<std::string> variables) {
   const Value& text = section.get("expression");
   std::map<std::string, double> parameters;
   if (const Value* table = section.find("parameters")) {
@@ -53,7 +54,8 @@ std::shared_ptr<const TypedExpression> expression_in(Section& section, std::vect
   }
   Place first = text.place;  // of the opening quote
   if (first.column > 0) ++first.column;
-  return std::make_shared<TypedExpression>(TypedExpression::parse(as_text(text), variables, parameters, first));
+  return std::make_shared<TypedExpression>(
+      TypedExpression::parse(as_text(text), variables, parameters, first));
 }
 
 double number(Section& section, const char* key) { return as_double(section.get(key)); }
@@ -89,25 +91,37 @@ PotentialSpec read_potential(Value& value) {
       spec.height = number(section, "height");
       spec.width = positive(section, "width");
       break;
-    case PotentialKind::quartic: spec.strength = number(section, "strength"); break;
+    case PotentialKind::quartic:
+      spec.strength = number(section, "strength");
+      break;
     case PotentialKind::power:
       spec.strength = number(section, "strength");
       spec.exponent = number(section, "exponent");
       if (spec.exponent < 0.0 && spec.strength < 0.0)
-        throw InputError(section.place_of("strength"), "the potential attracts without bound at its centre",
+        throw InputError(section.place_of("strength"),
+                         "the potential attracts without bound at its centre",
                          "strength > 0, or exponent > 0");
       break;
-    case PotentialKind::coulomb: spec.charge = number(section, "charge"); break;
-    case PotentialKind::linear: spec.force = as_vector(section.get("force")); break;
-    case PotentialKind::expression: spec.expression = expression_in(section, {"x", "y"}); break;
-    case PotentialKind::henon_heiles: break;
+    case PotentialKind::coulomb:
+      spec.charge = number(section, "charge");
+      break;
+    case PotentialKind::linear:
+      spec.force = as_vector(section.get("force"));
+      break;
+    case PotentialKind::expression:
+      spec.expression = expression_in(section, {"x", "y"});
+      break;
+    case PotentialKind::henon_heiles:
+      break;
   }
   section.exclude("center", "centers");
   if (const Value* center = section.find("center")) spec.centers = {as_vector(*center)};
   if (const Value* centers = section.find("centers")) {
     spec.centers.clear();
-    for (const ExactPoint& p : as_points(*centers)) spec.centers.push_back({p.x.to_double(), p.y.to_double()});
-    if (spec.centers.empty()) throw InputError(centers->place, "the list is empty", "a list of points [x, y]");
+    for (const ExactPoint& p : as_points(*centers))
+      spec.centers.push_back({p.x.to_double(), p.y.to_double()});
+    if (spec.centers.empty())
+      throw InputError(centers->place, "the list is empty", "a list of points [x, y]");
   }
   spec.lattice = as_flag(section.get("lattice"));
   return spec;
@@ -121,7 +135,9 @@ InteractionSpec read_interaction(Value& value, std::size_t particles) {
   Section section(value, "interaction", name);
   section.check_keys();
   switch (kind) {
-    case InteractionKind::coulomb: spec.strength = number(section, "strength"); break;
+    case InteractionKind::coulomb:
+      spec.strength = number(section, "strength");
+      break;
     case InteractionKind::yukawa:
       spec.strength = number(section, "strength");
       spec.range = positive(section, "range");
@@ -139,18 +155,22 @@ InteractionSpec read_interaction(Value& value, std::size_t particles) {
       section.exclude("radius", "radii");
       if (const Value* radii = section.find("radii")) {
         for (const ExactNumber& r : as_numbers(*radii)) {
-          if (!(r.to_double() > 0.0)) throw InputError(r.place(), "must be positive, not " + r.text(), "a radius > 0");
+          if (!(r.to_double() > 0.0))
+            throw InputError(r.place(), "must be positive, not " + r.text(), "a radius > 0");
           spec.radii.push_back(r.to_double());
         }
         if (spec.radii.size() != particles)
           throw InputError(radii->place,
-                           std::to_string(spec.radii.size()) + " radii for " + std::to_string(particles) + " particles",
+                           std::to_string(spec.radii.size()) + " radii for " +
+                               std::to_string(particles) + " particles",
                            "a radius for each particle");
       } else {
         spec.radii.assign(particles, positive(section, "radius"));
       }
       break;
-    case InteractionKind::expression: spec.expression = expression_in(section, {"r"}); break;
+    case InteractionKind::expression:
+      spec.expression = expression_in(section, {"r"});
+      break;
   }
   return spec;
 }
@@ -161,10 +181,12 @@ ForceSpec read_forces(Value& root, std::size_t particles) {
   ForceSpec spec;
   if (Value* potentials = root.find("potential")) {
     if (potentials->kind != Value::Kind::list)
-      throw InputError(potentials->place, "potentials are a list of sections", "[[potential]], with two brackets");
+      throw InputError(potentials->place, "potentials are a list of sections",
+                       "[[potential]], with two brackets");
     for (Value& potential : potentials->items) spec.potentials.push_back(read_potential(potential));
   }
-  if (Value* interaction = root.find("interaction")) spec.interaction = read_interaction(*interaction, particles);
+  if (Value* interaction = root.find("interaction"))
+    spec.interaction = read_interaction(*interaction, particles);
   return spec;
 }
 

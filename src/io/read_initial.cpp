@@ -40,7 +40,8 @@ Axis read_axis(Value& value) {
   } else if (value.kind == Value::Kind::list) {
     for (const Value& item : value.items) axis.values.push_back(as_double(item));
     axis.list = true;
-    if (axis.values.empty()) throw InputError(value.place, "the list is empty", "at least one number");
+    if (axis.values.empty())
+      throw InputError(value.place, "the list is empty", "at least one number");
   } else {
     axis.values.push_back(as_double(value));
   }
@@ -87,7 +88,8 @@ void read_birkhoff(Section& section, const Table& table, const std::vector<Parti
   for (const Particle& p : particles) speed = std::min(speed, p.speed);
   for (const double value : v_axis.values) {
     if (std::fabs(value) < speed) continue;
-    throw InputError(v.place, "v_parallel " + shown(value) + " leaves nothing of the speed for the flight",
+    throw InputError(v.place,
+                     "v_parallel " + shown(value) + " leaves nothing of the speed for the flight",
                      "|v_parallel| < " + shown(speed) + ", the speed");
   }
   combine(s_axis, v_axis, v.place, initial);
@@ -102,7 +104,8 @@ void check_not_zero(const geometry::Vector& velocity, const Place& place, bool r
 /// Without another speed, a start of zero velocity has given its particle the speed 0.
 bool rests(const Particle& p) { return p.speed == 0.0; }
 
-void read_point(Section& section, const std::vector<Particle>& particles, InitialCondition& initial) {
+void read_point(Section& section, const std::vector<Particle>& particles,
+                InitialCondition& initial) {
   const Value& position = section.get("position");
   initial.position = as_vector(position);
   initial.place = position.place;
@@ -112,29 +115,35 @@ void read_point(Section& section, const std::vector<Particle>& particles, Initia
     return;
   }
   if (!section.has("velocity")) {
-    throw InputError(section.place_of("velocity"), "neither velocity nor angle is given", "one of them");
+    throw InputError(section.place_of("velocity"), "neither velocity nor angle is given",
+                     "one of them");
   }
   const Value& velocity = section.get("velocity");
   initial.velocity = as_vector(velocity);
-  check_not_zero(initial.velocity, velocity.place, std::all_of(particles.begin(), particles.end(), rests));
+  check_not_zero(initial.velocity, velocity.place,
+                 std::all_of(particles.begin(), particles.end(), rests));
 }
 
-void read_list(Section& section, const std::vector<Particle>& particles, InitialCondition& initial) {
+void read_list(Section& section, const std::vector<Particle>& particles,
+               InitialCondition& initial) {
   const Value& starts = section.get("starts");
   initial.place = starts.place;
-  // Trajectory after trajectory, a particle comes to each start that is a multiple of this away from its first one.
+  // Trajectory after trajectory, a particle comes to each start that is a multiple of this away
+  // from its first one.
   const std::size_t apart = std::gcd(particles.size(), as_list(starts).items.size());
   for (const Value& row : as_list(starts).items) {
     bool all_rest = true;
     for (std::size_t p = initial.positions.size() % apart; p < particles.size(); p += apart)
       all_rest = all_rest && rests(particles[p]);
     const std::vector<ExactNumber> numbers = as_numbers(row);
-    if (numbers.size() != 4) throw InputError(row.place, "a start has four numbers", "[x, y, vx, vy]");
+    if (numbers.size() != 4)
+      throw InputError(row.place, "a start has four numbers", "[x, y, vx, vy]");
     initial.positions.push_back({numbers[0].to_double(), numbers[1].to_double()});
     initial.velocities.push_back({numbers[2].to_double(), numbers[3].to_double()});
     check_not_zero(initial.velocities.back(), row.place, all_rest);
   }
-  if (initial.positions.empty()) throw InputError(starts.place, "the list is empty", "at least one start");
+  if (initial.positions.empty())
+    throw InputError(starts.place, "the list is empty", "at least one start");
 }
 
 void read_rectangle(Section& section, InitialCondition& initial) {
@@ -149,7 +158,8 @@ void read_rectangle(Section& section, InitialCondition& initial) {
 
 }  // namespace
 
-InitialCondition read_initial(Value& root, const Table& table, const std::vector<Particle>& particles) {
+InitialCondition read_initial(Value& root, const Table& table,
+                              const std::vector<Particle>& particles) {
   Value& value = *root.find("initial");
   const Value* written = value.find("kind");
   if (written != nullptr && written->text == "sobol") {
@@ -168,8 +178,10 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
   for (const auto& [known, kind] : kinds()) {
     if (known == name) initial.kind = kind;
   }
-  if ((initial.kind == Kind::boundary || initial.kind == Kind::hole) && std::any_of(particles.begin(), particles.end(), rests))
-    throw InputError(section.get("kind").place, "a particle at rest cannot start on a wall", "a speed > 0, or a start inside");
+  if ((initial.kind == Kind::boundary || initial.kind == Kind::hole) &&
+      std::any_of(particles.begin(), particles.end(), rests))
+    throw InputError(section.get("kind").place, "a particle at rest cannot start on a wall",
+                     "a speed > 0, or a start inside");
   switch (initial.kind) {
     case Kind::uniform:
       if (table.extent == Extent::open_plane) {
@@ -179,8 +191,10 @@ InitialCondition read_initial(Value& root, const Table& table, const std::vector
       break;
     case Kind::boundary:
       section.exclude("wall", "hole");
-      if (const Value* wall = section.find("wall")) initial.wall = wall_named(table, as_text(*wall), wall->place);
-      if (const Value* hole = section.find("hole")) initial.hole = hole_named(table, as_text(*hole), hole->place);
+      if (const Value* wall = section.find("wall"))
+        initial.wall = wall_named(table, as_text(*wall), wall->place);
+      if (const Value* hole = section.find("hole"))
+        initial.hole = hole_named(table, as_text(*hole), hole->place);
       break;
     case Kind::hole: {
       const Value& hole = section.get("hole");

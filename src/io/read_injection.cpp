@@ -11,9 +11,11 @@ std::vector<double> read_times(const Value& list, double t_max) {
   std::vector<double> times;
   for (const Value& item : as_list(list).items) {
     const double t = as_double(item);
-    if (t < 0) throw InputError(item.place, "must not be negative, but is " + item.text, "a time >= 0");
+    if (t < 0)
+      throw InputError(item.place, "must not be negative, but is " + item.text, "a time >= 0");
     if (!times.empty() && !(t > times.back()))
-      throw InputError(item.place, "the times do not increase at " + item.text, "times in increasing order");
+      throw InputError(item.place, "the times do not increase at " + item.text,
+                       "times in increasing order");
     if (t > t_max)
       throw InputError(item.place, "the time " + item.text + " comes after t_max = " + shown(t_max),
                        "times up to run.t_max");
@@ -45,21 +47,25 @@ Injection read_injection(Value& value, const Table& table, const Particle& first
 
 }  // namespace
 
-std::vector<Injection> read_injections(Value& root, const Table& table, const std::vector<Particle>& particles,
-                                       double t_max) {
+std::vector<Injection> read_injections(Value& root, const Table& table,
+                                       const std::vector<Particle>& particles, double t_max) {
   std::vector<Injection> injections;
   Value* list = root.find("injection");
   if (list == nullptr) return injections;
   if (list->kind != Value::Kind::list)
-    throw InputError(list->place, "injections are a list of sections", "[[injection]], with two brackets");
+    throw InputError(list->place, "injections are a list of sections",
+                     "[[injection]], with two brackets");
   double expected = static_cast<double>(particles.size());
   for (Value& one : list->items) {
     injections.push_back(read_injection(one, table, particles.front(), t_max));
     const Injection& injection = injections.back();
-    expected += injection.rate > 0.0 ? injection.rate * t_max : static_cast<double>(injection.times.size());
+    expected +=
+        injection.rate > 0.0 ? injection.rate * t_max : static_cast<double>(injection.times.size());
     if (!(expected <= most_particles))
-      throw InputError(one.place, "too many particles enter: " + shown(expected) + " until t_max = " + shown(t_max),
-                       "at most 1000000 particles in a trajectory");
+      throw InputError(
+          one.place,
+          "too many particles enter: " + shown(expected) + " until t_max = " + shown(t_max),
+          "at most 1000000 particles in a trajectory");
   }
   return injections;
 }

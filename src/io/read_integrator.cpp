@@ -7,7 +7,8 @@
 
 namespace carom::io {
 
-IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Particle>& particles, bool walls) {
+IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Particle>& particles,
+                               bool walls) {
   IntegratorPlan plan;
   Value* value = root.find("integrator");
   if (value == nullptr) {
@@ -37,7 +38,8 @@ IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Parti
   const Value& unresolved = section.get("unresolved");
   plan.count_unresolved = as_text(unresolved) == "count";
   if (!plan.count_unresolved && as_text(unresolved) != "stop")
-    throw InputError(unresolved.place, "unknown treatment of unresolved steps '" + unresolved.text + "'",
+    throw InputError(unresolved.place,
+                     "unknown treatment of unresolved steps '" + unresolved.text + "'",
                      "\"stop\" or \"count\"", nearest_name(unresolved.text, {"stop", "count"}));
   place.key = "integrator";  // the checks add the key at fault
   if (forces || plan.tolerance > 0.0) check_plan(plan, place);

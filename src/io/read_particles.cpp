@@ -13,9 +13,11 @@ constexpr std::uint64_t most_particles = 1000000;
 class Quantity {
  public:
   Quantity() = default;
-  explicit Quantity(const Value& value) : place_(value.place), list_(value.kind == Value::Kind::list) {
+  explicit Quantity(const Value& value)
+      : place_(value.place), list_(value.kind == Value::Kind::list) {
     numbers_ = list_ ? as_numbers(value) : std::vector<ExactNumber>{as_number(value)};
-    if (numbers_.empty()) throw InputError(place_, "the list is empty", "a number for each particle");
+    if (numbers_.empty())
+      throw InputError(place_, "the list is empty", "a number for each particle");
   }
 
   bool given() const { return !numbers_.empty(); }
@@ -25,12 +27,14 @@ class Quantity {
 
   void check_count(std::uint64_t count) const {
     if (!list_ || size() == count) return;
-    throw InputError(place_, std::to_string(size()) + " values for " + std::to_string(count) + " particles",
+    throw InputError(place_,
+                     std::to_string(size()) + " values for " + std::to_string(count) + " particles",
                      "a number for each particle");
   }
   void check_not_negative() const {
     for (const ExactNumber& n : numbers_) {
-      if (!(n.to_double() >= 0)) throw InputError(n.place(), "must not be negative: " + n.text(), "a number >= 0");
+      if (!(n.to_double() >= 0))
+        throw InputError(n.place(), "must not be negative: " + n.text(), "a number >= 0");
     }
   }
   void check_positive() const {
@@ -57,7 +61,9 @@ struct Speed {
 class Reader {
  public:
   explicit Reader(Value& root)
-      : root_(root), particles_(*root.find("particles"), "particles"), field_(*root.find("field"), "field") {}
+      : root_(root),
+        particles_(*root.find("particles"), "particles"),
+        field_(*root.find("field"), "field") {}
 
   std::vector<Particle> read() {
     particles_.check_keys();
@@ -92,7 +98,8 @@ class Reader {
       if (!q->is_list()) continue;
       lists_ = true;
       if (!particles_.has("count")) {
-        particles_.fill("count", number_value(std::to_string(q->size()), particles_.place_of("count")));
+        particles_.fill("count",
+                        number_value(std::to_string(q->size()), particles_.place_of("count")));
       }
     }
     count_ = as_count(particles_.get("count"), 1, most_particles);
@@ -113,7 +120,9 @@ class Reader {
     return root_.find("interaction") != nullptr && count_ > 1 && !hard_discs();
   }
   // Whether a force does act is known when all is read.
-  bool may_rest() const { return root_.find("potential") != nullptr || root_.find("interaction") != nullptr; }
+  bool may_rest() const {
+    return root_.find("potential") != nullptr || root_.find("interaction") != nullptr;
+  }
   bool hard_discs() const {
     const Value* interaction = root_.find("interaction");
     const Value* kind = interaction == nullptr ? nullptr : interaction->find("kind");
@@ -146,12 +155,14 @@ class Reader {
             energy_[k].place(),
             "there is no speed, and so no Larmor radius, at a total energy of " + energy_[k].text(),
             "B instead of larmor_radius");
-      return {ExactNumber(1.0), 1.0};  // gives starts a direction; their speed follows from the energy
+      return {ExactNumber(1.0),
+              1.0};  // gives starts a direction; their speed follows from the energy
     }
     ExactNumber exact =
-        speed_.given() ? speed_[k]
-                       : ExactNumber("sqrt(2*" + in_brackets(energy_[k]) + "/" + in_brackets(mass_[k]) + ")",
-                                     energy_[k].place());
+        speed_.given()
+            ? speed_[k]
+            : ExactNumber("sqrt(2*" + in_brackets(energy_[k]) + "/" + in_brackets(mass_[k]) + ")",
+                          energy_[k].place());
     const double rounded = exact.to_double();
     return {std::move(exact), rounded};
   }
@@ -160,16 +171,18 @@ class Reader {
     const Place& place = larmor_radius_->place();
     for (std::size_t k = 0; k < count_; ++k) {
       if (charge_[k].to_double() == 0) {
-        throw InputError(place, "a neutral particle has no Larmor radius", "B, or a charge that is not 0");
+        throw InputError(place, "a neutral particle has no Larmor radius",
+                         "B, or a charge that is not 0");
       }
       if (!lists_) return;
       const bool equal = speed(k).rounded == speed(0).rounded &&
                          mass_[k].to_double() == mass_[0].to_double() &&
                          charge_[k].to_double() == charge_[0].to_double();
       if (equal) continue;
-      throw InputError(place,
-                       "the particles differ in speed, mass or charge, so that one radius cannot be theirs",
-                       "B instead of larmor_radius");
+      throw InputError(
+          place,
+          "the particles differ in speed, mass or charge, so that one radius cannot be theirs",
+          "B instead of larmor_radius");
     }
   }
 
@@ -184,8 +197,8 @@ class Reader {
       const double omega = ExactNumber(text, larmor_radius_->place()).to_double();
       p.omega = p.charge < 0 ? -omega : omega;
     } else {
-      const std::string text =
-          in_brackets(charge_[k]) + "*" + in_brackets(*field_strength_) + "/" + in_brackets(mass_[k]);
+      const std::string text = in_brackets(charge_[k]) + "*" + in_brackets(*field_strength_) + "/" +
+                               in_brackets(mass_[k]);
       p.omega = ExactNumber(text, field_strength_->place()).to_double();
     }
     return p;

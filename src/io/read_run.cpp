@@ -70,10 +70,12 @@ std::vector<double> read_grid(Value& value) {
   if (first < 0) throw InputError(from.place, "must not be negative", "a time >= 0");
   if (!(first < last)) throw InputError(to.place, "the times end before they begin", "to > from");
   std::vector<double> times = spaced(first, last, as_count(count, 2, most_times), name == "log");
-  const auto repeated = std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(a < b); });
+  const auto repeated =
+      std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(a < b); });
   if (repeated != times.end())
-    throw InputError(count.place, "so many times between " + shown(first) + " and " + shown(last) +
-                                      " are closer together than doubles",
+    throw InputError(count.place,
+                     "so many times between " + shown(first) + " and " + shown(last) +
+                         " are closer together than doubles",
                      "fewer times");
   return times;
 }
@@ -86,9 +88,11 @@ std::vector<double> read_list(const Value& value) {
                      "at most " + std::to_string(most_times) + " times");
   for (const Value& item : value.items) {
     const double t = as_double(item);
-    if (t < 0) throw InputError(item.place, "must not be negative, but is " + item.text, "a time >= 0");
+    if (t < 0)
+      throw InputError(item.place, "must not be negative, but is " + item.text, "a time >= 0");
     if (!times.empty() && t <= times.back()) {
-      throw InputError(item.place, "the times do not increase at " + item.text, "times in increasing order");
+      throw InputError(item.place, "the times do not increase at " + item.text,
+                       "times in increasing order");
     }
     times.push_back(t);
   }
@@ -108,16 +112,19 @@ Value list_of(const std::vector<double>& numbers, const Place& place) {
 // Times of the file beyond a shorter t_max of the command line are left out, and t_max is the last.
 std::vector<double> read_times(Section& run, double t_max) {
   Value& times = run.fill("times", default_times(run.get("t_max"), run.place_of("times")));
-  if (times.kind == Value::Kind::text || times.kind == Value::Kind::number) times = parse_times(times);
+  if (times.kind == Value::Kind::text || times.kind == Value::Kind::number)
+    times = parse_times(times);
   if (times.kind != Value::Kind::list && times.kind != Value::Kind::table) {
     throw InputError(times.place, "must be a list of times or a table, not " + name_of(times.kind),
                      "[1, 10, 100] or {from, to, count, spacing}");
   }
-  std::vector<double> result = times.kind == Value::Kind::list ? read_list(times) : read_grid(times);
+  std::vector<double> result =
+      times.kind == Value::Kind::list ? read_list(times) : read_grid(times);
   if (result.back() <= t_max) return result;
   const bool cut_short = on_command_line(run.get("t_max")) && !on_command_line(times);
   if (!cut_short) {
-    throw InputError(times.place, "the time " + shown(result.back()) + " comes after t_max = " + shown(t_max),
+    throw InputError(times.place,
+                     "the time " + shown(result.back()) + " comes after t_max = " + shown(t_max),
                      "times up to run.t_max");
   }
   std::erase_if(result, [t_max](double t) { return t >= t_max; });
@@ -132,22 +139,27 @@ RunPlan read_run(Value& root, std::uint64_t starts) {
   Section section(*root.find("run"), "run");
   section.check_keys();
   RunPlan plan;
-  if (starts > 0) section.fill("trajectories", number_value(std::to_string(starts), section.place_of("trajectories")));
+  if (starts > 0)
+    section.fill("trajectories",
+                 number_value(std::to_string(starts), section.place_of("trajectories")));
   plan.t_max = as_positive(section.get("t_max"));
   plan.trajectories = as_count(section.get("trajectories"), 1, std::uint64_t{1} << 62);
   plan.seed = as_count(section.get("seed"), 0);
-  if (const Value* collisions = section.find("collisions")) plan.collisions = as_count(*collisions, 1);
+  if (const Value* collisions = section.find("collisions"))
+    plan.collisions = as_count(*collisions, 1);
   if (const Value* sample = section.find("sample")) plan.sample = as_positive(*sample);
   const Value& tolerance = section.get("trust_tolerance");
   plan.trust_tolerance = as_positive(tolerance);
   if (!(plan.trust_tolerance < 1.0))
-    throw InputError(tolerance.place, "errors as large as the table are no tolerance", "a number below 1");
+    throw InputError(tolerance.place, "errors as large as the table are no tolerance",
+                     "a number below 1");
   plan.times = read_times(section, plan.t_max);
   if (const Value* window = section.find("window")) {
     if (window->kind != Value::Kind::list || window->items.size() != 2)
       throw InputError(window->place, "must be two times", "[from, to]");
     const double from = as_double(window->items[0]), to = as_double(window->items[1]);
-    if (!(from >= 0 && from < to)) throw InputError(window->place, "the window is empty", "0 <= from < to");
+    if (!(from >= 0 && from < to))
+      throw InputError(window->place, "the window is empty", "0 <= from < to");
     plan.window = {from, to};
   }
   return plan;

@@ -7,9 +7,11 @@ namespace carom::io {
 namespace {
 
 constexpr const char* forms =
-    "boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, x=c, y=c, vx=c or vy=c";
+    "boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, x=c, y=c, vx=c or "
+    "vy=c";
 
-std::vector<double> numbers_of(const std::string& text, char between, std::size_t count, const Place& place) {
+std::vector<double> numbers_of(const std::string& text, char between, std::size_t count,
+                               const Place& place) {
   std::vector<double> numbers;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t end = std::min(text.find(between, start), text.size());
@@ -17,8 +19,10 @@ std::vector<double> numbers_of(const std::string& text, char between, std::size_
     start = end + 1;
   }
   if (numbers.size() != count)
-    throw InputError(place, "'" + text + "' holds " + std::to_string(numbers.size()) + " numbers, not " +
-                                std::to_string(count), forms);
+    throw InputError(place,
+                     "'" + text + "' holds " + std::to_string(numbers.size()) + " numbers, not " +
+                         std::to_string(count),
+                     forms);
   return numbers;
 }
 
@@ -34,7 +38,8 @@ Surface line_of(Surface::Kind kind, const std::string& text, const Place& place)
   surface.kind = kind;
   surface.from = point_of(text.substr(0, colon), place);
   surface.to = point_of(text.substr(colon + 1), place);
-  if (surface.from == surface.to) throw InputError(place, "the two points of the line are one", "two points");
+  if (surface.from == surface.to)
+    throw InputError(place, "the two points of the line are one", "two points");
   return surface;
 }
 
@@ -60,8 +65,10 @@ void read_on(const Value& value, const Table& table, SectionPlan& plan) {
     plan.surface.radius = circle[2];
     if (!(circle[2] > 0)) throw InputError(place, "the circle has no radius", "a radius > 0");
   } else {
-    const std::pair<const char*, Kind> conditions[] = {
-        {"x=", Kind::position_x}, {"y=", Kind::position_y}, {"vx=", Kind::velocity_x}, {"vy=", Kind::velocity_y}};
+    const std::pair<const char*, Kind> conditions[] = {{"x=", Kind::position_x},
+                                                       {"y=", Kind::position_y},
+                                                       {"vx=", Kind::velocity_x},
+                                                       {"vy=", Kind::velocity_y}};
     for (const auto& [start, kind] : conditions) {
       if (!text.starts_with(start)) continue;
       plan.surface.kind = kind;
@@ -84,7 +91,8 @@ SectionPlan read_section(Value& root, const Table& table) {
   const Value& direction = section.get("direction");
   const std::string& name = as_text(direction);
   if (name != "both" && name != "positive" && name != "negative")
-    throw InputError(direction.place, "unknown direction '" + name + "'", "both, positive or negative",
+    throw InputError(direction.place, "unknown direction '" + name + "'",
+                     "both, positive or negative",
                      nearest_name(name, {"both", "positive", "negative"}));
   if (name != "both" && plan.boundary)
     throw InputError(direction.place, "at the walls there is one direction only", "both");

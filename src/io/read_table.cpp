@@ -8,9 +8,9 @@ namespace {
 
 // In the order of the guide.
 const std::vector<std::string>& shapes() {
-  static const std::vector<std::string> names{"rectangle", "polygon", "triangle", "regular",  "circle",
-                                              "ellipse",   "annulus", "stadium",  "mushroom", "lemon",
-                                              "sinai",     "lorentz", "discs",    "random-discs", "path",  "plane"};
+  static const std::vector<std::string> names{
+      "rectangle", "polygon", "triangle", "regular", "circle", "ellipse",      "annulus", "stadium",
+      "mushroom",  "lemon",   "sinai",    "lorentz", "discs",  "random-discs", "path",    "plane"};
   return names;
 }
 
@@ -31,7 +31,8 @@ HoleSpec read_hole(Value& value, std::size_t index) {
 
 ObstacleSpec read_obstacle(Value& value, std::size_t index) {
   using Shape = ObstacleSpec::Shape;
-  const std::string shape = read_kind(value, "table.obstacle", "shape", {"circle", "ellipse", "polygon"});
+  const std::string shape =
+      read_kind(value, "table.obstacle", "shape", {"circle", "ellipse", "polygon"});
   Section section(value, "table.obstacle", shape);
   section.check_keys();
   ObstacleSpec obstacle;
@@ -116,7 +117,8 @@ void read_lattice(Value& value, TableSpec& spec) {
   const Value& vectors = section.get("vectors");
   const std::vector<ExactPoint> points = as_points(vectors);
   if (points.size() != 2) {
-    throw InputError(vectors.place, "a lattice has two vectors, not " + std::to_string(points.size()),
+    throw InputError(vectors.place,
+                     "a lattice has two vectors, not " + std::to_string(points.size()),
                      "[[x, y], [x, y]]");
   }
   spec.lattice = LatticeSpec{points[0], points[1], vectors.place};
@@ -144,12 +146,14 @@ TableSpec read_table(Value& root) {
   spec.place = table->place;
   spec.shape_place = section.get("shape").place;
   for (const KeyDescription& key : key_table()) {
-    if (key.section != "table" || !of_kind(key, spec.shape) || key.type == "list of tables") continue;
+    if (key.section != "table" || !of_kind(key, spec.shape) || key.type == "list of tables")
+      continue;
     if (key.key == "shape" || (!section.has(key.key) && key.fallback.empty())) continue;
     const Value& value = section.get(key.key);
     read_key(key, value, spec);
     if (key.key == "lattice" && value.text != "triangular" && value.text != "square") {
-      throw InputError(value.place, "unknown lattice '" + value.text + "'", "\"triangular\" or \"square\"",
+      throw InputError(value.place, "unknown lattice '" + value.text + "'",
+                       "\"triangular\" or \"square\"",
                        nearest_name(value.text, {"triangular", "square"}));
     }
   }

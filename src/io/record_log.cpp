@@ -21,7 +21,8 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<TrajectoryRecord>);
 constexpr std::size_t record_size = sizeof(TrajectoryRecord);
-// 16 MB wait in memory before they are written, more where the disk is full; 4 MB are read at a time.
+// 16 MB wait in memory before they are written, more where the disk is full; 4 MB are read at a
+// time.
 constexpr std::size_t enough_waiting = (std::size_t{16} << 20) / record_size;
 constexpr std::size_t most_waiting = (std::size_t{256} << 20) / record_size;
 static_assert(record_size % sizeof(std::uint64_t) == 0);
@@ -53,11 +54,13 @@ RecordLog::RecordLog(const std::string& path, const std::string& name, std::vect
   descriptor_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor_ < 0)
     throw InputError(Place{path, 0, 0, ""},
-                     errno == ENOENT ? "there is no such file" : fmt::format("it cannot be opened: {}", std::strerror(errno)),
+                     errno == ENOENT ? "there is no such file"
+                                     : fmt::format("it cannot be opened: {}", std::strerror(errno)),
                      "the records that the checkpoint names");
   struct stat about {};
   const std::uint64_t bytes = rows_ * record_size;
-  const bool whole = ::fstat(descriptor_, &about) == 0 && static_cast<std::uint64_t>(about.st_size) >= bytes;
+  const bool whole =
+      ::fstat(descriptor_, &about) == 0 && static_cast<std::uint64_t>(about.st_size) >= bytes;
   if (!whole || ::ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0) {
     ::close(descriptor_);
     throw InputError(Place{path, 0, 0, ""}, "records that the checkpoint names are missing");
@@ -101,7 +104,8 @@ void RecordLog::write_out() {
             [](const Block& a, const Block& b) { return a.range.first < b.range.first; });
   std::vector<TrajectoryRecord> all;
   all.reserve(waiting_records_);
-  for (const Block& block : waiting_) all.insert(all.end(), block.records.begin(), block.records.end());
+  for (const Block& block : waiting_)
+    all.insert(all.end(), block.records.begin(), block.records.end());
   const char* from = reinterpret_cast<const char*>(all.data());
   std::size_t left = all.size() * record_size;
   auto at = static_cast<off_t>(rows_ * record_size);
@@ -149,9 +153,11 @@ std::vector<RecordLog::Piece> RecordLog::sync() {
   return marked_;
 }
 
-void RecordLog::read(const std::function<void(const Piece&, const std::vector<TrajectoryRecord>&)>& batch) const {
+void RecordLog::read(
+    const std::function<void(const Piece&, const std::vector<TrajectoryRecord>&)>& batch) const {
   std::vector<Piece> pieces = marked_;
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& a, const Piece& b) { return a.first < b.first; });
   std::vector<TrajectoryRecord> records;
   for (Piece piece : pieces) {
     std::uint64_t sum = 0;
@@ -175,7 +181,8 @@ void RecordLog::read(const std::function<void(const Piece&, const std::vector<Tr
     }
     if (sum != piece.sum)
       throw InputError(Place{path_, 0, 0, ""},
-                       fmt::format("the records of the trajectories {} to {} were changed", piece.first, piece.last - 1),
+                       fmt::format("the records of the trajectories {} to {} were changed",
+                                   piece.first, piece.last - 1),
                        "records as carom wrote them");
   }
 }

@@ -12,32 +12,36 @@
 
 namespace carom {
 
-/// Records as they lie in memory, in the order in which blocks came in. What a checkpoint names stays
-/// where it is; what was written after it is written again by the run that goes on.
+/// Records as they lie in memory, in the order in which blocks came in. What a checkpoint names
+/// stays where it is; what was written after it is written again by the run that goes on.
 class RecordLog {
  public:
-  /// Trajectories first … last - 1 are the records row … row + rows - 1. `sum` is a hash of their bytes.
+  /// Trajectories first … last - 1 are the records row … row + rows - 1. `sum` is a hash of their
+  /// bytes.
   struct Piece {
     std::uint64_t first = 0, last = 0, row = 0, rows = 0, sum = 0;
   };
 
-  /// `name` is that of the archive, for messages. An existing file is emptied, or opened and cut to the
-  /// records that `pieces` hold; InputError where these were changed. It is removed in the end unless kept.
+  /// `name` is that of the archive, for messages. An existing file is emptied, or opened and cut to
+  /// the records that `pieces` hold; InputError where these were changed. It is removed in the end
+  /// unless kept.
   RecordLog(const std::string& path, const std::string& name);
   RecordLog(const std::string& path, const std::string& name, std::vector<Piece> pieces);
   RecordLog(const RecordLog&) = delete;
   ~RecordLog();
 
-  /// From any thread, by turns. What a full disk does not take waits in memory, up to 256 MB: then it throws.
+  /// From any thread, by turns. What a full disk does not take waits in memory, up to 256 MB: then
+  /// it throws.
   void add(TrajectoryRange, std::vector<TrajectoryRecord>&&);
-  /// Remembers what has come until now. Throws InputError, and remembers nothing, where it cannot be written; it may
-  /// be asked again.
+  /// Remembers what has come until now. Throws InputError, and remembers nothing, where it cannot
+  /// be written; it may be asked again.
   void mark();
   /// Sees to it that what was marked is on the disk. add() may go on.
   std::vector<Piece> sync();
-  /// All that was marked, in order of index, in batches: each with the piece that it is of. Throws InputError behind the
-  /// last batch of a piece whose bytes are others than were written.
-  void read(const std::function<void(const Piece&, const std::vector<TrajectoryRecord>&)>& batch) const;
+  /// All that was marked, in order of index, in batches: each with the piece that it is of. Throws
+  /// InputError behind the last batch of a piece whose bytes are others than were written.
+  void read(
+      const std::function<void(const Piece&, const std::vector<TrajectoryRecord>&)>& batch) const;
 
   void keep(bool wanted) { kept_ = wanted; }
 

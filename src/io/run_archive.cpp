@@ -53,12 +53,28 @@ const StateField state_fields[] = {
      nullptr,
      [](P p) { return std::int64_t{p.state.wall}; }},
     {"u", true, {"1", "Exact parameter on that wall"}, [](P p) { return p.state.u; }, nullptr},
-    {"x", true, {"length", "Position in the cell"}, [](P p) { return p.state.position.x; }, nullptr},
-    {"y", true, {"length", "Position in the cell"}, [](P p) { return p.state.position.y; }, nullptr},
+    {"x",
+     true,
+     {"length", "Position in the cell"},
+     [](P p) { return p.state.position.x; },
+     nullptr},
+    {"y",
+     true,
+     {"length", "Position in the cell"},
+     [](P p) { return p.state.position.y; },
+     nullptr},
     {"vx", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.x; }, nullptr},
     {"vy", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.y; }, nullptr},
-    {"cell_first", false, {"1", "Cell of the lattice"}, nullptr, [](P p) { return p.state.cell.first; }},
-    {"cell_second", false, {"1", "Cell of the lattice"}, nullptr, [](P p) { return p.state.cell.second; }},
+    {"cell_first",
+     false,
+     {"1", "Cell of the lattice"},
+     nullptr,
+     [](P p) { return p.state.cell.first; }},
+    {"cell_second",
+     false,
+     {"1", "Cell of the lattice"},
+     nullptr,
+     [](P p) { return p.state.cell.second; }},
     {"t_high",
      true,
      {"time", "Time of the last event, leading double"},
@@ -69,8 +85,16 @@ const StateField state_fields[] = {
      {"time", "Time of the last event, trailing double"},
      [](P p) { return p.state.time.low; },
      nullptr},
-    {"end_high", true, {"time", "Time of the end, leading double"}, [](P p) { return p.end.high; }, nullptr},
-    {"end_low", true, {"time", "Time of the end, trailing double"}, [](P p) { return p.end.low; }, nullptr},
+    {"end_high",
+     true,
+     {"time", "Time of the end, leading double"},
+     [](P p) { return p.end.high; },
+     nullptr},
+    {"end_low",
+     true,
+     {"time", "Time of the end, trailing double"},
+     [](P p) { return p.end.low; },
+     nullptr},
     {"hits",
      false,
      {"1", "Reflections so far"},
@@ -91,9 +115,21 @@ const StateField state_fields[] = {
      {"1", "Hole it escaped through, -1: none"},
      nullptr,
      [](P p) { return std::int64_t{p.hole}; }},
-    {"energy_change", true, {"energy", "Change of the energy since the start"}, [](P p) { return p.energy.change; }, nullptr},
-    {"energy_largest", true, {"energy", "Largest change that was seen"}, [](P p) { return p.energy.largest; }, nullptr},
-    {"energy_kinetic", true, {"energy", "Largest kinetic energy that was seen"}, [](P p) { return p.energy.kinetic; }, nullptr},
+    {"energy_change",
+     true,
+     {"energy", "Change of the energy since the start"},
+     [](P p) { return p.energy.change; },
+     nullptr},
+    {"energy_largest",
+     true,
+     {"energy", "Largest change that was seen"},
+     [](P p) { return p.energy.largest; },
+     nullptr},
+    {"energy_kinetic",
+     true,
+     {"energy", "Largest kinetic energy that was seen"},
+     [](P p) { return p.energy.kinetic; },
+     nullptr},
     {"fate",
      false,
      {"1", "Index into the attribute `names`"},
@@ -109,12 +145,14 @@ const std::pair<const char*, Description> energy_fields[] = {
     {"total", {"energy", "Their sum"}},
     {"px", {"momentum", "Sum of m v"}},
     {"py", {"momentum", "Sum of m v"}},
-    {"angular_momentum", {"angular momentum", "Sum of m (x cross v + omega r^2 / 2), about the origin"}},
+    {"angular_momentum",
+     {"angular momentum", "Sum of m (x cross v + omega r^2 / 2), about the origin"}},
 };
 
 std::vector<std::string> fate_names() {
   std::vector<std::string> names;
-  for (int i = 0; i <= static_cast<int>(last_fate); ++i) names.push_back(name_of(static_cast<Fate>(i)));
+  for (int i = 0; i <= static_cast<int>(last_fate); ++i)
+    names.push_back(name_of(static_cast<Fate>(i)));
   return names;
 }
 
@@ -169,12 +207,14 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     const Handle group = file.group("collisions", "Reflections in order of time");
     const hid_t to = group.get();
     hits.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
-    const hid_t wall = hits.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
+    const hid_t wall =
+        hits.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
     hdf5::write_attribute(wall, "names", walls, file.name());
     hits.add<double>(to, "u", {"1", "Exact parameter on the wall"});
     hits.add<double>(to, "s", {"length", "Arc length along the wall from its start"});
-    hits.add<double>(to, "v_parallel",
-                     {"length/time", "Tangential velocity after the hit, positive in the direction of s"});
+    hits.add<double>(
+        to, "v_parallel",
+        {"length/time", "Tangential velocity after the hit, positive in the direction of s"});
     hits.add<double>(to, "t", {"time", "Time of the hit"});
     hits.add<double>(to, "x", {"length", "Position, unwrapped"});
     hits.add<double>(to, "y", {"length", "Position, unwrapped"});
@@ -182,7 +222,8 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     hits.add<double>(to, "vy", {"length/time", "Velocity after the hit"});
     hits.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
     hits.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
-    hits.add<std::int32_t>(to, "reflections", {"1", "Reflections counted: n at a corner of angle pi/n"});
+    hits.add<std::int32_t>(to, "reflections",
+                           {"1", "Reflections counted: n at a corner of angle pi/n"});
   }
   {
     const Handle group = file.group("trajectory", "Samples at even times (run.sample)");
@@ -202,22 +243,25 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
   }
   if (with_energies()) {
     const Handle group = file.group("energy", "Sums over the particles at each sample's time");
-    for (const auto& [name, description] : energy_fields) energies.add<double>(group.get(), name, description);
+    for (const auto& [name, description] : energy_fields)
+      energies.add<double>(group.get(), name, description);
   }
   if (is_integrated(loaded.system)) create_steps();
-  const std::size_t particles = loaded.system.particles.size() + injected_count(loaded.system, trajectory);
+  const std::size_t particles =
+      loaded.system.particles.size() + injected_count(loaded.system, trajectory);
   create_state(particles);
   if (estimates_trust(loaded.system))
-    create_trust(file.group("trust", "How far each particle can be trusted").get(), particles, file.name());
+    create_trust(file.group("trust", "How far each particle can be trusted").get(), particles,
+                 file.name());
 }
 
 void RunArchive::Implementation::create_state(std::size_t particles) {
-  const Handle group =
-      file.group("state", "The exact state after the last event of each particle; a run goes on from it");
+  const Handle group = file.group(
+      "state", "The exact state after the last event of each particle; a run goes on from it");
   for (const StateField& field : state_fields) {
     const hid_t type = field.real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
-    const Handle dataset =
-        hdf5::create_fixed(group.get(), field.name, type, particles, field.description, file.name());
+    const Handle dataset = hdf5::create_fixed(group.get(), field.name, type, particles,
+                                              field.description, file.name());
     if (std::string_view(field.name) == "fate")
       hdf5::write_attribute(dataset.get(), "names", fate_names(), file.name());
   }
@@ -254,17 +298,21 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
 void RunArchive::Implementation::write_state(const std::vector<RunEnd>& particles) {
   const Handle group = file.open_group("state");
   for (const StateField& field : state_fields) {
-    if (H5Lexists(group.get(), field.name, H5P_DEFAULT) <= 0) continue;  // of an archive of an earlier build
-    Handle dataset = hdf5::checked(H5Dopen2(group.get(), field.name, H5P_DEFAULT), H5Dclose, file.name());
+    if (H5Lexists(group.get(), field.name, H5P_DEFAULT) <= 0)
+      continue;  // of an archive of an earlier build
+    Handle dataset =
+        hdf5::checked(H5Dopen2(group.get(), field.name, H5P_DEFAULT), H5Dclose, file.name());
     herr_t written = -1;
     if (field.real) {
       const auto values =
           collect<double>(particles, [&](const RunEnd& p) { return field.real_of(p.progress); });
-      written = H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+      written =
+          H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     } else {
       const auto values = collect<std::int64_t>(
           particles, [&](const RunEnd& p) { return field.integer_of(p.progress); });
-      written = H5Dwrite(dataset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+      written =
+          H5Dwrite(dataset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     }
     hdf5::check(written >= 0, file.name());
     hdf5::check(dataset.close(), file.name());
@@ -276,7 +324,8 @@ void RunArchive::Implementation::create_steps() {
   const auto create = [&](const char* name, hid_t type, Description description) {
     hdf5::create_fixed(group.get(), name, type, 1, description, file.name());
   };
-  for (const StepNumber& number : step_numbers) create(number.name, H5T_NATIVE_UINT64, {"1", number.text});
+  for (const StepNumber& number : step_numbers)
+    create(number.name, H5T_NATIVE_UINT64, {"1", number.text});
   create(first_unresolved, H5T_NATIVE_DOUBLE, {"time", "When the earliest of these began"});
 }
 
@@ -285,10 +334,12 @@ void RunArchive::Implementation::write_steps(const StepCounts& steps) {
   const Handle group = file.open_group("steps");
   const auto write = [&](const char* name, hid_t type, const void* value) {
     Handle dataset = hdf5::checked(H5Dopen2(group.get(), name, H5P_DEFAULT), H5Dclose, file.name());
-    hdf5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0, file.name());
+    hdf5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0,
+                file.name());
     hdf5::check(dataset.close(), file.name());
   };
-  for (const StepNumber& number : step_numbers) write(number.name, H5T_NATIVE_UINT64, &(steps.*number.value));
+  for (const StepNumber& number : step_numbers)
+    write(number.name, H5T_NATIVE_UINT64, &(steps.*number.value));
   write(first_unresolved, H5T_NATIVE_DOUBLE, &steps.first_unresolved);
 }
 
@@ -297,7 +348,8 @@ RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
 RunArchive::~RunArchive() = default;
 
 std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
-                                               const Provenance& origin, bool force, std::uint64_t trajectory, ArchiveLock lock) {
+                                               const Provenance& origin, bool force,
+                                               std::uint64_t trajectory, ArchiveLock lock) {
   if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
   auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), file, loaded);
@@ -314,7 +366,8 @@ std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const 
   std::error_code error;
   if (!std::filesystem::equivalent(source, target, error)) refuse_existing(target, force);
   const std::string copy = aside_of(target);
-  if (!std::filesystem::copy_file(source, copy, std::filesystem::copy_options::overwrite_existing, error)) {
+  if (!std::filesystem::copy_file(source, copy, std::filesystem::copy_options::overwrite_existing,
+                                  error)) {
     const std::string reason = error.message();
     std::filesystem::remove(copy, error);
     throw InputError("cannot write '" + copy + "': " + reason);
@@ -331,9 +384,10 @@ void RunArchive::hit(const HitEvent& event) {
   const geometry::CurveFrame& frame = a.frames[static_cast<std::size_t>(event.wall)];
   const Vector position = unwrapped(*a.table, event.position, event.cell);
   a.hits.row(std::int32_t{event.particle}, std::int32_t{event.wall}, event.u,
-             geometry::arc_length_at(frame, event.u), dot(event.after, geometry::tangent_at(frame, event.u)),
-             event.time.value(), position.x, position.y, event.after.x, event.after.y, event.cell.first,
-             event.cell.second, std::int32_t{event.reflections});
+             geometry::arc_length_at(frame, event.u),
+             dot(event.after, geometry::tangent_at(frame, event.u)), event.time.value(), position.x,
+             position.y, event.after.x, event.after.y, event.cell.first, event.cell.second,
+             std::int32_t{event.reflections});
 }
 
 void RunArchive::contact(const ContactEvent& event) {
@@ -360,7 +414,8 @@ void RunArchive::sampled(Time time) {
   if (a.states_now.empty()) return;
   const Energy energy = energy_of(a.particles_now, a.states_now, a.dynamics, *a.table);
   const Vector momentum = momentum_of(a.particles_now, a.states_now);
-  a.energies.row(time.value(), energy.kinetic, energy.external, energy.pair, energy.total(), momentum.x, momentum.y,
+  a.energies.row(time.value(), energy.kinetic, energy.external, energy.pair, energy.total(),
+                 momentum.x, momentum.y,
                  angular_momentum_of(a.particles_now, a.states_now, *a.table));
   a.particles_now.clear();
   a.states_now.clear();

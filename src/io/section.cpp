@@ -28,7 +28,8 @@ double as_double(const Value& value) { return as_number(value).to_double(); }
 
 double as_positive(const Value& value) {
   const double x = as_double(value);
-  if (!(x > 0)) throw InputError(value.place, "must be positive, not " + value.text, "a number > 0");
+  if (!(x > 0))
+    throw InputError(value.place, "must be positive, not " + value.text, "a number > 0");
   return x;
 }
 
@@ -38,7 +39,8 @@ namespace {
 bool is_too_large(const Value& value) {
   try {
     const auto number = ExactNumber(value.text, value.place).to_rational();
-    return number && number->denominator == "1" && number->numerator.size() >= 20 && number->numerator.front() != '-';
+    return number && number->denominator == "1" && number->numerator.size() >= 20 &&
+           number->numerator.front() != '-';
   } catch (const InputError&) {
     return false;
   }
@@ -48,15 +50,19 @@ bool is_too_large(const Value& value) {
 
 std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t most) {
   const std::string expected =
-      most == UINT64_MAX ? "a whole number of at least " + std::to_string(least)
-                         : "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
-  if (value.kind != Value::Kind::number && value.kind != Value::Kind::text) wrong_type(value, expected);
+      most == UINT64_MAX
+          ? "a whole number of at least " + std::to_string(least)
+          : "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+  if (value.kind != Value::Kind::number && value.kind != Value::Kind::text)
+    wrong_type(value, expected);
   try {
-    if (const auto count = whole_number(ExactNumber(value.text, value.place), least, most)) return *count;
+    if (const auto count = whole_number(ExactNumber(value.text, value.place), least, most))
+      return *count;
   } catch (const InputError&) {  // the reason would speak of sqrt and pi
   }
   const bool too_large = most == UINT64_MAX && is_too_large(value);
-  throw InputError(value.place, "must be " + (too_large ? "a whole number below 2^64" : expected) + ", not " + value.text);
+  throw InputError(value.place, "must be " + (too_large ? "a whole number below 2^64" : expected) +
+                                    ", not " + value.text);
 }
 
 const std::string& as_text(const Value& value) {
@@ -150,14 +156,16 @@ void Section::check_keys() const {
         known.emplace_back(d.key);
       } else if (d.key == entry.key) {
         std::string kinds(d.kind);
-        for (std::size_t at = 0; (at = kinds.find('|', at)) != std::string::npos;) kinds.replace(at, 1, ", ");
+        for (std::size_t at = 0; (at = kinds.find('|', at)) != std::string::npos;)
+          kinds.replace(at, 1, ", ");
         elsewhere.push_back(kinds);
       }
     }
     std::string problem = "unknown key '" + entry.key + "'";
     if (!kind_.empty()) problem += " for '" + kind_ + "'";
     if (!elsewhere.empty()) problem += ", it belongs to " + listed(elsewhere);
-    throw InputError(entry.place, problem, "one of " + listed(known), nearest_name(entry.key, known));
+    throw InputError(entry.place, problem, "one of " + listed(known),
+                     nearest_name(entry.key, known));
   }
 }
 
@@ -173,7 +181,8 @@ Value& Section::get(std::string_view key) {
   const KeyDescription* d = description(key);
   if (d == nullptr) throw InternalError("no key " + std::string(key) + " in section " + name_);
   if (d->fallback.empty()) {
-    throw InputError(place_of(key), "the key '" + std::string(key) + "' is missing", std::string(d->type));
+    throw InputError(place_of(key), "the key '" + std::string(key) + "' is missing",
+                     std::string(d->type));
   }
   return fill(std::string(key), parse_value(std::string(d->fallback), place_of(key)));
 }

@@ -60,7 +60,8 @@ class Section {
 
 /// Is `kind` one of the kinds "a|b|c" (or are all meant)?
 bool of_kind(const KeyDescription& description, std::string_view kind);
-/// Reads which of the kinds of a section is meant ("shape" or "kind"); unknown ones are an InputError.
+/// Reads which of the kinds of a section is meant ("shape" or "kind"); unknown ones are an
+/// InputError.
 std::string read_kind(Value& table, const std::string& section, const std::string& key,
                       const std::vector<std::string>& kinds);
 /// "a, b, c"

@@ -15,7 +15,8 @@ struct StepNumber {
 inline constexpr StepNumber step_numbers[] = {
     {"steps", &StepCounts::steps, "Steps and parts of steps"},
     {"force_evaluations", &StepCounts::force_evaluations, "Evaluations of the forces"},
-    {"unresolved_steps", &StepCounts::unresolved, "Steps longer than the forces they swept allow, which were counted"},
+    {"unresolved_steps", &StepCounts::unresolved,
+     "Steps longer than the forces they swept allow, which were counted"},
 };
 inline constexpr const char* first_unresolved = "first_unresolved";
 

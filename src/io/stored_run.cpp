@@ -15,14 +15,18 @@ StoredRun read_run(const std::string& name) {
   const Place place{name, 0, 0, ""};
   if (!exists(name)) throw InputError(place, "there is no such file");
   Handle file;  // a pipe would be waited for
-  if (!is_no_file(name)) file = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!is_no_file(name))
+    file = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file)
-    throw InputError(place, "the file is not an archive, or its run was killed or is still going on",
+    throw InputError(place,
+                     "the file is not an archive, or its run was killed or is still going on",
                      "the archive of a finished or interrupted run");
   if (hdf5::read_string_attribute(file.get(), "kind", name) != run_archive_kind)
-    throw InputError(place, "the archive holds no run in double precision", "an archive written by carom run");
+    throw InputError(place, "the archive holds no run in double precision",
+                     "an archive written by carom run");
   if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
-    throw InputError(place, "the archive has another schema", "one written by this version of carom");
+    throw InputError(place, "the archive has another schema",
+                     "one written by this version of carom");
   StoredRun run;
   run.status = hdf5::read_string_attribute(file.get(), "status", name);
   if (run.status == "running")
@@ -34,12 +38,15 @@ StoredRun read_run(const std::string& name) {
   run.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);
 
   const Handle state(H5Gopen2(file.get(), "state", H5P_DEFAULT), H5Gclose);
-  const auto reals = [&](const char* field) { return hdf5::read_column<double>(state.get(), field, name); };
+  const auto reals = [&](const char* field) {
+    return hdf5::read_column<double>(state.get(), field, name);
+  };
   const auto integers = [&](const char* field) {
     return hdf5::read_column<std::int64_t>(state.get(), field, name);
   };
-  const auto wall = integers("wall"), first = integers("cell_first"), second = integers("cell_second"),
-             hits = integers("hits"), contacts = integers("contacts"), last_wall = integers("last_wall"),
+  const auto wall = integers("wall"), first = integers("cell_first"),
+             second = integers("cell_second"), hits = integers("hits"),
+             contacts = integers("contacts"), last_wall = integers("last_wall"),
              hole = integers("hole"), fate = integers("fate");
   const auto u = reals("u"), x = reals("x"), y = reals("y"), vx = reals("vx"), vy = reals("vy"),
              high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
@@ -48,7 +55,8 @@ StoredRun read_run(const std::string& name) {
     const bool there = H5Lexists(state.get(), field, H5P_DEFAULT) > 0;
     return there ? reals(field) : std::vector<double>(wall.size(), 0.0);
   };
-  const auto change = energies("energy_change"), largest = energies("energy_largest"), kinetic = energies("energy_kinetic");
+  const auto change = energies("energy_change"), largest = energies("energy_largest"),
+             kinetic = energies("energy_kinetic");
   for (std::size_t i = 0; i < wall.size(); ++i) {
     ParticleProgress p;
     p.state.wall = static_cast<int>(wall[i]);
@@ -69,11 +77,14 @@ StoredRun read_run(const std::string& name) {
   if (H5Lexists(file.get(), "steps", H5P_DEFAULT) > 0) {
     const Handle steps(H5Gopen2(file.get(), "steps", H5P_DEFAULT), H5Gclose);
     for (const StepNumber& number : step_numbers)
-      run.steps.*number.value = hdf5::read_column<std::uint64_t>(steps.get(), number.name, name).at(0);
-    run.steps.first_unresolved = hdf5::read_column<double>(steps.get(), first_unresolved, name).at(0);
+      run.steps.*number.value =
+          hdf5::read_column<std::uint64_t>(steps.get(), number.name, name).at(0);
+    run.steps.first_unresolved =
+        hdf5::read_column<double>(steps.get(), first_unresolved, name).at(0);
   }
   if (H5Lexists(file.get(), "trust", H5P_DEFAULT) > 0)
-    read_trust(Handle(H5Gopen2(file.get(), "trust", H5P_DEFAULT), H5Gclose).get(), run.particles, name);
+    read_trust(Handle(H5Gopen2(file.get(), "trust", H5P_DEFAULT), H5Gclose).get(), run.particles,
+               name);
   return run;
 }
 

@@ -24,11 +24,12 @@ namespace {
 
 using io::Value;
 
-const std::vector<std::string> known_sections{"table",     "lattice",   "field",   "potential",  "interaction",
-                                              "particles", "initial",   "injection", "integrator", "run", "section"};
+const std::vector<std::string> known_sections{"table",       "lattice",   "field",   "potential",
+                                              "interaction", "particles", "initial", "injection",
+                                              "integrator",  "run",       "section"};
 /// Sections that stay away unless they are written.
-const std::vector<std::string> optional_sections{"table",       "lattice",    "potential",
-                                                 "interaction", "injection",  "integrator", "section"};
+const std::vector<std::string> optional_sections{
+    "table", "lattice", "potential", "interaction", "injection", "integrator", "section"};
 
 bool contains(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
@@ -39,8 +40,8 @@ void check_sections(const Value& root) {
     if (entry.key == "title" || contains(known_sections, entry.key)) continue;
     std::vector<std::string> names = known_sections;
     names.emplace_back("title");
-    throw InputError(entry.place, "unknown section or key '" + entry.key + "'", "one of " + io::listed(names),
-                     nearest_name(entry.key, names));
+    throw InputError(entry.place, "unknown section or key '" + entry.key + "'",
+                     "one of " + io::listed(names), nearest_name(entry.key, names));
   }
 }
 
@@ -64,24 +65,26 @@ void complete_sections(Value& root) {
 std::string text_of_file(const std::string& name) {
   const Place place{name, 0, 0, ""};
   std::error_code error;
-  if (std::filesystem::is_directory(name, error)) throw InputError(place, "is a folder", "a TOML file");
+  if (std::filesystem::is_directory(name, error))
+    throw InputError(place, "is a folder", "a TOML file");
   errno = 0;
   std::ifstream file(name, std::ios::binary);
-  if (!file) throw InputError(place, "cannot be read: " + std::string(std::strerror(errno)), "a TOML file");
+  if (!file)
+    throw InputError(place, "cannot be read: " + std::string(std::strerror(errno)), "a TOML file");
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
 }
 
-// Steps end at the multiples of the step, which are counted in doubles. A run until its cap on hits may ask for
-// any last time: it ends there if it comes so far.
+// Steps end at the multiples of the step, which are counted in doubles. A run until its cap on hits
+// may ask for any last time: it ends there if it comes so far.
 void check_number_of_steps(const Value& root, const System& system) {
   constexpr double most = 0x1p52;
   const double step = system.dynamics.integrator.step, t_max = system.run.t_max;
   if (!(step > 0.0) || t_max >= no_last_time || t_max / step < most) return;
   throw InputError(root.find("run")->find("t_max")->place,
-                   "t_max = " + io::shown(t_max) + " is " + io::shown(t_max / step) + " steps of " + io::shown(step) +
-                       ": steps are counted up to 2^52",
+                   "t_max = " + io::shown(t_max) + " is " + io::shown(t_max / step) + " steps of " +
+                       io::shown(step) + ": steps are counted up to 2^52",
                    "t_max below " + io::shown(step * most) + ", or a longer step");
 }
 
@@ -96,15 +99,16 @@ void check_scales(const Value& root, const System& system, const Table& table) {
 void check_number_of_samples(const Value& root, const System& system) {
   constexpr double most = 0x1p52;
   const double t_max = system.run.t_max;
-  if (!(system.run.sample > 0.0) || t_max >= no_last_time || t_max / system.run.sample < most) return;
+  if (!(system.run.sample > 0.0) || t_max >= no_last_time || t_max / system.run.sample < most)
+    return;
   throw InputError(root.find("run")->find("sample")->place,
-                   io::shown(t_max / system.run.sample) + " samples until t_max = " + io::shown(t_max) +
-                       ": they are counted up to 2^52",
+                   io::shown(t_max / system.run.sample) + " samples until t_max = " +
+                       io::shown(t_max) + ": they are counted up to 2^52",
                    "a time above " + io::shown(t_max / most) + " between samples");
 }
 
-// Where a particle that meets no wall is on its circle at the time t, an angle omega t tells: it needs all its digits
-// before the point.
+// Where a particle that meets no wall is on its circle at the time t, an angle omega t tells: it
+// needs all its digits before the point.
 void check_angles(const Value& root, const System& system) {
   constexpr double most = 0x1p52;
   const double t_max = system.run.t_max;
@@ -112,18 +116,20 @@ void check_angles(const Value& root, const System& system) {
   for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
   if (t_max >= no_last_time || omega * t_max < most) return;
   throw InputError(root.find("run")->find("t_max")->place,
-                   "until t_max = " + io::shown(t_max) + " a particle turns by " + io::shown(omega * t_max) +
-                       " in the field: angles are known up to 2^52",
+                   "until t_max = " + io::shown(t_max) + " a particle turns by " +
+                       io::shown(omega * t_max) + " in the field: angles are known up to 2^52",
                    "t_max below " + io::shown(most / omega) + ", or a weaker field");
 }
 
-// Each step takes the forces of all pairs several times, and keeps the positions at several times within it.
+// Each step takes the forces of all pairs several times, and keeps the positions at several times
+// within it.
 void check_number_of_pairs(const Value& root, const System& system) {
   constexpr std::size_t most = std::size_t{1} << 13;
   if (!system.dynamics.forces->interacts() || system.particles.size() <= most) return;
   const Value* count = root.find("particles")->find("count");
   throw InputError(count ? count->place : Place{root.place.file, 0, 0, "particles.count"},
-                   std::to_string(system.particles.size()) + " particles that interact are too many pairs for each step",
+                   std::to_string(system.particles.size()) +
+                       " particles that interact are too many pairs for each step",
                    "at most " + std::to_string(most));
 }
 
@@ -132,8 +138,8 @@ void check_rest(const Value& root, const System& system) {
                                  [](const Particle& p) { return p.speed == 0.0; });
   if (!rests || system.of_discs() || !system.dynamics.forces->empty()) return;
   const Value* speed = root.find("particles")->find("speed");
-  throw InputError(speed ? speed->place : system.initial.place, "the particle rests, and no force acts on it",
-                   "a velocity that is not zero");
+  throw InputError(speed ? speed->place : system.initial.place,
+                   "the particle rests, and no force acts on it", "a velocity that is not zero");
 }
 
 std::string text_of_builtin(const std::string& name) {
@@ -149,7 +155,8 @@ std::string text_of_builtin(const std::string& name) {
 
 }  // namespace
 
-LoadedSystem read_system(std::string_view toml, const std::string& file, const SystemOverrides& overrides) {
+LoadedSystem read_system(std::string_view toml, const std::string& file,
+                         const SystemOverrides& overrides) {
   Value root = io::parse_document(toml, file);
   root.place = {file, 0, 0, ""};
   io::apply(overrides, root);
@@ -167,12 +174,14 @@ LoadedSystem read_system(std::string_view toml, const std::string& file, const S
   system.dynamics.forces = ForceField::build(forces, system.particles, table->lattice);
   const std::vector<double>& radii = system.dynamics.forces->disc_radii();
   for (std::size_t p = 0; p < radii.size(); ++p) system.particles[p].radius = radii[p];
-  system.dynamics.integrator = io::read_integrator(root, !system.dynamics.forces->empty(), system.particles,
-                                                   !table->walls.empty());
-  if (!system.dynamics.forces->empty()) system.energies = io::read_energies(root, system.particles.size());
+  system.dynamics.integrator = io::read_integrator(root, !system.dynamics.forces->empty(),
+                                                   system.particles, !table->walls.empty());
+  if (!system.dynamics.forces->empty())
+    system.energies = io::read_energies(root, system.particles.size());
   system.initial = io::read_initial(root, *table, system.particles);
   // Where particles enter at random no trajectory repeats another.
-  system.run = io::read_run(root, root.find("injection") != nullptr ? 0 : listed_trajectories(system));
+  system.run =
+      io::read_run(root, root.find("injection") != nullptr ? 0 : listed_trajectories(system));
   check_number_of_pairs(root, system);
   check_rest(root, system);
   check_number_of_samples(root, system);

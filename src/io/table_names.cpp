@@ -12,7 +12,8 @@ int wall_named(const Table& table, const std::string& name, const Place& place) 
   if (wall >= 0) return wall;
   std::vector<std::string> names;
   for (const Wall& w : table.walls) names.push_back(w.name);
-  throw InputError(place, "unknown wall '" + name + "'", "one of " + listed(names), nearest_name(name, names));
+  throw InputError(place, "unknown wall '" + name + "'", "one of " + listed(names),
+                   nearest_name(name, names));
 }
 
 int hole_named(const Table& table, const std::string& name, const Place& place) {

@@ -79,7 +79,8 @@ class Converter {
 
  private:
   Place place(const toml::source_region& region, const std::string& path) const {
-    return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column), path};
+    return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column),
+            path};
   }
 
   // The parser sorts keys by name; the file's order reads better.

@@ -15,16 +15,17 @@ OrbitError orbit_error(const double* d) { return {{d[0], d[1]}, {d[2], d[3]}, d[
 template <class T>
 void write(hid_t group, const char* name, const std::vector<T>& values, const std::string& file) {
   Handle dataset = hdf5::checked(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, file);
-  hdf5::check(
-      H5Dwrite(dataset.get(), hdf5::native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
-      file);
+  hdf5::check(H5Dwrite(dataset.get(), hdf5::native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                       values.data()) >= 0,
+              file);
   hdf5::check(dataset.close(), file);
 }
 
 }  // namespace
 
 void create_trust(hid_t group, std::size_t particles, const std::string& file) {
-  const auto create = [&](const char* name, hid_t type, std::size_t rows, hdf5::Description description) {
+  const auto create = [&](const char* name, hid_t type, std::size_t rows,
+                          hdf5::Description description) {
     hdf5::create_fixed(group, name, type, rows, description, file);
   };
   create("collisions", H5T_NATIVE_INT64, particles,
@@ -32,7 +33,8 @@ void create_trust(hid_t group, std::size_t particles, const std::string& file) {
   create("time", H5T_NATIVE_DOUBLE, particles, {"time", "Until when the particle can be trusted"});
   create("open", H5T_NATIVE_INT32, particles, {"1", "1: up to the last event"});
   create("error", H5T_NATIVE_DOUBLE, entries * particles,
-         {"mixed", "While open: errors of x, y, vx, vy and t after the last event, rows 5 i to 5 i + 4"});
+         {"mixed",
+          "While open: errors of x, y, vx, vy and t after the last event, rows 5 i to 5 i + 4"});
 }
 
 void write_trust(hid_t group, const std::vector<RunEnd>& particles, const std::string& file) {
@@ -44,7 +46,8 @@ void write_trust(hid_t group, const std::vector<RunEnd>& particles, const std::s
     time.push_back(p.trust.time.value());
     open.push_back(p.trust.open ? 1 : 0);
     const OrbitError& d = p.progress.trust.error;
-    for (const double entry : {d.position.x, d.position.y, d.velocity.x, d.velocity.y, d.time}) error.push_back(entry);
+    for (const double entry : {d.position.x, d.position.y, d.velocity.x, d.velocity.y, d.time})
+      error.push_back(entry);
   }
   write(group, "collisions", collisions, file);
   write(group, "time", time, file);

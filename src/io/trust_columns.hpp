@@ -1,4 +1,5 @@
-// /trust of a run's archive: up to where each particle can be trusted, and what a continued run needs.
+// /trust of a run's archive: up to where each particle can be trusted, and what a continued run
+// needs.
 #pragma once
 
 #include <string>

@@ -27,7 +27,8 @@ std::string quoted(const std::string& text) {
 
 std::string printed_key(const std::string& key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
   });
   return bare ? key : quoted(key);
 }
@@ -44,7 +45,8 @@ std::string printed(const Value& value) {
       return "[" + result + "]";
     case Value::Kind::table:
       for (const Entry& entry : value.entries) {
-        result += (result.empty() ? "" : ", ") + printed_key(entry.key) + " = " + printed(entry.value);
+        result +=
+            (result.empty() ? "" : ", ") + printed_key(entry.key) + " = " + printed(entry.value);
       }
       return "{" + result + "}";
     case Value::Kind::text:
@@ -64,7 +66,8 @@ bool has_headers(const std::string& section, const Entry& entry) {
 
 void print_section(const std::string& name, const Value& section, std::string& out) {
   for (const Entry& entry : section.entries) {
-    if (!has_headers(name, entry)) out += printed_key(entry.key) + " = " + printed(entry.value) + "\n";
+    if (!has_headers(name, entry))
+      out += printed_key(entry.key) + " = " + printed(entry.value) + "\n";
   }
   for (const Entry& entry : section.entries) {
     if (!has_headers(name, entry)) continue;

@@ -33,10 +33,12 @@ int try_lock(int descriptor) {
   }
 }
 
-// A folder is on the disk only after this. Where it cannot be synced, what is written into it says so.
+// A folder is on the disk only after this. Where it cannot be synced, what is written into it says
+// so.
 void sync_folder_with(const std::string& file) {
   const fs::path folder = fs::path(file).parent_path();
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor =
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   ::fsync(descriptor);
   ::close(descriptor);
@@ -44,9 +46,10 @@ void sync_folder_with(const std::string& file) {
 
 // Is the file that is open still the one of that name?
 bool is_there(int descriptor, const std::string& path) {
-  struct stat mine {}, named {};
-  return ::fstat(descriptor, &mine) == 0 && ::stat(path.c_str(), &named) == 0 && mine.st_ino == named.st_ino &&
-         mine.st_dev == named.st_dev;
+  struct stat mine {
+  }, named{};
+  return ::fstat(descriptor, &mine) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         mine.st_ino == named.st_ino && mine.st_dev == named.st_dev;
 }
 
 }  // namespace
@@ -60,26 +63,33 @@ bool has_work_folder(const std::string& file) {
 
 WorkFolder::WorkFolder(const std::string& file) : file_(file), lock_(lock_of(file)) {
   const std::string folder = folder_of(file);
-  // Between two looks another process may have made the folder, or removed it: what is something else stays so.
+  // Between two looks another process may have made the folder, or removed it: what is something
+  // else stays so.
   constexpr int enough_looks = 10;
   for (int looks = 0;;) {
     const bool made = ::mkdir(folder.c_str(), 0777) == 0;
-    if (!made && errno != EEXIST) throw InputError(fmt::format("cannot write '{}': {}", file, std::strerror(errno)));
+    if (!made && errno != EEXIST)
+      throw InputError(fmt::format("cannot write '{}': {}", file, std::strerror(errno)));
     if (made) sync_folder_with(folder);
     if (!has_work_folder(file)) {
       if (++looks < enough_looks) continue;
-      throw InputError(Place{folder, 0, 0, ""}, fmt::format("'{}' would be made here, and this is something else", file),
+      throw InputError(Place{folder, 0, 0, ""},
+                       fmt::format("'{}' would be made here, and this is something else", file),
                        "another name");
     }
     if (!open_lock()) continue;
     const int error = try_lock(descriptor_);
     const bool held = error == EWOULDBLOCK, there = is_there(descriptor_, lock_);
     if (there && !held) {
-      if (error != 0) weakness_ = std::strerror(error);  // ENOLCK, EOPNOTSUPP, ENOSYS …: it cannot be known who else writes
+      if (error != 0)
+        weakness_ = std::strerror(
+            error);  // ENOLCK, EOPNOTSUPP, ENOSYS …: it cannot be known who else writes
       return;
     }
     ::close(descriptor_);
-    if (there) throw InputError(Place{file, 0, 0, ""}, "another process writes it", "another name, or the end of that process");
+    if (there)
+      throw InputError(Place{file, 0, 0, ""}, "another process writes it",
+                       "another name, or the end of that process");
   }
 }
 
@@ -94,13 +104,14 @@ bool WorkFolder::open_lock() {
   throw InputError(fmt::format("cannot write '{}': {}", file_, reason));
 }
 
-// The lock goes last, and with it the folder, where nothing else is in it. It counts only on the file that still has the
-// name: another process may have opened it before it was removed.
+// The lock goes last, and with it the folder, where nothing else is in it. It counts only on the
+// file that still has the name: another process may have opened it before it was removed.
 WorkFolder::~WorkFolder() {
   std::remove(aside_of(file_).c_str());
   if (!exists(checkpoint_of(file_))) std::remove(records_of(file_).c_str());
   std::error_code error;
-  const auto entries = std::distance(fs::directory_iterator(folder_of(file_), error), fs::directory_iterator());
+  const auto entries =
+      std::distance(fs::directory_iterator(folder_of(file_), error), fs::directory_iterator());
   if (!error && entries == 1 && is_there(descriptor_, lock_)) {
     ::unlink(lock_.c_str());
     ::rmdir(folder_of(file_).c_str());
@@ -127,7 +138,8 @@ void refuse_no_file(const std::string& file) {
   if (!is_no_file(file)) return;
   std::error_code ignored;
   throw InputError(Place{file, 0, 0, ""},
-                   fs::is_directory(file, ignored) ? "the output is a directory" : "the output is a device or a pipe",
+                   fs::is_directory(file, ignored) ? "the output is a directory"
+                                                   : "the output is a device or a pipe",
                    "the name of a file");
 }
 
@@ -143,11 +155,14 @@ void refuse_inside(const std::string& file) {
   if (!folder.ends_with(mark)) return;
   const std::string owner = folder.substr(0, folder.size() - mark.size());
   if (has_work_folder(owner))
-    throw InputError(Place{file, 0, 0, ""}, fmt::format("this is in the folder in which '{}' is made", owner),
+    throw InputError(Place{file, 0, 0, ""},
+                     fmt::format("this is in the folder in which '{}' is made", owner),
                      "a name in another folder");
 }
 
-bool has_checkpoint(const std::string& file) { return has_work_folder(file) && exists(checkpoint_of(file)); }
+bool has_checkpoint(const std::string& file) {
+  return has_work_folder(file) && exists(checkpoint_of(file));
+}
 
 // Without a checkpoint records mean nothing.
 void remove_checkpoint(const std::string& file) {
@@ -171,7 +186,9 @@ std::string followed(const std::string& name) {
   std::error_code error;
   // Devices keep their names: what links to pipes and closed files hold is none.
   for (int links = 0; fs::is_symlink(path, error) && !is_no_file(path.string()); ++links) {
-    if (links == most) throw InputError(Place{name, 0, 0, ""}, "it is a link that leads to no file", "the name of a file");
+    if (links == most)
+      throw InputError(Place{name, 0, 0, ""}, "it is a link that leads to no file",
+                       "the name of a file");
     const fs::path target = fs::read_symlink(path, error);
     if (error) break;
     path = path.parent_path() / target;

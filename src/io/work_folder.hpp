@@ -1,4 +1,5 @@
-// FILE.part, the folder in which an archive FILE is made: everything that stands beside FILE stands in it.
+// FILE.part, the folder in which an archive FILE is made: everything that stands beside FILE stands
+// in it.
 #pragma once
 
 #include <string>
@@ -7,18 +8,21 @@ namespace carom {
 
 inline std::string folder_of(const std::string& file) { return file + ".part"; }
 /// An archive by itself, always whole: what an ensemble has done so far.
-inline std::string checkpoint_of(const std::string& file) { return folder_of(file) + "/checkpoint.h5"; }
+inline std::string checkpoint_of(const std::string& file) {
+  return folder_of(file) + "/checkpoint.h5";
+}
 /// Of the trajectories that the checkpoint counts.
 inline std::string records_of(const std::string& file) { return folder_of(file) + "/records"; }
 /// What is written first, and renamed when it is whole.
 inline std::string aside_of(const std::string& file) { return folder_of(file) + "/new"; }
 
-/// Claims FILE.part as long as it lives, and makes it where it is not there. A killed process leaves the folder, but not the
-/// claim. In the end the folder goes, unless it holds a checkpoint or shares of ranks.
+/// Claims FILE.part as long as it lives, and makes it where it is not there. A killed process
+/// leaves the folder, but not the claim. In the end the folder goes, unless it holds a checkpoint
+/// or shares of ranks.
 class WorkFolder {
  public:
-  /// Throws InputError where another process holds it, where something else has that name, and where it cannot be made. Where
-  /// the file system gives no locks nothing is held: see weakness().
+  /// Throws InputError where another process holds it, where something else has that name, and
+  /// where it cannot be made. Where the file system gives no locks nothing is held: see weakness().
   explicit WorkFolder(const std::string& file);
   WorkFolder(const WorkFolder&) = delete;
   ~WorkFolder();
@@ -40,7 +44,8 @@ void give_up_checkpoint(const std::string& file);
 
 bool exists(const std::string& file);
 bool is_empty(const std::string& file);
-/// Is there something of this name that is no file: a device, a pipe, a folder? Nothing replaces it, and nothing reads it.
+/// Is there something of this name that is no file: a device, a pipe, a folder? Nothing replaces
+/// it, and nothing reads it.
 bool is_no_file(const std::string& path);
 /// Throws InputError where `file`, which is to be written, is no file.
 void refuse_no_file(const std::string& file);

@@ -21,7 +21,8 @@ TwofoldVector twofold(const BallVector& v) { return {twofold(v.x), twofold(v.y)}
 void write_start(const ExactSystem& exact, const System& system, WrittenSystem& written) {
   if (system.initial.kind != InitialCondition::Kind::point) return;
   const ExactStart& start = exact.start;
-  written.position = twofold(BallVector{certify::value_of(start.position.x), certify::value_of(start.position.y)});
+  written.position =
+      twofold(BallVector{certify::value_of(start.position.x), certify::value_of(start.position.y)});
   BallVector direction{certify::value_of(start.direction.x), certify::value_of(start.direction.y)};
   if (start.angle) {
     const certify::CosSin d = certify::direction_of(*start.angle);
@@ -42,7 +43,8 @@ std::shared_ptr<const WrittenSystem> written_system(const LoadedSystem& loaded) 
     const auto convert = [](const Ball& x) { return twofold(x); };
     for (const certify::WallOf<Ball>& wall : table.walls)
       written.table.walls.push_back(certify::converted<Twofold>(wall, convert));
-    if (table.lattice) written.table.lattice = {twofold(table.lattice->first), twofold(table.lattice->second)};
+    if (table.lattice)
+      written.table.lattice = {twofold(table.lattice->first), twofold(table.lattice->second)};
   } catch (const InputError&) {
     return nullptr;  // a shape without certified form: its doubles are meant
   }

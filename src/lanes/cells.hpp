@@ -1,8 +1,8 @@
-// Straight flights among the discs of a lattice, each inside its cell: over edges of cells until a disc is met.
-// Included by kernel.hpp inside the namespace of its instruction set.
+// Straight flights among the discs of a lattice, each inside its cell: over edges of cells until a
+// disc is met. Included by kernel.hpp inside the namespace of its instruction set.
 //
-// As in the scalar engine a particle does not move at an edge: its start is seen from the next cell. A disc that is
-// met in this cell comes before any edge of it.
+// As in the scalar engine a particle does not move at an edge: its start is seen from the next
+// cell. A disc that is met in this cell comes before any edge of it.
 
 /// The cell of a flight, counted from the one it began in.
 struct CellOf {
@@ -11,7 +11,8 @@ struct CellOf {
 
 /// Where the start lies, seen from there.
 INLINE Vector seen_from(const LaneTable& t, const Vector& start, const CellOf& cell) {
-  const Vector first{Real(t.lattice_x[0]), Real(t.lattice_y[0])}, second{Real(t.lattice_x[1]), Real(t.lattice_y[1])};
+  const Vector first{Real(t.lattice_x[0]), Real(t.lattice_y[0])},
+      second{Real(t.lattice_x[1]), Real(t.lattice_y[1])};
   return geometry::less_multiples(start, cell.first, first, cell.second, second);
 }
 
@@ -32,7 +33,8 @@ INLINE void look_from(View& f, const CellOf& cell) {
   f.start_piece = choose(home, f.start_piece, Real(-1.0));
 }
 
-/// The edge of the cell by which each line leaves it: between a corner on the right and the next one on the left.
+/// The edge of the cell by which each line leaves it: between a corner on the right and the next
+/// one on the left.
 struct Exit {
   Real edge;
   Mask certain;
@@ -61,8 +63,8 @@ INLINE void go_beyond(const LaneTable& t, const Real& edge, const Mask& crosses,
   where(crosses, cell.first) = cell.first + look_up<Reach::eight>(t.beyond_first, beyond);
   where(crosses, cell.second) = cell.second + look_up<Reach::eight>(t.beyond_second, beyond);
 }
-/// Follows the flights over a few edges: who meets a disc stays in its cell. The piece is -1 for those still on
-/// their way.
+/// Follows the flights over a few edges: who meets a disc stays in its cell. The piece is -1 for
+/// those still on their way.
 template <class Kind>
 INLINE Choice first_in_cells(View f, CellOf& cell) {
   const LaneTable& t = f.table;
@@ -83,7 +85,8 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
     if (step == t.steps || !any_of(under_way)) return found;
     const Line line(f);
     const auto corner = [&](int i) { return line.side(t.edge_x[i], t.edge_y[i]); };
-    const Exit exit = t.edges == 4 ? exit_of_cell<4>(f.sides, corner) : exit_of_cell<6>(f.sides, corner);
+    const Exit exit =
+        t.edges == 4 ? exit_of_cell<4>(f.sides, corner) : exit_of_cell<6>(f.sides, corner);
     found.decided = found.decided && (!under_way || exit.certain);
     under_way = under_way && exit.certain;
     go_beyond(t, exit.edge, under_way, cell);
@@ -91,8 +94,8 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
   }
 }
 
-/// Who meets the disc of the cell a flight begins in, and who passes it: a line from outside meets it ahead exactly if it
-/// cuts it and comes nearer. 1, -1; 0: not certain.
+/// Who meets the disc of the cell a flight begins in, and who passes it: a line from outside meets
+/// it ahead exactly if it cuts it and comes nearer. 1, -1; 0: not certain.
 INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead, const Real& roots) {
   const Real discriminant = fused(aside, -aside, f.table.second_number[0] * f.square_speed);
   Real known(0.0);
@@ -101,8 +104,8 @@ INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead, cons
   return known;
 }
 
-/// The edge where the edges by which lines of a direction leave a cell begin: those along which a point goes to the left.
-/// Of two opposite edges it is one, so they follow each other.
+/// The edge where the edges by which lines of a direction leave a cell begin: those along which a
+/// point goes to the left. Of two opposite edges it is one, so they follow each other.
 struct ForwardEdges {
   Real edge;
   Mask certain;
@@ -112,7 +115,8 @@ INLINE ForwardEdges forward_edges(const LaneTable& t, const View& f) {
   Mask leaves[half];
   Real least(__builtin_huge_val());
   for (int i = 0; i < half; ++i) {
-    const Real leftwards = fused(f.velocity.x, Real(t.edge_along_y[i]), -f.velocity.y * t.edge_along_x[i]);
+    const Real leftwards =
+        fused(f.velocity.x, Real(t.edge_along_y[i]), -f.velocity.y * t.edge_along_x[i]);
     leaves[i] = leftwards > 0.0;
     least = least_size(least, leftwards);
   }
@@ -131,16 +135,20 @@ struct Crossed {
   Mask meets, goes_on;
 };
 
-/// Flights among hexagons with one disc each, in two stages. The corners between forward edges tell by which of them a line leaves
-/// a cell; from cell to cell their sides, and the centre's, change by one number for each edge.
+/// Flights among hexagons with one disc each, in two stages. The corners between forward edges tell
+/// by which of them a line leaves a cell; from cell to cell their sides, and the centre's, change
+/// by one number for each edge.
 struct Crossings {
   static constexpr int edges = 6, forward = 3;
   alignas(LanePack::alignment) double edge[LanePack::lanes], aside[LanePack::lanes];
   double jump[forward][LanePack::lanes], side[forward - 1][LanePack::lanes];
-  double known[LanePack::lanes];  ///< 1: meets the disc of its first cell; -1: goes on; 0: not certain
+  double
+      known[LanePack::lanes];  ///< 1: meets the disc of its first cell; -1: goes on; 0: not certain
 };
 
-INLINE Real next_edge(const Real& edge) { return choose(edge == Real(counted[Crossings::edges - 1]), Real(0.0), edge + 1.0); }
+INLINE Real next_edge(const Real& edge) {
+  return choose(edge == Real(counted[Crossings::edges - 1]), Real(0.0), edge + 1.0);
+}
 
 INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int lane) {
   constexpr int forward = Crossings::forward;
@@ -155,16 +163,19 @@ INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int
   Real edge = begin.edge;
   store(edge, c.edge + lane);
   for (int i = 0; i < forward; ++i) {
-    const Real x = look_up<Reach::eight>(t.beyond_x, edge), y = look_up<Reach::eight>(t.beyond_y, edge);
+    const Real x = look_up<Reach::eight>(t.beyond_x, edge),
+               y = look_up<Reach::eight>(t.beyond_y, edge);
     store(fused(v.x, y, -v.y * x), c.jump[i] + lane);
     if (i + 1 == forward) break;
     edge = next_edge(edge);
-    const Real px = look_up<Reach::eight>(t.edge_x, edge), py = look_up<Reach::eight>(t.edge_y, edge);
+    const Real px = look_up<Reach::eight>(t.edge_x, edge),
+               py = look_up<Reach::eight>(t.edge_y, edge);
     store(fused(line.x, py, fused(line.minus_y, px, line.offset)) + so_far, c.side[i] + lane);
   }
   const Real aside = line.side(t.point_x[0], t.point_y[0]);
   store(aside + so_far, c.aside + lane);
-  Real known = choose(begin.certain && way_of(cell) + 2.0 * t.steps <= LaneTable::farthest_cell, Real(-1.0), Real(0.0));
+  Real known = choose(begin.certain && way_of(cell) + 2.0 * t.steps <= LaneTable::farthest_cell,
+                      Real(-1.0), Real(0.0));
   // The disc of this cell was asked for, but by those that begin off it.
   const Mask off = f.start_wall < 0.0;
   if (any_of(off)) [[unlikely]] {
@@ -184,7 +195,8 @@ INLINE Crossed cross_edges(const View& f, const Crossings& c, CellOf& cell, int 
     crossed[i] = Real(0.0);
     if (i + 1 < forward) side[i] = load(c.side[i] + lane);
   }
-  const Real roots = doubts_at(way_of(cell) + 2.0 * t.steps) * f.roots, square = t.second_number[0] * f.square_speed;
+  const Real roots = doubts_at(way_of(cell) + 2.0 * t.steps) * f.roots,
+             square = t.second_number[0] * f.square_speed;
   Real aside = load(c.aside + lane), known = load(c.known + lane);
   Mask meets = known > 0.0, under_way = known < 0.0;
   for (int step = 0; step < t.steps; ++step) {

@@ -14,19 +14,22 @@ using geometry::Vector;
 
 namespace {
 
-// What rounding moves a flight by among the entries, in entries: its direction by less than 2^-42, its offset
-// by 2^-39 S/r.
+// What rounding moves a flight by among the entries, in entries: its direction by less than 2^-42,
+// its offset by 2^-39 S/r.
 constexpr double slack = 0x1p-20;
 constexpr double largest_sizes_of_radius = 0x1p10;
 // Discs farther away in one of the lattice's directions are not looked for.
 constexpr int farthest = 16;
-constexpr long most_without = LaneTable::sight_directions * LaneTable::sight_offsets / 16;  // of a half
+constexpr long most_without =
+    LaneTable::sight_directions * LaneTable::sight_offsets / 16;  // of a half
 // Who goes from cell to cell goes to his first disc.
 constexpr int steps_of_walkers = 4;
 
 struct Range {
   double low, high;
-  friend Range operator+(const Range& a, const Range& b) { return {a.low + b.low, a.high + b.high}; }
+  friend Range operator+(const Range& a, const Range& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
 };
 
 /// A copy of the disc, seen from the one where flights begin.
@@ -36,22 +39,23 @@ struct Disc {
   double distance;
 };
 
-/// The discs that some flights see: they meet the first one if they cut it, or else the other if they cut that, or else go on from there.
+/// The discs that some flights see: they meet the first one if they cut it, or else the other if
+/// they cut that, or else go on from there.
 struct Seen {
   const Disc* first;
   const Disc* then;
 };
 
-/// Flights of unit speed that stand on a disc, or pass it: directions from `from` to `to`, v x (centre - start)
-/// between two offsets.
+/// Flights of unit speed that stand on a disc, or pass it: directions from `from` to `to`, v x
+/// (centre - start) between two offsets.
 struct Flights {
   Vector from, to;
   double angle;  ///< between them, or more
   Range offsets;
 };
 
-/// The values of a function of the direction that is a sine of this amplitude: off the straight line between
-/// its ends by an eighth of its second derivative.
+/// The values of a function of the direction that is a sine of this amplitude: off the straight
+/// line between its ends by an eighth of its second derivative.
 Range of_sine(double a, double b, double amplitude, double angle) {
   const double off = 0.125 * amplitude * angle * angle;
   return {std::min(a, b) - off, std::max(a, b) + off};
@@ -65,10 +69,14 @@ struct Candidate {
 
 class Sights {
  public:
-  explicit Sights(LaneTable& t) : table_(t), radius_(t.radius[0]), entries_(LaneTable::entries, LaneTable::no_sight) {
-    // A disc is cut beyond the margin in which its discriminant would not be certain after the flight, of more cells the
-    // longer it is; and passed beyond that of a side. What is entered lies twice as far from both, so it need not be asked.
-    const auto margin = [&](double cells) { return (1.0 + 0.125 * cells * cells) * side_margin * t.size * t.sizes_of_radius; };
+  explicit Sights(LaneTable& t)
+      : table_(t), radius_(t.radius[0]), entries_(LaneTable::entries, LaneTable::no_sight) {
+    // A disc is cut beyond the margin in which its discriminant would not be certain after the
+    // flight, of more cells the longer it is; and passed beyond that of a side. What is entered
+    // lies twice as far from both, so it need not be asked.
+    const auto margin = [&](double cells) {
+      return (1.0 + 0.125 * cells * cells) * side_margin * t.size * t.sizes_of_radius;
+    };
     margin_ = 2.0 * margin(LaneTable::farthest_cell);
     t.cut_within = radius_ - margin(LaneTable::near_cell);
     t.cut_within_far = radius_ - margin(LaneTable::farthest_cell);
@@ -82,16 +90,18 @@ class Sights {
   std::vector<std::uint32_t> make() {
     std::vector<const Disc*> all;
     for (const Disc& disc : discs_) all.push_back(&disc);
-    for (int quadrant : {0, 2}) fill(quadrant, 0, LaneTable::sight_directions, 0, LaneTable::sight_offsets, all);
+    for (int quadrant : {0, 2})
+      fill(quadrant, 0, LaneTable::sight_directions, 0, LaneTable::sight_offsets, all);
     if (without_ > most_without) entries_.clear();
     return std::move(entries_);
   }
 
  private:
-  /// All of them up to a distance, nearest first; and how far aside a disc may lie that a flight goes on from: between the
-  /// rows that lie farthest apart one is never farther.
+  /// All of them up to a distance, nearest first; and how far aside a disc may lie that a flight
+  /// goes on from: between the rows that lie farthest apart one is never farther.
   void find_discs() {
-    const Vector a{table_.lattice_x[0], table_.lattice_y[0]}, b{table_.lattice_x[1], table_.lattice_y[1]};
+    const Vector a{table_.lattice_x[0], table_.lattice_y[0]},
+        b{table_.lattice_x[1], table_.lattice_y[1]};
     const double area = std::fabs(cross(a, b));
     // L = n a + m b has |n| = |L x b| / |a x b|.
     const double complete_to = farthest * area / std::sqrt(std::max(dot(a, a), dot(b, b)));
@@ -113,30 +123,41 @@ class Sights {
   }
 
   /// Those of the entries from one direction and offset up to, but without, another.
-  Flights flights(int quadrant, int direction, int end_direction, int offset, int end_offset) const {
+  Flights flights(int quadrant, int direction, int end_direction, int offset,
+                  int end_offset) const {
     const double half = 0.5 * LaneTable::sight_directions, middle = 0.5 * LaneTable::sight_offsets;
     const double largest = std::sqrt(0.5) * (1.0 + slack);
     const auto small = [&](double at) {
       return std::clamp((at - 0.5 - half) / table_.directions_per_unit, -largest, largest);
     };
     const auto aside = [&](double at) {
-      return std::clamp((at - 0.5 - middle) / table_.offsets_per_length, -widest_ - margin_, widest_ + margin_);
+      return std::clamp((at - 0.5 - middle) / table_.offsets_per_length, -widest_ - margin_,
+                        widest_ + margin_);
     };
     const auto unit = [&](double x) {
       const double big = std::sqrt(1.0 - x * x);
       return quadrant == 0 ? Vector{big, x} : Vector{x, big};
     };
     const double from = small(direction - slack), to = small(end_direction + slack);
-    return {unit(from), unit(to), 1.5 * (to - from), {aside(offset - slack), aside(end_offset + slack)}};
+    return {unit(from),
+            unit(to),
+            1.5 * (to - from),
+            {aside(offset - slack), aside(end_offset + slack)}};
   }
 
-  bool surely_cut(const Candidate& c) const { return c.side.low > -radius_ + margin_ && c.side.high < radius_ - margin_; }
+  bool surely_cut(const Candidate& c) const {
+    return c.side.low > -radius_ + margin_ && c.side.high < radius_ - margin_;
+  }
   bool in_reach(const Candidate& c) const { return c.side.low > -widest_ && c.side.high < widest_; }
-  bool before(const Candidate& p, const Candidate& q) const { return p.ahead.high + margin_ < q.ahead.low; }
+  bool before(const Candidate& p, const Candidate& q) const {
+    return p.ahead.high + margin_ < q.ahead.low;
+  }
 
-  /// The discs ahead that some of these flights may cut, and those that all pass near enough to go on from, among some that stand by
-  /// their distance. False: it is not certain of one that it lies ahead. What some of the flights may meet or go on from is put into `near`.
-  bool look(const Flights& f, const std::vector<const Disc*>& among, std::vector<const Disc*>& near) {
+  /// The discs ahead that some of these flights may cut, and those that all pass near enough to go
+  /// on from, among some that stand by their distance. False: it is not certain of one that it lies
+  /// ahead. What some of the flights may meet or go on from is put into `near`.
+  bool look(const Flights& f, const std::vector<const Disc*>& among,
+            std::vector<const Disc*>& near) {
     met_.clear();
     passed_.clear();
     bool ordered = true;
@@ -144,11 +165,12 @@ class Sights {
     for (const Disc* each : among) {
       const Disc& disc = *each;
       if (least_ahead(disc.distance) > end) break;
-      const Range side =
-          f.offsets + of_sine(cross(f.from, disc.place), cross(f.to, disc.place), disc.distance, f.angle);
+      const Range side = f.offsets + of_sine(cross(f.from, disc.place), cross(f.to, disc.place),
+                                             disc.distance, f.angle);
       if (side.low > widest_ || side.high < -widest_) continue;
       const bool may_cut = side.low < radius_ + margin_ && side.high > -radius_ - margin_;
-      const Range ahead = of_sine(dot(f.from, disc.place), dot(f.to, disc.place), disc.distance, f.angle);
+      const Range ahead =
+          of_sine(dot(f.from, disc.place), dot(f.to, disc.place), disc.distance, f.angle);
       const Candidate candidate{&disc, side, ahead};
       if (ahead.high < -margin_) continue;
       near.push_back(each);
@@ -181,13 +203,15 @@ class Sights {
       if (&c != after) end = std::min(end, c.ahead.low);
     const Candidate* best = nullptr;
     for (const Candidate& c : passed_)
-      if (c.ahead.high + margin_ < end && (!after || before(*after, c)) && (!best || c.ahead.low > best->ahead.low))
+      if (c.ahead.high + margin_ < end && (!after || before(*after, c)) &&
+          (!best || c.ahead.low > best->ahead.low))
         best = &c;
     return best;
   }
 
   /// What all of these flights see.
-  std::optional<Seen> seen_by(const Flights& f, const std::vector<const Disc*>& among, std::vector<const Disc*>& near) {
+  std::optional<Seen> seen_by(const Flights& f, const std::vector<const Disc*>& among,
+                              std::vector<const Disc*>& near) {
     if (!look(f, among, near)) return {};
     const auto seen = [](const Candidate* first, const Candidate* then) -> std::optional<Seen> {
       if (!first || !then) return {};
@@ -205,8 +229,10 @@ class Sights {
     return seen(first, in_reach(*first) ? first : nullptr);
   }
 
-  /// All entries of these directions and offsets: together if they all meet a disc there, else by quarters.
-  void fill(int quadrant, int direction, int end_direction, int offset, int end_offset, const std::vector<const Disc*>& among) {
+  /// All entries of these directions and offsets: together if they all meet a disc there, else by
+  /// quarters.
+  void fill(int quadrant, int direction, int end_direction, int offset, int end_offset,
+            const std::vector<const Disc*>& among) {
     if (without_ > most_without) return;
     const bool single = end_direction - direction == 1 && end_offset - offset == 1;
     const Flights all = flights(quadrant, direction, end_direction, offset, end_offset);
@@ -223,28 +249,34 @@ class Sights {
       if (middle < to) each(middle, to);
     };
     halves(direction, end_direction, [&](int d, int end_d) {
-      halves(offset, end_offset, [&](int o, int end_o) { fill(quadrant, d, end_d, o, end_o, near); });
+      halves(offset, end_offset,
+             [&](int o, int end_o) { fill(quadrant, d, end_d, o, end_o, near); });
     });
   }
   bool ends_at(const Disc& disc, const Flights& f) const {
-    return surely_cut({&disc, f.offsets + of_sine(cross(f.from, disc.place), cross(f.to, disc.place), disc.distance, f.angle), {}});
+    return surely_cut({&disc,
+                       f.offsets + of_sine(cross(f.from, disc.place), cross(f.to, disc.place),
+                                           disc.distance, f.angle),
+                       {}});
   }
 
-  void enter(int quadrant, int direction, int end_direction, int offset, int end_offset, const Seen& seen) {
+  void enter(int quadrant, int direction, int end_direction, int offset, int end_offset,
+             const Seen& seen) {
     const auto entry = [&](int q, int d, int o) -> std::uint32_t& {
       return entries_[static_cast<std::size_t>(
           (q * LaneTable::sight_directions + d) * LaneTable::sight_offsets + o)];
     };
     const auto sight = [&](int sign) {
-      return LaneTable::sight_of(sign * seen.first->first, sign * seen.first->second, sign * seen.then->first,
-                                 sign * seen.then->second);
+      return LaneTable::sight_of(sign * seen.first->first, sign * seen.first->second,
+                                 sign * seen.then->first, sign * seen.then->second);
     };
     const std::uint32_t number = sight(1), opposite = sight(-1);
     for (int d = direction; d < end_direction; ++d)
       for (int o = offset; o < end_offset; ++o) {
         entry(quadrant, d, o) = number;
         if (d > 0)
-          entry(quadrant + 1, LaneTable::sight_directions - d, o) = opposite;  // no flight has direction 0
+          entry(quadrant + 1, LaneTable::sight_directions - d, o) =
+              opposite;  // no flight has direction 0
       }
   }
 
@@ -253,8 +285,8 @@ class Sights {
   std::vector<std::uint32_t> entries_;
   std::vector<Disc> discs_;
   std::vector<Candidate> met_, passed_;  ///< by the flights that look()
-  double widest_ = 0.0;    ///< side of a disc that is gone on from
-  double known_to_ = 0.0;  ///< ahead: discs_ has all up to there
+  double widest_ = 0.0;                  ///< side of a disc that is gone on from
+  double known_to_ = 0.0;                ///< ahead: discs_ has all up to there
   double margin_ = 0.0;
   long without_ = 0;
 };
@@ -262,7 +294,8 @@ class Sights {
 }  // namespace
 
 std::vector<std::uint32_t> discs_in_sight(LaneTable& t) {
-  if (t.edges == 0 || t.pieces != 1 || t.divided || !(t.sizes_of_radius < largest_sizes_of_radius)) return {};
+  if (t.edges == 0 || t.pieces != 1 || t.divided || !(t.sizes_of_radius < largest_sizes_of_radius))
+    return {};
   std::vector<std::uint32_t> entries = Sights(t).make();
   if (entries.empty()) return {};
   t.sights = entries.data();

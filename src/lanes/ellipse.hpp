@@ -1,7 +1,8 @@
-// Straight flights against ellipses in lanes. Included by kernel.hpp inside the namespace of its instruction set.
+// Straight flights against ellipses in lanes. Included by kernel.hpp inside the namespace of its
+// instruction set.
 //
-// The form that is 1 on an ellipse, times the square of a length below its smaller semi-axis, has the sizes of a circle's
-// e.e - r^2: so it is chosen with a circle's margins.
+// The form that is 1 on an ellipse, times the square of a length below its smaller semi-axis, has
+// the sizes of a circle's e.e - r^2: so it is chosen with a circle's margins.
 
 /// What is needed of the ellipse that was chosen.
 struct MetEllipse {
@@ -13,8 +14,16 @@ template <class Kind>
 INLINE MetEllipse ellipse_met_by(const LaneTable& t, const Real& piece) {
   const auto of = [&](const double* numbers) { return number_of<Kind>(numbers, piece); };
   const auto& all = t.ellipses;
-  MetEllipse met{{of(all.axis_x), of(all.axis_y)}, {of(all.first_x), of(all.first_y)}, {of(all.second_x), of(all.second_y)},
-                 of(all.along), of(all.across), of(all.shrink), of(all.off), of(all.at_start), of(all.inward), Mask(true)};
+  MetEllipse met{{of(all.axis_x), of(all.axis_y)},
+                 {of(all.first_x), of(all.first_y)},
+                 {of(all.second_x), of(all.second_y)},
+                 of(all.along),
+                 of(all.across),
+                 of(all.shrink),
+                 of(all.off),
+                 of(all.at_start),
+                 of(all.inward),
+                 Mask(true)};
   if constexpr (Kind::segments || Kind::circles) met.is = met.shrink > 0.0;
   return met;
 }
@@ -24,16 +33,17 @@ INLINE Cut cut_of_ellipse(const View& f, int i) {
   const LaneTable& t = f.table;
   const auto& all = t.ellipses;
   const Real shrink(all.shrink[i]);
-  const auto q = geometry::ellipse_quadratic(f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])}, f.velocity,
-                                             {Real(all.axis_x[i]), Real(all.axis_y[i])}, Real(all.along[i]), Real(all.across[i]));
+  const auto q = geometry::ellipse_quadratic(
+      f.origin - Vector{Real(t.point_x[i]), Real(t.point_y[i])}, f.velocity,
+      {Real(all.axis_x[i]), Real(all.axis_y[i])}, Real(all.along[i]), Real(all.across[i]));
   const Real square = shrink * q.c;
   return {shrink * q.b, square, (shrink * shrink) * fused(q.b, q.b, -(q.a * q.c)), 1.0 / square};
 }
 
 /// Time of the flight to an ellipse.
 template <class Kind>
-INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetEllipse& met, const Real& orientation,
-                                      const Mask& stands) {
+INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetEllipse& met,
+                                      const Real& orientation, const Mask& stands) {
   auto q = geometry::ellipse_quadratic(e, f.velocity, met.axis, met.along, met.across);
   // On the only wall there is: no root is taken.
   if constexpr (Kind::alone) return {Real(2.0) * abs(q.b), q.c, Mask(true)};
@@ -54,7 +64,8 @@ struct LandedOnEllipse {
   Mask certain;  ///< on the wall, and not near the start of a closed one
 };
 template <class Kind>
-INLINE LandedOnEllipse land_on_ellipse(const Vector& point, const Vector& d, const MetEllipse& met) {
+INLINE LandedOnEllipse land_on_ellipse(const Vector& point, const Vector& d,
+                                       const MetEllipse& met) {
   const auto on = geometry::on_ellipse(d, met.first, met.second);
   const Vector place = geometry::moved(point, on.step, d);
   Mask certain = abs(on.image.y) > met.at_start;

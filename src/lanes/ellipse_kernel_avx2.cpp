@@ -2,6 +2,8 @@
 
 namespace carom::lanes {
 
-Kernels avx2_ellipse_kernels(const LaneTable& table, Turn turn) { return ellipse_kernels_of(table, turn); }
+Kernels avx2_ellipse_kernels(const LaneTable& table, Turn turn) {
+  return ellipse_kernels_of(table, turn);
+}
 
 }  // namespace carom::lanes

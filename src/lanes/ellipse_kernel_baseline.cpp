@@ -2,6 +2,8 @@
 
 namespace carom::lanes {
 
-Kernels baseline_ellipse_kernels(const LaneTable& table, Turn turn) { return ellipse_kernels_of(table, turn); }
+Kernels baseline_ellipse_kernels(const LaneTable& table, Turn turn) {
+  return ellipse_kernels_of(table, turn);
+}
 
 }  // namespace carom::lanes

@@ -9,9 +9,9 @@ using geometry::Vector;
 
 namespace {
 
-/// Is a joint inside the cap between an arc and its chord? A flight within a cap meets its arc again. One
-/// within 2^-40 S of the chord is not: no line that keeps 2^-36 S from all joints passes between it and both
-/// ends.
+/// Is a joint inside the cap between an arc and its chord? A flight within a cap meets its arc
+/// again. One within 2^-40 S of the chord is not: no line that keeps 2^-36 S from all joints passes
+/// between it and both ends.
 bool in_cap(const LaneTable& t, int arc, int end, int joint) {
   const Vector a{t.joint_x[arc], t.joint_y[arc]}, b{t.joint_x[end], t.joint_y[end]},
       q{t.joint_x[joint], t.joint_y[joint]};
@@ -23,7 +23,8 @@ bool in_cap(const LaneTable& t, int arc, int end, int joint) {
 }  // namespace
 
 void prepare_exits(LaneTable& t) {
-  if (t.convex || t.open || t.edges > 0 || t.ellipses.any || t.pieces > LaneTable::most_signs) return;
+  if (t.convex || t.open || t.edges > 0 || t.ellipses.any || t.pieces > LaneTable::most_signs)
+    return;
   for (int loop = 0; loop < t.loops; ++loop) {
     const int first = t.first[loop], end = first + t.count[loop];
     for (int i = first; i < end; ++i) {

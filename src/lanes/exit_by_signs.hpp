@@ -1,10 +1,11 @@
-// Which piece a straight flight from another one meets first, told by the sides of all joints alone.
+// Which piece a straight flight from another one meets first, told by the sides of all joints
+// alone.
 //
-// The directed lines that have given joints on their left and the others on their right are a convex set, so
-// any two of them can be moved into each other without passing a joint. On the way what a flight crosses can
-// change only where it touches an arc from the domain's side: never, if all arcs bulge out of it. So flights
-// from one piece with the same joints on their right leave by the same piece, and one of them tells
-// (docs/developer/lanes.md).
+// The directed lines that have given joints on their left and the others on their right are a
+// convex set, so any two of them can be moved into each other without passing a joint. On the way
+// what a flight crosses can change only where it touches an arc from the domain's side: never, if
+// all arcs bulge out of it. So flights from one piece with the same joints on their right leave by
+// the same piece, and one of them tells (docs/developer/lanes.md).
 #pragma once
 
 #include "carom/geometry/vector.hpp"

@@ -32,10 +32,12 @@ constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
 // After so many the cells of hits, a signed byte each, are taken out of 32 bits.
 constexpr std::uint64_t most_sweeps = std::uint64_t{1} << 23;
 
-/// Flights get no farther than the diameter of their circle from where they began; straight ones as far as you like.
+/// Flights get no farther than the diameter of their circle from where they began; straight ones as
+/// far as you like.
 double reach_of(const std::vector<Particle>& particles) {
   double reach = 0.0;
-  for (const Particle& p : particles) reach = std::max(reach, p.omega == 0.0 ? HUGE_VAL : 2.0 * p.speed / std::fabs(p.omega));
+  for (const Particle& p : particles)
+    reach = std::max(reach, p.omega == 0.0 ? HUGE_VAL : 2.0 * p.speed / std::fabs(p.omega));
   return reach;
 }
 
@@ -52,7 +54,8 @@ class OneEvent : public Observer {
 
 class FreeLanes::Implementation {
  public:
-  Implementation(const Table& the_table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)
+  Implementation(const Table& the_table, const std::vector<Particle>& particles, InstructionSet set,
+                 DecisionOptions options)
       : table(the_table),
         scalar(the_table, options),
         finder(the_table, options),
@@ -62,10 +65,12 @@ class FreeLanes::Implementation {
         kernels(lanes::kernels_for(set, pieces, turn)) {
     if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
     for (Lanes* l : {&main, &entrance}) l->pack.walkers = &walkers;
-    if (!available(set)) throw std::invalid_argument("this machine does not have the instruction set");
+    if (!available(set))
+      throw std::invalid_argument("this machine does not have the instruction set");
   }
 
-  void run_until(double t_end, const std::function<bool(LaneStart&)>& next, const std::function<void(const LaneEnd&)>& ended,
+  void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
+                 const std::function<void(const LaneEnd&)>& ended,
                  const std::function<bool()>& interrupted) {
     source = &next;
     sink = &ended;
@@ -126,14 +131,16 @@ class FreeLanes::Implementation {
     return stopped;
   }
   /// Lanes that a sweep touches.
-  int rounded_up(int used) const { return (used + kernels.width - 1) / kernels.width * kernels.width; }
+  int rounded_up(int used) const {
+    return (used + kernels.width - 1) / kernels.width * kernels.width;
+  }
 
   /// What a lane's trajectory needs besides its numbers in the pack.
   struct Trajectory {
-    LaneStart start;              ///< or where the scalar engine left it
-    std::uint64_t first_hits = 0; ///< when it began
-    std::size_t reported = 0;     ///< times
-    std::uint64_t told = 0;       ///< hits that were reported, if they are
+    LaneStart start;               ///< or where the scalar engine left it
+    std::uint64_t first_hits = 0;  ///< when it began
+    std::size_t reported = 0;      ///< times
+    std::uint64_t told = 0;        ///< hits that were reported, if they are
   };
   struct Lanes {
     LanePack pack;
@@ -202,8 +209,10 @@ class FreeLanes::Implementation {
     effort.idle += static_cast<std::uint64_t>(LanePack::lanes - entrance.busy);
     for (int lane = 0; lane < LanePack::lanes; ++lane) {
       Trajectory& mine = entrance.trajectories[lane];
-      const bool has_hit = entrance.pack.active[lane] != 0.0 && entrance.pack.hits(lane) != static_cast<double>(mine.start.hits);
-      if (has_hit) report(mine, mine.start.state, {entrance.pack.high[lane], entrance.pack.low[lane]});
+      const bool has_hit = entrance.pack.active[lane] != 0.0 &&
+                           entrance.pack.hits(lane) != static_cast<double>(mine.start.hits);
+      if (has_hit)
+        report(mine, mine.start.state, {entrance.pack.high[lane], entrance.pack.low[lane]});
     }
     const std::vector<int> enough = report_hits(entrance);
     const int calls = entrance.pack.calls;
@@ -224,12 +233,15 @@ class FreeLanes::Implementation {
         exhausted = true;
         return false;
       }
-      if (turn_of(mine.start.particle.omega) != turn) throw std::invalid_argument("a particle that turns another way");
+      if (turn_of(mine.start.particle.omega) != turn)
+        throw std::invalid_argument("a particle that turns another way");
       mine.first_hits = mine.start.hits;
       mine.reported = 0;
       mine.told = mine.start.hits;
-      while (mine.reported < times.size() && Time(times[mine.reported]) < mine.start.state.time) ++mine.reported;
-      if (!(mine.start.state.time > Time(main.pack.end)) && lanes::can_start(pieces, finder, mine.start)) {
+      while (mine.reported < times.size() && Time(times[mine.reported]) < mine.start.state.time)
+        ++mine.reported;
+      if (!(mine.start.state.time > Time(main.pack.end)) &&
+          lanes::can_start(pieces, finder, mine.start)) {
         resume(lanes, lane);
         return true;
       }
@@ -249,9 +261,11 @@ class FreeLanes::Implementation {
   /// When a lane is to be looked at. First flights are looked at once they are made.
   double until(const Lanes& lanes, int lane) const {
     const std::size_t next = lanes.trajectories[lane].reported;
-    return &lanes == &main && next < times.size() ? std::min(times[next], lanes.pack.end) : lanes.pack.end;
+    return &lanes == &main && next < times.size() ? std::min(times[next], lanes.pack.end)
+                                                  : lanes.pack.end;
   }
-  /// Reports a trajectory that flies on from its last event, at times before `t` or, if that counts, at it.
+  /// Reports a trajectory that flies on from its last event, at times before `t` or, if that
+  /// counts, at it.
   void report(Trajectory& mine, const State& last, Time t, bool counts = false) {
     for (; mine.reported < times.size(); ++mine.reported) {
       const Time next = times[mine.reported];
@@ -270,7 +284,8 @@ class FreeLanes::Implementation {
       if (hits == mine.told) continue;
       mine.told = hits;
       // Of its last one a call tells.
-      if (!hit(mine.start.tag, state_on_wall(lanes.pack, lane)) && hits < limit) enough.push_back(lane);
+      if (!hit(mine.start.tag, state_on_wall(lanes.pack, lane)) && hits < limit)
+        enough.push_back(lane);
     }
     return enough;
   }
@@ -278,7 +293,14 @@ class FreeLanes::Implementation {
   void end_after_hit(Lanes& lanes, int lane) {
     lanes.leave(lane);
     const Trajectory& mine = lanes.trajectories[lane];
-    (*sink)({mine.start.tag, Fate::survived, mine.start.state.time, mine.start.state, -1, mine.start.hits, last_wall(mine), {}});
+    (*sink)({mine.start.tag,
+             Fate::survived,
+             mine.start.state.time,
+             mine.start.state,
+             -1,
+             mine.start.hits,
+             last_wall(mine),
+             {}});
   }
   State state_on_wall(const LanePack& pack, int lane) const {
     State s = last_event(pack, lane);
@@ -338,10 +360,12 @@ class FreeLanes::Implementation {
       const std::size_t before = mine.reported;
       report(mine, last_event(lanes.pack, lane), survives ? last : there, survives);
       lanes.pack.until[lane] = until(lanes, lane);
-      // A first flight that ends when the run does must not be flown by the kernel of those who stand on walls.
+      // A first flight that ends when the run does must not be flown by the kernel of those who
+      // stand on walls.
       if (&lanes == &main && call == Call::over && !survives && mine.reported > before) {
         if (lanes.pack.hits(lane) == static_cast<double>(mine.start.hits))
-          resume(lanes, lane);  // on a lattice, who began off the discs must find the first one again
+          resume(lanes,
+                 lane);  // on a lattice, who began off the discs must find the first one again
         else
           lanes::look_again(lanes.pack, lane);
         return true;
@@ -352,7 +376,8 @@ class FreeLanes::Implementation {
     if (call == Call::undecided || (call == Call::over && !survives)) return go_on(lanes, lane);
     const State& s = mine.start.state;
     ++filter;
-    LaneEnd end{mine.start.tag, Fate::survived, s.time, s, -1, mine.start.hits, last_wall(mine), {}};
+    LaneEnd end{mine.start.tag,  Fate::survived,  s.time, s, -1,
+                mine.start.hits, last_wall(mine), {}};
     if (call == Call::escaped) {
       end.fate = Fate::escaped;
       end.time = {met.high, met.low};
@@ -365,7 +390,9 @@ class FreeLanes::Implementation {
     return false;
   }
 
-  static int last_wall(const Trajectory& t) { return t.start.hits > t.first_hits ? t.start.state.wall : -1; }
+  static int last_wall(const Trajectory& t) {
+    return t.start.hits > t.first_hits ? t.start.state.wall : -1;
+  }
 
   /// One event by the scalar engine; false if it ends the trajectory.
   bool go_on(Lanes& lanes, int lane) {
@@ -401,8 +428,8 @@ class FreeLanes::Implementation {
       return go_on(lanes, lane);  // from a joint
     }
     lanes.leave(lane);
-    (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? event.time : scalar.state(0).time, mine.start.state,
-             scalar.hole(0), mine.start.hits, last_wall(mine), scalar.report(0)});
+    (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? event.time : scalar.state(0).time,
+             mine.start.state, scalar.hole(0), mine.start.hits, last_wall(mine), scalar.report(0)});
     return false;
   }
 
@@ -412,15 +439,19 @@ class FreeLanes::Implementation {
     if (!pieces.by_signs || turn != Turn::straight || s.wall < 0) return -1;
     // The world flies from u where the position is another one.
     const geometry::PreparedCurve& w = finder.curve(s.wall);
-    if (!(s.u > geometry::first_parameter && s.u < w.last() && w.parameter(s.position) == s.u)) return -1;
+    if (!(s.u > geometry::first_parameter && s.u < w.last() && w.parameter(s.position) == s.u))
+      return -1;
     const int piece = lanes::piece_at(pieces, s.wall, s.u);
-    return piece < 0 ? -1 : lanes::entry_of(pieces, piece, s.position, s.velocity, lanes::side_margin * pieces.size * start.particle.speed);
+    return piece < 0 ? -1
+                     : lanes::entry_of(pieces, piece, s.position, s.velocity,
+                                       lanes::side_margin * pieces.size * start.particle.speed);
   }
   /// What the scalar engine has just seen: all flights of this entry leave there.
   void learn(int entry, std::uint64_t hits_before) {
     int piece = -1;
     if (scalar.fate(0) == Fate::escaped)
-      for (int i = 0; i < pieces.pieces; ++i) piece = static_cast<int>(pieces.hole[i]) == scalar.hole(0) ? i : piece;
+      for (int i = 0; i < pieces.pieces; ++i)
+        piece = static_cast<int>(pieces.hole[i]) == scalar.hole(0) ? i : piece;
     else if (scalar.hits(0) == hits_before + 1 && scalar.state(0).u > geometry::first_parameter)
       piece = lanes::piece_at(pieces, scalar.state(0).wall, scalar.state(0).u);
     if (piece >= 0) pieces.exit[entry] = static_cast<unsigned char>(piece);
@@ -431,7 +462,7 @@ class FreeLanes::Implementation {
   const std::function<bool()>* stop = nullptr;
   bool stopped = false;
   Lanes main;
-  Lanes entrance;   ///< used where particles are not born on walls and `on_walls` cannot fly them
+  Lanes entrance;  ///< used where particles are not born on walls and `on_walls` cannot fly them
   LanePack walkers;
   int waiting = 0;  ///< the next lane of the entrance that may wait
   bool exhausted = false;
@@ -441,14 +472,16 @@ std::string FreeLanes::hindrance(const Table& table, const std::vector<Particle>
   if (particles.empty()) return "there are no particles";
   for (const Particle& p : particles) {
     if (p.radius != 0.0) return "particles are discs";
-    if (turn_of(p.omega) != turn_of(particles[0].omega)) return "particles do not all turn the same way";
+    if (turn_of(p.omega) != turn_of(particles[0].omega))
+      return "particles do not all turn the same way";
     if (!lanes::moderate(p.speed) || (p.omega != 0.0 && !lanes::moderate(std::fabs(p.omega))))
       return "a speed or cyclotron frequency that is not between 1e-30 and 1e30";
   }
   return lanes::misfit(table, reach_of(particles));
 }
 
-FreeLanes::FreeLanes(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options)
+FreeLanes::FreeLanes(const Table& table, const std::vector<Particle>& particles, InstructionSet set,
+                     DecisionOptions options)
     : implementation_(std::make_unique<Implementation>(table, particles, set, options)) {}
 FreeLanes::~FreeLanes() = default;
 
@@ -459,7 +492,8 @@ void FreeLanes::sample_at(std::vector<double> times, Sampled sampled) {
 }
 void FreeLanes::report_hits(Hit hit) { implementation_->hit = std::move(hit); }
 void FreeLanes::run_until(double t_end, const std::function<bool(LaneStart&)>& next,
-                          const std::function<void(const LaneEnd&)>& ended, const std::function<bool()>& interrupted) {
+                          const std::function<void(const LaneEnd&)>& ended,
+                          const std::function<bool()>& interrupted) {
   implementation_->run_until(t_end, next, ended, interrupted);
 }
 DecisionCounts FreeLanes::decisions() const { return implementation_->decisions(); }

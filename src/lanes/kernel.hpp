@@ -1,8 +1,9 @@
-// The kernels of one instruction set: included once by each kernel_*.cpp, which names the namespace.
+// The kernels of one instruction set: included once by each kernel_*.cpp, which names the
+// namespace.
 //
-// No container and no algorithm of the standard library, and nothing outside the unnamed namespace but
-// templates over the lanes' own type: a weak symbol made of wide instructions could be linked into the
-// rest of the program.
+// No container and no algorithm of the standard library, and nothing outside the unnamed namespace
+// but templates over the lanes' own type: a weak symbol made of wide instructions could be linked
+// into the rest of the program.
 #pragma once
 
 #include <bit>
@@ -29,8 +30,9 @@ namespace simd = std::experimental;
 #include "lanes/words.hpp"
 using Vector = geometry::BasicVector<Real>;
 
-// A sign is certain if the number is beyond this share of its largest size: far more than what rounding does
-// (docs/developer/lanes.md). Where times are compared, joints keep farther from the line.
+// A sign is certain if the number is beyond this share of its largest size: far more than what
+// rounding does (docs/developer/lanes.md). Where times are compared, joints keep farther from the
+// line.
 constexpr double sign_margin = 0x1p-36;
 constexpr double joint_margin = 0x1p-21;
 
@@ -51,12 +53,14 @@ struct Choice {
   Real kappa{};
 };
 
-/// Where the sides of the joints tell the exit, they tell, too, that it is not met along the wall (docs/developer/lanes.md).
+/// Where the sides of the joints tell the exit, they tell, too, that it is not met along the wall
+/// (docs/developer/lanes.md).
 template <class Kind>
-constexpr bool inward_is_known = (Kind::turn == 0 && Kind::convex && !Kind::ellipses) || Kind::sights;
+constexpr bool inward_is_known =
+    (Kind::turn == 0 && Kind::convex && !Kind::ellipses) || Kind::sights;
 
-/// Divisions as a stage of their own: of several pieces a flight takes so many sums that a core sees no two roots and divisions
-/// at once.
+/// Divisions as a stage of their own: of several pieces a flight takes so many sums that a core
+/// sees no two roots and divisions at once.
 template <class Kind>
 constexpr bool divides_apart = Kind::turn == 0 && (!Kind::single || Kind::sights);
 
@@ -67,7 +71,8 @@ INLINE Real number_of(const double* numbers, const Real& piece) {
   return look_up<Kind::reach>(numbers, piece);
 }
 
-/// Of what is it asked whether a flight stands on it? Larmor circles among ellipses ask it of the curve.
+/// Of what is it asked whether a flight stands on it? Larmor circles among ellipses ask it of the
+/// curve.
 template <class Kind>
 INLINE const double* wall_numbers(const LaneTable& t) {
   return Kind::turn != 0 && Kind::ellipses ? t.ellipses.curve : t.wall;
@@ -108,16 +113,19 @@ struct Where {
 #include "lanes/by_sight.hpp"
 #include "lanes/landing.hpp"
 
-template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far, bool has_cells = false,
-          bool has_ellipses = false, bool is_alone = false, bool is_single = is_alone, bool has_sights = false>
+template <int which_turn, bool is_convex, bool has_segments, bool has_circles, Reach how_far,
+          bool has_cells = false, bool has_ellipses = false, bool is_alone = false,
+          bool is_single = is_alone, bool has_sights = false>
 struct Kind {
   static constexpr int turn = which_turn;
-  static constexpr bool convex = is_convex;  ///< or without field a table where the sides of the joints tell
+  static constexpr bool convex =
+      is_convex;  ///< or without field a table where the sides of the joints tell
   static constexpr bool segments = has_segments, circles = has_circles, cells = has_cells;
   static constexpr bool ellipses = has_ellipses;
-  static constexpr bool alone = is_alone;    ///< one closed curve about the domain, on which all particles stand
-  static constexpr bool single = is_single;  ///< one piece
-  static constexpr bool sights = has_sights; ///< of a lattice, looked up (by_sight.hpp)
+  static constexpr bool alone =
+      is_alone;  ///< one closed curve about the domain, on which all particles stand
+  static constexpr bool single = is_single;   ///< one piece
+  static constexpr bool sights = has_sights;  ///< of a lattice, looked up (by_sight.hpp)
   static constexpr Reach reach = how_far;
 };
 
@@ -133,14 +141,17 @@ void kernel(const LaneTable& __restrict table, LanePack& __restrict pack) {
     else
       choose_hexagons<Kind>(table, pack, stages);
   } else {
-    for (int lane = 0; lane < pack.used; lane += width) choose_piece<Kind>(table, pack, stages, lane);
+    for (int lane = 0; lane < pack.used; lane += width)
+      choose_piece<Kind>(table, pack, stages, lane);
     if constexpr (Kind::turn == 0 && Kind::convex && !Kind::single)
       if (table.by_signs) look_up_exits(table, stages.piece, pack.used);
   }
   if constexpr (Kind::sights) {
     for (int lane = 0; lane < pack.used; lane += width) pass_in_sight(table, pack, stages, lane);
-    for (int lane = 0; lane < pack.used; lane += width) look_from_sight<Kind>(table, pack, stages, lane);
-    for (int lane = 0; lane < pack.used; lane += width) meet_in_sight<Kind>(table, pack, stages, lane);
+    for (int lane = 0; lane < pack.used; lane += width)
+      look_from_sight<Kind>(table, pack, stages, lane);
+    for (int lane = 0; lane < pack.used; lane += width)
+      meet_in_sight<Kind>(table, pack, stages, lane);
   } else if (Kind::turn == 0 || Kind::convex || Kind::cells)
     for (int lane = 0; lane < pack.used; lane += width) meet<Kind>(table, pack, stages, lane);
   if constexpr (divides_apart<Kind>)
@@ -157,7 +168,8 @@ Advance kernel_of(const LaneTable& t) {
   if (t.pieces > LaneTable::eight) return kernel<Kind<turn, convex, true, true, Reach::few>>;
   if (!t.circles) return kernel<Kind<turn, convex, true, false, Reach::eight>>;
   if constexpr (turn == 0) {
-    if (convex && t.pieces == 1) return kernel<Kind<turn, convex, false, true, Reach::eight, false, false, convex>>;
+    if (convex && t.pieces == 1)
+      return kernel<Kind<turn, convex, false, true, Reach::eight, false, false, convex>>;
     if (!t.segments) return kernel<Kind<turn, convex, false, true, Reach::eight>>;
   }
   return kernel<Kind<turn, convex, true, true, Reach::eight>>;
@@ -169,10 +181,12 @@ Kernels kernels_of(const LaneTable& t) {
     return {among_copies, among_copies, width};
   }
   if (t.edges > 0) {
-    const Advance over_cells = t.pieces > LaneTable::eight ? kernel<Kind<0, false, false, true, Reach::all, true>>
-                               : t.pieces > 1              ? kernel<Kind<0, false, false, true, Reach::eight, true>>
-                               : t.sights ? kernel<Kind<0, false, false, true, Reach::eight, true, false, false, true, true>>
-                                              : kernel<Kind<0, false, false, true, Reach::eight, true, false, false, true>>;
+    const Advance over_cells =
+        t.pieces > LaneTable::eight ? kernel<Kind<0, false, false, true, Reach::all, true>>
+        : t.pieces > 1              ? kernel<Kind<0, false, false, true, Reach::eight, true>>
+        : t.sights
+            ? kernel<Kind<0, false, false, true, Reach::eight, true, false, false, true, true>>
+            : kernel<Kind<0, false, false, true, Reach::eight, true, false, false, true>>;
     return {over_cells, over_cells, width};
   }
   const Advance anywhere = kernel_of<turn, false>(t);
@@ -185,9 +199,12 @@ Kernels kernels_of(const LaneTable& t) {
 template <class = void>
 Kernels kernels_of(const LaneTable& t, Turn turn) {
   switch (turn) {
-    case Turn::clockwise: return kernels_of<1>(t);
-    case Turn::counter_clockwise: return kernels_of<-1>(t);
-    case Turn::straight: break;
+    case Turn::clockwise:
+      return kernels_of<1>(t);
+    case Turn::counter_clockwise:
+      return kernels_of<-1>(t);
+    case Turn::straight:
+      break;
   }
   return kernels_of<0>(t);
 }

@@ -7,12 +7,16 @@
 namespace carom::lanes {
 
 /// How flights bend: all particles the same way.
-enum class Turn : signed char { counter_clockwise = -1, straight = 0, clockwise = 1 };  // the sign of omega
+enum class Turn : signed char {
+  counter_clockwise = -1,
+  straight = 0,
+  clockwise = 1
+};  // the sign of omega
 
 struct Kernels {
-  Advance on_walls;   ///< for particles that stand on a wall; in straight flights also for others
+  Advance on_walls;  ///< for particles that stand on a wall; in straight flights also for others
   Advance anywhere;
-  int width;          ///< lanes that are flown together
+  int width;  ///< lanes that are flown together
 };
 Kernels baseline_kernels(const LaneTable&, Turn);
 Kernels avx2_kernels(const LaneTable&, Turn);

@@ -1,5 +1,5 @@
-// The last stage of a hit of every lane: put back on its wall, reflected and stored; or a call. Included by kernel.hpp
-// inside the namespace of its instruction set.
+// The last stage of a hit of every lane: put back on its wall, reflected and stored; or a call.
+// Included by kernel.hpp inside the namespace of its instruction set.
 
 /// What a hit makes of a lane.
 struct Landed {
@@ -20,7 +20,9 @@ INLINE void store_all(LanePack& pack, int lane, const Landed& now) {
 /// Where it applies. Whole stores: one through a mask takes 30 ns without AVX.
 template <class Kind>
 INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& applies) {
-  const auto keep = [&](double* to, const Real& number) { store_where(applies, number, to + lane); };
+  const auto keep = [&](double* to, const Real& number) {
+    store_where(applies, number, to + lane);
+  };
   keep(pack.x, now.place.x);
   keep(pack.y, now.place.y);
   keep(pack.vx, now.velocity.x);
@@ -54,8 +56,8 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   Mask decided = load(stages.decided, lane);
   if constexpr (larmor) decided = decided && duration > 0.0;
 
-  // As PreparedCurve::arrive, but for the normal's sign, which reflections do not see. The flight of a Larmor circle
-  // must be seen to end on the wall.
+  // As PreparedCurve::arrive, but for the normal's sign, which reflections do not see. The flight
+  // of a Larmor circle must be seen to end on the wall.
   Landed now;
   now.piece = piece;
   Real step(0.0), off(0.0);
@@ -69,7 +71,8 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
     step = geometry::less_dot(choose(met.bent, Real(0.5), Real(0.0)), weighted, d);
     if constexpr (larmor) off = choose(met.bent, step * (0.5 * t.size), step);
     now.place = geometry::moved(point, step, normal);
-    if constexpr (Kind::segments) where(!met.bent, step) = Real(0.0);  // reflects by strength alone, which is 2
+    if constexpr (Kind::segments)
+      where(!met.bent, step) = Real(0.0);  // reflects by strength alone, which is 2
     const Mask circle = Kind::ellipses ? met.bent && !met.ellipse.is : met.bent;
     if (t.small_circles) decided = decided && (!circle || abs(step) < geometry::longest_step);
     if constexpr (Kind::sights)
@@ -81,7 +84,8 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
     if constexpr (larmor) off = step;
     now.place = geometry::moved(point, step, normal);
   }
-  if constexpr (larmor && Kind::ellipses) where(met.ellipse.is, off) = Real(0.0);  // they have a test of their own
+  if constexpr (larmor && Kind::ellipses)
+    where(met.ellipse.is, off) = Real(0.0);  // they have a test of their own
   if constexpr (larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
   constexpr bool bent = Kind::circles || Kind::ellipses;
   Real factor;
@@ -105,12 +109,15 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
       decided = decided && on.certain;
     }
   }
-  const geometry::EnergyShell<Real> shell{load(pack.shell_weight + lane), load(pack.shell_rest + lane)};
+  const geometry::EnergyShell<Real> shell{load(pack.shell_weight + lane),
+                                          load(pack.shell_rest + lane)};
   now.velocity = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, shell));
   // The reflection turns the normal component about, to rounding.
   Real outward = met.orientation * geometry::fused_dot(v, normal);
   if constexpr (Kind::segments) where(bent ? !met.bent : Mask(true), outward) = t.size * outward;
-  const Mask inward = inward_is_known<Kind> ? Mask(true) : outward > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);
+  const Mask inward = inward_is_known<Kind>
+                          ? Mask(true)
+                          : outward > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);
   const auto [high, low] = later(load(pack.high + lane), load(pack.low + lane), duration);
   now.high = high;
   now.low = low;
@@ -126,7 +133,8 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
     gone = load(stages.gone, lane);
     if constexpr (Kind::sights) {
       add_cells(only_where(applies, load(stages.cell + lane)), pack.cells + 2 * lane);
-      const Real short_of = -geometry::fused_cross(now.velocity, normal), aside = fused(step, short_of, short_of);
+      const Real short_of = -geometry::fused_cross(now.velocity, normal),
+                 aside = fused(step, short_of, short_of);
       store_where(applies, aside, pack.aside + lane);
       store_where(applies, aside, pack.aside_home + lane);
       store_where(gone, load(pack.born + lane) + 1.0, pack.born + lane);
@@ -139,7 +147,8 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
       store(choose(gone, cell.second, Real(0.0)), pack.cell_second + lane);
     }
   } else {
-    if (!any_of(!applies)) [[likely]] return store_all<Kind>(pack, lane, now);
+    if (!any_of(!applies)) [[likely]]
+      return store_all<Kind>(pack, lane, now);
     store_some<Kind>(pack, lane, now, applies);
   }
 
@@ -151,7 +160,9 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   if (waiting == 0) return;
   store(high, stages.high + lane);
   store(low, stages.low + lane);
-  const unsigned open = bits_of(gone), ends = bits_of(over), certain = bits_of(decided && (escaped || over || inward) && duration < __builtin_huge_val());
+  const unsigned open = bits_of(gone), ends = bits_of(over),
+                 certain = bits_of(decided && (escaped || over || inward) &&
+                                   duration < __builtin_huge_val());
   for (; waiting != 0; waiting &= waiting - 1) {
     const int i = __builtin_ctz(waiting), at = lane + i;
     const unsigned bit = 1u << i;

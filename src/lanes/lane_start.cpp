@@ -14,18 +14,21 @@ namespace {
 
 // | |c|^2 - v^2 | of a joint errs by 2^-45 g^2, g >= s + |omega| S ...
 constexpr double circle_margin = 0x1p-40;
-// ... and is |omega| d (|c| + s) <= |omega| d 2g at the distance d from the circle: beyond twice the margin of a side,
-// times |omega| S g, d is beyond that of a side.
+// ... and is |omega| d (|c| + s) <= |omega| d 2g at the distance d from the circle: beyond twice
+// the margin of a side, times |omega| S g, d is beyond that of a side.
 constexpr double near_margin = 2.0 * side_margin;
 
 /// In the open plane flights may start beyond all lengths that margins are measured by.
-bool within(const LaneTable& t, Vector p) { return std::fabs(p.x) <= 0.5 * t.size && std::fabs(p.y) <= 0.5 * t.size; }
+bool within(const LaneTable& t, Vector p) {
+  return std::fabs(p.x) <= 0.5 * t.size && std::fabs(p.y) <= 0.5 * t.size;
+}
 
 /// On a lattice flights start in the cell about the origin.
 bool in_cell(const LaneTable& t, Vector p) {
   for (int i = 0; i < t.edges; ++i) {
     const int next = i + 1 == t.edges ? 0 : i + 1;
-    const Vector from{t.edge_x[i], t.edge_y[i]}, along = Vector{t.edge_x[next], t.edge_y[next]} - from;
+    const Vector from{t.edge_x[i], t.edge_y[i]},
+        along = Vector{t.edge_x[next], t.edge_y[next]} - from;
     if (!(cross(along, p - from) > side_margin * t.size * t.size)) return false;
   }
   return true;
@@ -66,7 +69,8 @@ bool can_start(const LaneTable& t, const HitFinder& finder, LaneStart& start) {
   const auto frame = w.frame(s.u);
   if (w.parameter(s.position) != s.u) s.position = frame.point;
   const int piece = piece_at(t, s.wall, s.u);
-  return (t.bent[piece] ? 1.0 : t.size) * dot(frame.normal, s.velocity) > t.ellipses.inward[piece] * start.particle.speed;
+  return (t.bent[piece] ? 1.0 : t.size) * dot(frame.normal, s.velocity) >
+         t.ellipses.inward[piece] * start.particle.speed;
 }
 
 void put_into(LanePack& pack, int lane, const LaneTable& t, const LaneStart& start) {
@@ -84,7 +88,8 @@ void put_into(LanePack& pack, int lane, const LaneTable& t, const LaneStart& sta
   pack.home_second[lane] = static_cast<double>(s.cell.second);
   pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
   // Who begins off the discs passes none of them: what the table says for him is not looked at.
-  pack.aside_home[lane] = s.wall < 0 ? HUGE_VAL : cross(s.velocity, Vector{t.point_x[0], t.point_y[0]} - s.position);
+  pack.aside_home[lane] =
+      s.wall < 0 ? HUGE_VAL : cross(s.velocity, Vector{t.point_x[0], t.point_y[0]} - s.position);
   look_again(pack, lane);
   pack.cells[2 * lane] = pack.cells[2 * lane + 1] = 0;
   const unsigned long long bit = 1ULL << lane;

@@ -7,8 +7,9 @@
 
 namespace carom::lanes {
 
-// The side of a joint, of a cell's edge and what stands under a root err by 2^-44 of S = LaneTable::size, times the speed s, or S
-// again. In these units signs are certain beyond this, 2^5 times the error or more (docs/developer/lanes.md derives all margins).
+// The side of a joint, of a cell's edge and what stands under a root err by 2^-44 of S =
+// LaneTable::size, times the speed s, or S again. In these units signs are certain beyond this, 2^5
+// times the error or more (docs/developer/lanes.md derives all margins).
 inline constexpr double side_margin = 0x1p-36;
 
 inline Turn turn_of(double omega) {
@@ -17,8 +18,9 @@ inline Turn turn_of(double omega) {
 /// Squares and products of four such numbers are far from the ends of the doubles' range.
 inline bool moderate(double x) { return x > 1e-30 && x < 1e30; }
 
-/// May lanes fly from this state? Not from a joint, nor along a wall, nor from beyond the lengths that margins are measured by. Puts
-/// the position on its wall where it is another one, as World::add does.
+/// May lanes fly from this state? Not from a joint, nor along a wall, nor from beyond the lengths
+/// that margins are measured by. Puts the position on its wall where it is another one, as
+/// World::add does.
 bool can_start(const LaneTable&, const HitFinder&, LaneStart&);
 
 /// A flight among discs in sight that was left begins anew.

@@ -1,23 +1,30 @@
-// Larmor flights in lanes: which piece comes first, by signs with margins, and the hit there. Included by
-// kernel.hpp inside the namespace of its instruction set. docs/developer/lanes.md derives the margins.
+// Larmor flights in lanes: which piece comes first, by signs with margins, and the hit there.
+// Included by kernel.hpp inside the namespace of its instruction set. docs/developer/lanes.md
+// derives the margins.
 //
-// Signs are taken from the centre Z of the Larmor circle, seen from a joint or from the centre of an arc and times
-// |omega|: c = |omega| (Z - J), which is |omega| (P - J) + Jv for a clockwise flight. J lies inside the circle if
-// |c| is below the speed.
+// Signs are taken from the centre Z of the Larmor circle, seen from a joint or from the centre of
+// an arc and times |omega|: c = |omega| (Z - J), which is |omega| (P - J) + Jv for a clockwise
+// flight. J lies inside the circle if |c| is below the speed.
 
 struct CircleView {
-  Vector centre;  ///< |omega| Z
+  Vector centre;    ///< |omega| Z
   Real rate, back;  ///< |omega|, -|omega|
   Real minus_square_speed;
-  Real lengths;   ///< margin of all lengths times |omega| ...
-  Real squares;   ///< ... and of their squares
-  Real joints;    ///< of |c|^2 - v^2
+  Real lengths;  ///< margin of all lengths times |omega| ...
+  Real squares;  ///< ... and of their squares
+  Real joints;   ///< of |c|^2 - v^2
 };
 template <int turn>
 INLINE CircleView circle_of(const View& f) {
   const Real rate = Real(static_cast<double>(turn)) * f.omega;
   const Vector v = turn > 0 ? f.velocity : -f.velocity;
-  return {{fused(rate, f.origin.x, v.y), fused(rate, f.origin.y, -v.x)}, rate, -rate, -f.square_speed, 0x1p-40 * f.pace, (0x1p-40 * f.pace) * f.pace, f.joint_margin};
+  return {{fused(rate, f.origin.x, v.y), fused(rate, f.origin.y, -v.x)},
+          rate,
+          -rate,
+          -f.square_speed,
+          0x1p-40 * f.pace,
+          (0x1p-40 * f.pace) * f.pace,
+          f.joint_margin};
 }
 
 struct JointOfCircle {
@@ -27,17 +34,20 @@ struct JointOfCircle {
 };
 INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Real& least) {
   const LaneTable& t = f.table;
-  const Vector c{fused(z.back, Real(t.joint_x[i]), z.centre.x), fused(z.back, Real(t.joint_y[i]), z.centre.y)};
+  const Vector c{fused(z.back, Real(t.joint_x[i]), z.centre.x),
+                 fused(z.back, Real(t.joint_y[i]), z.centre.y)};
   const Real side = fused(c.x, c.x, fused(c.y, c.y, z.minus_square_speed));
   least = least_size(least, side);
   return {c, side, side < 0.0};
 }
 
-/// Positive if a segment whose ends lie outside the circle is cut twice: if the foot of the centre lies
-/// between them, nearer than the radius. Of its first end: `c` seen from it, `side` = |c|^2 - v^2.
+/// Positive if a segment whose ends lie outside the circle is cut twice: if the foot of the centre
+/// lies between them, nearer than the radius. Of its first end: `c` seen from it, `side` = |c|^2 -
+/// v^2.
 INLINE Real cut_of_segment(const View& f, const CircleView& z, int i, const JointOfCircle& end) {
   const LaneTable& t = f.table;
-  const Real foot = fused(end.centre.x, Real(t.chord_x[i]), end.centre.y * t.chord_y[i]), square = foot * foot;
+  const Real foot = fused(end.centre.x, Real(t.chord_x[i]), end.centre.y * t.chord_y[i]),
+             square = foot * foot;
   return min(fused(foot, z.rate * t.length[i], -square), square - end.side);
 }
 
@@ -46,19 +56,20 @@ INLINE Real cut_of_circle(const View& f, const CircleView& z, int i, const Real&
   const Real radius = z.rate * f.table.radius[i];
   return min(f.speed + radius - distance, distance - abs(radius - f.speed));
 }
-/// Positive if an arc whose joints lie on one side of the Larmor circle is cut twice: if its circle is, and the
-/// middle of the part on the other side lies on the arc's side of its chord.
+/// Positive if an arc whose joints lie on one side of the Larmor circle is cut twice: if its circle
+/// is, and the middle of the part on the other side lies on the arc's side of its chord.
 INLINE Real cut_of_arc(const View& f, const CircleView& z, int i, const Mask& inside) {
   const LaneTable& t = f.table;
-  const Vector c{fused(z.back, Real(t.point_x[i]), z.centre.x), fused(z.back, Real(t.point_y[i]), z.centre.y)};
+  const Vector c{fused(z.back, Real(t.point_x[i]), z.centre.x),
+                 fused(z.back, Real(t.point_y[i]), z.centre.y)};
   const Real distance = sqrt(fused(c.x, c.x, c.y * c.y));
   const Real towards = cross(Vector{Real(t.chord_x[i]), Real(t.chord_y[i])}, c);
   const Real middle = fused(distance, Real(t.chord_offset[i]), choose(inside, -towards, towards));
   return min(cut_of_circle(f, z, i, distance), -t.orientation[i] * middle);
 }
 
-/// A convex loop alone, from one of its walls: the first wall, backwards for a clockwise flight, whose joint
-/// there lies inside the circle or that is cut twice; or the start.
+/// A convex loop alone, from one of its walls: the first wall, backwards for a clockwise flight,
+/// whose joint there lies inside the circle or that is cut twice; or the start.
 template <int turn, class Kind>
 INLINE Choice exit_of_loop_by_circle(const View& f) {
   const LaneTable& t = f.table;
@@ -99,28 +110,32 @@ struct Fraction {
   Real root;  ///< of the discriminant
 };
 /// The rising root of the quadratic of a segment or circle, whose sizes are powers of two.
-INLINE Fraction rising_root(const View& f, const geometry::Quadratic<Real>& quadratic, const Mask& stands, const Real& length) {
+INLINE Fraction rising_root(const View& f, const geometry::Quadratic<Real>& quadratic,
+                            const Mask& stands, const Real& length) {
   const auto& [a, b, c] = quadratic;
   const Real discriminant = geometry::discriminant_of(quadratic);
   const Real root = sqrt(max(discriminant, Real(0.0)));
   const Real n = abs(b) + root;
   const Mask falls = b <= 0.0;
   const Real size = length * f.pace;
-  const Mask decided = (stands && b > sign_margin * size) || (!stands && discriminant > (sign_margin * size) * size &&
-                                                               (!falls || abs(a) > (sign_margin * f.table.size) * length));
+  const Mask decided = (stands && b > sign_margin * size) ||
+                       (!stands && discriminant > (sign_margin * size) * size &&
+                        (!falls || abs(a) > (sign_margin * f.table.size) * length));
   return {choose(falls, n, -c), choose(falls, a, n), decided, root};
 }
 
-/// Any table: the earliest of all exits. `finely`: each fraction is known as well as its own root, for tables that are far larger than
-/// the flights there.
+/// Any table: the earliest of all exits. `finely`: each fraction is known as well as its own root,
+/// for tables that are far larger than the flights there.
 template <bool finely>
 class EarliestOnCircle {
  public:
-  explicit EarliestOnCircle(const View& f) : f_(f), decided_(true), piece_(-1.0), p_(-1.0), q_(0.0) {}
+  explicit EarliestOnCircle(const View& f)
+      : f_(f), decided_(true), piece_(-1.0), p_(-1.0), q_(0.0) {}
 
   INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
   /// `length`: the size of the quadratic's leading coefficient in sizes.
-  INLINE void add(int i, const Mask& leaves, const geometry::Quadratic<Real>& quadratic, const Mask& stands, double length) {
+  INLINE void add(int i, const Mask& leaves, const geometry::Quadratic<Real>& quadratic,
+                  const Mask& stands, double length) {
     const Fraction r = rising_root(f_, quadratic, stands, Real(length));
     doubt(leaves && !r.decided);
     // Both brought to the sizes pace and size by powers of two, the divisor positive.
@@ -153,7 +168,8 @@ class EarliestOnCircle {
     const Real size(f_.table.size), far = abs(kappa);
     const Real q = choose(far * size <= f_.pace, size, f_.pace / far), p = kappa * q;
     const Real gap = fused(p, q_, -(p_ * q));
-    doubt(leaves && ((piece_ >= 0.0 && abs(gap) <= (0x1p-20 * size) * f_.pace) || spread * q > 0x1p-21 * f_.pace));
+    doubt(leaves && ((piece_ >= 0.0 && abs(gap) <= (0x1p-20 * size) * f_.pace) ||
+                     spread * q > 0x1p-21 * f_.pace));
     const Mask better = leaves && gap > 0.0;
     where(better, p_) = p;
     where(better, q_) = q;
@@ -161,7 +177,9 @@ class EarliestOnCircle {
     where(better, piece_) = Real(counted[i]);
     of_root_ = of_root_ || better;
   }
-  INLINE Choice choice() const { return {piece_, decided_ && piece_ >= 0.0, choose(of_root_, kappa_, p_ / q_)}; }
+  INLINE Choice choice() const {
+    return {piece_, decided_ && piece_ >= 0.0, choose(of_root_, kappa_, p_ / q_)};
+  }
 
  private:
   const View& f_;
@@ -173,16 +191,19 @@ class EarliestOnCircle {
 };
 
 /// The quadratic of a piece for flights from this start.
-INLINE geometry::Quadratic<Real> quadratic_of_segment(const View& f, const Vector& point, const Vector& tangent, const Mask& stands) {
+INLINE geometry::Quadratic<Real> quadratic_of_segment(const View& f, const Vector& point,
+                                                      const Vector& tangent, const Mask& stands) {
   Vector e = f.origin - point;
   where(stands, e.x) = Real(0.0);
   where(stands, e.y) = Real(0.0);
   return geometry::line_quadratic(e, tangent, f.velocity, f.omega, Real(0.5));
 }
-INLINE geometry::Quadratic<Real> quadratic_of_circle(const View& f, const Vector& point, const Real& square, const Real& orientation,
+INLINE geometry::Quadratic<Real> quadratic_of_circle(const View& f, const Vector& point,
+                                                     const Real& square, const Real& orientation,
                                                      const Mask& stands) {
   const Vector e = f.origin - point;
-  const auto q = geometry::circle_quadratic(e, choose(stands, dot(e, e), square), f.velocity, f.square_speed, f.omega, Real(0.5));
+  const auto q = geometry::circle_quadratic(e, choose(stands, dot(e, e), square), f.velocity,
+                                            f.square_speed, f.omega, Real(0.5));
   return {-orientation * q.a, -orientation * q.b, -orientation * q.c};
 }
 
@@ -221,7 +242,8 @@ INLINE Choice first_of_all_by_circle(const View& f) {
         leaves = stands || cut > 0.0;
       } else {
         b = i == last ? start : joint_at(f, z, i + 1, least);
-        const Mask from = turn > 0 ? a.inside : !a.inside, to = turn > 0 ? b.inside : !b.inside;  // on the right?
+        const Mask from = turn > 0 ? a.inside : !a.inside,
+                   to = turn > 0 ? b.inside : !b.inside;  // on the right?
         const Mask same = from == to, open = bent ? same && !stands : same && !stands && !a.inside;
         const Real cut = bent ? cut_of_arc(f, z, i, a.inside) : cut_of_segment(f, z, i, a);
         best.doubt(open && abs(cut) <= (bent ? z.lengths : z.squares));
@@ -231,9 +253,15 @@ INLINE Choice first_of_all_by_circle(const View& f) {
       if (!any_of(leaves)) continue;
       const Vector point{Real(t.point_x[i]), Real(t.point_y[i])};
       if (bent) {
-        best.add(i, leaves, quadratic_of_circle(f, point, Real(t.second_number[i]), Real(t.orientation[i]), stands), stands, t.size);
+        best.add(
+            i, leaves,
+            quadratic_of_circle(f, point, Real(t.second_number[i]), Real(t.orientation[i]), stands),
+            stands, t.size);
       } else {
-        best.add(i, leaves, quadratic_of_segment(f, point, {Real(-t.second_number[i]), Real(t.first_number[i])}, stands), stands, 1.0);
+        best.add(i, leaves,
+                 quadratic_of_segment(f, point,
+                                      {Real(-t.second_number[i]), Real(t.first_number[i])}, stands),
+                 stands, 1.0);
       }
     }
   }
@@ -253,11 +281,12 @@ INLINE Real angle(const Real& x, const Real& y) {
   Real steps(0.0);
   for (const double step : angle_steps) where(far * step < y, steps) = steps + one;
   const Real bx = look_up<Reach::eight>(back_x, steps), by = look_up<Reach::eight>(back_y, steps);
-  const Real quotient = (y * bx - far * by) / (far * bx + y * by), q = choose(back, -quotient, quotient);
+  const Real quotient = (y * bx - far * by) / (far * bx + y * by),
+             q = choose(back, -quotient, quotient);
   where(back, steps) = steps + Real(1.0 * angle_from_pi);
   const Real z = q * q, square = z * z, fourth = square * square;
-  return angle_beyond(look_up<Reach::few>(angle_high, steps), look_up<Reach::few>(angle_low, steps), q, z,
-                      powers(angle_even, square, fourth), powers(angle_odd, square, fourth));
+  return angle_beyond(look_up<Reach::few>(angle_high, steps), look_up<Reach::few>(angle_low, steps),
+                      q, z, powers(angle_even, square, fourth), powers(angle_odd, square, fourth));
 }
 
 /// Kappa at the piece that was chosen.
@@ -265,12 +294,14 @@ template <class Kind>
 INLINE Where meet_by_circle(const View& f, const Met& met) {
   if constexpr (Kind::alone) {
     const EllipseInField ellipse = ellipse_in_field(f.table, 0);
-    const RootOnEllipse root = root_from_ellipse(f, quartic_of_ellipse(f, ellipse, Mask(true)), ellipse.stretch);
+    const RootOnEllipse root =
+        root_from_ellipse(f, quartic_of_ellipse(f, ellipse, Mask(true)), ellipse.stretch);
     return {root.kappa, root.certain};
   }
   geometry::Quadratic<Real> quadratic;
   Real length(1.0);
-  if constexpr (Kind::segments) quadratic = quadratic_of_segment(f, met.point, {-met.second, met.first}, met.stands);
+  if constexpr (Kind::segments)
+    quadratic = quadratic_of_segment(f, met.point, {-met.second, met.first}, met.stands);
   if constexpr (Kind::circles) {
     const auto other = quadratic_of_circle(f, met.point, met.second, met.orientation, met.stands);
     if constexpr (Kind::segments) {

@@ -1,16 +1,18 @@
-// Straight flights among the discs of a lattice with four edges to the cell, one disc in each. Included by kernel.hpp inside the
-// namespace of its instruction set.
+// Straight flights among the discs of a lattice with four edges to the cell, one disc in each.
+// Included by kernel.hpp inside the namespace of its instruction set.
 //
-// The cell is a parallelogram of two lattice vectors a and b, a x b > 0. A flight leaves it across one edge of each pair, and the
-// corner between those two tells by which. From cell to cell the sides of that corner and of the disc's centre change by v x a
-// or v x b, one of which is positive and the other negative once both point forward. docs/developer/lanes.md.
+// The cell is a parallelogram of two lattice vectors a and b, a x b > 0. A flight leaves it across
+// one edge of each pair, and the corner between those two tells by which. From cell to cell the
+// sides of that corner and of the disc's centre change by v x a or v x b, one of which is positive
+// and the other negative once both point forward. docs/developer/lanes.md.
 
 /// Flights on their way over cells.
 struct Ways {
   alignas(LanePack::alignment) double a[LanePack::lanes], b[LanePack::lanes];  ///< v x a, v x b
   double aside[LanePack::lanes], side[LanePack::lanes];  ///< of the disc's centre and of the corner
   double radius[LanePack::lanes], margin[LanePack::lanes];
-  double crossed[LanePack::lanes], fallen[LanePack::lanes];  ///< edges, and those of them by which sides fall
+  double crossed[LanePack::lanes],
+      fallen[LanePack::lanes];  ///< edges, and those of them by which sides fall
   Masks starts, meets, under_way;
 };
 
@@ -27,13 +29,17 @@ INLINE void begin_way(const View& f, const CellOf& cell, Ways& ways, int lane) {
   const auto across = [&](double x, double y) { return fused(v.x, Real(y), -v.y * x); };
   const Real a = across(t.beyond_x[0], t.beyond_y[0]), b = across(t.beyond_x[1], t.beyond_y[1]);
   const Forward by = forward(a, b);
-  const Real home_first = across(t.lattice_x[0], t.lattice_y[0]), home_second = across(t.lattice_x[1], t.lattice_y[1]);
-  const Real aside = fused(cell.first, home_first, fused(cell.second, home_second, line.side(t.point_x[0], t.point_y[0])));
+  const Real home_first = across(t.lattice_x[0], t.lattice_y[0]),
+             home_second = across(t.lattice_x[1], t.lattice_y[1]);
+  const Real aside = fused(cell.first, home_first,
+                           fused(cell.second, home_second, line.side(t.point_x[0], t.point_y[0])));
   store(a, ways.a + lane);
   store(b, ways.b + lane);
   store(aside, ways.aside + lane);
-  store(fused(Real(0.5), by.one + by.other, aside + across(t.off_centre_x, t.off_centre_y)), ways.side + lane);
-  // A disc is cut, or not, beyond a margin in which its discriminant is as certain as the cells behind ask for.
+  store(fused(Real(0.5), by.one + by.other, aside + across(t.off_centre_x, t.off_centre_y)),
+        ways.side + lane);
+  // A disc is cut, or not, beyond a margin in which its discriminant is as certain as the cells
+  // behind ask for.
   const Real way = way_of(cell) + static_cast<double>(t.steps);
   store(Real(t.radius[0]) * f.speed, ways.radius + lane);
   store(doubts_at(way) * (t.sizes_of_radius * f.sides), ways.margin + lane);
@@ -96,14 +102,17 @@ INLINE void go(int steps, Registers&&... registers) {
   for (int step = 0; step < steps; ++step) (registers.go(), ...);
   (registers.keep(), ...);
 }
-INLINE int registers_of(int lanes) { return lanes <= width ? 1 : lanes <= 2 * width ? 2 : together; }
+INLINE int registers_of(int lanes) {
+  return lanes <= width ? 1 : lanes <= 2 * width ? 2 : together;
+}
 INLINE void go_on_way(const LaneTable& t, Ways& ways, int lane, int registers) {
   if (registers == 1)
     go(t.steps, OnWay(ways, lane));
   else if (registers == 2)
     go(t.steps, OnWay(ways, lane), OnWay(ways, lane + width));
   else
-    go(t.steps, OnWay(ways, lane), OnWay(ways, lane + width), OnWay(ways, lane + 2 * width), OnWay(ways, lane + 3 * width));
+    go(t.steps, OnWay(ways, lane), OnWay(ways, lane + width), OnWay(ways, lane + 2 * width),
+       OnWay(ways, lane + 3 * width));
 }
 
 INLINE Crossed end_way(const LaneTable& t, const Ways& ways, CellOf& cell, int lane) {
@@ -111,10 +120,14 @@ INLINE Crossed end_way(const LaneTable& t, const Ways& ways, CellOf& cell, int l
   const Forward by = forward(a, b);
   const Real fallen = load(ways.fallen + lane), risen = load(ways.crossed + lane) - fallen;
   const Mask is_one = by.one < by.other;
-  const Real ones = turned_by(choose(is_one, fallen, risen), b), others = turned_by(choose(is_one, risen, fallen), -a);
-  cell.first = fused(ones, Real(t.beyond_first[0]), fused(others, Real(t.beyond_first[1]), cell.first));
-  cell.second = fused(ones, Real(t.beyond_second[0]), fused(others, Real(t.beyond_second[1]), cell.second));
+  const Real ones = turned_by(choose(is_one, fallen, risen), b),
+             others = turned_by(choose(is_one, risen, fallen), -a);
+  cell.first =
+      fused(ones, Real(t.beyond_first[0]), fused(others, Real(t.beyond_first[1]), cell.first));
+  cell.second =
+      fused(ones, Real(t.beyond_second[0]), fused(others, Real(t.beyond_second[1]), cell.second));
   const Mask under_way = load(ways.under_way, lane);
-  const Mask cuts = abs(load(ways.aside + lane)) < load(ways.radius + lane) - load(ways.margin + lane);
+  const Mask cuts =
+      abs(load(ways.aside + lane)) < load(ways.radius + lane) - load(ways.margin + lane);
   return {load(ways.meets, lane) || (load(ways.starts, lane) && !under_way && cuts), under_way};
 }

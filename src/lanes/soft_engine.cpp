@@ -22,7 +22,8 @@ constexpr Time never{std::numeric_limits<double>::infinity()};
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 SoftKernel kernel_for(InstructionSet set) {
-  if (!available(set)) throw std::invalid_argument("this machine does not have the instruction set");
+  if (!available(set))
+    throw std::invalid_argument("this machine does not have the instruction set");
 #if defined(CAROM_WIDE_LANES)
   if (set == InstructionSet::avx512) return avx512_soft_kernel();
   if (set == InstructionSet::avx2) return avx2_soft_kernel();
@@ -63,7 +64,8 @@ std::uint64_t evaluations(const std::vector<Stage<double>>& stages, bool known) 
   std::uint64_t count = 0;
   for (const Stage<double>& s : stages) {
     if (s.kind == Stage<double>::Kind::kick && !known) ++count, known = true;
-    if (s.kind == Stage<double>::Kind::drift || s.kind == Stage<double>::Kind::straight) known = false;
+    if (s.kind == Stage<double>::Kind::drift || s.kind == Stage<double>::Kind::straight)
+      known = false;
   }
   return count;
 }
@@ -77,15 +79,20 @@ std::string unknown_to_steps(const Table& table, const Dynamics& dynamics) {
   if (forces && !forces->disc_radii().empty()) return "particles are discs";
   if (forces && forces->interacts()) return "particles interact";
   if (!forces || !forces->external()) return "steps without a force";
-  if (!(dynamics.everywhere || forces->everywhere())) return "forces that act in parts of the plane only";
-  if (forces->potentials().size() > SoftForces::most) return "more than " + std::to_string(SoftForces::most) + " potentials";
-  if (table.lattice && table.lattice->edges.size() > SoftForces::most_edges) return "a lattice cell of many edges";
+  if (!(dynamics.everywhere || forces->everywhere()))
+    return "forces that act in parts of the plane only";
+  if (forces->potentials().size() > SoftForces::most)
+    return "more than " + std::to_string(SoftForces::most) + " potentials";
+  if (table.lattice && table.lattice->edges.size() > SoftForces::most_edges)
+    return "a lattice cell of many edges";
   if (is_adaptive(plan.scheme) || !(plan.step > 0.0)) return "a scheme without a fixed step";
-  if (find_scheme(plan.scheme).form == Scheme::Form::spreiter_walter) return "the scheme " + plan.scheme;
+  if (find_scheme(plan.scheme).form == Scheme::Form::spreiter_walter)
+    return "the scheme " + plan.scheme;
   return {};
 }
 
-SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options)
+SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, InstructionSet set,
+                       DecisionOptions options)
     : table_(table),
       field_(*dynamics.forces),
       step_(dynamics.integrator.step),
@@ -97,7 +104,8 @@ SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, Instruction
       kernel_(kernel_for(set)),
       finder_(table, options),
       group_(surroundings_) {
-  if (table_.extent == Extent::bounded) surroundings_.inside = [this](Vector x) { return inside(x); };
+  if (table_.extent == Extent::bounded)
+    surroundings_.inside = [this](Vector x) { return inside(x); };
   surroundings_.counts = &steps_;
   forces_.exp = elementary::exp_by(kernel_.width);
   forces_.other = add_other;
@@ -145,7 +153,8 @@ void SoftEngine::find_calls(double duration, SoftPack& pack) {
   ends.x = pack.x;
   ends.y = pack.y;
   for (int lane = 0; lane < pack.count; ++lane) {
-    const Vector way{0.5 * (pack.x[lane] - pack.from_x[lane]), 0.5 * (pack.y[lane] - pack.from_y[lane])};
+    const Vector way{0.5 * (pack.x[lane] - pack.from_x[lane]),
+                     0.5 * (pack.y[lane] - pack.from_y[lane])};
     ends.square_speed[lane] = pack.vx[lane] * pack.vx[lane] + pack.vy[lane] * pack.vy[lane];
     ends.square_way[lane] = way.x * way.x + way.y * way.y;
   }
@@ -154,13 +163,17 @@ void SoftEngine::find_calls(double duration, SoftPack& pack) {
   for (int lane = 0; lane < pack.count; ++lane) {
     if (pack.undecided[lane] || (pack.resolved[lane] & known[lane])) continue;
     const Vector from{pack.from_x[lane], pack.from_y[lane]}, to{pack.x[lane], pack.y[lane]};
-    const Vector before{pack.from_vx[lane], pack.from_vy[lane]}, after{pack.vx[lane], pack.vy[lane]};
+    const Vector before{pack.from_vx[lane], pack.from_vy[lane]},
+        after{pack.vx[lane], pack.vy[lane]};
     const Vector way = 0.5 * (to - from);
-    const bool from_start = pack.resolved[lane] || map_->resolves(from, dot(before, before), dot(way, way), span_);
+    const bool from_start =
+        pack.resolved[lane] || map_->resolves(from, dot(before, before), dot(way, way), span_);
     pack.resolved[lane] = from_start && map_->resolves(to, dot(after, after), dot(way, way), span_);
-    if (pack.resolved[lane]) [[likely]] continue;
+    if (pack.resolved[lane]) [[likely]]
+      continue;
     pack.undecided[lane] = true;
-    if (std::find(pack.lane, pack.lane + pack.calls, lane) == pack.lane + pack.calls) pack.lane[pack.calls++] = lane;
+    if (std::find(pack.lane, pack.lane + pack.calls, lane) == pack.lane + pack.calls)
+      pack.lane[pack.calls++] = lane;
   }
 }
 
@@ -221,9 +234,10 @@ void SoftEngine::read_start(const SoftPack& pack, int lane, const Time& time, St
 }
 
 /// As World does it with a group of one.
-SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, bool from_lane, double t_end, std::span<const double> times,
-                                       const Sample& sample) {
-  // What this group knows is of another particle. A World knows the forces at the ends of this one's latest step.
+SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, bool from_lane, double t_end,
+                                       std::span<const double> times, const Sample& sample) {
+  // What this group knows is of another particle. A World knows the forces at the ends of this
+  // one's latest step.
   group_.forget();
   steps_ = {};
   const bool arc_known = std::exchange(track.arc_known, false);
@@ -247,13 +261,15 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, bool from_lane, double 
     group_.set_time(s.time);
     track.fastest = std::max(track.fastest, dot(s.velocity, s.velocity));
     const Group::Next next = group_.predict(never);
-    if (std::exchange(first, false) && arc_known && group_.arc_at_start()) --steps_.force_evaluations;
+    if (std::exchange(first, false) && arc_known && group_.arc_at_start())
+      --steps_.force_evaluations;
     const Time when = group_.next_time();
     const bool over = when > Time(t_end);
     if (!next.fault.empty()) {
       // There are no states within a step that fails.
       emit_while([&](const Time& t) { return !(t > s.time); });
-      return count(s.time < Time(t_end) ? this->end(track, Fate::unresolved, next.fault) : Outcome::over);
+      return count(s.time < Time(t_end) ? this->end(track, Fate::unresolved, next.fault)
+                                        : Outcome::over);
     }
     emit_while([&](const Time& t) { return over || t < when; });
     if (over) return count(Outcome::over);
@@ -278,7 +294,8 @@ SoftEngine::Outcome SoftEngine::end_step(SoftTrack& track) {
   return Outcome::at_step_end;
 }
 
-void SoftEngine::count_lane(SoftTrack& track, std::uint64_t steps, bool tried, double fastest) const {
+void SoftEngine::count_lane(SoftTrack& track, std::uint64_t steps, bool tried,
+                            double fastest) const {
   track.counts.steps += steps - tried;
   track.counts.force_evaluations += steps * step_cost_;
   track.fastest = std::max(track.fastest, fastest);
@@ -320,7 +337,8 @@ SoftEngine::Outcome SoftEngine::end(SoftTrack& track, Fate fate, std::string_vie
 
 void SoftEngine::add_other(const SoftForces& forces, int potential, SoftPack& pack) {
   const auto& self = *static_cast<const SoftEngine*>(forces.context);
-  self.field_.potentials()[at(potential)]->add_forces(self.particle_, pack.count, pack.x, pack.y, pack.ax, pack.ay);
+  self.field_.potentials()[at(potential)]->add_forces(self.particle_, pack.count, pack.x, pack.y,
+                                                      pack.ax, pack.ay);
 }
 
 }  // namespace carom::lanes

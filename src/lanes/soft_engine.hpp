@@ -1,5 +1,6 @@
-// What a pack of particles under forces needs besides its kernel: the numbers of a step, the cell of a lattice,
-// the walls around, and the scalar engine's own means for the steps that lanes leave to it.
+// What a pack of particles under forces needs besides its kernel: the numbers of a step, the cell
+// of a lattice, the walls around, and the scalar engine's own means for the steps that lanes leave
+// to it.
 #pragma once
 
 #include <cstdint>
@@ -39,14 +40,16 @@ struct SoftTrack {
   Time ended;
   bool finished = false;
   std::string report;
-  StepCounts counts;        ///< as a World would count them
-  double fastest = 0.0;     ///< the largest v^2 where a step began
-  bool arc_known = false;   ///< the search for walls has evaluated the force where the next step begins
+  StepCounts counts;     ///< as a World would count them
+  double fastest = 0.0;  ///< the largest v^2 where a step began
+  bool arc_known =
+      false;  ///< the search for walls has evaluated the force where the next step begins
 };
 
 class SoftEngine {
  public:
-  SoftEngine(const Table& table, const Dynamics& dynamics, InstructionSet set, DecisionOptions options);
+  SoftEngine(const Table& table, const Dynamics& dynamics, InstructionSet set,
+             DecisionOptions options);
   SoftEngine(const SoftEngine&) = delete;
   SoftEngine& operator=(const SoftEngine&) = delete;
 
@@ -78,18 +81,22 @@ class SoftEngine {
     ended,
   };
   using Sample = std::function<void(std::size_t, const State&)>;
-  /// The track's events until its step ends, or until `t_end` if that comes first, by the scalar engine.
-  /// `sample` receives the states at these times, none of them later than either. `from_lane`: a lane has evaluated the force
-  /// at its start.
-  Outcome follow(SoftTrack& track, bool from_lane, double t_end, std::span<const double> times = {}, const Sample& sample = {});
+  /// The track's events until its step ends, or until `t_end` if that comes first, by the scalar
+  /// engine. `sample` receives the states at these times, none of them later than either.
+  /// `from_lane`: a lane has evaluated the force at its start.
+  Outcome follow(SoftTrack& track, bool from_lane, double t_end, std::span<const double> times = {},
+                 const Sample& sample = {});
 
   // What lanes do for a track, counted as a World would.
   /// It has left its lane after so many steps there, the last of which was tried only if `tried`.
   void count_lane(SoftTrack& track, std::uint64_t steps, bool tried, double fastest) const;
   void count_sample(SoftTrack& track) const { track.counts.force_evaluations += sample_cost_; }
-  /// The force at the start of its next step was evaluated anew: a lane has begun, or its particle was put back into the cell.
+  /// The force at the start of its next step was evaluated anew: a lane has begun, or its particle
+  /// was put back into the cell.
   void count_start(SoftTrack& track) const { track.counts.force_evaluations += keeps_forces_; }
-  double kinetic_energy(const SoftTrack& track) const { return 0.5 * particle_.mass * track.fastest; }
+  double kinetic_energy(const SoftTrack& track) const {
+    return 0.5 * particle_.mass * track.fastest;
+  }
   const DecisionCounts& decisions() const { return counts_; }
 
  private:
@@ -103,7 +110,7 @@ class SoftEngine {
   const ForceField& field_;
   double step_;
   std::vector<Stage<double>> stages_;
-  bool keeps_forces_;              ///< the force at a step's end is that at the start of the next
+  bool keeps_forces_;  ///< the force at a step's end is that at the start of the next
   std::uint64_t step_cost_, sample_cost_;  ///< evaluations of a step in a lane, and of a part of it
   Group::Surroundings surroundings_;
   SoftKernel kernel_;

@@ -1,8 +1,9 @@
-// Steps of particles under forces, for one instruction set: included once by each soft_kernel_*.cpp.
+// Steps of particles under forces, for one instruction set: included once by each
+// soft_kernel_*.cpp.
 //
-// No container and no algorithm of the standard library, and nothing outside the unnamed namespace but
-// templates over the lanes' own type: a weak symbol made of wide instructions could be linked into the rest
-// of the program.
+// No container and no algorithm of the standard library, and nothing outside the unnamed namespace
+// but templates over the lanes' own type: a weak symbol made of wide instructions could be linked
+// into the rest of the program.
 #pragma once
 
 #include <experimental/simd>
@@ -93,20 +94,22 @@ CAROM_INLINE void add_lattice(const SoftForces& forces, const LatticeField& fiel
       store(p.X, g.X + lane);
       store(p.Y, g.Y + lane);
     }
-    for (int lane = 0; lane < g.count; ++lane) g.node[lane] = lattice_sum::node_at(t, g.i[lane], g.j[lane]);
+    for (int lane = 0; lane < g.count; ++lane)
+      g.node[lane] = lattice_sum::node_at(t, g.i[lane], g.j[lane]);
     for (int k = 0; k < 8; ++k)
       for (int lane = 0; lane < g.count; ++lane) g.fx[k][lane] = g.fy[k][lane] = 0.0;
     for (int from = 0; from < t.near; from += 8) add_near(forces, t, from, g);
     if (t.degree >= 0)
       for (int lane = 0; lane < g.count; ++lane) {
-        const lattice_sum::Slopes s =
-            lattice_sum::polynomial<width>(g.node[lane] + 2 * t.padded_near, t.degree, g.X[lane], g.Y[lane]);
+        const lattice_sum::Slopes s = lattice_sum::polynomial<width>(
+            g.node[lane] + 2 * t.padded_near, t.degree, g.X[lane], g.Y[lane]);
         g.by_X[lane] = s.X;
         g.by_Y[lane] = s.Y;
       }
     for (int lane = 0; lane < g.count; lane += width) {
       Real fx = field.steepness * total(g.fx, lane), fy = field.steepness * total(g.fy, lane);
-      if (t.degree >= 0) lattice_sum::add_slopes(t, load(g.by_X + lane), load(g.by_Y + lane), fx, fy);
+      if (t.degree >= 0)
+        lattice_sum::add_slopes(t, load(g.by_X + lane), load(g.by_Y + lane), fx, fy);
       double *ax = pack.ax + first + lane, *ay = pack.ay + first + lane;
       store(load(ax) + field.height * fx, ax);
       store(load(ay) + field.height * fy, ay);
@@ -131,13 +134,17 @@ void evaluate(const SoftForces& forces, SoftPack& pack) {
 }
 
 /// Does no wall, and no absurd number, come into the steps of these lanes? As Group::predict asks.
-CAROM_INLINE Mask is_clear(const SoftForces& forces, const Real& third, const SoftPack& pack, int lane) {
-  const Vector x{load(pack.x + lane), load(pack.y + lane)}, v{load(pack.vx + lane), load(pack.vy + lane)};
+CAROM_INLINE Mask is_clear(const SoftForces& forces, const Real& third, const SoftPack& pack,
+                           int lane) {
+  const Vector x{load(pack.x + lane), load(pack.y + lane)},
+      v{load(pack.vx + lane), load(pack.vy + lane)};
   Mask clear = (abs(x.x) + abs(x.y)) + (abs(v.x) + abs(v.y)) <= 1e100;
   if (forces.walls == 0) return clear;
   const Vector from{load(pack.from_x + lane), load(pack.from_y + lane)};
-  clear = clear && abs(x.x - from.x) <= forces.longest_way && abs(x.y - from.y) <= forces.longest_way;
-  const StepHull<Real> hull(from, {load(pack.from_vx + lane), load(pack.from_vy + lane)}, x, v, third);
+  clear =
+      clear && abs(x.x - from.x) <= forces.longest_way && abs(x.y - from.y) <= forces.longest_way;
+  const StepHull<Real> hull(from, {load(pack.from_vx + lane), load(pack.from_vy + lane)}, x, v,
+                            third);
   for (int i = 0; i < forces.walls; ++i) clear = clear && stays_off(forces.barriers[i], hull);
   return clear;
 }
@@ -161,7 +168,8 @@ void find_calls(const SoftForces& forces, double third, SoftPack& pack) {
   for (int lane = 0; lane < pack.count; lane += width) {
     const Mask undecided = !is_clear(forces, Real(third), pack, lane);
     const Mask calls = undecided || has_left(forces, pack, lane);
-    for (int k = 0; k < width; ++k) pack.undecided[lane + k] = undecided[static_cast<std::size_t>(k)];
+    for (int k = 0; k < width; ++k)
+      pack.undecided[lane + k] = undecided[static_cast<std::size_t>(k)];
     if (!any_of(calls)) continue;
     for (int k = 0; k < width; ++k)
       if (calls[static_cast<std::size_t>(k)]) pack.lane[pack.calls++] = lane + k;
@@ -181,7 +189,8 @@ void step(const SoftForces& forces, const SoftStage* stage, int stages, SoftPack
   for (; stages > 0; --stages, ++stage) {
     if (stage->kind == Kind::kick && !pack.fresh) evaluate(forces, pack);
     for (int lane = 0; lane < pack.count; lane += width) {
-      Vector x{load(pack.x + lane), load(pack.y + lane)}, v{load(pack.vx + lane), load(pack.vy + lane)};
+      Vector x{load(pack.x + lane), load(pack.y + lane)},
+          v{load(pack.vx + lane), load(pack.vy + lane)};
       const Real duration(stage->duration);
       switch (stage->kind) {
         case Kind::kick:

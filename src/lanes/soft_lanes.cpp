@@ -26,18 +26,20 @@ bool alike(const Particle& a, const Particle& b) {
 
 }  // namespace
 
-// Every lane has a clock of its own. The times of two step ends differ by the step exactly: k * step is held
-// without error in two doubles, and so is the difference of the low ones. So all lanes take the same step.
+// Every lane has a clock of its own. The times of two step ends differ by the step exactly: k *
+// step is held without error in two doubles, and so is the difference of the low ones. So all lanes
+// take the same step.
 class SoftLanes::Implementation {
  public:
-  Implementation(const Table& table, const Dynamics& dynamics, const Particle& kind, InstructionSet set,
-                 DecisionOptions options)
+  Implementation(const Table& table, const Dynamics& dynamics, const Particle& kind,
+                 InstructionSet set, DecisionOptions options)
       : engine(table, dynamics, set, options), kind_(kind) {
     engine.set_kind(kind);
   }
 
   void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
-                 const std::function<void(const LaneEnd&)>& ended, const std::function<bool()>& interrupted) {
+                 const std::function<void(const LaneEnd&)>& ended,
+                 const std::function<bool()>& interrupted) {
     begin(t_end, next, ended);
     for (std::uint64_t sweep = 1; busy_ > 0; ++sweep) {
       if (interrupted && sweep % steps_between_questions == 0 && interrupted()) return;
@@ -85,7 +87,8 @@ class SoftLanes::Implementation {
     source_ = &next;
     sink_ = &ended;
     t_end_ = t_end;
-    // Steps that end in time; the one after them may still meet a wall. Nobody makes as many as are counted here.
+    // Steps that end in time; the one after them may still meet a wall. Nobody makes as many as are
+    // counted here.
     whole_ = step_with(Time(t_end));
     step_of_.clear();
     for (const double t : times_) step_of_.push_back(step_with(Time(t)));
@@ -123,7 +126,8 @@ class SoftLanes::Implementation {
         exhausted_ = true;
         return;
       }
-      if (!alike(start.particle, kind_)) throw std::invalid_argument("a particle that is accelerated otherwise");
+      if (!alike(start.particle, kind_))
+        throw std::invalid_argument("a particle that is accelerated otherwise");
       tracks_[lane] = SoftTrack();
       tracks_[lane].state = start.state;
       tracks_[lane].hits = start.hits;
@@ -156,11 +160,14 @@ class SoftLanes::Implementation {
   /// The pack's step that is under way in a lane at its next report time.
   std::uint64_t sample_step(int lane) const {
     const std::size_t next = reported_[lane];
-    return next < times_.size() && times_[next] <= t_end_ ? last_step_[lane] - whole_ + step_of_[next] : never;
+    return next < times_.size() && times_[next] <= t_end_
+               ? last_step_[lane] - whole_ + step_of_[next]
+               : never;
   }
   void await_sample(int lane) { soonest_sample_ = std::min(soonest_sample_, sample_step(lane)); }
 
-  /// Reports all that the step just taken has decided in lanes. Lanes that are together in time are stepped to it together.
+  /// Reports all that the step just taken has decided in lanes. Lanes that are together in time are
+  /// stepped to it together.
   void sample() {
     soonest_sample_ = never;
     for (int first = 0; first < used_; ++first) {
@@ -170,9 +177,11 @@ class SoftLanes::Implementation {
         there.fresh = start_.fresh;
         int lanes[SoftPack::lanes], count = 0;
         for (int lane = first; lane < used_; ++lane)
-          if (is_due(lane) && Time(times_[reported_[lane]]) - before(lane) == since) lanes[count++] = lane;
+          if (is_due(lane) && Time(times_[reported_[lane]]) - before(lane) == since)
+            lanes[count++] = lane;
         there.count = (count + 7) / 8 * 8;
-        for (int i = 0; i < there.count; ++i) SoftEngine::copy(start_, lanes[i < count ? i : 0], there, i);
+        for (int i = 0; i < there.count; ++i)
+          SoftEngine::copy(start_, lanes[i < count ? i : 0], there, i);
         if (since > 0.0) engine.take_step(since, there);
         for (int i = 0; i < count; ++i) {
           const int lane = lanes[i];
@@ -186,7 +195,9 @@ class SoftLanes::Implementation {
       if (active_[first] && !pack_.undecided[first]) await_sample(first);
     }
   }
-  bool is_due(int lane) const { return active_[lane] && !pack_.undecided[lane] && sample_step(lane) < next_; }
+  bool is_due(int lane) const {
+    return active_[lane] && !pack_.undecided[lane] && sample_step(lane) < next_;
+  }
 
   void leave_to_scalar(int lane) {
     --effort.hits;
@@ -207,8 +218,12 @@ class SoftLanes::Implementation {
       const std::uint64_t step = step_with(track.state.time);
       std::size_t due = reported_[lane];
       while (due < times_.size() && step_of_[due] <= step && times_[due] <= t_end_) ++due;
-      const auto sample = [&](std::size_t, const State& s) { sampled_(starts_[lane].tag, reported_[lane]++, s); };
-      switch (engine.follow(track, from_lane, t_end_, std::span(times_).subspan(reported_[lane], due - reported_[lane]), sample)) {
+      const auto sample = [&](std::size_t, const State& s) {
+        sampled_(starts_[lane].tag, reported_[lane]++, s);
+      };
+      switch (engine.follow(track, from_lane, t_end_,
+                            std::span(times_).subspan(reported_[lane], due - reported_[lane]),
+                            sample)) {
         case Outcome::at_step_end:
           return resume(lane, std::nearbyint(track.state.time.value() / engine.step()));
         case Outcome::on_a_wall:
@@ -238,8 +253,8 @@ class SoftLanes::Implementation {
 
   void report(int lane) {
     const SoftTrack& t = tracks_[lane];
-    (*sink_)({starts_[lane].tag, t.fate, t.finished ? t.ended : t.state.time, t.state, t.hole, t.hits, t.last_wall,
-              t.report, t.counts, engine.kinetic_energy(t)});
+    (*sink_)({starts_[lane].tag, t.fate, t.finished ? t.ended : t.state.time, t.state, t.hole,
+              t.hits, t.last_wall, t.report, t.counts, engine.kinetic_energy(t)});
   }
 
   void leave(int lane) {
@@ -262,7 +277,8 @@ class SoftLanes::Implementation {
       while (used_ > lane && !active_[used_ - 1]) --used_;
       if (used_ <= lane) break;
       const int last = --used_;
-      for (double* q : {pack_.x, pack_.y, pack_.vx, pack_.vy, pack_.ax, pack_.ay, pack_.fastest}) q[lane] = q[last];
+      for (double* q : {pack_.x, pack_.y, pack_.vx, pack_.vy, pack_.ax, pack_.ay, pack_.fastest})
+        q[lane] = q[last];
       pack_.resolved[lane] = pack_.resolved[last];
       starts_[lane] = starts_[last];
       reported_[lane] = reported_[last];
@@ -288,33 +304,37 @@ class SoftLanes::Implementation {
   double t_end_ = 0.0;
   std::uint64_t whole_ = 0;  ///< steps of a trajectory that ends in time
   SoftPack pack_, start_;
-  std::vector<double> times_;             ///< to report at
-  std::vector<std::uint64_t> step_of_;    ///< of each, by the trajectory's own steps
+  std::vector<double> times_;           ///< to report at
+  std::vector<std::uint64_t> step_of_;  ///< of each, by the trajectory's own steps
   Sampled sampled_;
   std::size_t reported_[SoftPack::lanes] = {};  ///< times
   std::uint64_t soonest_sample_ = never;        ///< the first of the pack's steps that holds one
   LaneStart starts_[SoftPack::lanes];
   SoftTrack tracks_[SoftPack::lanes];
   bool active_[SoftPack::lanes] = {};
-  std::uint64_t next_ = 0;                            ///< number of the pack's next step
-  std::uint64_t last_step_[SoftPack::lanes] = {};     ///< the pack's step that ends too late for the lane
-  std::uint64_t entered_[SoftPack::lanes] = {};       ///< number of the pack's step that was the lane's first since it began, or came back
-  std::uint64_t soonest_ = never;                     ///< the first of them
+  std::uint64_t next_ = 0;  ///< number of the pack's next step
+  std::uint64_t last_step_[SoftPack::lanes] =
+      {};  ///< the pack's step that ends too late for the lane
+  std::uint64_t entered_[SoftPack::lanes] =
+      {};  ///< number of the pack's step that was the lane's first since it began, or came back
+  std::uint64_t soonest_ = never;  ///< the first of them
   int used_ = 0, busy_ = 0;
   bool exhausted_ = false;
   std::vector<int> moved_;  ///< lanes that hold another point than their last step left there
 };
 
-std::string SoftLanes::hindrance(const Table& table, const Dynamics& dynamics, const std::vector<Particle>& particles) {
+std::string SoftLanes::hindrance(const Table& table, const Dynamics& dynamics,
+                                 const std::vector<Particle>& particles) {
   if (particles.empty()) return "there are no particles";
   const std::string unknown = lanes::unknown_to_steps(table, dynamics);
   if (!unknown.empty()) return unknown;
-  const bool all = std::all_of(particles.begin(), particles.end(), [&](const Particle& p) { return alike(p, particles[0]); });
+  const bool all = std::all_of(particles.begin(), particles.end(),
+                               [&](const Particle& p) { return alike(p, particles[0]); });
   return all ? "" : "particles of different mass or charge";
 }
 
-SoftLanes::SoftLanes(const Table& table, const Dynamics& dynamics, const Particle& kind, InstructionSet set,
-                     DecisionOptions options)
+SoftLanes::SoftLanes(const Table& table, const Dynamics& dynamics, const Particle& kind,
+                     InstructionSet set, DecisionOptions options)
     : implementation_(std::make_unique<Implementation>(table, dynamics, kind, set, options)) {}
 SoftLanes::~SoftLanes() = default;
 

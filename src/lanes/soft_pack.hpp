@@ -1,5 +1,5 @@
-// Particles under forces, one a lane, one array a quantity; and the kernel that takes a step with all of
-// them.
+// Particles under forces, one a lane, one array a quantity; and the kernel that takes a step with
+// all of them.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,11 @@ struct SoftPack {
   double ax[lanes] = {}, ay[lanes] = {};  ///< accelerations at x, y, if `fresh`
   bool fresh = false;
   int count = 0;  ///< lanes in use, a multiple of eight
-  double from_x[lanes] = {}, from_y[lanes] = {}, from_vx[lanes] = {}, from_vy[lanes] = {};  ///< at the step's start
+  double from_x[lanes] = {}, from_y[lanes] = {}, from_vx[lanes] = {},
+         from_vy[lanes] = {};  ///< at the step's start
   double fastest[lanes] = {};  ///< the largest v^2 where a step began
-  /// Lanes that the caller must look at after a step. `undecided`: it may meet a wall, or leads too far, or
-  /// beyond all bounds. Else it has left the cell.
+  /// Lanes that the caller must look at after a step. `undecided`: it may meet a wall, or leads too
+  /// far, or beyond all bounds. Else it has left the cell.
   int calls = 0;
   int lane[lanes] = {};
   bool undecided[lanes] = {};  ///< by lane
@@ -50,7 +51,7 @@ struct SoftForces {
   void (*exp)(double*, std::size_t) = nullptr;
 
   const Barrier<double>* barriers = nullptr;
-  int walls = 0;  ///< how many barriers there are
+  int walls = 0;             ///< how many barriers there are
   double longest_way = 0.0;  ///< as Group::Surroundings
 
   int edges = 0;  ///< 0: there is no lattice

@@ -1,31 +1,40 @@
-// Straight flights in lanes: which piece comes first, by signs with margins, and the hit there. Included
-// by kernel.hpp inside the namespace of its instruction set.
+// Straight flights in lanes: which piece comes first, by signs with margins, and the hit there.
+// Included by kernel.hpp inside the namespace of its instruction set.
 //
-// Every number that shows in an orbit comes from the operations of the scalar engine in their order; only
-// the choice of the piece is made otherwise, and a choice is either certain or left to that engine.
-// docs/developer/lanes.md derives the margins.
+// Every number that shows in an orbit comes from the operations of the scalar engine in their
+// order; only the choice of the piece is made otherwise, and a choice is either certain or left to
+// that engine. docs/developer/lanes.md derives the margins.
 
 /// The line of each flight: on which side of it a point lies.
 struct Line {
   const View& f;
   Real x, minus_y, offset;  ///< of the velocity, and -(v x origin)
   INLINE explicit Line(const View& view)
-      : f(view), x(f.velocity.x), minus_y(-f.velocity.y), offset(-geometry::fused_cross(f.velocity, f.origin)) {}
+      : f(view),
+        x(f.velocity.x),
+        minus_y(-f.velocity.y),
+        offset(-geometry::fused_cross(f.velocity, f.origin)) {}
   /// v x (point - origin).
-  INLINE Real side(double px, double py) const { return fused(x, Real(py), fused(minus_y, Real(px), offset)); }
+  INLINE Real side(double px, double py) const {
+    return fused(x, Real(py), fused(minus_y, Real(px), offset));
+  }
   /// v . (point - origin).
   INLINE Real ahead(double px, double py) const {
-    return fused(x, Real(px), fused(f.velocity.y, Real(py), -geometry::fused_dot(f.velocity, f.origin)));
+    return fused(x, Real(px),
+                 fused(f.velocity.y, Real(py), -geometry::fused_dot(f.velocity, f.origin)));
   }
   /// (A - origin) x (B - origin), the ends of a piece with joints.
   INLINE Real cross_of_ends(const LaneTable& t, int i) const {
-    return fused(f.origin.y, Real(t.along_x[i]), fused(f.origin.x, Real(t.back_y[i]), Real(t.turn[i])));
+    return fused(f.origin.y, Real(t.along_x[i]),
+                 fused(f.origin.x, Real(t.back_y[i]), Real(t.turn[i])));
   }
 };
 
-constexpr double half_bits[LaneTable::most_signs] = {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0};
+constexpr double half_bits[LaneTable::most_signs] = {0.5,  1.0,  2.0,  4.0,   8.0,
+                                                     16.0, 32.0, 64.0, 128.0, 256.0};
 
-/// The pieces at these entries. One by one, through memory: the units for it have nothing else to do.
+/// The pieces at these entries. One by one, through memory: the units for it have nothing else to
+/// do.
 INLINE void look_up_exits(const LaneTable& t, double* pieces, int used) {
   for (int i = 0; i < used || i % width != 0; ++i) {  // whole registers
     unsigned short entry;
@@ -34,17 +43,19 @@ INLINE void look_up_exits(const LaneTable& t, double* pieces, int used) {
   }
 }
 
-/// The exit of a flight from a wall, where the sides of the joints tell. Of a convex loop: along the walls, to the left of which the
-/// table lies, come first the joints on the right of the flight, then its exit. So that lies as many pieces on as there are joints on
-/// the right; with none or all of them, on the piece itself, which is an arc then. Else an entry of a table; its answer may be that it is
-/// not known yet.
+/// The exit of a flight from a wall, where the sides of the joints tell. Of a convex loop: along
+/// the walls, to the left of which the table lies, come first the joints on the right of the
+/// flight, then its exit. So that lies as many pieces on as there are joints on the right; with
+/// none or all of them, on the piece itself, which is an arc then. Else an entry of a table; its
+/// answer may be that it is not known yet.
 template <class Kind>
 INLINE Mask exit_by_joints(const View& f, double* pieces) {
   const LaneTable& t = f.table;
   if constexpr (Kind::single) return Mask(true);
   const Line line(f);
   // Of each joint a half, less on the left, more on the right.
-  Real sum = fused(f.start_piece, Real(t.start_step), Real(t.from_start)), least(__builtin_huge_val());
+  Real sum = fused(f.start_piece, Real(t.start_step), Real(t.from_start)),
+       least(__builtin_huge_val());
   const auto ask = [&](int i, const Real& half) {
     const Real side = line.side(t.joint_x[i], t.joint_y[i]);
     least = least_size(least, side);
@@ -93,21 +104,24 @@ INLINE Cut cut_of_circle(const View& f, const Line& line, const Real& inverse, i
           fused(aside, -aside, t.second_number[i] * f.square_speed), inverse};
 }
 
-/// A closed conic, or an arc of one between joints on these sides of the line (below 0: on its right). A particle leaves by
-/// the later cut if the domain is inside, else by the earlier one.
+/// A closed conic, or an arc of one between joints on these sides of the line (below 0: on its
+/// right). A particle leaves by the later cut if the domain is inside, else by the earlier one.
 template <bool inside>
 INLINE void add_cut(Earliest& best, const View& f, int i, const Mask& leaves, const Cut& cut) {
   best.doubt(leaves && abs(cut.discriminant) <= f.roots);
   const Real root = sqrt(max(cut.discriminant, Real(0.0)));
-  best.add(i, leaves && cut.discriminant > f.roots, ((inside ? root : -root) - cut.along) * cut.inverse);
+  best.add(i, leaves && cut.discriminant > f.roots,
+           ((inside ? root : -root) - cut.along) * cut.inverse);
 }
 template <bool inside>
 INLINE void add_closed(Earliest& best, const View& f, int i, const Cut& cut) {
   add_cut<inside>(best, f, i, inside ? Mask(true) : f.start_wall != Real(f.table.wall[i]), cut);
 }
 template <bool inside>
-INLINE void add_arc(Earliest& best, const View& f, int i, const Real& cross_of_ends, const Real& a, const Real& b, const Cut& cut) {
-  // With both joints on one side: if the foot of the centre lies beyond the chord, on the arc's side; or from the arc.
+INLINE void add_arc(Earliest& best, const View& f, int i, const Real& cross_of_ends, const Real& a,
+                    const Real& b, const Cut& cut) {
+  // With both joints on one side: if the foot of the centre lies beyond the chord, on the arc's
+  // side; or from the arc.
   const Real foot = fused(cut.square, cross_of_ends, cut.along * (b - a));
   const Mask crosses = a < 0.0 && b >= 0.0, away = f.start_wall != Real(f.table.wall[i]);
   const Mask same = (a < 0.0) == (b < 0.0), open = same && away;
@@ -162,7 +176,8 @@ INLINE Choice first_of_all(const View& f) {
   return best.choice();
 }
 
-/// The normal of a piece out of the domain, or of a conic's what leads from its centre; d leads from the piece's point.
+/// The normal of a piece out of the domain, or of a conic's what leads from its centre; d leads
+/// from the piece's point.
 template <class Kind>
 INLINE Vector normal_of(const Met& met, const Vector& d) {
   if constexpr (!Kind::segments) return d;
@@ -178,8 +193,8 @@ INLINE FractionOfTime meet_by_line(const View& f, const Met& met) {
   Real time, unit;
   Mask decided(true);
   if constexpr (Kind::segments || Kind::circles) {
-    // With the normal m out of the domain, which is e for a circle about it: m.v grows to the wall, and a segment is left
-    // like a circle from inside whose root is 0.
+    // With the normal m out of the domain, which is e for a circle about it: m.v grows to the wall,
+    // and a segment is left like a circle from inside whose root is 0.
     const Vector m = normal_of<Kind>(met, e);
     const Real b = geometry::fused_dot(m, v);
     // r^2 - e.e of a circle, -m.e of a segment.

@@ -1,5 +1,5 @@
-// The lanes' number: a register, and the few operations that formulas do not name themselves. Included by kernel.hpp
-// inside the namespace of its instruction set.
+// The lanes' number: a register, and the few operations that formulas do not name themselves.
+// Included by kernel.hpp inside the namespace of its instruction set.
 
 using Real = simd::native_simd<double>;
 using Mask = Real::mask_type;
@@ -28,7 +28,8 @@ INLINE unsigned bits_of(const Mask& mask) {
   return static_cast<unsigned>(_mm256_movemask_pd(static_cast<__m256d>(signs)));
 #else
   unsigned bits = 0;
-  for (int lane = 0; lane < width; ++lane) bits |= static_cast<unsigned>(signs[static_cast<std::size_t>(lane)] < 0.0) << lane;
+  for (int lane = 0; lane < width; ++lane)
+    bits |= static_cast<unsigned>(signs[static_cast<std::size_t>(lane)] < 0.0) << lane;
   return bits;
 #endif
 #endif
@@ -39,9 +40,10 @@ INLINE Real rounded(const Real& x) { return (x + 0x1.8p52) - 0x1.8p52; }
 
 /// 0, 1, 2 …: numbers of pieces; last a number for none that may be looked up like 0.
 constexpr double no_piece = 0x1p-60;
-alignas(64) constexpr double counted[65] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
-                                            22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43,
-                                            44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, no_piece};
+alignas(64) constexpr double counted[65] = {
+    0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20,      21,
+    22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42,      43,
+    44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, no_piece};
 
 INLINE Real load(const double* from) { return Real(from, simd::element_aligned); }
 INLINE void store(const Real& x, double* to) { x.copy_to(to, simd::element_aligned); }
@@ -53,7 +55,8 @@ INLINE void store_where(const Mask& mask, const Real& x, double* to) {
   store(choose(mask, x, load(to)), to);  // a masked store takes 30 ns without AVX
 #endif
 }
-/// Masks of all lanes between two stages: a bit a lane, or a number below 0 where it holds. (Not in bytes, which may alias anything.)
+/// Masks of all lanes between two stages: a bit a lane, or a number below 0 where it holds. (Not in
+/// bytes, which may alias anything.)
 struct Masks {
 #if defined(__AVX512F__)
   unsigned short bits[LanePack::lanes / width];
@@ -76,17 +79,21 @@ INLINE Mask load(const Masks& from, int lane) {
 #endif
 }
 
-/// a b + c, rounded once where the instruction set can: for choices alone, never for a number that shows.
+/// a b + c, rounded once where the instruction set can: for choices alone, never for a number that
+/// shows.
 INLINE Real fused(const Real& a, const Real& b, const Real& c) {
 #if defined(__AVX512F__)
-  return Real(_mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+  return Real(
+      _mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
 #elif defined(__FMA__)
-  return Real(_mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+  return Real(
+      _mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
 #else
   return a * b + c;
 #endif
 }
-/// p/q, a share of 2^-26 off or less: for choices alone; |q| far from the ends of the doubles' range.
+/// p/q, a share of 2^-26 off or less: for choices alone; |q| far from the ends of the doubles'
+/// range.
 INLINE Real nearly_quotient(const Real& p, const Real& q) {
 #if defined(__AVX512F__)
   const Real rough(_mm512_rcp14_pd(static_cast<__m512d>(q)));
@@ -109,8 +116,9 @@ INLINE Real signed_like(const Real& size, const Real& sign) {
 #if defined(__AVX512F__)
   // One instruction of three operands, for any port.
   const __m512i bit = _mm512_set1_epi64(static_cast<long long>(0x8000000000000000ULL));
-  return Real(_mm512_castsi512_pd(_mm512_ternarylogic_epi64(bit, _mm512_castpd_si512(static_cast<__m512d>(sign)),
-                                                            _mm512_castpd_si512(static_cast<__m512d>(size)), 0xca)));
+  return Real(_mm512_castsi512_pd(
+      _mm512_ternarylogic_epi64(bit, _mm512_castpd_si512(static_cast<__m512d>(sign)),
+                                _mm512_castpd_si512(static_cast<__m512d>(size)), 0xca)));
 #else
   return copysign(size, sign);
 #endif
@@ -120,8 +128,9 @@ INLINE Real signed_like(const Real& size, const Real& sign) {
 INLINE Real turned_by(const Real& x, const Real& sign) {
 #if defined(__AVX512F__)
   const __m512i bit = _mm512_set1_epi64(static_cast<long long>(0x8000000000000000ULL));
-  return Real(_mm512_castsi512_pd(_mm512_ternarylogic_epi64(_mm512_castpd_si512(static_cast<__m512d>(x)),
-                                                            _mm512_castpd_si512(static_cast<__m512d>(sign)), bit, 0x78)));
+  return Real(_mm512_castsi512_pd(
+      _mm512_ternarylogic_epi64(_mm512_castpd_si512(static_cast<__m512d>(x)),
+                                _mm512_castpd_si512(static_cast<__m512d>(sign)), bit, 0x78)));
 #else
   return x * copysign(Real(1.0), sign);
 #endif
@@ -146,11 +155,14 @@ INLINE Real look_up(const double* table, const Real& index) {
 #if defined(__AVX2__)
   if constexpr (reach == Reach::eight) {
     // Four numbers are eight words: those of number i are 2i and 2i + 1.
-    const __m256i twice = _mm256_slli_epi64(_mm256_castpd_si256(static_cast<__m256d>(index + 0x1p52)), 1);
-    const __m256i words = _mm256_or_si256(_mm256_and_si256(twice, _mm256_set1_epi64x(0xff)),
-                                          _mm256_slli_epi64(_mm256_add_epi64(twice, _mm256_set1_epi64x(1)), 32));
+    const __m256i twice =
+        _mm256_slli_epi64(_mm256_castpd_si256(static_cast<__m256d>(index + 0x1p52)), 1);
+    const __m256i words =
+        _mm256_or_si256(_mm256_and_si256(twice, _mm256_set1_epi64x(0xff)),
+                        _mm256_slli_epi64(_mm256_add_epi64(twice, _mm256_set1_epi64x(1)), 32));
     const auto among = [&](const double* four) {
-      return Real(_mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(_mm256_loadu_pd(four)), words)));
+      return Real(_mm256_castps_pd(
+          _mm256_permutevar8x32_ps(_mm256_castpd_ps(_mm256_loadu_pd(four)), words)));
     };
     return choose(index < 4.0, among(table), among(table + 4));
   }

@@ -5,11 +5,12 @@
 
 namespace carom::maps {
 
-// Let e be the direction of the hit from the centre and t the tangent, e turned counter-clockwise. The
-// outgoing velocity is along -cos(beta) e + sin(beta) t, and the centre of a clockwise Larmor circle
-// is at (R + rho sin beta) e + rho cos(beta) t. The next hit is the mirror image of this one in the
-// line through both centres, which gives theta; the angle at the centre of the Larmor circle gives the
-// time in the same way, with the circles exchanged. A counter-clockwise field is the mirror image.
+// Let e be the direction of the hit from the centre and t the tangent, e turned counter-clockwise.
+// The outgoing velocity is along -cos(beta) e + sin(beta) t, and the centre of a clockwise Larmor
+// circle is at (R + rho sin beta) e + rho cos(beta) t. The next hit is the mirror image of this one
+// in the line through both centres, which gives theta; the angle at the centre of the Larmor circle
+// gives the time in the same way, with the circles exchanged. A counter-clockwise field is the
+// mirror image.
 template <class Real>
 DiscHit<Real> Disc<Real>::after(const DiscHit<Real>& hit, std::uint64_t n) const {
   const Real count = static_cast<Real>(n);
@@ -23,7 +24,8 @@ DiscHit<Real> Disc<Real>::after(const DiscHit<Real>& hit, std::uint64_t n) const
   const Real sine = turn * std::sin(hit.beta), cosine = std::cos(hit.beta);
   const Real advance = 2 * std::atan2(rho * cosine, radius_ + rho * sine);
   const Real sweep = 2 * std::atan2(radius_ * cosine, rho + radius_ * sine);
-  return {hit.theta + turn * count * advance, hit.beta, hit.time + count * (sweep / std::abs(omega_))};
+  return {hit.theta + turn * count * advance, hit.beta,
+          hit.time + count * (sweep / std::abs(omega_))};
 }
 
 template <class Real>
@@ -33,10 +35,10 @@ Phase<Real> Disc<Real>::phase(const DiscHit<Real>& hit) const {
   return {radius_ * c, radius_ * s, -inward * c - along * s, -inward * s + along * c};
 }
 
-// The conserved momentum is R v sin(beta) + omega R^2/2 at the wall, which gives beta; there is a hit
-// where the sine is one. The velocity arrives along cos(beta) e + sin(beta) t, and the centre of a clockwise
-// Larmor circle is then at (R + rho sin beta) e - rho cos(beta) t: its angle gives theta. Every step is well
-// conditioned for weak fields too.
+// The conserved momentum is R v sin(beta) + omega R^2/2 at the wall, which gives beta; there is a
+// hit where the sine is one. The velocity arrives along cos(beta) e + sin(beta) t, and the centre
+// of a clockwise Larmor circle is then at (R + rho sin beta) e - rho cos(beta) t: its angle gives
+// theta. Every step is well conditioned for weak fields too.
 template <class Real>
 std::optional<DiscHit<Real>> Disc<Real>::first_hit(const Phase<Real>& start) const {
   const Real momentum = canonical_angular_momentum(start, omega_);

@@ -27,10 +27,11 @@ Real mirrored(Side side, Real angle) {
 
 }  // namespace
 
-// With the velocity at the angle a, a particle is at (c_x - r sin a, c_y + r cos a), r = speed/omega with
-// its sign. Each side is met outwards at one angle: to the right where cos a > 0, and so on. The
-// rectangle is convex, so the first of the four is the hit. The side just left is met again at the
-// mirror image of the angle with which it was left: no root near zero has to be told from zero.
+// With the velocity at the angle a, a particle is at (c_x - r sin a, c_y + r cos a), r =
+// speed/omega with its sign. Each side is met outwards at one angle: to the right where cos a > 0,
+// and so on. The rectangle is convex, so the first of the four is the hit. The side just left is
+// met again at the mirror image of the angle with which it was left: no root near zero has to be
+// told from zero.
 template <class Real>
 std::optional<Gyration<Real>> MagneticRectangle<Real>::arrive(const Gyration<Real>& from) const {
   const Real r = speed_ / omega_;
@@ -62,7 +63,8 @@ std::optional<Gyration<Real>> MagneticRectangle<Real>::arrive(const Gyration<Rea
     side = s;
   }
   if (side == Side::none) return std::nullopt;
-  Gyration<Real> hit{cx - r * std::sin(angle), cy + r * std::cos(angle), angle, side, 0, from.hits + 1};
+  Gyration<Real> hit{
+      cx - r * std::sin(angle), cy + r * std::cos(angle), angle, side, 0, from.hits + 1};
   if (side == Side::left) hit.x = 0;
   if (side == Side::right) hit.x = width_;
   if (side == Side::bottom) hit.y = 0;
@@ -93,8 +95,8 @@ Real MagneticRectangle<Real>::arc_length(const Gyration<Real>& hit) const {
 }
 
 template <class Real>
-Departure<Real> MagneticRectangle<Real>::escape(const Opening<Real>& hole, Real x, Real y, Real angle,
-                                                Real t_max) const {
+Departure<Real> MagneticRectangle<Real>::escape(const Opening<Real>& hole, Real x, Real y,
+                                                Real angle, Real t_max) const {
   Gyration<Real> particle{x, y, angle};
   while (true) {
     const auto hit = arrive(particle);

@@ -33,7 +33,8 @@ Phase<Real> Rectangle<Real>::at(const Phase<Real>& start, Real time) const {
 }
 
 template <class Real>
-std::vector<SideHit<Real>> Rectangle<Real>::hits(const Phase<Real>& start, std::uint64_t count) const {
+std::vector<SideHit<Real>> Rectangle<Real>::hits(const Phase<Real>& start,
+                                                 std::uint64_t count) const {
   std::vector<SideHit<Real>> list;
   list.reserve(count);
   std::uint64_t vertical = 0, horizontal = 0;  // sides met so far, by direction

@@ -28,8 +28,9 @@ double time_to_contact(Vector d, Vector v, double omega, double reach) {
     return gap / (std::sqrt(discriminant) - b);
   }
   if (!(v2 > 0.0)) return no_contact;
-  // The relative motion is a Larmor flight of the same omega against a circle: the crossing at which the
-  // distance falls. For a pair that has just touched (gap = 0, b > 0) the formula does not see the gap.
+  // The relative motion is a Larmor flight of the same omega against a circle: the crossing at
+  // which the distance falls. For a pair that has just touched (gap = 0, b > 0) the formula does
+  // not see the gap.
   const geometry::Quadratic<double> q = geometry::circle_quadratic(d, reach2, v, v2, omega, 0.5);
   const double discriminant = q.b * q.b - q.a * q.c;
   if (!(discriminant > 0.0)) return no_contact;
@@ -70,7 +71,8 @@ class Gap {
   /// An interval to begin with, which depends on the pair alone: a share of a turn.
   double stride() const {
     const double omega = std::max(std::fabs(pair_.first_omega), std::fabs(pair_.second_omega));
-    return omega > 0.0 ? 1.0 / omega : std::sqrt(reach2_) / (length(pair_.first) + length(pair_.second));
+    return omega > 0.0 ? 1.0 / omega
+                       : std::sqrt(reach2_) / (length(pair_.first) + length(pair_.second));
   }
 
  private:
@@ -79,7 +81,8 @@ class Gap {
   double reach2_, acceleration_;
 };
 
-/// The zero between a < b of a falling gap, to the last digits: Newton's steps, halved where they leave.
+/// The zero between a < b of a falling gap, to the last digits: Newton's steps, halved where they
+/// leave.
 double refined(const Gap& gap, double a, double b) {
   double t = 0.5 * (a + b);
   for (int i = 0; i < 200 && a < t && t < b; ++i) {
@@ -100,7 +103,8 @@ double first_fall(const Gap& gap, double a, double b, int depth) {
   const double h = 0.5 * (b - a), middle = a + h;
   const Gap::At m = gap.at(middle);
   const double bend = gap.curvature(m, h) * h;
-  if (m.gap - std::fabs(m.rate) * h - 0.5 * bend * h > 0.0) return no_contact;  // positive throughout
+  if (m.gap - std::fabs(m.rate) * h - 0.5 * bend * h > 0.0)
+    return no_contact;  // positive throughout
   const bool falls = m.rate<-bend, rises = m.rate> bend;
   if (rises) return no_contact;
   if (falls) {
@@ -125,10 +129,10 @@ bool clear(const Gap& gap, double a, double b, int depth) {
 
 double length(Vector v) { return std::sqrt(dot(v, v)); }
 
-/// What bounds say of a pair whose omegas differ, so that most strides need not be looked at. Each disc is
-/// |v/omega| away from its guiding centre, which rests; one without omega is its own centre and goes straight
-/// on. The bounds leave room for the rounding of what they are made of and of the gap itself, so that a
-/// stride that is left out is one in which no contact would have been found.
+/// What bounds say of a pair whose omegas differ, so that most strides need not be looked at. Each
+/// disc is |v/omega| away from its guiding centre, which rests; one without omega is its own centre
+/// and goes straight on. The bounds leave room for the rounding of what they are made of and of the
+/// gap itself, so that a stride that is left out is one in which no contact would have been found.
 class Guides {
  public:
   Guides(const PairFlight& pair, double reach) : apart_(pair.separation) {
@@ -154,8 +158,8 @@ class Guides {
       find_period(other, omega, second, first_speed);
   }
 
-  /// When the centres are near enough for a contact, |apart + velocity t| <= near: from a time until another,
-  /// or never.
+  /// When the centres are near enough for a contact, |apart + velocity t| <= near: from a time
+  /// until another, or never.
   struct Interval {
     double from = 0.0, until = no_contact;
   };
@@ -163,8 +167,8 @@ class Guides {
     const double v2 = dot(velocity_, velocity_), d2 = dot(apart_, apart_);
     const double gap = d2 - near_ * near_, b = dot(apart_, velocity_);
     if (!(v2 > 0.0)) return gap > 0.0 ? Interval{0.0, 0.0} : Interval{};
-    // As in time_to_contact. `near` is larger than need be by more than the rounding of all this, but for
-    // that of the last operations.
+    // As in time_to_contact. `near` is larger than need be by more than the rounding of all this,
+    // but for that of the last operations.
     const double speed = std::sqrt(v2), across = geometry::cross(apart_, velocity_);
     const double discriminant = (near_ * speed - across) * (near_ * speed + across);
     if (gap > 0.0 && (b >= 0.0 || discriminant <= 0.0)) return {0.0, 0.0};
@@ -176,8 +180,8 @@ class Guides {
 
   double period() const { return period_; }
   bool periodic() const { return drift_ == 0.0; }
-  /// How much nearer than at a time in the period after t, as it is computed, the discs can be any number of
-  /// whole periods later, until t + ahead.
+  /// How much nearer than at a time in the period after t, as it is computed, the discs can be any
+  /// number of whole periods later, until t + ahead.
   double shift(double t, double ahead) const { return drift_ * ahead + rounding_ * t + margin_; }
   /// After which the shift is more than any contact is away from any other.
   double longest() const { return 2.0 * near_ / drift_; }
@@ -185,9 +189,9 @@ class Guides {
   double with_centre(double reach) const { return time_to_contact(apart_, velocity_, 0.0, reach); }
 
  private:
-  /// After a turn of the faster disc it is back, and the other has moved, by its speed times the time at
-  /// most. Or, after some turns of the slower disc, that is back and the faster one is nearly: there is a
-  /// shift by the part of a turn that is missing. Whichever drifts least.
+  /// After a turn of the faster disc it is back, and the other has moved, by its speed times the
+  /// time at most. Or, after some turns of the slower disc, that is back and the faster one is
+  /// nearly: there is a shift by the part of a turn that is missing. Whichever drifts least.
   void find_period(double fast, double slow, double radius, double slow_speed) {
     constexpr double turn = 6.283185307179586;
     period_ = turn / fast;
@@ -195,7 +199,8 @@ class Guides {
     for (double q = 1.0; q * fast <= 256.0 * slow && drift_ > 0.0; ++q) {
       const double whole = std::floor(q * (fast / slow) + 0.5);
       double missing = std::fabs(std::fma(q, fast / slow, -whole));
-      // Ratios of charges and masses come rounded. What would take 2^40 turns to show is not looked for.
+      // Ratios of charges and masses come rounded. What would take 2^40 turns to show is not looked
+      // for.
       missing = missing <= 0x1p-40 * whole ? 0.0 : missing + 0x1p-52 * whole;
       const double period = q * (turn / slow), drift = turn * missing * radius / period;
       if (!(drift < drift_)) continue;
@@ -209,9 +214,10 @@ class Guides {
   double period_ = 0.0, drift_ = 0.0;
 };
 
-/// How long from t on there is certainly no contact: a period without one is followed by others, until the
-/// drift has used up what was left between the discs in it.
-double free_time(const PairFlight& pair, double reach, const Guides& guides, double t, double until) {
+/// How long from t on there is certainly no contact: a period without one is followed by others,
+/// until the drift has used up what was left between the discs in it.
+double free_time(const PairFlight& pair, double reach, const Guides& guides, double t,
+                 double until) {
   double ahead = std::min(until - t, guides.longest());
   for (; ahead > 8.0 * guides.period(); ahead *= 0.125) {
     const Gap wide(pair, reach + guides.shift(t, ahead));
@@ -237,7 +243,8 @@ double enclosed_time_to_contact(const PairFlight& pair, double reach, double unt
   return no_contact;
 }
 
-double guided_time_to_contact(const PairFlight& pair, double reach, double until, std::int64_t* strides) {
+double guided_time_to_contact(const PairFlight& pair, double reach, double until,
+                              std::int64_t* strides) {
   const Gap gap(pair, reach);
   const Gap::At start = gap.at(0.0);
   if (start.gap <= 0.0 && start.rate < 0.0) return 0.0;
@@ -258,7 +265,8 @@ double guided_time_to_contact(const PairFlight& pair, double reach, double until
     }
     if (strides != nullptr) ++*strides;
     const double a = k * stride, b = (k + 1.0) * stride;
-    if (!(b > a)) return std::max(guides.with_centre(reach), a);  // so many turns that their phase is none
+    if (!(b > a))
+      return std::max(guides.with_centre(reach), a);  // so many turns that their phase is none
     const double t = first_fall(gap, a, b, 60);
     if (t < no_contact) return t;
     ++k;
@@ -273,7 +281,8 @@ double time_to_contact(const PairFlight& pair, double reach, double until) {
   return guided_time_to_contact(pair, reach, until);
 }
 
-ElasticContact elastic_contact(Vector d, Vector first, Vector second, double first_mass, double second_mass) {
+ElasticContact elastic_contact(Vector d, Vector first, Vector second, double first_mass,
+                               double second_mass) {
   const double mass = first_mass + second_mass;
   const double reduced = first_mass * (second_mass / mass);
   const double d2 = dot(d, d), length = std::sqrt(d2);
@@ -296,9 +305,10 @@ ElasticContact elastic_contact(Vector d, Vector first, Vector second, double fir
   }
   // A grazing contact whose change of velocity was rounded away: the smallest push that shows.
   double size = std::fabs(along) / d2;
-  const double unit =
-      geometry::unit_roundoff * (std::sqrt(dot(first, first)) + std::sqrt(dot(second, second))) / length;
-  for (double extra = unit; !(dot(d, c.first - c.second) > 0.0) && std::isfinite(extra); extra *= 2.0) {
+  const double unit = geometry::unit_roundoff *
+                      (std::sqrt(dot(first, first)) + std::sqrt(dot(second, second))) / length;
+  for (double extra = unit; !(dot(d, c.first - c.second) > 0.0) && std::isfinite(extra);
+       extra *= 2.0) {
     size = std::max(size, 0.0);
     push(-(2.0 * size + extra));
   }

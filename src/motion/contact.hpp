@@ -17,10 +17,11 @@ struct PairFlight {
   double first_omega = 0.0, second_omega = 0.0;
 };
 
-/// The time until the distance falls to `reach`, the sum of the radii; no_contact if it never does, or not
-/// before `until`. A pair that touches or, by rounding, overlaps has its contact now if it approaches; if it
-/// moves apart, that it touches is no contact. Equal omega: closed form, until is not asked. Unequal:
-/// isolated by enclosures of the distance, on intervals that do not depend on `until`.
+/// The time until the distance falls to `reach`, the sum of the radii; no_contact if it never does,
+/// or not before `until`. A pair that touches or, by rounding, overlaps has its contact now if it
+/// approaches; if it moves apart, that it touches is no contact. Equal omega: closed form, until is
+/// not asked. Unequal: isolated by enclosures of the distance, on intervals that do not depend on
+/// `until`.
 double time_to_contact(const PairFlight& pair, double reach, double until);
 
 /// The closed form for both at the same omega; v = v_1 - v_2. A turn has one such time at most.
@@ -32,14 +33,15 @@ double enclosed_time_to_contact(const PairFlight& pair, double reach, double unt
 double guided_time_to_contact(const PairFlight& pair, double reach, double until,
                               std::int64_t* strides = nullptr);
 
-/// Velocities after an elastic contact along the line of centres, and the size of the momentum that was
-/// exchanged. Equal masses in a line exchange their velocities exactly. Afterwards separation . (v_1 - v_2)
-/// is positive as it is computed, so that one contact is never followed by the same again.
+/// Velocities after an elastic contact along the line of centres, and the size of the momentum that
+/// was exchanged. Equal masses in a line exchange their velocities exactly. Afterwards separation .
+/// (v_1 - v_2) is positive as it is computed, so that one contact is never followed by the same
+/// again.
 struct ElasticContact {
   geometry::Vector first, second;
   double transfer = 0.0;
 };
-ElasticContact elastic_contact(geometry::Vector separation, geometry::Vector first, geometry::Vector second,
-                               double first_mass, double second_mass);
+ElasticContact elastic_contact(geometry::Vector separation, geometry::Vector first,
+                               geometry::Vector second, double first_mass, double second_mass);
 
 }  // namespace carom

@@ -20,12 +20,14 @@ namespace {
 
 using Builder = shapes::Shape (*)(const TableSpec&);
 const std::pair<const char*, Builder> builders[] = {
-    {"rectangle", shapes::rectangle}, {"polygon", shapes::polygon}, {"triangle", shapes::triangle},
-    {"regular", shapes::regular},     {"circle", shapes::circle},   {"ellipse", shapes::ellipse},
-    {"annulus", shapes::annulus},     {"stadium", shapes::stadium}, {"mushroom", shapes::mushroom},
-    {"lemon", shapes::lemon},         {"sinai", shapes::sinai},     {"lorentz", shapes::lorentz},
+    {"rectangle", shapes::rectangle}, {"polygon", shapes::polygon},
+    {"triangle", shapes::triangle},   {"regular", shapes::regular},
+    {"circle", shapes::circle},       {"ellipse", shapes::ellipse},
+    {"annulus", shapes::annulus},     {"stadium", shapes::stadium},
+    {"mushroom", shapes::mushroom},   {"lemon", shapes::lemon},
+    {"sinai", shapes::sinai},         {"lorentz", shapes::lorentz},
     {"discs", shapes::discs},         {"random-discs", shapes::random_discs},
-    {"path", shapes::path},       {"plane", shapes::plane},
+    {"path", shapes::path},           {"plane", shapes::plane},
 };
 
 Builder builder_of(const TableSpec& spec) {
@@ -60,7 +62,8 @@ void check_names(const TableSpec& spec, const Table& table) {
   for (std::size_t k = 0; k < table.walls.size(); ++k) {
     const std::string& name = table.walls[k].name;
     if (!names.insert(name).second)
-      throw InputError(shapes::place_of_wall(spec, table, k), "two walls are called '" + name + "'", "a name of its own for each");
+      throw InputError(shapes::place_of_wall(spec, table, k), "two walls are called '" + name + "'",
+                       "a name of its own for each");
   }
 }
 

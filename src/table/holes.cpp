@@ -23,22 +23,28 @@ int named_wall(const HoleSpec& hole, const Table& table) {
                    nearest_name(hole.wall, names));
 }
 
-// The length of a wall is a rounded number, while an end written as "pi" is not: ends that agree with
-// the wall's to rounding mean the wall's.
-bool beyond(double s, double length) { return s > length * (1 + 4 * std::numeric_limits<double>::epsilon()); }
+// The length of a wall is a rounded number, while an end written as "pi" is not: ends that agree
+// with the wall's to rounding mean the wall's.
+bool beyond(double s, double length) {
+  return s > length * (1 + 4 * std::numeric_limits<double>::epsilon());
+}
 
 class Opening {
  public:
   Opening(const HoleSpec& hole, const std::string& name, int wall, Table& table)
-      : hole_(hole), name_(name), wall_(wall), table_(table), curve_(table.walls[wall_index()].curve) {}
+      : hole_(hole),
+        name_(name),
+        wall_(wall),
+        table_(table),
+        curve_(table.walls[wall_index()].curve) {}
 
   void cut() {
     const double length = geometry::length(curve_);
     const double width = size_of(hole_.width, "width");
     if (beyond(width, length)) {
-      throw InputError(
-          hole_.width.place(), "the hole is wider than its wall",
-          "a width of at most " + ExactNumber(length).text() + ", the length of '" + hole_.wall + "'");
+      throw InputError(hole_.width.place(), "the hole is wider than its wall",
+                       "a width of at most " + ExactNumber(length).text() + ", the length of '" +
+                           hole_.wall + "'");
     }
     const std::string c = quoted(hole_.center), w = quoted(hole_.width);
     const double centre = hole_.center.to_double();
@@ -50,7 +56,8 @@ class Opening {
     }
     const bool closed = geometry::is_closed(curve_);
     if (!closed && (from < 0 || beyond(to, length))) {
-      throw InputError(hole_.center.place(), "the hole reaches over the end of its wall '" + hole_.wall + "'",
+      throw InputError(hole_.center.place(),
+                       "the hole reaches over the end of its wall '" + hole_.wall + "'",
                        "a hole within 0 … " + ExactNumber(length).text() + " of arc length");
     }
     if (closed && to - from >= length) {
@@ -75,7 +82,8 @@ class Opening {
   }
   void add(double from, double to) {
     if (!(from < to)) {
-      throw InputError(hole_.width.place(), "the hole is too narrow for double precision", "a wider hole");
+      throw InputError(hole_.width.place(), "the hole is too narrow for double precision",
+                       "a wider hole");
     }
     table_.walls[wall_index()].holes.push_back(static_cast<int>(table_.holes.size()));
     table_.holes.push_back({name_, wall_, from, to});
@@ -104,7 +112,9 @@ void add_holes(const TableSpec& spec, Table& table) {
     origin.resize(table.holes.size(), k);
   }
   for (Wall& wall : table.walls) {
-    const auto hole = [&](int index) -> const Hole& { return table.holes[static_cast<std::size_t>(index)]; };
+    const auto hole = [&](int index) -> const Hole& {
+      return table.holes[static_cast<std::size_t>(index)];
+    };
     std::sort(wall.holes.begin(), wall.holes.end(),
               [&](int a, int b) { return hole(a).from < hole(b).from; });
     for (std::size_t k = 1; k < wall.holes.size(); ++k) {
@@ -112,8 +122,8 @@ void add_holes(const TableSpec& spec, Table& table) {
       if (hole(after).from >= hole(before).to) continue;
       const int later = std::max(before, after), earlier = std::min(before, after);
       throw InputError(spec.holes[origin[static_cast<std::size_t>(later)]].center.place(),
-                       "the hole '" + hole(later).name + "' overlaps '" + hole(earlier).name + "' on wall '" +
-                           wall.name + "'",
+                       "the hole '" + hole(later).name + "' overlaps '" + hole(earlier).name +
+                           "' on wall '" + wall.name + "'",
                        "holes that are apart");
     }
   }

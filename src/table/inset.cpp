@@ -51,7 +51,8 @@ Curve moved_wall(const Wall& wall, const Table& table, double radius) {
   if (const auto* circle = std::get_if<Circle>(&wall.curve)) {
     const double r = circle->radius + (circle->counterclockwise ? -radius : radius);
     if (!(r > 0.0))
-      throw refused("a disc of radius " + std::to_string(radius) + " does not fit into '" + wall.name + "'");
+      throw refused("a disc of radius " + std::to_string(radius) + " does not fit into '" +
+                    wall.name + "'");
     return Circle{circle->centre, r, circle->counterclockwise};
   }
   const bool segment = std::holds_alternative<Segment>(wall.curve);
@@ -63,8 +64,8 @@ Curve moved_wall(const Wall& wall, const Table& table, double radius) {
                to = moved_joint(wall, at(wall.next), radius);
   const Vector old = geometry::end_point(wall.curve) - geometry::start_point(wall.curve);
   if (!(dot(to - from, old) > 0.0))
-    throw refused("a disc of radius " + std::to_string(radius) + " does not reach the wall '" + wall.name +
-                  "'");
+    throw refused("a disc of radius " + std::to_string(radius) + " does not reach the wall '" +
+                  wall.name + "'");
   if (segment) return Segment{from, to};
   CircularArc arc = std::get<CircularArc>(wall.curve);
   // The same centre, the same angle: the figure is only smaller or larger about the centre.
@@ -96,7 +97,8 @@ double moved_parameter(const Wall& wall, const Curve& moved, double u, double ra
   if (!(u > 0.0)) return 0.0;
   if (u >= geometry::end_parameter(wall.curve)) return geometry::end_parameter(moved);
   if (!std::holds_alternative<Segment>(wall.curve)) return u;  // the same angle
-  const Vector foot = geometry::point_at(wall.curve, u) + radius * geometry::normal_at(wall.curve, u);
+  const Vector foot =
+      geometry::point_at(wall.curve, u) + radius * geometry::normal_at(wall.curve, u);
   const Vector from = geometry::start_point(moved), along = geometry::end_point(moved) - from;
   return std::clamp(dot(foot - from, along) / dot(along, along), 0.0, 1.0);
 }
@@ -118,7 +120,8 @@ Table inset_table(const Table& table, double radius) {
 
 double touched_parameter(const Wall& wall, double u, Vector centre) {
   // Across from a segment; on an arc at the same angle.
-  return std::holds_alternative<Segment>(wall.curve) ? geometry::parameter_of(wall.curve, centre) : u;
+  return std::holds_alternative<Segment>(wall.curve) ? geometry::parameter_of(wall.curve, centre)
+                                                     : u;
 }
 
 }  // namespace carom

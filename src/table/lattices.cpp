@@ -19,20 +19,22 @@ std::string shown(Vector v) {
   return text;
 }
 
-// Cells are counted along the vectors as written. Where these are far longer than the lattice needs, the next
-// cell has large numbers, and displacements are differences of much larger ones.
+// Cells are counted along the vectors as written. Where these are far longer than the lattice
+// needs, the next cell has large numbers, and displacements are differences of much larger ones.
 void refuse_long_vectors(const geometry::Lattice& lattice, const Place& place) {
   constexpr std::int64_t most = 1024;
   const auto large = [](std::int64_t n) { return n > most || n < -most; };
-  if (std::none_of(lattice.edges.begin(), lattice.edges.end(),
-                   [&](const geometry::CellEdge& e) { return large(e.beyond.first) || large(e.beyond.second); }))
+  if (std::none_of(lattice.edges.begin(), lattice.edges.end(), [&](const geometry::CellEdge& e) {
+        return large(e.beyond.first) || large(e.beyond.second);
+      }))
     return;
   const auto [first, second] = geometry::shortest_cells(lattice);
-  throw InputError(place,
-                   "the lattice vectors are more than " + std::to_string(most) +
-                       " times as long as it needs, or nearly parallel",
-                   "shorter vectors of the same lattice: " + shown(geometry::displacement(lattice, first)) + " and " +
-                       shown(geometry::displacement(lattice, second)));
+  throw InputError(
+      place,
+      "the lattice vectors are more than " + std::to_string(most) +
+          " times as long as it needs, or nearly parallel",
+      "shorter vectors of the same lattice: " + shown(geometry::displacement(lattice, first)) +
+          " and " + shown(geometry::displacement(lattice, second)));
 }
 
 std::vector<ExactNumber> radii_of(const TableSpec& spec, std::size_t count) {
@@ -46,9 +48,10 @@ std::vector<ExactNumber> radii_of(const TableSpec& spec, std::size_t count) {
     throw InputError(single->second.place(), "radius and radii are both given", "one of them");
   }
   if (list->second.size() != count) {
-    throw InputError(list->second.empty() ? place_of(spec, "radii") : list->second.front().place(),
-                     std::to_string(list->second.size()) + " radii for " + std::to_string(count) + " centers",
-                     "one radius for each center");
+    throw InputError(
+        list->second.empty() ? place_of(spec, "radii") : list->second.front().place(),
+        std::to_string(list->second.size()) + " radii for " + std::to_string(count) + " centers",
+        "one radius for each center");
   }
   for (const ExactNumber& r : list->second) size_of(r, "radius");
   return list->second;
@@ -60,7 +63,8 @@ void set_lattice(Table& table, const LatticeSpec& spec, Vector centre) {
   try {
     table.lattice = geometry::make_lattice(point(spec.first), point(spec.second), centre);
   } catch (const std::invalid_argument&) {
-    throw InputError(spec.place, "the lattice vectors are parallel or zero", "two vectors that span the plane");
+    throw InputError(spec.place, "the lattice vectors are parallel or zero",
+                     "two vectors that span the plane");
   }
   refuse_long_vectors(*table.lattice, spec.place);
   table.extent = Extent::lattice;
@@ -82,8 +86,9 @@ void close_square(Shape& shape, const ExactNumber& side, const TableSpec& spec) 
     shape.lattice = {{side, 0}, {0, side}, spec.place};
     shape.cell_centre = {half(side), half(side)};
   } else {
-    add_polygon(shape, {"bottom", "right", "top", "left"},
-                {ExactPoint{0, 0}, ExactPoint{side, 0}, ExactPoint{side, side}, ExactPoint{0, side}});
+    add_polygon(
+        shape, {"bottom", "right", "top", "left"},
+        {ExactPoint{0, 0}, ExactPoint{side, 0}, ExactPoint{side, side}, ExactPoint{0, side}});
   }
 }
 
@@ -97,12 +102,15 @@ Shape lorentz(const TableSpec& spec) {
   const std::string lattice = word == spec.words.end() ? "triangular" : word->second;
   Shape shape{{{{"disc_1", WrittenCircle{{}, radius, false}}}}};
   if (lattice == "triangular") {
-    shape.lattice = {{spacing, 0}, {half(spacing), derived(quoted(spacing) + "*sqrt(3)/2", spacing)}, spec.place};
+    shape.lattice = {{spacing, 0},
+                     {half(spacing), derived(quoted(spacing) + "*sqrt(3)/2", spacing)},
+                     spec.place};
   } else if (lattice == "square") {
     shape.lattice = {{spacing, 0}, {0, spacing}, spec.place};
   } else {
     throw InputError(place_of(spec, "lattice"), "unknown lattice '" + lattice + "'",
-                     "\"triangular\" or \"square\"", nearest_name(lattice, {"triangular", "square"}));
+                     "\"triangular\" or \"square\"",
+                     nearest_name(lattice, {"triangular", "square"}));
   }
   return shape;
 }
@@ -130,13 +138,13 @@ void repeat(const LatticeSpec& lattice, Table& table) {
                      "no [lattice] here");
   }
   if (table.extent == Extent::bounded) {
-    throw InputError(lattice.place, "the table is closed by its walls, nothing leads to another cell",
-                     "[lattice] with obstacles in the open plane: discs, or a path of clockwise loops");
+    throw InputError(
+        lattice.place, "the table is closed by its walls, nothing leads to another cell",
+        "[lattice] with obstacles in the open plane: discs, or a path of clockwise loops");
   }
-  if (table.walls.empty())
-    return set_lattice(table, lattice, {0, 0});
-  const geometry::Box box =
-      geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
+  if (table.walls.empty()) return set_lattice(table, lattice, {0, 0});
+  const geometry::Box box = geometry::hull_of(
+      table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
   const Vector centre{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2};
   set_lattice(table, lattice, centre);
 }

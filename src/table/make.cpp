@@ -6,7 +6,9 @@ namespace carom {
 namespace {
 
 Place place_in_code(const std::string& key) { return {"", 0, 0, key}; }
-std::string numbered(const std::string& key, std::size_t index) { return key + "[" + std::to_string(index) + "]"; }
+std::string numbered(const std::string& key, std::size_t index) {
+  return key + "[" + std::to_string(index) + "]";
+}
 
 std::shared_ptr<const Table> built(const TableSpec& spec, const Place& where) {
   try {
@@ -74,17 +76,23 @@ MadeTable polygon(std::vector<ExactPoint> points) {
 MadeTable regular_polygon(int sides, const ExactNumber& radius, const ExactNumber& angle) {
   return MadeTable(shaped("regular", {{"sides", sides}, {"radius", radius}, {"angle", angle}}));
 }
-MadeTable circle(const ExactNumber& radius) { return MadeTable(shaped("circle", {{"radius", radius}})); }
-MadeTable ellipse(const ExactNumber& a, const ExactNumber& b) { return MadeTable(shaped("ellipse", {{"a", a}, {"b", b}})); }
+MadeTable circle(const ExactNumber& radius) {
+  return MadeTable(shaped("circle", {{"radius", radius}}));
+}
+MadeTable ellipse(const ExactNumber& a, const ExactNumber& b) {
+  return MadeTable(shaped("ellipse", {{"a", a}, {"b", b}}));
+}
 MadeTable annulus(const ExactNumber& outer, const ExactNumber& inner, const ExactNumber& offset) {
   return MadeTable(shaped("annulus", {{"outer", outer}, {"inner", inner}, {"offset", offset}}));
 }
 MadeTable stadium(const ExactNumber& half_length, const ExactNumber& radius) {
   return MadeTable(shaped("stadium", {{"half_length", half_length}, {"radius", radius}}));
 }
-MadeTable mushroom(const ExactNumber& cap_radius, const ExactNumber& stem_width, const ExactNumber& stem_height) {
-  return MadeTable(
-      shaped("mushroom", {{"cap_radius", cap_radius}, {"stem_width", stem_width}, {"stem_height", stem_height}}));
+MadeTable mushroom(const ExactNumber& cap_radius, const ExactNumber& stem_width,
+                   const ExactNumber& stem_height) {
+  return MadeTable(shaped(
+      "mushroom",
+      {{"cap_radius", cap_radius}, {"stem_width", stem_width}, {"stem_height", stem_height}}));
 }
 MadeTable lemon(const ExactNumber& radius, const ExactNumber& separation) {
   return MadeTable(shaped("lemon", {{"radius", radius}, {"separation", separation}}));
@@ -94,7 +102,8 @@ MadeTable sinai(const ExactNumber& side, const ExactNumber& radius, bool torus) 
   spec.torus = torus;
   return MadeTable(std::move(spec));
 }
-MadeTable lorentz(const ExactNumber& spacing, const ExactNumber& radius, const std::string& lattice) {
+MadeTable lorentz(const ExactNumber& spacing, const ExactNumber& radius,
+                  const std::string& lattice) {
   TableSpec spec = shaped("lorentz", {{"spacing", spacing}, {"radius", radius}});
   spec.words["lattice"] = lattice;
   return MadeTable(std::move(spec));
@@ -119,7 +128,8 @@ ObstacleSpec disc(const ExactPoint& center, const ExactNumber& radius) {
   obstacle.radius = radius;
   return obstacle;
 }
-ObstacleSpec elliptic_disc(const ExactPoint& center, const ExactNumber& a, const ExactNumber& b, const ExactNumber& angle) {
+ObstacleSpec elliptic_disc(const ExactPoint& center, const ExactNumber& a, const ExactNumber& b,
+                           const ExactNumber& angle) {
   ObstacleSpec obstacle;
   obstacle.shape = ObstacleSpec::Shape::ellipse;
   obstacle.center = center;

@@ -20,7 +20,8 @@ Place place_of(const TableSpec& spec, const std::string& key) {
 const ExactNumber& number(const TableSpec& spec, const std::string& key) {
   const auto found = spec.numbers.find(key);
   if (found == spec.numbers.end()) {
-    throw InputError(place_of(spec, key), "the shape '" + spec.shape + "' needs '" + key + "'", "a number");
+    throw InputError(place_of(spec, key), "the shape '" + spec.shape + "' needs '" + key + "'",
+                     "a number");
   }
   return found->second;
 }
@@ -34,7 +35,8 @@ double size_of(const ExactNumber& value, const std::string& name) {
   const double size = value.to_double();
   const std::string prefix = value.place().key.empty() ? name + " " : "";
   if (!(size > 0)) {
-    throw InputError(value.place(), prefix + "must be positive, not " + value.text(), "a number > 0");
+    throw InputError(value.place(), prefix + "must be positive, not " + value.text(),
+                     "a number > 0");
   }
   if (!(size <= largest && size >= smallest)) {
     throw InputError(value.place(), prefix + "is out of range: " + value.text(),
@@ -43,7 +45,9 @@ double size_of(const ExactNumber& value, const std::string& name) {
   return size;
 }
 
-double size(const TableSpec& spec, const std::string& key) { return size_of(number(spec, key), key); }
+double size(const TableSpec& spec, const std::string& key) {
+  return size_of(number(spec, key), key);
+}
 
 double coordinate(const ExactNumber& value) {
   const double x = value.to_double();
@@ -54,12 +58,16 @@ double coordinate(const ExactNumber& value) {
   return x;
 }
 
-geometry::Vector point(const ExactPoint& value) { return {coordinate(value.x), coordinate(value.y)}; }
+geometry::Vector point(const ExactPoint& value) {
+  return {coordinate(value.x), coordinate(value.y)};
+}
 
 std::string quoted(const ExactNumber& value) {
-  constexpr std::size_t long_text = 2000;  // numbers made from doubles are shorter, and what was written means itself
+  constexpr std::size_t long_text =
+      2000;  // numbers made from doubles are shorter, and what was written means itself
   const auto rational = value.to_rational();
-  const bool as_ratio = rational && rational->numerator.size() + rational->denominator.size() < long_text;
+  const bool as_ratio =
+      rational && rational->numerator.size() + rational->denominator.size() < long_text;
   return "(" + (as_ratio ? rational->numerator + "/" + rational->denominator : value.text()) + ")";
 }
 

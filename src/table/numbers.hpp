@@ -23,7 +23,8 @@ geometry::Vector point(const ExactPoint& value);
 
 /// The number that an expression of other numbers means, exactly; it keeps the place of `origin`.
 ExactNumber derived(const std::string& expression, const ExactNumber& origin);
-/// A number as part of an expression: "(1/10)", "(sqrt(2))". Exact: the text of a number made from a double is not.
+/// A number as part of an expression: "(1/10)", "(sqrt(2))". Exact: the text of a number made from
+/// a double is not.
 std::string quoted(const ExactNumber& value);
 
 /// Half of a number, and its negative.

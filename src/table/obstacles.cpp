@@ -34,7 +34,8 @@ std::vector<Vector> corners_of(const ObstacleSpec& obstacle) {
 }  // namespace
 
 std::string name_of_obstacle(const std::vector<ObstacleSpec>& obstacles, std::size_t index) {
-  return obstacles[index].name.empty() ? "obstacle_" + std::to_string(index + 1) : obstacles[index].name;
+  return obstacles[index].name.empty() ? "obstacle_" + std::to_string(index + 1)
+                                       : obstacles[index].name;
 }
 
 std::size_t walls_of(const ObstacleSpec& obstacle) {
@@ -58,15 +59,18 @@ namespace {
 Chain polygon_obstacle(const ObstacleSpec& obstacle, const std::string& name) {
   const std::vector<Vector> corners = corners_of(obstacle);
   if (corners.size() < 3)
-    throw InputError(obstacle.place, "a polygon has at least three corners, not " + std::to_string(corners.size()),
+    throw InputError(obstacle.place,
+                     "a polygon has at least three corners, not " + std::to_string(corners.size()),
                      "three points or more");
   for (std::size_t k = 0; k < corners.size(); ++k)
     if (corners[k] == corners[(k + 1) % corners.size()])
-      throw InputError(obstacle.points[k].x.place(), "the same point twice in a row", "corners that differ");
+      throw InputError(obstacle.points[k].x.place(), "the same point twice in a row",
+                       "corners that differ");
   const std::vector<std::string> names = numbered(name + "_side", corners.size());
   Chain chain;
   for (const ClockwiseSide& s : clockwise_sides(obstacle))
-    chain.push_back({names[s.side], WrittenSegment{obstacle.points[s.from], obstacle.points[s.to]}});
+    chain.push_back(
+        {names[s.side], WrittenSegment{obstacle.points[s.from], obstacle.points[s.to]}});
   return chain;
 }
 

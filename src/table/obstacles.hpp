@@ -9,15 +9,16 @@
 
 namespace carom {
 
-/// "obstacle_1", "obstacle_2" … where none is given. A circle or ellipse is one wall of that name; the sides of a
-/// polygon are NAME_side_1, NAME_side_2 …
+/// "obstacle_1", "obstacle_2" … where none is given. A circle or ellipse is one wall of that name;
+/// the sides of a polygon are NAME_side_1, NAME_side_2 …
 std::string name_of_obstacle(const std::vector<ObstacleSpec>&, std::size_t index);
 
 /// How many walls an obstacle has.
 std::size_t walls_of(const ObstacleSpec&);
 
-/// The numbers of a polygon's corners in the order of its walls, which have the domain on their left: clockwise. Side k
-/// leads from corner k to the next or back. Decided by the exact sign of the area of the rounded corners.
+/// The numbers of a polygon's corners in the order of its walls, which have the domain on their
+/// left: clockwise. Side k leads from corner k to the next or back. Decided by the exact sign of
+/// the area of the rounded corners.
 struct ClockwiseSide {
   std::size_t from, to, side;
 };

@@ -8,7 +8,8 @@ namespace {
 using geometry::Vector;
 
 Chain path_loop(const LoopSpec& loop, std::size_t walls_before) {
-  if (loop.pieces.empty()) throw InputError(loop.place, "the loop has no pieces", "a list of pieces");
+  if (loop.pieces.empty())
+    throw InputError(loop.place, "the loop has no pieces", "a list of pieces");
   const Vector start = point(loop.start);
   Vector from = start;
   ExactPoint written_from = loop.start;
@@ -25,11 +26,11 @@ Chain path_loop(const LoopSpec& loop, std::size_t walls_before) {
     written_from = piece.to;
   }
   if (!(from == start)) {
-    throw InputError(
-        loop.pieces.back().place,
-        "the path is open: it ends at (" + loop.pieces.back().to.x.text() + ", " +
-            loop.pieces.back().to.y.text() + ")",
-        "a last piece that ends at the start (" + loop.start.x.text() + ", " + loop.start.y.text() + ")");
+    throw InputError(loop.pieces.back().place,
+                     "the path is open: it ends at (" + loop.pieces.back().to.x.text() + ", " +
+                         loop.pieces.back().to.y.text() + ")",
+                     "a last piece that ends at the start (" + loop.start.x.text() + ", " +
+                         loop.start.y.text() + ")");
   }
   return chain;
 }
@@ -47,7 +48,8 @@ Shape path(const TableSpec& spec) {
     shape.loops.push_back(path_loop(loop, walls));
     walls += loop.pieces.size();
     double area = 0.0;
-    for (const NamedCurve& piece : shape.loops.back()) area += geometry::area_integral(rounded(piece.curve));
+    for (const NamedCurve& piece : shape.loops.back())
+      area += geometry::area_integral(rounded(piece.curve));
     outer = outer || area > 0;
   }
   // Clockwise loops alone are obstacles in the open plane.

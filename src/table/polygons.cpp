@@ -34,11 +34,12 @@ std::vector<WrittenPoint> corners_of(const TableSpec& spec) {
 
 }  // namespace
 
-void add_polygon(Shape& shape, const std::vector<std::string>& names, const std::vector<WrittenPoint>& corners,
-                 int corner) {
+void add_polygon(Shape& shape, const std::vector<std::string>& names,
+                 const std::vector<WrittenPoint>& corners, int corner) {
   Chain chain;
   for (std::size_t k = 0; k < corners.size(); ++k)
-    chain.push_back({names[k], WrittenSegment{corners[k], corners[(k + 1) % corners.size()]}, corner});
+    chain.push_back(
+        {names[k], WrittenSegment{corners[k], corners[(k + 1) % corners.size()]}, corner});
   shape.loops.push_back(std::move(chain));
 }
 
@@ -70,7 +71,8 @@ Shape triangle(const TableSpec& spec) {
   if (corners.size() != 3) {
     throw InputError(spec.points.at("points").empty() ? place_of(spec, "points")
                                                       : spec.points.at("points").front().x.place(),
-                     "a triangle has three corners, not " + std::to_string(corners.size()), "three points");
+                     "a triangle has three corners, not " + std::to_string(corners.size()),
+                     "three points");
   }
   Shape shape;
   add_polygon(shape, numbered("side", 3), corners);
@@ -88,7 +90,8 @@ Shape regular(const TableSpec& spec) {
   size(spec, "radius");
   std::vector<WrittenPoint> corners;
   for (int k = 0; k < n; ++k)
-    corners.emplace_back(RegularCorner{number(spec, "radius"), number_or(spec, "angle", "0"), k, n});
+    corners.emplace_back(
+        RegularCorner{number(spec, "radius"), number_or(spec, "angle", "0"), k, n});
   // Of the interior angles pi (n - 2)/n only those of n = 3 and 4 are pi/3 and pi/2.
   const int corner = n == 3 ? 3 : n == 4 ? 2 : 0;
   Shape shape;

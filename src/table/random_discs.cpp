@@ -21,11 +21,13 @@ constexpr std::uint64_t most_draws_of_all = 100'000'000;  // some seconds
 
 // u is the rounding of one operation.
 constexpr double u = 0x1p-53;
-// Of lengths in a square, in units of its side. A difference of two coordinates errs by u, and by u more when the
-// side is taken off it: their distance by 2 sqrt(2) u, the sum of both. A coordinate that is drawn errs by u for the
-// range, for the product and for the sum. The double of what is needed, and more.
+// Of lengths in a square, in units of its side. A difference of two coordinates errs by u, and by u
+// more when the side is taken off it: their distance by 2 sqrt(2) u, the sum of both. A coordinate
+// that is drawn errs by u for the range, for the product and for the sum. The double of what is
+// needed, and more.
 constexpr double rounding = 8.0 * u;
-// Of squared distances, in units of themselves: two squares, their sum and the square of the reach, 4 u; eight times.
+// Of squared distances, in units of themselves: two squares, their sum and the square of the reach,
+// 4 u; eight times.
 constexpr double rounding_of_squares = 32.0 * u;
 // So that a square is not taken to be too narrow for a reach by what its width was rounded.
 constexpr double narrower = 0.999;
@@ -33,22 +35,26 @@ constexpr double narrower = 0.999;
 std::uint64_t whole_number_from(const ExactNumber& value, std::uint64_t least, std::uint64_t most) {
   const auto number = whole_number(value, least, most);
   if (!number)
-    throw InputError(value.place(), "must be a whole number from " + std::to_string(least) + " to " +
-                                        std::to_string(most) + ", not " + value.text(),
+    throw InputError(value.place(),
+                     "must be a whole number from " + std::to_string(least) + " to " +
+                         std::to_string(most) + ", not " + value.text(),
                      "a whole number");
   return *number;
 }
 
-/// Places in a square [0, side]^2 one after the other, each drawn until it has room. Squares at least as wide as
-/// two radii hold the numbers of the discs whose centres are in them, so that neighbours alone are asked.
+/// Places in a square [0, side]^2 one after the other, each drawn until it has room. Squares at
+/// least as wide as two radii hold the numbers of the discs whose centres are in them, so that
+/// neighbours alone are asked.
 class Arrangement {
  public:
   Arrangement(double side, double radius, std::size_t count, bool torus)
       : side_(side),
         torus_(torus),
-        // A difference of coordinates, and a side taken off it, are rounded: so discs are really apart.
+        // A difference of coordinates, and a side taken off it, are rounded: so discs are really
+        // apart.
         reach_(2.0 * radius + rounding * side) {
-    const double fitting = std::floor(narrower * side / reach_), enough = std::ceil(std::sqrt(static_cast<double>(count)));
+    const double fitting = std::floor(narrower * side / reach_),
+                 enough = std::ceil(std::sqrt(static_cast<double>(count)));
     parts_ = static_cast<int>(std::fmax(1.0, std::fmin(fitting, enough)));
     squares_.resize(static_cast<std::size_t>(parts_) * static_cast<std::size_t>(parts_));
   }
@@ -103,7 +109,8 @@ Shape random_discs(const TableSpec& spec) {
   const std::uint64_t count = whole_number_from(count_number, 1, most_discs);
   const std::uint64_t seed = whole_number_from(number_or(spec, "seed", "1"), 0, most_seed);
   if (!(4 * radius < side)) {
-    throw InputError(radius_number.place(), "the discs are too large for the square", "radius < side/4");
+    throw InputError(radius_number.place(), "the discs are too large for the square",
+                     "radius < side/4");
   }
   // Between walls a disc keeps off them by the margin that it keeps from others.
   const double margin = spec.torus ? 0.0 : radius + rounding * side;
@@ -120,9 +127,11 @@ Shape random_discs(const TableSpec& spec) {
         break;
       }
       if (++draws == most_draws || ++draws_of_all == most_draws_of_all) {
-        throw InputError(count_number.place(),
-                         "no room was found for disc " + std::to_string(disc + 1) + " of " + std::to_string(count),
-                         "fewer or smaller discs: placed one after the other they fill about half of the area");
+        throw InputError(
+            count_number.place(),
+            "no room was found for disc " + std::to_string(disc + 1) + " of " +
+                std::to_string(count),
+            "fewer or smaller discs: placed one after the other they fill about half of the area");
       }
     }
   }

@@ -52,22 +52,26 @@ Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall)
   }
   for (const char* key : {"points", "centers"}) {
     const auto found = spec.points.find(key);
-    if (found != spec.points.end() && left < found->second.size()) return found->second[left].x.place();
+    if (found != spec.points.end() && left < found->second.size())
+      return found->second[left].x.place();
   }
   return spec.place;
 }
 
 void check_region(const TableSpec& spec, const Table& table) {
-  const auto faults = geometry::check_region(loops_of(table), kind_of(table.extent), table.lattice, 3);
+  const auto faults =
+      geometry::check_region(loops_of(table), kind_of(table.extent), table.lattice, 3);
   if (faults.empty()) return;
   std::string problem;
   for (const geometry::RegionFault& fault : faults) {
     problem.append(problem.empty() ? "" : "; ").append(fault.sentence);
   }
   // Of two walls that cross the later one is named: it is the obstacle's.
-  const int wall = std::max(table.wall_index(faults.front().first), table.wall_index(faults.front().second));
-  throw InputError(wall < 0 ? spec.place : place_of_wall(spec, table, static_cast<std::size_t>(wall)), problem,
-                   "closed loops that do not cross, outer ones counter-clockwise, obstacles clockwise");
+  const int wall =
+      std::max(table.wall_index(faults.front().first), table.wall_index(faults.front().second));
+  throw InputError(
+      wall < 0 ? spec.place : place_of_wall(spec, table, static_cast<std::size_t>(wall)), problem,
+      "closed loops that do not cross, outer ones counter-clockwise, obstacles clockwise");
 }
 
 }  // namespace carom::shapes

@@ -17,7 +17,9 @@ struct Rounding {
     return point(std::get<ExactPoint>(p));
   }
 
-  geometry::Curve operator()(const WrittenSegment& s) const { return geometry::Segment{at(s.from), at(s.to)}; }
+  geometry::Curve operator()(const WrittenSegment& s) const {
+    return geometry::Segment{at(s.from), at(s.to)};
+  }
   geometry::Curve operator()(const WrittenArc& s) const {
     return geometry::CircularArc{point(s.from), point(s.to), s.offset.to_double(), true};
   }
@@ -26,7 +28,8 @@ struct Rounding {
   }
   geometry::Curve operator()(const WrittenEllipse& s) const {
     return geometry::Ellipse{point(s.centre), direction(s.angle, 0, 1, size_of(s.a, "a")),
-                             size_of(derived(quoted(s.b) + "/" + quoted(s.a), s.b), "b/a"), s.counterclockwise};
+                             size_of(derived(quoted(s.b) + "/" + quoted(s.a), s.b), "b/a"),
+                             s.counterclockwise};
   }
   geometry::Curve operator()(const WrittenPiece& s) const {
     return curve_of(s.piece, point(s.from), point(s.piece.to));
@@ -49,7 +52,8 @@ struct Rounding {
     }
     try {
       const double ratio = size_of(piece.ratio, "ellipse_ratio");
-      return geometry::elliptic_arc_through(from, point(piece.via), to, direction(piece.angle), ratio);
+      return geometry::elliptic_arc_through(from, point(piece.via), to, direction(piece.angle),
+                                            ratio);
     } catch (const std::invalid_argument&) {
       throw InputError(piece.place, "no elliptic arc leads through these three points",
                        "ellipse_via beside the straight line to ellipse_to");

@@ -1,5 +1,6 @@
-// The named shapes: each function gives the walls of one shape in the numbers that were written. Tables round these to
-// doubles (build.cpp), certified orbits enclose them (certify/wall/table_builder.hpp).
+// The named shapes: each function gives the walls of one shape in the numbers that were written.
+// Tables round these to doubles (build.cpp), certified orbits enclose them
+// (certify/wall/table_builder.hpp).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,8 @@
 
 namespace carom::shapes {
 
-/// A corner of a regular polygon: `radius` from the origin, in the direction of `angle` and `part` of `whole` turns.
+/// A corner of a regular polygon: `radius` from the origin, in the direction of `angle` and `part`
+/// of `whole` turns.
 struct RegularCorner {
   ExactNumber radius, angle;
   int part = 0, whole = 1;
@@ -23,8 +25,9 @@ using WrittenPoint = std::variant<ExactPoint, RegularCorner>;
 struct WrittenSegment {
   WrittenPoint from, to;
 };
-/// Counter-clockwise about its centre, which lies `offset` chords on the left of the chord. Half circles have offset 0:
-/// their tangents at the ends are exactly at right angles to the chord, so that they join straight walls without a corner.
+/// Counter-clockwise about its centre, which lies `offset` chords on the left of the chord. Half
+/// circles have offset 0: their tangents at the ends are exactly at right angles to the chord, so
+/// that they join straight walls without a corner.
 struct WrittenArc {
   ExactPoint from, to, centre;
   ExactNumber radius, offset;
@@ -45,7 +48,8 @@ struct WrittenPiece {
   ExactPoint from;
   PieceSpec piece;
 };
-using WrittenCurve = std::variant<WrittenSegment, WrittenArc, WrittenCircle, WrittenEllipse, WrittenPiece>;
+using WrittenCurve =
+    std::variant<WrittenSegment, WrittenArc, WrittenCircle, WrittenEllipse, WrittenPiece>;
 
 /// A wall before it has neighbours.
 struct NamedCurve {
@@ -53,8 +57,8 @@ struct NamedCurve {
   WrittenCurve curve;
   int corner = 0;  ///< n if the corner at its start is declared to have the angle pi/n
 };
-/// Curves of which each ends where the next begins and the last where the first begins. A full circle or ellipse is a chain
-/// of one.
+/// Curves of which each ends where the next begins and the last where the first begins. A full
+/// circle or ellipse is a chain of one.
 using Chain = std::vector<NamedCurve>;
 
 struct Shape {
@@ -70,7 +74,8 @@ Shape written_shape(const TableSpec&);
 geometry::Curve rounded(const WrittenCurve&);
 
 /// Adds a polygon whose side k runs from corner k to the next; the corners' angle may be declared.
-void add_polygon(Shape&, const std::vector<std::string>& names, const std::vector<WrittenPoint>& corners, int corner = 0);
+void add_polygon(Shape&, const std::vector<std::string>& names,
+                 const std::vector<WrittenPoint>& corners, int corner = 0);
 /// "side_1", "side_2", …
 std::vector<std::string> numbered(const std::string& stem, std::size_t count);
 
@@ -95,7 +100,8 @@ Shape random_discs(const TableSpec&);
 void close_square(Shape&, const ExactNumber& side, const TableSpec&);
 /// No walls: for particles that forces hold, or on a lattice.
 Shape plane(const TableSpec&);
-/// Repeats the obstacles of an open table: those of a shape about the cell's centre, or of any by [lattice].
+/// Repeats the obstacles of an open table: those of a shape about the cell's centre, or of any by
+/// [lattice].
 void set_lattice(Table&, const LatticeSpec&, geometry::Vector centre);
 void repeat(const LatticeSpec&, Table&);
 

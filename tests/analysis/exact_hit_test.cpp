@@ -1,4 +1,5 @@
-// Errors of single hits: the series against libquadmath, points of written walls against the definition of curves.
+// Errors of single hits: the series against libquadmath, points of written walls against the
+// definition of curves.
 #include "analysis/exact_hit.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ TEST(ExactHit, PointsOfWallsAreThoseOfTheCurves) {
   Table table = stadium();
   for (const geometry::Curve& curve :
        {geometry::Curve(geometry::Ellipse{{0.1, 0.2}, {2.0, 0.7}, 0.6, false}),
-        geometry::Curve(geometry::EllipticArc{{1.0, 0.0}, {0.0, 0.5}, {1.0, 0.3}, 0.4, 0.3, true})}) {
+        geometry::Curve(
+            geometry::EllipticArc{{1.0, 0.0}, {0.0, 0.5}, {1.0, 0.3}, 0.4, 0.3, true})}) {
     table.walls.emplace_back();
     table.walls.back().curve = curve;
   }
@@ -43,7 +45,8 @@ TEST(ExactHit, PointsOfWallsAreThoseOfTheCurves) {
       const double u = dice.between(0.0, geometry::last_parameter(table.walls[k].curve));
       const TwofoldVector p = certify::point_with_parameter(written.table.walls[k], u);
       const QuadVector q = curve.point(u);
-      ASSERT_LT(std::fabs(double(quad(p.x) - q.x)) + std::fabs(double(quad(p.y) - q.y)), 1e-28) << k;
+      ASSERT_LT(std::fabs(double(quad(p.x) - q.x)) + std::fabs(double(quad(p.y) - q.y)), 1e-28)
+          << k;
     }
   }
 }

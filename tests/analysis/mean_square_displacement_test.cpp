@@ -20,7 +20,8 @@ DisplacementMoments moments_of(F f, std::uint64_t trajectories = 300) {
 }
 
 TEST(Moments, OfALineGiveItsSlope) {
-  const auto fit = moments_of([](double t) { return t == 0 ? 0.0 : 4 * 0.25 * t - 0.5; }).fit({1, 64});
+  const auto fit =
+      moments_of([](double t) { return t == 0 ? 0.0 : 4 * 0.25 * t - 0.5; }).fit({1, 64});
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->points, 7u);
   EXPECT_NEAR(fit->D.value, 0.25, 1e-12);
@@ -76,8 +77,8 @@ TEST(Moments, DoNotDependOnTheOrderOfMerging) {
   }
 }
 
-// Brownian paths with D = 1/2: estimates must scatter as their errors say, although the points of one
-// path are correlated.
+// Brownian paths with D = 1/2: estimates must scatter as their errors say, although the points of
+// one path are correlated.
 TEST(Moments, ErrorsAreTheScatterOfBrownianPaths) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
@@ -99,9 +100,11 @@ TEST(Moments, ErrorsAreTheScatterOfBrownianPaths) {
     sum_D += fit->D.value;
     z_D += std::pow((fit->D.value - 0.5) / fit->D.error, 2);
     z_exponent += std::pow((fit->local_exponent.value - 1) / fit->local_exponent.error, 2);
-    z_square += std::pow((moments.points().back().square.value - 128) / moments.points().back().square.error, 2);
+    z_square += std::pow(
+        (moments.points().back().square.value - 128) / moments.points().back().square.error, 2);
   }
-  // Mean of 300 squares of normal numbers: 1 +- 0.08; the error's own error and skewness add to that.
+  // Mean of 300 squares of normal numbers: 1 +- 0.08; the error's own error and skewness add to
+  // that.
   EXPECT_NEAR(z_D / ensembles, 1.0, 0.3);
   EXPECT_NEAR(z_exponent / ensembles, 1.0, 0.3);
   EXPECT_NEAR(z_square / ensembles, 1.0, 0.3);

@@ -14,11 +14,11 @@ PairedEnd gone(double time, int hole = 0, std::uint64_t hits = 1) { return {time
 
 TEST(PairedSurvival, CountsWhatDiffers) {
   PairedSurvival pairs({1.0, 2.0, 4.0}, 1e-3);
-  pairs.add(gone(1.0), gone(1.0005));            // the same, on two sides of a report time
-  pairs.add(gone(1.5), gone(3.0, 0, 2));         // other hits
-  pairs.add(gone(1.5, 0), gone(1.5, 1));         // other hole
-  pairs.add(gone(0.5), gone(0.6));               // other time
-  pairs.add(PairedEnd{}, gone(3.0));             // only one
+  pairs.add(gone(1.0), gone(1.0005));     // the same, on two sides of a report time
+  pairs.add(gone(1.5), gone(3.0, 0, 2));  // other hits
+  pairs.add(gone(1.5, 0), gone(1.5, 1));  // other hole
+  pairs.add(gone(0.5), gone(0.6));        // other time
+  pairs.add(PairedEnd{}, gone(3.0));      // only one
   pairs.add(PairedEnd{}, PairedEnd{});
   const PairedResult r = pairs.result(1, 100);
   EXPECT_EQ(r.pairs, 6u);
@@ -26,7 +26,7 @@ TEST(PairedSurvival, CountsWhatDiffers) {
   EXPECT_EQ(r.other_hits, 1u);
   EXPECT_EQ(r.other_time, 1u);
   ASSERT_EQ(r.points.size(), 3u);
-  EXPECT_DOUBLE_EQ(r.points[0].first, 4.0 / 6.0);   // gone exactly at t is gone
+  EXPECT_DOUBLE_EQ(r.points[0].first, 4.0 / 6.0);  // gone exactly at t is gone
   EXPECT_DOUBLE_EQ(r.points[0].second, 5.0 / 6.0);
   EXPECT_EQ(r.points[0].only_second, 1u);
   EXPECT_EQ(r.points[1].only_second, 1u);
@@ -73,7 +73,8 @@ TEST(PairedSurvival, SwapsAreThoseOfAllSwaps) {
       return most;
     };
     int as_large = 0;
-    for (unsigned mask = 0; mask < 1024; ++mask) as_large += statistic(mask) >= statistic(0) - 1e-12 ? 1 : 0;
+    for (unsigned mask = 0; mask < 1024; ++mask)
+      as_large += statistic(mask) >= statistic(0) - 1e-12 ? 1 : 0;
     const double p = as_large / 1024.0;
     const PairedResult r = pairs.result(17, 20000);
     EXPECT_DOUBLE_EQ(r.statistic, statistic(0));
@@ -81,8 +82,8 @@ TEST(PairedSurvival, SwapsAreThoseOfAllSwaps) {
   }
 }
 
-// Two independent exponential decays of one rate are told apart in one case of twenty; a bias of the size that is
-// called detectable, in four of five.
+// Two independent exponential decays of one rate are told apart in one case of twenty; a bias of
+// the size that is called detectable, in four of five.
 TEST(PairedSurvival, FindsTheBiasItPromises) {
   const std::vector<double> times{0.25, 0.5, 1.0, 2.0, 3.0};
   const int experiments = 200, sample = 2000;
@@ -104,7 +105,7 @@ TEST(PairedSurvival, FindsTheBiasItPromises) {
     }
     found += biased.result(static_cast<std::uint64_t>(e), 400).p_value <= 0.05 ? 1 : 0;
   }
-  EXPECT_LE(wrong, 22);  // 10 expected, 4 standard deviations
+  EXPECT_LE(wrong, 22);   // 10 expected, 4 standard deviations
   EXPECT_GE(found, 136);  // at least 160 expected
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 TEST(Wilson, HasTheTabulatedEnds) {
   // (k, n) and the ends to four digits, from the closed form by hand.
-  const Interval none = wilson_interval(0, 10), half = wilson_interval(5, 10), all = wilson_interval(10, 10);
+  const Interval none = wilson_interval(0, 10), half = wilson_interval(5, 10),
+                 all = wilson_interval(10, 10);
   EXPECT_EQ(none.low, 0.0);
   EXPECT_NEAR(none.high, 0.2775, 5e-5);
   EXPECT_NEAR(half.low, 0.2366, 5e-5);
@@ -80,8 +81,8 @@ TEST(Survival, LeavesSingularUnresolvedAndLostOnesOut) {
   counts.add(Fate::unbounded, 2.0, 1, -1);
   counts.add(Fate::pinned, 10.0, 0, -1);
   counts.add(Fate::capped, 3.0, 5, -1);
-  EXPECT_EQ(counts.trajectories,
-            counts.escaped + counts.survived + counts.singular + counts.unbounded + counts.unresolved + counts.lost);
+  EXPECT_EQ(counts.trajectories, counts.escaped + counts.survived + counts.singular +
+                                     counts.unbounded + counts.unresolved + counts.lost);
   EXPECT_EQ(counts.unresolved, 1u);
   EXPECT_EQ(counts.lost, 1u);
   EXPECT_EQ(counts.survived, 2u);

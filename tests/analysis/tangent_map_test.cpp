@@ -34,11 +34,13 @@ struct Birkhoff {
   double s = 0.0, p = 0.0;  ///< p: v_parallel over the speed
 };
 Birkhoff coordinates(const Table& table, const HitEvent& e) {
-  const geometry::CurveFrame frame = geometry::frame_of(table.walls[static_cast<std::size_t>(e.wall)].curve);
+  const geometry::CurveFrame frame =
+      geometry::frame_of(table.walls[static_cast<std::size_t>(e.wall)].curve);
   return {geometry::arc_length_at(frame, e.u), dot(e.after, geometry::tangent_at(frame, e.u))};
 }
 State state_at(const Table& table, int wall, Birkhoff b) {
-  const geometry::CurveFrame frame = geometry::frame_of(table.walls[static_cast<std::size_t>(wall)].curve);
+  const geometry::CurveFrame frame =
+      geometry::frame_of(table.walls[static_cast<std::size_t>(wall)].curve);
   State state;
   state.wall = wall;
   state.u = geometry::parameter_at_length(frame, b.s);
@@ -59,12 +61,14 @@ Deviation flow_deviation(const Table& table, const State& state, double ds, doub
 }
 // (s, p) of a deviation after a hit, as it is seen at the wall.
 Birkhoff seen(const Table& table, const HitEvent& e, const Deviation& d, double omega) {
-  const geometry::CurveFrame frame = geometry::frame_of(table.walls[static_cast<std::size_t>(e.wall)].curve);
+  const geometry::CurveFrame frame =
+      geometry::frame_of(table.walls[static_cast<std::size_t>(e.wall)].curve);
   const Vector t = geometry::tangent_at(frame, e.u), n = geometry::normal_at(frame, e.u);
   const AtWall at = at_wall(n, e.after, omega);
   const double s = dot(at.arc, d), turn = dot(at.angle, d);
   // dp = dv . t + v . dt
-  return {s, dot(turn * left(e.after), t) + s * geometry::curvature_at(frame, e.u) * dot(e.after, n)};
+  return {s,
+          dot(turn * left(e.after), t) + s * geometry::curvature_at(frame, e.u) * dot(e.after, n)};
 }
 
 TEST(TangentMap, IsTheDerivativeOfTheEngineAndKeepsAreas) {
@@ -99,16 +103,20 @@ TEST(TangentMap, IsTheDerivativeOfTheEngineAndKeepsAreas) {
           seen(table, e, reflection(flight(flow_deviation(table, start, ds, dp))), particle.omega);
       matrix[0][column] = image.s;
       matrix[1][column] = image.p;
-      const First more = first_hit(world, particle, state_at(table, wall, {b.s + h * ds, b.p + h * dp}));
-      const First less = first_hit(world, particle, state_at(table, wall, {b.s - h * ds, b.p - h * dp}));
+      const First more =
+          first_hit(world, particle, state_at(table, wall, {b.s + h * ds, b.p + h * dp}));
+      const First less =
+          first_hit(world, particle, state_at(table, wall, {b.s - h * ds, b.p - h * dp}));
       usable = more.found && less.found && more.event.wall == e.wall && less.event.wall == e.wall;
       if (!usable) break;
       const Birkhoff x = coordinates(table, more.event), y = coordinates(table, less.event);
       if (std::fabs(x.s - y.s) > 0.5) usable = false;  // once around
       if (!usable) break;
       const double size = 1.0 + std::fabs(image.s) + std::fabs(image.p);
-      EXPECT_NEAR((x.s - y.s) / (2 * h), image.s, 1e-5 * size * size * size) << table.walls[0].name << i;
-      EXPECT_NEAR((x.p - y.p) / (2 * h), image.p, 1e-5 * size * size * size) << table.walls[0].name << i;
+      EXPECT_NEAR((x.s - y.s) / (2 * h), image.s, 1e-5 * size * size * size)
+          << table.walls[0].name << i;
+      EXPECT_NEAR((x.p - y.p) / (2 * h), image.p, 1e-5 * size * size * size)
+          << table.walls[0].name << i;
     }
     if (!usable) continue;
     ++compared;
@@ -126,8 +134,8 @@ struct Growth : Observer {
   void hit(const HitEvent& e) override {
     const geometry::CurveFrame& frame = frames[static_cast<std::size_t>(e.wall)];
     d = flight_tangent(omega, e.flight_time)(d);
-    d = reflection_tangent(geometry::normal_at(frame, e.u), geometry::curvature_at(frame, e.u), e.before,
-                           omega)(d);
+    d = reflection_tangent(geometry::normal_at(frame, e.u), geometry::curvature_at(frame, e.u),
+                           e.before, omega)(d);
     const double norm = std::sqrt(dot(d, d));
     ++hits;
     time = e.time.value();

@@ -37,8 +37,8 @@ class Comparison : public Observer {
   Comparison(const Case& c, const State& start)
       : trust(c.table, c.tolerance),
         table_(c.table),
-        truth_(c.table.lattice ? c.unfolded : c.table, quad(start.position), direction(start.velocity),
-               c.omega),
+        truth_(c.table.lattice ? c.unfolded : c.table, quad(start.position),
+               direction(start.velocity), c.omega),
         size_(size_of(c.table)),
         tolerance_(c.tolerance) {}
 
@@ -48,7 +48,8 @@ class Comparison : public Observer {
     const QuadHit& there = truth_.next();
     Vector position = event.position;
     if (table_.lattice) position = position + table_.lattice->translation(event.cell);
-    const QuadVector away = quad(position) - there.position, turn = quad(event.after) - there.velocity;
+    const QuadVector away = quad(position) - there.position,
+                     turn = quad(event.after) - there.velocity;
     const Quad late = magnitude(Quad(event.time.high) + Quad(event.time.low) - there.time);
     const double error = std::max({largest(away) / size_, double(late) / size_, largest(turn)});
     if ((table_.lattice || there.wall == event.wall) && error <= tolerance_)

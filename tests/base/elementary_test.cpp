@@ -20,7 +20,8 @@ namespace {
 double argument(std::uint64_t i, int lowest, int highest) {
   const std::uint64_t a = mix(i);
   const double mantissa = 1.0 + static_cast<double>(a >> 12) * 0x1p-52;
-  const int exponent = lowest + static_cast<int>((a & 0xfffu) % static_cast<unsigned>(highest - lowest));
+  const int exponent =
+      lowest + static_cast<int>((a & 0xfffu) % static_cast<unsigned>(highest - lowest));
   double power = 1.0;
   for (int k = 0; k < std::abs(exponent); ++k) power *= exponent < 0 ? 0.5 : 2.0;
   return ((mix(a) & 1u) != 0 ? mantissa : -mantissa) * power;
@@ -66,7 +67,8 @@ TEST(Elementary, IsWithinOneUnitInTheLastPlace) {
     sin = std::max(sin, reference.ulps(mpfr_sin, x, elementary::sin(x)));
     cos = std::max(cos, reference.ulps(mpfr_cos, x, elementary::cos(x)));
     const auto sc = elementary::sincos(x);
-    both = std::max({both, reference.ulps(mpfr_sin, x, sc.sin), reference.ulps(mpfr_cos, x, sc.cos)});
+    both =
+        std::max({both, reference.ulps(mpfr_sin, x, sc.sin), reference.ulps(mpfr_cos, x, sc.cos)});
     const double y = argument(i + 1000000, -40, 30);
     atan2 = std::max(atan2, reference.ulps_atan2(y, x, elementary::atan2(y, x)));
     const double z = argument(i, -20, 9);
@@ -117,8 +119,11 @@ TEST(Elementary, AngleIsWithinWhatItClaims) {
     const double x = argument(i, -30, 30), y = std::fabs(argument(i + 1000000, -30, 30));
     look(x, y);
     // Near the places where another centre takes over, and where the result enters another binade.
-    for (const double tangent : {7.0 / 16, 11.0 / 16, 16.0 / 11, 16.0 / 7, 0.2553419212210363, 0.5463024898437905}) {
-      const double near = tangent * (1.0 + 0x1p-20 * static_cast<double>(static_cast<std::int64_t>(mix(i)) >> 12) * 0x1p-51);
+    for (const double tangent :
+         {7.0 / 16, 11.0 / 16, 16.0 / 11, 16.0 / 7, 0.2553419212210363, 0.5463024898437905}) {
+      const double near =
+          tangent *
+          (1.0 + 0x1p-20 * static_cast<double>(static_cast<std::int64_t>(mix(i)) >> 12) * 0x1p-51);
       look(std::fabs(x), std::fabs(x) * near);
       look(-std::fabs(x), std::fabs(x) * near);
     }
@@ -145,20 +150,24 @@ TEST(Elementary, AngleKnowsItsEnds) {
   for (const double tangent : {7.0 / 16, 11.0 / 16, 16.0 / 11, 16.0 / 7})
     for (const double side : {1.0, -1.0})
       for (int i = -200; i < 200; ++i)
-        EXPECT_LE(side * (elementary::angle(side, tangent + i * 0x1p-44) - elementary::angle(side, tangent + (i + 1) * 0x1p-44)),
+        EXPECT_LE(side * (elementary::angle(side, tangent + i * 0x1p-44) -
+                          elementary::angle(side, tangent + (i + 1) * 0x1p-44)),
                   0.0);
 }
 
 std::uint64_t hash_of_all_bits() {
   std::uint64_t hash = 0;
-  const auto take = [&hash](double value) { hash = mix(hash ^ std::bit_cast<std::uint64_t>(value)); };
+  const auto take = [&hash](double value) {
+    hash = mix(hash ^ std::bit_cast<std::uint64_t>(value));
+  };
   for (std::uint64_t i = 0; i < 100000; ++i) {
     const double x = argument(i, -30, 40);
     const auto both = elementary::sincos(x);
-    for (const double value : {elementary::sin(x), elementary::cos(x), both.sin, both.cos,
-                               elementary::atan2(argument(i + 1000000, -30, 40), x),
-                               elementary::angle(x, std::fabs(argument(i + 1000000, -30, 40))),
-                               elementary::exp(argument(i, -20, 9)), elementary::log(std::fabs(x))}) {
+    for (const double value :
+         {elementary::sin(x), elementary::cos(x), both.sin, both.cos,
+          elementary::atan2(argument(i + 1000000, -30, 40), x),
+          elementary::angle(x, std::fabs(argument(i + 1000000, -30, 40))),
+          elementary::exp(argument(i, -20, 9)), elementary::log(std::fabs(x))}) {
       take(value);
     }
   }
@@ -176,7 +185,8 @@ TEST(Elementary, HasTheSameBitsOnEveryMachine) {
 TEST(Elementary, HasTheSameBitsWithoutFma) {
   const std::string command =
       "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-FMA_Usable,-AVX2_Usable /proc/" +
-      std::to_string(::getpid()) + "/exe --gtest_filter=Elementary.HasTheSameBitsOnEveryMachine 2>&1";
+      std::to_string(::getpid()) +
+      "/exe --gtest_filter=Elementary.HasTheSameBitsOnEveryMachine 2>&1";
   FILE* pipe = ::popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);
   std::string output;

@@ -17,9 +17,10 @@ TEST(Place, LeavesOutWhatIsUnknown) {
 
 TEST(InputError, SaysPlaceProblemExpectedAndNearest) {
   const Place place{"a.toml", 3, 7, "table.widht"};
-  EXPECT_STREQ(InputError(place, "unknown key", "a key of [table]", "width").what(),
-               "a.toml, line 3, column 7: table.widht: unknown key (expected a key of [table]; did you mean "
-               "'width'?)");
+  EXPECT_STREQ(
+      InputError(place, "unknown key", "a key of [table]", "width").what(),
+      "a.toml, line 3, column 7: table.widht: unknown key (expected a key of [table]; did you mean "
+      "'width'?)");
   EXPECT_STREQ(InputError(place, "unknown key", "", "width").what(),
                "a.toml, line 3, column 7: table.widht: unknown key (did you mean 'width'?)");
   EXPECT_STREQ(InputError(place, "wrong type", "a number").what(),
@@ -33,7 +34,8 @@ TEST(InputError, SaysPlaceProblemExpectedAndNearest) {
 }
 
 TEST(NearestName, FindsSlipsOfThePen) {
-  const std::vector<std::string> keys = {"width", "height", "radius", "larmor_radius", "t_max", "B"};
+  const std::vector<std::string> keys = {"width",         "height", "radius",
+                                         "larmor_radius", "t_max",  "B"};
   EXPECT_EQ(nearest_name("widht", keys), "width");   // two letters swapped
   EXPECT_EQ(nearest_name("widt", keys), "width");    // one missing
   EXPECT_EQ(nearest_name("widthh", keys), "width");  // one too many

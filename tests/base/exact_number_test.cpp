@@ -96,9 +96,10 @@ TEST(ExactNumber, RoundsIrrationalsLikeMpfr) {
   mpfr_t value, part;
   mpfr_inits2(400, value, part, static_cast<mpfr_ptr>(nullptr));
   for (int i = 0; i < 2000; ++i) {
-    const unsigned long a = random() % 1000000 + 1, b = random() % 1000000 + 1, c = random() % 1000 + 1;
-    const std::string text =
-        "(sqrt(" + std::to_string(a) + ")-sqrt(" + std::to_string(b) + ")/pi)^3/" + std::to_string(c);
+    const unsigned long a = random() % 1000000 + 1, b = random() % 1000000 + 1,
+                        c = random() % 1000 + 1;
+    const std::string text = "(sqrt(" + std::to_string(a) + ")-sqrt(" + std::to_string(b) +
+                             ")/pi)^3/" + std::to_string(c);
     mpfr_sqrt_ui(part, b, MPFR_RNDN);
     mpfr_const_pi(value, MPFR_RNDN);
     mpfr_div(part, part, value, MPFR_RNDN);
@@ -162,8 +163,9 @@ TEST(ExactNumber, PointsAtTheCharacterThatIsWrong) {
   EXPECT_EQ(complaint("1 2"), place + "unexpected '2' at character 3 of \"1 2\"" + rest);
   EXPECT_EQ(complaint("2*\xcf\x80?"),
             place + "unexpected '\xcf\x80' at character 3 of \"2*\xcf\x80?\"" + operand);
-  EXPECT_EQ(complaint("1e+x"),
-            place + "unexpected 'x' at character 4 of \"1e+x\" (expected the digits of the exponent)");
+  EXPECT_EQ(
+      complaint("1e+x"),
+      place + "unexpected 'x' at character 4 of \"1e+x\" (expected the digits of the exponent)");
   EXPECT_EQ(complaint("(1"),
             place +
                 "the number ends too early at character 3 of \"(1\" (expected ')' for the one "
@@ -179,7 +181,8 @@ TEST(ExactNumber, PointsAtTheCharacterThatIsWrong) {
             place +
                 "the exponent is not an integer at character 3 of \"2^(1/2)\" (expected an "
                 "integer; sqrt(...) for a square root)");
-  EXPECT_EQ(complaint(" "), place + "the number is empty (expected a number such as 0.5, 1/3 or sqrt(3)/2)");
+  EXPECT_EQ(complaint(" "),
+            place + "the number is empty (expected a number such as 0.5, 1/3 or sqrt(3)/2)");
   EXPECT_EQ(complaint("1e400"),
             place + "the number is too large (expected at most 1.7976931348623157e308 in size)");
   EXPECT_EQ(complaint("1\n"), place + "unexpected control character at character 2" + rest);
@@ -206,8 +209,9 @@ TEST(ExactNumber, RefusesWhatWouldEatTimeOrMemory) {
 
 // Random bytes and random words of the grammar: a value or an InputError, nothing else.
 TEST(ExactNumber, SurvivesAnyText) {
-  const std::vector<std::string> words = {"1", "0",     ".",  "e", "-",    "+", "*",   "/",    "^",   "(",
-                                          ")", "sqrt(", "pi", " ", "9999", "_", "1e9", "\xff", "sqrt"};
+  const std::vector<std::string> words = {"1",    "0", ".",   "e",    "-",     "+",  "*",
+                                          "/",    "^", "(",   ")",    "sqrt(", "pi", " ",
+                                          "9999", "_", "1e9", "\xff", "sqrt"};
   std::mt19937_64 random(5);
   int values = 0;
   for (int i = 0; i < 20000; ++i) {

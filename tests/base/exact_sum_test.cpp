@@ -42,9 +42,9 @@ std::vector<double> random_terms(std::mt19937_64& random, std::size_t count, uns
     const std::uint64_t low = exponents >= 2047 ? 0 : 1023 - exponents / 2;
     const std::uint64_t bits = random();
     const std::uint64_t exponent = low + (bits >> 52) % exponents;
-    const double x =
-        std::bit_cast<double>((random() & 1u) << 63 | std::min<std::uint64_t>(exponent, 2040) << 52 |
-                              (bits & ((std::uint64_t{1} << 52) - 1)));
+    const double x = std::bit_cast<double>((random() & 1u) << 63 |
+                                           std::min<std::uint64_t>(exponent, 2040) << 52 |
+                                           (bits & ((std::uint64_t{1} << 52) - 1)));
     terms.push_back(x);
     if (random() % 3 == 0) terms.push_back(-x);
   }

@@ -55,23 +55,37 @@ class Dice {
   Operands operands(int kind) {
     Operands o{number(-30, 30), number(-30, 30), 0.0};
     switch (kind) {
-      case 0: o.c = number(-120, 120); break;
-      case 1: o.c = -o.a * o.b; break;  // what the product rounds
-      case 2: o.c = std::nextafter(-o.a * o.b, number(0, 0)); break;
+      case 0:
+        o.c = number(-120, 120);
+        break;
+      case 1:
+        o.c = -o.a * o.b;
+        break;  // what the product rounds
+      case 2:
+        o.c = std::nextafter(-o.a * o.b, number(0, 0));
+        break;
       case 3:  // about the middle of two doubles: the third number tells
-        o = {1.0 + std::ldexp(1.0, -27), 1.0 + std::ldexp(1.0, -26), std::ldexp(whole(2) ? 1.0 : -1.0, -106 + whole(60))};
+        o = {1.0 + std::ldexp(1.0, -27), 1.0 + std::ldexp(1.0, -26),
+             std::ldexp(whole(2) ? 1.0 : -1.0, -106 + whole(60))};
         break;
       case 8:  // beside the middle of two doubles by a little
         o = {number(-3, 3), number(-3, 3), 0.0};
         o.c = std::ldexp(o.a * o.b, 52 + whole(3)) + std::ldexp(number(0, 0), whole(6));
         break;
       case 9:  // an odd multiple of half a last digit, and the rest of the product
-        o = {1.0 + std::ldexp(1.0, -1 - whole(52)), 1.0 + std::ldexp(1.0, -1 - whole(52)), std::ldexp(1.0 + whole(8), 53 - whole(4))};
+        o = {1.0 + std::ldexp(1.0, -1 - whole(52)), 1.0 + std::ldexp(1.0, -1 - whole(52)),
+             std::ldexp(1.0 + whole(8), 53 - whole(4))};
         if (whole(2)) o.a = -o.a;
         break;
-      case 4: o = {number(-540, -500), number(-600, -500), number(-1074, -1000)}; break;  // subnormal sums
-      case 5: o = {number(-600, -500), number(-480, -440), number(-1080, -1060)}; break;
-      case 6: o = {number(500, 540), number(470, 490), number(1010, 1023)}; break;  // up to infinity, or just below
+      case 4:
+        o = {number(-540, -500), number(-600, -500), number(-1074, -1000)};
+        break;  // subnormal sums
+      case 5:
+        o = {number(-600, -500), number(-480, -440), number(-1080, -1060)};
+        break;
+      case 6:
+        o = {number(500, 540), number(470, 490), number(1010, 1023)};
+        break;  // up to infinity, or just below
       default:
         o.c = number(1000, 1023);
         o.a = number(480, 520);
@@ -90,7 +104,8 @@ void expect_exact(const Product& product) {
   Dice dice;
   for (int i = 0; i < 200'000; ++i) {
     const auto [a, b, c] = dice.operands(i % 10);
-    ASSERT_EQ(bits(product(a, b, c)), bits(exactly(a, b, c))) << i << std::hexfloat << ": " << a << " " << b << " " << c;
+    ASSERT_EQ(bits(product(a, b, c)), bits(exactly(a, b, c)))
+        << i << std::hexfloat << ": " << a << " " << b << " " << c;
   }
 }
 
@@ -111,7 +126,8 @@ TEST(FusedProduct, KnowsSignsOfZeroAndInfinity) {
     EXPECT_EQ(bits(fused_product(3.0, -2.0, 6.0)), bits(0.0));
     EXPECT_EQ(fused_product(1e200, 1e200, -1.0), infinity);
     EXPECT_EQ(fused_product(1e200, 1e200, -1e300), infinity);
-    EXPECT_EQ(fused_product(0x1p1000, 0x1p24, -0x1p1023), 0x1p1023);  // the product alone has no double
+    EXPECT_EQ(fused_product(0x1p1000, 0x1p24, -0x1p1023),
+              0x1p1023);  // the product alone has no double
     EXPECT_TRUE(std::isnan(fused_product(infinity, 1.0, -infinity)));
     EXPECT_TRUE(std::isnan(fused_product(infinity, 0.0, 1.0)));
   }

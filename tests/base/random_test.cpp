@@ -27,11 +27,13 @@ Words philox(Words c, std::uint64_t k0, std::uint64_t k1) {
 }
 
 TEST(RandomStream, GivesTheKnownAnswers) {
-  const Words zero = {0x16554d9eca36314cu, 0xdb20fe9d672d0fdcu, 0xd7e772cee186176bu, 0x7e68b68aec7ba23bu};
+  const Words zero = {0x16554d9eca36314cu, 0xdb20fe9d672d0fdcu, 0xd7e772cee186176bu,
+                      0x7e68b68aec7ba23bu};
   EXPECT_EQ(philox({0, 0, 0, 0}, 0, 0), zero);
   const std::uint64_t ones = ~std::uint64_t{0};
-  EXPECT_EQ(philox({ones, ones, ones, ones}, ones, ones),
-            (Words{0x87b092c3013fe90bu, 0x438c3c67be8d0224u, 0x9cc7d7c69cd777b6u, 0xa09caebf594f0ba0u}));
+  EXPECT_EQ(
+      philox({ones, ones, ones, ones}, ones, ones),
+      (Words{0x87b092c3013fe90bu, 0x438c3c67be8d0224u, 0x9cc7d7c69cd777b6u, 0xa09caebf594f0ba0u}));
   RandomStream stream(0, static_cast<Purpose>(0), 0, 0);
   for (const std::uint64_t word : zero) EXPECT_EQ(stream.word(), word);
 }

@@ -29,8 +29,10 @@ TEST(Twofold, KeepsAHundredBits) {
     ASSERT_LT(relative(a * b, x * y), 0x1p-100);
     ASSERT_LT(relative(a / b, x / y), 0x1p-98);
     // Against the larger operand: a difference may cancel.
-    ASSERT_LT(std::fabs(double(quad(a + b) - (x + y))), 0x1p-102 * (std::fabs(a.high) + std::fabs(b.high)));
-    ASSERT_LT(std::fabs(double(quad(a - b) - (x - y))), 0x1p-102 * (std::fabs(a.high) + std::fabs(b.high)));
+    ASSERT_LT(std::fabs(double(quad(a + b) - (x + y))),
+              0x1p-102 * (std::fabs(a.high) + std::fabs(b.high)));
+    ASSERT_LT(std::fabs(double(quad(a - b) - (x - y))),
+              0x1p-102 * (std::fabs(a.high) + std::fabs(b.high)));
   }
 }
 

@@ -1,4 +1,5 @@
-// Rays aimed at joints and tangents, past them by 10^-k: their first hits against plain numbers of 1200 bits.
+// Rays aimed at joints and tangents, past them by 10^-k: their first hits against plain numbers of
+// 1200 bits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,19 +39,22 @@ struct Target {
 
 Target target_on(const WallOf<Ball>& w, Dice& dice) {
   const BallVector any = unit({dice.between(-1, 1), dice.between(-1, 1)});
-  if (w.form == Form::segment || (!w.closed && dice.coin())) return {dice.coin() ? w.from : w.to, any};
+  if (w.form == Form::segment || (!w.closed && dice.coin()))
+    return {dice.coin() ? w.from : w.to, any};
   // Tangent to the whole circle or ellipse: an arc of it may end before.
   const BallVector e = any;
-  if (w.form == Form::circle) return {w.centre + sqrt(w.radius2) * e, dice.coin() ? left(e) : -left(e)};
+  if (w.form == Form::circle)
+    return {w.centre + sqrt(w.radius2) * e, dice.coin() ? left(e) : -left(e)};
   const BallVector a{w.along.x / dot(w.along, w.along), w.along.y / dot(w.along, w.along)};
   const BallVector b{w.across.x / dot(w.across, w.across), w.across.y / dot(w.across, w.across)};
   const BallVector along = unit(e.x * b - e.y * a);
   return {w.centre + e.x * a + e.y * b, dice.coin() ? along : -along};
 }
 
-/// Through the target, from a start before it, on a line (radius 0) or on a Larmor circle, either way round; `beside`: how
-/// far past the target.
-ExactSystem aimed(const Shaped& s, const Target& target, double way, double radius, const Ball& beside, Dice& dice) {
+/// Through the target, from a start before it, on a line (radius 0) or on a Larmor circle, either
+/// way round; `beside`: how far past the target.
+ExactSystem aimed(const Shaped& s, const Target& target, double way, double radius,
+                  const Ball& beside, Dice& dice) {
   const BallVector &u = target.direction, T = target.place + beside * left(u);
   BallVector P = T - Ball(way) * u, v = u;
   std::string omega = "0";
@@ -65,7 +69,8 @@ ExactSystem aimed(const Shaped& s, const Target& target, double way, double radi
     v = (Ball(1) / r) * (-left(P - K));
     omega = (Ball(1) / r).decimals(decimals);
   }
-  ExactSystem system = tests::system_of(s, {exactly(v.x.decimals(decimals)), exactly(v.y.decimals(decimals))});
+  ExactSystem system =
+      tests::system_of(s, {exactly(v.x.decimals(decimals)), exactly(v.y.decimals(decimals))});
   system.start.position = {exactly(P.x.decimals(decimals)), exactly(P.y.decimals(decimals))};
   system.omega = exactly(omega);
   return system;
@@ -85,12 +90,14 @@ bool first_hits_agree(const ExactSystem& system, std::uint64_t hits) {
   std::vector<CertifiedHit> found;
   for (const CertifiedHit& hit : orbit) found.push_back(hit);
   const CertifiedEnd& end = orbit.end_state();
-  if (!end.ties.empty() || end.fate == CertifiedFate::singular) return false;  // plain numbers take no notice
+  if (!end.ties.empty() || end.fate == CertifiedFate::singular)
+    return false;  // plain numbers take no notice
   if (end.fate == CertifiedFate::undecided) {
     EXPECT_TRUE(system.table->lattice.has_value()) << end.reason;
   }
   const Precision precision(1200);
-  const bench::PlainEnd truth = bench::plain_orbit(system, std::max<std::uint64_t>(found.size(), 1), 1200);
+  const bench::PlainEnd truth =
+      bench::plain_orbit(system, std::max<std::uint64_t>(found.size(), 1), 1200);
   EXPECT_EQ(truth.collisions, found.size()) << name_of(end.fate) << " " << end.reason;
   if (truth.collisions != found.size() || found.empty()) return false;
   const CertifiedHit& last = found.back();
@@ -105,14 +112,17 @@ bool first_hits_agree(const ExactSystem& system, std::uint64_t hits) {
   return true;
 }
 
-std::string times(const std::string& size, double x) { return "(" + size + ")*" + std::to_string(x); }
+std::string times(const std::string& size, double x) {
+  return "(" + size + ")*" + std::to_string(x);
+}
 
 Shaped path(const std::string& size, const std::vector<std::pair<double, double>>& corners) {
   Shaped s;
   s.spec.shape = "path";
   LoopSpec loop;
   const auto point = [&](std::size_t i) {
-    return ExactPoint{exactly(times(size, corners[i].first)), exactly(times(size, corners[i].second))};
+    return ExactPoint{exactly(times(size, corners[i].first)),
+                      exactly(times(size, corners[i].second))};
   };
   loop.start = point(0);
   for (std::size_t i = 1; i <= corners.size(); ++i) {
@@ -124,8 +134,8 @@ Shaped path(const std::string& size, const std::vector<std::pair<double, double>
   return s;
 }
 
-void bend(Shaped& s, std::size_t piece, const std::string& size, double x, double y, const std::string& ratio,
-          const std::string& angle) {
+void bend(Shaped& s, std::size_t piece, const std::string& size, double x, double y,
+          const std::string& ratio, const std::string& angle) {
   PieceSpec& p = s.spec.loops[0].pieces[piece];
   p.kind = ratio.empty() ? PieceSpec::Kind::arc : PieceSpec::Kind::ellipse;
   p.via = {exactly(times(size, x)), exactly(times(size, y))};
@@ -137,7 +147,8 @@ void bend(Shaped& s, std::size_t piece, const std::string& size, double x, doubl
 // The lower part of an ellipse of 20 by 2, and a deep room beside it; or its mirror image.
 Shaped bowl(const std::string& size, bool mirrored) {
   const double s = -0.4358898943540674, m = mirrored ? -1.0 : 1.0;
-  std::vector<std::pair<double, double>> corners{{-9, s}, {9, s}, {9, -6}, {20, -6}, {20, 5}, {-9, 5}};
+  std::vector<std::pair<double, double>> corners{{-9, s},  {9, s},  {9, -6},
+                                                 {20, -6}, {20, 5}, {-9, 5}};
   for (auto& corner : corners) corner.first *= m;
   if (mirrored) std::reverse(corners.begin(), corners.end());
   Shaped table = path(size, corners);
@@ -146,8 +157,10 @@ Shaped bowl(const std::string& size, bool mirrored) {
   LoopSpec& loop = table.spec.loops[0];
   const std::string exact = "-(" + size + ")*sqrt(19)/10";
   for (PieceSpec& p : loop.pieces)
-    if (p.to.y.to_double() < 0.0 && p.to.y.to_double() > exactly(times(size, -1)).to_double()) p.to.y = exactly(exact);
-  if (loop.start.y.to_double() > exactly(times(size, -1)).to_double() && loop.start.y.to_double() < 0.0)
+    if (p.to.y.to_double() < 0.0 && p.to.y.to_double() > exactly(times(size, -1)).to_double())
+      p.to.y = exactly(exact);
+  if (loop.start.y.to_double() > exactly(times(size, -1)).to_double() &&
+      loop.start.y.to_double() < 0.0)
     loop.start.y = exactly(exact);
   return table;
 }
@@ -158,30 +171,33 @@ Shaped box(const std::string& size, Dice& dice) {
   const double flat[] = {-0.1, -1e-5, 1e-5, 0.1, -1e-3};
   const char* ratio[] = {"1/2", "1/30", "20", "3/4", "1/1000"};
   bend(s, 0, size, 0.5, flat[dice.whole(0, 4)], "", "");
-  bend(s, 2, size, 0.45, dice.coin() ? 1.2 : 0.9, ratio[dice.whole(0, 4)], dice.coin() ? "0" : "0.3");
+  bend(s, 2, size, 0.45, dice.coin() ? 1.2 : 0.9, ratio[dice.whole(0, 4)],
+       dice.coin() ? "0" : "0.3");
   return s;
 }
 
-/// Discs of radius 1 above the x axis at 10 + 3i, in that order: each meets the axis by 10^-18, or misses it by that;
-/// but number 1 reaches well across.
+/// Discs of radius 1 above the x axis at 10 + 3i, in that order: each meets the axis by 10^-18, or
+/// misses it by that; but number 1 reaches well across.
 Shaped row_of_discs(const std::vector<int>& order, const std::vector<bool>& met) {
   Shaped s;
   s.spec.shape = "discs";
   s.spec.numbers["radius"] = exactly("1");
   for (const int i : order)
-    s.spec.points["centers"].push_back(
-        {exactly(std::to_string(10 + 3 * i)),
-         exactly(i == 1 ? "1/3" : met[static_cast<std::size_t>(i)] ? "1-1/10^18" : "1+1/10^18")});
+    s.spec.points["centers"].push_back({exactly(std::to_string(10 + 3 * i)),
+                                        exactly(i == 1                             ? "1/3"
+                                                : met[static_cast<std::size_t>(i)] ? "1-1/10^18"
+                                                                                   : "1+1/10^18")});
   s.inside = {exactly("0"), exactly("0")};
   return s;
 }
 
-// The Larmor circle passes beside the upper half of the ellipse, which is no wall, and meets the bowl later: what may leave
-// through the one must not hide the other.
+// The Larmor circle passes beside the upper half of the ellipse, which is no wall, and meets the
+// bowl later: what may leave through the one must not hide the other.
 TEST(Aimed, BesideAnEllipseOffItsArc) {
   for (const bool mirrored : {false, true}) {
     for (const char* beside : {"0.2-1/10^20", "0.2+1/10^20", "0.2-1/10^12", "0.2-1/10^6"}) {
-      ExactSystem system = tests::system_of(bowl("1", mirrored), {exactly(mirrored ? "-0.96" : "0.96"), exactly("0.28")});
+      ExactSystem system = tests::system_of(
+          bowl("1", mirrored), {exactly(mirrored ? "-0.96" : "0.96"), exactly("0.28")});
       system.start.position = {exactly(mirrored ? "5.6" : "-5.6"), exactly(beside)};
       system.omega = exactly(mirrored ? "-1/20" : "1/20");
       EXPECT_TRUE(first_hits_agree(system, 1)) << beside;
@@ -208,7 +224,8 @@ TEST(Aimed, ManyWallsThatMayBeMet) {
         order.erase(std::find(order.begin(), order.end(), 1));
         order.push_back(1);
       }
-      CertifiedOrbit orbit(tests::system_of(row_of_discs(order, met), {exactly("1"), exactly("0")}), task_of(1, 20));
+      CertifiedOrbit orbit(tests::system_of(row_of_discs(order, met), {exactly("1"), exactly("0")}),
+                           task_of(1, 20));
       const CertifiedEnd& end = orbit.finish();
       ASSERT_EQ(end.collisions, 1u) << end.reason;
       EXPECT_EQ(order[static_cast<std::size_t>(end.wall)], first_met ? 0 : 1) << count << " discs";
@@ -226,14 +243,18 @@ TEST(Aimed, FirstHits) {
     const std::string size = sizes[dice.whole(0, 2)];
     const double scale = exactly(size).to_double();
     const int kind = dice.whole(0, 5);
-    const Shaped s = kind < 2    ? box(size, dice)
-                     : kind == 2 ? bowl(size, dice.coin())
-                                 : shapes[static_cast<std::size_t>(dice.whole(0, static_cast<int>(shapes.size()) - 1))];
+    const Shaped s =
+        kind < 2 ? box(size, dice)
+        : kind == 2
+            ? bowl(size, dice.coin())
+            : shapes[static_cast<std::size_t>(dice.whole(0, static_cast<int>(shapes.size()) - 1))];
     const Precision precision(500);
     const certify::BallTable table = certify::ball_table(s.spec);
-    const auto wall = static_cast<std::size_t>(dice.whole(0, static_cast<int>(table.walls.size()) - 1));
+    const auto wall =
+        static_cast<std::size_t>(dice.whole(0, static_cast<int>(table.walls.size()) - 1));
     const double reach = kind < 3 ? scale * (kind == 2 ? 8.0 : 1.0) : 1.0;
-    const Ball beside = Ball(reach * dice.sign()) * written("1e-" + std::to_string(dice.whole(0, 40)));
+    const Ball beside =
+        Ball(reach * dice.sign()) * written("1e-" + std::to_string(dice.whole(0, 40)));
     ExactSystem system;
     try {
       system = aimed(s, target_on(table.walls[wall], dice), reach * dice.spread(0.01, 1.5),

@@ -53,7 +53,8 @@ bool holds(const Interval& x, const mpq_class& exact) {
 bool holds_root(const Interval& x, const mpq_class& exact) {
   const auto below = [&exact](double root) { return mpq_class(root) * mpq_class(root) <= exact; };
   if (std::isfinite(x.low) && x.low > 0.0 && !below(x.low)) return false;
-  return !std::isfinite(x.high) || (x.high >= 0.0 && mpq_class(x.high) * mpq_class(x.high) >= exact);
+  return !std::isfinite(x.high) ||
+         (x.high >= 0.0 && mpq_class(x.high) * mpq_class(x.high) >= exact);
 }
 
 TEST(Arithmetic, IntervalsHoldTheExactAnswer) {
@@ -97,7 +98,9 @@ TEST(Arithmetic, BallsHoldTheExactAnswer) {
     };
     const Ball exact = at(4000, Ball(inside));
     ASSERT_TRUE(at(bits, Ball(inside)).contains(exact)) << k;
-    ASSERT_TRUE(at(bits, Ball(size).widened(Bound(error + std::fabs(size) * 0x1p-51))).contains(exact)) << k;
+    ASSERT_TRUE(
+        at(bits, Ball(size).widened(Bound(error + std::fabs(size) * 0x1p-51))).contains(exact))
+        << k;
   }
 }
 
@@ -132,7 +135,8 @@ TEST(Arithmetic, ErrorSetsHoldEveryImage) {
       for (std::size_t i = 0; i < 4; ++i) x[i] = image[i] + rounding * dice.between(-1, 1);
       time += rounding * dice.between(-1, 1);
       for (std::size_t i = 0; i < 4; ++i)
-        ASSERT_LE(std::fabs(x[i]), set.size(static_cast<certify::Direction>(i)).to_double() * (1 + 1e-12))
+        ASSERT_LE(std::fabs(x[i]),
+                  set.size(static_cast<certify::Direction>(i)).to_double() * (1 + 1e-12))
             << k << " " << step;
       ASSERT_LE(std::fabs(time), set.of_time().to_double() * (1 + 1e-12));
     }

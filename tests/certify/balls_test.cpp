@@ -1,4 +1,5 @@
-// Every operation of balls encloses: the exact answer for any rational numbers of the operands lies in the result.
+// Every operation of balls encloses: the exact answer for any rational numbers of the operands lies
+// in the result.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -42,14 +43,17 @@ mpq_class rational(mag_srcptr x) {
 }
 mpq_class middle_of(const Ball& x) { return rational(arb_midref(x.raw())); }
 mpq_class radius_of(const Ball& x) { return rational(x.radius().raw()); }
-bool holds(const Ball& x, const mpq_class& exact) { return abs(exact - middle_of(x)) <= radius_of(x); }
+bool holds(const Ball& x, const mpq_class& exact) {
+  return abs(exact - middle_of(x)) <= radius_of(x);
+}
 
 struct Enclosed {
   Ball ball;
   mpq_class inside;
 };
 
-// Of any bits, size and width, exact ones, whole numbers and balls about zero among them; the point inside is often an end.
+// Of any bits, size and width, exact ones, whole numbers and balls about zero among them; the point
+// inside is often an end.
 Enclosed some_ball(tests::Dice& dice) {
   const long bits = dice.whole(1, 300);
   mpz_class mantissa = 0;
@@ -70,7 +74,8 @@ Enclosed some_ball(tests::Dice& dice) {
     width = width * Bound(std::ldexp(dice.between(0.5, 1.0), dice.whole(-120, 2)));
     e.ball = e.ball.widened(width);
   }
-  const mpq_class part = dice.whole(0, 3) == 0 ? mpq_class(dice.whole(-1, 1)) : mpq_class(dice.between(-1.0, 1.0));
+  const mpq_class part =
+      dice.whole(0, 3) == 0 ? mpq_class(dice.whole(-1, 1)) : mpq_class(dice.between(-1.0, 1.0));
   e.inside = middle + part * radius_of(e.ball);
   return e;
 }
@@ -101,7 +106,8 @@ TEST(Arithmetic, EveryOperationOfBallsHoldsTheExactAnswer) {
     }
     if (sgn(p) >= 0) {  // the root of p, by squares of the ends
       const Ball root = sqrt(a.ball);
-      const mpq_class low = middle_of(root) - radius_of(root), high = middle_of(root) + radius_of(root);
+      const mpq_class low = middle_of(root) - radius_of(root),
+                      high = middle_of(root) + radius_of(root);
       ASSERT_TRUE(sgn(low) <= 0 || low * low <= p) << k;
       ASSERT_TRUE(sgn(high) >= 0 && high * high >= p) << k;
     }
@@ -122,7 +128,8 @@ TEST(Arithmetic, EveryOperationOfBallsHoldsTheExactAnswer) {
 TEST(Arithmetic, BoundsRoundUp) {
   tests::Dice dice(35);
   for (long k = 0; k < tests::cases(20'000, 1'000'000); ++k) {
-    const double x = std::ldexp(dice.between(1.0, 2.0), dice.whole(-500, 500)), y = std::ldexp(dice.between(1.0, 2.0), dice.whole(-500, 500));
+    const double x = std::ldexp(dice.between(1.0, 2.0), dice.whole(-500, 500)),
+                 y = std::ldexp(dice.between(1.0, 2.0), dice.whole(-500, 500));
     const Bound a(x), b(y);
     const mpq_class p(x), q(y);
     ASSERT_TRUE(rational(a.raw()) >= p) << k;
@@ -137,7 +144,8 @@ TEST(Arithmetic, BoundsRoundUp) {
 
 // Numbers as they are written, at few bits and at many.
 TEST(Arithmetic, WrittenNumbersAreEnclosed) {
-  for (const char* text : {"0.1", "1/3", "-7/10^20", "sqrt(2)", "sqrt(3)/2", "pi/4", "pi*1.1-1/20", "2-2/10^20", "(1+sqrt(5))/2", "1e-300", "3^40"}) {
+  for (const char* text : {"0.1", "1/3", "-7/10^20", "sqrt(2)", "sqrt(3)/2", "pi/4", "pi*1.1-1/20",
+                           "2-2/10^20", "(1+sqrt(5))/2", "1e-300", "3^40"}) {
     const auto at = [&](long bits) {
       const Precision precision(bits);
       return certify::value_of(exactly(text));
@@ -146,20 +154,24 @@ TEST(Arithmetic, WrittenNumbersAreEnclosed) {
     for (const long bits : {53L, 64L, 100L, 333L, 2000L}) {
       const Ball few = at(bits);
       EXPECT_TRUE(few.contains(exact)) << text << " at " << bits;
-      EXPECT_LT(radius_of(few), abs(middle_of(few)) * power_of_two(8 - bits)) << text << " at " << bits;
+      EXPECT_LT(radius_of(few), abs(middle_of(few)) * power_of_two(8 - bits))
+          << text << " at " << bits;
     }
   }
   const Precision precision(200);
-  EXPECT_TRUE(holds(certify::value_of(exactly("-7/10^20")), mpq_class(-7) / mpq_class("100000000000000000000")));
+  EXPECT_TRUE(holds(certify::value_of(exactly("-7/10^20")),
+                    mpq_class(-7) / mpq_class("100000000000000000000")));
   EXPECT_TRUE(holds(certify::value_of(exactly("0.1")), mpq_class(1, 10)));
-  EXPECT_FALSE(holds(certify::value_of(exactly("0.1")), mpq_class(0.1)));  // the double is another number
+  EXPECT_FALSE(
+      holds(certify::value_of(exactly("0.1")), mpq_class(0.1)));  // the double is another number
 }
 
 // Directions from angles, against the identities they must fulfil.
 TEST(Arithmetic, DirectionsAreEnclosed) {
   for (const char* text : {"0", "pi/2", "pi", "pi/3", "1", "-1/7", "100", "22/7"}) {
     const Precision precision(150);
-    const certify::CosSin d = certify::direction_of(exactly(text)), turned = certify::direction_of(exactly(text), 1, 4);
+    const certify::CosSin d = certify::direction_of(exactly(text)),
+                          turned = certify::direction_of(exactly(text), 1, 4);
     EXPECT_TRUE((square(d.cos) + square(d.sin)).contains(Ball(1))) << text;
     EXPECT_TRUE(turned.cos.overlaps(-d.sin) && turned.sin.overlaps(d.cos)) << text;
     EXPECT_LT(radius_of(d.cos) + radius_of(d.sin), power_of_two(-130)) << text;

@@ -1,4 +1,5 @@
-// Certified orbits against published digits, exact answers, themselves at more bits, and the engine.
+// Certified orbits against published digits, exact answers, themselves at more bits, and the
+// engine.
 #include "carom/certify/certified_orbit.hpp"
 
 #include <gtest/gtest.h>
@@ -83,25 +84,28 @@ TEST(CertifiedOrbit, TablesAsWritten) {
   }
 }
 
-// Every enclosure is as small as was asked for and contains what a run at more than twice the digits finds.
+// Every enclosure is as small as was asked for and contains what a run at more than twice the
+// digits finds.
 TEST(CertifiedOrbit, ContainsItselfAtMoreBits) {
   tests::Dice dice(1);
   const std::vector<Shaped> shapes = tests::all_shapes();
   const long orbits = tests::cases(1000, 10000);
   for (long k = 0; k < orbits; ++k) {
-    const Shaped s = tests::with_random_start(shapes[static_cast<std::size_t>(k) % shapes.size()], dice);
+    const Shaped s =
+        tests::with_random_start(shapes[static_cast<std::size_t>(k) % shapes.size()], dice);
     SCOPED_TRACE(s.spec.shape + ", orbit " + std::to_string(k));
     const ExactSystem system = tests::system_of(s, random_direction(dice));
     const std::uint64_t collisions = static_cast<std::uint64_t>(dice.whole(1, 40));
     const int digits = dice.whole(1, 20);
-    const auto few = hits_of(system, collisions, digits), many = hits_of(system, collisions, 2 * digits + 20);
+    const auto few = hits_of(system, collisions, digits),
+               many = hits_of(system, collisions, 2 * digits + 20);
     ASSERT_EQ(few.size(), collisions);
     ASSERT_EQ(many.size(), collisions);
     for (std::size_t i = 0; i < few.size(); ++i) {
       ASSERT_EQ(few[i].wall, many[i].wall);
       ASSERT_EQ(few[i].cell, many[i].cell);
-      for (const auto number : {&CertifiedState::t, &CertifiedState::x, &CertifiedState::y, &CertifiedState::vx,
-                                &CertifiedState::vy}) {
+      for (const auto number : {&CertifiedState::t, &CertifiedState::x, &CertifiedState::y,
+                                &CertifiedState::vx, &CertifiedState::vy}) {
         ASSERT_TRUE(tests::holds(few[i].*number, many[i].*number)) << "hit " << i;
         ASSERT_LT((few[i].*number).log2_error(), -3.3219 * digits);
       }
@@ -111,10 +115,12 @@ TEST(CertifiedOrbit, ContainsItselfAtMoreBits) {
 
 // In a rectangle the orbit unfolds to a straight line: heights of hits on the sides are rational.
 TEST(CertifiedOrbit, UnfoldsInTheSquare) {
-  const Shaped square = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1/10", "1/5");
+  const Shaped square =
+      tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1/10", "1/5");
   const Precision precision(400);
   long side = 0;
-  for (const CertifiedHit& hit : hits_of(tests::system_of(square, {exactly("7"), exactly("2")}), 500, 60)) {
+  for (const CertifiedHit& hit :
+       hits_of(tests::system_of(square, {exactly("7"), exactly("2")}), 500, 60)) {
     if (hit.wall != 1 && hit.wall != 3) continue;
     ++side;  // x has run to `side` in the unfolded plane, y by 2/7 of the way from 1/10
     const Ball height = certify::value_of(exactly("1/5+2/7*(" + std::to_string(side) + "-1/10)"));
@@ -150,14 +156,16 @@ struct Walls : Observer {
 
 // Views take hits one by one, and may stop before the orbit does.
 TEST(CertifiedOrbit, IsARange) {
-  const Shaped stadium = tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "1/10", "1/5");
+  const Shaped stadium =
+      tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "1/10", "1/5");
   ExactStart start;
   start.position = stadium.inside;
   start.direction = {exactly("3"), exactly("1")};
   CertifiedOrbit orbit = certified_orbit(stadium.spec, start, 1000, 10);
   std::uint64_t arcs = 0;
-  for (const CertifiedHit& hit : orbit | std::views::take(20) |
-                                     std::views::filter([](const CertifiedHit& h) { return h.wall % 2 == 1; })) {
+  for (const CertifiedHit& hit :
+       orbit | std::views::take(20) |
+           std::views::filter([](const CertifiedHit& h) { return h.wall % 2 == 1; })) {
     EXPECT_NEAR(std::hypot(std::fabs(hit.x.to_double()) - 1.0, hit.y.to_double()), 1.0, 1e-9);
     ++arcs;
   }

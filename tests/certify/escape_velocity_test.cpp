@@ -32,8 +32,8 @@ bool prints(const CertifiedNumber& few, const Ball& many) {
   return sign(error - off) == Sign::positive && sign(error + off) == Sign::positive;
 }
 
-// A random orbit of 16 tables, every other one in a field, with a hole in the first wall; and the same
-// without.
+// A random orbit of 16 tables, every other one in a field, with a hole in the first wall; and the
+// same without.
 struct Flight {
   ExactSystem open, closed;
 };
@@ -76,7 +76,8 @@ TEST(EscapeVelocity, HasTheDigitsThatWereAskedFor) {
   EXPECT_GT(escaped, 50);
 }
 
-// Without the hole the orbit is reflected where it left: the sum of both velocities runs along the wall.
+// Without the hole the orbit is reflected where it left: the sum of both velocities runs along the
+// wall.
 TEST(EscapeVelocity, IsTheOneBeforeTheReflection) {
   tests::Dice dice(42);
   const Precision precision(400);
@@ -92,7 +93,8 @@ TEST(EscapeVelocity, IsTheOneBeforeTheReflection) {
     ASSERT_TRUE(ball_of(out.x).overlaps(ball_of(back.x)));
     ASSERT_TRUE(ball_of(out.t).overlaps(ball_of(back.t)));
     // The velocity changes along the normal only.
-    const Ball ux = ball_of(out.vx), uy = ball_of(out.vy), wx = ball_of(back.vx), wy = ball_of(back.vy);
+    const Ball ux = ball_of(out.vx), uy = ball_of(out.vy), wx = ball_of(back.vx),
+               wy = ball_of(back.vy);
     const certify::WallOf<Ball> w = certify::ball_table(*f.open.spec).walls.front();
     certify::BallVector P{ball_of(out.x), ball_of(out.y)};
     if (f.open.table->lattice) {  // seen from the wall's own cell
@@ -107,7 +109,8 @@ TEST(EscapeVelocity, IsTheOneBeforeTheReflection) {
     ASSERT_TRUE((ux * ux + uy * uy).contains(Ball(1)));
     // It leaves: out of the domain, which lies on the left.
     const Ball inwards = ux * normal.x + uy * normal.y;
-    ASSERT_EQ(sign(w.form == certify::Form::segment || w.turn < 0 ? inwards : -inwards), Sign::negative);
+    ASSERT_EQ(sign(w.form == certify::Form::segment || w.turn < 0 ? inwards : -inwards),
+              Sign::negative);
   }
   EXPECT_GT(escaped, 50);
 }

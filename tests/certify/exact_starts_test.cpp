@@ -1,5 +1,5 @@
-// Starts and speeds that are short binary numbers: balls without width. Exact coincidences are then exact
-// zeros, and mean what they mean everywhere else.
+// Starts and speeds that are short binary numbers: balls without width. Exact coincidences are then
+// exact zeros, and mean what they mean everywhere else.
 #include <gtest/gtest.h>
 
 #include "carom/events/world.hpp"
@@ -28,8 +28,12 @@ CertifiedEnd end_of(const ExactSystem& system, std::uint64_t collisions) {
   return orbit.finish();
 }
 
-Shaped rectangle() { return tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "0", "0"); }
-Shaped stadium() { return tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0"); }
+Shaped rectangle() {
+  return tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "0", "0");
+}
+Shaped stadium() {
+  return tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0");
+}
 Shaped diamond() {
   Shaped s = tests::shaped("polygon", {}, "0", "0");
   s.spec.points["points"] = {{exactly("1"), exactly("0")},
@@ -44,8 +48,8 @@ Shaped sinai(bool torus) {
   return s;
 }
 
-// The same ray from a point of it that no binary number names has the same ties, hits the same walls and ends
-// there.
+// The same ray from a point of it that no binary number names has the same ties, hits the same
+// walls and ends there.
 void expect_same_from_beside(const Shaped& s, const Ray& ray, std::size_t ties) {
   for (const char* speed : {"1", "5"}) {
     SCOPED_TRACE(s.spec.shape + " from " + ray.x + ", " + ray.y + " along " + ray.u + ", " + ray.v +
@@ -75,8 +79,8 @@ TEST(ExactStarts, IntoCorners) {
   for (const auto& [u, v] : {std::pair{"1", "0"}, {"0", "1"}, {"-1", "0"}, {"0", "-1"}})
     expect_same_from_beside(diamond(), {"0", "0", u, v}, 6);
   // A reflex corner has no limit.
-  const Shaped mushroom =
-      tests::shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}}, "0", "0");
+  const Shaped mushroom = tests::shaped(
+      "mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}}, "0", "0");
   expect_same_from_beside(mushroom, {"1/4", "1/2", "1", "-2"}, 0);
 }
 
@@ -107,7 +111,8 @@ Shaped bent() {  // an L: a reflex corner, and sides in line with others
   return s;
 }
 
-// From points of a grid along short vectors: many run into corners and joints, touch, or move along walls.
+// From points of a grid along short vectors: many run into corners and joints, touch, or move along
+// walls.
 TEST(ExactStarts, OnAGrid) {
   tests::Dice dice(11);
   const std::vector<Shaped> tables{
@@ -116,7 +121,8 @@ TEST(ExactStarts, OnAGrid) {
       diamond(),
       bent(),
       sinai(false),
-      tests::shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}}, "0", "0"),
+      tests::shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}},
+                    "0", "0"),
       tests::shaped("circle", {{"radius", "1"}}, "0", "0"),
       tests::shaped("annulus", {{"outer", "1"}, {"inner", "1/4"}, {"offset", "1/4"}}, "0", "0"),
       tests::shaped("lemon", {{"radius", "5/4"}, {"separation", "3/2"}}, "0", "0")};

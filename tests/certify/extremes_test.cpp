@@ -26,7 +26,9 @@ TEST(CertifiedExtremes, HolesOfHalfATurn) {
   hole.wide = Verdict::undecided;
   hole.first = {1, 0};
   hole.last = {-1, Ball(0).widened(Bound(0x1p-20))};
-  const auto verdict = [&](double x, double y) { return certify::in_hole(hole, circle, {Ball(x), Ball(y)}); };
+  const auto verdict = [&](double x, double y) {
+    return certify::in_hole(hole, circle, {Ball(x), Ball(y)});
+  };
   EXPECT_EQ(verdict(0, 1), Verdict::yes);
   EXPECT_EQ(verdict(0.6, 0.8), Verdict::yes);
   EXPECT_EQ(verdict(0, -1), Verdict::no);

@@ -1,5 +1,5 @@
-// Holes that end at a corner or joint, or beside it by less than doubles tell: by the numbers as they were
-// written.
+// Holes that end at a corner or joint, or beside it by less than doubles tell: by the numbers as
+// they were written.
 #include <gtest/gtest.h>
 
 #include "carom/base/error.hpp"
@@ -46,7 +46,8 @@ Tilted tilted(int p, int q) {
                                     {exactly(t.p), exactly(t.q)},
                                     {exactly(t.p + "-" + t.q), exactly(t.p + "+" + t.q)},
                                     {exactly("-" + t.q), exactly(t.p)}};
-  t.square.inside = {exactly("(" + t.p + "-" + t.q + ")/2"), exactly("(" + t.p + "+" + t.q + ")/2")};
+  t.square.inside = {exactly("(" + t.p + "-" + t.q + ")/2"),
+                     exactly("(" + t.p + "+" + t.q + ")/2")};
   return t;
 }
 
@@ -58,7 +59,8 @@ TEST(HolesAtCorners, EndExactlyThere) {
     t.square.spec.holes = {door("side_1", t.side + "-1/40", "1/20")};
     const CertifiedEnd end = end_of(t.square, t.to_corner());
     ASSERT_EQ(end.fate, CertifiedFate::singular);
-    ASSERT_EQ(end.reason, "event 1: exactly into the corner between 'side_1' and 'side_2', at a hole");
+    ASSERT_EQ(end.reason,
+              "event 1: exactly into the corner between 'side_1' and 'side_2', at a hole");
     // On one side neighbours leave, on the other they are reflected.
     const CertifiedFate beside = end_of(t.square, t.to_corner("1/10^30"), 1).fate,
                         other = end_of(t.square, t.to_corner("-1/10^30"), 1).fate;
@@ -89,7 +91,8 @@ TEST(HolesAtCorners, EndsShortOfThem) {
   }
 }
 
-// Where an arc ends is known by its length, which contains pi: a hole that ends there is not told from one beside.
+// Where an arc ends is known by its length, which contains pi: a hole that ends there is not told
+// from one beside.
 TEST(HolesAtCorners, AtJointsOfArcs) {
   for (const char* r : {"1", "1.1", "1/3"}) {
     SCOPED_TRACE(r);

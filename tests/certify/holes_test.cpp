@@ -26,7 +26,8 @@ HoleSpec hole_in(const std::string& wall, const ExactNumber& center, const Exact
   return hole;
 }
 
-// A hole of a tenth of the length somewhere in every wall; over the start of closed ones now and then.
+// A hole of a tenth of the length somewhere in every wall; over the start of closed ones now and
+// then.
 Shaped with_holes(Shaped s, tests::Dice& dice) {
   const Table table = build_table(s.spec);
   for (const Wall& wall : table.walls) {
@@ -82,7 +83,8 @@ TEST(CertifiedHoles, EndsAsWritten) {
           for (const Hole& part : {first, last}) {
             const geometry::Vector p =
                 geometry::point_at(wall.curve, part.from + share * (part.to - part.from));
-            EXPECT_EQ(certify::in_hole(hole, w, certify::BallVector{p.x, p.y}), certify::Verdict::yes);
+            EXPECT_EQ(certify::in_hole(hole, w, certify::BallVector{p.x, p.y}),
+                      certify::Verdict::yes);
           }
         }
         for (const double share : {0.01, 0.5, 0.99}) {
@@ -117,7 +119,8 @@ TEST(CertifiedHoles, ArcLengthOfAnEllipse) {
       for (int i = 0; i < chords; ++i) {
         const double at = (angle < 0 ? angle + 6.283185307179586 : angle) / chords * (i + 0.5);
         const double step = (angle < 0 ? angle + 6.283185307179586 : angle) / chords;
-        sum += step * std::sqrt(std::sin(at) * std::sin(at) + ratio * ratio * std::cos(at) * std::cos(at));
+        sum += step *
+               std::sqrt(std::sin(at) * std::sin(at) + ratio * ratio * std::cos(at) * std::cos(at));
       }
       EXPECT_NEAR(sum, length, 1e-8);
     }
@@ -167,7 +170,8 @@ TEST(CertifiedHoles, LeavesAsTheEngineDoes) {
   EXPECT_GT(in_fields, orbits / 20);
 }
 
-// Long after doubles have lost the orbit: the same escape with many more digits, inside the same balls.
+// Long after doubles have lost the orbit: the same escape with many more digits, inside the same
+// balls.
 TEST(CertifiedHoles, TheSameEscapeAtMoreDigits) {
   tests::Dice dice(13);
   const std::vector<Shaped> shapes = tests::all_shapes();
@@ -181,12 +185,13 @@ TEST(CertifiedHoles, TheSameEscapeAtMoreDigits) {
     const geometry::Vector d = dice.direction();
     ExactSystem system = tests::system_of(s, {d.x, d.y});
     system.omega = field_of(k);
-    const CertifiedEnd few = end_of(system, until("100", 12)), many = end_of(system, until("100", 50));
+    const CertifiedEnd few = end_of(system, until("100", 12)),
+                       many = end_of(system, until("100", 50));
     ASSERT_EQ(few.fate, many.fate);
     ASSERT_EQ(few.collisions, many.collisions);
     ASSERT_EQ(few.hole, many.hole);
-    for (const auto number : {&CertifiedState::t, &CertifiedState::x, &CertifiedState::y, &CertifiedState::vx,
-                              &CertifiedState::vy}) {
+    for (const auto number : {&CertifiedState::t, &CertifiedState::x, &CertifiedState::y,
+                              &CertifiedState::vx, &CertifiedState::vy}) {
       // Either may have turned out smaller than was asked for.
       ASSERT_TRUE(ball_of(few.*number).overlaps(ball_of(many.*number)))
           << (few.*number).log2_error() << " " << (many.*number).log2_error();
@@ -196,7 +201,8 @@ TEST(CertifiedHoles, TheSameEscapeAtMoreDigits) {
   }
 }
 
-// In the square the orbit unfolds to a straight line: the hit in which it leaves is found by counting.
+// In the square the orbit unfolds to a straight line: the hit in which it leaves is found by
+// counting.
 TEST(CertifiedHoles, UnfoldsToTheHole) {
   Shaped square = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1/10", "1/5");
   square.spec.holes.push_back(hole_in("right", exactly("0.7005"), exactly("1/1000")));
@@ -208,8 +214,8 @@ TEST(CertifiedHoles, UnfoldsToTheHole) {
   double way = 0.0;
   for (;; ++k) {
     way = 2.0 * static_cast<double>(k);
-    const Ball height =
-        certify::value_of(exactly("1/5")) + slope * (certify::value_of(exactly("9/10")) + Ball(way));
+    const Ball height = certify::value_of(exactly("1/5")) +
+                        slope * (certify::value_of(exactly("9/10")) + Ball(way));
     const double floor = std::floor(height.to_double());
     folded = height - Ball(floor);
     if (std::fmod(floor, 2.0) != 0.0) folded = Ball(1) - folded;

@@ -28,7 +28,8 @@ inline Shaped with_random_start(Shaped s, Dice& dice) {
   const Table table = build_table(s.spec);
   const geometry::Vector about{s.inside.x.to_double(), s.inside.y.to_double()};
   for (;;) {
-    const geometry::Vector there = about + geometry::Vector{dice.between(-1.5, 1.5), dice.between(-1.5, 1.5)};
+    const geometry::Vector there =
+        about + geometry::Vector{dice.between(-1.5, 1.5), dice.between(-1.5, 1.5)};
     if (!lies_inside(table, there)) continue;
     s.inside = {there.x, there.y};
     return s;

@@ -38,15 +38,17 @@ Kappa<Dual<N>> moving_exit(const WallOf<N>& w, const VectorOf<N>& P, const Vecto
 
 Interval around(const Ball& x) { return certify::interval_of(x); }
 
-// An arc that ends within 2^-100 of where the Larmor circle leaves the ellipse for the first time, and holds where it
-// leaves it for the second time. Intervals cannot know which of the two is on the wall, and must not say the other.
+// An arc that ends within 2^-100 of where the Larmor circle leaves the ellipse for the first time,
+// and holds where it leaves it for the second time. Intervals cannot know which of the two is on
+// the wall, and must not say the other.
 TEST(LarmorExits, NextToAnArcsEnd) {
   tests::Dice dice(61);
   const Precision precision(400);
   long cases = 0, known = 0;
   while (cases < 200) {
     const double ratio = dice.between(0.3, 0.8);
-    WallOf<Ball> w = certify::ellipse_wall<Ball>(BallVector{0, 0}, BallVector{1, 0}, Ball(ratio), true);
+    WallOf<Ball> w =
+        certify::ellipse_wall<Ball>(BallVector{0, 0}, BallVector{1, 0}, Ball(ratio), true);
     const double angle = dice.between(-3.0, 3.0);
     const BallVector P{dice.between(-0.5, 0.5), 0.5 * ratio * dice.between(-1, 1)};
     const BallVector v{std::cos(angle), std::sin(angle)};
@@ -55,14 +57,16 @@ TEST(LarmorExits, NextToAnArcsEnd) {
     motion.inverse_speed2 = Ball(1) / motion.speed2;
     motion.turns = true;
     motion.half_omega = dice.between(0.6, 1.0);
-    const certify::EllipseFlight<Ball> flight(certify::larmor_form<Ball, Ball>(w, P, v, motion, false),
-                                              certify::kappa_scale(w, v, motion.half_omega));
+    const certify::EllipseFlight<Ball> flight(
+        certify::larmor_form<Ball, Ball>(w, P, v, motion, false),
+        certify::kappa_scale(w, v, motion.half_omega));
     std::vector<BallVector> leaves;
     std::vector<Kappa<Ball>> places;
     for (const auto& exit : certify::LarmorExits<Ball>(flight.chords(), 5)) {
       ASSERT_TRUE(exit.certain);
       places.push_back(flight.place(exit));
-      leaves.push_back(certify::larmor_state<Ball, Ball>(places.back(), P, v, motion.half_omega).position);
+      leaves.push_back(
+          certify::larmor_state<Ball, Ball>(places.back(), P, v, motion.half_omega).position);
     }
     if (leaves.size() < 2) continue;
     const double start = dice.between(-3.0, 3.0);
@@ -81,12 +85,13 @@ TEST(LarmorExits, NextToAnArcsEnd) {
     ASSERT_TRUE((exact.p.value / exact.q.value).overlaps(truth.p / truth.q));
 
     const WallOf<Interval> fast = certify::converted<Interval>(w, around);
-    const certify::MotionOf<Interval> fast_motion{around(motion.speed2), around(motion.inverse_speed2), true,
-                                                  around(motion.half_omega), 64};
-    const auto seen = moving_exit<Interval>(fast, {around(P.x), around(P.y)}, {around(v.x), around(v.y)},
-                                            fast_motion);
+    const certify::MotionOf<Interval> fast_motion{
+        around(motion.speed2), around(motion.inverse_speed2), true, around(motion.half_omega), 64};
+    const auto seen = moving_exit<Interval>(fast, {around(P.x), around(P.y)},
+                                            {around(v.x), around(v.y)}, fast_motion);
     const Interval place = seen.p.value / seen.q.value;
-    if (!(place.low > -HUGE_VAL && place.high < HUGE_VAL)) continue;  // it says that it does not know
+    if (!(place.low > -HUGE_VAL && place.high < HUGE_VAL))
+      continue;  // it says that it does not know
     ++known;
     const double kappa = (truth.p / truth.q).to_double();
     EXPECT_LE(place.low, kappa);
@@ -103,7 +108,8 @@ TEST(LarmorExits, BesideAJoint) {
   for (const auto& [x, y] : {std::pair{"3/10", "3/10"}, {"1/2", "1/5"}, {"2/5", "7/10"}}) {
     for (const auto& [u, v] : {std::pair{"0", "1"}, {"1", "0"}, {"0", "0"}}) {
       // Through J = (u, v) from P along (1, 0): 2 omega d_y + omega^2 d^2 = 0 with d = J - P.
-      const std::string dx = std::string("(") + u + "-" + x + ")", dy = std::string("(") + v + "-" + y + ")";
+      const std::string dx = std::string("(") + u + "-" + x + ")",
+                        dy = std::string("(") + v + "-" + y + ")";
       const std::string omega = "-2*" + dy + "/(" + dx + "^2+" + dy + "^2)";
       s.inside = {exactly(x), exactly(y)};
       int walls[2] = {-1, -1};
@@ -116,7 +122,8 @@ TEST(LarmorExits, BesideAJoint) {
           const auto same = many.next();
           ASSERT_TRUE(same.has_value());
           EXPECT_EQ(hit.wall, same->wall);
-          EXPECT_TRUE(tests::holds(hit.x, same->x) && tests::holds(hit.vx, same->vx) && tests::holds(hit.t, same->t));
+          EXPECT_TRUE(tests::holds(hit.x, same->x) && tests::holds(hit.vx, same->vx) &&
+                      tests::holds(hit.t, same->t));
         }
         EXPECT_EQ(few.end_state().fate, CertifiedFate::completed) << few.end_state().reason;
       }

@@ -1,5 +1,5 @@
-// Certified orbits in a magnetic field against themselves at more bits, the engine, exact answers and
-// their own way back.
+// Certified orbits in a magnetic field against themselves at more bits, the engine, exact answers
+// and their own way back.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,20 +55,23 @@ ExactNumber random_field(tests::Dice& dice) {
   return exactly(dice.whole(0, 1) == 0 ? size : "-" + size);
 }
 
-// Every enclosure is as small as was asked for and contains what a run at more than twice the digits finds.
+// Every enclosure is as small as was asked for and contains what a run at more than twice the
+// digits finds.
 TEST(CertifiedLarmor, ContainsItselfAtMoreBits) {
   tests::Dice dice(11);
   const std::vector<Shaped> shapes = tests::all_shapes();
   const long orbits = tests::cases(600, 10000);
   long pinned = 0, hits = 0;
   for (long k = 0; k < orbits; ++k) {
-    const Shaped s = tests::with_random_start(shapes[static_cast<std::size_t>(k) % shapes.size()], dice);
+    const Shaped s =
+        tests::with_random_start(shapes[static_cast<std::size_t>(k) % shapes.size()], dice);
     const geometry::Vector d = dice.direction();
     const ExactSystem system = in_field(s, {d.x, d.y}, random_field(dice));
     SCOPED_TRACE(s.spec.shape + ", orbit " + std::to_string(k) + ", omega " + system.omega.text());
     const auto collisions = static_cast<std::uint64_t>(dice.whole(1, 40));
     const int digits = dice.whole(1, 20);
-    const Flown few = run_of(system, collisions, digits), many = run_of(system, collisions, 2 * digits + 20);
+    const Flown few = run_of(system, collisions, digits),
+                many = run_of(system, collisions, 2 * digits + 20);
     ASSERT_TRUE(few.end.fate == CertifiedFate::completed || few.end.fate == CertifiedFate::pinned)
         << few.end.reason;
     ASSERT_EQ(few.end.fate, many.end.fate);
@@ -99,7 +102,8 @@ struct Walls : Observer {
     trust.hit(event);
   }
   /// Against the system as it is written: its numbers are not doubles.
-  explicit Walls(const ExactSystem& system) : trust(*system.table, TrustRecorder::usual_tolerance, written(system)) {}
+  explicit Walls(const ExactSystem& system)
+      : trust(*system.table, TrustRecorder::usual_tolerance, written(system)) {}
   static std::shared_ptr<const WrittenSystem> written(const ExactSystem& system) {
     LoadedSystem loaded;
     loaded.exact = system;
@@ -138,7 +142,8 @@ TEST(CertifiedLarmor, MeetsTheWallsOfTheEngine) {
     const Flown run = run_of(system, 100, 5);
     ASSERT_EQ(run.end.fate == CertifiedFate::pinned, seen.walls.empty());
     const std::uint64_t hits = std::min<std::uint64_t>(seen.walls.size(), seen.trust.trust(0).hits);
-    for (std::size_t i = 0; i < hits; ++i) ASSERT_EQ(run.hits.at(i).wall, seen.walls[i]) << "hit " << i;
+    for (std::size_t i = 0; i < hits; ++i)
+      ASSERT_EQ(run.hits.at(i).wall, seen.walls[i]) << "hit " << i;
     trusted += hits;
   }
   EXPECT_GT(trusted, static_cast<std::uint64_t>(20 * orbits));
@@ -184,16 +189,19 @@ TEST(CertifiedLarmor, TurnsEquallyInTheDisc) {
   }
 }
 
-// From the middle of a square against the right wall: where the circle about (1/2, 1/2 - 1/omega) crosses it.
+// From the middle of a square against the right wall: where the circle about (1/2, 1/2 - 1/omega)
+// crosses it.
 TEST(CertifiedLarmor, FirstHitByHand) {
   const Shaped square = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1/2", "1/2");
   const Precision precision(1000);
   for (const char* omega : {"1", "-1", "1/1000000000000", "-1e-40"}) {
     SCOPED_TRACE(omega);
-    const Flown run = run_of(in_field(square, {exactly("1"), exactly("0")}, exactly(omega)), 1, 100);
+    const Flown run =
+        run_of(in_field(square, {exactly("1"), exactly("0")}, exactly(omega)), 1, 100);
     const std::string rho = std::string("(1/(") + omega + "))";
     // The angle alpha of the turn has the sine 1/(2 rho); y = 1/2 - rho (1 - cos alpha).
-    const Ball y = certify::value_of(exactly("1/2-1/(4*" + rho + ")/(1+sqrt(1-1/(4*" + rho + "^2)))"));
+    const Ball y =
+        certify::value_of(exactly("1/2-1/(4*" + rho + ")/(1+sqrt(1-1/(4*" + rho + "^2)))"));
     ASSERT_EQ(run.hits.at(0).wall, 1);
     EXPECT_TRUE(ball_of(run.hits[0].y).contains(y));
     EXPECT_TRUE(ball_of(run.hits[0].x).contains(Ball(1)));
@@ -230,7 +238,8 @@ TEST(CertifiedLarmor, LosesLittleInTheMagneticSquare) {
   for (int k = 0; k < 15; ++k) {
     const geometry::Vector d = dice.direction();
     CertifiedOrbit orbit(in_field(square, {d.x, d.y}, exactly("1/0.5075")), task_of(500, 20));
-    if (orbit.finish().fate == CertifiedFate::completed) rates.push_back(orbit.effort().tangent_bits / 500.0);
+    if (orbit.finish().fate == CertifiedFate::completed)
+      rates.push_back(orbit.effort().tangent_bits / 500.0);
   }
   ASSERT_GT(rates.size(), 10u);
   std::sort(rates.begin(), rates.end());

@@ -1,4 +1,5 @@
-// What would be in doubt after the last time is never asked, and ties that the orbit does not come to are not listed.
+// What would be in doubt after the last time is never asked, and ties that the orbit does not come
+// to are not listed.
 #include <gtest/gtest.h>
 
 #include "certify/systems.hpp"
@@ -46,17 +47,20 @@ TEST(LastTime, BeforeACornerWithALimit) {
   const Shaped square = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1/5", "1/5");
   const ExactSystem straight = tests::system_of(square, {exactly("3/5"), exactly("3/5")});
   expect_stop(until(straight, "sqrt(2)/100"), "0.210000000000000", "0.210000000000000");
-  expect_stop(until(straight, "sqrt(2)*4/5-sqrt(2)/10^40"), "1.000000000000000", "1.000000000000000");
+  expect_stop(until(straight, "sqrt(2)*4/5-sqrt(2)/10^40"), "1.000000000000000",
+              "1.000000000000000");
   EXPECT_EQ(until(straight, "sqrt(2)*4/5+1/10^40").ties.size(), 1u);
   EXPECT_EQ(until(straight, "sqrt(2)*4/5+1/10^40").collisions, 2u);
 }
 
 TEST(LastTime, AlongACorridor) {
   Shaped torus = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "1/10", "1/10");
-  expect_stop(until(tests::system_of(torus, {exactly("1"), exactly("0")}), "5"), "5.100000000000000", "0.100000000000000");
-  expect_stop(until(tests::system_of(torus, {exactly("1"), exactly("0")}), "20000"), "20000.100000000000000",
-              "0.100000000000000");
-  EXPECT_EQ(until(tests::system_of(torus, {exactly("1"), exactly("0")}), "10^6").fate, CertifiedFate::undecided);
+  expect_stop(until(tests::system_of(torus, {exactly("1"), exactly("0")}), "5"),
+              "5.100000000000000", "0.100000000000000");
+  expect_stop(until(tests::system_of(torus, {exactly("1"), exactly("0")}), "20000"),
+              "20000.100000000000000", "0.100000000000000");
+  EXPECT_EQ(until(tests::system_of(torus, {exactly("1"), exactly("0")}), "10^6").fate,
+            CertifiedFate::undecided);
   // Along its edge discs are touched after 0.4, 1.4 …
   torus.inside.y = exactly("3/10");
   const CertifiedEnd edge = until(tests::system_of(torus, {exactly("1"), exactly("0")}), "5");
@@ -70,7 +74,8 @@ TEST(LastTime, BeforeATangency) {
   Shaped discs = tests::shaped("discs", {{"radius", "1"}}, "0", "0");
   discs.spec.points["centers"] = {{exactly("10"), exactly("1")}, {exactly("20"), exactly("0")}};
   const ExactSystem system = tests::system_of(discs, {exactly("1"), exactly("0")});
-  for (const auto& [t_max, ties] : {std::pair{"1", 0u}, {"10-1/10^25", 0u}, {"10", 1u}, {"10+1/10^25", 1u}, {"15", 1u}}) {
+  for (const auto& [t_max, ties] :
+       {std::pair{"1", 0u}, {"10-1/10^25", 0u}, {"10", 1u}, {"10+1/10^25", 1u}, {"15", 1u}}) {
     const CertifiedEnd end = until(system, t_max);
     EXPECT_EQ(end.fate, CertifiedFate::completed) << end.reason;
     EXPECT_EQ(end.collisions, 0u);

@@ -1,5 +1,5 @@
-// Where certified orbits end, and what they ask of themselves: no number leaves with less than the digits
-// asked for.
+// Where certified orbits end, and what they ask of themselves: no number leaves with less than the
+// digits asked for.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,8 @@ using tests::Shaped;
 using tests::task_of;
 
 Shaped stadium(const std::string& size) {
-  return tests::shaped("stadium", {{"half_length", size.c_str()}, {"radius", size.c_str()}}, "0", "0");
+  return tests::shaped("stadium", {{"half_length", size.c_str()}, {"radius", size.c_str()}}, "0",
+                       "0");
 }
 ExactSystem flying(const Shaped& s, const char* speed) {
   ExactSystem system = tests::system_of(s, {exactly("0.6"), exactly("0.7")});
@@ -57,8 +58,8 @@ TEST(CertifiedLimits, WithoutBitsTheEndIsTheLastHit) {
   }
 }
 
-// A hole that the pseudo-orbit leaves through and the true one misses, or a forecast that is too small by
-// chance: then attempts end on their way.
+// A hole that the pseudo-orbit leaves through and the true one misses, or a forecast that is too
+// small by chance: then attempts end on their way.
 TEST(CertifiedLimits, AnAttemptThatEndsOnItsWay) {
   int ended = 0;
   for (int k = 0; k < 40; ++k) {
@@ -100,7 +101,8 @@ TEST(CertifiedLimits, SlowFastLargeAndSmall) {
   }
 }
 
-// First order suffices for small parts of the table only: how few digits are asked for says nothing of that.
+// First order suffices for small parts of the table only: how few digits are asked for says nothing
+// of that.
 TEST(CertifiedLimits, ErrorsStaySmallParts) {
   for (const char* omega : {"0", "10^10"}) {
     ExactSystem system = flying(stadium("1/10^10"), "1");
@@ -117,8 +119,8 @@ TEST(CertifiedLimits, ErrorsStaySmallParts) {
   }
 }
 
-// Nearly along the edge of the corridor between the discs, a little to its inside or outside: intervals do
-// not know whether discs are met, balls do. Along y = 1/4 + 10^-25.
+// Nearly along the edge of the corridor between the discs, a little to its inside or outside:
+// intervals do not know whether discs are met, balls do. Along y = 1/4 + 10^-25.
 TEST(CertifiedLimits, BesideTheEdgeOfACorridor) {
   Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "1/10", "3/10+1/10^25");
   const ExactSystem system = tests::system_of(s, {exactly("1"), exactly("0")});
@@ -140,9 +142,9 @@ TEST(CertifiedLimits, Digits) {
       CertifiedOrbit(system, task_of(5, digits));
       ADD_FAILURE() << digits;
     } catch (const InputError& error) {
-      EXPECT_EQ(error.problem(),
-                digits < 1 ? "no digits are asked for"
-                           : std::to_string(digits) + " digits are more than certified orbits have");
+      EXPECT_EQ(error.problem(), digits < 1 ? "no digits are asked for"
+                                            : std::to_string(digits) +
+                                                  " digits are more than certified orbits have");
       EXPECT_EQ(error.expected(), digits < 1 ? "at least 1" : "at most 1000000");
     }
   }
@@ -161,7 +163,8 @@ TEST(CertifiedLimits, Digits) {
 
 // From inside a bounded table nothing is unbounded.
 TEST(CertifiedLimits, StartsOutside) {
-  const Shaped s = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1+1/10^40", "1/2");
+  const Shaped s =
+      tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1+1/10^40", "1/2");
   for (const char* speed : {"1", "7/3"}) {
     ExactSystem system = flying(s, speed);
     EXPECT_THROW(CertifiedOrbit(system, task_of(5, 20)), InputError);

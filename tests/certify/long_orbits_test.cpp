@@ -43,7 +43,8 @@ void follow(const Shaped& table, const char* slope, double most_seconds) {
 
 // 36 s an attempt measured.
 TEST(LongOrbits, AHundredThousandHitsInTheStadium) {
-  follow(tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "1/10", "11/50"), "7/10", 100.0);
+  follow(tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "1/10", "11/50"), "7/10",
+         100.0);
 }
 
 TEST(LongOrbits, AHundredThousandHitsAroundADisc) {

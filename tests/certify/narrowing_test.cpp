@@ -7,7 +7,8 @@
 namespace carom::certify {
 namespace {
 
-// (r - s)(1 + c (s - e)^2), which falls from 0 to 1; the slope is enclosed there, beyond it may be anything.
+// (r - s)(1 + c (s - e)^2), which falls from 0 to 1; the slope is enclosed there, beyond it may be
+// anything.
 TEST(Narrowing, StaysInItsBracket) {
   tests::Dice dice(7);
   const Precision precision(200);

@@ -21,7 +21,8 @@ using geometry::Vector;
 using tests::exactly;
 using tests::Shaped;
 
-// log2 of the norm of the tangent map from the start, largest over the hits: in doubles along certified hits.
+// log2 of the norm of the tangent map from the start, largest over the hits: in doubles along
+// certified hits.
 class Stretch {
  public:
   Stretch(const ExactSystem& system, double unit) : unit_(unit) {
@@ -31,7 +32,8 @@ class Stretch {
     balls.walls = std::move(table.walls);
     balls.lattice = std::move(table.lattice);
     balls.motion.speed2 = balls.motion.inverse_speed2 = certify::Ball(1);
-    scene_ = certify::converted<double>(balls, [](const certify::Ball& x) { return x.to_double(); });
+    scene_ =
+        certify::converted<double>(balls, [](const certify::Ball& x) { return x.to_double(); });
     position_ = {system.start.position.x.to_double(), system.start.position.y.to_double()};
     const Vector d{system.start.direction.x.to_double(), system.start.direction.y.to_double()};
     velocity_ = (1.0 / std::sqrt(dot(d, d))) * d;
@@ -45,13 +47,15 @@ class Stretch {
     const Vector there = Vector{hit.x.to_double(), hit.y.to_double()} - corner,
                  v{hit.vx.to_double(), hit.vy.to_double()};
     const certify::FrameOf<double> after{certify::tangent_of(wall, there), v, unit_};
-    const auto map =
-        certify::tangent_map(wall, position_ - corner, velocity_, scene_.motion, same, frame_, after);
+    const auto map = certify::tangent_map(wall, position_ - corner, velocity_, scene_.motion, same,
+                                          frame_, after);
     for (auto& image : images_) {
       const double from_off = first_ ? map.rows[along][off] * image[2] : 0.0;
       const double turned_off = first_ ? map.rows[turning][off] * image[2] : 0.0;
-      const double a = map.rows[along][along] * image[0] + map.rows[along][turning] * image[1] + from_off;
-      image[1] = map.rows[turning][along] * image[0] + map.rows[turning][turning] * image[1] + turned_off;
+      const double a =
+          map.rows[along][along] * image[0] + map.rows[along][turning] * image[1] + from_off;
+      image[1] =
+          map.rows[turning][along] * image[0] + map.rows[turning][turning] * image[1] + turned_off;
       image[0] = a;
       image[2] = 0.0;
     }
@@ -100,7 +104,8 @@ TEST(CertifiedPrecision, LosesWhatTheTangentMapStretches) {
         const CertifiedEffort& effort = orbit.effort();
         attempts += effort.attempts;
         // Roundings of all hits add up.
-        const double allowed = 1.03 * stretch.log2() + 30.0 + std::log2(static_cast<double>(collisions));
+        const double allowed =
+            1.03 * stretch.log2() + 30.0 + std::log2(static_cast<double>(collisions));
         EXPECT_LE(effort.tangent_bits, allowed) << s.spec.shape << ", " << collisions << ", " << k;
         // It cannot lose less, either: a bit or two are the units of tangent vectors.
         EXPECT_GE(effort.tangent_bits, stretch.log2() - 2.0)
@@ -112,8 +117,10 @@ TEST(CertifiedPrecision, LosesWhatTheTangentMapStretches) {
   // What was chosen rests on a forecast; some orbits stretch less.
   std::sort(beyond.begin(), beyond.end());
   const auto within = std::upper_bound(beyond.begin(), beyond.end(), 0.0) - beyond.begin();
-  std::printf("%ld of %zu orbits within the bound, the worst by %.0f bits beyond; %.2f attempts an orbit\n",
-              static_cast<long>(within), beyond.size(), beyond.back(), static_cast<double>(attempts) / static_cast<double>(beyond.size()));
+  std::printf(
+      "%ld of %zu orbits within the bound, the worst by %.0f bits beyond; %.2f attempts an orbit\n",
+      static_cast<long>(within), beyond.size(), beyond.back(),
+      static_cast<double>(attempts) / static_cast<double>(beyond.size()));
   EXPECT_LE(beyond[beyond.size() * 8 / 10], 0.0);
 }
 

@@ -15,7 +15,8 @@ using certify::Interval;
 using certify::Precision;
 using tests::exactly;
 
-// A disc that only some of the enclosed flights meet, too far from the middle one to come near any of its pieces.
+// A disc that only some of the enclosed flights meet, too far from the middle one to come near any
+// of its pieces.
 TEST(LatticeSearch, LooksAsFarAsTheEnclosureReaches) {
   const Precision precision(100);
   const tests::Shaped torus = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/10"}}, "0", "0");
@@ -28,14 +29,17 @@ TEST(LatticeSearch, LooksAsFarAsTheEnclosureReaches) {
     balls.motion.speed2 = balls.motion.inverse_speed2 = Ball(1);
     balls.motion.half_omega = omega / 2;
     balls.motion.turns = omega != 0.0;
-    const auto scene = certify::converted<Interval>(balls, [](const Ball& x) { return certify::interval_of(x); });
+    const auto scene =
+        certify::converted<Interval>(balls, [](const Ball& x) { return certify::interval_of(x); });
     const geometry::Vector P0{0.5, 0.9}, v0{1.0, 0.0};
-    const certify::VectorOf<Interval> P{{0.499, 0.501}, {0.605, 1.195}}, v{{0.9998, 1.0}, {-0.02, 0.02}};
+    const certify::VectorOf<Interval> P{{0.499, 0.501}, {0.605, 1.195}},
+        v{{0.9998, 1.0}, {-0.02, 0.02}};
     EXPECT_EQ(scene.next(where, P, v, -1, P0, v0).answer, certify::Choice::undecided) << omega;
     // A narrow one passes between the rows, for longer than is looked for (or until it has turned).
     const certify::VectorOf<Interval> line{{0.5, 0.5}, {1.0, 1.0}}, along{{1.0, 1.0}, {0.0, 0.0}};
     if (omega == 0.0) {
-      EXPECT_EQ(scene.next(where, line, along, -1, {0.5, 1.0}, v0).answer, certify::Choice::too_far);
+      EXPECT_EQ(scene.next(where, line, along, -1, {0.5, 1.0}, v0).answer,
+                certify::Choice::too_far);
     }
   }
 }
@@ -55,7 +59,8 @@ TEST(LatticeSearch, DiscsHoldTheirWalls) {
   below.to = loop.start;
   loop.pieces = {above, below};
   lens.spec.loops = {loop};
-  for (const certify::Whereabouts::Disc& disc : certify::whereabouts_of(certify::ball_table(lens.spec)).discs) {
+  for (const certify::Whereabouts::Disc& disc :
+       certify::whereabouts_of(certify::ball_table(lens.spec)).discs) {
     EXPECT_NEAR(disc.radius, 0.25, 1e-6);
   }
   shapes.push_back(lens);
@@ -69,16 +74,22 @@ TEST(LatticeSearch, DiscsHoldTheirWalls) {
       const bool ellipse = w.form == certify::Form::ellipse;
       const Ball radius = ellipse ? Ball(1) : sqrt(w.radius2);
       const auto semi_axis = [](const certify::BallVector& v) { return Ball(1) / dot(v, v) * v; };
-      const certify::BallVector a = ellipse ? semi_axis(w.along) : certify::BallVector{radius, Ball(0)};
-      const certify::BallVector b = ellipse ? semi_axis(w.across) : certify::BallVector{Ball(0), radius};
+      const certify::BallVector a =
+          ellipse ? semi_axis(w.along) : certify::BallVector{radius, Ball(0)};
+      const certify::BallVector b =
+          ellipse ? semi_axis(w.across) : certify::BallVector{Ball(0), radius};
       for (int i = 0; i < 4000; ++i) {
-        const certify::BallVector X = w.centre + Ball(std::cos(i * 0.001571)) * a + Ball(std::sin(i * 0.001571)) * b;
+        const certify::BallVector X =
+            w.centre + Ball(std::cos(i * 0.001571)) * a + Ball(std::sin(i * 0.001571)) * b;
         if (certify::on_arc(w, X) != certify::Verdict::yes) continue;
-        const certify::BallVector d = X - certify::BallVector{where.discs[k].centre.x, where.discs[k].centre.y};
-        ASSERT_LE(sqrt(dot(d, d)).to_double(), where.discs[k].radius * (1.0 + 1e-12)) << s.spec.shape << " " << k;
+        const certify::BallVector d =
+            X - certify::BallVector{where.discs[k].centre.x, where.discs[k].centre.y};
+        ASSERT_LE(sqrt(dot(d, d)).to_double(), where.discs[k].radius * (1.0 + 1e-12))
+            << s.spec.shape << " " << k;
         ++points;
       }
-      narrow += where.discs[k].radius < 0.999 * (ellipse ? sqrt(dot(a, a)).to_double() : radius.to_double());
+      narrow += where.discs[k].radius <
+                0.999 * (ellipse ? sqrt(dot(a, a)).to_double() : radius.to_double());
     }
   }
   EXPECT_GT(points, 20000);

@@ -45,15 +45,18 @@ TEST(CertifiedStarts, OutsideOrOnAWall) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
   expect(refusal(square(), "-1", "1/2"), "the start (-1, 1/2)" + outside + " (expected");
-  expect(refusal(square(), "1+1/10^40", "1/2"), "the start (1+1/10^40, 1/2)" + outside + " (expected");
+  expect(refusal(square(), "1+1/10^40", "1/2"),
+         "the start (1+1/10^40, 1/2)" + outside + " (expected");
   expect(refusal(square(), "1", "1/2"), outside + ": it lies on 'right'");
   expect(refusal(square(), "0", "1"), outside + ": it lies on 'top' and 'left'");
   expect(refusal(disc_in_square(), "1/2", "1/2"), outside);
   expect(refusal(disc_in_square(), "1/10", "1/2"), outside + ": it lies on 'disc'");
   expect(refusal(shaped("circle", {{"radius", "1"}}, "0", "0"), "8/17", "15/17"),
          outside + ": it lies on 'circle'");
-  expect(refusal(shaped("circle", {{"radius", "1"}}, "0", "0"), "8/17", "15/17+1/10^20"), outside + " (");
-  expect(refusal(shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0"), "-1-3/5", "4/5"),
+  expect(refusal(shaped("circle", {{"radius", "1"}}, "0", "0"), "8/17", "15/17+1/10^20"),
+         outside + " (");
+  expect(refusal(shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0"), "-1-3/5",
+                 "4/5"),
          outside + ": it lies on 'left'");
   expect(refusal(shaped("ellipse", {{"a", "2"}, {"b", "1"}}, "0", "0"), "6/5", "4/5"),
          outside + ": it lies on 'ellipse'");
@@ -62,7 +65,8 @@ TEST(CertifiedStarts, OutsideOrOnAWall) {
   EXPECT_EQ(refusal(odd, "pi-1/10^1000", "1/2"), "");
   expect(refusal(odd, "pi", "1/2"), "is not told from a point on a wall by 16384 bits");
   // A hair inside.
-  for (const char* x : {"1-1/10^40", "1/10^2000", "1/2"}) EXPECT_EQ(refusal(square(), x, "1/3"), "") << x;
+  for (const char* x : {"1-1/10^40", "1/10^2000", "1/2"})
+    EXPECT_EQ(refusal(square(), x, "1/3"), "") << x;
   EXPECT_EQ(refusal(disc_in_square(), "1/10-1/10^40", "1/2"), "");
   // Every orbit asks, in fields, too, and away from the table.
   for (const char* omega : {"0", "1", "-1/10^10"}) {
@@ -129,7 +133,8 @@ Shaped blocks() {
   return s;
 }
 
-// In agreement with the engine, which decides by the table's doubles, wherever these are not next to a wall.
+// In agreement with the engine, which decides by the table's doubles, wherever these are not next
+// to a wall.
 TEST(CertifiedStarts, InsideAsTheEngineSays) {
   tests::Dice dice(31);
   std::vector<Shaped> shapes = tests::all_shapes();
@@ -145,14 +150,16 @@ TEST(CertifiedStarts, InsideAsTheEngineSays) {
     for (long k = 0; k < tests::cases(300, 20000); ++k) {
       geometry::Vector P{dice.between(-2.5, 2.5), dice.between(-2.5, 2.5)};
       if (k % 3 == 0)
-        P = {std::round(8.0 * P.x) / 8.0 + 0x1p-20, std::round(8.0 * P.y) / 8.0};  // rays into joints
+        P = {std::round(8.0 * P.x) / 8.0 + 0x1p-20,
+             std::round(8.0 * P.y) / 8.0};  // rays into joints
       const certify::Containment place(loops, balls, {P.x, P.y});
       ASSERT_FALSE(place.too_far());
       ++all;
       geometry::Vector in_cell = P;
       geometry::Cell cell;
       fold_into_cell(table, in_cell, cell);
-      ASSERT_EQ(place.verdict() == certify::Verdict::yes, world.contains(in_cell)) << P.x << ", " << P.y;
+      ASSERT_EQ(place.verdict() == certify::Verdict::yes, world.contains(in_cell))
+          << P.x << ", " << P.y;
       inside += place.verdict() == certify::Verdict::yes ? 1 : 0;
     }
   }
@@ -171,14 +178,14 @@ TEST(CertifiedStarts, OfAnyCell) {
 // Where the doubles of a table have other walls than its numbers, it is refused.
 TEST(CertifiedStarts, OtherWallsInDoubles) {
   const auto mushroom = [](const char* stem) {
-    return shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", stem}, {"stem_height", "1"}}, "1/5",
-                  "1/5");
+    return shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", stem}, {"stem_height", "1"}},
+                  "1/5", "1/5");
   };
   EXPECT_EQ(refusal(mushroom("2"), "1/5", "1/5"), "");
   EXPECT_EQ(refusal(mushroom("2-1/10^10"), "1/5", "1/5"), "");
-  EXPECT_NE(
-      refusal(mushroom("2-2/10^20"), "1/5", "1/5").find("has other walls than the same in double precision"),
-      std::string::npos);
+  EXPECT_NE(refusal(mushroom("2-2/10^20"), "1/5", "1/5")
+                .find("has other walls than the same in double precision"),
+            std::string::npos);
   EXPECT_NE(refusal(mushroom("2+2/10^20"), "1/5", "1/5").find("the stem is wider than the cap"),
             std::string::npos);
   EXPECT_EQ(refusal(mushroom("sqrt(3)-sqrt(12)+sqrt(3)+2"), "1/5", "1/5"), "");

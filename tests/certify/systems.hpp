@@ -20,8 +20,8 @@ inline CertifiedTask task_of(std::uint64_t collisions, int digits) {
   return task;
 }
 
-/// Does the enclosure of a run of few digits contain that of many? Where the former took more attempts it may have
-/// turned out the smaller one: then the two must meet.
+/// Does the enclosure of a run of few digits contain that of many? Where the former took more
+/// attempts it may have turned out the smaller one: then the two must meet.
 inline bool holds(const CertifiedNumber& few, const CertifiedNumber& many) {
   const certify::Ball &a = certify::ball_of(few), &b = certify::ball_of(many);
   return few.log2_error() < many.log2_error() ? a.overlaps(b) : a.contains(b);
@@ -32,8 +32,9 @@ struct Shaped {
   ExactPoint inside;  ///< a point of the domain
 };
 
-inline Shaped shaped(const std::string& shape, const std::vector<std::pair<const char*, const char*>>& numbers,
-                     const char* x, const char* y) {
+inline Shaped shaped(const std::string& shape,
+                     const std::vector<std::pair<const char*, const char*>>& numbers, const char* x,
+                     const char* y) {
   Shaped s;
   s.spec.shape = shape;
   for (const auto& [key, text] : numbers) s.spec.numbers[key] = exactly(text);
@@ -51,7 +52,8 @@ inline std::vector<Shaped> all_shapes() {
       shaped("ellipse", {{"a", "1"}, {"b", "3/4"}}, "0.1", "0.2"),
       shaped("annulus", {{"outer", "1"}, {"inner", "0.3"}, {"offset", "0.1"}}, "-0.6", "0.2"),
       shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0.1", "0.2"),
-      shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", "0.7"}, {"stem_height", "0.9"}}, "0.1", "0.2"),
+      shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", "0.7"}, {"stem_height", "0.9"}},
+             "0.1", "0.2"),
       shaped("lemon", {{"radius", "1"}, {"separation", "1.1"}}, "0.1", "0.2"),
       shaped("sinai", {{"side", "1"}, {"radius", "0.4"}}, "0.05", "0.07"),
       shaped("lorentz", {{"spacing", "2.2"}, {"radius", "1"}}, "1.09", "0.1"),
@@ -60,7 +62,8 @@ inline std::vector<Shaped> all_shapes() {
   walled.spec.torus = false;
   all.push_back(walled);
   // A corner is free whatever the arrangement.
-  Shaped many = shaped("random-discs", {{"side", "4"}, {"radius", "0.3"}, {"count", "7"}}, "0.02", "0.03");
+  Shaped many =
+      shaped("random-discs", {{"side", "4"}, {"radius", "0.3"}, {"count", "7"}}, "0.02", "0.03");
   many.spec.torus = false;
   all.push_back(many);
   // Obstacles of every kind, one of them across the corners of a cell.
@@ -76,7 +79,9 @@ inline std::vector<Shaped> all_shapes() {
   egg.angle = exactly("pi/12");
   ObstacleSpec block;
   block.shape = ObstacleSpec::Shape::polygon;
-  block.points = {{exactly("2"), exactly("0.2")}, {exactly("2.5"), exactly("1/3")}, {exactly("2.1"), exactly("sqrt(3)/2")}};
+  block.points = {{exactly("2"), exactly("0.2")},
+                  {exactly("2.5"), exactly("1/3")},
+                  {exactly("2.1"), exactly("sqrt(3)/2")}};
   room.spec.obstacles = {disc, egg, block};
   all.push_back(room);
   Shaped cell = shaped("sinai", {{"side", "2"}, {"radius", "0.4"}}, "0.05", "1.07");

@@ -25,7 +25,8 @@ CertifiedEnd end_of(const ExactSystem& system, const CertifiedTask& task) {
   return orbit.finish();
 }
 
-// Orbits from beside the start, 10^-30 to either side, follow the one through the tie. `from`: the first hit after it.
+// Orbits from beside the start, 10^-30 to either side, follow the one through the tie. `from`: the
+// first hit after it.
 void expect_limit(ExactSystem system, std::uint64_t from, std::uint64_t hits) {
   CertifiedOrbit exact(system, task_of(hits, 20));
   std::vector<CertifiedHit> through;
@@ -73,15 +74,18 @@ HoleSpec hole_in(const char* wall, const char* center, const char* width) {
   return hole;
 }
 
-// At the start of a curve. Elsewhere the ends of holes in circles contain pi, or no rational point of the circle lies there.
+// At the start of a curve. Elsewhere the ends of holes in circles contain pi, or no rational point
+// of the circle lies there.
 TEST(CurvedHoles, EndsAreNamed) {
   Shaped disc = tests::shaped("circle", {{"radius", "1"}}, "0", "0");
   disc.spec.holes = {hole_in("circle", "1/10", "1/5")};
   const CertifiedEnd start = end_of(flying(disc, {"1/2", "0", "1", "0"}), task_of(3, 20));
   EXPECT_EQ(start.fate, CertifiedFate::escaped);
-  EXPECT_EQ(start.ties.at(0), "event 1: exactly at the start of hole 'door' in 'circle', which belongs to it");
+  EXPECT_EQ(start.ties.at(0),
+            "event 1: exactly at the start of hole 'door' in 'circle', which belongs to it");
   disc.spec.holes = {hole_in("circle", "1", "1/2")};  // of the angles 3/4 and 5/4 precision tells
-  const CertifiedEnd beside = end_of(flying(disc, {"0", "0", "73169/100000", "68164/100000"}), task_of(1, 20));
+  const CertifiedEnd beside =
+      end_of(flying(disc, {"0", "0", "73169/100000", "68164/100000"}), task_of(1, 20));
   EXPECT_TRUE(beside.ties.empty());
   disc.spec.holes = {hole_in("circle", "pi/2", "pi")};
   CertifiedTask task = task_of(1, 20);
@@ -91,27 +95,38 @@ TEST(CurvedHoles, EndsAreNamed) {
   ellipse.spec.holes = {hole_in("ellipse", "1/10", "1/5")};
   const CertifiedEnd vertex = end_of(flying(ellipse, {"2/5", "1/5", "3", "-1"}), task_of(1, 20));
   EXPECT_EQ(vertex.fate, CertifiedFate::escaped) << vertex.reason;
-  EXPECT_EQ(vertex.ties.at(0), "event 1: exactly at the start of hole 'door' in 'ellipse', which belongs to it");
+  EXPECT_EQ(vertex.ties.at(0),
+            "event 1: exactly at the start of hole 'door' in 'ellipse', which belongs to it");
 }
 
-// A segment in the line of flight, but behind a wall, is not met. Turned by 3-4-5, so that balls cannot tell.
+// A segment in the line of flight, but behind a wall, is not met. Turned by 3-4-5, so that balls
+// cannot tell.
 TEST(CertifiedTies, InLineWithASegmentBehindAWall) {
   Shaped s = tests::shaped("polygon", {}, "0", "0");
   const auto turned = [](const char* a, const char* b) {
-    const std::string x = std::string("(3*(") + a + ")-4*(" + b + "))/5", y = std::string("(4*(") + a + ")+3*(" + b + "))/5";
+    const std::string x = std::string("(3*(") + a + ")-4*(" + b + "))/5",
+                      y = std::string("(4*(") + a + ")+3*(" + b + "))/5";
     return ExactPoint{exactly(x), exactly(y)};
   };
-  for (const auto& [a, b] : {std::pair{"0", "0"}, {"3", "0"}, {"3", "1"}, {"2", "1"}, {"2", "1/2"}, {"1", "1/2"},
-                            {"1", "2"}, {"0", "2"}})
+  for (const auto& [a, b] : {std::pair{"0", "0"},
+                             {"3", "0"},
+                             {"3", "1"},
+                             {"2", "1"},
+                             {"2", "1/2"},
+                             {"1", "1/2"},
+                             {"1", "2"},
+                             {"0", "2"}})
     s.spec.points["points"].push_back(turned(a, b));
   s.inside = turned("1/2", "1");
-  const CertifiedEnd end = end_of(tests::system_of(s, {exactly("3"), exactly("4")}), task_of(1, 20));
+  const CertifiedEnd end =
+      end_of(tests::system_of(s, {exactly("3"), exactly("4")}), task_of(1, 20));
   EXPECT_EQ(end.fate, CertifiedFate::completed) << end.reason;
   EXPECT_EQ(end.wall, 5);
   // Without the wall between, it runs into it.
   s.spec.points["points"][4] = turned("2", "3/2");
   s.spec.points["points"][5] = turned("1", "3/2");
-  const CertifiedEnd along = end_of(tests::system_of(s, {exactly("3"), exactly("4")}), task_of(1, 20));
+  const CertifiedEnd along =
+      end_of(tests::system_of(s, {exactly("3"), exactly("4")}), task_of(1, 20));
   EXPECT_EQ(along.fate, CertifiedFate::singular) << along.reason;
 }
 

@@ -31,7 +31,8 @@ TEST(Rational, KnowsRationalNumbersOnly) {
   EXPECT_EQ(sign(x - Rational(7) / Rational(6)), Sign::zero);
   EXPECT_EQ(sign(sqrt(square(x)) - x), Sign::zero);
   EXPECT_EQ(sign(Rational(exactly("1/10")) - Rational(0.1)), Sign::negative);
-  for (const Rational& unknown : {root, Rational(exactly("pi")), sqrt(Rational(3)), root * root, Rational(1) / Rational(0)})
+  for (const Rational& unknown :
+       {root, Rational(exactly("pi")), sqrt(Rational(3)), root * root, Rational(1) / Rational(0)})
     EXPECT_THROW(sign(unknown), certify::NotRational);
 }
 
@@ -40,7 +41,8 @@ TEST(CertifiedTies, CornersOfTheSquare) {
   const CertifiedEnd back = end_of(square("1/2", "1/4"), {exactly("2"), exactly("3")}, 2);
   EXPECT_EQ(back.fate, CertifiedFate::completed);
   ASSERT_EQ(back.ties.size(), 1u);
-  EXPECT_EQ(back.ties[0], "event 1: exactly into the corner between 'right' and 'top', whose angle is pi/2");
+  EXPECT_EQ(back.ties[0],
+            "event 1: exactly into the corner between 'right' and 'top', whose angle is pi/2");
   EXPECT_EQ(back.x.text(20), "1.00000000000000000000");
   EXPECT_EQ(back.y.text(20), "1.00000000000000000000");
   EXPECT_EQ(back.vx.text(10), "-0.5547001962");
@@ -49,14 +51,16 @@ TEST(CertifiedTies, CornersOfTheSquare) {
   const CertifiedEnd far = end_of(square("1/10", "1/10"), {exactly("29"), exactly("9")}, 100);
   EXPECT_EQ(far.fate, CertifiedFate::completed);
   ASSERT_GE(far.ties.size(), 1u);
-  EXPECT_EQ(far.ties[0], "event 3: exactly into the corner between 'right' and 'top', whose angle is pi/2");
+  EXPECT_EQ(far.ties[0],
+            "event 3: exactly into the corner between 'right' and 'top', whose angle is pi/2");
 }
 
 // From (1/10, 1/10) to the lattice point (301, 200) and all the way back.
 TEST(CertifiedTies, CornerAfterManyHits) {
   CertifiedTask task;
   task.t_max = exactly("2*sqrt((301-1/10)^2+(200-1/10)^2)");
-  CertifiedOrbit orbit(tests::system_of(square("1/10", "1/10"), {exactly("3009"), exactly("1999")}), task);
+  CertifiedOrbit orbit(tests::system_of(square("1/10", "1/10"), {exactly("3009"), exactly("1999")}),
+                       task);
   const CertifiedEnd& end = orbit.finish();
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   ASSERT_EQ(end.ties.size(), 1u);
@@ -95,15 +99,18 @@ TEST(CertifiedTies, CornersInOtherShapes) {
 
 // As the double engine does: (1, 1), (2, 0), (1, -1), (-1, 1), (-2, 0), (-1, -1) and again.
 TEST(CertifiedTies, ReflectsAtSmoothJoints) {
-  const Shaped stadium = tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0");
+  const Shaped stadium =
+      tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0");
   const CertifiedEnd end = end_of(stadium, {exactly("1"), exactly("1")}, 12);
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 12u);
   ASSERT_EQ(end.ties.size(), 8u);
-  EXPECT_EQ(end.ties[0],
-            "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
-  EXPECT_EQ(end.ties[2],
-            "event 4: exactly into the joint between 'top' and 'left', where they have one tangent");
+  EXPECT_EQ(
+      end.ties[0],
+      "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
+  EXPECT_EQ(
+      end.ties[2],
+      "event 4: exactly into the joint between 'top' and 'left', where they have one tangent");
   EXPECT_EQ(end.x.text(20), "-1.00000000000000000000");
   EXPECT_EQ(end.y.text(20), "-1.00000000000000000000");
   CertifiedOrbit before(tests::system_of(stadium, {exactly("1"), exactly("1")}), [] {
@@ -130,7 +137,8 @@ TEST(CertifiedTies, TouchesADisc) {
   const CertifiedEnd corridor = end_of(sinai, {exactly("1"), exactly("0")}, 10);
   EXPECT_EQ(corridor.fate, CertifiedFate::singular);
   EXPECT_EQ(corridor.reason, "event 1: exactly tangent to 'disc', which is no hit");
-  // 3-4-5: after the bottom at (1/10, 0) the line along (4, 3) passes (1/2, 1/2) at |4/2 - 3 (2/5)|/5 = 4/25.
+  // 3-4-5: after the bottom at (1/10, 0) the line along (4, 3) passes (1/2, 1/2) at |4/2 - 3
+  // (2/5)|/5 = 4/25.
   Shaped beside = tests::shaped("sinai", {{"side", "1"}, {"radius", "4/25"}}, "1/20", "3/80");
   beside.spec.torus = false;
   const CertifiedEnd touched = end_of(beside, {exactly("4"), exactly("-3")}, 2);
@@ -163,7 +171,8 @@ TEST(CertifiedTies, EndsOfAHole) {
   const CertifiedEnd start = end_of(s, {exactly("1"), exactly("0")}, 10);
   EXPECT_EQ(start.fate, CertifiedFate::escaped);
   ASSERT_EQ(start.ties.size(), 1u);
-  EXPECT_EQ(start.ties[0], "event 1: exactly at the start of hole 'door' in 'right', which belongs to it");
+  EXPECT_EQ(start.ties[0],
+            "event 1: exactly at the start of hole 'door' in 'right', which belongs to it");
   s.spec.holes = {door("2/10", "2/10")};
   const CertifiedEnd end = end_of(s, {exactly("1"), exactly("0")}, 10);
   EXPECT_EQ(end.fate, CertifiedFate::completed);
@@ -175,11 +184,13 @@ TEST(CertifiedTies, EndsOfAHole) {
   const CertifiedEnd forever = end_of(s, {exactly("1"), exactly("0")}, 100'000);
   EXPECT_EQ(forever.fate, CertifiedFate::singular);
   EXPECT_EQ(forever.ties.size(), 1000u);
-  EXPECT_EQ(forever.reason,
-            "event 2001: exactly at the end of hole 'door' in 'right', which does not belong to it");
+  EXPECT_EQ(
+      forever.reason,
+      "event 2001: exactly at the end of hole 'door' in 'right', which does not belong to it");
 }
 
-// The point where one hole ends and the next one starts belongs to the next, in whatever order they are written.
+// The point where one hole ends and the next one starts belongs to the next, in whatever order they
+// are written.
 TEST(CertifiedTies, BetweenTwoHoles) {
   for (const bool swapped : {false, true}) {
     Shaped s = square("0.1", "0.3");
@@ -223,7 +234,9 @@ TEST(CertifiedTies, UndecidedWithoutRationalNumbers) {
   const Shaped s = tests::shaped("rectangle", {{"width", "pi"}, {"height", "pi"}}, "pi/2", "pi/2");
   const CertifiedEnd end = end_of(s, {exactly("1"), exactly("1")}, 10);
   EXPECT_EQ(end.fate, CertifiedFate::undecided);
-  EXPECT_NE(end.reason.find("event 1: whether the flight meets 'right'; not decided by "), std::string::npos) << end.reason;
+  EXPECT_NE(end.reason.find("event 1: whether the flight meets 'right'; not decided by "),
+            std::string::npos)
+      << end.reason;
   const Shaped hexagon = tests::shaped("regular", {{"sides", "6"}, {"radius", "1"}}, "0", "0");
   EXPECT_EQ(end_of(hexagon, {exactly("1"), exactly("sqrt(3)")}, 10).fate, CertifiedFate::undecided);
   Shaped open = tests::shaped("rectangle", {{"width", "1"}, {"height", "pi"}}, "1/2", "pi/4");
@@ -231,7 +244,8 @@ TEST(CertifiedTies, UndecidedWithoutRationalNumbers) {
   const CertifiedEnd beside = end_of(open, {exactly("1"), exactly("0")}, 10);
   EXPECT_EQ(beside.fate, CertifiedFate::undecided);
   EXPECT_EQ(beside.collisions, 0u);
-  EXPECT_NE(beside.reason.find("event 1: on which side of an end of 'door' 'right' is met"), std::string::npos)
+  EXPECT_NE(beside.reason.find("event 1: on which side of an end of 'door' 'right' is met"),
+            std::string::npos)
       << beside.reason;
   // On a Larmor circle that touches all sides of the square.
   ExactSystem turning = tests::system_of(square("4/5", "9/10"), {exactly("4"), exactly("-3")});

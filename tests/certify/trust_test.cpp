@@ -57,7 +57,9 @@ class AgainstCertified {
 
   void run(tests::Dice& dice, Sample& sample) {
     State start;
-    do start.position = {dice.between(box_.low.x, box_.high.x), dice.between(box_.low.y, box_.high.y)};
+    do
+      start.position = {dice.between(box_.low.x, box_.high.x),
+                        dice.between(box_.low.y, box_.high.y)};
     while (!world_->contains(start.position));
     start.velocity = dice.direction();
     world_->clear();
@@ -85,11 +87,13 @@ class AgainstCertified {
       ++together;
     }
     if (together < trusted && ++sample.wrong)
-      ADD_FAILURE() << system_.spec->shape << ", omega " << system_.omega.to_double() << ": trusted " << trusted << ", together "
-                    << together << ", " << name_of(truth.end_state().fate) << "; start " << std::hexfloat
-                    << start.position.x << ", " << start.position.y << "; " << start.velocity.x << ", "
-                    << start.velocity.y;
-    if (parted) sample.ratios.push_back(static_cast<double>(trusted) / static_cast<double>(together));
+      ADD_FAILURE() << system_.spec->shape << ", omega " << system_.omega.to_double()
+                    << ": trusted " << trusted << ", together " << together << ", "
+                    << name_of(truth.end_state().fate) << "; start " << std::hexfloat
+                    << start.position.x << ", " << start.position.y << "; " << start.velocity.x
+                    << ", " << start.velocity.y;
+    if (parted)
+      sample.ratios.push_back(static_cast<double>(trusted) / static_cast<double>(together));
   }
 
  private:
@@ -99,9 +103,10 @@ class AgainstCertified {
     const Table& table = *system_.table;
     if (table.lattice) position = position + table.lattice->translation(event.cell);
     const double size = size_of(table);
-    const double away = std::max(std::fabs(truth.x.to_double() - position.x), std::fabs(truth.y.to_double() - position.y));
-    const double turn =
-        std::max(std::fabs(truth.vx.to_double() - event.after.x), std::fabs(truth.vy.to_double() - event.after.y));
+    const double away = std::max(std::fabs(truth.x.to_double() - position.x),
+                                 std::fabs(truth.y.to_double() - position.y));
+    const double turn = std::max(std::fabs(truth.vx.to_double() - event.after.x),
+                                 std::fabs(truth.vy.to_double() - event.after.y));
     const double late = std::fabs(truth.t.to_double() - event.time.value());
     return std::max({away / size, late / size, turn}) <= 1e-3;
   }
@@ -128,8 +133,8 @@ bool has_form(const Shaped& s, const ExactNumber& omega) {
   }
 }
 
-// Up to the last trusted collision the walls are those of the certified orbit, and the numbers within the tolerance; and
-// the count is not much smaller than it could be.
+// Up to the last trusted collision the walls are those of the certified orbit, and the numbers
+// within the tolerance; and the count is not much smaller than it could be.
 TEST(TrustAgainstCertified, TheWallsAreTrue) {
   tests::Dice dice(21);
   std::vector<AgainstCertified> systems;
@@ -139,7 +144,8 @@ TEST(TrustAgainstCertified, TheWallsAreTrue) {
   ASSERT_GE(systems.size(), tests::all_shapes().size());
   Sample sample;
   const long starts = tests::cases(600, 20000);
-  for (long k = 0; k < starts; ++k) systems[static_cast<std::size_t>(k) % systems.size()].run(dice, sample);
+  for (long k = 0; k < starts; ++k)
+    systems[static_cast<std::size_t>(k) % systems.size()].run(dice, sample);
   EXPECT_LE(static_cast<double>(sample.wrong), 1e-3 * static_cast<double>(sample.starts));
   ASSERT_GT(sample.ratios.size(), static_cast<std::size_t>(starts / 3));
   std::sort(sample.ratios.begin(), sample.ratios.end());
@@ -158,7 +164,8 @@ TEST(TrustAgainstCertified, EscapesAreTrue) {
   const LoadedSystem loaded = read_system(
       "[table]\nshape = \"stadium\"\nhalf_length = \"2/3\"\nradius = 1.1\n"
       "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.3\nwidth = 0.3\n"
-      "[[table.hole]]\nwall = \"right\"\ncenter = 0.9\nwidth = \"1/7\"\n[particles]\nspeed = \"sqrt(2)\"\n",
+      "[[table.hole]]\nwall = \"right\"\ncenter = 0.9\nwidth = \"1/7\"\n[particles]\nspeed = "
+      "\"sqrt(2)\"\n",
       "test");
   const auto written = written_system(loaded);
   long trusted = 0, untrusted = 0;
@@ -169,7 +176,8 @@ TEST(TrustAgainstCertified, EscapesAreTrue) {
     options.written = written;
     Observer nobody;
     const RunEnd run = run_single(loaded.system, nobody, options).particles.front();
-    if (run.progress.fate != Fate::escaped || !run.trust.open || !(run.trust.time == run.progress.end)) {
+    if (run.progress.fate != Fate::escaped || !run.trust.open ||
+        !(run.trust.time == run.progress.end)) {
       ++untrusted;
       continue;
     }
@@ -188,7 +196,8 @@ TEST(TrustAgainstCertified, EscapesAreTrue) {
     ASSERT_EQ(end.fate, CertifiedFate::escaped) << k;
     ASSERT_EQ(end.hole, run.progress.hole) << k;
     ASSERT_EQ(end.collisions, run.progress.hits) << k;
-    ASSERT_NEAR(end.t.to_double(), run.t, 1e-3 * size_of(*loaded.system.table) / std::sqrt(2.0)) << k;
+    ASSERT_NEAR(end.t.to_double(), run.t, 1e-3 * size_of(*loaded.system.table) / std::sqrt(2.0))
+        << k;
   }
   EXPECT_GT(trusted, starts / 3);
   EXPECT_GT(untrusted, starts / 20);

@@ -10,11 +10,11 @@
 
 namespace carom::tests {
 
-/// An orbit of about that many hits ends after `time`; from there it is run back in the system `reversed`,
-/// and comes to its start. 200 digits of the end are the start's to at least 60, if they lose less than 4.6
-/// bits a hit.
-inline void expect_to_run_back(const ExactSystem& system, ExactSystem reversed, const std::string& time,
-                               int hits) {
+/// An orbit of about that many hits ends after `time`; from there it is run back in the system
+/// `reversed`, and comes to its start. 200 digits of the end are the start's to at least 60, if
+/// they lose less than 4.6 bits a hit.
+inline void expect_to_run_back(const ExactSystem& system, ExactSystem reversed,
+                               const std::string& time, int hits) {
   CertifiedTask task = task_of(0, 200);
   task.t_max = exactly(time);
   CertifiedOrbit there(system, task);
@@ -22,7 +22,8 @@ inline void expect_to_run_back(const ExactSystem& system, ExactSystem reversed, 
   ASSERT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_NEAR(static_cast<double>(end.collisions), hits, 2);
   reversed.start.position = {exactly(end.x.text(200)), exactly(end.y.text(200))};
-  reversed.start.direction = {exactly("-(" + end.vx.text(200) + ")"), exactly("-(" + end.vy.text(200) + ")")};
+  reversed.start.direction = {exactly("-(" + end.vx.text(200) + ")"),
+                              exactly("-(" + end.vy.text(200) + ")")};
   task.digits = 60;
   CertifiedOrbit back(reversed, task);
   const CertifiedEnd start = back.finish();

@@ -59,7 +59,8 @@ inline Contents open_archive(const std::string& path) {
 }
 
 /// Names the first dataset that differs; nothing of /provenance is one.
-inline void expect_same_datasets(const std::string& path, const std::map<std::string, std::string>& expected) {
+inline void expect_same_datasets(const std::string& path,
+                                 const std::map<std::string, std::string>& expected) {
   const auto found = open_archive(path).datasets;
   EXPECT_EQ(found.size(), expected.size()) << path;
   for (const auto& [name, bytes] : expected) {

@@ -25,19 +25,23 @@ std::int64_t provenance_number(const std::string& path, const char* name) {
 TEST(Archives, HoldTheSharesOfDecisions) {
   const Shell shell;
   // The run meets corners exactly: double precision cannot decide that.
-  const std::string commands[] = {
-      "escape magnetic-square --trajectories 100 --t-max 50", "diffusion sinai --trajectories 100 --t-max 10",
-      "section stadium --points 50",
-      "run magnetic-square --set field.B=0 --set table.hole=[] --position 1/4,1/4 --velocity 1,1 --t-max 3"};
+  const std::string commands[] = {"escape magnetic-square --trajectories 100 --t-max 50",
+                                  "diffusion sinai --trajectories 100 --t-max 10",
+                                  "section stadium --points 50",
+                                  "run magnetic-square --set field.B=0 --set table.hole=[] "
+                                  "--position 1/4,1/4 --velocity 1,1 --t-max 3"};
   for (const std::string& command : commands) {
     const Outcome o = shell("$carom " + command + " -o a.h5 --force --json");
     ASSERT_EQ(o.status, 0) << o.err;
     const std::string counts = json_value(o.out, "decisions");
     const std::string path = shell.folder() + "/a.h5";
-    const std::string expected = "\"filter\": " + std::to_string(provenance_number(path, "decisions_filter")) +
-                                 ", \"exact\": " + std::to_string(provenance_number(path, "decisions_exact"));
+    const std::string expected =
+        "\"filter\": " + std::to_string(provenance_number(path, "decisions_filter")) +
+        ", \"exact\": " + std::to_string(provenance_number(path, "decisions_exact"));
     EXPECT_NE(counts.find(expected), std::string::npos) << command << counts << expected;
-    EXPECT_GT(provenance_number(path, command.starts_with("run") ? "decisions_exact" : "decisions_filter"), 0);
+    EXPECT_GT(provenance_number(
+                  path, command.starts_with("run") ? "decisions_exact" : "decisions_filter"),
+              0);
   }
   // A run that goes on adds to them.
   const std::string part = "$carom run sinai --t-max ";
@@ -66,7 +70,8 @@ TEST(RunArchive, IsTheSameWithAndWithoutSamples) {
   shell(
       "$carom run mushroom --t-max 500 --set field.B=0.2 -o a.h5; "
       "$carom run mushroom --t-max 500 --set field.B=0.2 --set run.sample=0.7 -o b.h5");
-  const Contents a = open_archive(shell.folder() + "/a.h5"), b = open_archive(shell.folder() + "/b.h5");
+  const Contents a = open_archive(shell.folder() + "/a.h5"),
+                 b = open_archive(shell.folder() + "/b.h5");
   EXPECT_FALSE(a.datasets.empty());
   for (const auto& [name, bytes] : a.datasets) {
     if (name.rfind("collisions/", 0) == 0 || name.rfind("state/", 0) == 0) {
@@ -80,12 +85,14 @@ TEST(RunArchive, SystemCanBeRunAgain) {
   shell("$carom run ellipse-magnetic --t-max 80 --seed 7 -o a.h5");
   const std::string text = open_archive(shell.folder() + "/a.h5").datasets.at("system");
   shell("cat > again.toml << 'END'\n" + text + "\nEND\n$carom run again.toml -o b.h5");
-  EXPECT_EQ(open_archive(shell.folder() + "/a.h5").datasets, open_archive(shell.folder() + "/b.h5").datasets);
+  EXPECT_EQ(open_archive(shell.folder() + "/a.h5").datasets,
+            open_archive(shell.folder() + "/b.h5").datasets);
 }
 
 TEST(RunArchive, GoesOnAsIfNeverStopped) {
   const Shell shell;
-  for (const char* system : {"lorentz-triangular", "ellipse-magnetic --set particles.count=2", "stadium"}) {
+  for (const char* system :
+       {"lorentz-triangular", "ellipse-magnetic --set particles.count=2", "stadium"}) {
     const Outcome o =
         shell(std::string("run=\"$carom run ") + system +
               " --set run.sample=0.37 --set run.times=[1,2] --force\"\n"
@@ -109,7 +116,9 @@ TEST(RunArchive, SaysThatThereIsNothingToGoOnWith) {
   const Outcome more = shell("$carom run --resume gone.h5 --collisions 2000 --json");
   EXPECT_EQ(more.status, 0);
   EXPECT_EQ(json_value(more.out, "status"), "\"escaped\"");
-  EXPECT_NE(more.err.find("the orbit has already escaped: nothing to go on with"), std::string::npos) << more.err;
+  EXPECT_NE(more.err.find("the orbit has already escaped: nothing to go on with"),
+            std::string::npos)
+      << more.err;
   shell("$carom run sinai --collisions 100 -o here.h5");
   EXPECT_EQ(shell("$carom run --resume here.h5 --collisions 200 --json").err, "");
 }
@@ -126,25 +135,30 @@ TEST(RunArchive, SurvivesCtrlC) {
   EXPECT_EQ(std::to_string(a.datasets.at("collisions/t").size() / sizeof(double)),
             json_value(o.out, "collisions"));
   // What was interrupted goes on.
-  const std::string more = std::to_string(a.datasets.at("collisions/t").size() / sizeof(double) + 1000);
-  EXPECT_EQ(json_value(shell("$carom run --resume a.h5 --collisions " + more + " --json").out, "collisions"),
+  const std::string more =
+      std::to_string(a.datasets.at("collisions/t").size() / sizeof(double) + 1000);
+  EXPECT_EQ(json_value(shell("$carom run --resume a.h5 --collisions " + more + " --json").out,
+                       "collisions"),
             more);
 }
 
-// The last rows of all columns of /collisions, at most three batches of them; -1 where a column cannot be read. They are of
-// one length but while the writer is between two of them.
+// The last rows of all columns of /collisions, at most three batches of them; -1 where a column
+// cannot be read. They are of one length but while the writer is between two of them.
 long read_last_rows(hid_t file) {
   long least = -1;
-  for (const char* name : {"particle", "wall", "u", "s", "v_parallel", "t", "x", "y", "vx", "vy", "cell_first", "cell_second", "reflections"}) {
+  for (const char* name : {"particle", "wall", "u", "s", "v_parallel", "t", "x", "y", "vx", "vy",
+                           "cell_first", "cell_second", "reflections"}) {
     const hid_t column = H5Dopen2(file, (std::string("collisions/") + name).c_str(), H5P_DEFAULT);
     H5Drefresh(column);
     const hid_t space = H5Dget_space(column);
     const hssize_t rows = H5Sget_simple_extent_npoints(space);
-    const hsize_t count = std::min<hsize_t>(static_cast<hsize_t>(rows), 3 * 4096), start = static_cast<hsize_t>(rows) - count;
+    const hsize_t count = std::min<hsize_t>(static_cast<hsize_t>(rows), 3 * 4096),
+                  start = static_cast<hsize_t>(rows) - count;
     const hid_t memory = H5Screate_simple(1, &count, nullptr);
     H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, nullptr, &count, nullptr);
     std::vector<double> values(count);
-    const bool read = H5Dread(column, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) >= 0;
+    const bool read =
+        H5Dread(column, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) >= 0;
     H5Sclose(memory);
     H5Sclose(space);
     H5Dclose(column);
@@ -157,11 +171,13 @@ long read_last_rows(hid_t file) {
 TEST(RunArchive, CanBeReadWhileItGrowsAndAfterAKill) {
   const Shell shell;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  shell("$carom run sinai --collisions 1e12 -o a.h5 --quiet --json & pid=$!; echo $pid > pid; "
-        "until [ $(stat -c %s a.h5) -gt 2000000 ]; do kill -0 $pid || break; sleep 0.01; done");
+  shell(
+      "$carom run sinai --collisions 1e12 -o a.h5 --quiet --json & pid=$!; echo $pid > pid; "
+      "until [ $(stat -c %s a.h5) -gt 2000000 ]; do kill -0 $pid || break; sleep 0.01; done");
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
-  const hid_t file = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
+  const hid_t file =
+      H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
   EXPECT_GE(file, 0);
   long before = 0;
   for (int i = 0; i < 20; ++i) {
@@ -171,7 +187,8 @@ TEST(RunArchive, CanBeReadWhileItGrowsAndAfterAKill) {
   }
   H5Fclose(file);
   shell("kill -9 $(cat pid); while kill -0 $(cat pid); do sleep 0.01; done");
-  const hid_t killed = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
+  const hid_t killed =
+      H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
   EXPECT_GE(read_last_rows(killed), before);
   EXPECT_EQ(read_last_rows(killed) % 4096, 0);
   H5Fclose(killed);
@@ -185,7 +202,8 @@ TEST(RunArchive, CanBeReadWhileItGrowsAndAfterAKill) {
 TEST(RunArchive, SaysThatAnotherProgramHasItOpen) {
   const Shell shell;
   ASSERT_EQ(shell("$carom run stadium --t-max 3 -o a.h5 --quiet").status, 0);
-  const std::map<std::string, std::string> datasets = open_archive(shell.folder() + "/a.h5").datasets;
+  const std::map<std::string, std::string> datasets =
+      open_archive(shell.folder() + "/a.h5").datasets;
   const hid_t reader = H5Fopen((shell.folder() + "/a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(reader, 0);
   const Outcome o = shell("$carom run stadium --t-max 3 -o a.h5 --quiet --force");
@@ -201,7 +219,8 @@ TEST(EscapeArchive, HoldsEveryTrajectory) {
   const Shell shell;
   const Outcome o = shell(
       "$carom escape mushroom --trajectories 3000 --t-max 50 --per-trajectory -o a.h5 --threads 1 "
-      "&& $carom escape mushroom --trajectories 3000 --t-max 50 --per-trajectory -o b.h5 --threads 2");
+      "&& $carom escape mushroom --trajectories 3000 --t-max 50 --per-trajectory -o b.h5 --threads "
+      "2");
   EXPECT_EQ(o.status, 0) << o.err;
   const Contents a = open_archive(shell.folder() + "/a.h5");
   EXPECT_TRUE(a.undescribed.empty()) << a.undescribed.front();
@@ -222,13 +241,17 @@ std::vector<T> numbers(const Contents& contents, const std::string& name) {
 }
 
 std::vector<std::string> names_of(const std::string& path, const char* dataset) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), at = H5Dopen2(file, dataset, H5P_DEFAULT);
-  const hid_t attribute = H5Aopen(at, "names", H5P_DEFAULT), type = H5Aget_type(attribute), space = H5Aget_space(attribute);
-  const std::size_t length = H5Tget_size(type), count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+              at = H5Dopen2(file, dataset, H5P_DEFAULT);
+  const hid_t attribute = H5Aopen(at, "names", H5P_DEFAULT), type = H5Aget_type(attribute),
+              space = H5Aget_space(attribute);
+  const std::size_t length = H5Tget_size(type),
+                    count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
   std::string text(length * count, '\0');
   H5Aread(attribute, type, text.data());
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < count; ++i) names.emplace_back(text.substr(i * length, length).c_str());
+  for (std::size_t i = 0; i < count; ++i)
+    names.emplace_back(text.substr(i * length, length).c_str());
   H5Sclose(space), H5Tclose(type), H5Aclose(attribute), H5Dclose(at), H5Fclose(file);
   return names;
 }
@@ -238,8 +261,10 @@ TEST(EscapeArchive, AHoleInTwoPiecesIsOne) {
   const Shell shell;
   const std::string run = "$carom escape one.toml --per-trajectory --json --quiet ";
   const Outcome o = shell(
-      "cat > one.toml <<'END'\n[table]\nshape = \"circle\"\nradius = 1\n[[table.hole]]\nwall = \"circle\"\ncenter = 3\nwidth = 0.4\n"
-      "[[table.hole]]\nwall = \"circle\"\ncenter = 0\nwidth = 0.6\n[initial]\nkind = \"uniform\"\n[run]\nt_max = 60\ntrajectories = 900\nEND\n" +
+      "cat > one.toml <<'END'\n[table]\nshape = \"circle\"\nradius = 1\n[[table.hole]]\nwall = "
+      "\"circle\"\ncenter = 3\nwidth = 0.4\n"
+      "[[table.hole]]\nwall = \"circle\"\ncenter = 0\nwidth = 0.6\n[initial]\nkind = "
+      "\"uniform\"\n[run]\nt_max = 60\ntrajectories = 900\nEND\n" +
       run + "-o a.h5");
   ASSERT_EQ(o.status, 0) << o.err;
   const std::vector<std::string> both{"hole_1", "hole_2"};
@@ -253,9 +278,13 @@ TEST(EscapeArchive, AHoleInTwoPiecesIsOne) {
   EXPECT_GT(by_hole[0], 10u);
   EXPECT_GT(by_hole[1], by_hole[0]);
   for (const std::uint64_t n : by_hole)
-    EXPECT_NE(json_value(o.out, "holes").find("\"escaped\": " + std::to_string(n)), std::string::npos) << json_value(o.out, "holes");
+    EXPECT_NE(json_value(o.out, "holes").find("\"escaped\": " + std::to_string(n)),
+              std::string::npos)
+        << json_value(o.out, "holes");
   // One by one, in parts and continued: the same.
-  const Outcome parts = shell(run + "--isa baseline --shard 1/2 -o 1.h5 && $carom merge half.h5 1.h5 && $carom escape --resume half.h5");
+  const Outcome parts = shell(run +
+                              "--isa baseline --shard 1/2 -o 1.h5 && $carom merge half.h5 1.h5 && "
+                              "$carom escape --resume half.h5");
   EXPECT_EQ(parts.status, 0) << parts.err;
   expect_same_datasets(shell.folder() + "/half.h5", a.datasets);
 }
@@ -264,10 +293,13 @@ TEST(EscapeArchive, RowsAreTheTrajectoriesThatWereCounted) {
   const Shell shell;
   const Outcome o = shell(
       "$carom escape mushroom --trajectories 2000 --t-max 60 --per-trajectory -o a.h5 --json "
-      "--set 'table.hole=[{wall=\"stem_bottom\",center=0.5,width=0.2},{wall=\"cap\",center=1,width=0.1}]'");
+      "--set "
+      "'table.hole=[{wall=\"stem_bottom\",center=0.5,width=0.2},{wall=\"cap\",center=1,width=0.1}]"
+      "'");
   ASSERT_EQ(o.status, 0) << o.err;
   const Contents a = open_archive(shell.folder() + "/a.h5");
-  const auto fate = numbers<std::int32_t>(a, "trajectories/fate"), hole = numbers<std::int32_t>(a, "trajectories/hole");
+  const auto fate = numbers<std::int32_t>(a, "trajectories/fate"),
+             hole = numbers<std::int32_t>(a, "trajectories/hole");
   const auto hits = numbers<std::uint64_t>(a, "trajectories/hits");
   const auto t = numbers<double>(a, "trajectories/t"), x = numbers<double>(a, "trajectories/x"),
              y = numbers<double>(a, "trajectories/y"), vx = numbers<double>(a, "trajectories/vx"),
@@ -284,10 +316,12 @@ TEST(EscapeArchive, RowsAreTheTrajectoriesThatWereCounted) {
   }
   EXPECT_EQ(std::to_string(escaped), json_value(o.out, "escaped"));
   EXPECT_EQ(std::to_string(collisions), json_value(o.out, "collisions"));
-  EXPECT_EQ(numbers<std::uint64_t>(a, "fates/holes"), (std::vector<std::uint64_t>{by_hole[0], by_hole[1]}));
+  EXPECT_EQ(numbers<std::uint64_t>(a, "fates/holes"),
+            (std::vector<std::uint64_t>{by_hole[0], by_hole[1]}));
   // The starts are those of single runs.
   for (std::size_t i = 0; i < 3; ++i) {
-    const Outcome one = shell("$carom run mushroom --trajectory " + std::to_string(i) + " --t-max 0.001 --json");
+    const Outcome one =
+        shell("$carom run mushroom --trajectory " + std::to_string(i) + " --t-max 0.001 --json");
     EXPECT_NEAR(std::stod(json_value(one.out, "x")), x[i] + 0.001 * vx[i], 1e-12);
     EXPECT_NEAR(std::stod(json_value(one.out, "y")), y[i] + 0.001 * vy[i], 1e-12);
   }
@@ -304,7 +338,8 @@ TEST(EscapeArchive, RowsAreTheTrajectoriesThatWereCounted) {
 TEST(EscapeArchive, SurvivesCtrlC) {
   const Shell shell;
   const Outcome o = shell(
-      "$carom escape sinai --trajectories 1e12 --per-trajectory -o a.h5 --json --checkpoint blocks:1 & pid=$!; "
+      "$carom escape sinai --trajectories 1e12 --per-trajectory -o a.h5 --json --checkpoint "
+      "blocks:1 & pid=$!; "
       "until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   EXPECT_TRUE(is_json_object(o.out));

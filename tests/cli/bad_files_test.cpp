@@ -37,9 +37,11 @@ const std::vector<BadFile>& bad_files() {
        "a.toml, line 3, column 10: table.radius: must be positive, not 0"},
       {"NegativeSize", "[table]\nshape = \"circle\"\nradius = -1\n", "must be positive, not -1"},
       {"NanSize", "[table]\nshape = \"circle\"\nradius = nan\n", "'nan' is not a finite number"},
-      {"InfiniteSize", "[table]\nshape = \"circle\"\nradius = inf\n", "'inf' is not a finite number"},
+      {"InfiniteSize", "[table]\nshape = \"circle\"\nradius = inf\n",
+       "'inf' is not a finite number"},
       {"InfiniteField", square + "[field]\nB = inf\n", "field.B: 'inf' is not a finite number"},
-      {"HoleWiderThanItsWall", square + "[[table.hole]]\nwall = \"top\"\ncenter = 0.5\nwidth = 1.5\n",
+      {"HoleWiderThanItsWall",
+       square + "[[table.hole]]\nwall = \"top\"\ncenter = 0.5\nwidth = 1.5\n",
        "a.toml, line 8, column 9: table.hole[0].width: the hole is wider than its wall"},
       {"HoleOverAnother", square + hole + hole, "the hole 'hole_2' overlaps 'hole_1'"},
       {"UnknownWall", square + "[[table.hole]]\nwall = \"botom\"\ncenter = 0.5\nwidth = 0.1\n",
@@ -49,10 +51,13 @@ const std::vector<BadFile>& bad_files() {
        "[table]\nshape = \"path\"\n[[table.loop]]\nstart = [0, 0]\n"
        "pieces = [{line_to = [1, 0]}, {line_to = [0, 1]}]\n",
        "the path is open"},
-      {"StartOutside", square + "[initial]\nkind = \"point\"\nposition = [2, 0.5]\nvelocity = [1, 0]\n",
+      {"StartOutside",
+       square + "[initial]\nkind = \"point\"\nposition = [2, 0.5]\nvelocity = [1, 0]\n",
        "a.toml, line 7, column 12: initial.position"},
-      {"ZeroSpeed", square + "[particles]\nspeed = 0\n", "particles.speed: must be positive, not 0"},
-      {"ZeroVelocity", square + "[initial]\nkind = \"point\"\nposition = [0.5, 0.5]\nvelocity = [0, 0]\n",
+      {"ZeroSpeed", square + "[particles]\nspeed = 0\n",
+       "particles.speed: must be positive, not 0"},
+      {"ZeroVelocity",
+       square + "[initial]\nkind = \"point\"\nposition = [0.5, 0.5]\nvelocity = [0, 0]\n",
        "the velocity is zero"},
       {"ZeroTime", square + "[run]\nt_max = 0\n", "run.t_max: must be positive, not 0"},
       {"NegativeTime", square + "[run]\nt_max = -1\n", "run.t_max: must be positive, not -1"},
@@ -86,7 +91,8 @@ TEST(BadFiles, ThatAreNotThere) {
     const Outcome o = shell("$carom " + std::string(command) + " ./missing.toml");
     EXPECT_EQ(o.status, 1) << command;
     EXPECT_EQ(o.out, "");
-    EXPECT_NE(o.err.find("./missing.toml: cannot be read: No such file"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("./missing.toml: cannot be read: No such file"), std::string::npos)
+        << o.err;
   }
 }
 

@@ -35,11 +35,14 @@ TEST(Certified, EscapesThroughAHole) {
 TEST(Certified, EndsWhenAsked) {
   const Shell shell;
   const Outcome json = shell(
-      "$carom run ellipse-magnetic --set field.B=0 --collisions 1e9 --t-max 1e300 --precision certified --json & pid=$!; "
+      "$carom run ellipse-magnetic --set field.B=0 --collisions 1e9 --t-max 1e300 --precision "
+      "certified --json & pid=$!; "
       "until_listening; sleep 1; kill -INT $pid; wait $pid");
   EXPECT_EQ(json_value(json.out, "status"), "\"interrupted\"") << json.err;
   EXPECT_EQ(json_value(json.out, "collisions"), "0");
-  const Outcome far = shell("$carom run stadium --set table.hole=[] --collisions 1e8 --t-max 1e300 --precision certified");
+  const Outcome far = shell(
+      "$carom run stadium --set table.hole=[] --collisions 1e8 --t-max 1e300 --precision "
+      "certified");
   EXPECT_EQ(far.status, 0) << far.err;
   EXPECT_NE(far.out.find("the digits asked for need"), std::string::npos) << far.out;
 }
@@ -60,7 +63,8 @@ TEST(Certified, LeavesAnArchive) {
     EXPECT_EQ("\"" + text_of(file, (std::string("state/") + key + "_decimals").c_str()) + "\"",
               json_value(json.out, key));
   // The last row of the hits is the end, in both forms.
-  const hid_t decimals = H5Dopen2(file, "collisions/y_decimals", H5P_DEFAULT), type = H5Dget_type(decimals);
+  const hid_t decimals = H5Dopen2(file, "collisions/y_decimals", H5P_DEFAULT),
+              type = H5Dget_type(decimals);
   const std::size_t length = H5Tget_size(type);
   std::string rows(300 * length, '\0');
   ASSERT_GE(H5Dread(decimals, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), 0);
@@ -69,7 +73,8 @@ TEST(Certified, LeavesAnArchive) {
   ASSERT_GE(H5Dread(numbers, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, y.data()), 0);
   for (std::size_t i = 0; i < y.size(); ++i)
     ASSERT_EQ(std::strtod(rows.substr(i * length, length).c_str(), nullptr), y[i]) << i;
-  EXPECT_EQ("\"" + std::string(rows.substr(299 * length, length).c_str()) + "\"", json_value(json.out, "y"));
+  EXPECT_EQ("\"" + std::string(rows.substr(299 * length, length).c_str()) + "\"",
+            json_value(json.out, "y"));
   H5Dclose(numbers);
   H5Tclose(type);
   H5Dclose(decimals);
@@ -80,14 +85,16 @@ TEST(Certified, LeavesAnArchive) {
 TEST(Certified, LeavesAnArchiveOfLargeNumbers) {
   const Shell shell;
   const Outcome json = shell(
-      "$carom run stadium --set table.hole=[] --set 'table.half_length=\"10^29\"' --set 'table.radius=\"10^29\"' "
+      "$carom run stadium --set table.hole=[] --set 'table.half_length=\"10^29\"' --set "
+      "'table.radius=\"10^29\"' "
       "--position 1/10,1/5 --velocity 3,4 --set particles.speed=1 --collisions 100 --t-max 1e300 "
       "--precision certified --digits 20 --json -o orbit.h5");
   ASSERT_EQ(json.status, 0) << json.err;
   const hid_t file = H5Fopen((shell.folder() + "/orbit.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
   for (const char* key : {"t", "x", "vx"}) {
-    const hid_t decimals = H5Dopen2(file, (std::string("collisions/") + key + "_decimals").c_str(), H5P_DEFAULT);
+    const hid_t decimals =
+        H5Dopen2(file, (std::string("collisions/") + key + "_decimals").c_str(), H5P_DEFAULT);
     const hid_t type = H5Dget_type(decimals);
     const std::size_t length = H5Tget_size(type);
     std::string rows(100 * length, '\0');
@@ -96,8 +103,10 @@ TEST(Certified, LeavesAnArchiveOfLargeNumbers) {
     std::vector<double> values(100);
     ASSERT_GE(H5Dread(numbers, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
     for (std::size_t i = 0; i < values.size(); ++i)
-      ASSERT_EQ(std::strtod(rows.substr(i * length, length).c_str(), nullptr), values[i]) << key << i;
-    EXPECT_EQ("\"" + std::string(rows.substr(99 * length, length).c_str()) + "\"", json_value(json.out, key));
+      ASSERT_EQ(std::strtod(rows.substr(i * length, length).c_str(), nullptr), values[i])
+          << key << i;
+    EXPECT_EQ("\"" + std::string(rows.substr(99 * length, length).c_str()) + "\"",
+              json_value(json.out, key));
     H5Dclose(numbers);
     H5Tclose(type);
     H5Dclose(decimals);
@@ -108,14 +117,18 @@ TEST(Certified, LeavesAnArchiveOfLargeNumbers) {
 // Decided by the numbers as written, with the reason.
 TEST(Certified, StartsInsideTheTable) {
   const Shell shell;
-  const std::string run = "$carom run circle --precision certified --digits 20 --collisions 1 --velocity=-1,-0.2 --position ";
+  const std::string run =
+      "$carom run circle --precision certified --digits 20 --collisions 1 --velocity=-1,-0.2 "
+      "--position ";
   const Outcome outside = shell(run + "'8/17,15/17+1/10^20'");
   EXPECT_EQ(outside.status, 1);
-  EXPECT_NE(outside.err.find("--position: the start (8/17, 15/17+1/10^20) is not inside the table"), std::string::npos)
+  EXPECT_NE(outside.err.find("--position: the start (8/17, 15/17+1/10^20) is not inside the table"),
+            std::string::npos)
       << outside.err;
   EXPECT_NE(shell(run + "8/17,15/17").err.find("it lies on 'circle'"), std::string::npos);
   EXPECT_EQ(shell(run + "'8/17,15/17-1/10^20'").status, 0);
-  const Outcome fast = shell("$carom run circle --precision certified --position 0,0 --velocity '1,10^200'");
+  const Outcome fast =
+      shell("$carom run circle --precision certified --position 0,0 --velocity '1,10^200'");
   EXPECT_EQ(fast.status, 1);
   EXPECT_EQ(fast.err.find("--position"), std::string::npos) << fast.err;
 }
@@ -136,7 +149,8 @@ TEST(Certified, RefusesOtherPrecisions) {
 TEST(Certified, SaysThatAVelocityWasADirection) {
   const Shell shell;
   const std::string run =
-      "$carom run stadium --set table.hole=[] --set particles.speed=1 --position 0.1,0.2 --collisions 5 "
+      "$carom run stadium --set table.hole=[] --set particles.speed=1 --position 0.1,0.2 "
+      "--collisions 5 "
       "--json "
       "--precision certified --velocity ";
   EXPECT_EQ(json_value(shell(run + "3,4").out, "rescaled"), "true");
@@ -146,17 +160,19 @@ TEST(Certified, SaysThatAVelocityWasADirection) {
   for (const char* digits : {"0", "-1", "1e9", "many"})
     EXPECT_EQ(shell(run + "3,4 --digits " + digits).status, 1) << digits;
   for (const char* digits : {"1000001", "1000000000"})
-    EXPECT_NE(shell(run + "3,4 --digits " + digits)
-                  .err.find(std::string("--digits: ") + digits +
-                            " digits are more than certified orbits have (expected at most 1000000)"),
-              std::string::npos);
+    EXPECT_NE(
+        shell(run + "3,4 --digits " + digits)
+            .err.find(std::string("--digits: ") + digits +
+                      " digits are more than certified orbits have (expected at most 1000000)"),
+        std::string::npos);
   EXPECT_EQ(shell(run + "'sqrt(-1)',4").status, 1);
 }
 
 TEST(Certified, SaysWhereANumberIsNone) {
   const Shell shell;
   const Outcome refused = shell(
-      "printf '[table]\\nshape = \"circle\"\\nradius = \"sqr(2)\"\\n' > bad.toml; $carom run ./bad.toml "
+      "printf '[table]\\nshape = \"circle\"\\nradius = \"sqr(2)\"\\n' > bad.toml; $carom run "
+      "./bad.toml "
       "--precision certified");
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.err.find("bad.toml, line 3, column 10: table.radius: unknown word 'sqr'"),
@@ -170,11 +186,13 @@ TEST(Certified, SaysWhereANumberIsNone) {
 TEST(Certified, NamesExactCorners) {
   const Shell shell;
   const Outcome text = shell(
-      "$carom run magnetic-square --set field.B=0 --set table.hole=[] --position 1/2,1/4 --velocity 2,3 "
+      "$carom run magnetic-square --set field.B=0 --set table.hole=[] --position 1/2,1/4 "
+      "--velocity 2,3 "
       "--collisions 10 --precision certified");
   EXPECT_EQ(text.status, 0) << text.err;
-  EXPECT_NE(text.out.find("exact tie     event 1: exactly into the corner between 'right' and 'top'"),
-            std::string::npos)
+  EXPECT_NE(
+      text.out.find("exact tie     event 1: exactly into the corner between 'right' and 'top'"),
+      std::string::npos)
       << text.out;
 }
 

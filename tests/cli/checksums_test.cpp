@@ -1,4 +1,5 @@
-// A changed bit in what an archive or the records of a checkpoint hold is told of, where no other number would show it.
+// A changed bit in what an archive or the records of a checkpoint hold is told of, where no other
+// number would show it.
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -16,7 +17,8 @@ namespace carom {
 namespace {
 
 std::vector<double> read_reals(const std::string& path, const char* name) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), dataset = H5Dopen2(file, name, H5P_DEFAULT);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+              dataset = H5Dopen2(file, name, H5P_DEFAULT);
   const hid_t space = H5Dget_space(dataset);
   std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
   EXPECT_GE(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
@@ -27,22 +29,26 @@ std::vector<double> read_reals(const std::string& path, const char* name) {
 }
 
 bool can_be_read(const std::string& path, const char* name) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), dataset = H5Dopen2(file, name, H5P_DEFAULT);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+              dataset = H5Dopen2(file, name, H5P_DEFAULT);
   const hid_t space = H5Dget_space(dataset);
   std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const bool ok = H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+  const bool ok =
+      H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
   H5Sclose(space);
   H5Dclose(dataset);
   H5Fclose(file);
   return ok;
 }
 
-// The lowest bit of a stored number: the file stays an archive, and the number one that might be right.
+// The lowest bit of a stored number: the file stays an archive, and the number one that might be
+// right.
 void change_last_bit(const std::string& path, double number) {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&number), sizeof number));
+  const std::size_t at =
+      bytes.find(std::string(reinterpret_cast<const char*>(&number), sizeof number));
   ASSERT_NE(at, std::string::npos) << path;
   file.clear();
   file.seekp(static_cast<std::streamoff>(at));
@@ -74,37 +80,51 @@ void with_file(const std::string& path, const std::function<void(hid_t)>& change
 void expect_changed(const Outcome& o, const std::string& file, const std::string& path) {
   EXPECT_EQ(o.status, 1) << file;
   EXPECT_EQ(o.out, "");
-  EXPECT_NE(o.err.find(file + ": '" + path + "' was changed: its checksum is another"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find(file + ": '" + path + "' was changed: its checksum is another"),
+            std::string::npos)
+      << o.err;
 }
 
 // Two systems would be added up as one.
 TEST(Checksums, AChangedSystemOfACheckpointIsRefused) {
   const Shell shell;
-  shell("$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
-        "until_saved a.h5; kill -9 $pid; wait $pid");
+  shell(
+      "$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint "
+      "blocks:2000 & pid=$!; "
+      "until_saved a.h5; kill -9 $pid; wait $pid");
   const std::string checkpoint = shell.folder() + "/a.h5.part/checkpoint.h5";
   change_text(checkpoint, "stem_width = 1", "stem_width = 2");
-  expect_changed(shell("timeout 20 $carom escape --resume a.h5"), "a.h5.part/checkpoint.h5", "/system");
+  expect_changed(shell("timeout 20 $carom escape --resume a.h5"), "a.h5.part/checkpoint.h5",
+                 "/system");
   expect_changed(shell("$carom merge sum.h5 a.h5"), "a.h5.part/checkpoint.h5", "/system");
-  EXPECT_TRUE(shell.exists("a.h5.part/checkpoint.h5") && !shell.exists("a.h5") && !shell.exists("sum.h5"));
+  EXPECT_TRUE(shell.exists("a.h5.part/checkpoint.h5") && !shell.exists("a.h5") &&
+              !shell.exists("sum.h5"));
   // As it was, it goes on.
   change_text(checkpoint, "stem_width = 2", "stem_width = 1");
-  const std::string go_on = "$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -9 $pid; wait $pid";
+  const std::string go_on =
+      "$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill "
+      "-9 $pid; wait $pid";
   EXPECT_EQ(shell(go_on).status, 137);
 }
 
 TEST(Checksums, AChangedTextOfAnArchiveIsRefused) {
   const Shell shell;
-  const std::string lossy = " henon-heiles --trajectories 20 --set particles.energy=2 --set integrator.step=0.01 --t-max 100 --quiet ";
-  ASSERT_EQ(shell("$carom run mushroom --t-max 3 -o run.h5 --quiet && $carom diffusion lorentz-triangular --trajectories 50 --t-max 5 -o d.h5 --quiet").status, 0);
+  const std::string lossy =
+      " henon-heiles --trajectories 20 --set particles.energy=2 --set integrator.step=0.01 --t-max "
+      "100 --quiet ";
+  ASSERT_EQ(shell("$carom run mushroom --t-max 3 -o run.h5 --quiet && $carom diffusion "
+                  "lorentz-triangular --trajectories 50 --t-max 5 -o d.h5 --quiet")
+                .status,
+            0);
   ASSERT_EQ(shell("$carom escape" + lossy + "-o lost.h5").status, 3);
   struct Case {
     const char *command, *file, *from, *to, *text;
   };
-  const Case cases[] = {{"run --resume run.h5 --t-max 5", "run.h5", "stem_width = 1", "stem_width = 2", "/system"},
-                        {"diffusion --resume d.h5", "d.h5", "shape = ", "shapf = ", "/system"},
-                        {"escape --resume lost.h5", "lost.h5", "step = 0.01", "step = 0.02", "/system"},
-                        {"escape --resume lost.h5", "lost.h5", "; unresolved at t", "; unresolvec at t", "/lost"}};
+  const Case cases[] = {
+      {"run --resume run.h5 --t-max 5", "run.h5", "stem_width = 1", "stem_width = 2", "/system"},
+      {"diffusion --resume d.h5", "d.h5", "shape = ", "shapf = ", "/system"},
+      {"escape --resume lost.h5", "lost.h5", "step = 0.01", "step = 0.02", "/system"},
+      {"escape --resume lost.h5", "lost.h5", "; unresolved at t", "; unresolvec at t", "/lost"}};
   for (const Case& one : cases) {
     ASSERT_EQ(shell(std::string("cp ") + one.file + " kept").status, 0);
     change_text(shell.folder() + "/" + one.file, one.from, one.to);
@@ -116,22 +136,33 @@ TEST(Checksums, AChangedTextOfAnArchiveIsRefused) {
 // What a run goes on from, and what it keeps beside what it adds.
 TEST(Checksums, ABitOfARunIsToldOf) {
   const Shell shell;
-  ASSERT_EQ(shell("$carom run stadium --set 'table.hole=[]' --t-max 30 --set run.sample=1 -o a.h5 --quiet").status, 0);
-  for (const char* column : {"state/vx", "state/u", "trust/error", "collisions/s", "trajectory/x"}) {
+  ASSERT_EQ(
+      shell(
+          "$carom run stadium --set 'table.hole=[]' --t-max 30 --set run.sample=1 -o a.h5 --quiet")
+          .status,
+      0);
+  for (const char* column :
+       {"state/vx", "state/u", "trust/error", "collisions/s", "trajectory/x"}) {
     ASSERT_EQ(shell("cp a.h5 b.h5").status, 0);
     const std::string path = shell.folder() + "/b.h5";
     change_last_bit(path, read_reals(path, column).back());
     EXPECT_FALSE(can_be_read(path, column)) << column;  // by no reader: Fletcher-32
     const Outcome o = shell("$carom run --resume b.h5 --t-max 40 --quiet");
     EXPECT_EQ(o.status, 1) << column;
-    EXPECT_NE(o.err.find(std::string("b.h5: '/") + column + "' is missing or not readable"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find(std::string("b.h5: '/") + column + "' is missing or not readable"),
+              std::string::npos)
+        << o.err;
   }
 }
 
 TEST(Checksums, ABitOfARecordIsToldOf) {
   const Shell shell;
-  ASSERT_EQ(shell("$carom escape stadium --trajectories 2000 --t-max 20 --per-trajectory --shard 1/2 -o a.h5 --quiet && "
-                  "$carom escape stadium --trajectories 2000 --t-max 20 --per-trajectory --shard 2/2 -o b.h5 --quiet").status, 0);
+  ASSERT_EQ(shell("$carom escape stadium --trajectories 2000 --t-max 20 --per-trajectory --shard "
+                  "1/2 -o a.h5 --quiet && "
+                  "$carom escape stadium --trajectories 2000 --t-max 20 --per-trajectory --shard "
+                  "2/2 -o b.h5 --quiet")
+                .status,
+            0);
   for (const char* column : {"trajectories/x", "trajectories/vy", "trajectories/t"}) {
     ASSERT_EQ(shell("cp a.h5 c.h5").status, 0);
     change_last_bit(shell.folder() + "/c.h5", read_reals(shell.folder() + "/c.h5", column).at(700));
@@ -146,7 +177,9 @@ TEST(Checksums, ABitOfARecordIsToldOf) {
 TEST(Checksums, ABitOfASectionOrCertifiedOrbitIsToldOf) {
   const Shell shell;
   ASSERT_EQ(shell("$carom section stadium --orbits 3 --points 500 -o s.h5 --quiet && "
-                  "$carom run stadium --precision certified --collisions 40 -o c.h5 --quiet").status, 0);
+                  "$carom run stadium --precision certified --collisions 40 -o c.h5 --quiet")
+                .status,
+            0);
   for (const auto& [name, column] : {std::pair{"s.h5", "section/x"}, {"c.h5", "collisions/x"}}) {
     const std::string path = shell.folder() + "/" + name;
     EXPECT_TRUE(can_be_read(path, column)) << name;
@@ -159,17 +192,21 @@ TEST(Checksums, ABitOfASectionOrCertifiedOrbitIsToldOf) {
 TEST(Checksums, ZerosThatBecameOnesAreToldOf) {
   const Shell shell;
   ASSERT_EQ(shell("$carom run stadium --set 'table.hole=[]' --t-max 30 -o a.h5 --quiet").status, 0);
-  const std::string path = shell.folder() + "/a.h5", column = "collisions/reflections";  // 1, 0, 1, 0 …
+  const std::string path = shell.folder() + "/a.h5",
+                    column = "collisions/reflections";  // 1, 0, 1, 0 …
   haddr_t at = 0;
   with_file(path, [&](hid_t file) {
-    const hid_t dataset = H5Dopen2(file, column.c_str(), H5P_DEFAULT), space = H5Dget_space(dataset);
+    const hid_t dataset = H5Dopen2(file, column.c_str(), H5P_DEFAULT),
+                space = H5Dget_space(dataset);
     hsize_t chunk = 0, bytes = 0;
     unsigned filters = 0;
     EXPECT_GE(H5Dget_chunk_info(dataset, space, 0, &chunk, &filters, &at, &bytes), 0);
     H5Sclose(space);
     H5Dclose(dataset);
   });
-  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).seekp(static_cast<std::streamoff>(at + 2)) << "\xff\xff";
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary)
+          .seekp(static_cast<std::streamoff>(at + 2))
+      << "\xff\xff";
   EXPECT_TRUE(can_be_read(path, column.c_str()));
   expect_changed(shell("$carom run --resume a.h5 --t-max 40 --quiet"), "a.h5", "/" + column);
 }
@@ -184,25 +221,32 @@ TEST(Checksums, WhatIsSwappedRemovedOrChangedIsToldOf) {
     return shell("$carom escape --resume b.h5 --json");
   };
   expect_changed(outcome([](hid_t file) {
-    H5Lmove(file, "fates/pinned", file, "fates/kept", H5P_DEFAULT, H5P_DEFAULT);
-    H5Lmove(file, "fates/escaped", file, "fates/pinned", H5P_DEFAULT, H5P_DEFAULT);
-    H5Lmove(file, "fates/kept", file, "fates/escaped", H5P_DEFAULT, H5P_DEFAULT);
-  }), "b.h5", "/fates/escaped");
+                   H5Lmove(file, "fates/pinned", file, "fates/kept", H5P_DEFAULT, H5P_DEFAULT);
+                   H5Lmove(file, "fates/escaped", file, "fates/pinned", H5P_DEFAULT, H5P_DEFAULT);
+                   H5Lmove(file, "fates/kept", file, "fates/escaped", H5P_DEFAULT, H5P_DEFAULT);
+                 }),
+                 "b.h5", "/fates/escaped");
   const auto set = [&](const char* object, const char* attribute, const auto& value, hid_t type) {
     return outcome([&](hid_t file) {
-      const hid_t owner = H5Oopen(file, object, H5P_DEFAULT), which = H5Aopen(owner, attribute, H5P_DEFAULT);
+      const hid_t owner = H5Oopen(file, object, H5P_DEFAULT),
+                  which = H5Aopen(owner, attribute, H5P_DEFAULT);
       EXPECT_GE(H5Awrite(which, type, &value), 0);
       H5Aclose(which);
       H5Oclose(owner);
     });
   };
-  expect_changed(set("/provenance", "seconds", 17.0, H5T_NATIVE_DOUBLE), "b.h5", "/provenance@seconds");
-  expect_changed(set("/provenance", "lanes_hits", 17, H5T_NATIVE_INT), "b.h5", "/provenance@lanes_hits");
+  expect_changed(set("/provenance", "seconds", 17.0, H5T_NATIVE_DOUBLE), "b.h5",
+                 "/provenance@seconds");
+  expect_changed(set("/provenance", "lanes_hits", 17, H5T_NATIVE_INT), "b.h5",
+                 "/provenance@lanes_hits");
   expect_changed(set("/", "complete", 0, H5T_NATIVE_INT), "b.h5", "/@complete");
   const Outcome removed = outcome([](hid_t file) { H5Ldelete(file, "fates/holes", H5P_DEFAULT); });
-  EXPECT_NE(removed.err.find("b.h5: '/fates/holes' is missing or not readable"), std::string::npos) << removed.err;
-  const Outcome none = outcome([](hid_t file) { H5Adelete_by_name(file, "provenance", "checksums", H5P_DEFAULT); });
-  EXPECT_NE(none.err.find("b.h5: '/provenance@checksums' is missing"), std::string::npos) << none.err;
+  EXPECT_NE(removed.err.find("b.h5: '/fates/holes' is missing or not readable"), std::string::npos)
+      << removed.err;
+  const Outcome none =
+      outcome([](hid_t file) { H5Adelete_by_name(file, "provenance", "checksums", H5P_DEFAULT); });
+  EXPECT_NE(none.err.find("b.h5: '/provenance@checksums' is missing"), std::string::npos)
+      << none.err;
 }
 
 // Notes that a user has added are ignored, whatever their type.
@@ -218,13 +262,15 @@ TEST(Checksums, WhatOthersAddedIsNotLookedAt) {
     H5Aclose(note);
     const hsize_t size[] = {2, 3};
     const hid_t plane = H5Screate_simple(2, size, nullptr);
-    H5Dclose(H5Dcreate2(file, "picture", H5T_NATIVE_DOUBLE, plane, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    H5Dclose(H5Dcreate2(file, "picture", H5T_NATIVE_DOUBLE, plane, H5P_DEFAULT, H5P_DEFAULT,
+                        H5P_DEFAULT));
     H5Sclose(plane);
     // h5py's lzf, which the library does not have.
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE), row = H5Screate_simple(1, size, nullptr);
     H5Pset_chunk(layout, 1, size);
     H5Pset_filter(layout, 32000, H5Z_FLAG_OPTIONAL, 0, nullptr);
-    const hid_t packed = H5Dcreate2(file, "packed", H5T_NATIVE_INT32, row, H5P_DEFAULT, layout, H5P_DEFAULT);
+    const hid_t packed =
+        H5Dcreate2(file, "packed", H5T_NATIVE_INT32, row, H5P_DEFAULT, layout, H5P_DEFAULT);
     const hsize_t first = 0;
     EXPECT_GE(H5Dwrite_chunk(packed, H5P_DEFAULT, 0, &first, 3, "abc"), 0);
     H5Dclose(packed);
@@ -244,34 +290,43 @@ TEST(Checksums, WhatOthersAddedIsNotLookedAt) {
 TEST(Checksums, AreThoseOfZlib) {
   EXPECT_EQ(hdf5::crc32("123456789", 9), 0xcbf43926u);
   const std::string text = "Carom computes the motion of classical particles";
-  EXPECT_EQ(hdf5::crc32(text.data() + 5, text.size() - 5, hdf5::crc32(text.data(), 5)), hdf5::crc32(text.data(), text.size()));
+  EXPECT_EQ(hdf5::crc32(text.data() + 5, text.size() - 5, hdf5::crc32(text.data(), 5)),
+            hdf5::crc32(text.data(), text.size()));
   const Shell shell;
   ASSERT_EQ(shell("$carom run sinai --collisions 5000 -o a.h5 --quiet").status, 0);
   const std::vector<double> times = read_reals(shell.folder() + "/a.h5", "collisions/t");
   char line[80];
-  std::snprintf(line, sizeof line, "\n%08x float64 %015zu /collisions/t\n", hdf5::crc32(times.data(), times.size() * sizeof(double)),
-                times.size());
+  std::snprintf(line, sizeof line, "\n%08x float64 %015zu /collisions/t\n",
+                hdf5::crc32(times.data(), times.size() * sizeof(double)), times.size());
   EXPECT_NE(shell.read("a.h5").find(line), std::string::npos) << line;
 }
 
 // Before anything is computed: what goes on from damaged records would be thrown away in the end.
 TEST(Checksums, ABitOfTheRecordsOfACheckpointIsToldOfAtOnce) {
   const Shell shell;
-  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
-        "until_there a.h5.part/records; until_saved a.h5; kill -9 $pid; wait $pid");
+  shell(
+      "$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 "
+      "--checkpoint blocks:2000 & pid=$!; "
+      "until_there a.h5.part/records; until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
   // Bytes 8 to 15 of the first record: where the trajectory started.
   double x = 0;
-  std::ifstream(shell.folder() + "/a.h5.part/records", std::ios::binary).seekg(8).read(reinterpret_cast<char*>(&x), sizeof x);
+  std::ifstream(shell.folder() + "/a.h5.part/records", std::ios::binary)
+      .seekg(8)
+      .read(reinterpret_cast<char*>(&x), sizeof x);
   ASSERT_EQ(shell("cp a.h5.part/records kept").status, 0);
   change_last_bit(shell.folder() + "/a.h5.part/records", x);
   const Outcome o = shell("timeout 20 $carom escape --resume a.h5");
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");
-  EXPECT_NE(o.err.find("a.h5.part/records: the records of the trajectories "), std::string::npos) << o.err;
-  EXPECT_TRUE(shell.exists("a.h5.part/checkpoint.h5") && shell.exists("a.h5.part/records") && !shell.exists("a.h5"));
+  EXPECT_NE(o.err.find("a.h5.part/records: the records of the trajectories "), std::string::npos)
+      << o.err;
+  EXPECT_TRUE(shell.exists("a.h5.part/checkpoint.h5") && shell.exists("a.h5.part/records") &&
+              !shell.exists("a.h5"));
   // Mended, they go on.
-  const Outcome again = shell("cp kept a.h5.part/records; $carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
+  const Outcome again = shell(
+      "cp kept a.h5.part/records; $carom escape --resume a.h5 --quiet --checkpoint blocks:20 & "
+      "pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(again.status, 130) << again.err;
 }
 

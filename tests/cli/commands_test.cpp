@@ -28,12 +28,15 @@ TEST(Program, AloneTeaches) {
     EXPECT_NE(o.out.find("carom table mushroom"), std::string::npos);
     EXPECT_EQ(o.err, "");
   }
-  for (const char* command : {"escape", "run", "diffusion", "section", "table", "systems", "validate"}) {
+  for (const char* command :
+       {"escape", "run", "diffusion", "section", "table", "systems", "validate"}) {
     const Outcome o = shell(std::string("$carom ") + command + " --help");
     EXPECT_EQ(o.status, 0);
     int examples = 0;
     const std::string example = "\n  carom " + std::string(command);
-    for (std::size_t at = o.out.find("Examples:"); (at = o.out.find(example, at)) != std::string::npos; ++at) ++examples;
+    for (std::size_t at = o.out.find("Examples:");
+         (at = o.out.find(example, at)) != std::string::npos; ++at)
+      ++examples;
     EXPECT_EQ(examples, 3) << o.out;
   }
 }
@@ -42,8 +45,9 @@ TEST(Systems, ListsAndPrints) {
   const Shell shell;
   const Outcome list = shell("$carom systems");
   EXPECT_EQ(list.status, 0);
-  for (const char* name : {"magnetic-square", "mushroom", "stadium", "circle", "ellipse-magnetic", "sinai",
-                           "lorentz-triangular", "lorentz-square", "three-disc", "siam-photon"})
+  for (const char* name :
+       {"magnetic-square", "mushroom", "stadium", "circle", "ellipse-magnetic", "sinai",
+        "lorentz-triangular", "lorentz-square", "three-disc", "siam-photon"})
     EXPECT_NE(list.out.find(name), std::string::npos) << name;
   expect_keys(shell("$carom systems --json").out, {"systems"});
   EXPECT_EQ(shell("$carom systems mushroom > mine.toml && $carom table mine.toml").status, 0);
@@ -80,7 +84,9 @@ TEST(Table, DrawsEveryBuiltinSystem) {
     EXPECT_EQ(o.status, drawable ? 0 : 1) << name << ": " << o.err;
     EXPECT_EQ(shell.exists(name + ".svg"), drawable) << name;
     if (!drawable) {
-      EXPECT_NE(o.err.find("command line: -o: a table without walls cannot be drawn"), std::string::npos) << o.err;
+      EXPECT_NE(o.err.find("command line: -o: a table without walls cannot be drawn"),
+                std::string::npos)
+          << o.err;
       continue;
     }
     const std::string svg = shell.read(name + ".svg");
@@ -96,9 +102,9 @@ TEST(Escape, PrintsItsKeysAndOneDigest) {
   const Outcome one = shell(command + " --threads 1"), two = shell(command + " --threads 2");
   EXPECT_EQ(one.status, 0);
   EXPECT_EQ(one.err, "");
-  expect_keys(one.out,
-              {"trajectories", "escaped", "survived", "pinned", "capped", "singular", "unbounded", "unresolved", "lost",
-               "collisions", "digest", "decisions", "survival", "survival_hits", "rate", "holes"});
+  expect_keys(one.out, {"trajectories", "escaped", "survived", "pinned", "capped", "singular",
+                        "unbounded", "unresolved", "lost", "collisions", "digest", "decisions",
+                        "survival", "survival_hits", "rate", "holes"});
   EXPECT_EQ(json_value(one.out, "trajectories"), "2000");
   EXPECT_EQ(json_value(one.out, "threads"), "1");
   EXPECT_EQ(json_value(one.out, "lost"), "0");
@@ -120,8 +126,9 @@ TEST(Escape, PrintsATable) {
 // A table of many times takes no longer than its lines.
 TEST(Escape, PrintsManyTimes) {
   const Shell shell;
-  const Outcome o =
-      shell("timeout 20 $carom escape stadium --trajectories 10 --t-max 100 --times lin:0:100:100000 --quiet");
+  const Outcome o = shell(
+      "timeout 20 $carom escape stadium --trajectories 10 --t-max 100 --times lin:0:100:100000 "
+      "--quiet");
   EXPECT_EQ(o.status, 0);
   std::size_t intervals = 0;
   for (std::size_t at = 0; (at = o.out.find(" .. ", at)) != std::string::npos; ++at) ++intervals;
@@ -131,7 +138,8 @@ TEST(Escape, PrintsManyTimes) {
 TEST(Escape, CountsAHoleAcrossTheStartOfAWallOnce) {
   const Shell shell;
   const Outcome o = shell(
-      "$carom systems circle | sed 's/\"pi\"/0/' >wrapped.toml; $carom escape wrapped.toml --trajectories 1000 --json");
+      "$carom systems circle | sed 's/\"pi\"/0/' >wrapped.toml; $carom escape wrapped.toml "
+      "--trajectories 1000 --json");
   EXPECT_EQ(o.status, 0) << o.err;
   const std::string holes = json_value(o.out, "holes");
   EXPECT_NE(holes.find("\"escaped\": " + json_value(o.out, "escaped")), std::string::npos) << holes;
@@ -141,7 +149,8 @@ TEST(Run, PrintsItsKeys) {
   const Shell shell;
   const Outcome o = shell("$carom run siam-photon --t-max 10 --json");
   EXPECT_EQ(o.status, 0);
-  expect_keys(o.out, {"status", "collisions", "wall", "t", "x", "y", "vx", "vy", "cell", "energy_error", "decisions"});
+  expect_keys(o.out, {"status", "collisions", "wall", "t", "x", "y", "vx", "vy", "cell",
+                      "energy_error", "decisions"});
   EXPECT_EQ(json_value(o.out, "status"), "\"completed\"");
   EXPECT_EQ(json_value(o.out, "collisions"), "14");
   EXPECT_EQ(json_value(o.out, "t"), "10");
@@ -182,7 +191,8 @@ TEST(Validate, PassesItsCases) {
   EXPECT_EQ(o.status, 0) << o.out;
   expect_keys(o.out, {"passed", "failed", "cases"});
   EXPECT_EQ(json_value(o.out, "failed"), "0");
-  for (const char* part : {"three-disc: escape rate", "siam-photon", "\"source\"", "\"filter_share\"", "\"digest\""})
+  for (const char* part :
+       {"three-disc: escape rate", "siam-photon", "\"source\"", "\"filter_share\"", "\"digest\""})
     EXPECT_NE(o.out.find(part), std::string::npos) << part;
 }
 
@@ -227,13 +237,18 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"$carom escape magnetic-square --set table.widht=2", 1, "did you mean 'width'"},
         Bad{"$carom escape magnetic-square --set table.width", 2, "path.to.key=value"},
         Bad{"$carom escape magnetic-squar", 1, "did you mean 'magnetic-square'"},
-        Bad{"$carom escape ./missing.toml", 1, "No such file"}, Bad{"$carom escape", 2, "SYSTEM is missing"},
-        Bad{"$carom escap sinai", 2, "did you mean 'escape'"}, Bad{"$carom escape sinai --fast", 2, "'--fast'"},
-        Bad{"$carom escape stadium --trajectorie 10", 2, "'--trajectorie'; did you mean '--trajectories'?"},
-        Bad{"$carom escape stadium --trajectorie=10", 2, "'--trajectorie'; did you mean '--trajectories'?"},
+        Bad{"$carom escape ./missing.toml", 1, "No such file"},
+        Bad{"$carom escape", 2, "SYSTEM is missing"},
+        Bad{"$carom escap sinai", 2, "did you mean 'escape'"},
+        Bad{"$carom escape sinai --fast", 2, "'--fast'"},
+        Bad{"$carom escape stadium --trajectorie 10", 2,
+            "'--trajectorie'; did you mean '--trajectories'?"},
+        Bad{"$carom escape stadium --trajectorie=10", 2,
+            "'--trajectorie'; did you mean '--trajectories'?"},
         Bad{"$carom escape --sead -5 stadium", 2, "'--sead'; did you mean '--seed'?"},
-        Bad{"$carom run stadium -p 1", 2, "'-p'"}, Bad{"$carom run stadium 7 8", 2, "'7' is not expected"},
-        Bad{"$carom --jsn", 2, "'--jsn'"}, Bad{"$carom --seed 1 escape stadium", 2, "'--seed'"},
+        Bad{"$carom run stadium -p 1", 2, "'-p'"},
+        Bad{"$carom run stadium 7 8", 2, "'7' is not expected"}, Bad{"$carom --jsn", 2, "'--jsn'"},
+        Bad{"$carom --seed 1 escape stadium", 2, "'--seed'"},
         Bad{"$carom escape stadium --splitting 10 --certify-sample 100", 1, "--certify-sample"},
         Bad{"$carom escape stadium --splitting 10 --block 100", 1, "--block"},
         Bad{"$carom escape stadium --splitting 10 --checkpoint 5", 1, "--checkpoint"},
@@ -242,7 +257,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"$carom diffusion sinai --checkpoint 5", 2, "--checkpoint"},
         Bad{"$carom escape stadium --splitting hits:1.5,2.5", 1, "not whole"},
         Bad{"$carom escape three-disc --splitting hits:1,2 --population 1e9", 1, "memory"},
-        Bad{"$carom escape sinai sinai", 2, "sinai"}, Bad{"$carom escape sinai --seed", 2, "--seed"},
+        Bad{"$carom escape sinai sinai", 2, "sinai"},
+        Bad{"$carom escape sinai --seed", 2, "--seed"},
         Bad{"$carom escape sinai --per-trajectory", 2, "-o FILE.h5"},
         Bad{"$carom escape sinai -o missing/a.h5", 1, "cannot write 'missing/a.h5'"},
         Bad{"$carom escape sinai -o .", 1, "is a directory"},
@@ -253,7 +269,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"$carom run circle --position 0,0 --velocity 0,0", 1, "velocity is zero"},
         Bad{"$carom run --resume missing.h5", 1, "no such file"},
         Bad{"$carom run sinai --resume missing.h5", 2, "leave SYSTEM out"},
-        Bad{"$carom validate --scale 0", 1, "--scale"}, Bad{"$carom validate --scale x", 1, "--scale"},
+        Bad{"$carom validate --scale 0", 1, "--scale"},
+        Bad{"$carom validate --scale x", 1, "--scale"},
         Bad{"$carom table circle -o circle.png", 1, ".svg"},
         Bad{"$carom table circle -o missing/circle.svg", 1, "No such file"}));
 
@@ -266,7 +283,8 @@ TEST(BadInputOfFiles, NamesLineAndColumn) {
   EXPECT_NE(o.err.find("a.toml, line 3, column 1"), std::string::npos) << o.err;
   EXPECT_NE(o.err.find("did you mean 'radius'"), std::string::npos) << o.err;
   const Outcome start = shell(
-      "printf '[table]\\nshape = \"circle\"\\nradius = 1\\n[initial]\\nkind = \"point\"\\nposition = [3, "
+      "printf '[table]\\nshape = \"circle\"\\nradius = 1\\n[initial]\\nkind = \"point\"\\nposition "
+      "= [3, "
       "0]\\n"
       "velocity = [1, 0]\\n' > b.toml; $carom escape b.toml");
   EXPECT_EQ(start.status, 1);
@@ -288,23 +306,31 @@ TEST(Escape, FliesListedStartsOnce) {
   EXPECT_EQ(json_value(point.out, "trajectories"), "1");
   EXPECT_EQ(json_value(point.out, "note"), "");
   shell("printf '[table]\nshape = \"circle\"\nradius = 2\n' > a.toml");
-  const std::string list = "$carom escape a.toml --t-max 5 --set particles.speed=1 --set initial.kind=list --set "
-                           "'initial.starts=[[0,0,1,0],[0,0.1,1,0.5],[0.2,0,0.3,1]]' ";
+  const std::string list =
+      "$carom escape a.toml --t-max 5 --set particles.speed=1 --set initial.kind=list --set "
+      "'initial.starts=[[0,0,1,0],[0,0.1,1,0.5],[0.2,0,0.3,1]]' ";
   EXPECT_EQ(json_value(shell(list + "--json").out, "trajectories"), "3");
-  const Outcome more = shell(list + "--trajectories 9 --json"), text = shell(list + "--trajectories 9");
-  EXPECT_NE(json_value(more.out, "note").find("9 trajectories repeat 3 listed ones"), std::string::npos) << more.out;
+  const Outcome more = shell(list + "--trajectories 9 --json"),
+                text = shell(list + "--trajectories 9");
+  EXPECT_NE(json_value(more.out, "note").find("9 trajectories repeat 3 listed ones"),
+            std::string::npos)
+      << more.out;
   EXPECT_NE(text.out.find("9 trajectories repeat 3 listed ones"), std::string::npos) << text.out;
-  EXPECT_EQ(json_value(shell("$carom escape stadium --t-max 5 --trajectories 9 --json").out, "note"), "");
+  EXPECT_EQ(
+      json_value(shell("$carom escape stadium --t-max 5 --trajectories 9 --json").out, "note"), "");
 }
 
 // Nothing to draw from: that is known at once.
 TEST(Escape, RefusesStartsThatCannotBeWithoutTrying) {
   const Shell shell;
-  const char* impossible[] = {"--set initial.kind=line --set 'initial.from=[0,0]' --set 'initial.to=[1,0]' --set initial.angle=1",
-                              "--set initial.kind=rectangle --set 'initial.min=[0,0]' --set 'initial.max=[0,0]'",
-                              "--set initial.kind=rectangle --set 'initial.min=[2,0]' --set 'initial.max=[3,1]'"};
+  const char* impossible[] = {
+      "--set initial.kind=line --set 'initial.from=[0,0]' --set 'initial.to=[1,0]' --set "
+      "initial.angle=1",
+      "--set initial.kind=rectangle --set 'initial.min=[0,0]' --set 'initial.max=[0,0]'",
+      "--set initial.kind=rectangle --set 'initial.min=[2,0]' --set 'initial.max=[3,1]'"};
   for (const char* start : impossible) {
-    const Outcome o = shell("timeout 20 $carom escape magnetic-square --trajectories 10 " + std::string(start));
+    const Outcome o =
+        shell("timeout 20 $carom escape magnetic-square --trajectories 10 " + std::string(start));
     EXPECT_EQ(o.status, 1) << start;
     EXPECT_NE(o.err.find("was found inside the table"), std::string::npos) << o.err;
   }
@@ -313,10 +339,14 @@ TEST(Escape, RefusesStartsThatCannotBeWithoutTrying) {
 // Asked for by hand, lanes that nothing flies in are told of.
 TEST(Commands, SayWhereNothingFliesInLanes) {
   const Shell shell;
-  const char* const told = "carom: --isa changed nothing: these particles fly one after the other, in no lanes\n";
-  EXPECT_EQ(shell("$carom escape lorentz-random --trajectories 5 --t-max 2 --isa baseline --quiet").err, told);
+  const char* const told =
+      "carom: --isa changed nothing: these particles fly one after the other, in no lanes\n";
+  EXPECT_EQ(
+      shell("$carom escape lorentz-random --trajectories 5 --t-max 2 --isa baseline --quiet").err,
+      told);
   EXPECT_EQ(shell("$carom escape lorentz-random --trajectories 5 --t-max 2 --quiet").err, "");
-  EXPECT_EQ(shell("$carom escape stadium --trajectories 5 --t-max 2 --isa baseline --quiet").err, "");
+  EXPECT_EQ(shell("$carom escape stadium --trajectories 5 --t-max 2 --isa baseline --quiet").err,
+            "");
 }
 
 }  // namespace

@@ -15,24 +15,35 @@
 namespace carom {
 namespace {
 
-// Opens a file for changes with HDF5 alone. Afterwards its checksums are right: what it says contradicts itself.
+// Opens a file for changes with HDF5 alone. Afterwards its checksums are right: what it says
+// contradicts itself.
 class Damage {
  public:
-  explicit Damage(const std::string& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)) { EXPECT_GE(file_, 0); }
+  explicit Damage(const std::string& path)
+      : file_(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)) {
+    EXPECT_GE(file_, 0);
+  }
   ~Damage() {
     hdf5::write_checksums(file_, "b.h5");
     H5Fclose(file_);
   }
   Damage(const Damage&) = delete;
 
-  void set_first(const char* dataset, std::uint64_t value) { change<std::uint64_t>(dataset, H5T_NATIVE_UINT64, [=](auto& v) { v.at(0) = value; }); }
-  void add_to_first(const char* dataset) { change<std::uint64_t>(dataset, H5T_NATIVE_UINT64, [](auto& v) { ++v.at(0); }); }
-  void move_first(const char* dataset) { change<double>(dataset, H5T_NATIVE_DOUBLE, [](auto& v) { v.at(0) *= 0.5; }); }
+  void set_first(const char* dataset, std::uint64_t value) {
+    change<std::uint64_t>(dataset, H5T_NATIVE_UINT64, [=](auto& v) { v.at(0) = value; });
+  }
+  void add_to_first(const char* dataset) {
+    change<std::uint64_t>(dataset, H5T_NATIVE_UINT64, [](auto& v) { ++v.at(0); });
+  }
+  void move_first(const char* dataset) {
+    change<double>(dataset, H5T_NATIVE_DOUBLE, [](auto& v) { v.at(0) *= 0.5; });
+  }
   // The same dataset with other rows.
   void resize(const char* dataset, hsize_t rows) {
     H5Ldelete(file_, dataset, H5P_DEFAULT);
     const hid_t space = H5Screate_simple(1, &rows, nullptr);
-    const hid_t made = H5Dcreate2(file_, dataset, H5T_NATIVE_UINT64, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t made =
+        H5Dcreate2(file_, dataset, H5T_NATIVE_UINT64, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     EXPECT_GE(made, 0) << dataset;
     H5Dclose(made);
     H5Sclose(space);
@@ -40,7 +51,8 @@ class Damage {
   void write_text(const char* dataset, const std::string& text) {
     const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
     H5Tset_size(type, text.size());
-    const hid_t made = H5Dcreate2(file_, dataset, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t made =
+        H5Dcreate2(file_, dataset, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     EXPECT_GE(H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), 0);
     H5Dclose(made);
     H5Sclose(space);
@@ -48,7 +60,8 @@ class Damage {
   }
   void remove(const char* dataset) { EXPECT_GE(H5Ldelete(file_, dataset, H5P_DEFAULT), 0); }
   void set_attribute(const char* object, const char* name, std::int64_t value) {
-    const hid_t owner = H5Oopen(file_, object, H5P_DEFAULT), attribute = H5Aopen(owner, name, H5P_DEFAULT);
+    const hid_t owner = H5Oopen(file_, object, H5P_DEFAULT),
+                attribute = H5Aopen(owner, name, H5P_DEFAULT);
     EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_INT64, &value), 0);
     H5Aclose(attribute);
     H5Oclose(owner);
@@ -86,7 +99,9 @@ void expect_told(const Shell& shell, const std::string& command, const std::vect
       const Outcome o = shell("$carom " + what);
       EXPECT_EQ(o.status, 1) << what << ": " << one.message;
       EXPECT_EQ(o.out, "") << what << ": " << one.message;
-      EXPECT_NE(o.err.find(std::string("b.h5: ") + one.message), std::string::npos) << what << ": " << one.message << "\n" << o.err;
+      EXPECT_NE(o.err.find(std::string("b.h5: ") + one.message), std::string::npos)
+          << what << ": " << one.message << "\n"
+          << o.err;
     }
   }
 }
@@ -94,46 +109,78 @@ void expect_told(const Shell& shell, const std::string& command, const std::vect
 TEST(Damaged, EscapeNamesTheDataset) {
   const Shell shell;
   ASSERT_EQ(shell("$carom escape stadium --trajectories 200 --t-max 20 -o a.h5").status, 0);
-  expect_told(shell, "escape", {
-      {[](Damage& d) { d.set_first("done/first", 5000); }, "'/done/first' is not below '/done/last'"},
-      {[](Damage& d) { d.resize("done/last", 0); }, "'/done/first' and '/done/last' differ in length"},
-      {[](Damage& d) { d.set_first("done/last", 150); }, "it says that it is complete, and '/done' has gaps"},
-      {[](Damage& d) { d.set_first("done/last", 300); }, "'/done' counts others than the trajectories 0 to 199"},
-      {[](Damage& d) { d.move_first("survival/t"); }, "'/survival/t' are not the report times of '/system'"},
-      {[](Damage& d) { d.resize("survival/gone", 2); }, "'/survival/t' and '/survival/gone' differ in length"},
-      {[](Damage& d) { d.set_first("survival/gone", 500); }, "'/survival/gone' has more than '/fates'"},
-      {[](Damage& d) { d.set_first("survival_hits/gone", 500); }, "'/survival_hits/gone' has more than '/fates'"},
-      {[](Damage& d) { d.resize("survival_hits/gone", 1000); }, "'/survival_hits/gone' is too long"},
-      {[](Damage& d) { d.resize("fates/escaped", 0); }, "'/fates/escaped' is not one number"},
-      {[](Damage& d) { d.resize("fates/digest", 2); }, "'/fates/digest' is not one number"},
-      {[](Damage& d) { d.add_to_first("fates/escaped"); }, "'/fates' do not add up to '/fates/trajectories'"},
-      {[](Damage& d) { d.add_to_first("fates/trajectories"), d.add_to_first("fates/survived"); },
-       "'/fates/trajectories' is not the number of particles that '/done' counts"},
-      {[](Damage& d) { d.resize("fates/holes", 7); }, "'/fates/holes' are not the holes of '/system'"},
-      {[](Damage& d) { d.set_first("fates/holes", 5); }, "'/fates/holes' do not add up to '/fates/escaped'"},
-      {[](Damage& d) { d.set_first("fates/pinned", 201); }, "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
-      {[](Damage& d) { d.set_first("fates/collisions", 1); }, "'/fates/collisions' and '/fates/most_hits' contradict each other"},
-      {[](Damage& d) { d.set_first("fates/most_hits", 0); }, "'/fates/collisions' and '/fates/most_hits' contradict each other"},
-      {[](Damage& d) { d.write_text("lost", "somewhere\n"); }, "a line of '/lost' does not begin with an index"},
-      {[](Damage& d) { d.write_text("lost", "1x\tsomewhere\n"); }, "a line of '/lost' does not begin with an index"},
-      {[](Damage& d) { d.set_attribute("provenance", "continued", -1); }, "'/provenance/continued' is negative"},
-      {[](Damage& d) { d.remove("done"); }, "'done' is missing"},
-  });
+  expect_told(
+      shell, "escape",
+      {
+          {[](Damage& d) { d.set_first("done/first", 5000); },
+           "'/done/first' is not below '/done/last'"},
+          {[](Damage& d) { d.resize("done/last", 0); },
+           "'/done/first' and '/done/last' differ in length"},
+          {[](Damage& d) { d.set_first("done/last", 150); },
+           "it says that it is complete, and '/done' has gaps"},
+          {[](Damage& d) { d.set_first("done/last", 300); },
+           "'/done' counts others than the trajectories 0 to 199"},
+          {[](Damage& d) { d.move_first("survival/t"); },
+           "'/survival/t' are not the report times of '/system'"},
+          {[](Damage& d) { d.resize("survival/gone", 2); },
+           "'/survival/t' and '/survival/gone' differ in length"},
+          {[](Damage& d) { d.set_first("survival/gone", 500); },
+           "'/survival/gone' has more than '/fates'"},
+          {[](Damage& d) { d.set_first("survival_hits/gone", 500); },
+           "'/survival_hits/gone' has more than '/fates'"},
+          {[](Damage& d) { d.resize("survival_hits/gone", 1000); },
+           "'/survival_hits/gone' is too long"},
+          {[](Damage& d) { d.resize("fates/escaped", 0); }, "'/fates/escaped' is not one number"},
+          {[](Damage& d) { d.resize("fates/digest", 2); }, "'/fates/digest' is not one number"},
+          {[](Damage& d) { d.add_to_first("fates/escaped"); },
+           "'/fates' do not add up to '/fates/trajectories'"},
+          {[](Damage& d) {
+             d.add_to_first("fates/trajectories"), d.add_to_first("fates/survived");
+           },
+           "'/fates/trajectories' is not the number of particles that '/done' counts"},
+          {[](Damage& d) { d.resize("fates/holes", 7); },
+           "'/fates/holes' are not the holes of '/system'"},
+          {[](Damage& d) { d.set_first("fates/holes", 5); },
+           "'/fates/holes' do not add up to '/fates/escaped'"},
+          {[](Damage& d) { d.set_first("fates/pinned", 201); },
+           "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
+          {[](Damage& d) { d.set_first("fates/collisions", 1); },
+           "'/fates/collisions' and '/fates/most_hits' contradict each other"},
+          {[](Damage& d) { d.set_first("fates/most_hits", 0); },
+           "'/fates/collisions' and '/fates/most_hits' contradict each other"},
+          {[](Damage& d) { d.write_text("lost", "somewhere\n"); },
+           "a line of '/lost' does not begin with an index"},
+          {[](Damage& d) { d.write_text("lost", "1x\tsomewhere\n"); },
+           "a line of '/lost' does not begin with an index"},
+          {[](Damage& d) { d.set_attribute("provenance", "continued", -1); },
+           "'/provenance/continued' is negative"},
+          {[](Damage& d) { d.remove("done"); }, "'done' is missing"},
+      });
 }
 
 TEST(Damaged, DiffusionNamesTheDataset) {
   const Shell shell;
-  ASSERT_EQ(shell("$carom diffusion lorentz-triangular --trajectories 50 --t-max 5 -o a.h5").status, 0);
-  expect_told(shell, "diffusion", {
-      {[](Damage& d) { d.move_first("msd/t"); }, "'/msd/t' are not the report times of '/system'"},
-      {[](Damage& d) { d.resize("msd_groups/count", 3); }, "'/msd_groups/count' has not one row a group and time of '/msd/t'"},
-      {[](Damage& d) { d.resize("fates/trajectories", 0); }, "'/fates/trajectories' is not one number"},
-      {[](Damage& d) { d.resize("fates/energy_change", 0); }, "'/fates/energy_change' is not one number"},
-      {[](Damage& d) { d.add_to_first("fates/trajectories"); }, "'/fates/trajectories' is not the number of particles that '/done' counts"},
-      {[](Damage& d) { d.set_first("fates/survived", 3); }, "'/fates' do not add up to '/fates/trajectories'"},
-      {[](Damage& d) { d.set_first("fates/pinned", 51); }, "'/fates/pinned' is more than '/fates/survived'"},
-      {[](Damage& d) { d.set_first("msd_groups/count", 0); }, "'/msd_groups/count' and '/fates' contradict each other"},
-  });
+  ASSERT_EQ(shell("$carom diffusion lorentz-triangular --trajectories 50 --t-max 5 -o a.h5").status,
+            0);
+  expect_told(shell, "diffusion",
+              {
+                  {[](Damage& d) { d.move_first("msd/t"); },
+                   "'/msd/t' are not the report times of '/system'"},
+                  {[](Damage& d) { d.resize("msd_groups/count", 3); },
+                   "'/msd_groups/count' has not one row a group and time of '/msd/t'"},
+                  {[](Damage& d) { d.resize("fates/trajectories", 0); },
+                   "'/fates/trajectories' is not one number"},
+                  {[](Damage& d) { d.resize("fates/energy_change", 0); },
+                   "'/fates/energy_change' is not one number"},
+                  {[](Damage& d) { d.add_to_first("fates/trajectories"); },
+                   "'/fates/trajectories' is not the number of particles that '/done' counts"},
+                  {[](Damage& d) { d.set_first("fates/survived", 3); },
+                   "'/fates' do not add up to '/fates/trajectories'"},
+                  {[](Damage& d) { d.set_first("fates/pinned", 51); },
+                   "'/fates/pinned' is more than '/fates/survived'"},
+                  {[](Damage& d) { d.set_first("msd_groups/count", 0); },
+                   "'/msd_groups/count' and '/fates' contradict each other"},
+              });
 }
 
 // The checksums of datasets: a changed byte in the sum of hashes, which nothing else would tell.
@@ -150,7 +197,8 @@ TEST(Damaged, ABitOfTheDigestIsToldOf) {
   }
   std::fstream file(shell.folder() + "/a.h5", std::ios::in | std::ios::out | std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&digest), sizeof digest));
+  const std::size_t at =
+      bytes.find(std::string(reinterpret_cast<const char*>(&digest), sizeof digest));
   ASSERT_NE(at, std::string::npos);
   file.clear();
   file.seekp(static_cast<std::streamoff>(at));
@@ -163,8 +211,12 @@ TEST(Damaged, ABitOfTheDigestIsToldOf) {
 
 TEST(Damaged, RecordsAreOneOfEachParticleInOrder) {
   const Shell shell;
-  ASSERT_EQ(shell("$carom escape stadium --trajectories 200 --t-max 20 --per-trajectory --shard 1/2 -o a.h5 --quiet && "
-                  "$carom escape stadium --trajectories 200 --t-max 20 --per-trajectory --shard 2/2 -o 2.h5 --quiet").status, 0);
+  ASSERT_EQ(shell("$carom escape stadium --trajectories 200 --t-max 20 --per-trajectory --shard "
+                  "1/2 -o a.h5 --quiet && "
+                  "$carom escape stadium --trajectories 200 --t-max 20 --per-trajectory --shard "
+                  "2/2 -o 2.h5 --quiet")
+                .status,
+            0);
   const auto message = [&](auto damage) {
     EXPECT_EQ(shell("cp a.h5 b.h5").status, 0);
     damage(Damage(shell.folder() + "/b.h5"));
@@ -172,44 +224,63 @@ TEST(Damaged, RecordsAreOneOfEachParticleInOrder) {
     EXPECT_EQ(o.status, 1);
     return o.err;
   };
-  const auto told = [](const std::string& text, const char* what) { return text.find(what) != std::string::npos; };
+  const auto told = [](const std::string& text, const char* what) {
+    return text.find(what) != std::string::npos;
+  };
   const char* columns[] = {"index", "x", "y", "vx", "vy", "fate", "hole", "t", "hits"};
   const std::string cut = message([&](Damage&& d) {
-    for (const char* column : columns) d.resize((std::string("trajectories/") + column).c_str(), 10);
+    for (const char* column : columns)
+      d.resize((std::string("trajectories/") + column).c_str(), 10);
   });
   EXPECT_TRUE(told(cut, "'/trajectories' has not one row a particle of '/fates'")) << cut;
   const std::string uneven = message([](Damage&& d) { d.resize("trajectories/hits", 10); });
-  EXPECT_TRUE(told(uneven, "'/trajectories/index' and '/trajectories/hits' differ in length")) << uneven;
+  EXPECT_TRUE(told(uneven, "'/trajectories/index' and '/trajectories/hits' differ in length"))
+      << uneven;
   const std::string order = message([](Damage&& d) { d.set_first("trajectories/index", 7); });
   EXPECT_TRUE(told(order, "'/trajectories/index' is not in order")) << order;
 }
 
 TEST(Damaged, APartIsNotTheWhole) {
   const Shell shell;
-  ASSERT_EQ(shell("$carom escape stadium --trajectories 200 --t-max 20 --shard 1/2 -o 1.h5 --quiet && "
-                  "$carom escape stadium --trajectories 200 --t-max 20 --shard 2/2 -o 2.h5 --quiet && $carom merge half.h5 1.h5").status, 0);
+  ASSERT_EQ(
+      shell("$carom escape stadium --trajectories 200 --t-max 20 --shard 1/2 -o 1.h5 --quiet && "
+            "$carom escape stadium --trajectories 200 --t-max 20 --shard 2/2 -o 2.h5 --quiet && "
+            "$carom merge half.h5 1.h5")
+          .status,
+      0);
   Damage(shell.folder() + "/half.h5").set_complete();
   const Outcome o = shell("$carom escape --resume half.h5");
   EXPECT_EQ(o.status, 1);
-  EXPECT_NE(o.err.find("half.h5: it says that it is complete, and '/done' has gaps"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("half.h5: it says that it is complete, and '/done' has gaps"),
+            std::string::npos)
+      << o.err;
 }
 
 TEST(Damaged, RecordsOfOthersAreRefused) {
   const Shell shell;
-  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
-        "until_saved a.h5; kill -9 $pid; wait $pid");
+  shell(
+      "$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 "
+      "--checkpoint blocks:2000 & pid=$!; "
+      "until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
   Damage(shell.folder() + "/a.h5.part/checkpoint.h5").resize("records/rows", 0);
   const Outcome length = shell("timeout 20 $carom escape --resume a.h5");
   EXPECT_EQ(length.status, 1);
-  EXPECT_NE(length.err.find("a.h5.part/checkpoint.h5: '/records/rows' differs in length"), std::string::npos) << length.err;
+  EXPECT_NE(length.err.find("a.h5.part/checkpoint.h5: '/records/rows' differs in length"),
+            std::string::npos)
+      << length.err;
   {
     Damage damage(shell.folder() + "/a.h5.part/checkpoint.h5");
-    for (const char* column : {"first", "last", "row", "rows"}) damage.resize((std::string("records/") + column).c_str(), 0);
+    for (const char* column : {"first", "last", "row", "rows"})
+      damage.resize((std::string("records/") + column).c_str(), 0);
   }
   const Outcome others = shell("timeout 20 $carom escape --resume a.h5");
   EXPECT_EQ(others.status, 1);
-  EXPECT_NE(others.err.find("a.h5.part/checkpoint.h5: '/records' holds others than the trajectories of '/done'"), std::string::npos) << others.err;
+  EXPECT_NE(
+      others.err.find(
+          "a.h5.part/checkpoint.h5: '/records' holds others than the trajectories of '/done'"),
+      std::string::npos)
+      << others.err;
 }
 
 }  // namespace

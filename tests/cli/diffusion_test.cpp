@@ -8,13 +8,14 @@ namespace {
 
 TEST(Diffusion, PrintsItsKeysAndOneDigest) {
   const Shell shell;
-  const std::string command = "$carom diffusion lorentz-triangular --trajectories 500 --t-max 20 --json";
+  const std::string command =
+      "$carom diffusion lorentz-triangular --trajectories 500 --t-max 20 --json";
   const Outcome one = shell(command + " --threads 1"), two = shell(command + " --threads 2");
   EXPECT_EQ(one.status, 0) << one.err;
   EXPECT_TRUE(is_json_object(one.out));
-  for (const char* key :
-       {"version", "seconds", "trajectories", "lost", "collisions", "digest", "msd", "fourth_moment", "D", "exponent",
-        "local_exponents", "window", "horizon", "corridors", "machta_zwanzig"})
+  for (const char* key : {"version", "seconds", "trajectories", "lost", "collisions", "digest",
+                          "msd", "fourth_moment", "D", "exponent", "local_exponents", "window",
+                          "horizon", "corridors", "machta_zwanzig"})
     EXPECT_NE(json_value(one.out, key), "") << key;
   for (const char* key : {"digest", "msd", "fourth_moment", "D", "exponent"})
     EXPECT_EQ(json_value(one.out, key), json_value(two.out, key)) << key;
@@ -25,7 +26,8 @@ TEST(Diffusion, PrintsItsKeysAndOneDigest) {
 
 TEST(Diffusion, SaysWhyThereIsNoCoefficient) {
   const Shell shell;
-  const Outcome square = shell("$carom diffusion lorentz-square --trajectories 200 --t-max 20 --json");
+  const Outcome square =
+      shell("$carom diffusion lorentz-square --trajectories 200 --t-max 20 --json");
   EXPECT_EQ(square.status, 0);
   EXPECT_EQ(json_value(square.out, "D"), "null");
   EXPECT_NE(json_value(square.out, "reason").find("infinite horizon"), std::string::npos);
@@ -43,8 +45,10 @@ TEST(Diffusion, SaysWhyThereIsNoCoefficient) {
 
 TEST(Diffusion, TakesTheWindowItIsTold) {
   const Shell shell;
-  const std::string command = "$carom diffusion lorentz-triangular --trajectories 300 --times lin:1:10:10 --json ";
-  const Outcome option = shell(command + "--window 2,5"), key = shell(command + "--set run.window=[2,5]");
+  const std::string command =
+      "$carom diffusion lorentz-triangular --trajectories 300 --times lin:1:10:10 --json ";
+  const Outcome option = shell(command + "--window 2,5"),
+                key = shell(command + "--set run.window=[2,5]");
   EXPECT_EQ(option.status, 0) << option.err;
   EXPECT_NE(json_value(option.out, "window").find("4"), std::string::npos) << "2, 3, 4, 5";
   EXPECT_EQ(json_value(option.out, "D"), json_value(key.out, "D"));
@@ -63,19 +67,27 @@ TEST(Diffusion, TakesTheWindowItIsTold) {
 // Of particles that a cap has ended, those that hit often are the first.
 TEST(Diffusion, DoubtsItsCoefficientUnderACap) {
   const Shell shell;
-  const std::string command = "$carom diffusion lorentz-triangular --trajectories 200 --t-max 20 --json --collisions ";
-  EXPECT_NE(json_value(shell(command + "30").out, "note").find("the cap on hits"), std::string::npos);
+  const std::string command =
+      "$carom diffusion lorentz-triangular --trajectories 200 --t-max 20 --json --collisions ";
+  EXPECT_NE(json_value(shell(command + "30").out, "note").find("the cap on hits"),
+            std::string::npos);
   EXPECT_EQ(json_value(shell(command + "1000000").out, "note"), "");
 }
 
 TEST(Diffusion, CountsTrajectoriesThatRepeatAStart) {
   const Shell shell;
-  shell("printf '[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 2.2\nradius = 1\n' > a.toml");
-  const std::string command = "$carom diffusion a.toml --times lin:0:5:3 --t-max 5 --position 0,1.1 --velocity 1,1/3 --json";
+  shell(
+      "printf '[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 2.2\nradius = "
+      "1\n' > a.toml");
+  const std::string command =
+      "$carom diffusion a.toml --times lin:0:5:3 --t-max 5 --position 0,1.1 --velocity 1,1/3 "
+      "--json";
   const Outcome one = shell(command), many = shell(command + " --trajectories 50");
   EXPECT_EQ(json_value(one.out, "trajectories"), "1") << one.err;
   EXPECT_EQ(json_value(one.out, "note").find("repeat"), std::string::npos);
-  EXPECT_NE(json_value(many.out, "note").find("50 trajectories repeat 1 listed one"), std::string::npos) << many.out;
+  EXPECT_NE(json_value(many.out, "note").find("50 trajectories repeat 1 listed one"),
+            std::string::npos)
+      << many.out;
 }
 
 // Three times are enough for a line, not for the exponent: growth as t^2 is told all the same.

@@ -63,11 +63,13 @@ void store(const Shell& shell, const std::string& name, const std::string& text)
   std::ofstream(shell.folder() + "/" + name) << text;
 }
 
-void expect_refused(const Shell& shell, const std::string& line, const std::vector<std::string>& parts) {
+void expect_refused(const Shell& shell, const std::string& line,
+                    const std::vector<std::string>& parts) {
   const Outcome o = shell(line);
   EXPECT_EQ(o.status, 1) << line;
   EXPECT_EQ(o.out, "") << line;
-  for (const std::string& part : parts) EXPECT_NE(o.err.find(part), std::string::npos) << line << "\n" << o.err;
+  for (const std::string& part : parts)
+    EXPECT_NE(o.err.find(part), std::string::npos) << line << "\n" << o.err;
 }
 
 /// A column of an archive as doubles; empty where there is none.
@@ -93,10 +95,11 @@ TEST(DiscsTyped, NewtonsCradleIsExact) {
   const Outcome o = shell("$carom run ./cradle.toml --json");
   ASSERT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(json_value(o.out, "contacts"), "3");
-  for (const char* end : {"\"contacts\": 1, \"wall\": null, \"t\": 7, \"x\": 3.5, \"y\": 0.5, \"vx\": 0, \"vy\": 0",
-                          "\"t\": 7, \"x\": 4, \"y\": 0.5, \"vx\": 0, \"vy\": 0",
-                          "\"t\": 7, \"x\": 4.5, \"y\": 0.5, \"vx\": 0, \"vy\": 0",
-                          "\"t\": 7, \"x\": 9.25, \"y\": 0.5, \"vx\": 1, \"vy\": 0"})
+  for (const char* end :
+       {"\"contacts\": 1, \"wall\": null, \"t\": 7, \"x\": 3.5, \"y\": 0.5, \"vx\": 0, \"vy\": 0",
+        "\"t\": 7, \"x\": 4, \"y\": 0.5, \"vx\": 0, \"vy\": 0",
+        "\"t\": 7, \"x\": 4.5, \"y\": 0.5, \"vx\": 0, \"vy\": 0",
+        "\"t\": 7, \"x\": 9.25, \"y\": 0.5, \"vx\": 1, \"vy\": 0"})
     EXPECT_NE(o.out.find(end), std::string::npos) << end << "\n" << o.out;
   const Outcome text = shell("$carom run ./cradle.toml");
   EXPECT_NE(text.out.find("completed: 0 collisions, 3 contacts"), std::string::npos) << text.out;
@@ -106,8 +109,9 @@ TEST(DiscsTyped, ContactsThatRoundingHidesEndBothDiscs) {
   const Shell shell;
   store(shell, "cradle.toml", cradle);
   for (const char* radius : {"1e-21", "1e-15", "1e-14"}) {
-    const Outcome o = shell("$carom run ./cradle.toml --json --set 'interaction.radius=" + std::string(radius) +
-                            "' --set 'initial.starts=[[0.1,0.3,1,0],[4,0.3,1,0],[5,0.3,1,0],[6,0.3,1,0]]'");
+    const Outcome o =
+        shell("$carom run ./cradle.toml --json --set 'interaction.radius=" + std::string(radius) +
+              "' --set 'initial.starts=[[0.1,0.3,1,0],[4,0.3,1,0],[5,0.3,1,0],[6,0.3,1,0]]'");
     EXPECT_EQ(o.status, 3) << radius << o.out;
     EXPECT_EQ(json_value(o.out, "status"), "\"unresolved\"") << radius;
     EXPECT_EQ(o.out.find("\"x\": null"), std::string::npos) << radius;
@@ -125,22 +129,32 @@ TEST(DiscsTyped, WhatCannotBeIsRefusedByName) {
   for (const char* command : {"run", "escape --trajectories 3"})
     expect_refused(shell, std::string("$carom ") + command + " ./near.toml",
                    {"./near.toml, line 12", "initial.starts", "disc 2 overlaps disc 1"});
-  expect_refused(shell, "$carom run ./near.toml --set 'initial.starts=[[0.2,0.5,1,0]]'",
-                 {"initial.starts", "(0.2, 0.5) is not inside the table", "farther from the walls"});
-  expect_refused(shell, "$carom run ./torus.toml --set particles.count=30 --set interaction.radii=[] --set "
-                        "particles.mass=1 --set particles.speed=1",
-                 {"interaction"});
-  expect_refused(shell, "$carom run ./box.toml --set particles.count=60", {"no room was found for disc"});
+  expect_refused(
+      shell, "$carom run ./near.toml --set 'initial.starts=[[0.2,0.5,1,0]]'",
+      {"initial.starts", "(0.2, 0.5) is not inside the table", "farther from the walls"});
+  expect_refused(
+      shell,
+      "$carom run ./torus.toml --set particles.count=30 --set interaction.radii=[] --set "
+      "particles.mass=1 --set particles.speed=1",
+      {"interaction"});
+  expect_refused(shell, "$carom run ./box.toml --set particles.count=60",
+                 {"no room was found for disc"});
   expect_refused(shell, "$carom run ./box.toml --set 'initial={kind=\"boundary\"}'",
                  {"a hard disc cannot start on a wall"});
   expect_refused(shell, "$carom run ./box.toml --engine steps --set integrator.step=0.1",
                  {"interaction", "hard discs fly freely"});
-  expect_refused(shell, "$carom run ./box.toml --set 'potential=[{kind=\"harmonic\"}]' --set integrator.step=0.1",
-                 {"interaction", "hard discs fly freely"});
-  expect_refused(shell, "$carom run ./box.toml --set 'interaction.radius=3'", {"interaction", "radius"});
-  expect_refused(shell, "$carom run ./torus.toml --set 'particles.speed=-1'", {"particles.speed", "negative"});
-  expect_refused(shell, "$carom run ./torus.toml --set 'interaction={kind=\"coulomb\"}' --set integrator.step=0.1",
-                 {"interaction", "infinitely far"});
+  expect_refused(
+      shell,
+      "$carom run ./box.toml --set 'potential=[{kind=\"harmonic\"}]' --set integrator.step=0.1",
+      {"interaction", "hard discs fly freely"});
+  expect_refused(shell, "$carom run ./box.toml --set 'interaction.radius=3'",
+                 {"interaction", "radius"});
+  expect_refused(shell, "$carom run ./torus.toml --set 'particles.speed=-1'",
+                 {"particles.speed", "negative"});
+  expect_refused(
+      shell,
+      "$carom run ./torus.toml --set 'interaction={kind=\"coulomb\"}' --set integrator.step=0.1",
+      {"interaction", "infinitely far"});
 }
 
 TEST(DiscsTyped, RandomStartsLeaveRoom) {
@@ -148,8 +162,8 @@ TEST(DiscsTyped, RandomStartsLeaveRoom) {
   const Shell shell;
   store(shell, "torus.toml", torus);
   store(shell, "box.toml", box);
-  for (const char* line :
-       {"./torus.toml", "./torus.toml --set field.B=0.5", "./box.toml", "./box.toml --set particles.count=20"})
+  for (const char* line : {"./torus.toml", "./torus.toml --set field.B=0.5", "./box.toml",
+                           "./box.toml --set particles.count=20"})
     for (const char* seed : {"1", "2", "3"}) {
       const Outcome o = shell(std::string("$carom run --quiet --json ") + line + " --seed " + seed);
       ASSERT_EQ(o.status, 0) << line << o.err;
@@ -158,17 +172,20 @@ TEST(DiscsTyped, RandomStartsLeaveRoom) {
 }
 
 TEST(DiscsTyped, AllowedArrangementsAreEquallyLikely) {
-  // Two discs on a torus: the probability of a contact's neighbourhood follows from areas alone. With
-  // sigma = 1.4, distances below 1.7 have the share pi (1.7^2 - 1.4^2) / (16 - pi 1.4^2).
+  // Two discs on a torus: the probability of a contact's neighbourhood follows from areas alone.
+  // With sigma = 1.4, distances below 1.7 have the share pi (1.7^2 - 1.4^2) / (16 - pi 1.4^2).
   const Shell shell;
-  store(shell, "two.toml", "[lattice]\nvectors = [[4, 0], [0, 4]]\n[interaction]\nkind = \"hard-discs\"\n"
-                           "radius = 0.7\n[particles]\ncount = 2\n[run]\nt_max = 1e-9\ntrajectories = 20000\n");
+  store(shell, "two.toml",
+        "[lattice]\nvectors = [[4, 0], [0, 4]]\n[interaction]\nkind = \"hard-discs\"\n"
+        "radius = 0.7\n[particles]\ncount = 2\n[run]\nt_max = 1e-9\ntrajectories = 20000\n");
   ASSERT_EQ(shell("$carom escape ./two.toml --per-trajectory -o a.h5 --quiet").status, 0);
-  const auto x = column(shell, "a.h5", "trajectories/x"), y = column(shell, "a.h5", "trajectories/y");
+  const auto x = column(shell, "a.h5", "trajectories/x"),
+             y = column(shell, "a.h5", "trajectories/y");
   ASSERT_EQ(x.size(), 40000u);
   double near = 0.0;
   for (std::size_t i = 0; i < x.size(); i += 2) {
-    const double d = std::hypot(std::remainder(x[i] - x[i + 1], 4.0), std::remainder(y[i] - y[i + 1], 4.0));
+    const double d =
+        std::hypot(std::remainder(x[i] - x[i + 1], 4.0), std::remainder(y[i] - y[i + 1], 4.0));
     EXPECT_GE(d, 1.4);
     near += d < 1.7;
   }
@@ -177,7 +194,8 @@ TEST(DiscsTyped, AllowedArrangementsAreEquallyLikely) {
 }
 
 TEST(DiscsTyped, ThroughAHoleTheyLeaveAtTheRateOfTheirCentres) {
-  // The centres have the square of side 4 - 2 r and leave through an opening of its width: e v / (pi A).
+  // The centres have the square of side 4 - 2 r and leave through an opening of its width: e v /
+  // (pi A).
   const Shell shell;
   store(shell, "box.toml", box);
   const Outcome o = shell("$carom escape ./box.toml --json --quiet --trajectories 20000");
@@ -185,7 +203,8 @@ TEST(DiscsTyped, ThroughAHoleTheyLeaveAtTheRateOfTheirCentres) {
   EXPECT_EQ(json_value(o.out, "lost"), "0");
   EXPECT_GT(std::stod(json_value(o.out, "contacts")), 1000.0);
   const double n = 120000, share = std::stod(json_value(o.out, "escaped")) / n;
-  const double expected = 1.0 / (3.141592653589793 * 3.5 * 3.5);  // by t = 1; contacts spread the speeds
+  const double expected =
+      1.0 / (3.141592653589793 * 3.5 * 3.5);  // by t = 1; contacts spread the speeds
   EXPECT_NEAR(share, 1.0 - std::exp(-expected), 4.0 * std::sqrt(expected / n) + 0.06 * expected);
 }
 
@@ -195,10 +214,13 @@ TEST(DiscsTyped, ArchivesHoldContactsAndEnergies) {
   const Outcome o = shell("$carom run ./torus.toml --json -o a.h5");
   ASSERT_EQ(o.status, 0) << o.err;
   const double mass[] = {1, 2, 3, 1.0 / 3}, radii[] = {0.5, 0.3, 0.4, 0.6};
-  const auto get = [&](const char* name) { return column(shell, "a.h5", std::string("contacts/") + name); };
-  const auto first = get("first"), second = get("second"), t = get("t"), dx = get("dx"), dy = get("dy"),
-             x1 = get("first_x"), x2 = get("second_x"), v1 = get("first_vx"), v2 = get("second_vx"),
-             w1 = get("first_vy"), w2 = get("second_vy"), transfer = get("transfer");
+  const auto get = [&](const char* name) {
+    return column(shell, "a.h5", std::string("contacts/") + name);
+  };
+  const auto first = get("first"), second = get("second"), t = get("t"), dx = get("dx"),
+             dy = get("dy"), x1 = get("first_x"), x2 = get("second_x"), v1 = get("first_vx"),
+             v2 = get("second_vx"), w1 = get("first_vy"), w2 = get("second_vy"),
+             transfer = get("transfer");
   ASSERT_GT(t.size(), 50u);
   EXPECT_EQ(std::to_string(t.size()), json_value(o.out, "contacts"));
   for (std::size_t i = 0; i < t.size(); ++i) {
@@ -207,7 +229,8 @@ TEST(DiscsTyped, ArchivesHoldContactsAndEnergies) {
     EXPECT_NEAR(std::hypot(dx[i], dy[i]), radii[a] + radii[b], 1e-12);
     EXPECT_NEAR(std::remainder(x1[i] - x2[i] - dx[i], 4.0), 0.0, 1e-12);
     // They part with the speed along the line of centres with which they met.
-    const double apart = ((v1[i] - v2[i]) * dx[i] + (w1[i] - w2[i]) * dy[i]) / std::hypot(dx[i], dy[i]);
+    const double apart =
+        ((v1[i] - v2[i]) * dx[i] + (w1[i] - w2[i]) * dy[i]) / std::hypot(dx[i], dy[i]);
     EXPECT_NEAR(2.0 * apart * mass[a] * mass[b] / (mass[a] + mass[b]), transfer[i], 1e-12);
     EXPECT_TRUE(i == 0 || t[i] >= t[i - 1]);
   }
@@ -228,8 +251,10 @@ TEST(DiscsTyped, AContinuedRunRepeatsAndGoesOnCounting) {
   ASSERT_EQ(shell("$carom run ./torus.toml -o part.h5 --t-max 33.3").status, 0);
   const Outcome o = shell("$carom run --resume part.h5 --t-max 100 --json");
   ASSERT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(json_value(o.out, "contacts"), json_value(shell("$carom run ./torus.toml --json").out, "contacts"));
-  for (const char* name : {"contacts/t", "contacts/dx", "contacts/first", "state/x", "state/vy", "state/contacts"})
+  EXPECT_EQ(json_value(o.out, "contacts"),
+            json_value(shell("$carom run ./torus.toml --json").out, "contacts"));
+  for (const char* name :
+       {"contacts/t", "contacts/dx", "contacts/first", "state/x", "state/vy", "state/contacts"})
     EXPECT_EQ(column(shell, "whole.h5", name), column(shell, "part.h5", name)) << name;
   EXPECT_FALSE(column(shell, "whole.h5", "state/contacts").empty());
 }

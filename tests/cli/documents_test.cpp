@@ -18,7 +18,8 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-// What a user is told to type: "./dev run ARGS" or "carom ARGS" at the start of a line, without its archive.
+// What a user is told to type: "./dev run ARGS" or "carom ARGS" at the start of a line, without its
+// archive.
 std::vector<std::string> commands_of(const std::string& text) {
   std::vector<std::string> commands;
   const std::regex shown("(?:^|\n) *(?:\\./dev run|carom) ((?:[^\n]*\\\\\n)*[^\n]*)");
@@ -33,9 +34,11 @@ std::vector<std::string> commands_of(const std::string& text) {
 std::vector<std::string> all_commands() {
   const Shell shell;
   std::string text = text_of(std::filesystem::path(CAROM_SOURCE) / "README.md");
-  for (const auto& page : std::filesystem::directory_iterator(std::filesystem::path(CAROM_SOURCE) / "docs" / "guide"))
+  for (const auto& page :
+       std::filesystem::directory_iterator(std::filesystem::path(CAROM_SOURCE) / "docs" / "guide"))
     if (page.path().extension() == ".md") text += "\n" + text_of(page.path());
-  for (const char* help : {"--help", "run --help", "section --help"}) text += "\n" + shell(std::string("$carom ") + help).out;
+  for (const char* help : {"--help", "run --help", "section --help"})
+    text += "\n" + shell(std::string("$carom ") + help).out;
   return commands_of(text);
 }
 
@@ -47,7 +50,9 @@ TEST(Documents, RunsMakeTheHitsTheyAskFor) {
   for (const std::string& command : all_commands()) {
     std::smatch collisions;
     if (!command.starts_with("run ") || !std::regex_search(command, collisions, cap)) continue;
-    if (command.find("--resume") != std::string::npos || command.find("--precision") != std::string::npos) continue;
+    if (command.find("--resume") != std::string::npos ||
+        command.find("--precision") != std::string::npos)
+      continue;
     ++tried;
     const Outcome o = shell("$carom " + command + " --json");
     EXPECT_EQ(o.status, 0) << command << o.err;
@@ -58,7 +63,8 @@ TEST(Documents, RunsMakeTheHitsTheyAskFor) {
   EXPECT_GE(tried, 5);
 }
 
-// So would it end orbits before their points are full, and a section by a wall that is not there has none.
+// So would it end orbits before their points are full, and a section by a wall that is not there
+// has none.
 TEST(Documents, SectionsHaveTheirPoints) {
   const Shell shell;
   int tried = 0;

@@ -43,7 +43,8 @@ struct Case {
 TEST(EnergyArchive, AgreesWithTheSamples) {
   const Case cases[] = {
       {"coulomb-circle --t-max 2 --set run.sample=0.1", 15, {}, {}, 0.0, 0.0},
-      {"wigner --t-max 20 --set run.sample=1 --set integrator.step=0.001 --set field.B=0.5 --set 'particles.mass=[1,2,3,1,0.5]' "
+      {"wigner --t-max 20 --set run.sample=1 --set integrator.step=0.001 --set field.B=0.5 --set "
+       "'particles.mass=[1,2,3,1,0.5]' "
        "--set 'particles.charge=[1,1,2,3,1]' --set particles.energy=20",
        5,
        {1, 2, 3, 1, 0.5},
@@ -79,7 +80,8 @@ TEST(EnergyArchive, AgreesWithTheSamples) {
         l += m * (x[a] * vy[a] - y[a] * vx[a]) + 0.5 * q * c.field * r2;
         for (std::size_t other = 0; other < p; ++other) {
           const std::size_t b = i * c.particles + other;
-          w += q * (c.charge.empty() ? 1.0 : c.charge[other]) / std::hypot(x[a] - x[b], y[a] - y[b]);
+          w +=
+              q * (c.charge.empty() ? 1.0 : c.charge[other]) / std::hypot(x[a] - x[b], y[a] - y[b]);
         }
       }
       const double size = std::fabs(total[i]);
@@ -104,8 +106,10 @@ TEST(EnergyArchive, GoesOnAfterAPause) {
                           "--t-max 7 -o part.h5 && $carom run --resume part.h5 --t-max 20");
   ASSERT_EQ(o.status, 0) << o.err;
   const Archive whole(shell, "whole.h5"), part(shell, "part.h5");
-  for (const char* name : {"t", "kinetic", "external", "pair", "total", "px", "py", "angular_momentum"})
-    EXPECT_EQ(whole.column(std::string("energy/") + name), part.column(std::string("energy/") + name))
+  for (const char* name :
+       {"t", "kinetic", "external", "pair", "total", "px", "py", "angular_momentum"})
+    EXPECT_EQ(whole.column(std::string("energy/") + name),
+              part.column(std::string("energy/") + name))
         << name;
 }
 

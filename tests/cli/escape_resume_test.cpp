@@ -1,4 +1,5 @@
-// Escape ensembles that are killed, interrupted or short of disk go on, and end as if nothing had happened.
+// Escape ensembles that are killed, interrupted or short of disk go on, and end as if nothing had
+// happened.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,8 +24,10 @@ TEST(EscapeResume, AfterKillsHoldsEveryRecord) {
 
 // A killed run's, with something in it.
 void leave_a_checkpoint(const Shell& shell) {
-  shell("$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
-        "until_saved a.h5; kill -9 $pid; wait $pid");
+  shell(
+      "$carom escape mushroom --trajectories 1e9 -o a.h5 --quiet --block 4 --checkpoint "
+      "blocks:2000 & pid=$!; "
+      "until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
 }
 
@@ -32,16 +35,22 @@ void leave_a_checkpoint(const Shell& shell) {
 TEST(EscapeResume, AfterAKillWithinTheCopyOfRecords) {
   const Shell shell;
   // An archive of the first trajectories, and records as such a run leaves them.
-  shell("$carom escape mushroom --trajectories 1e9 --t-max 100 --per-trajectory --threads 1 --block 100 -o a.h5 --quiet --checkpoint blocks:100 & pid=$!; "
-        "until_saved a.h5; kill -9 $pid; wait $pid");
+  shell(
+      "$carom escape mushroom --trajectories 1e9 --t-max 100 --per-trajectory --threads 1 --block "
+      "100 -o a.h5 --quiet --checkpoint blocks:100 & pid=$!; "
+      "until_saved a.h5; kill -9 $pid; wait $pid");
   const std::string records = shell.read("a.h5.part/records");
   ASSERT_GT(records.size(), 10000u);
-  shell("$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -TERM $pid; wait $pid");
+  shell(
+      "$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill "
+      "-TERM $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5"));
   ASSERT_FALSE(shell.exists("a.h5.part"));
   ASSERT_EQ(shell("mkdir a.h5.part && : > a.h5.part/carom.lock").status, 0);
   std::ofstream(shell.folder() + "/a.h5.part/records", std::ios::binary) << records.substr(0, 9000);
-  const Outcome on = shell("$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill -TERM $pid; wait $pid");
+  const Outcome on = shell(
+      "$carom escape --resume a.h5 --quiet --checkpoint blocks:20 & pid=$!; until_saved a.h5; kill "
+      "-TERM $pid; wait $pid");
   EXPECT_EQ(on.status, 130) << on.err;
   EXPECT_FALSE(shell.exists("a.h5.part"));
 }
@@ -78,8 +87,10 @@ TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
   EXPECT_NE(anew.err.find("--resume a.h5"), std::string::npos) << anew.err;
   EXPECT_EQ(shell.read("a.h5.part/checkpoint.h5"), before);
   // What is the same in another spelling is the same.
-  const Outcome same = shell("$carom escape mushroom --resume a.h5 --trajectories 1000000000 --quiet --json --checkpoint blocks:20 & pid=$!; "
-                             "until_saved a.h5; kill -INT $pid; wait $pid");
+  const Outcome same = shell(
+      "$carom escape mushroom --resume a.h5 --trajectories 1000000000 --quiet --json --checkpoint "
+      "blocks:20 & pid=$!; "
+      "until_saved a.h5; kill -INT $pid; wait $pid");
   EXPECT_EQ(same.status, 130) << same.err;
   EXPECT_NE(same.err.find("carom escape --resume a.h5"), std::string::npos) << same.err;
   shell("$carom run stadium --t-max 3 -o run.h5; echo none > none.h5");
@@ -90,34 +101,47 @@ TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
 // Of a system file the contents count, and not the name.
 TEST(EscapeResume, TheFileOfTheSystemMayBeRenamed) {
   const Shell shell;
-  ASSERT_EQ(shell("$carom systems stadium > m.toml; for k in 1 2; do $carom escape ./m.toml --trajectories 100 --shard $k/2 --quiet -o $k.h5 || exit 9; done; "
-                  "mv m.toml n.toml; sed 's/^radius.*/radius = 2/' n.toml > other.toml; ! cmp n.toml other.toml >/dev/null && $carom merge half.h5 1.h5").status, 0);
+  ASSERT_EQ(shell("$carom systems stadium > m.toml; for k in 1 2; do $carom escape ./m.toml "
+                  "--trajectories 100 --shard $k/2 --quiet -o $k.h5 || exit 9; done; "
+                  "mv m.toml n.toml; sed 's/^radius.*/radius = 2/' n.toml > other.toml; ! cmp "
+                  "n.toml other.toml >/dev/null && $carom merge half.h5 1.h5")
+                .status,
+            0);
   const Outcome other = shell("$carom escape ./other.toml --trajectories 100 --resume half.h5");
   EXPECT_EQ(other.status, 1);
-  EXPECT_NE(other.err.find("the system is ./other.toml, not ./m.toml: table.radius is 2, not 1"), std::string::npos) << other.err;
-  const Outcome same = shell("$carom escape ./n.toml --trajectories 100 --resume half.h5 --quiet --json");
+  EXPECT_NE(other.err.find("the system is ./other.toml, not ./m.toml: table.radius is 2, not 1"),
+            std::string::npos)
+      << other.err;
+  const Outcome same =
+      shell("$carom escape ./n.toml --trajectories 100 --resume half.h5 --quiet --json");
   EXPECT_EQ(same.status, 0) << same.err;
   EXPECT_EQ(json_value(same.out, "status"), "\"completed\"");
 }
 
 TEST(EscapeResume, NamesTheRecordsThatAreMissing) {
   const Shell shell;
-  shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 --checkpoint blocks:2000 & pid=$!; "
-        "until_saved a.h5; kill -9 $pid; wait $pid");
+  shell(
+      "$carom escape mushroom --trajectories 1e9 --per-trajectory -o a.h5 --quiet --block 4 "
+      "--checkpoint blocks:2000 & pid=$!; "
+      "until_saved a.h5; kill -9 $pid; wait $pid");
   const std::string records = shell.read("a.h5.part/records");
   ASSERT_NE(records, "");
   const Outcome cut = shell("truncate -s 50 a.h5.part/records; $carom escape --resume a.h5");
   EXPECT_EQ(cut.status, 1);
-  EXPECT_NE(cut.err.find("a.h5.part/records: records that the checkpoint names are missing"), std::string::npos) << cut.err;
+  EXPECT_NE(cut.err.find("a.h5.part/records: records that the checkpoint names are missing"),
+            std::string::npos)
+      << cut.err;
   const Outcome gone = shell("rm a.h5.part/records; $carom escape --resume a.h5");
   EXPECT_EQ(gone.status, 1);
-  EXPECT_NE(gone.err.find("a.h5.part/records: there is no such file"), std::string::npos) << gone.err;
+  EXPECT_NE(gone.err.find("a.h5.part/records: there is no such file"), std::string::npos)
+      << gone.err;
   EXPECT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
 }
 
 // Sets a text attribute of /provenance to 9s, or removes it. Its checksums are right.
 void change_provenance(const std::string& path, const char* name, bool remove = false) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), provenance = H5Gopen2(file, "provenance", H5P_DEFAULT);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+              provenance = H5Gopen2(file, "provenance", H5P_DEFAULT);
   if (remove) {
     EXPECT_GE(H5Adelete(provenance, name), 0);
   } else {
@@ -132,25 +156,34 @@ void change_provenance(const std::string& path, const char* name, bool remove = 
   H5Fclose(file);
 }
 
-// Builds of one version whose digits differ. What is complete is shown. Builds that kept no fingerprint had other digests.
+// Builds of one version whose digits differ. What is complete is shown. Builds that kept no
+// fingerprint had other digests.
 TEST(EscapeResume, RefusesAnotherArithmetic) {
   const Shell shell;
-  ASSERT_EQ(shell("for k in 1 2; do $carom escape stadium --trajectories 100 --shard $k/2 --quiet -o $k.h5 || exit 9; done; "
-                  "$carom merge half.h5 1.h5 && cp half.h5 old.h5").status, 0);
-  for (const std::string file : {"half.h5", "2.h5"}) change_provenance(shell.folder() + "/" + file, "arithmetic");
-  for (const std::string command : {"escape --resume half.h5", "merge all.h5 1.h5 2.h5", "merge all.h5 2.h5 1.h5"}) {
+  ASSERT_EQ(shell("for k in 1 2; do $carom escape stadium --trajectories 100 --shard $k/2 --quiet "
+                  "-o $k.h5 || exit 9; done; "
+                  "$carom merge half.h5 1.h5 && cp half.h5 old.h5")
+                .status,
+            0);
+  for (const std::string file : {"half.h5", "2.h5"})
+    change_provenance(shell.folder() + "/" + file, "arithmetic");
+  for (const std::string command :
+       {"escape --resume half.h5", "merge all.h5 1.h5 2.h5", "merge all.h5 2.h5 1.h5"}) {
     const Outcome o = shell("$carom " + command);
     EXPECT_EQ(o.status, 1) << command;
     EXPECT_EQ(o.out, "") << command;
-    EXPECT_NE(o.err.find(".h5: arithmetic: another arithmetic wrote it"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find(".h5: arithmetic: another arithmetic wrote it"), std::string::npos)
+        << o.err;
     EXPECT_FALSE(shell.exists("all.h5"));
   }
   EXPECT_EQ(shell("$carom escape --resume 2.h5 --quiet").status, 0);
-  for (const std::string file : {"old.h5", "2.h5"}) change_provenance(shell.folder() + "/" + file, "arithmetic", true);
+  for (const std::string file : {"old.h5", "2.h5"})
+    change_provenance(shell.folder() + "/" + file, "arithmetic", true);
   for (const std::string command : {"escape --resume old.h5", "merge all.h5 1.h5 2.h5"}) {
     const Outcome o = shell("$carom " + command);
     EXPECT_EQ(o.status, 1) << command;
-    EXPECT_NE(o.err.find(".h5: arithmetic: another arithmetic wrote it"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find(".h5: arithmetic: another arithmetic wrote it"), std::string::npos)
+        << o.err;
   }
 }
 
@@ -163,10 +196,12 @@ TEST(EscapeResume, RefusesAnotherVersion) {
   EXPECT_NE(o.err.find("version 99999 wrote it"), std::string::npos) << o.err;
 }
 
-// With --force over anything: until it is replaced, what is there says nothing about the checkpoint.
+// With --force over anything: until it is replaced, what is there says nothing about the
+// checkpoint.
 TEST(EscapeResume, OverAFileOfAnotherKind) {
-  const std::string files[] = {"$carom run stadium --t-max 3 -o a.h5", "echo none > a.h5",
-                               "$carom diffusion lorentz-triangular --trajectories 10 --t-max 5 -o a.h5"};
+  const std::string files[] = {
+      "$carom run stadium --t-max 3 -o a.h5", "echo none > a.h5",
+      "$carom diffusion lorentz-triangular --trajectories 10 --t-max 5 -o a.h5"};
   for (const std::string& file : files) {
     const Shell shell;
     const Undisturbed whole(shell, mushroom, " --per-trajectory");
@@ -198,7 +233,9 @@ TEST(EscapeResume, AfterAFullDisk) {
 
 TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk(mushroom, "", 96); }
 
-TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNoRecords) { fill_the_disk(mushroom, " --per-trajectory", 32 << 10); }
+TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNoRecords) {
+  fill_the_disk(mushroom, " --per-trajectory", 32 << 10);
+}
 
 }  // namespace
 }  // namespace carom

@@ -10,10 +10,13 @@
 namespace carom {
 namespace {
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// The line must be refused with exit status 1 and one line of message that says all of these.
-void expect_refused(const Shell& shell, const std::string& line, std::initializer_list<const char*> parts) {
+void expect_refused(const Shell& shell, const std::string& line,
+                    std::initializer_list<const char*> parts) {
   const Outcome o = shell(line);
   EXPECT_EQ(o.status, 1) << line;
   EXPECT_EQ(o.out, "") << line;
@@ -41,13 +44,15 @@ END
 TEST(ForceFaults, ParticlesPlacedOnEachOther) {
   const Shell shell;
   shell(pair);
-  for (const char* interaction :
-       {"", "kind=yukawa --set interaction.range=1", "kind=lennard-jones --set interaction.diameter=1",
-        "kind=soft-sphere --set interaction.diameter=1", "kind=expression --set 'interaction.expression=\"1/r\"'"}) {
+  for (const char* interaction : {"", "kind=yukawa --set interaction.range=1",
+                                  "kind=lennard-jones --set interaction.diameter=1",
+                                  "kind=soft-sphere --set interaction.diameter=1",
+                                  "kind=expression --set 'interaction.expression=\"1/r\"'"}) {
     const std::string set = *interaction ? std::string(" --set interaction.") + interaction : "";
     for (const char* command : {"run", "escape --trajectories 3"})
-      expect_refused(shell, std::string("$carom ") + command + " ./pair.toml" + set,
-                     {"./pair.toml, line 10", "initial.position", "two particles start at the same point"});
+      expect_refused(
+          shell, std::string("$carom ") + command + " ./pair.toml" + set,
+          {"./pair.toml, line 10", "initial.position", "two particles start at the same point"});
   }
 }
 
@@ -55,31 +60,36 @@ TEST(ForceFaults, TooLittleEnergy) {
   const Shell shell;
   // V = 7/192 at the start.
   expect_refused(shell, "$carom run henon-heiles --set particles.energy=0.03",
-                 {"no start has less potential energy than 0.03", "the lowest seen is 0.0364583", "above the potential"});
+                 {"no start has less potential energy than 0.03", "the lowest seen is 0.0364583",
+                  "above the potential"});
   expect_refused(shell, "$carom run wigner --set particles.energy=0.1",
                  {"particles.energy", "no start has less potential energy"});
   expect_refused(shell, "$carom escape wigner --set particles.energy=0.1 --trajectories 2",
                  {"particles.energy", "no start has less potential energy"});
-  expect_refused(shell, "$carom run soft-lorentz --set particles.energy=0", {"particles.energy", "no start has less potential energy than 0"});
+  expect_refused(shell, "$carom run soft-lorentz --set particles.energy=0",
+                 {"particles.energy", "no start has less potential energy than 0"});
 }
 
 TEST(ForceFaults, Attraction) {
   const Shell shell;
-  shell(std::string(pair) + "sed -i '1,2d; s/count = 2/count = 1/' pair.toml; printf '[[potential]]\\nkind = "
-                            "\"coulomb\"\\ncharge = 1\\n' >> pair.toml");
+  shell(std::string(pair) +
+        "sed -i '1,2d; s/count = 2/count = 1/' pair.toml; printf '[[potential]]\\nkind = "
+        "\"coulomb\"\\ncharge = 1\\n' >> pair.toml");
   EXPECT_EQ(shell("$carom run ./pair.toml").status, 0);
   for (const char* set : {"'potential[0].charge=-1'", "particles.charge=-1"})
     expect_refused(shell, std::string("$carom run ./pair.toml --set ") + set,
                    {"potential[0]", "the Coulomb centre attracts", "charges of the same sign"});
   shell(pair);
   for (const char* set : {"interaction.strength=-1", "'particles.charge=[1,-2]'"})
-    expect_refused(shell, std::string("$carom run ./pair.toml --set ") + set, {"interaction", "attract each other"});
+    expect_refused(shell, std::string("$carom run ./pair.toml --set ") + set,
+                   {"interaction", "attract each other"});
 }
 
 TEST(ForceFaults, Steps) {
   const Shell shell;
   for (const char* step : {"0", "-0.1", "nan", "inf", "1e-400"})
-    expect_refused(shell, std::string("$carom run henon-heiles --set integrator.step=") + step, {"integrator.step"});
+    expect_refused(shell, std::string("$carom run henon-heiles --set integrator.step=") + step,
+                   {"integrator.step"});
   expect_refused(shell, "$carom run sinai --engine steps", {"step"});
 }
 
@@ -89,17 +99,20 @@ TEST(ForceFaults, UnknownSchemeListsTheKnownOnes) {
   EXPECT_EQ(o.status, 1);
   EXPECT_TRUE(holds(o.err, "unknown scheme 'velocity-verlett'")) << o.err;
   EXPECT_TRUE(holds(o.err, "did you mean 'velocity-verlet'?")) << o.err;
-  for (const Scheme& scheme : schemes()) EXPECT_TRUE(holds(o.err, std::string(scheme.name))) << scheme.name;
+  for (const Scheme& scheme : schemes())
+    EXPECT_TRUE(holds(o.err, std::string(scheme.name))) << scheme.name;
   EXPECT_TRUE(holds(o.err, "arkode, cvode")) << o.err;
 }
 
 /// A particle in a box that flies towards x = 1.
 void write_box(const Shell& shell, const std::string& expression) {
-  shell("cat > box.toml << 'END'\n[table]\nshape = \"rectangle\"\nwidth = 2\nheight = 1\n[[potential]]\n"
-        "kind = \"expression\"\nexpression = \"" +
-        expression +
-        "\"\n[particles]\nspeed = 1\n[integrator]\nstep = 0.01\n[initial]\nkind = \"point\"\n"
-        "position = [0.5, 0.5]\nangle = 0.3\n[run]\nt_max = 20\nEND\n");
+  shell(
+      "cat > box.toml << 'END'\n[table]\nshape = \"rectangle\"\nwidth = 2\nheight = "
+      "1\n[[potential]]\n"
+      "kind = \"expression\"\nexpression = \"" +
+      expression +
+      "\"\n[particles]\nspeed = 1\n[integrator]\nstep = 0.01\n[initial]\nkind = \"point\"\n"
+      "position = [0.5, 0.5]\nangle = 0.3\n[run]\nt_max = 20\nEND\n");
 }
 
 // A soft bump among walls, and a scheme that keeps its energy badly.
@@ -139,8 +152,11 @@ TEST(ForceFaults, EnergyThatAStepLosesIsTold) {
   // Of an ensemble, the largest: the same in lanes and by one, in parts, and after a pause.
   const std::string escape = "$carom escape ./rough.toml --json ";
   const Outcome one = shell(escape), scalar = shell(escape + "--isa baseline");
-  shell("$carom escape ./rough.toml --shard 1/2 -o a.h5; $carom escape ./rough.toml --shard 2/2 -o b.h5");
-  const Outcome sum = shell("$carom merge all.h5 a.h5 b.h5 --json"), again = shell("$carom escape --resume all.h5 --json");
+  shell(
+      "$carom escape ./rough.toml --shard 1/2 -o a.h5; $carom escape ./rough.toml --shard 2/2 -o "
+      "b.h5");
+  const Outcome sum = shell("$carom merge all.h5 a.h5 b.h5 --json"),
+                again = shell("$carom escape --resume all.h5 --json");
   for (const char* key : {"energy_change", "energy_error", "steps", "force_evaluations"}) {
     const std::string value = json_value(one.out, key);
     EXPECT_NE(value, "");
@@ -150,15 +166,19 @@ TEST(ForceFaults, EnergyThatAStepLosesIsTold) {
   }
   EXPECT_GT(std::stod(json_value(one.out, "energy_change")), 1e-7);
   for (const Outcome* o : {&one, &sum, &again}) EXPECT_EQ(o->status, 3);
-  EXPECT_TRUE(holds(shell("$carom escape ./rough.toml").out, "largest change of a trajectory's energy "));
-  EXPECT_EQ(json_value(shell("$carom escape stadium --trajectories 10 --json").out, "energy_change"), "");
+  EXPECT_TRUE(
+      holds(shell("$carom escape ./rough.toml").out, "largest change of a trajectory's energy "));
+  EXPECT_EQ(
+      json_value(shell("$carom escape stadium --trajectories 10 --json").out, "energy_change"), "");
 }
 
 TEST(ForceFaults, AStepThatFailsIsNoInternalError) {
   const Shell shell;
-  for (const char* command : {"escape --t-max 100", "diffusion --t-max 100", "section --on x=0 --t-max 100 --orbits 4"}) {
-    const Outcome o = shell(std::string("$carom ") + command +
-                            " henon-heiles --trajectories 20 --set particles.energy=2 --set integrator.step=0.01");
+  for (const char* command :
+       {"escape --t-max 100", "diffusion --t-max 100", "section --on x=0 --t-max 100 --orbits 4"}) {
+    const Outcome o = shell(
+        std::string("$carom ") + command +
+        " henon-heiles --trajectories 20 --set particles.energy=2 --set integrator.step=0.01");
     EXPECT_EQ(o.status, 3) << command << o.out << o.err;
     EXPECT_TRUE(holds(o.out, "unresolved")) << o.out;
     EXPECT_FALSE(holds(o.out, "internal error")) << o.out;
@@ -166,37 +186,44 @@ TEST(ForceFaults, AStepThatFailsIsNoInternalError) {
   }
 }
 
-// Poles and ends of a formula's domain that orbits come to: the right answer, or the particle is unresolved and
-// the reason said; never a number that is none, never a run without end.
+// Poles and ends of a formula's domain that orbits come to: the right answer, or the particle is
+// unresolved and the reason said; never a number that is none, never a run without end.
 TEST(ForceFaults, PolesInTheRegion) {
   const Shell shell;
   for (const char* expression :
-       {"0.1/(x - 1)", "-0.1/abs(x - 1)", "-1/((x - 1)^2 + (y - 0.6)^2)", "0.1*sqrt(1 - x)", "0.1*log(1 - x)",
-        "0.1/(1 - x)^3", "0.1*(1 - x)^1.5", "-1000000*(x - 1)^6", "-exp(20*x)"}) {
+       {"0.1/(x - 1)", "-0.1/abs(x - 1)", "-1/((x - 1)^2 + (y - 0.6)^2)", "0.1*sqrt(1 - x)",
+        "0.1*log(1 - x)", "0.1/(1 - x)^3", "0.1*(1 - x)^1.5", "-1000000*(x - 1)^6", "-exp(20*x)"}) {
     write_box(shell, expression);
     for (const char* scheme : {"blanes-moan-srkn11b", "velocity-verlet", "arkode", "cvode"}) {
-      if (*expression == '-' && expression[1] != '0' && holds(scheme, "ode")) continue;  // right, and long
-      const Outcome o = shell(std::string("timeout -s KILL 20 $carom run ./box.toml --set integrator.scheme=") + scheme);
+      if (*expression == '-' && expression[1] != '0' && holds(scheme, "ode"))
+        continue;  // right, and long
+      const Outcome o =
+          shell(std::string("timeout -s KILL 20 $carom run ./box.toml --set integrator.scheme=") +
+                scheme);
       EXPECT_FALSE(holds(o.out, "nan")) << expression << " " << scheme << o.out;
       if (o.status == 0) continue;
       EXPECT_EQ(o.status, 3) << expression << " " << scheme << o.err;
       bool reason = false;
-      for (const char* one : {"is not a number", "too rough", "finds no step", "lead nowhere", "runs away", "too long", "does not resolve", "no step resolves",
-                              "cannot be resolved"})
+      for (const char* one :
+           {"is not a number", "too rough", "finds no step", "lead nowhere", "runs away",
+            "too long", "does not resolve", "no step resolves", "cannot be resolved"})
         reason = reason || holds(o.err, one);
       EXPECT_TRUE(reason) << expression << " " << scheme << o.err;
     }
   }
 }
 
-// An adaptive scheme that shrinks its steps towards a singular point stops, and says at which limit.
+// An adaptive scheme that shrinks its steps towards a singular point stops, and says at which
+// limit.
 TEST(ForceFaults, AdaptiveStepsThatLeadNowhere) {
   const Shell shell;
   for (const char* expression : {"0.1/(x - 1)", "0.1*sqrt(1 - x)", "0.1*log(1 - x)"}) {
     write_box(shell, expression);
-    const Outcome o = shell("timeout -s KILL 20 $carom run ./box.toml --set integrator.scheme=cvode");
+    const Outcome o =
+        shell("timeout -s KILL 20 $carom run ./box.toml --set integrator.scheme=cvode");
     EXPECT_EQ(o.status, 3) << expression;
-    EXPECT_TRUE(holds(o.err, "limit of 10000 steps in a row") || holds(o.err, "cannot be resolved at (1, "))
+    EXPECT_TRUE(holds(o.err, "limit of 10000 steps in a row") ||
+                holds(o.err, "cannot be resolved at (1, "))
         << expression << o.err;
   }
 }

@@ -22,8 +22,12 @@ inline std::string seconds(double s) { return std::to_string(s); }
 // What is to survive; a few tenths of a second of computing.
 struct Ensemble {
   std::string command, what;
-  std::string anew(const std::string& options) const { return " " + command + " " + what + " --quiet --json" + options; }
-  std::string on(const std::string& file) const { return " " + command + " --resume " + file + " --quiet --json"; }
+  std::string anew(const std::string& options) const {
+    return " " + command + " " + what + " --quiet --json" + options;
+  }
+  std::string on(const std::string& file) const {
+    return " " + command + " --resume " + file + " --quiet --json";
+  }
 };
 
 struct Undisturbed {
@@ -49,7 +53,8 @@ inline void expect_whole(const Shell& shell, const std::string& file) {
   EXPECT_TRUE(c.undescribed.empty()) << file;
 }
 
-inline void kill_and_resume(const Ensemble& ensemble, const std::string& options, int kills, unsigned seed) {
+inline void kill_and_resume(const Ensemble& ensemble, const std::string& options, int kills,
+                            unsigned seed) {
   const Shell shell;
   const Undisturbed whole(shell, ensemble, options);
   // What was killed before its first checkpoint begins anew.
@@ -64,8 +69,9 @@ inline void kill_and_resume(const Ensemble& ensemble, const std::string& options
     ASSERT_LT(++runs, 20 * kills) << "it ends before it is killed";
     const double when = latest * static_cast<double>(random() % 1000) / 1000.0;
     const std::string signal = random() % 2 ? "-9" : "-TERM";
-    const Outcome o = shell("$carom" + begin() + " --checkpoint 0.02 --threads " + std::to_string(1 + random() % 2) +
-                            " & pid=$!; sleep " + seconds(0.01 + when) + "; kill " + signal + " $pid; wait $pid");
+    const Outcome o = shell("$carom" + begin() + " --checkpoint 0.02 --threads " +
+                            std::to_string(1 + random() % 2) + " & pid=$!; sleep " +
+                            seconds(0.01 + when) + "; kill " + signal + " $pid; wait $pid");
     expect_whole(shell, "a.h5.part/checkpoint.h5");
     if (o.status == 0) {  // faster than the kill
       latest *= 0.8;
@@ -97,27 +103,36 @@ inline void kill_and_resume(const Ensemble& ensemble, const std::string& options
   EXPECT_EQ(json_value(again.out, "seconds"), json_value(end.out, "seconds"));
 }
 
-// Ends with an error, whatever the machine does meanwhile: the checkpoint holds some of the trajectories, and their
-// records may not grow beyond 3 MB. No checkpoint is as large.
-inline std::string until_records_are_full(const Ensemble& ensemble, const std::string& file = "a.h5") {
-  return "prlimit --fsize=3000000 $carom" + ensemble.anew(" --per-trajectory --threads 1 --block 100 --checkpoint blocks:20") + " -o " + file;
+// Ends with an error, whatever the machine does meanwhile: the checkpoint holds some of the
+// trajectories, and their records may not grow beyond 3 MB. No checkpoint is as large.
+inline std::string until_records_are_full(const Ensemble& ensemble,
+                                          const std::string& file = "a.h5") {
+  return "prlimit --fsize=3000000 $carom" +
+         ensemble.anew(" --per-trajectory --threads 1 --block 100 --checkpoint blocks:20") +
+         " -o " + file;
 }
 
-// `size`: of the disk, in kB. On a busy machine the program may end before its disk is full, or give up before there is
-// room again: then it is tried once more.
+// `size`: of the disk, in kB. On a busy machine the program may end before its disk is full, or
+// give up before there is room again: then it is tried once more.
 inline void fill_the_disk(const Ensemble& ensemble, const std::string& options, int size) {
   const int tries = 20;
   const Shell shell;
-  if (shell("mkdir small && mount -t tmpfs -o size=" + std::to_string(size) + "k carom-test small").status != 0)
+  if (shell("mkdir small && mount -t tmpfs -o size=" + std::to_string(size) + "k carom-test small")
+          .status != 0)
     GTEST_SKIP() << "no right to mount a small disk";
-  const std::string filler = "head -c " + std::to_string(2 * size) + "k /dev/zero 2>/dev/null > small/filler; ";
+  const std::string filler =
+      "head -c " + std::to_string(2 * size) + "k /dev/zero 2>/dev/null > small/filler; ";
   const Undisturbed whole(shell, ensemble, options);
   for (int i = 0;; ++i) {
     ASSERT_LT(i, tries);
-    const Outcome o = shell("$carom" + ensemble.anew(options) + " -o small/a.h5 --threads 1 --checkpoint 0.1 2>said & pid=$!; "
-                            "until_there small/a.h5.part/checkpoint.h5; " + filler + "until_there said; rm small/filler; wait $pid");
+    const Outcome o = shell("$carom" + ensemble.anew(options) +
+                            " -o small/a.h5 --threads 1 --checkpoint 0.1 2>said & pid=$!; "
+                            "until_there small/a.h5.part/checkpoint.h5; " +
+                            filler + "until_there said; rm small/filler; wait $pid");
     const std::string said = shell.read("said");
-    const bool warned = said.find("no checkpoint: cannot write 'small/a.h5': No space left on device") != std::string::npos;
+    const bool warned =
+        said.find("no checkpoint: cannot write 'small/a.h5': No space left on device") !=
+        std::string::npos;
     ASSERT_TRUE(o.status == 0 || warned) << said;
     if (o.status == 0 && warned) break;
     shell("rm -rf small/* said");
@@ -128,15 +143,19 @@ inline void fill_the_disk(const Ensemble& ensemble, const std::string& options, 
   Outcome full;
   for (int i = 0;; ++i) {
     ASSERT_LT(i, tries);
-    full = shell("$carom" + ensemble.anew(options) + " -o small/b.h5 --threads 1 --block 4 --checkpoint blocks:100 & pid=$!; "
-                 "until_saved small/b.h5; " + filler + "wait $pid");
+    full = shell("$carom" + ensemble.anew(options) +
+                 " -o small/b.h5 --threads 1 --block 4 --checkpoint blocks:100 & pid=$!; "
+                 "until_saved small/b.h5; " +
+                 filler + "wait $pid");
     if (full.status != 0) break;
     shell("rm -rf small/*");
   }
   EXPECT_EQ(full.status, 1) << full.err;
   EXPECT_EQ(full.out, "");
-  EXPECT_NE(full.err.find("cannot write 'small/b.h5': No space left on device"), std::string::npos) << full.err;
-  EXPECT_NE(full.err.find("carom " + ensemble.command + " --resume small/b.h5"), std::string::npos) << full.err;
+  EXPECT_NE(full.err.find("cannot write 'small/b.h5': No space left on device"), std::string::npos)
+      << full.err;
+  EXPECT_NE(full.err.find("carom " + ensemble.command + " --resume small/b.h5"), std::string::npos)
+      << full.err;
   expect_whole(shell, "small/b.h5.part/checkpoint.h5");
   const Outcome end = shell("rm small/filler; $carom" + ensemble.on("small/b.h5"));
   EXPECT_EQ(end.status, 0) << end.err;

@@ -14,7 +14,8 @@ std::string provenance(const Shell& shell, const std::string& file, const char* 
   const hid_t group = H5Gopen2(archive, "provenance", H5P_DEFAULT);
   std::string bytes;
   if (H5Aexists(group, name) > 0) {
-    const hid_t attribute = H5Aopen(group, name, H5P_DEFAULT), type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+    const hid_t attribute = H5Aopen(group, name, H5P_DEFAULT), type = H5Aget_type(attribute),
+                space = H5Aget_space(attribute);
     bytes.resize(H5Tget_size(type) * static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
     H5Aread(attribute, type, bytes.data());
     H5Sclose(space);
@@ -28,14 +29,18 @@ std::string provenance(const Shell& shell, const std::string& file, const char* 
 
 TEST(MergedParts, MayWriteEqualNumbersDifferently) {
   const Shell shell;
-  ASSERT_EQ(shell(stadium + "--t-max 10 --shard 1/3 -o 1.h5 && " + stadium + "--t-max 10.0 --shard 2/3 -o 2.h5 && " + stadium +
-                  "--t-max 20/2 --shard 3/3 -o 3.h5 && " + stadium + "--t-max 10 -o whole.h5 && " + stadium +
-                  "--t-max 10.01 --shard 2/3 -o other.h5").status, 0);
+  ASSERT_EQ(shell(stadium + "--t-max 10 --shard 1/3 -o 1.h5 && " + stadium +
+                  "--t-max 10.0 --shard 2/3 -o 2.h5 && " + stadium +
+                  "--t-max 20/2 --shard 3/3 -o 3.h5 && " + stadium + "--t-max 10 -o whole.h5 && " +
+                  stadium + "--t-max 10.01 --shard 2/3 -o other.h5")
+                .status,
+            0);
   const auto whole = datasets(shell, "whole.h5");
   for (const std::string order : {"1.h5 2.h5 3.h5", "3.h5 2.h5 1.h5", "2.h5 3.h5 1.h5"}) {
     const Outcome o = shell("$carom merge sum.h5 --force --json " + order);
     EXPECT_EQ(o.status, 0) << o.err;
-    if (o.status == 0) expect_same_datasets(shell.folder() + "/sum.h5", whole);  // /system is one of them
+    if (o.status == 0)
+      expect_same_datasets(shell.folder() + "/sum.h5", whole);  // /system is one of them
   }
   const Outcome same = shell("$carom escape --resume 1.h5 --t-max 1e1");
   EXPECT_EQ(same.status, 0) << same.err;
@@ -47,8 +52,12 @@ TEST(MergedParts, MayWriteEqualNumbersDifferently) {
 // Names are no numbers.
 TEST(MergedParts, MayNotNameHolesDifferently) {
   const Shell shell;
-  const std::string hole = "--t-max 9 --set 'table.hole=[{wall=\"right\",center=\"pi/2\",width=0.5,name=\"";
-  ASSERT_EQ(shell(stadium + hole + "1\"}]' --shard 1/2 -o 1.h5 && " + stadium + hole + "1.0\"}]' --shard 2/2 -o 2.h5").status, 0);
+  const std::string hole =
+      "--t-max 9 --set 'table.hole=[{wall=\"right\",center=\"pi/2\",width=0.5,name=\"";
+  ASSERT_EQ(shell(stadium + hole + "1\"}]' --shard 1/2 -o 1.h5 && " + stadium + hole +
+                  "1.0\"}]' --shard 2/2 -o 2.h5")
+                .status,
+            0);
   const Outcome o = shell("$carom merge sum.h5 1.h5 2.h5");
   EXPECT_EQ(o.status, 1);
   EXPECT_NE(o.err.find("table.hole differs"), std::string::npos) << o.err;
@@ -56,8 +65,11 @@ TEST(MergedParts, MayNotNameHolesDifferently) {
 
 TEST(MergedParts, StayNamedWhenTheSumGoesOn) {
   const Shell shell;
-  ASSERT_EQ(shell("for k in 1 2 3; do " + stadium + "--t-max 9 --shard $k/3 -o $k.h5 || exit 9; done; "
-                  "$carom merge sum.h5 1.h5 3.h5").status, 0);
+  ASSERT_EQ(shell("for k in 1 2 3; do " + stadium +
+                  "--t-max 9 --shard $k/3 -o $k.h5 || exit 9; done; "
+                  "$carom merge sum.h5 1.h5 3.h5")
+                .status,
+            0);
   const std::string before = provenance(shell, "sum.h5", "merged");
   EXPECT_NE(before.find("3.h5"), std::string::npos);
   ASSERT_EQ(shell("$carom escape --resume sum.h5").status, 0);
@@ -67,10 +79,13 @@ TEST(MergedParts, StayNamedWhenTheSumGoesOn) {
 // As with threads, the sum has the most of any part.
 TEST(MergedParts, OfTwoInstructionSetsHaveTheWider) {
   const Shell shell;
-  if (shell(stadium + "--t-max 9 --shard 2/2 --isa avx2 -o 2.h5").status != 0) GTEST_SKIP() << "no AVX2";
+  if (shell(stadium + "--t-max 9 --shard 2/2 --isa avx2 -o 2.h5").status != 0)
+    GTEST_SKIP() << "no AVX2";
   ASSERT_EQ(shell(stadium + "--t-max 9 --shard 1/2 --isa baseline -o 1.h5").status, 0);
   for (const std::string order : {"1.h5 2.h5", "2.h5 1.h5"})
-    EXPECT_EQ(json_value(shell("$carom merge sum.h5 --force --json " + order).out, "isa"), "\"avx2\"") << order;
+    EXPECT_EQ(json_value(shell("$carom merge sum.h5 --force --json " + order).out, "isa"),
+              "\"avx2\"")
+        << order;
 }
 
 }  // namespace

@@ -17,13 +17,14 @@ std::map<std::string, std::string> datasets(const Shell& shell, const std::strin
   return open_archive(shell.folder() + "/" + file).datasets;
 }
 
-const std::string ensemble = "$carom escape stadium --set run.trajectories=6000 --t-max 60 --quiet --json ";
+const std::string ensemble =
+    "$carom escape stadium --set run.trajectories=6000 --t-max 60 --quiet --json ";
 
 TEST(Merge, InAnyOrderIsTheWhole) {
   for (const std::string records : {"", " --per-trajectory"}) {
     const Shell shell;
-    const Outcome o = shell(ensemble + records + " -o whole.h5 && for k in 1 2 3; do " + ensemble + records +
-                            " --shard $k/3 -o $k.h5 || exit 9; done");
+    const Outcome o = shell(ensemble + records + " -o whole.h5 && for k in 1 2 3; do " + ensemble +
+                            records + " --shard $k/3 -o $k.h5 || exit 9; done");
     ASSERT_EQ(o.status, 0) << o.err;
     const auto whole = datasets(shell, "whole.h5");
     EXPECT_EQ(open_archive(shell.folder() + "/2.h5").complete, 1);
@@ -42,7 +43,9 @@ TEST(Merge, InAnyOrderIsTheWhole) {
     const Outcome two = shell("$carom merge -o two.h5 3.h5 1.h5 --json");
     EXPECT_EQ(two.status, 0);
     EXPECT_EQ(json_value(two.out, "status"), "\"incomplete\"");
-    EXPECT_NE(two.err.find("2 000 of 6 000 trajectories are missing, the first of them 2000"), std::string::npos) << two.err;
+    EXPECT_NE(two.err.find("2 000 of 6 000 trajectories are missing, the first of them 2000"),
+              std::string::npos)
+        << two.err;
     EXPECT_EQ(shell("$carom merge three.h5 two.h5 2.h5").status, 0);
     expect_same_datasets(shell.folder() + "/three.h5", whole);
     EXPECT_EQ(shell("$carom escape --resume two.h5").status, 0);
@@ -52,10 +55,11 @@ TEST(Merge, InAnyOrderIsTheWhole) {
 
 TEST(Merge, RefusesWhatOverlapsOrDoesNotMatch) {
   const Shell shell;
-  const Outcome o = shell(ensemble + "--shard 1/2 -o a.h5 && " + ensemble + "--shard 2/2 -o b.h5 && " + ensemble +
-                          "--shard 2/3 -o c.h5 && " + ensemble + "--shard 2/2 --seed 5 -o seed.h5 && " + ensemble +
-                          "--shard 2/2 --per-trajectory -o records.h5 && " + ensemble +
-                          "--shard 2/2 --collisions 59 -o cap.h5 && $carom run stadium --t-max 2 -o run.h5");
+  const Outcome o =
+      shell(ensemble + "--shard 1/2 -o a.h5 && " + ensemble + "--shard 2/2 -o b.h5 && " + ensemble +
+            "--shard 2/3 -o c.h5 && " + ensemble + "--shard 2/2 --seed 5 -o seed.h5 && " +
+            ensemble + "--shard 2/2 --per-trajectory -o records.h5 && " + ensemble +
+            "--shard 2/2 --collisions 59 -o cap.h5 && $carom run stadium --t-max 2 -o run.h5");
   ASSERT_EQ(o.status, 0) << o.err;
   const std::pair<const char*, const char*> cases[] = {
       {"a.h5 b.h5 a.h5", "a.h5: trajectories 0 to 2999 are in 'a.h5', too"},
@@ -82,8 +86,10 @@ TEST(Merge, RefusesWhatOverlapsOrDoesNotMatch) {
 // Parts with many report times are large in memory: 145 kB a time. One by one they fit.
 TEST(Merge, HoldsOnePartAtATime) {
   const Shell shell;
-  const Outcome o = shell("for k in $(seq 9); do $carom diffusion lorentz-triangular --trajectories 90 --times lin:0.01:10:500 "
-                          "--shard $k/9 --quiet -o $k.h5 || exit 9; done");
+  const Outcome o = shell(
+      "for k in $(seq 9); do $carom diffusion lorentz-triangular --trajectories 90 --times "
+      "lin:0.01:10:500 "
+      "--shard $k/9 --quiet -o $k.h5 || exit 9; done");
   ASSERT_EQ(o.status, 0) << o.err;
   const Outcome merged = shell("ulimit -v 750000; $carom merge all.h5 ?.h5 --json");
   EXPECT_EQ(merged.status, 0) << merged.err;
@@ -92,7 +98,8 @@ TEST(Merge, HoldsOnePartAtATime) {
 
 int count_of(const std::string& words, const std::string& text) {
   int count = 0;
-  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+    ++count;
   return count;
 }
 
@@ -100,30 +107,39 @@ int count_of(const std::string& words, const std::string& text) {
 TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
-  const std::string run = "$carom escape stadium --trajectories 1e7 --t-max 60 --quiet --json --threads 1";
+  const std::string run =
+      "$carom escape stadium --trajectories 1e7 --t-max 60 --quiet --json --threads 1";
   ASSERT_EQ(shell(run + " -o whole.h5").status, 0);
   const auto whole = datasets(shell, "whole.h5");
   for (int kill = 0; kill < (std::getenv("CAROM_SOAK") ? 25 : 3); ++kill) {
-    const std::string victim = kill % 2 == 0 ? "tail -1" : "head -1", wait = std::to_string(0.02 * kill);
+    const std::string victim = kill % 2 == 0 ? "tail -1" : "head -1",
+                      wait = std::to_string(0.02 * kill);
     for (int tries = 0;; ++tries) {
       ASSERT_LT(tries, 20) << "it ends before it is killed";
-      const Outcome killed = shell(ranks(3) + run + " -o a.h5 --checkpoint blocks:100 & pid=$!; until_saved a.h5.part/rank-2; sleep " + wait +
-                                   "; kill -9 $(pgrep -P $pid | " + victim + "); wait $pid");
+      const Outcome killed =
+          shell(ranks(3) + run +
+                " -o a.h5 --checkpoint blocks:100 & pid=$!; until_saved a.h5.part/rank-2; sleep " +
+                wait + "; kill -9 $(pgrep -P $pid | " + victim + "); wait $pid");
       if (killed.status != 0 && shell.exists("a.h5.part/rank-2.part/checkpoint.h5")) break;
       shell("rm -rf a.h5*");
     }
     EXPECT_EQ(open_archive(shell.folder() + "/a.h5.part/rank-2.part/checkpoint.h5").complete, 0);
     const Outcome anew = shell(run + " -o a.h5");
-    EXPECT_NE(anew.err.find("a.h5: a run that has not ended left a checkpoint of this name (expected carom escape --resume a.h5"), std::string::npos) << anew.err;
+    EXPECT_NE(anew.err.find("a.h5: a run that has not ended left a checkpoint of this name "
+                            "(expected carom escape --resume a.h5"),
+              std::string::npos)
+        << anew.err;
     // By the same ranks, by others, and by one process.
     const int number = std::vector{3, 2, 0}[static_cast<std::size_t>(kill % 3)];
-    const Outcome end = shell("cp -r a.h5.part left; " + ranks(number) + "$carom escape --resume a.h5 --json");
+    const Outcome end =
+        shell("cp -r a.h5.part left; " + ranks(number) + "$carom escape --resume a.h5 --json");
     EXPECT_EQ(end.status, 0) << end.err;
     EXPECT_EQ(json_value(end.out, "ranks"), std::to_string(std::max(1, number)));
     expect_same_datasets(shell.folder() + "/a.h5", whole);
     EXPECT_EQ(shell.files(), (std::vector<std::string>{"a.h5", "left", "whole.h5"}));
     // As if it had been killed before it removed the shares: these are in the sum already.
-    const Outcome again = shell("mv left a.h5.part; " + ranks(number) + "$carom escape --resume a.h5 --json");
+    const Outcome again =
+        shell("mv left a.h5.part; " + ranks(number) + "$carom escape --resume a.h5 --json");
     EXPECT_EQ(again.status, 0) << again.err;
     expect_same_datasets(shell.folder() + "/a.h5", whole);
     EXPECT_EQ(shell.files(), (std::vector<std::string>{"a.h5", "whole.h5"}));
@@ -132,16 +148,22 @@ TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
 }
 
 // `limit` of the shell for one rank alone: the others must not wait for it for ever.
-Outcome with_limit(const Shell& shell, int rank, const std::string& limit, const std::string& command) {
-  return shell("cat > one.sh <<'END'\n[ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(rank) + " ] && ulimit " + limit +
-               "\nexec \"$@\"\nEND\n" + "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 100 mpirun --oversubscribe "
-               "--bind-to none -n 3 bash one.sh " + command);
+Outcome with_limit(const Shell& shell, int rank, const std::string& limit,
+                   const std::string& command) {
+  return shell("cat > one.sh <<'END'\n[ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(rank) +
+               " ] && ulimit " + limit + "\nexec \"$@\"\nEND\n" +
+               "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 100 mpirun "
+               "--oversubscribe "
+               "--bind-to none -n 3 bash one.sh " +
+               command);
 }
 
 TEST(Ranks, AllEndWhenOneHasNoDiskAndSayWhyOnce) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
-  const std::string run = "$carom escape stadium --trajectories 1e9 --t-max 60 --quiet --threads 1 --per-trajectory --checkpoint blocks:20 ";
+  const std::string run =
+      "$carom escape stadium --trajectories 1e9 --t-max 60 --quiet --threads 1 --per-trajectory "
+      "--checkpoint blocks:20 ";
   for (const int rank : {0, 1}) {
     // No room for the first checkpoint; and none for more than 2 MB of records.
     const Outcome first = with_limit(shell, rank, "-f 1", run + "-o a.h5");
@@ -153,7 +175,9 @@ TEST(Ranks, AllEndWhenOneHasNoDiskAndSayWhyOnce) {
     EXPECT_EQ(later.status, 1) << later.err;
     EXPECT_EQ(count_of("carom: cannot write 'b.h5", later.err), 1) << later.err;
     EXPECT_NE(later.err.find("carom escape --resume b.h5"), std::string::npos) << later.err;
-    const Outcome on = shell("$carom escape --resume b.h5 --quiet --json --checkpoint blocks:20 & pid=$!; until_saved b.h5; kill -INT $pid; wait $pid");
+    const Outcome on = shell(
+        "$carom escape --resume b.h5 --quiet --json --checkpoint blocks:20 & pid=$!; until_saved "
+        "b.h5; kill -INT $pid; wait $pid");
     EXPECT_EQ(on.status, 130) << on.err;
     EXPECT_EQ(shell.files(), (std::vector<std::string>{"b.h5", "one.sh"}));
     shell("rm -rf b.h5*");
@@ -165,22 +189,26 @@ TEST(Ranks, AllEndWhenOneHasNoTemporaryFolder) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
   for (const std::string rank : {"0", "2"}) {
-    const Outcome o = shell("cat > one.sh <<'END'\n[ \"$OMPI_COMM_WORLD_RANK\" = " + rank + " ] && export TMPDIR=/nowhere\nexec \"$@\"\nEND\n" +
-                            ranks(3) + "timeout 60 bash one.sh $carom escape stadium --trajectories 1e9 --quiet --threads 1");
+    const Outcome o = shell(
+        "cat > one.sh <<'END'\n[ \"$OMPI_COMM_WORLD_RANK\" = " + rank +
+        " ] && export TMPDIR=/nowhere\nexec \"$@\"\nEND\n" + ranks(3) +
+        "timeout 60 bash one.sh $carom escape stadium --trajectories 1e9 --quiet --threads 1");
     EXPECT_EQ(o.status, 1) << o.err;
     EXPECT_EQ(o.out, "");
     EXPECT_EQ(count_of("carom: ", o.err), 1) << o.err;
   }
 }
 
-// Where the memory ends depends on the machine, so there may even be enough; but nobody waits for ever.
+// Where the memory ends depends on the machine, so there may even be enough; but nobody waits for
+// ever.
 TEST(Ranks, AllEndWhenOneHasNoMemory) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";
   const Shell shell;
   for (const int rank : {0, 1})
     for (const std::string memory : {"300000", "450000"}) {
       const Outcome o = with_limit(shell, rank, "-v " + memory,
-                                   "$carom diffusion lorentz-triangular --trajectories 1000 --times lin:0.01:10:1000 --quiet --threads 1 --force -o a.h5");
+                                   "$carom diffusion lorentz-triangular --trajectories 1000 "
+                                   "--times lin:0.01:10:1000 --quiet --threads 1 --force -o a.h5");
       EXPECT_NE(o.status, 124) << "rank " << rank << " with " << memory << " kB\n" << o.err;
       EXPECT_EQ(o.status == 0, shell.exists("a.h5")) << o.err;
       shell("rm -rf a.h5*");

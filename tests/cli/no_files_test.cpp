@@ -23,8 +23,11 @@ const Names writers = {"escape stadium --trajectories 10 --quiet -o ",
                        "table stadium -o "};
 
 void make_inputs(const Shell& shell) {
-  ASSERT_EQ(shell("for k in 1 2; do $carom escape stadium --trajectories 10 --shard $k/2 --quiet -o $k.h5 || exit 9; done; "
-                  "$carom run stadium --t-max 3 -o run.h5 --quiet").status, 0);
+  ASSERT_EQ(shell("for k in 1 2; do $carom escape stadium --trajectories 10 --shard $k/2 --quiet "
+                  "-o $k.h5 || exit 9; done; "
+                  "$carom run stadium --t-max 3 -o run.h5 --quiet")
+                .status,
+            0);
 }
 
 struct Special {
@@ -35,7 +38,9 @@ struct Special {
 void expect_refused(const Shell& shell, const Special& special, const std::string& message) {
   for (const std::string& writer : writers)
     for (const std::string force : {"", " --force"}) {
-      const Outcome o = shell("timeout 20 $carom " + writer + "out.svg" + force + "; status=$?; test " + special.is + " out.svg || exit 99; exit $status");
+      const Outcome o =
+          shell("timeout 20 $carom " + writer + "out.svg" + force + "; status=$?; test " +
+                special.is + " out.svg || exit 99; exit $status");
       EXPECT_EQ(o.status, 1) << writer << force;
       EXPECT_EQ(o.out, "") << writer;
       EXPECT_EQ(o.err.find("carom: out.svg: " + message), 0u) << writer << force << "\n" << o.err;
@@ -48,7 +53,8 @@ TEST(NoFiles, PipesAndFoldersAreNoOutputs) {
   make_inputs(shell);
   ASSERT_EQ(shell("mkfifo out.svg").status, 0);
   expect_refused(shell, {"mkfifo out.svg", "-p"}, "the output is a device or a pipe");
-  for (const std::string command : {"escape --resume out.svg", "run --resume out.svg", "merge sum.h5 out.svg"}) {
+  for (const std::string command :
+       {"escape --resume out.svg", "run --resume out.svg", "merge sum.h5 out.svg"}) {
     const Outcome o = shell("timeout 20 $carom " + command);
     EXPECT_EQ(o.status, 1) << command;
     EXPECT_EQ(o.err.find("carom: out.svg: "), 0u) << o.err;
@@ -64,7 +70,9 @@ TEST(NoFiles, DevicesAreNoOutputs) {
   expect_refused(shell, {"mknod", "-c"}, "the output is a device or a pipe");
 }
 
-const std::string link_and_file = "test -L out.svg && test -f real/a.svg && test ! -L real/a.svg && test $(ls -A real | wc -l) = 1";
+const std::string link_and_file =
+    "test -L out.svg && test -f real/a.svg && test ! -L real/a.svg && test $(ls -A real | wc -l) = "
+    "1";
 
 TEST(Links, AreFollowedToTheFile) {
   const Shell shell;
@@ -76,7 +84,9 @@ TEST(Links, AreFollowedToTheFile) {
     EXPECT_EQ(anew.status, 0) << writer << "\n" << anew.err;
     EXPECT_EQ(shell(link_and_file).status, 0) << writer;
     const Outcome refused = shell("$carom " + writer + "out.svg");
-    EXPECT_EQ(refused.err.find("carom: real/a.svg: the output file exists already"), 0u) << writer << "\n" << refused.err;
+    EXPECT_EQ(refused.err.find("carom: real/a.svg: the output file exists already"), 0u)
+        << writer << "\n"
+        << refused.err;
     EXPECT_EQ(shell("$carom " + writer + "out.svg --force").status, 0) << writer;
     EXPECT_EQ(shell(link_and_file).status, 0) << writer;
     EXPECT_EQ(shell.files(), (Names{"1.h5", "2.h5", "out.svg", "real", "run.h5"})) << writer;
@@ -85,12 +95,18 @@ TEST(Links, AreFollowedToTheFile) {
 
 TEST(Links, CheckpointsStandBesideTheFile) {
   const Shell shell;
-  const std::string go_on = " --quiet --block 4 --checkpoint blocks:2000 & pid=$!; until_saved real/a.svg; ";
+  const std::string go_on =
+      " --quiet --block 4 --checkpoint blocks:2000 & pid=$!; until_saved real/a.svg; ";
   const std::string look = "kill -9 $pid; wait $pid; ls real";
-  ASSERT_EQ(shell("mkdir real; ln -s $PWD/real/a.svg real/link; mv real/link .; ln -s link out.svg").status, 0);
-  const Outcome first = shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o out.svg" + go_on + look);
+  ASSERT_EQ(shell("mkdir real; ln -s $PWD/real/a.svg real/link; mv real/link .; ln -s link out.svg")
+                .status,
+            0);
+  const Outcome first =
+      shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o out.svg" + go_on + look);
   EXPECT_EQ(first.out, "a.svg.part\n") << first.err;
-  const Outcome again = shell("$carom escape --resume out.svg" + go_on + "timeout 20 $carom escape --resume real/a.svg; kill -INT $pid; wait $pid");
+  const Outcome again =
+      shell("$carom escape --resume out.svg" + go_on +
+            "timeout 20 $carom escape --resume real/a.svg; kill -INT $pid; wait $pid");
   EXPECT_EQ(again.status, 130) << again.err;
   EXPECT_NE(again.err.find("another process writes it"), std::string::npos) << again.err;
   EXPECT_EQ(shell(link_and_file).status, 0);
@@ -107,7 +123,10 @@ TEST(Links, ThatLeadRoundAreRefused) {
 // Resumed in place, a run has its copy beside the file.
 TEST(Links, ARunGoesOnBehindALink) {
   const Shell shell;
-  ASSERT_EQ(shell("mkdir real; ln -s real/a.svg out.svg; $carom run mushroom --t-max 3 -o out.svg && $carom run --resume out.svg --t-max 5").status, 0);
+  ASSERT_EQ(shell("mkdir real; ln -s real/a.svg out.svg; $carom run mushroom --t-max 3 -o out.svg "
+                  "&& $carom run --resume out.svg --t-max 5")
+                .status,
+            0);
   EXPECT_EQ(shell(link_and_file).status, 0);
 }
 

@@ -11,9 +11,12 @@ namespace {
 TEST(OptionNames, ACheckpointIsATimeOrSoManyBlocks) {
   const Shell shell;
   for (const char* command : {"escape", "diffusion"})
-    EXPECT_NE(shell(std::string("$carom ") + command + " --help").out.find("--checkpoint SECONDS|blocks:N"), std::string::npos);
+    EXPECT_NE(shell(std::string("$carom ") + command + " --help")
+                  .out.find("--checkpoint SECONDS|blocks:N"),
+              std::string::npos);
   for (const char* typed : {"Blocks:3", "block:3", "3s", "0"}) {
-    const Outcome o = shell(std::string("$carom escape mushroom --trajectories 10 -o a.h5 --checkpoint ") + typed);
+    const Outcome o = shell(
+        std::string("$carom escape mushroom --trajectories 10 -o a.h5 --checkpoint ") + typed);
     EXPECT_EQ(o.status, 1) << typed;
     EXPECT_NE(o.err.find("or blocks:N"), std::string::npos) << o.err;
   }
@@ -22,26 +25,34 @@ TEST(OptionNames, ACheckpointIsATimeOrSoManyBlocks) {
 TEST(OptionNames, EveryCommandMayBeQuiet) {
   const Shell shell;
   EXPECT_EQ(shell("$carom systems --quiet").status, 0);
-  const Outcome o = shell("$carom escape mushroom --trajectories 10 --t-max 1 --quiet -o part.h5 && $carom merge all.h5 part.h5 --quiet");
+  const Outcome o = shell(
+      "$carom escape mushroom --trajectories 10 --t-max 1 --quiet -o part.h5 && $carom merge "
+      "all.h5 part.h5 --quiet");
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");
-  for (const char* command : {"escape", "run", "diffusion", "section", "merge", "table", "systems", "validate"})
-    EXPECT_NE(shell(std::string("$carom ") + command + " --help").out.find("--quiet"), std::string::npos) << command;
+  for (const char* command :
+       {"escape", "run", "diffusion", "section", "merge", "table", "systems", "validate"})
+    EXPECT_NE(shell(std::string("$carom ") + command + " --help").out.find("--quiet"),
+              std::string::npos)
+        << command;
 }
 
 // Where it has no effect, that is told; the names are checked even so.
 TEST(OptionNames, InstructionSetsOfCommandsWithoutLanes) {
   const Shell shell;
-  const char* const commands[] = {"run stadium --t-max 3", "run stadium --t-max 3 --precision certified",
-                                  "table stadium", "section ellipse-magnetic --orbits 2 --points 5"};
+  const char* const commands[] = {"run stadium --t-max 3",
+                                  "run stadium --t-max 3 --precision certified", "table stadium",
+                                  "section ellipse-magnetic --orbits 2 --points 5"};
   for (const std::string command : commands) {
     const Outcome o = shell("$carom " + command + " --isa baseline");
     EXPECT_EQ(o.status, 0) << o.err;
-    EXPECT_EQ(o.err, "carom: --isa changed nothing: carom " + command.substr(0, command.find(' ')) + " uses no lanes\n");
+    EXPECT_EQ(o.err, "carom: --isa changed nothing: carom " + command.substr(0, command.find(' ')) +
+                         " uses no lanes\n");
     EXPECT_EQ(shell("$carom " + command + " --isa mmx").status, 1) << command;
   }
   const Outcome sample = shell("$carom escape stadium --t-max 3 --certify-sample 5 --isa baseline");
-  EXPECT_NE(sample.err.find("carom escape --certify-sample uses no lanes"), std::string::npos) << sample.err;
+  EXPECT_NE(sample.err.find("carom escape --certify-sample uses no lanes"), std::string::npos)
+      << sample.err;
 }
 
 TEST(OptionNames, OfSplittingAreNamedInASentence) {
@@ -49,7 +60,8 @@ TEST(OptionNames, OfSplittingAreNamedInASentence) {
   for (const char* option : {"--trajectories 100", "--isa baseline"}) {
     const Outcome o = shell(std::string("$carom escape three-disc --splitting 1,2 ") + option);
     EXPECT_EQ(o.status, 1);
-    EXPECT_NE(o.err.find("it means nothing beside --splitting, which "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("it means nothing beside --splitting, which "), std::string::npos)
+        << o.err;
     EXPECT_EQ(o.err.find(", ("), std::string::npos) << o.err;
   }
 }

@@ -11,25 +11,31 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const std::string mushroom = "$carom escape mushroom --trajectories 2000 --t-max 20 --quiet --json ";
+const std::string mushroom =
+    "$carom escape mushroom --trajectories 2000 --t-max 20 --quiet --json ";
 
 // Leaves q.h5.part.
 void leave_a_checkpoint(const Shell& shell, const std::string& options) {
-  shell("$carom escape mushroom --trajectories 1e9 --quiet --block 4 --checkpoint blocks:2000 -o q.h5 " + options +
-        " & pid=$!; until_saved q.h5; kill -9 $pid; wait $pid");
+  shell(
+      "$carom escape mushroom --trajectories 1e9 --quiet --block 4 --checkpoint blocks:2000 -o "
+      "q.h5 " +
+      options + " & pid=$!; until_saved q.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("q.h5.part/checkpoint.h5"));
 }
 
 TEST(OwnFiles, AnArchiveMayBeCalledPart) {
   const Shell shell;
-  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o run1.part && " + mushroom + "--shard 2/2 -o b.h5").status, 0);
+  ASSERT_EQ(
+      shell(mushroom + "--shard 1/2 -o run1.part && " + mushroom + "--shard 2/2 -o b.h5").status,
+      0);
   const std::string before = shell.read("run1.part");
   const Outcome again = shell("$carom escape --resume run1.part --json");
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(json_value(again.out, "status"), "\"completed\"");
   EXPECT_TRUE(shell.read("run1.part") == before);
   // It has the name of the folder in which run1 would be made.
-  for (const std::string command : {"merge run1 b.h5", "run stadium --t-max 3 --quiet -o run1", "escape stadium --trajectories 10 -o run1 --force"}) {
+  for (const std::string command : {"merge run1 b.h5", "run stadium --t-max 3 --quiet -o run1",
+                                    "escape stadium --trajectories 10 -o run1 --force"}) {
     const Outcome o = shell("$carom " + command);
     EXPECT_EQ(o.status, 1) << command;
     EXPECT_EQ(o.err.find("carom: run1.part: 'run1' would be made here"), 0u) << o.err;
@@ -40,10 +46,13 @@ TEST(OwnFiles, AnArchiveMayBeCalledPart) {
 
 TEST(OwnFiles, AnInterruptedArchiveCalledPartGoesOn) {
   const Shell shell;
-  const Outcome o = shell(mushroom + "-o whole.h5 && for k in 1 2 3; do " + mushroom + "--shard $k/3 -o $k.h5 || exit 9; done; "
+  const Outcome o = shell(mushroom + "-o whole.h5 && for k in 1 2 3; do " + mushroom +
+                          "--shard $k/3 -o $k.h5 || exit 9; done; "
                           "$carom merge sum.part 1.h5 3.h5");
   ASSERT_EQ(o.status, 0) << o.err;
-  const Outcome end = shell("$carom escape --resume sum.part --quiet --json && $carom escape --resume whole.h5 --json > whole");
+  const Outcome end = shell(
+      "$carom escape --resume sum.part --quiet --json && $carom escape --resume whole.h5 --json > "
+      "whole");
   EXPECT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(json_value(end.out, "digest"), json_value(shell.read("whole"), "digest"));
   EXPECT_TRUE(shell.exists("sum.part"));
@@ -55,7 +64,8 @@ TEST(OwnFiles, ACheckpointIsFoundByItsOwnName) {
   leave_a_checkpoint(shell, "");
   // By the name that a shell completes, too.
   const std::string go_on = " --quiet --json --checkpoint blocks:20 & pid=$!; until_saved q.h5; ";
-  const Outcome first = shell("$carom escape --resume q.h5.part/" + go_on + "kill -9 $pid; wait $pid");
+  const Outcome first =
+      shell("$carom escape --resume q.h5.part/" + go_on + "kill -9 $pid; wait $pid");
   EXPECT_EQ(first.status, 137) << first.err;
   const Outcome o = shell("$carom escape --resume q.h5.part" + go_on + "kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
@@ -68,26 +78,41 @@ TEST(OwnFiles, ACheckpointIsFoundByItsOwnName) {
 // With --force, too. One question, whoever writes: is FILE.part a folder of Carom's?
 TEST(OwnFiles, FilesOfOthersAreRefused) {
   const Shell shell;
-  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o 1.h5 && " + mushroom + "--shard 2/2 -o 2.h5 && $carom run stadium --t-max 3 -o run.h5 --quiet").status, 0);
-  const std::vector<std::string> others = {"echo notes > a.svg.part", "mkdir a.svg.part; echo notes > a.svg.part/checkpoint.h5",
-                                           "cp 1.h5 a.svg.part", "mkfifo a.svg.part", "ln -s nowhere a.svg.part",
-                                           "mkdir real; ln -s real a.svg.part"};
+  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o 1.h5 && " + mushroom +
+                  "--shard 2/2 -o 2.h5 && $carom run stadium --t-max 3 -o run.h5 --quiet")
+                .status,
+            0);
+  const std::vector<std::string> others = {
+      "echo notes > a.svg.part",  "mkdir a.svg.part; echo notes > a.svg.part/checkpoint.h5",
+      "cp 1.h5 a.svg.part",       "mkfifo a.svg.part",
+      "ln -s nowhere a.svg.part", "mkdir real; ln -s real a.svg.part"};
   const std::vector<std::string> writers = {
-      "escape mushroom --trajectories 20 --t-max 20 -o a.svg", "escape mushroom --trajectories 20 --t-max 20 --per-trajectory -o a.svg",
-      "diffusion lorentz-triangular --trajectories 10 --t-max 3 -o a.svg", "merge a.svg 1.h5 2.h5",
-      "section stadium --orbits 2 --points 3 -o a.svg", "run stadium --t-max 3 -o a.svg",
-      "run stadium --precision certified --collisions 5 -o a.svg", "run --resume run.h5 --t-max 5 -o a.svg", "table stadium -o a.svg"};
+      "escape mushroom --trajectories 20 --t-max 20 -o a.svg",
+      "escape mushroom --trajectories 20 --t-max 20 --per-trajectory -o a.svg",
+      "diffusion lorentz-triangular --trajectories 10 --t-max 3 -o a.svg",
+      "merge a.svg 1.h5 2.h5",
+      "section stadium --orbits 2 --points 3 -o a.svg",
+      "run stadium --t-max 3 -o a.svg",
+      "run stadium --precision certified --collisions 5 -o a.svg",
+      "run --resume run.h5 --t-max 5 -o a.svg",
+      "table stadium -o a.svg"};
   for (const std::string& other : others) {
     ASSERT_EQ(shell(other).status, 0);
     const Names before = shell.files();
-    const std::string look = "ls -l a.svg.part; ls -lR . | grep -v '[.]out\\|[.]err'; test -p a.svg.part || cat a.svg.part a.svg.part/* 2>/dev/null; true";
+    const std::string look =
+        "ls -l a.svg.part; ls -lR . | grep -v '[.]out\\|[.]err'; test -p a.svg.part || cat "
+        "a.svg.part a.svg.part/* 2>/dev/null; true";
     const std::string is = shell(look).out;
     for (const std::string& writer : writers)
       for (const std::string force : {"", " --force"}) {
         const Outcome o = shell("timeout 20 $carom " + writer + force);
         EXPECT_EQ(o.status, 1) << other << "\n" << writer;
         EXPECT_EQ(o.out, "") << writer;
-        EXPECT_EQ(o.err.find("carom: a.svg.part: 'a.svg' would be made here, and this is something else"), 0u) << writer << "\n" << o.err;
+        EXPECT_EQ(
+            o.err.find("carom: a.svg.part: 'a.svg' would be made here, and this is something else"),
+            0u)
+            << writer << "\n"
+            << o.err;
         EXPECT_EQ(shell.files(), before) << writer;
       }
     EXPECT_EQ(shell(look).out, is) << other;
@@ -98,11 +123,14 @@ TEST(OwnFiles, FilesOfOthersAreRefused) {
 // What a kill leaves in the folder is replaced, whatever it is, and goes with it.
 TEST(OwnFiles, WhatAKillLeftIsReplaced) {
   const Shell shell;
-  for (const std::string left : {"true", ": > a.h5.part/carom.lock; head -c 700 /dev/urandom > a.h5.part/new",
-                                 ": > a.h5.part/carom.lock; head -c 7200 /dev/zero > a.h5.part/records"})
-    for (const std::string writer : {"escape mushroom --trajectories 20 --t-max 20 --per-trajectory", "section stadium --orbits 2 --points 3",
-                                     "run stadium --t-max 3"}) {
-      const Outcome o = shell("mkdir a.h5.part; " + left + "; $carom " + writer + " --quiet -o a.h5");
+  for (const std::string left :
+       {"true", ": > a.h5.part/carom.lock; head -c 700 /dev/urandom > a.h5.part/new",
+        ": > a.h5.part/carom.lock; head -c 7200 /dev/zero > a.h5.part/records"})
+    for (const std::string writer :
+         {"escape mushroom --trajectories 20 --t-max 20 --per-trajectory",
+          "section stadium --orbits 2 --points 3", "run stadium --t-max 3"}) {
+      const Outcome o =
+          shell("mkdir a.h5.part; " + left + "; $carom " + writer + " --quiet -o a.h5");
       EXPECT_EQ(o.status, 0) << left << "\n" << o.err;
       EXPECT_EQ(shell.files(), Names{"a.h5"}) << left;
       shell("rm a.h5");
@@ -126,23 +154,32 @@ TEST(OwnFiles, TheFolderIsNoPlaceForArchives) {
   for (const std::string name : {"checkpoint.h5", "new", "rank-1", "mine.h5"}) {
     const Outcome o = shell("$carom run stadium --t-max 3 --force -o q.h5.part/" + name);
     EXPECT_EQ(o.status, 1) << name;
-    EXPECT_EQ(o.err.find("carom: q.h5.part/" + name + ": this is in the folder in which 'q.h5' is made"), 0u) << o.err;
+    EXPECT_EQ(
+        o.err.find("carom: q.h5.part/" + name + ": this is in the folder in which 'q.h5' is made"),
+        0u)
+        << o.err;
   }
   EXPECT_EQ(shell("ls q.h5.part | grep -v new").out, "carom.lock\ncheckpoint.h5\n");
 }
 
 // A checkpoint that cannot be read: --resume says so, --force replaces it.
 TEST(OwnFiles, ADamagedCheckpointGivesWayToForce) {
-  for (const std::string damage : {"truncate -s 700 $c", "printf xxxxxxxx | dd of=$c bs=1 seek=9 conv=notrunc 2>/dev/null", "echo notes > $c", ": > $c"}) {
+  for (const std::string damage :
+       {"truncate -s 700 $c", "printf xxxxxxxx | dd of=$c bs=1 seek=9 conv=notrunc 2>/dev/null",
+        "echo notes > $c", ": > $c"}) {
     const Shell shell;
     leave_a_checkpoint(shell, "");
     shell("c=q.h5.part/checkpoint.h5; " + damage);
     const Outcome resumed = shell("$carom escape --resume q.h5");
     EXPECT_EQ(resumed.status, 1);
-    EXPECT_NE(resumed.err.find("q.h5.part/checkpoint.h5: the file is not an archive"), std::string::npos) << resumed.err;
+    EXPECT_NE(resumed.err.find("q.h5.part/checkpoint.h5: the file is not an archive"),
+              std::string::npos)
+        << resumed.err;
     const Outcome refused = shell(mushroom + "-o q.h5");
     EXPECT_EQ(refused.status, 1);
-    EXPECT_NE(refused.err.find("q.h5: a run that has not ended left a checkpoint"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("q.h5: a run that has not ended left a checkpoint"),
+              std::string::npos)
+        << refused.err;
     const Outcome forced = shell(mushroom + "-o q.h5 --force");
     EXPECT_EQ(forced.status, 0) << forced.err;
     EXPECT_EQ(shell.files(), Names{"q.h5"});
@@ -152,7 +189,10 @@ TEST(OwnFiles, ADamagedCheckpointGivesWayToForce) {
 // What stands beside a good archive neither hides nor stops it.
 TEST(OwnFiles, OthersBesideAnArchiveAreLeft) {
   const Shell shell;
-  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o a.h5 && " + mushroom + "--shard 2/2 -o b.h5 && echo notes > a.h5.part").status, 0);
+  ASSERT_EQ(shell(mushroom + "--shard 1/2 -o a.h5 && " + mushroom +
+                  "--shard 2/2 -o b.h5 && echo notes > a.h5.part")
+                .status,
+            0);
   const Outcome again = shell("$carom escape --resume a.h5 --json");
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(json_value(again.out, "status"), "\"completed\"");
@@ -163,22 +203,29 @@ TEST(OwnFiles, OthersBesideAnArchiveAreLeft) {
   EXPECT_EQ(shell("rm sum.h5; $carom merge sum.h5 b.h5").status, 0);
   EXPECT_EQ(shell.read("b.h5.part/checkpoint.h5"), "notes\n");
   // What would go on needs the name.
-  const Outcome half = shell("$carom merge half.h5 a.h5 && echo notes > half.h5.part && $carom escape --resume half.h5");
+  const Outcome half = shell(
+      "$carom merge half.h5 a.h5 && echo notes > half.h5.part && $carom escape --resume half.h5");
   EXPECT_EQ(half.status, 1);
-  EXPECT_NE(half.err.find("half.h5.part: 'half.h5' would be made here"), std::string::npos) << half.err;
+  EXPECT_NE(half.err.find("half.h5.part: 'half.h5' would be made here"), std::string::npos)
+      << half.err;
   EXPECT_EQ(shell.read("half.h5.part"), "notes\n");
 }
 
 // What was begun where there is no room goes.
 TEST(OwnFiles, AFullDiskLeavesNothing) {
   const Shell shell;
-  ASSERT_EQ(shell(mushroom + "-o 1.h5 --shard 1/2 && $carom run stadium --t-max 3 -o run.h5 --quiet").status, 0);
-  if (shell("mkdir small && mount -t tmpfs -o size=64k carom-test small").status != 0) GTEST_SKIP() << "no right to mount a small disk";
+  ASSERT_EQ(
+      shell(mushroom + "-o 1.h5 --shard 1/2 && $carom run stadium --t-max 3 -o run.h5 --quiet")
+          .status,
+      0);
+  if (shell("mkdir small && mount -t tmpfs -o size=64k carom-test small").status != 0)
+    GTEST_SKIP() << "no right to mount a small disk";
   shell("head -c 200k /dev/zero 2>/dev/null > small/filler");
   for (const std::string command :
-       {"escape mushroom --trajectories 10", "escape mushroom --trajectories 10 --per-trajectory", "diffusion lorentz-triangular --trajectories 10",
-        "merge 1.h5", "section stadium --orbits 2 --points 3", "run stadium --t-max 3", "run --resume run.h5 --t-max 5",
-        "run stadium --precision certified --collisions 5"}) {
+       {"escape mushroom --trajectories 10", "escape mushroom --trajectories 10 --per-trajectory",
+        "diffusion lorentz-triangular --trajectories 10", "merge 1.h5",
+        "section stadium --orbits 2 --points 3", "run stadium --t-max 3",
+        "run --resume run.h5 --t-max 5", "run stadium --precision certified --collisions 5"}) {
     const Outcome o = shell("$carom " + command + " -o small/a.h5");
     EXPECT_EQ(o.status, 1) << command;
     EXPECT_EQ(o.err.find("carom: cannot write 'small/a.h5"), 0u) << command << "\n" << o.err;

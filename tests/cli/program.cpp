@@ -33,7 +33,8 @@ until_listening() {
 }  // namespace
 
 Outcome Shell::operator()(const std::string& command) const {
-  const std::string script = std::string(functions) + "cd '" + folder() + "'; carom='" CAROM_PROGRAM "'; {\n" + command +
+  const std::string script = std::string(functions) + "cd '" + folder() +
+                             "'; carom='" CAROM_PROGRAM "'; {\n" + command +
                              "\n} >.out 2>.err </dev/null";
   const int raw = std::system(script.c_str());
   Outcome outcome;

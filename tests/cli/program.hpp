@@ -16,9 +16,10 @@ struct Outcome {
 /// Through the shell, in a folder of this test's own: "carom" stands for the program.
 class Shell {
  public:
-  /// `command` is a shell line in which $carom is the program. While $pid runs in the background, `until_there FILE`
-  /// waits for a file with something in it, `until_saved FILE` for the second checkpoint of FILE, in which there are
-  /// trajectories if checkpoints are blocks apart, `until_listening` until SIGTERM is no longer the end of it.
+  /// `command` is a shell line in which $carom is the program. While $pid runs in the background,
+  /// `until_there FILE` waits for a file with something in it, `until_saved FILE` for the second
+  /// checkpoint of FILE, in which there are trajectories if checkpoints are blocks apart,
+  /// `until_listening` until SIGTERM is no longer the end of it.
   Outcome operator()(const std::string& command) const;
   bool exists(const std::string& file) const;
   std::string read(const std::string& file) const;

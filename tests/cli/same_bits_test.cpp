@@ -1,5 +1,5 @@
-// The same bits with and without fused multiply-add in the machine's elementary functions, on any number
-// of threads, and by a program that another compiler made.
+// The same bits with and without fused multiply-add in the machine's elementary functions, on any
+// number of threads, and by a program that another compiler made.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -10,19 +10,22 @@
 namespace carom {
 namespace {
 
-const char* systems[] = {"magnetic-square", "stadium", "ellipse-magnetic", "sinai", "lorentz-triangular", "mushroom", "soft-lorentz"};
+const char* systems[] = {"magnetic-square",    "stadium",  "ellipse-magnetic", "sinai",
+                         "lorentz-triangular", "mushroom", "soft-lorentz"};
 
 std::string ensemble(const std::string& system) {
   const bool integrated = system == "soft-lorentz";
-  return " escape " + system + " --trajectories 1e4 --t-max " + (integrated ? "10" : "40") + " --json --quiet";
+  return " escape " + system + " --trajectories 1e4 --t-max " + (integrated ? "10" : "40") +
+         " --json --quiet";
 }
 
 TEST(SameBits, WithoutFusedMultiplyAdd) {
   const Shell shell;
   for (const char* system : systems) {
     const Outcome usual = shell("$carom" + ensemble(system) + " --threads 2");
-    const Outcome plain = shell("GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-FMA_Usable,-AVX2_Usable $carom" +
-                                ensemble(system) + " --threads 1");
+    const Outcome plain =
+        shell("GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-FMA_Usable,-AVX2_Usable $carom" +
+              ensemble(system) + " --threads 1");
     ASSERT_EQ(usual.status, 0) << usual.err;
     ASSERT_EQ(plain.status, 0) << plain.err;
     EXPECT_EQ(json_value(usual.out, "digest"), json_value(plain.out, "digest")) << system;
@@ -33,7 +36,8 @@ TEST(SameBits, WithoutFusedMultiplyAdd) {
 TEST(SameBits, AnotherSeedIsAnotherDigest) {
   const Shell shell;
   for (const char* system : {"stadium", "soft-lorentz"}) {
-    const Outcome one = shell("$carom" + ensemble(system)), two = shell("$carom" + ensemble(system) + " --seed 2");
+    const Outcome one = shell("$carom" + ensemble(system)),
+                  two = shell("$carom" + ensemble(system) + " --seed 2");
     EXPECT_NE(json_value(one.out, "digest"), json_value(two.out, "digest")) << system;
   }
 }

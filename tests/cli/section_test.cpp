@@ -27,22 +27,25 @@ TEST(Section, PrintsItsKeysAndStoresItsPoints) {
 TEST(Section, TakesListsAndGridsOfStarts) {
   const Shell shell;
   const std::string command =
-      "$carom section ellipse-magnetic --points 20 --json --set initial.kind=birkhoff --set initial.wall=ellipse "
+      "$carom section ellipse-magnetic --points 20 --json --set initial.kind=birkhoff --set "
+      "initial.wall=ellipse "
       "--set 'initial.s={from=0.1, to=4, count=3}' ";
-  EXPECT_EQ(json_value(shell(command + "--set 'initial.v_parallel=[0.1,0.5]'").out, "points"), "120");
+  EXPECT_EQ(json_value(shell(command + "--set 'initial.v_parallel=[0.1,0.5]'").out, "points"),
+            "120");
   EXPECT_EQ(json_value(shell(command + "--set initial.v_parallel=0").out, "points"), "60");
 }
 
 TEST(Section, ReadsEveryForm) {
   const Shell shell;
-  for (const char* on : {"boundary", "wall:ellipse", "line:0,0:1,1/3", "segment:-1/2,0:1/2,0", "circle:0,0,1/2",
-                         "x=1/10", "y=0", "vx=0", "vy=sqrt(2)/4"}) {
-    const Outcome o = shell("$carom section ellipse-magnetic --orbits 3 --t-max 50 --json --on '" + std::string(on) + "'");
+  for (const char* on : {"boundary", "wall:ellipse", "line:0,0:1,1/3", "segment:-1/2,0:1/2,0",
+                         "circle:0,0,1/2", "x=1/10", "y=0", "vx=0", "vy=sqrt(2)/4"}) {
+    const Outcome o = shell("$carom section ellipse-magnetic --orbits 3 --t-max 50 --json --on '" +
+                            std::string(on) + "'");
     EXPECT_EQ(o.status, 0) << on << o.err;
     EXPECT_NE(json_value(o.out, "points"), "0") << on;
   }
-  for (const char* on : {"wall:circle", "line:0,0", "line:0,0:0,0", "circle:0,0", "circle:0,0,-1", "z=1", "x=",
-                         "x=a", "", "nowhere"}) {
+  for (const char* on : {"wall:circle", "line:0,0", "line:0,0:0,0", "circle:0,0", "circle:0,0,-1",
+                         "z=1", "x=", "x=a", "", "nowhere"}) {
     const Outcome o = shell("$carom section ellipse-magnetic --on '" + std::string(on) + "'");
     EXPECT_NE(o.status, 0) << on;
     EXPECT_EQ(o.out, "") << on;
@@ -56,7 +59,8 @@ TEST(Section, ReadsEveryForm) {
 TEST(Section, ComesFromTheFileToo) {
   const Shell shell;
   const Outcome o = shell(
-      "$carom systems ellipse-magnetic > a.toml; printf '[section]\\non = \"y=0\"\\npoints = 10\\norbits = 4\\n' >> a.toml; "
+      "$carom systems ellipse-magnetic > a.toml; printf '[section]\\non = \"y=0\"\\npoints = "
+      "10\\norbits = 4\\n' >> a.toml; "
       "$carom section a.toml --json");
   EXPECT_EQ(json_value(o.out, "points"), "40") << o.err;
   const Outcome text = shell("$carom section a.toml");
@@ -67,9 +71,13 @@ TEST(Section, ComesFromTheFileToo) {
 // Such orbits would look for their first point for ever.
 TEST(Section, NeedsWallsOrASurface) {
   const Shell shell;
-  const Outcome o = shell("timeout 20 $carom section soft-lorentz --orbits 2 --points 3 -o a.h5"), line = shell("$carom section soft-lorentz --on vx=0 --orbits 2 --points 3");
+  const Outcome o = shell("timeout 20 $carom section soft-lorentz --orbits 2 --points 3 -o a.h5"),
+                line = shell("$carom section soft-lorentz --on vx=0 --orbits 2 --points 3");
   EXPECT_EQ(o.status, 1);
-  EXPECT_NE(o.err.find("section.on: there are no walls where the section could be taken (expected line:"), std::string::npos) << o.err;
+  EXPECT_NE(
+      o.err.find("section.on: there are no walls where the section could be taken (expected line:"),
+      std::string::npos)
+      << o.err;
   EXPECT_TRUE(shell.files().empty());
   EXPECT_EQ(line.status, 0) << line.err;
 }
@@ -77,7 +85,8 @@ TEST(Section, NeedsWallsOrASurface) {
 TEST(Section, OnAWallEndsWhereverTheWallIsNamed) {
   const Shell shell;
   const std::string vertical =
-      " --set initial.kind=point --position 0,0 --velocity 0,1 --set 'table.hole=[]' --points 5 --json --quiet";
+      " --set initial.kind=point --position 0,0 --velocity 0,1 --set 'table.hole=[]' --points 5 "
+      "--json --quiet";
   for (const char* on : {"--on wall:right", "--set section.on=wall:right"}) {
     const Outcome o = shell("timeout 20 $carom section stadium " + std::string(on) + vertical);
     EXPECT_EQ(o.status, 0) << on << o.err;
@@ -89,7 +98,8 @@ TEST(Section, OnAWallEndsWhereverTheWallIsNamed) {
   EXPECT_EQ(file.status, 0) << file.err;
   EXPECT_EQ(json_value(file.out, "points"), "0");
   // All walls: the points come, unless a last time is asked for.
-  const std::string closed = "$carom section stadium --set 'table.hole=[]' --orbits 1 --points 2000 --json --quiet";
+  const std::string closed =
+      "$carom section stadium --set 'table.hole=[]' --orbits 1 --points 2000 --json --quiet";
   EXPECT_EQ(json_value(shell(closed + " --set section.on=boundary").out, "points"), "2000");
   EXPECT_EQ(json_value(shell(closed + " --set run.t_max=1/1000").out, "incomplete"), "1");
 }

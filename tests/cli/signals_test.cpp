@@ -10,15 +10,16 @@ namespace {
 
 // Without an end of its own.
 const char* const endless =
-    "$carom escape stadium --set 'table.hole=[]' --t-max 1e3 --times 1e3 --trajectories 1e12 --threads 1 --block 16 --quiet --json -o run.h5 ";
+    "$carom escape stadium --set 'table.hole=[]' --t-max 1e3 --times 1e3 --trajectories 1e12 "
+    "--threads 1 --block 16 --quiet --json -o run.h5 ";
 // A checkpoint as soon as there is something to keep.
 const char* const and_save = "--checkpoint blocks:1 ";
 
 TEST(Signals, AClosedTerminalInterrupts) {
   const Shell shell;
   // Whoever runs this test may ignore hangups.
-  const Outcome o = shell("carom=\"env --default-signal=HUP $carom\"; " + std::string(endless) + and_save +
-                          "& pid=$!; until_saved run.h5; kill -HUP $pid; wait $pid");
+  const Outcome o = shell("carom=\"env --default-signal=HUP $carom\"; " + std::string(endless) +
+                          and_save + "& pid=$!; until_saved run.h5; kill -HUP $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
   EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"") << o.err;
   EXPECT_TRUE(shell.exists("run.h5"));
@@ -28,9 +29,11 @@ TEST(Signals, AClosedTerminalInterrupts) {
 // nohup starts it so. A run that ends may still save what was under way, and has its archive soon.
 TEST(Signals, WhoIgnoresHangupsGoesOn) {
   const Shell shell;
-  const Outcome o = shell(std::string("trap '' HUP; ") + endless + and_save +
-                          "& pid=$!; until_saved run.h5; kill -HUP $pid; n=0; while [ $n -lt 20 ] && until_saved run.h5; do n=$((n + 1)); done; "
-                          "[ $n = 20 ] && [ ! -e run.h5 ] && echo went on >&2; kill -TERM $pid; wait $pid");
+  const Outcome o =
+      shell(std::string("trap '' HUP; ") + endless + and_save +
+            "& pid=$!; until_saved run.h5; kill -HUP $pid; n=0; while [ $n -lt 20 ] && until_saved "
+            "run.h5; do n=$((n + 1)); done; "
+            "[ $n = 20 ] && [ ! -e run.h5 ] && echo went on >&2; kill -TERM $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;
   EXPECT_NE(o.err.find("went on"), std::string::npos) << o.err;
 }

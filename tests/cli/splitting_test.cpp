@@ -13,8 +13,9 @@ TEST(SplittingCommand, PrintsItsKeysAndOneDigest) {
   const Outcome one = shell(command + " --threads 1"), two = shell(command + " --threads 2");
   EXPECT_EQ(one.status, 0) << one.err;
   EXPECT_TRUE(is_json_object(one.out));
-  for (const char* key : {"version", "seconds", "levels", "population", "repetitions", "kick", "lookback", "rejected", "kick_cost",
-                          "lost", "collisions", "digest", "survival_hits", "decay"})
+  for (const char* key :
+       {"version", "seconds", "levels", "population", "repetitions", "kick", "lookback", "rejected",
+        "kick_cost", "lost", "collisions", "digest", "survival_hits", "decay"})
     EXPECT_NE(json_value(one.out, key), "") << key;
   for (const char* key : {"digest", "kick", "survival_hits", "decay"})
     EXPECT_EQ(json_value(one.out, key), json_value(two.out, key)) << key;
@@ -27,8 +28,11 @@ TEST(SplittingCommand, PrintsItsKeysAndOneDigest) {
 TEST(SplittingCommand, ChoosesItsKick) {
   const Shell shell;
   const std::string command =
-      "$carom escape three-disc --splitting hits:lin:0:8:9 --population 500 --repetitions 2 --json ";
-  const auto kick = [&](const char* more) { return std::stod(json_value(shell(command + more).out, "kick")); };
+      "$carom escape three-disc --splitting hits:lin:0:8:9 --population 500 --repetitions 2 "
+      "--json ";
+  const auto kick = [&](const char* more) {
+    return std::stod(json_value(shell(command + more).out, "kick"));
+  };
   EXPECT_EQ(kick("--kick 0.01"), 0.01);
   const double two = kick("--lookback 2"), four = kick("--lookback 4");
   EXPECT_LE(two, 0x1p-9);
@@ -39,7 +43,8 @@ TEST(SplittingCommand, ChoosesItsKick) {
 // 0 +- 0 would say that survival is impossible.
 TEST(SplittingCommand, SaysThatItsPopulationsDiedOut) {
   const Shell shell;
-  const std::string command = "$carom escape three-disc --splitting hits:0,30,60 --population 10 --repetitions 2 ";
+  const std::string command =
+      "$carom escape three-disc --splitting hits:0,30,60 --population 10 --repetitions 2 ";
   const Outcome json = shell(command + "--json"), text = shell(command);
   EXPECT_EQ(json.status, 0) << json.err;
   const std::string points = json_value(json.out, "survival_hits");
@@ -49,11 +54,14 @@ TEST(SplittingCommand, SaysThatItsPopulationsDiedOut) {
   EXPECT_NE(points.find("\"value\": 0."), std::string::npos) << "after the first hit some are left";
   EXPECT_NE(json_value(json.out, "note").find("died out"), std::string::npos) << json.out;
   EXPECT_EQ(json_value(json.out, "decay"), "null") << json.out;
-  EXPECT_NE(json.err.find("populations of 10 trajectories: errors and intervals hold from 100 on"), std::string::npos) << json.err;
+  EXPECT_NE(json.err.find("populations of 10 trajectories: errors and intervals hold from 100 on"),
+            std::string::npos)
+      << json.err;
   EXPECT_NE(text.out.find("died out"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("0.0000e+00"), std::string::npos) << text.out;
-  const Outcome by_time = shell("$carom escape three-disc --splitting 100,200 --times 0,50,150,250,350 --population 10 "
-                                "--repetitions 2 --t-max 350 --json");
+  const Outcome by_time = shell(
+      "$carom escape three-disc --splitting 100,200 --times 0,50,150,250,350 --population 10 "
+      "--repetitions 2 --t-max 350 --json");
   EXPECT_EQ(by_time.status, 0) << by_time.err;
   EXPECT_NE(json_value(by_time.out, "rate").find("null"), std::string::npos) << by_time.out;
   EXPECT_EQ(json_value(by_time.out, "decay"), "null") << by_time.out;

@@ -29,16 +29,22 @@ TEST(Streams, AResultThatNobodyGetsIsAnError) {
 
 TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
   const Shell shell;
-  // A folder in its way costs a checkpoint or two; where it stands there for long, because the machine is busy, the run gives up.
+  // A folder in its way costs a checkpoint or two; where it stands there for long, because the
+  // machine is busy, the run gives up.
   Outcome o;
   for (int tries = 0; tries < 10 && o.status != 130; ++tries)
-    o = shell("rm -rf a.h5*; $carom escape mushroom --trajectories 1e9 --quiet --json -o a.h5 --checkpoint 0.4 2>/dev/full & pid=$!; "
-              "until_saved a.h5; until mkdir a.h5.part/new; do sleep 0.02; done; sleep 0.6; rmdir a.h5.part/new; "
-              "kill -INT $pid; wait $pid");
+    o = shell(
+        "rm -rf a.h5*; $carom escape mushroom --trajectories 1e9 --quiet --json -o a.h5 "
+        "--checkpoint 0.4 2>/dev/full & pid=$!; "
+        "until_saved a.h5; until mkdir a.h5.part/new; do sleep 0.02; done; sleep 0.6; rmdir "
+        "a.h5.part/new; "
+        "kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"");
   EXPECT_EQ(shell.files().size(), 1u);
-  ASSERT_EQ(shell("$carom escape stadium --trajectories 100 --t-max 9 --shard 1/2 -o 1.h5 --quiet").status, 0);
+  ASSERT_EQ(shell("$carom escape stadium --trajectories 100 --t-max 9 --shard 1/2 -o 1.h5 --quiet")
+                .status,
+            0);
   const Outcome half = shell("$carom merge half.h5 1.h5 --json 2>/dev/full");
   EXPECT_EQ(half.status, 0);
   EXPECT_EQ(json_value(half.out, "status"), "\"incomplete\"");
@@ -49,10 +55,13 @@ TEST(Streams, RecordsOfOtherTrajectoriesAreRefused) {
   const Shell shell;
   ASSERT_EQ(shell(until_records_are_full(mushroom)).status, 1);
   ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
-  const Outcome o = shell("head -c 7200 /dev/zero | dd of=a.h5.part/records conv=notrunc 2>/dev/null; $carom" + mushroom.on("a.h5"));
+  const Outcome o =
+      shell("head -c 7200 /dev/zero | dd of=a.h5.part/records conv=notrunc 2>/dev/null; $carom" +
+            mushroom.on("a.h5"));
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");
-  EXPECT_NE(o.err.find("a.h5.part/records: the records of the trajectories"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("a.h5.part/records: the records of the trajectories"), std::string::npos)
+      << o.err;
   EXPECT_FALSE(shell.exists("a.h5"));
 }
 

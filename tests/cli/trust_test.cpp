@@ -9,8 +9,8 @@ namespace carom {
 namespace {
 
 TEST(Trust, KnowsHowManyDigitsOfAnOrbitAreRight) {
-  // The photon among mirrors: in double precision its last velocity is off by 8e-5, the last but one hit's by less
-  // than 1e-5.
+  // The photon among mirrors: in double precision its last velocity is off by 8e-5, the last but
+  // one hit's by less than 1e-5.
   const Shell shell;
   const Outcome json = shell("$carom run siam-photon --trust-tolerance 1e-5 --json -o photon.h5");
   EXPECT_EQ(json.status, 0) << json.err;
@@ -18,7 +18,8 @@ TEST(Trust, KnowsHowManyDigitsOfAnOrbitAreRight) {
   EXPECT_GT(hits, 9.0);
   EXPECT_LT(hits, 14.0);
   EXPECT_LT(std::strtod(json_value(json.out, "trusted_time").c_str(), nullptr), 10.0);
-  EXPECT_NE(shell("$carom run siam-photon --trust-tolerance 1e-5").out.find("then errors exceed"), std::string::npos);
+  EXPECT_NE(shell("$carom run siam-photon --trust-tolerance 1e-5").out.find("then errors exceed"),
+            std::string::npos);
   EXPECT_NE(shell("$carom run siam-photon").out.find("to the end"), std::string::npos);
 }
 
@@ -37,7 +38,8 @@ TEST(Trust, IsNullWhereMotionIsIntegrated) {
 TEST(Trust, OfOneParticleIsThatWithoutInteraction) {
   const Shell shell;
   const std::string plain = shell("$carom run siam-photon --json").out;
-  const Outcome alone = shell("$carom run siam-photon --json --set 'interaction={kind=\"coulomb\"}'");
+  const Outcome alone =
+      shell("$carom run siam-photon --json --set 'interaction={kind=\"coulomb\"}'");
   EXPECT_EQ(alone.status, 0) << alone.err;
   for (const char* key : {"collisions", "trusted_collisions", "trusted_time", "x"})
     EXPECT_EQ(json_value(alone.out, key), json_value(plain, key)) << key;
@@ -47,14 +49,19 @@ TEST(Trust, EndsSoonerForLess) {
   const Shell shell;
   double before = 1e9;
   for (const char* tolerance : {"0.1", "1e-3", "1e-6", "1e-12"}) {
-    const Outcome json = shell(std::string("$carom run stadium --set 'table.hole=[]' --json --trust-tolerance ") + tolerance);
+    const Outcome json =
+        shell(std::string("$carom run stadium --set 'table.hole=[]' --json --trust-tolerance ") +
+              tolerance);
     EXPECT_EQ(json.status, 0) << json.err;
-    EXPECT_EQ(std::strtod(json_value(json.out, "trust_tolerance").c_str(), nullptr), std::strtod(tolerance, nullptr));
+    EXPECT_EQ(std::strtod(json_value(json.out, "trust_tolerance").c_str(), nullptr),
+              std::strtod(tolerance, nullptr));
     const double hits = std::strtod(json_value(json.out, "trusted_collisions").c_str(), nullptr);
     EXPECT_LT(hits, before);
     before = hits;
   }
-  EXPECT_NE(shell("$carom run stadium --trust-tolerance 1e-5").out.find("1e-05 of the table's size"), std::string::npos);
+  EXPECT_NE(
+      shell("$carom run stadium --trust-tolerance 1e-5").out.find("1e-05 of the table's size"),
+      std::string::npos);
   for (const char* bad : {"0", "-1", "1", "nan", "x"}) {
     const Outcome refused = shell(std::string("$carom run stadium --trust-tolerance ") + bad);
     EXPECT_EQ(refused.status, 1) << bad;
@@ -65,8 +72,11 @@ TEST(Trust, EndsSoonerForLess) {
 // The start "1/3" is not its double: the error of the start alone ends a tolerance of its size.
 TEST(Trust, KnowsWhatWasWritten) {
   const Shell shell;
-  shell("printf '[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[particles]\nspeed = 1\n' > square.toml");
-  const std::string start = "$carom run ./square.toml --json --collisions 1 --trust-tolerance 1e-18 --velocity 1,0 ";
+  shell(
+      "printf '[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[particles]\nspeed = 1\n' > "
+      "square.toml");
+  const std::string start =
+      "$carom run ./square.toml --json --collisions 1 --trust-tolerance 1e-18 --velocity 1,0 ";
   EXPECT_EQ(json_value(shell(start + "--position 1/4,1/2").out, "trusted_collisions"), "1");
   EXPECT_EQ(json_value(shell(start + "--position 1/4,1/3").out, "trusted_collisions"), "0");
 }

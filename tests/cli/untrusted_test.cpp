@@ -10,9 +10,15 @@
 namespace carom {
 namespace {
 
-bool holds(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
-bool begins_with(const std::string& text, const std::string& what) { return text.rfind(what, 0) == 0; }
-std::uint64_t whole(const std::string& json, const char* key) { return std::stoull(json_value(json, key)); }
+bool holds(const std::string& text, const std::string& what) {
+  return text.find(what) != std::string::npos;
+}
+bool begins_with(const std::string& text, const std::string& what) {
+  return text.rfind(what, 0) == 0;
+}
+std::uint64_t whole(const std::string& json, const char* key) {
+  return std::stoull(json_value(json, key));
+}
 /// The value of a key within the value of another.
 double within(const std::string& json, const char* outer, const char* key) {
   const std::string object = json_value(json, outer), mark = std::string("\"") + key + "\": ";
@@ -57,14 +63,18 @@ TEST(Untrusted, UnresolvedTrajectoriesComeFirst) {
     const std::string first = text.out.substr(0, text.out.find('\n'));
     EXPECT_TRUE(holds(first, "; unresolved at t = ")) << first;
     EXPECT_TRUE(holds(first, "the first of " + std::to_string(unresolved))) << first;
-    EXPECT_FALSE(holds(text.out, "0x") || holds(text.err, "0x") || holds(text.out, "internal error")) << text.out << text.err;
+    EXPECT_FALSE(holds(text.out, "0x") || holds(text.err, "0x") ||
+                 holds(text.out, "internal error"))
+        << text.out << text.err;
     const std::string reports = json_value(json.out, "reports");
-    EXPECT_TRUE(holds(reports, "\"index\"") && holds(reports, "\"reason\"") && holds(reports, "\"state\": \"wall ") &&
-                holds(reports, "0x"))
+    EXPECT_TRUE(holds(reports, "\"index\"") && holds(reports, "\"reason\"") &&
+                holds(reports, "\"state\": \"wall ") && holds(reports, "0x"))
         << reports;
     if (begins_with(command, "escape")) {
       std::uint64_t sum = 0;
-      for (const char* fate : {"escaped", "survived", "singular", "unbounded", "unresolved", "lost"}) sum += whole(json.out, fate);
+      for (const char* fate :
+           {"escaped", "survived", "singular", "unbounded", "unresolved", "lost"})
+        sum += whole(json.out, fate);
       EXPECT_EQ(sum, whole(json.out, "trajectories"));
     }
   }
@@ -88,12 +98,14 @@ TEST(Untrusted, AreKeptByArchivesAndMerges) {
   shell(half);
   for (const std::string command : {"escape", "diffusion"}) {
     const Outcome whole_run = shell("$carom " + command + " ./half.toml --json -o all.h5 --force");
-    shell("$carom " + command + " ./half.toml --shard 1/2 -o a.h5 --force; $carom " + command + " ./half.toml --shard 2/2 -o b.h5 --force");
+    shell("$carom " + command + " ./half.toml --shard 1/2 -o a.h5 --force; $carom " + command +
+          " ./half.toml --shard 2/2 -o b.h5 --force");
     const Outcome merged = shell("$carom merge sum.h5 a.h5 b.h5 --json --force"),
                   read = shell("$carom " + command + " --resume all.h5 --json");
     for (const Outcome* o : {&merged, &read}) {
       EXPECT_EQ(o->status, 3) << o->err;
-      for (const char* key : {"unresolved", "lost", "reports", "energy_error", "steps", "force_evaluations", "digest"})
+      for (const char* key : {"unresolved", "lost", "reports", "energy_error", "steps",
+                              "force_evaluations", "digest"})
         EXPECT_EQ(json_value(o->out, key), json_value(whole_run.out, key)) << command << ' ' << key;
     }
   }
@@ -101,29 +113,37 @@ TEST(Untrusted, AreKeptByArchivesAndMerges) {
 
 TEST(Untrusted, EnergiesBeyondTheirTolerance) {
   const Shell shell;
-  for (const char* command : {"run soft-lorentz --t-max 20", "escape soft-lorentz --t-max 20 --trajectories 20",
-                              "diffusion soft-lorentz --t-max 20 --trajectories 20",
-                              "section soft-lorentz --t-max 20 --on vx=0 --orbits 5"}) {
+  for (const char* command :
+       {"run soft-lorentz --t-max 20", "escape soft-lorentz --t-max 20 --trajectories 20",
+        "diffusion soft-lorentz --t-max 20 --trajectories 20",
+        "section soft-lorentz --t-max 20 --on vx=0 --orbits 5"}) {
     const std::string line = std::string("$carom ") + command;
-    const Outcome usual = shell(line + " --json"), strict = shell(line + " --set integrator.energy_tolerance=1e-14");
+    const Outcome usual = shell(line + " --json"),
+                  strict = shell(line + " --set integrator.energy_tolerance=1e-14");
     EXPECT_EQ(usual.status, 0) << command << usual.err;
     EXPECT_LT(within(usual.out, "energy_error", "largest"), 1e-5) << command;
     EXPECT_GT(within(usual.out, "energy_error", "largest"), 1e-14) << command;
-    EXPECT_GE(within(usual.out, "energy_error", "largest"), std::abs(within(usual.out, "energy_error", "end"))) << command;
+    EXPECT_GE(within(usual.out, "energy_error", "largest"),
+              std::abs(within(usual.out, "energy_error", "end")))
+        << command;
     EXPECT_EQ(strict.status, 3) << command;
     EXPECT_TRUE(begins_with(strict.out, "the energy changed by ")) << strict.out;
     EXPECT_TRUE(holds(strict.out.substr(0, strict.out.find('\n')), "shorter step")) << strict.out;
   }
   // An orbit that comes back to where it began: the error lies between.
-  const Outcome o = shell("$carom run henon-heiles --t-max 100 --set integrator.scheme=velocity-verlet --set integrator.step=0.05 --json");
-  EXPECT_GT(within(o.out, "energy_error", "largest"), std::abs(within(o.out, "energy_error", "end")));
+  const Outcome o = shell(
+      "$carom run henon-heiles --t-max 100 --set integrator.scheme=velocity-verlet --set "
+      "integrator.step=0.05 --json");
+  EXPECT_GT(within(o.out, "energy_error", "largest"),
+            std::abs(within(o.out, "energy_error", "end")));
 }
 
 TEST(Untrusted, StepsAreCounted) {
   const Shell shell;
-  for (const char* command : {"run soft-lorentz --t-max 20", "escape soft-lorentz --t-max 20 --trajectories 20",
-                              "diffusion soft-lorentz --t-max 20 --trajectories 20",
-                              "section soft-lorentz --t-max 20 --on vx=0 --orbits 5"}) {
+  for (const char* command :
+       {"run soft-lorentz --t-max 20", "escape soft-lorentz --t-max 20 --trajectories 20",
+        "diffusion soft-lorentz --t-max 20 --trajectories 20",
+        "section soft-lorentz --t-max 20 --on vx=0 --orbits 5"}) {
     const std::string line = std::string("$carom ") + command;
     const Outcome o = shell(line + " --json"), text = shell(line);
     EXPECT_GE(whole(o.out, "steps"), 150u) << command;
@@ -135,8 +155,10 @@ TEST(Untrusted, StepsAreCounted) {
     EXPECT_EQ(json_value(counted.out, "unresolved_steps"), "0") << command << counted.err;
     EXPECT_EQ(json_value(counted.out, "first_unresolved"), "null") << command;
   }
-  EXPECT_TRUE(holds(shell("$carom escape soft-lorentz --t-max 20 --trajectories 20").out, "steps/s"));
-  for (const char* command : {"run stadium --t-max 20", "escape stadium --t-max 20 --trajectories 20"}) {
+  EXPECT_TRUE(
+      holds(shell("$carom escape soft-lorentz --t-max 20 --trajectories 20").out, "steps/s"));
+  for (const char* command :
+       {"run stadium --t-max 20", "escape stadium --t-max 20 --trajectories 20"}) {
     const Outcome o = shell(std::string("$carom ") + command + " --json");
     for (const char* key : {"steps", "force_evaluations", "unresolved_steps", "reports"})
       EXPECT_EQ(json_value(o.out, key), "") << command;
@@ -146,12 +168,14 @@ TEST(Untrusted, StepsAreCounted) {
 // A run that goes on counts on, and knows the energy that it began with.
 TEST(Untrusted, RunsThatGoOnCountOn) {
   const Shell shell;
-  const std::string run = "$carom run henon-heiles --set integrator.scheme=velocity-verlet --set integrator.step=0.05 ";
+  const std::string run =
+      "$carom run henon-heiles --set integrator.scheme=velocity-verlet --set integrator.step=0.05 ";
   const Outcome at_once = shell(run + "--t-max 60 --json");
   shell(run + "--t-max 20 -o a.h5");
   const Outcome parts = shell("$carom run --resume a.h5 --t-max 60 --json");
   EXPECT_EQ(parts.status, 0) << parts.err;
-  for (const char* key : {"x", "vy", "steps"}) EXPECT_EQ(json_value(parts.out, key), json_value(at_once.out, key)) << key;
+  for (const char* key : {"x", "vy", "steps"})
+    EXPECT_EQ(json_value(parts.out, key), json_value(at_once.out, key)) << key;
   for (const char* key : {"end", "largest"}) {
     const double first = within(at_once.out, "energy_error", key);
     EXPECT_NEAR(within(parts.out, "energy_error", key), first, 1e-12) << key;

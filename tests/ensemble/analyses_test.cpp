@@ -34,7 +34,8 @@ TEST(Analyses, OfATableMadeInCodeAreThoseOfItsFile) {
 
 // Particles between an obstacle and walls fly in lanes as they do one by one.
 TEST(Analyses, ObstaclesFlyTheSameOnBothEngines) {
-  System system = make_system(table().obstacle(elliptic_disc({0.4, 0.5}, 0.2, 0.1, "pi/5"_exact))
+  System system = make_system(table()
+                                  .obstacle(elliptic_disc({0.4, 0.5}, 0.2, 0.1, "pi/5"_exact))
                                   .obstacle(block({{1.5, 0.5}, {1.75, 0.5}, {1.75, 0.75}})),
                               {.t_max = 50, .trajectories = 300});
   for (const double omega : {0.0, 1.5}) {

@@ -14,13 +14,16 @@ namespace {
 
 System well(const std::string& omega, const std::string& integrator) {
   return read_system("[[potential]]\nkind = \"harmonic\"\nomega = " + omega +
-                         "\n[initial]\nkind = \"point\"\nposition = [1, 0]\nvelocity = [0, 0.5]\n[run]\nt_max = 20\n" + integrator,
+                         "\n[initial]\nkind = \"point\"\nposition = [1, 0]\nvelocity = [0, "
+                         "0.5]\n[run]\nt_max = 20\n" +
+                         integrator,
                      "well")
       .system;
 }
 
 TEST(ChosenSteps, ScaleWithThePeriodAndKeepTheEnergy) {
-  const double slow = well("1", "").dynamics.integrator.step, fast = well("1000", "").dynamics.integrator.step;
+  const double slow = well("1", "").dynamics.integrator.step,
+               fast = well("1000", "").dynamics.integrator.step;
   EXPECT_TRUE(well("1", "").dynamics.integrator.step_chosen);
   EXPECT_GT(slow, 0.02);
   EXPECT_LT(slow, 1.0);
@@ -44,10 +47,14 @@ TEST(ChosenSteps, AreWrittenIntoTheResolvedSystem) {
 
 TEST(ChosenSteps, SeeANarrowBumpThatNoPilotOrbitMeets) {
   const auto step = [](const std::string& width) {
-    return read_system("[table]\nshape = \"rectangle\"\nwidth = 2\nheight = 2\n[[potential]]\nkind = \"gaussian\"\nheight = 0.01\n"
-                       "width = " + width + "\ncenter = [1.7, 1.7]\n[particles]\nspeed = 1\n[initial]\nkind = \"point\"\n"
-                       "position = [0.1, 0.1]\nvelocity = [1, 0]\n[run]\nt_max = 10\n",
-                       "bump")
+    return read_system(
+               "[table]\nshape = \"rectangle\"\nwidth = 2\nheight = 2\n[[potential]]\nkind = "
+               "\"gaussian\"\nheight = 0.01\n"
+               "width = " +
+                   width +
+                   "\ncenter = [1.7, 1.7]\n[particles]\nspeed = 1\n[initial]\nkind = \"point\"\n"
+                   "position = [0.1, 0.1]\nvelocity = [1, 0]\n[run]\nt_max = 10\n",
+               "bump")
         .system.dynamics.integrator.step;
   };
   EXPECT_LT(step("0.003"), 0.02);
@@ -56,9 +63,11 @@ TEST(ChosenSteps, SeeANarrowBumpThatNoPilotOrbitMeets) {
 
 TEST(ChosenSteps, AForceWithoutABoundIsRefused) {
   try {
-    read_system("[[potential]]\nkind = \"expression\"\nexpression = \"log(x^2+y^2)\"\n[initial]\nkind = \"point\"\n"
-                "position = [0.5, 0]\nvelocity = [-1, 0]\n[run]\nt_max = 1\n",
-                "pole");
+    read_system(
+        "[[potential]]\nkind = \"expression\"\nexpression = \"log(x^2+y^2)\"\n[initial]\nkind = "
+        "\"point\"\n"
+        "position = [0.5, 0]\nvelocity = [-1, 0]\n[run]\nt_max = 1\n",
+        "pole");
     FAIL();
   } catch (const InputError& e) {
     EXPECT_EQ(e.place().key, "integrator.step");
@@ -67,7 +76,8 @@ TEST(ChosenSteps, AForceWithoutABoundIsRefused) {
 
 TEST(StateErrors, AreThoseOfTheClosedForm) {
   for (const char* integrator : {"[integrator]\nscheme = \"velocity-verlet\"\nstep = 0.05\n",
-                                 "[integrator]\nscheme = \"forest-ruth-4\"\nstep = 0.1\n", "[integrator]\nscheme = \"arkode\"\ntolerance = 1e-6\n"}) {
+                                 "[integrator]\nscheme = \"forest-ruth-4\"\nstep = 0.1\n",
+                                 "[integrator]\nscheme = \"arkode\"\ntolerance = 1e-6\n"}) {
     const System system = well("1", integrator);
     Observer observer;
     SingleRunOptions options;
@@ -82,15 +92,19 @@ TEST(StateErrors, AreThoseOfTheClosedForm) {
   }
 }
 
-// Towards the top of a hill, where rounding has grown by e^20 at the end, and is all the error there is.
+// Towards the top of a hill, where rounding has grown by e^20 at the end, and is all the error
+// there is.
 TEST(StateErrors, HoldWhatRoundingHasGrownTo) {
   for (int k = 1; k <= 20; ++k) {
     const double x = k / 32.0;
     const std::string at = std::to_string(x);
-    const System system = read_system("[[potential]]\nkind = \"expression\"\nexpression = \"-x^2/2\"\n[initial]\nkind = \"point\"\nposition = [" +
-                                          at + ", 0]\nvelocity = [-" + at + ", 0]\n[integrator]\nstep = " + std::to_string(0.01 + 0.001 * k) +
-                                          "\n[run]\nt_max = 20\n",
-                                      "hill").system;
+    const System system = read_system(
+                              "[[potential]]\nkind = \"expression\"\nexpression = "
+                              "\"-x^2/2\"\n[initial]\nkind = \"point\"\nposition = [" +
+                                  at + ", 0]\nvelocity = [-" + at + ", 0]\n[integrator]\nstep = " +
+                                  std::to_string(0.01 + 0.001 * k) + "\n[run]\nt_max = 20\n",
+                              "hill")
+                              .system;
     Observer observer;
     SingleRunOptions options;
     options.estimate_state_error = true;

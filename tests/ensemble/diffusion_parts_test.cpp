@@ -1,5 +1,5 @@
-// Diffusion ensembles in parts: interrupted and continued, in shards. The sum is the whole, bit for bit, although it is
-// one of doubles.
+// Diffusion ensembles in parts: interrupted and continued, in shards. The sum is the whole, bit for
+// bit, although it is one of doubles.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -108,7 +108,8 @@ TEST(DiffusionInParts, ShardsMakeTheWholeInAnyOrder) {
   }
 }
 
-// As several processes do that go on with what is there: each flies a share of what is missing, and counts that alone.
+// As several processes do that go on with what is there: each flies a share of what is missing, and
+// counts that alone.
 TEST(DiffusionInParts, SharesOfWhatIsMissingMakeTheWhole) {
   const System system = lorentz();
   const DiffusionResult whole = run_diffusion(system);

@@ -14,10 +14,11 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-System lorentz(const char* lattice, double spacing, double radius, double t_max, std::uint64_t trajectories,
-               const std::string& more = {}) {
+System lorentz(const char* lattice, double spacing, double radius, double t_max,
+               std::uint64_t trajectories, const std::string& more = {}) {
   System system = make_system("[table]\nshape = \"lorentz\"\nlattice = \"" + std::string(lattice) +
-                              "\"\nspacing = " + std::to_string(spacing) + "\nradius = " + std::to_string(radius) +
+                              "\"\nspacing = " + std::to_string(spacing) +
+                              "\nradius = " + std::to_string(radius) +
                               "\n[run]\nt_max = " + std::to_string(t_max) + "\n" + more);
   system.run.trajectories = trajectories;
   return system;
@@ -87,7 +88,8 @@ TEST(Diffusion, StartsBallistic) {
   EXPECT_NEAR(points[1].square.value, 1e-12, 1e-15);
 }
 
-// An independent simulation: D = .1699(3) for gap .2 in units of the disc's radius; Machta and Zwanzig only as w -> 0.
+// An independent simulation: D = .1699(3) for gap .2 in units of the disc's radius; Machta and
+// Zwanzig only as w -> 0.
 TEST(Diffusion, OfTheTriangularGas) {
   const System system = lorentz("triangular", 2.2, 1, 100, 30000);
   const DiffusionResult result = run_diffusion(system);
@@ -100,7 +102,8 @@ TEST(Diffusion, OfTheTriangularGas) {
   EXPECT_NEAR(fit->exponent.value, 1.0, 3 * fit->exponent.error);
   const Horizon horizon = horizon_of(system);
   EXPECT_EQ(horizon.kind, Horizon::Kind::finite);
-  EXPECT_NEAR(horizon.machta_zwanzig.value(), 0.2 * 4.84 / (pi * (std::sqrt(3.0) * 4.84 - 2 * pi)), 1e-12);
+  EXPECT_NEAR(horizon.machta_zwanzig.value(), 0.2 * 4.84 / (pi * (std::sqrt(3.0) * 4.84 - 2 * pi)),
+              1e-12);
 }
 
 TEST(Diffusion, ScalesWithRadiusAndSpeed) {
@@ -111,7 +114,8 @@ TEST(Diffusion, ScalesWithRadiusAndSpeed) {
   const auto a = DisplacementMoments(run_diffusion(unit).sums).points();
   const auto b = DisplacementMoments(run_diffusion(scaled).sums).points();
   // Powers of two: until chaos shows the last bits, the same orbits.
-  for (std::size_t k = 0; k + 14 < a.size(); ++k) EXPECT_NEAR(b[k].square.value, 16 * a[k].square.value, 1e-9);
+  for (std::size_t k = 0; k + 14 < a.size(); ++k)
+    EXPECT_NEAR(b[k].square.value, 16 * a[k].square.value, 1e-9);
   EXPECT_NEAR(*horizon_of(scaled).machta_zwanzig, 8 * *horizon_of(unit).machta_zwanzig, 1e-12);
 }
 
@@ -138,7 +142,8 @@ TEST(Horizon, CorridorsAreTheTailOfFreeFlights) {
     }
     const double share = free / static_cast<double>(system.run.trajectories);
     // The limit is reached as 1/t: by less than 2 % at t = 40.
-    EXPECT_NEAR(40 * share, horizon.flight_tail, horizon.flight_tail * (4 / std::sqrt(free) + 0.02)) << lattice;
+    EXPECT_NEAR(40 * share, horizon.flight_tail, horizon.flight_tail * (4 / std::sqrt(free) + 0.02))
+        << lattice;
   }
 }
 
@@ -155,8 +160,9 @@ TEST(Horizon, OfADiscIsThatOfItsCentre) {
   EXPECT_EQ(wide.kind, Horizon::Kind::infinite);
   EXPECT_NEAR(wide.flight_tail, 2 * 0.04 / (pi * (1 - pi * 0.16)), 1e-14);
   for (const char* radii : {"radius = 0.05\n", "radius = 0.001\n"}) {
-    const Horizon two = horizon_of(lorentz("triangular", 2.4, 1, 1, 1,
-                                           std::string("[particles]\ncount = 2\n[interaction]\nkind = \"hard-discs\"\n") + radii));
+    const Horizon two = horizon_of(lorentz(
+        "triangular", 2.4, 1, 1, 1,
+        std::string("[particles]\ncount = 2\n[interaction]\nkind = \"hard-discs\"\n") + radii));
     EXPECT_EQ(two.kind, Horizon::Kind::unknown);
     EXPECT_FALSE(two.machta_zwanzig);
     EXPECT_EQ(two.flight_tail, 0);

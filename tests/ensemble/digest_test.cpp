@@ -110,7 +110,8 @@ t_max = 10
 trajectories = 30
 )";
 
-// Another seed, step, height, mass, speed, time or table is another digest: of systems without a wall as well.
+// Another seed, step, height, mass, speed, time or table is another digest: of systems without a
+// wall as well.
 TEST(Digest, TellsIntegratedMotionApart) {
   std::set<std::uint64_t> escapes, diffusions;
   std::size_t all = 0;
@@ -123,9 +124,14 @@ TEST(Digest, TellsIntegratedMotionApart) {
   };
   const Settings usual{{"run.trajectories", "40"}, {"run.t_max", "10"}};
   look_at(built_in("soft-lorentz", usual), "as it is");
-  for (const auto& [key, value] : Settings{{"run.seed", "3"}, {"integrator.step", "0.05"}, {"integrator.scheme", "\"velocity-verlet\""},
-                                           {"potential[0].height", "1.0000000000000002"}, {"particles.mass", "2"}, {"run.t_max", "10.5"},
-                                           {"particles.energy", "0.6"}, {"field.B", "1e-3"}}) {
+  for (const auto& [key, value] : Settings{{"run.seed", "3"},
+                                           {"integrator.step", "0.05"},
+                                           {"integrator.scheme", "\"velocity-verlet\""},
+                                           {"potential[0].height", "1.0000000000000002"},
+                                           {"particles.mass", "2"},
+                                           {"run.t_max", "10.5"},
+                                           {"particles.energy", "0.6"},
+                                           {"field.B", "1e-3"}}) {
     Settings other = usual;
     other.emplace_back(key, value);
     look_at(built_in("soft-lorentz", other), key);
@@ -147,8 +153,10 @@ TEST(Digest, TellsIntegratedMotionApart) {
 
 // The same on all threads, in blocks of any size and in lanes.
 TEST(Digest, OfIntegratedMotionIsTheSameInEveryWay) {
-  std::vector<System> systems{make_system(gas_of_discs), make_system(pair_in_range), make_system(far_bumps)};
-  const auto add = [&](const std::string& name, const char* t_max, const char* trajectories, Settings settings = {}) {
+  std::vector<System> systems{make_system(gas_of_discs), make_system(pair_in_range),
+                              make_system(far_bumps)};
+  const auto add = [&](const std::string& name, const char* t_max, const char* trajectories,
+                       Settings settings = {}) {
     settings.emplace_back("run.t_max", t_max);
     settings.emplace_back("run.trajectories", trajectories);
     systems.push_back(built_in(name, settings));
@@ -172,8 +180,10 @@ TEST(Digest, OfIntegratedMotionIsTheSameInEveryWay) {
     for (const auto& lanes : all)
       for (const auto& [threads, block] : {std::pair{1, 7u}, {2, 1u}, {3, 64u}}) {
         const Way way{lanes, threads, block};
-        EXPECT_EQ(escape(system, way).digest, escapes) << (lanes ? name_of(*lanes) : "scalar") << ' ' << threads;
-        EXPECT_EQ(diffusion(system, way).digest, diffusions) << (lanes ? name_of(*lanes) : "scalar") << ' ' << threads;
+        EXPECT_EQ(escape(system, way).digest, escapes)
+            << (lanes ? name_of(*lanes) : "scalar") << ' ' << threads;
+        EXPECT_EQ(diffusion(system, way).digest, diffusions)
+            << (lanes ? name_of(*lanes) : "scalar") << ' ' << threads;
       }
     in_lanes += all.size() > 1;
   }

@@ -108,8 +108,9 @@ class Log : public Listener {
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
     const ParticleEnd& p = end.particles.front();
     note(t, p.state);
-    lines[t.number].back() += " end " + std::to_string(static_cast<int>(p.fate)) + ' ' + std::to_string(p.hits) + ' ' +
-                              std::to_string(p.last_wall) + ' ' + std::to_string(p.hole);
+    lines[t.number].back() += " end " + std::to_string(static_cast<int>(p.fate)) + ' ' +
+                              std::to_string(p.hits) + ' ' + std::to_string(p.last_wall) + ' ' +
+                              std::to_string(p.hole);
   }
   std::map<std::uint64_t, std::vector<std::string>> lines;
   std::uint64_t most = 1000000;
@@ -117,8 +118,9 @@ class Log : public Listener {
  private:
   void note(const Trajectory& t, const State& s) {
     char text[200];
-    std::snprintf(text, sizeof text, "%a %a %a %a %a %lld %lld", s.position.x, s.position.y, s.velocity.x, s.velocity.y,
-                  s.time.value(), static_cast<long long>(s.cell.first), static_cast<long long>(s.cell.second));
+    std::snprintf(text, sizeof text, "%a %a %a %a %a %lld %lld", s.position.x, s.position.y,
+                  s.velocity.x, s.velocity.y, s.time.value(), static_cast<long long>(s.cell.first),
+                  static_cast<long long>(s.cell.second));
     lines[t.number].push_back(text);
   }
   std::map<std::uint64_t, std::uint64_t> hits_;
@@ -135,7 +137,8 @@ TEST(Engines, TellEachTrajectoryInTheOrderOfItsEvents) {
       for (const InstructionSet set : available_instruction_sets()) {
         options.lanes = set;
         const auto lines = flown(system, options, log).lines;
-        for (const auto& [number, events] : expected) ASSERT_EQ(lines.at(number), events) << system.name << ' ' << number;
+        for (const auto& [number, events] : expected)
+          ASSERT_EQ(lines.at(number), events) << system.name << ' ' << number;
       }
     }
 }
@@ -153,12 +156,15 @@ TEST(Engines, StopWhenTheyAreAskedTo) {
   System system = load_system("stadium").system;
   system.run.t_max = 1e9;
   system.table = std::make_shared<const Table>(*load_system("magnetic-square").system.table);
-  for (const std::optional<InstructionSet> lanes : {std::optional<InstructionSet>(), std::optional(widest_instruction_set())}) {
+  for (const std::optional<InstructionSet> lanes :
+       {std::optional<InstructionSet>(), std::optional(widest_instruction_set())}) {
     const Sampler sampler(system);
     DrawnStarts starts(sampler, TrajectoryRange{0, 1000000});
     MeanPosition analysis;
     int asked = 0;
-    EXPECT_FALSE(make_engine(system, {.t_end = 1e9, .lanes = lanes})->run(starts, analysis, [&] { return ++asked > 20; }));
+    EXPECT_FALSE(make_engine(system, {.t_end = 1e9, .lanes = lanes})->run(starts, analysis, [&] {
+      return ++asked > 20;
+    }));
   }
 }
 

@@ -1,4 +1,5 @@
-// Ensembles in parts: interrupted and continued, in shards, saved while they run. The sum is the whole.
+// Ensembles in parts: interrupted and continued, in shards, saved while they run. The sum is the
+// whole.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -84,7 +85,8 @@ TEST(EscapeInParts, GoesOnFromEverySavedState) {
     options.save_every_blocks = 20;
     expect_equal(run_escape(system, options), whole);
     ASSERT_FALSE(memory.states.empty());
-    EXPECT_EQ(memory.states.front().done.size(), 0u) << "the first state is kept before the first block";
+    EXPECT_EQ(memory.states.front().done.size(), 0u)
+        << "the first state is kept before the first block";
     const std::size_t step = 1 + memory.states.size() / 4;
     for (std::size_t i = 0; i < memory.states.size(); i += step) {
       EscapeOptions rest;
@@ -130,7 +132,9 @@ TEST(EscapeInParts, TellsItsOwnHits) {
   EscapeOptions rest;
   rest.threads = 1;
   rest.before = &before;
-  rest.progress = [&](std::uint64_t trajectories, std::uint64_t so_far) { done = trajectories, hits = so_far; };
+  rest.progress = [&](std::uint64_t trajectories, std::uint64_t so_far) {
+    done = trajectories, hits = so_far;
+  };
   const EscapeResult whole = run_escape(system, rest);
   EXPECT_EQ(done, system.run.trajectories);
   EXPECT_EQ(hits, whole.counts.collisions - before.counts.collisions);
@@ -178,7 +182,8 @@ TEST(EscapeInParts, AnErrorOfTheJournalEndsTheRun) {
 
 TEST(BlockList, CoversItsRangesInOrder) {
   const BlockList blocks({{3, 10}, {12, 13}, {20, 26}}, 3);
-  const std::vector<TrajectoryRange> expected{{3, 6}, {6, 9}, {9, 10}, {12, 13}, {20, 23}, {23, 26}};
+  const std::vector<TrajectoryRange> expected{{3, 6},   {6, 9},   {9, 10},
+                                              {12, 13}, {20, 23}, {23, 26}};
   ASSERT_EQ(blocks.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(blocks[i], expected[i]) << i;
   EXPECT_EQ(BlockList({}, 3).size(), 0u);

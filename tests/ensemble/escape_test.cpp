@@ -48,12 +48,12 @@ TEST(Escape, DoesNotDependOnTheFilter) {
   EXPECT_GE(inflated.decisions.exact, plain.decisions.exact);
 }
 
-// Ten thousand trajectories of each kind of table, with field and without: larger bounds and the other number of
-// threads change no bit, nor do lanes, which have margins of their own. At 2^20 few decisions of these leave the
-// filter; at 2^36 some of every table do.
+// Ten thousand trajectories of each kind of table, with field and without: larger bounds and the
+// other number of threads change no bit, nor do lanes, which have margins of their own. At 2^20 few
+// decisions of these leave the filter; at 2^36 some of every table do.
 TEST(Escape, TenThousandTrajectoriesWithInflatedBounds) {
-  for (const char* name : {"magnetic-square", "mushroom", "stadium", "sinai", "lorentz-triangular", "circle", "three-disc",
-                           "ellipse-magnetic"}) {
+  for (const char* name : {"magnetic-square", "mushroom", "stadium", "sinai", "lorentz-triangular",
+                           "circle", "three-disc", "ellipse-magnetic"}) {
     SystemOverrides changes;
     changes.trajectories = "1e4";
     changes.t_max = "6";
@@ -71,10 +71,12 @@ TEST(Escape, TenThousandTrajectoriesWithInflatedBounds) {
     const EscapeResult inflated = run_escape(system, options);
     expect_equal(plain, inflated);
     EXPECT_GT(inflated.decisions.exact, plain.decisions.exact) << name;
-    std::printf("%-20s %8llu hits, %llu decisions beyond the filter, %llu with bounds 2^36 times as large\n", name,
-                static_cast<unsigned long long>(plain.counts.collisions),
-                static_cast<unsigned long long>(plain.decisions.exact),
-                static_cast<unsigned long long>(inflated.decisions.exact));
+    std::printf(
+        "%-20s %8llu hits, %llu decisions beyond the filter, %llu with bounds 2^36 times as "
+        "large\n",
+        name, static_cast<unsigned long long>(plain.counts.collisions),
+        static_cast<unsigned long long>(plain.decisions.exact),
+        static_cast<unsigned long long>(inflated.decisions.exact));
   }
 }
 
@@ -119,7 +121,9 @@ TEST(Escape, InterruptedEndsWithWholeBlocks) {
   options.interrupted = &stop;
   std::uint64_t recorded = 0;
   options.progress = [&](std::uint64_t done, std::uint64_t) { stop = stop || done > 500; };
-  options.records = [&](const std::vector<TrajectoryRecord>& records) { recorded += records.size(); };
+  options.records = [&](const std::vector<TrajectoryRecord>& records) {
+    recorded += records.size();
+  };
   const EscapeResult result = run_escape(system, options);
   EXPECT_FALSE(result.complete);
   EXPECT_GT(result.counts.trajectories, 300u);
@@ -142,7 +146,9 @@ TEST(Escape, ErrorsLeaveTheThreads) {
   System system = make_system(magnetic_square);
   EscapeOptions options;
   options.threads = 2;
-  options.records = [](const std::vector<TrajectoryRecord>&) { throw InputError("the disk is full"); };
+  options.records = [](const std::vector<TrajectoryRecord>&) {
+    throw InputError("the disk is full");
+  };
   EXPECT_THROW(run_escape(system, options), InputError);
   options.records = nullptr;
   system.initial.kind = InitialCondition::Kind::point;
@@ -166,13 +172,15 @@ TEST(Escape, ClosedTablesKeepEverything) {
 
 TEST(Escape, PinnedOrbitsSurvive) {
   System system = make_system(
-      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.1\n[run]\nt_max = "
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = "
+      "0.1\n[run]\nt_max = "
       "50\n");
   system.run.trajectories = 2000;
   const EscapeResult result = run_escape(system);
   // Pinned: the guiding centre lies in the inner square of side 1 - 2 rho. For each direction the
   // starts with such a centre are that square, shifted.
-  EXPECT_NEAR(static_cast<double>(result.counts.pinned), 2000 * 0.64, 4 * std::sqrt(2000 * 0.64 * 0.36));
+  EXPECT_NEAR(static_cast<double>(result.counts.pinned), 2000 * 0.64,
+              4 * std::sqrt(2000 * 0.64 * 0.36));
   EXPECT_EQ(result.counts.survived, 2000u);
 }
 

@@ -156,13 +156,16 @@ TEST(FailingSteps, FailInTheLastStep) {
       EXPECT_EQ(listener.last->fate, Fate::unresolved);
       EXPECT_EQ(listener.last->time.value(), from);
       EXPECT_EQ(listener.states.size(), *lost[k] < Time(from) ? 1u : 2u);
-      for (const State& s : listener.states) EXPECT_TRUE(std::isfinite(dot(s.position, s.position)));
+      for (const State& s : listener.states)
+        EXPECT_TRUE(std::isfinite(dot(s.position, s.position)));
       // The step before it ended inside the table, or on its wall.
       const Vector last = listener.states.back().position;
-      EXPECT_TRUE(listener.states.size() < 2 || world.contains(last) || world.contains(last + 1e-9 * (Vector{0.5, 0.5} - last)))
+      EXPECT_TRUE(listener.states.size() < 2 || world.contains(last) ||
+                  world.contains(last + 1e-9 * (Vector{0.5, 0.5} - last)))
           << k;
 
-      SoftLanes lanes(*system.table, system.dynamics, system.particles[0], InstructionSet::baseline);
+      SoftLanes lanes(*system.table, system.dynamics, system.particles[0],
+                      InstructionSet::baseline);
       std::size_t samples = 0;
       lanes.sample_at(times, [&](std::uint64_t, std::size_t, const State&) { ++samples; });
       lanes.run_until(times.back(), tests::one_by_one(start), [&](const LaneEnd& end) {

@@ -1,4 +1,5 @@
-// Particles that enter through a hole during a run: when, where, in which direction, and what is counted.
+// Particles that enter through a hole during a run: when, where, in which direction, and what is
+// counted.
 #include "carom/ensemble/injection.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,9 @@ System with(const std::string& injections, const std::string& run, const char* f
       "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n"
       "[[table.hole]]\nname = \"door\"\nwall = \"bottom\"\ncenter = 0.4\nwidth = 0.3\n"
       "[[table.hole]]\nname = \"window\"\nwall = \"top\"\ncenter = 0.5\nwidth = 0.1\n"
-      "[field]\nB = " + std::string(field) + "\n[particles]\ncount = 2\nspeed = 1.5\n" + injections + "[run]\n" + run);
+      "[field]\nB = " +
+      std::string(field) + "\n[particles]\ncount = 2\nspeed = 1.5\n" + injections + "[run]\n" +
+      run);
 }
 
 struct EndTimes : Observer {
@@ -36,7 +39,8 @@ struct EndTimes : Observer {
 
 struct Trace : Observer {
   void sample(int particle, Time time, const State& state) override {
-    if (particle >= static_cast<int>(first.size())) first.resize(static_cast<std::size_t>(particle) + 1, -1.0);
+    if (particle >= static_cast<int>(first.size()))
+      first.resize(static_cast<std::size_t>(particle) + 1, -1.0);
     double& t = first[static_cast<std::size_t>(particle)];
     if (t < 0.0) t = time.value();
     inside = inside && state.position.y >= 0.0;
@@ -55,13 +59,15 @@ TEST(Injection, HappensAtTheTimesGiven) {
   ASSERT_EQ(drawn.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(drawn[i].state.time, Time(times[i]));
-    EXPECT_NEAR(std::sqrt(dot(drawn[i].state.velocity, drawn[i].state.velocity)), i < 4 ? 1.5 : 0.25, 1e-15);
+    EXPECT_NEAR(std::sqrt(dot(drawn[i].state.velocity, drawn[i].state.velocity)),
+                i < 4 ? 1.5 : 0.25, 1e-15);
   }
 }
 
 // Until it enters a particle is not sampled; afterwards it moves from where it entered.
 TEST(Injection, RunsFollowWhatEnters) {
-  System system = with("[[injection]]\nhole = \"door\"\ntimes = [0.1, 0.35]\n", "t_max = 0.45\nsample = 0.125\n");
+  System system = with("[[injection]]\nhole = \"door\"\ntimes = [0.1, 0.35]\n",
+                       "t_max = 0.45\nsample = 0.125\n");
   const std::vector<InjectedParticle> drawn = Injector(system).draw(0);
   Trace trace;
   const SingleRunResult result = run_single(system, trace);
@@ -123,7 +129,8 @@ TEST(Injection, NumbersAreThoseOfAPoissonProcess) {
     }
     const double mean = sum / draws, variance = squares / draws - mean * mean;
     RecordProperty(seeds ? "mean_of_seeds" : "mean_of_trajectories", std::to_string(mean));
-    RecordProperty(seeds ? "variance_of_seeds" : "variance_of_trajectories", std::to_string(variance));
+    RecordProperty(seeds ? "variance_of_seeds" : "variance_of_trajectories",
+                   std::to_string(variance));
     EXPECT_NEAR(mean, 7.0, 5 * std::sqrt(7.0 / draws));
     EXPECT_NEAR(variance, 7.0, 5 * std::sqrt((7.0 + 2 * 49.0) / draws));
     EXPECT_NEAR(late / draws, 1.75, 5 * std::sqrt(1.75 / draws));
@@ -143,18 +150,20 @@ TEST(Injection, EntriesDoNotDisturbEachOther) {
   // Those of the start stay what they are.
   const System nobody = with("", "t_max = 10\n");
   Observer observer;
-  const SingleRunResult with_others = run_single(both, observer), without = run_single(nobody, observer);
+  const SingleRunResult with_others = run_single(both, observer),
+                        without = run_single(nobody, observer);
   for (std::size_t p = 0; p < 2; ++p) {
     EXPECT_EQ(with_others.particles[p].x, without.particles[p].x);
     EXPECT_EQ(with_others.particles[p].progress.hits, without.particles[p].progress.hits);
   }
 }
 
-// It starts on the wall inside the hole. That is no escape; in a field it may come back before anything else.
+// It starts on the wall inside the hole. That is no escape; in a field it may come back before
+// anything else.
 TEST(Injection, EnteringIsNotEscaping) {
   for (const char* field : {"0", "2", "-40"}) {
-    const System system =
-        with("[[injection]]\nhole = \"door\"\nrate = 1\n", "t_max = 40\ntrajectories = 100\n", field);
+    const System system = with("[[injection]]\nhole = \"door\"\nrate = 1\n",
+                               "t_max = 40\ntrajectories = 100\n", field);
     int back = 0, injected = 0;
     for (std::uint64_t trajectory = 0; trajectory < 20; ++trajectory) {
       World world(*system.table);
@@ -178,8 +187,10 @@ TEST(Injection, EnteringIsNotEscaping) {
 }
 
 TEST(Injection, EnsemblesCountAllAndDoNotDependOnThreads) {
-  const System system = with("[[injection]]\nhole = \"door\"\nrate = 0.3\n[[injection]]\nhole = \"window\"\ntimes = [1, 2]\n",
-                             "t_max = 20\ntrajectories = 300\n", "1");
+  const System system = with(
+      "[[injection]]\nhole = \"door\"\nrate = 0.3\n[[injection]]\nhole = \"window\"\ntimes = [1, "
+      "2]\n",
+      "t_max = 20\ntrajectories = 300\n", "1");
   std::size_t expected = 0;
   for (std::uint64_t t = 0; t < 300; ++t) expected += 2 + injected_count(system, t);
   std::vector<TrajectoryRecord> records;
@@ -198,7 +209,8 @@ TEST(Injection, EnsemblesCountAllAndDoNotDependOnThreads) {
   EXPECT_EQ(one.digest, other.digest);
   EXPECT_EQ(one.counts.escaped, other.counts.escaped);
   ASSERT_EQ(records.size(), expected);
-  for (std::size_t i = 1; i < records.size(); ++i) EXPECT_LT(records[i - 1].index, records[i].index);
+  for (std::size_t i = 1; i < records.size(); ++i)
+    EXPECT_LT(records[i - 1].index, records[i].index);
   // The last two of a trajectory come through the window, downwards.
   EXPECT_EQ(records.back().y, 1.0);
   EXPECT_LT(records.back().vy, 0.0);
@@ -209,7 +221,8 @@ TEST(Injection, EnsemblesCountAllAndDoNotDependOnThreads) {
 
 TEST(Injection, AHoleAcrossTheStartOfACircleIsWhole) {
   const System system = make_system(
-      "[table]\nshape = \"circle\"\nradius = 1\n[[table.hole]]\nname = \"gate\"\nwall = \"circle\"\ncenter = 0\n"
+      "[table]\nshape = \"circle\"\nradius = 1\n[[table.hole]]\nname = \"gate\"\nwall = "
+      "\"circle\"\ncenter = 0\n"
       "width = 0.5\n[[injection]]\nhole = \"gate\"\nrate = 10\n[run]\nt_max = 100\n");
   int above = 0, below = 0;
   for (const InjectedParticle& one : Injector(system).draw(0)) {
@@ -222,7 +235,8 @@ TEST(Injection, AHoleAcrossTheStartOfACircleIsWhole) {
 }
 
 TEST(Injection, IsRefusedWhereItIsNotKnown) {
-  const System system = with("[[injection]]\nhole = \"door\"\ntimes = [1]\n", "t_max = 2\ntimes = [1, 2]\n");
+  const System system =
+      with("[[injection]]\nhole = \"door\"\ntimes = [1]\n", "t_max = 2\ntimes = [1, 2]\n");
   Observer nobody;
   SingleRunOptions resumed;
   resumed.resume.resize(3);

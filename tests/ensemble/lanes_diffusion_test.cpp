@@ -11,7 +11,8 @@
 namespace carom {
 namespace {
 
-DiffusionResult run(const System& system, std::optional<InstructionSet> lanes, int threads, std::uint64_t block) {
+DiffusionResult run(const System& system, std::optional<InstructionSet> lanes, int threads,
+                    std::uint64_t block) {
   DiffusionOptions how;
   how.lanes = lanes;
   how.threads = threads;
@@ -65,8 +66,10 @@ TEST_P(DiffusionInLanes, HasTheSumsOfTheScalarEngine) {
   expect_same_in_lanes(system);
 }
 
-INSTANTIATE_TEST_SUITE_P(BuiltIn, DiffusionInLanes, testing::Values("lorentz-triangular", "lorentz-square", "sinai", "stadium", "mushroom",
-                                                                  "circle", "three-disc", "magnetic-square", "ellipse-magnetic"));
+INSTANTIATE_TEST_SUITE_P(BuiltIn, DiffusionInLanes,
+                         testing::Values("lorentz-triangular", "lorentz-square", "sinai", "stadium",
+                                         "mushroom", "circle", "three-disc", "magnetic-square",
+                                         "ellipse-magnetic"));
 
 // Of particles that meet no wall, and of several in each trajectory, some of them born on walls.
 TEST(LaneDiffusion, OfSeveralParticlesAndPinnedOnes) {
@@ -85,7 +88,9 @@ kind = "boundary"
 t_max = 30
 trajectories = 300
 times = [0, 1, 2.5, 17, 30]
-)", "several").system;
+)",
+                                     "several")
+                             .system;
   ASSERT_EQ(several.particles.size(), 3u);
   expect_same_in_lanes(several);
   System pinned = load_system("magnetic-square").system;

@@ -21,7 +21,8 @@ struct Outcome {
   EscapeResult result;
   std::vector<TrajectoryRecord> records;
 };
-Outcome run(const System& system, std::optional<InstructionSet> lanes, int threads, std::uint64_t block, bool records) {
+Outcome run(const System& system, std::optional<InstructionSet> lanes, int threads,
+            std::uint64_t block, bool records) {
   Outcome r;
   EscapeOptions how;
   how.lanes = lanes;
@@ -63,15 +64,18 @@ TEST_P(EscapeInLanes, HasTheDigestOfTheScalarEngine) {
         ASSERT_EQ(lanes.records.size(), scalar.records.size());
         for (std::size_t i = 0; i < lanes.records.size(); ++i) {
           const TrajectoryRecord &a = lanes.records[i], &b = scalar.records[i];
-          ASSERT_TRUE(a.index == b.index && a.x == b.x && a.y == b.y && a.vx == b.vx && a.vy == b.vy &&
-                      a.fate == b.fate && a.hole == b.hole && a.time == b.time && a.hits == b.hits)
+          ASSERT_TRUE(a.index == b.index && a.x == b.x && a.y == b.y && a.vx == b.vx &&
+                      a.vy == b.vy && a.fate == b.fate && a.hole == b.hole && a.time == b.time &&
+                      a.hits == b.hits)
               << i;
         }
       }
 }
 
-INSTANTIATE_TEST_SUITE_P(BuiltIn, EscapeInLanes, testing::Values("stadium", "mushroom", "circle", "three-disc", "magnetic-square", "sinai",
-                                                               "lorentz-triangular", "ellipse-magnetic"));
+INSTANTIATE_TEST_SUITE_P(BuiltIn, EscapeInLanes,
+                         testing::Values("stadium", "mushroom", "circle", "three-disc",
+                                         "magnetic-square", "sinai", "lorentz-triangular",
+                                         "ellipse-magnetic"));
 
 // Starts far from the home cell are those in the plane, flown in lanes or not.
 TEST(LaneRecords, WriteStartsInThePlane) {

@@ -13,17 +13,21 @@ namespace carom {
 namespace {
 
 TEST(LostReports, AreThoseOfTheLowestIndices) {
-  const System system = make_system(std::string(defined_in_the_right_half) + "[run]\nt_max = 0.5\ntrajectories = 400\n");
+  const System system = make_system(std::string(defined_in_the_right_half) +
+                                    "[run]\nt_max = 0.5\ntrajectories = 400\n");
   EscapeOptions options;
   options.threads = 1;
   std::vector<TrajectoryRecord> records;
-  options.records = [&](const std::vector<TrajectoryRecord>& more) { records.insert(records.end(), more.begin(), more.end()); };
+  options.records = [&](const std::vector<TrajectoryRecord>& more) {
+    records.insert(records.end(), more.begin(), more.end());
+  };
   const EscapeResult one = run_escape(system, options);
   ASSERT_GT(one.counts.unresolved, 20u);
   ASSERT_LT(one.counts.unresolved, 400u);
   std::vector<std::uint64_t> first;
   for (const TrajectoryRecord& r : records)
-    if (r.fate == Fate::unresolved && first.size() < EnsembleResult::most_reports) first.push_back(r.index);
+    if (r.fate == Fate::unresolved && first.size() < EnsembleResult::most_reports)
+      first.push_back(r.index);
   ASSERT_EQ(one.reports.size(), first.size());
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(one.reports[i].first, first[i]);
   for (const InstructionSet set : available_instruction_sets())

@@ -85,8 +85,8 @@ step = 0.01
   EXPECT_THROW(run_escape(system, second_half), InputError);
 }
 
-// Of the draws one in 10^4 lies in the table, and of those hardly one below the energy: to know that there is no start takes
-// minutes, and hours where there must be one.
+// Of the draws one in 10^4 lies in the table, and of those hardly one below the energy: to know
+// that there is no start takes minutes, and hours where there must be one.
 const char* const hardly_any = R"(
 [table]
 shape = "rectangle"
@@ -111,8 +111,9 @@ trajectories = 100
 
 TEST(RareStarts, LetGoWhereTheyAreInterrupted) {
   const System system = make_system(hardly_any);
-  const System free = make_system("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[initial]\nkind = \"rectangle\"\n"
-                            "min = [0, 0]\nmax = [10000, 10000]\n[run]\nt_max = 5\ntrajectories = 100\n");
+  const System free = make_system(
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[initial]\nkind = \"rectangle\"\n"
+      "min = [0, 0]\nmax = [10000, 10000]\n[run]\nt_max = 5\ntrajectories = 100\n");
   std::atomic<bool> stop{false};
   const auto interrupted = [&](const auto& run) {
     stop = false;
@@ -159,8 +160,9 @@ TEST(RareStarts, StopAmongThreadsAfterTheFirst) {
   plan.repetitions = 2;
   SplittingOptions options;
   options.interrupted = &stop;
-  const System free = make_system("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[initial]\nkind = \"rectangle\"\n"
-                            "min = [0, 0]\nmax = [100, 100]\n[run]\nt_max = 5\ntrajectories = 100\n");
+  const System free = make_system(
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[initial]\nkind = \"rectangle\"\n"
+      "min = [0, 0]\nmax = [100, 100]\n[run]\nt_max = 5\ntrajectories = 100\n");
   std::thread later([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     stop = true;

@@ -112,7 +112,8 @@ TEST_P(Boundary, FollowsTheCosineLaw) {
   const Drawn draw(std::string(GetParam()) + "[initial]\nkind = \"boundary\"\n");
   const Table& table = *draw.system.table;
   std::vector<double> before{0.0};
-  for (const Wall& wall : table.walls) before.push_back(before.back() + geometry::length(wall.curve));
+  for (const Wall& wall : table.walls)
+    before.push_back(before.back() + geometry::length(wall.curve));
   EXPECT_LT(chi_squared([&](std::uint64_t i) {
               const State s = draw(i);
               const auto wall = static_cast<std::size_t>(s.wall);
@@ -173,7 +174,8 @@ center = 3
 width = 0.5
 )";
   // By either kind of start, the arc lengths fill [-0.15, 0.35) evenly.
-  for (const char* initial : {"[initial]\nkind = \"hole\"\nhole = \"gap\"\n", "[initial]\nkind = \"boundary\"\nhole = \"gap\"\n"}) {
+  for (const char* initial : {"[initial]\nkind = \"hole\"\nhole = \"gap\"\n",
+                              "[initial]\nkind = \"boundary\"\nhole = \"gap\"\n"}) {
     const Drawn draw(table + initial);
     const geometry::Curve& curve = draw.system.table->walls[0].curve;
     EXPECT_LT(chi_squared([&](std::uint64_t i) {
@@ -269,10 +271,11 @@ TEST(Sampler, RefusesWhatCannotStart) {
     }
     return std::string("nothing thrown");
   };
-  EXPECT_NE(
-      message("kind = \"point\"\nposition = [0.9, -0.5]\nvelocity = [1, 0]").find("not inside the table"),
-      std::string::npos);
-  EXPECT_NE(message("kind = \"point\"\nposition = [0, -1]\nvelocity = [0, 1]").find("not inside the table"),
+  EXPECT_NE(message("kind = \"point\"\nposition = [0.9, -0.5]\nvelocity = [1, 0]")
+                .find("not inside the table"),
+            std::string::npos);
+  EXPECT_NE(message("kind = \"point\"\nposition = [0, -1]\nvelocity = [0, 1]")
+                .find("not inside the table"),
             std::string::npos)
       << "a point on a wall";
 }
@@ -304,13 +307,17 @@ TEST(Sampler, RefusesRegionsBesideTheTable) {
                            "kind = \"rectangle\"\nmin = [1.5, -3]\nmax = [4, 3]",
                            "kind = \"line\"\nfrom = [-1, -1]\nto = [1, -1]\nangle = 1",
                            "kind = \"line\"\nfrom = [2, 0]\nto = [5, 4]\nangle = 1"};
-  for (const char* region : regions) EXPECT_THROW(Drawn(std::string(mushroom) + region), InputError) << region;
+  for (const char* region : regions)
+    EXPECT_THROW(Drawn(std::string(mushroom) + region), InputError) << region;
   // On a wall inside the box, and at a single point: after few tries.
-  const Drawn brim(std::string(mushroom) + "kind = \"line\"\nfrom = [0.5, 0]\nto = [1, 0]\nangle = 1");
+  const Drawn brim(std::string(mushroom) +
+                   "kind = \"line\"\nfrom = [0.5, 0]\nto = [1, 0]\nangle = 1");
   EXPECT_THROW(brim(0), InputError);
-  const Drawn point(std::string(mushroom) + "kind = \"rectangle\"\nmin = [0.75, -0.5]\nmax = [0.75, -0.5]");
+  const Drawn point(std::string(mushroom) +
+                    "kind = \"rectangle\"\nmin = [0.75, -0.5]\nmax = [0.75, -0.5]");
   EXPECT_THROW(point(0), InputError);
-  const Drawn inside(std::string(mushroom) + "kind = \"rectangle\"\nmin = [0.25, -0.5]\nmax = [0.25, -0.5]");
+  const Drawn inside(std::string(mushroom) +
+                     "kind = \"rectangle\"\nmin = [0.25, -0.5]\nmax = [0.25, -0.5]");
   EXPECT_EQ(inside(5).position, (Vector{0.25, -0.5}));
 }
 

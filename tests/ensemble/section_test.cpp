@@ -27,7 +27,9 @@ std::vector<SectionPoint> points_of(const System& system, int threads = 2) {
   std::vector<SectionPoint> points;
   SectionOptions options;
   options.threads = threads;
-  options.points = [&](const std::vector<SectionPoint>& more) { points.insert(points.end(), more.begin(), more.end()); };
+  options.points = [&](const std::vector<SectionPoint>& more) {
+    points.insert(points.end(), more.begin(), more.end());
+  };
   const SectionResult result = run_section(system, options);
   EXPECT_TRUE(result.complete);
   EXPECT_EQ(result.points, points.size());
@@ -48,7 +50,8 @@ TEST(Section, IsTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(one.points, four.points);
     const auto points = points_of(system, 3);
     for (std::size_t i = 1; i < points.size(); ++i) {
-      const bool next = points[i].orbit == points[i - 1].orbit && points[i].index == points[i - 1].index + 1 &&
+      const bool next = points[i].orbit == points[i - 1].orbit &&
+                        points[i].index == points[i - 1].index + 1 &&
                         points[i].t >= points[i - 1].t;
       const bool first = points[i].orbit > points[i - 1].orbit && points[i].index == 0;
       EXPECT_TRUE(next || first);
@@ -63,10 +66,10 @@ class Hits : public Observer {
 };
 
 TEST(Section, OfTheBoundaryIsTheStartAndEveryHit) {
-  System system = with_section(
-      std::string(ellipse) +
-          "[initial]\nkind = \"birkhoff\"\nwall = \"ellipse\"\ns = [0.5, 1, 2]\nv_parallel = [0.1, -0.3, 0.9]\n",
-      "points = 50", 1e300);
+  System system = with_section(std::string(ellipse) +
+                                   "[initial]\nkind = \"birkhoff\"\nwall = \"ellipse\"\ns = [0.5, "
+                                   "1, 2]\nv_parallel = [0.1, -0.3, 0.9]\n",
+                               "points = 50", 1e300);
   const auto points = points_of(system);
   ASSERT_EQ(points.size(), 150u) << "three listed starts";
   EXPECT_NEAR(points[50].s, 1.0, 1e-12);
@@ -85,8 +88,9 @@ TEST(Section, OfTheBoundaryIsTheStartAndEveryHit) {
 }
 
 TEST(Section, TakesAListOfStarts) {
-  const System system = with_section(std::string(ellipse) + "[particles]\nspeed = 1\n[initial]\nkind = \"list\"\n"
-                                                            "starts = [[0.1, 0.2, 1, -1], [0, \"1/4\", 0, -3]]\n",
+  const System system = with_section(std::string(ellipse) +
+                                         "[particles]\nspeed = 1\n[initial]\nkind = \"list\"\n"
+                                         "starts = [[0.1, 0.2, 1, -1], [0, \"1/4\", 0, -3]]\n",
                                      "on = \"y=0\"", 10);
   const auto points = points_of(system);
   ASSERT_GT(points.size(), 8u);
@@ -113,20 +117,23 @@ TEST(Section, OfOneWallSkipsTheOthers) {
   for (const SectionPoint& p : top) EXPECT_EQ(p.wall, 2);
 }
 
-// Angular momenta about the foci: their product is a constant of the ellipse; in the circle with a field the
-// tangential velocity at the wall is one.
+// Angular momenta about the foci: their product is a constant of the ellipse; in the circle with a
+// field the tangential velocity at the wall is one.
 TEST(Section, KeepsTheInvariantsOfIntegrableTables) {
   const double focus = std::sqrt(1 - 0.5625);
-  for (const char* on : {"on = \"boundary\"", "on = \"y=0\"", "on = \"line:-1,0.3:1,-0.2\"", "on = \"circle:0,0,0.4\""}) {
+  for (const char* on : {"on = \"boundary\"", "on = \"y=0\"", "on = \"line:-1,0.3:1,-0.2\"",
+                         "on = \"circle:0,0,0.4\""}) {
     double first = 0;
     for (const SectionPoint& p : points_of(with_section(ellipse, on))) {
-      const double left = (p.x + focus) * p.vy - p.y * p.vx, right = (p.x - focus) * p.vy - p.y * p.vx;
+      const double left = (p.x + focus) * p.vy - p.y * p.vx,
+                   right = (p.x - focus) * p.vy - p.y * p.vx;
       if (p.index == 0) first = left * right;
       EXPECT_NEAR(left * right, first, 1e-12);
     }
   }
   double first = 0;
-  for (const SectionPoint& p : points_of(with_section(std::string(circle) + "[field]\nB = 0.8\n", "points = 100"))) {
+  for (const SectionPoint& p :
+       points_of(with_section(std::string(circle) + "[field]\nB = 0.8\n", "points = 100"))) {
     if (p.index == 0) first = p.v_parallel;
     EXPECT_NEAR(p.v_parallel, first, 1e-12);
   }
@@ -151,7 +158,8 @@ class Samples : public Observer {
 
 TEST(Section, CountsWhatDenseSamplesSee) {
   for (const char* field : {"", "[field]\nlarmor_radius = 0.3\n", "[field]\nB = -1\n"}) {
-    for (const char* on : {"on = \"x=1/5\"", "on = \"circle:0.1,0,0.3\"", "on = \"line:-1,-1:1,0.5\""}) {
+    for (const char* on :
+         {"on = \"x=1/5\"", "on = \"circle:0.1,0,0.3\"", "on = \"line:-1,-1:1,0.5\""}) {
       const System system = with_section(std::string(ellipse) + field, on, 40, 10);
       std::vector<int> up(10), down(10);
       for (const SectionPoint& p : points_of(system)) ++(p.direction > 0 ? up : down)[p.orbit];
@@ -186,7 +194,9 @@ TEST(Section, DirectionsAreParts) {
 
 // Backwards in time, with the field turned round, an orbit meets the section at the same points.
 TEST(Section, IsReversible) {
-  const char* start = "[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nvelocity = [0.8, 0.6]\n[section]\non = \"x=0\"\n";
+  const char* start =
+      "[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nvelocity = [0.8, 0.6]\n[section]\non = "
+      "\"x=0\"\n";
   System there = make_system(std::string(ellipse) + "[field]\nB = 0.7\n" + start);
   there.run.t_max = 40;
   System back = make_system(std::string(ellipse) + "[field]\nB = -0.7\n" + start);
@@ -210,8 +220,9 @@ TEST(Section, IsReversible) {
 }
 
 TEST(Section, CountsEveryTurnOfAPinnedOrbit) {
-  System system = with_section(std::string(circle) + "[field]\nlarmor_radius = 0.25\n[initial]\nkind = \"point\"\n"
-                                                     "position = [0, 0.25]\nvelocity = [1, 0]\n",
+  System system = with_section(std::string(circle) +
+                                   "[field]\nlarmor_radius = 0.25\n[initial]\nkind = \"point\"\n"
+                                   "position = [0, 0.25]\nvelocity = [1, 0]\n",
                                "on = \"y=0.1\"\npoints = 100000", 3.14159265358979 * 0.5 * 1000);
   const SectionResult result = run_section(system);
   EXPECT_EQ(result.pinned, 1u);
@@ -221,19 +232,21 @@ TEST(Section, CountsEveryTurnOfAPinnedOrbit) {
 }
 
 TEST(Section, GoesOnBehindTheLastWall) {
-  const System system = with_section("[table]\nshape = \"discs\"\ncenters = [[0, 0]]\nradius = 1\n[initial]\n"
-                                     "kind = \"point\"\nposition = [-3, 0]\nvelocity = [1, 0]\n",
-                                     "on = \"x=-5\"", 100);
+  const System system = with_section(
+      "[table]\nshape = \"discs\"\ncenters = [[0, 0]]\nradius = 1\n[initial]\n"
+      "kind = \"point\"\nposition = [-3, 0]\nvelocity = [1, 0]\n",
+      "on = \"x=-5\"", 100);
   const auto points = points_of(system);
   ASSERT_EQ(points.size(), 1u);
   EXPECT_NEAR(points[0].t, 6.0, 1e-12);
 }
 
-// The same orbits flown and integrated: a splitting scheme with the exact drift is exact but for rounding.
+// The same orbits flown and integrated: a splitting scheme with the exact drift is exact but for
+// rounding.
 TEST(Section, OfIntegratedMotionIsThatOfFlights) {
   for (const char* field : {"", "[field]\nB = 1.2\n"}) {
-    for (const char* on : {"on = \"x=0.1\"", "on = \"circle:0.1,0,0.3\"", "on = \"segment:-0.5,-0.2:0.5,0.4\"",
-                           "on = \"vy=0.1\""}) {
+    for (const char* on : {"on = \"x=0.1\"", "on = \"circle:0.1,0,0.3\"",
+                           "on = \"segment:-0.5,-0.2:0.5,0.4\"", "on = \"vy=0.1\""}) {
       System system = with_section(std::string(ellipse) + field, on, 8, 10);
       const auto flown = points_of(system);
       system.dynamics.everywhere = true;
@@ -254,7 +267,8 @@ TEST(Section, OfIntegratedMotionIsThatOfFlights) {
 }
 
 TEST(Section, OfALatticeIsTakenInThePlane) {
-  System system = with_section("[table]\nshape = \"lorentz\"\nspacing = 2.2\nradius = 1\n", "on = \"x=1.5\"", 8);
+  System system = with_section("[table]\nshape = \"lorentz\"\nspacing = 2.2\nradius = 1\n",
+                               "on = \"x=1.5\"", 8);
   system.section.orbits = 300;
   const auto flown = points_of(system);
   EXPECT_GT(flown.size(), 40u);
@@ -301,8 +315,9 @@ step = 0.05
 
 TEST(Section, WatchingChangesNoBit) {
   for (const bool everywhere : {false, true}) {
-    System system = with_section("[table]\nshape = \"lorentz\"\nspacing = 2.2\nradius = 1\n[field]\nB = 0.3\n",
-                                 "on = \"circle:1.1,0.6,0.5\"", 30);
+    System system =
+        with_section("[table]\nshape = \"lorentz\"\nspacing = 2.2\nradius = 1\n[field]\nB = 0.3\n",
+                     "on = \"circle:1.1,0.6,0.5\"", 30);
     system.dynamics.everywhere = everywhere;
     system.dynamics.integrator.step = 0.05;
     const Sampler sampler(system);
@@ -332,9 +347,10 @@ TEST(Section, ErrorsLeaveTheThreads) {
 // Nothing that happens after the last point belongs to the section.
 TEST(Section, EndsWithTheLastPoint) {
   for (const char* on : {"on = \"boundary\"", "on = \"x=0.1\""}) {
-    System system = with_section("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n"
-                                 "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.5\n",
-                                 std::string(on) + "\npoints = 1", 1000, 100);
+    System system = with_section(
+        "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n"
+        "[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.5\n",
+        std::string(on) + "\npoints = 1", 1000, 100);
     const SectionResult result = run_section(system, {});
     EXPECT_EQ(result.points + result.incomplete, 50u);
     // The flight with the last point may end in the hole.

@@ -19,7 +19,8 @@ struct Trace : Observer {
 const char* tables[] = {
     magnetic_square,
     "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 2.2\nradius = 1\n",
-    "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n[field]\nB = 0.3\n",
+    "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n[field]\nB = "
+    "0.3\n",
     "[table]\nshape = \"ellipse\"\na = 2\nb = 1\n[field]\nB = -0.2\n",
 };
 
@@ -91,9 +92,11 @@ TEST(SingleRunEnd, EndsAfterSoManyHitsAndGoesOn) {
 
 TEST(SingleRunEnd, PinnedOrbitsEndARunWithoutLastTime) {
   System system = make_system(
-      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.1\n[initial]\nkind "
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = "
+      "0.1\n[initial]\nkind "
       "= "
-      "\"point\"\nposition = [0.5, 0.5]\nvelocity = [1, 0]\n[run]\nsample = 1\ncollisions = 5\nt_max = "
+      "\"point\"\nposition = [0.5, 0.5]\nvelocity = [1, 0]\n[run]\nsample = 1\ncollisions = "
+      "5\nt_max = "
       "1e300\n");
   Trace trace;
   const SingleRunResult result = run_single(system, trace);
@@ -124,7 +127,8 @@ TEST(SingleRunEnd, FollowsSeveralParticles) {
   Trace whole, parts;
   const SingleRunResult at_once = run_single(system, whole);
   ASSERT_EQ(at_once.particles.size(), 2u);
-  EXPECT_EQ(at_once.collisions, at_once.particles[0].progress.hits + at_once.particles[1].progress.hits);
+  EXPECT_EQ(at_once.collisions,
+            at_once.particles[0].progress.hits + at_once.particles[1].progress.hits);
   SingleRunOptions options;
   for (const double stop : {2.0, 9.0, 300.0}) {
     system.run.t_max = stop;
@@ -168,8 +172,8 @@ t_max = )";
   EXPECT_EQ(late.particles[0].energy_error.largest, late.particles[1].energy_error.largest);
 }
 
-// The built-in step is the one that docs/physics/integrators.md advises, a quarter of softness over speed: an orbit
-// is what it is with half the step. Four times as long it is off by up to 0.05.
+// The built-in step is the one that docs/physics/integrators.md advises, a quarter of softness over
+// speed: an orbit is what it is with half the step. Four times as long it is off by up to 0.05.
 TEST(BuiltInSystems, TheSoftLorentzGasIsResolved) {
   for (const char* seed : {"1", "2", "3", "4"}) {
     SystemOverrides usual, half;
@@ -177,8 +181,10 @@ TEST(BuiltInSystems, TheSoftLorentzGasIsResolved) {
     half.set = usual.set;
     half.set.emplace_back("integrator.step", "0.0125");
     Observer nothing;
-    const RunEnd a = run_single(load_system("soft-lorentz", usual).system, nothing).particles.front();
-    const RunEnd b = run_single(load_system("soft-lorentz", half).system, nothing).particles.front();
+    const RunEnd a =
+        run_single(load_system("soft-lorentz", usual).system, nothing).particles.front();
+    const RunEnd b =
+        run_single(load_system("soft-lorentz", half).system, nothing).particles.front();
     EXPECT_NEAR(a.x, b.x, 1e-4) << "seed " << seed;
     EXPECT_NEAR(a.y, b.y, 1e-4) << "seed " << seed;
   }

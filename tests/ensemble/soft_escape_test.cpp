@@ -1,4 +1,5 @@
-// Escape ensembles under forces: in lanes of any kind, threads and blocks, what the scalar engine gives.
+// Escape ensembles under forces: in lanes of any kind, threads and blocks, what the scalar engine
+// gives.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -40,14 +41,16 @@ kind = "boundary"
 t_max = 40
 trajectories = 300
 )",
-                     "well").system;
+                     "well")
+      .system;
 }
 
 struct Outcome {
   EscapeResult result;
   std::vector<TrajectoryRecord> records;
 };
-Outcome run(const System& system, std::optional<InstructionSet> lanes, int threads, std::uint64_t block) {
+Outcome run(const System& system, std::optional<InstructionSet> lanes, int threads,
+            std::uint64_t block) {
   Outcome r;
   EscapeOptions how;
   how.lanes = lanes;
@@ -79,8 +82,9 @@ TEST(SoftEscape, IsTheSameInEveryWay) {
       ASSERT_EQ(lanes.records.size(), scalar.records.size());
       for (std::size_t i = 0; i < lanes.records.size(); ++i) {
         const TrajectoryRecord &a = lanes.records[i], &b = scalar.records[i];
-        ASSERT_TRUE(a.index == b.index && a.x == b.x && a.y == b.y && a.vx == b.vx && a.vy == b.vy &&
-                    a.fate == b.fate && a.hole == b.hole && a.time == b.time && a.hits == b.hits)
+        ASSERT_TRUE(a.index == b.index && a.x == b.x && a.y == b.y && a.vx == b.vx &&
+                    a.vy == b.vy && a.fate == b.fate && a.hole == b.hole && a.time == b.time &&
+                    a.hits == b.hits)
             << i;
       }
     }

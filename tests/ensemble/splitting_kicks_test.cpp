@@ -11,7 +11,8 @@
 namespace carom {
 namespace {
 
-// Nothing stretches: who is still there moves nearly at right angles to the walls with the hole, by some 1/t.
+// Nothing stretches: who is still there moves nearly at right angles to the walls with the hole, by
+// some 1/t.
 System rectangle() {
   return make_system(R"([table]
 shape = "rectangle"
@@ -62,13 +63,15 @@ TEST(SplittingKicks, ThatAreTooLargeAreToldOf) {
   EXPECT_LT(cost.value, 0.0);
   const auto truth = independent(rectangle()).back();
   const Extrapolated last = survival(result).back().p;
-  EXPECT_GT(std::fabs(last.limit.value - truth.p), 6.0 * last.limit.error) << "these kicks cost little";
+  EXPECT_GT(std::fabs(last.limit.value - truth.p), 6.0 * last.limit.error)
+      << "these kicks cost little";
   EXPECT_GT(last.kick_error, 0.0);
   EXPECT_LT(last.low(), truth.low);
   EXPECT_GT(last.high(), truth.high);
   const Extrapolated rate = escape_rate(result).back().value, decay = decay_rate(result, 0, 2);
   EXPECT_GT(rate.kick_error, 0.0);
-  EXPECT_NEAR(decay.kick_error, 2.0 * std::fabs(cost.value - cost_of_kicks(result, 0).value) / 480.0, 1e-9);
+  EXPECT_NEAR(decay.kick_error,
+              2.0 * std::fabs(cost.value - cost_of_kicks(result, 0).value) / 480.0, 1e-9);
 }
 
 // Where orbits stretch, kicked copies forget where they come from, and cost nothing that is seen.

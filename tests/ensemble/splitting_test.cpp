@@ -34,7 +34,8 @@ SplittingPlan by_hits(int levels, std::uint64_t population, std::uint64_t repeti
   return plan;
 }
 
-SplittingPlan by_time(std::vector<double> levels, std::uint64_t population, std::uint64_t repetitions) {
+SplittingPlan by_time(std::vector<double> levels, std::uint64_t population,
+                      std::uint64_t repetitions) {
   SplittingPlan plan;
   plan.levels = std::move(levels);
   plan.population = population;
@@ -105,12 +106,13 @@ TEST(Splitting, ThreeDiscSurvivalPerBounce) {
   const double exact = -std::log(0.183029795396354243674);
   EXPECT_LT(std::fabs(decay.limit.value - exact), 4 * decay.limit.error);
   EXPECT_LT(decay.limit.error, 0.005);
-  std::printf("survival per bounce %.6f +- %.6f, extrapolation %.6f\n", std::exp(-decay.limit.value),
-              std::exp(-decay.limit.value) * decay.limit.error,
+  std::printf("survival per bounce %.6f +- %.6f, extrapolation %.6f\n",
+              std::exp(-decay.limit.value), std::exp(-decay.limit.value) * decay.limit.error,
               std::exp(-decay.limit.value) * decay.extrapolation);
 }
 
-// To a thousandth: the three runs of docs/physics/rare-events.md together. Minutes, so with CAROM_SOAK alone.
+// To a thousandth: the three runs of docs/physics/rare-events.md together. Minutes, so with
+// CAROM_SOAK alone.
 TEST(Splitting, ThreeDiscSurvivalToAThousandth) {
   if (!std::getenv("CAROM_SOAK")) GTEST_SKIP() << "long";
   double sum = 0.0, weights = 0.0;
@@ -123,14 +125,15 @@ TEST(Splitting, ThreeDiscSurvivalToAThousandth) {
     sum += weight * decay.limit.value;
     weights += weight;
   }
-  const double off = sum / weights + std::log(0.183029795396354243674), error = 1.0 / std::sqrt(weights);
+  const double off = sum / weights + std::log(0.183029795396354243674),
+               error = 1.0 / std::sqrt(weights);
   std::printf("off by %.1e, standard error %.1e\n", off, error);
   EXPECT_LT(2.0 * error, 1e-3);
   EXPECT_LT(std::fabs(off), 1e-3);
 }
 
-// The orbit between two discs hits one of them where its wall begins. With kicks along the wall, folded
-// there, these short looks back gave .1814(1) with kicks of 2^-7.
+// The orbit between two discs hits one of them where its wall begins. With kicks along the wall,
+// folded there, these short looks back gave .1814(1) with kicks of 2^-7.
 TEST(Splitting, WhereAWallBeginsDoesNotMatter) {
   SplittingPlan plan = by_hits(25, 6000, 16);
   plan.kick = 0x1p-5;
@@ -142,14 +145,15 @@ TEST(Splitting, WhereAWallBeginsDoesNotMatter) {
     variance += kick.error * kick.error / 9;
   }
   std::printf("survival per bounce %.6f, off by %.1f standard errors of %.1e\n", std::exp(-mean),
-              (-std::log(0.183029795396354243674) - mean) / std::sqrt(variance), std::sqrt(variance));
+              (-std::log(0.183029795396354243674) - mean) / std::sqrt(variance),
+              std::sqrt(variance));
   EXPECT_LT(std::fabs(mean + std::log(0.183029795396354243674)), 3.5 * std::sqrt(variance));
   EXPECT_LT(std::sqrt(variance), 0.003);
 }
 
-// By time a kick changes the number of hits until the level, and with it from where a copy would go back. To
-// take such ways favoured those with many hits: with these kicks, by 14 % after the first level and by 36 %
-// after the third.
+// By time a kick changes the number of hits until the level, and with it from where a copy would go
+// back. To take such ways favoured those with many hits: with these kicks, by 14 % after the first
+// level and by 36 % after the third.
 TEST(Splitting, CopiesByTimeKeepTheirNumberOfHits) {
   System system = three_disc();
   system.run.times = {6, 10, 14};
@@ -179,10 +183,11 @@ TEST(Splitting, MagneticSquareAgreesWithIndependentTrajectories) {
   for (std::size_t i = 0; i < rates.size(); ++i) {
     EXPECT_EQ(split[i].from, rates[i].from);
     EXPECT_EQ(split[i].to, rates[i].to);
-    EXPECT_LT(deviation(split[i].value, rates[i].value, (rates[i].high - rates[i].low) / 4), 4.0) << i;
+    EXPECT_LT(deviation(split[i].value, rates[i].value, (rates[i].high - rates[i].low) / 4), 4.0)
+        << i;
     std::printf("t %6.2f: %.3e +- %.1e (extrapolation %.1e), independent %.3e\n", rates[i].t,
-                split[i].value.limit.value, split[i].value.limit.error, split[i].value.extrapolation,
-                rates[i].value);
+                split[i].value.limit.value, split[i].value.limit.error,
+                split[i].value.extrapolation, rates[i].value);
   }
   const auto shares = survival(brute.counts);
   const auto points = survival(result);
@@ -216,22 +221,24 @@ TEST(Splitting, ClosedTablesKeepEverything) {
   }
   for (const SplitRate& rate : escape_rate(result)) {
     EXPECT_EQ(rate.value.limit.value, 0.0);
-    EXPECT_NEAR(rate.value.high(), (1.0 - 1.0 / (1.0 + z * z / 291)) / (rate.to - rate.from), 1e-9 * rate.value.high());
+    EXPECT_NEAR(rate.value.high(), (1.0 - 1.0 / (1.0 + z * z / 291)) / (rate.to - rate.from),
+                1e-9 * rate.value.high());
   }
 }
 
 // Orbits that never hit, and those of a table without holes beside them: all are still there.
 TEST(Splitting, NobodyGoneIsExactlyOne) {
-  const System system =
-      make_system("[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.1\n[run]\nt_max = 30\n");
+  const System system = make_system(
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = "
+      "0.1\n[run]\nt_max = 30\n");
   for (const SplittingPlan& plan : {by_time({5, 10, 20}, 97, 2), by_hits(12, 97, 2)})
     for (const auto& runs : run_splitting(system, plan).runs)
       for (const PopulationRun& run : runs)
         for (const double p : run.survival) EXPECT_EQ(p, 1.0);
 }
 
-// Around the discs of a table that is said to be closed, who leaves is lost. None goes without being counted:
-// walkers that did not reach their level, and kicked copies that did not.
+// Around the discs of a table that is said to be closed, who leaves is lost. None goes without
+// being counted: walkers that did not reach their level, and kicked copies that did not.
 TEST(Splitting, CountsWhatItLosesAmongKickedCopies) {
   System leaky = three_disc();
   Table table = *leaky.table;
@@ -266,7 +273,8 @@ TEST(Splitting, CountsWhatItLosesAmongKickedCopies) {
 // Pinned orbits are never copied and never lost.
 TEST(Splitting, PinnedOrbitsKeepTheirShare) {
   const System system = make_system(
-      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[[table.hole]]\nwall = \"bottom\"\ncenter = "
+      "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[[table.hole]]\nwall = "
+      "\"bottom\"\ncenter = "
       "0.5\n"
       "width = 0.3\n[field]\nlarmor_radius = 0.1\n[run]\nt_max = 200\n");
   const SplittingResult result = run_splitting(system, by_time({10, 20, 50}, 2000, 4));
@@ -288,7 +296,8 @@ TEST(Splitting, RefusesWhatItCannotDo) {
   plan.kick = -0.1;
   EXPECT_THROW(run_splitting(system, plan), InputError);
   EXPECT_THROW(run_splitting(system, by_hits(3, 1'000'000'000, 2)), InputError) << "terabytes";
-  EXPECT_THROW(run_splitting(load_system("henon-heiles", {}).system, by_hits(3, 100, 2)), InputError);
+  EXPECT_THROW(run_splitting(load_system("henon-heiles", {}).system, by_hits(3, 100, 2)),
+               InputError);
 }
 
 TEST(Splitting, CanBeInterrupted) {
@@ -302,17 +311,18 @@ TEST(Splitting, CanBeInterrupted) {
   for (const auto& runs : result.runs) EXPECT_EQ(runs.size(), 2u);
 }
 
-// The invariant measure stays: kicked cosine-law states are cosine-law states, close by, at the same place: a
-// move along the wall would be folded at its end, and orbits that pass there lose their neighbours on the
-// other side.
+// The invariant measure stays: kicked cosine-law states are cosine-law states, close by, at the
+// same place: a move along the wall would be folded at its end, and orbits that pass there lose
+// their neighbours on the other side.
 TEST(Kick, KeepsThePlaceAndTheInvariantMeasure) {
   for (const char* shape :
        {"shape = \"rectangle\"\nwidth = 1\nheight = 1\n", "shape = \"circle\"\nradius = 1\n"}) {
-    const std::string wall = std::string(shape).find("circle") != std::string::npos ? "circle" : "bottom";
+    const std::string wall =
+        std::string(shape).find("circle") != std::string::npos ? "circle" : "bottom";
     const System system =
         make_system("[table]\n" + std::string(shape) + "[[table.hole]]\nwall = \"" + wall +
-                    "\"\ncenter = 0.5\nwidth = 0.2\n[initial]\nkind = \"boundary\"\nwall = \"" + wall +
-                    "\"\n[particles]\nspeed = 3\n");
+                    "\"\ncenter = 0.5\nwidth = 0.2\n[initial]\nkind = \"boundary\"\nwall = \"" +
+                    wall + "\"\n[particles]\nspeed = 3\n");
     const geometry::CurveFrame frame = geometry::frame_of(system.table->walls[0].curve);
     const Sampler sampler(system);
     const World world(*system.table);
@@ -342,7 +352,8 @@ TEST(Kick, KeepsThePlaceAndTheInvariantMeasure) {
   }
 }
 
-// Two repetitions tell 12.7 standard errors at 95 %, sixteen 2.13, and no share lies beyond 0 and 1.
+// Two repetitions tell 12.7 standard errors at 95 %, sixteen 2.13, and no share lies beyond 0
+// and 1.
 TEST(Splitting, IntervalsKnowHowFewRepetitionsThereAre) {
   Extrapolated value;
   value.limit = {0.5, 0.01};
@@ -366,7 +377,8 @@ TEST(Splitting, IntervalsKnowHowFewRepetitionsThereAre) {
   }
 }
 
-// Values of small populations are skewed: an interval about the value held it in 9 of 10 runs, or in 8.
+// Values of small populations are skewed: an interval about the value held it in 9 of 10 runs, or
+// in 8.
 TEST(Splitting, IntervalsHoldTheValue) {
   System system = three_disc();
   SplittingPlan plan = by_hits(9, 8000, 8);
@@ -381,13 +393,14 @@ TEST(Splitting, IntervalsHoldTheValue) {
       system.run.seed = 100 + static_cast<std::uint64_t>(i);
       const auto points = survival(run_splitting(system, plan));
       const auto holds = [&](std::size_t n) {
-        return points[n].p.low() <= value[n].p.limit.value && value[n].p.limit.value <= points[n].p.high();
+        return points[n].p.low() <= value[n].p.limit.value &&
+               value[n].p.limit.value <= points[n].p.high();
       };
       three += holds(3);
       eight += holds(8);
     }
-    std::printf("population %d: %.3f and %.3f of the intervals hold the value\n", static_cast<int>(population), three / 150.0,
-                eight / 150.0);
+    std::printf("population %d: %.3f and %.3f of the intervals hold the value\n",
+                static_cast<int>(population), three / 150.0, eight / 150.0);
     EXPECT_GE(three, 0.94 * runs);
     EXPECT_GE(eight, (population < 100 ? 0.88 : 0.94) * runs);
   }

@@ -28,7 +28,8 @@ t_max = 200
 trajectories = 500
 )";
 
-/// A box with a potential that is defined in its right half alone: steps over the edge fail. Without [run].
+/// A box with a potential that is defined in its right half alone: steps over the edge fail.
+/// Without [run].
 inline const char* defined_in_the_right_half = R"toml(
 [table]
 shape = "rectangle"

@@ -20,19 +20,23 @@ System small(const char* name, std::vector<std::pair<std::string, std::string>> 
 
 struct Counter : Observer {
   std::uint64_t hits = 0, ends = 0, survived = 0, samples = 0;
-  void hit(const HitEvent& event) override { hits += static_cast<std::uint64_t>(event.reflections); }
+  void hit(const HitEvent& event) override {
+    hits += static_cast<std::uint64_t>(event.reflections);
+  }
   void sample(int, Time, const State&) override { ++samples; }
   void end(const EndEvent& event) override {
     ++ends;
-    survived += event.fate == Fate::survived || event.fate == Fate::pinned || event.fate == Fate::capped;
+    survived +=
+        event.fate == Fate::survived || event.fate == Fate::pinned || event.fate == Fate::capped;
   }
 };
 
 TEST(Trajectories, AreThoseOfAnEnsemble) {
   const std::string injection = "[{hole = \"hole_1\", times = [1, 2]}]";
-  for (const System& system : {small("magnetic-square"), small("soft-lorentz"), small("wigner", {{"run.t_max", "1"}}),
-                               small("stadium", {{"run.collisions", "5"}}),
-                               small("magnetic-square", {{"injection", injection}})}) {
+  for (const System& system :
+       {small("magnetic-square"), small("soft-lorentz"), small("wigner", {{"run.t_max", "1"}}),
+        small("stadium", {{"run.collisions", "5"}}),
+        small("magnetic-square", {{"injection", injection}})}) {
     SCOPED_TRACE(system.name);
     Counter all, first, rest;
     for_each_trajectory(system, {0, 20}, all);
@@ -48,7 +52,8 @@ TEST(Trajectories, AreThoseOfAnEnsemble) {
 
 TEST(Trajectories, AreSampledAsTheSystemSays) {
   Counter counter;
-  for_each_trajectory(small("mushroom", {{"run.sample", "5"}, {"table.hole", "[]"}}), {0, 3}, counter);
+  for_each_trajectory(small("mushroom", {{"run.sample", "5"}, {"table.hole", "[]"}}), {0, 3},
+                      counter);
   EXPECT_EQ(counter.samples, 15u);
 }
 

@@ -36,7 +36,8 @@ TEST(TrajectoryRanges, AgreeWithFlags) {
     TrajectoryRanges set;
     std::vector<bool> flags(n);
     for (int step = 0; step < 12; ++step) {
-      const std::uint64_t first = random() % n, last = std::min<std::uint64_t>(n, first + random() % 6);
+      const std::uint64_t first = random() % n,
+                          last = std::min<std::uint64_t>(n, first + random() % 6);
       bool free = true;
       for (std::uint64_t i = first; i < last; ++i) free = free && !flags[i];
       const TrajectoryRanges before = set;
@@ -91,7 +92,8 @@ TEST(Shard, OfRangesCoversThemOnce) {
       at = part.last;
       std::uint64_t in_part = 0;
       for (const TrajectoryRange& range : all)
-        for (std::uint64_t i = range.first; i < range.last; ++i) in_part += i >= part.first && i < part.last;
+        for (std::uint64_t i = range.first; i < range.last; ++i)
+          in_part += i >= part.first && i < part.last;
       EXPECT_LE(in_part, 14 / of + 1);
       sum += in_part;
     }

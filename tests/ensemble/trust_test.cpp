@@ -65,9 +65,10 @@ TEST(RunTrust, IsThatOfTheUninterruptedRun) {
 
 TEST(RunTrust, IsUnknownWhereMotionIsIntegrated) {
   Observer nobody;
-  System system = make_system(std::string(circle) +
-                              "[[potential]]\nkind = \"gaussian\"\nheight = 0.1\nwidth = 0.1\ncenter = [0, "
-                              "0]\n[integrator]\nstep = 0.01\n");
+  System system =
+      make_system(std::string(circle) +
+                  "[[potential]]\nkind = \"gaussian\"\nheight = 0.1\nwidth = 0.1\ncenter = [0, "
+                  "0]\n[integrator]\nstep = 0.01\n");
   system.run.t_max = 1.0;
   EXPECT_FALSE(estimates_trust(system));
   EXPECT_FALSE(run_single(system, nobody).particles[0].trust.known);

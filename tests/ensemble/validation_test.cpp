@@ -13,8 +13,8 @@ namespace carom {
 namespace {
 
 System closed_circle(const char* initial, const char* run) {
-  return make_system(std::string("[table]\nshape = \"circle\"\nradius = 1\n[initial]\nkind = \"") + initial +
-                     "\"\n[run]\nt_max = 1e12\n" + run);
+  return make_system(std::string("[table]\nshape = \"circle\"\nradius = 1\n[initial]\nkind = \"") +
+                     initial + "\"\n[run]\nt_max = 1e12\n" + run);
 }
 
 TEST(Validation, MeanFlightOfADisc) {
@@ -84,7 +84,8 @@ TEST(Validation, SurvivorsWithinAnAllowance) {
 
 TEST(Validation, BothErrorsCount) {
   const System system = closed_circle("uniform", "collisions = 10\ntrajectories = 1000\n");
-  // All of a thousand survive: the own error is about 1e-3, and 0.1 is far away unless the reference is as uncertain.
+  // All of a thousand survive: the own error is about 1e-3, and 0.1 is far away unless the
+  // reference is as uncertain.
   EXPECT_FALSE(check_survivors(system, 1.0, {0.9, 0.001}, {}).passed);
   const ValidationCase c = check_survivors(system, 1.0, {0.9, 0.05}, {});
   EXPECT_TRUE(c.passed);

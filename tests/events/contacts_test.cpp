@@ -67,7 +67,8 @@ TEST(Contacts, AHeavyDiscDrivesARowAsTheClosedFormSays) {
   std::vector<double> masses{8, 4, 2, 1};
   std::vector<Disc> row;
   for (std::size_t i = 0; i < masses.size(); ++i)
-    row.push_back(disc_at({2.0 * static_cast<double>(i), 0}, {i == 0 ? 1.0 : 0.0, 0}, 0.25, masses[i]));
+    row.push_back(
+        disc_at({2.0 * static_cast<double>(i), 0}, {i == 0 ? 1.0 : 0.0, 0}, 0.25, masses[i]));
   Gas gas(table, row);
   ContactRecorder seen;
   gas.world.run_until(100.0, seen);
@@ -80,9 +81,9 @@ TEST(Contacts, AHeavyDiscDrivesARowAsTheClosedFormSays) {
 TEST(Contacts, SimultaneousOnesComeInTheOrderOfTheirDiscs) {
   const Table table = plane();
   // Three pairs that meet at the same time, listed in disorder.
-  Gas gas(table,
-          {disc_at({-2, 10}, {1, 0}, 0.5), disc_at({-2, 0}, {1, 0}, 0.5), disc_at({2, 5}, {-1, 0}, 0.5),
-           disc_at({2, 0}, {-1, 0}, 0.5), disc_at({-2, 5}, {1, 0}, 0.5), disc_at({2, 10}, {-1, 0}, 0.5)});
+  Gas gas(table, {disc_at({-2, 10}, {1, 0}, 0.5), disc_at({-2, 0}, {1, 0}, 0.5),
+                  disc_at({2, 5}, {-1, 0}, 0.5), disc_at({2, 0}, {-1, 0}, 0.5),
+                  disc_at({-2, 5}, {1, 0}, 0.5), disc_at({2, 10}, {-1, 0}, 0.5)});
   ContactRecorder seen;
   gas.world.run_until(10.0, seen);
   ASSERT_EQ(seen.contacts.size(), 3u);
@@ -109,10 +110,12 @@ TEST(Contacts, InAStadiumAnnulusAndPolygonDiscsStayInside) {
   add_loop(annulus, {Circle{{0.2, 0}, 0.5, false}});
   const Table bowl = stadium();
   const Table triangle = polygon({{-2, -1}, {2, -1}, {0, 2}});
-  for (const Table* table : std::initializer_list<const Table*>{&round, &annulus, &bowl, &triangle}) {
-    Gas gas(*table,
-            {disc_at({-0.75, 0.25}, {1, 0.5}, 0.125), disc_at({-0.75, -0.25}, {-0.3, 0.7}, 0.125),
-             disc_at({-0.4, 0.7}, {0.1, -0.9}, 0.125), disc_at({-0.6, -0.6}, {0.8, 0.1}, 0.125, 2.0)});
+  for (const Table* table :
+       std::initializer_list<const Table*>{&round, &annulus, &bowl, &triangle}) {
+    Gas gas(
+        *table,
+        {disc_at({-0.75, 0.25}, {1, 0.5}, 0.125), disc_at({-0.75, -0.25}, {-0.3, 0.7}, 0.125),
+         disc_at({-0.4, 0.7}, {0.1, -0.9}, 0.125), disc_at({-0.6, -0.6}, {0.8, 0.1}, 0.125, 2.0)});
     const double energy = gas.energy();
     ContactRecorder seen;
     gas.world.run_until(500.0, seen);
@@ -188,7 +191,8 @@ TEST(Contacts, NobodyOverlapsOnATorus) {
           for (int j = 0; j < i; ++j)
             for (int m = -2; m <= 2; ++m)
               for (int n = -2; n <= 2; ++n) {
-                const State a = gas.world.state_at(i, 0.25 * k), b = gas.world.state_at(j, 0.25 * k);
+                const State a = gas.world.state_at(i, 0.25 * k),
+                            b = gas.world.state_at(j, 0.25 * k);
                 const geometry::Cell c{a.cell.first - b.cell.first, a.cell.second - b.cell.second};
                 Vector d = a.position - b.position + table.lattice->translation(c);
 
@@ -215,9 +219,11 @@ TEST(Contacts, OfDiscsThatTurnDifferentlyInAStrongField) {
       const double charges[] = {1, -1, 2, 0, 0, 0.1, 0.3};
       int k = 0;
       for (const double charge : charges) {
-        const Vector x{0.15 + 0.3 * (k % 3) + 0.05 * random.uniform(), 0.15 + 0.3 * (k / 3) + 0.05 * random.uniform()};
+        const Vector x{0.15 + 0.3 * (k % 3) + 0.05 * random.uniform(),
+                       0.15 + 0.3 * (k / 3) + 0.05 * random.uniform()};
         const Vector centre = table == &periodic ? Vector{-0.5, -0.5} : Vector{};
-        discs.push_back(disc_at(x + centre, {random.symmetric(), random.symmetric()}, 0.08, 1.0, charge * field));
+        discs.push_back(disc_at(x + centre, {random.symmetric(), random.symmetric()}, 0.08, 1.0,
+                                charge * field));
         ++k;
       }
       Gas gas(*table, discs);
@@ -249,7 +255,8 @@ TEST(Contacts, OfDiscsThatTurnDifferentlyInAStrongField) {
 // The same lattice by vectors of which one is long and nearly along the other.
 TEST(Contacts, DoNotDependOnTheVectorsOfALattice) {
   const Table straight = torus({1, 0}, {0, 1});
-  for (const Table& table : {torus({1, 0}, {200, 1}), torus({1, 200}, {0, 1}), torus({1, 1}, {3, 4})}) {
+  for (const Table& table :
+       {torus({1, 0}, {200, 1}), torus({1, 200}, {0, 1}), torus({1, 1}, {3, 4})}) {
     const std::vector<Disc> discs = square_gas(2, 1.0, 0.15, 7);
     Gas expected(straight, discs), gas(table, discs);
     ContactRecorder all, seen;
@@ -271,9 +278,11 @@ TEST(Contacts, OverlapsAreRefused) {
   EXPECT_THROW(Gas(table, {disc_at({0, 0}, {1, 0}, 0.6)}), std::invalid_argument);
   EXPECT_NO_THROW(Gas(table, {disc_at({0, 0}, {1, 0}, 0.5)}));
   const Table box = square();
-  EXPECT_THROW(Gas(box, {disc_at({0.9, 0.5}, {1, 0}, 0.125)}), std::invalid_argument);  // in the wall
+  EXPECT_THROW(Gas(box, {disc_at({0.9, 0.5}, {1, 0}, 0.125)}),
+               std::invalid_argument);  // in the wall
   EXPECT_THROW(Gas(box, {disc_at({0.5, 0.5}, {1, 0}, 0.75)}), InputError);
-  EXPECT_THROW(Gas(loop({Ellipse{{0, 0}, {2, 0}, 0.5, true}}), {disc_at({0, 0}, {1, 0}, 0.1)}), InputError);
+  EXPECT_THROW(Gas(loop({Ellipse{{0, 0}, {2, 0}, 0.5, true}}), {disc_at({0, 0}, {1, 0}, 0.1)}),
+               InputError);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Steps on a lattice meet all copies of walls and supports, however the lattice and the centres were written.
+// Steps on a lattice meet all copies of walls and supports, however the lattice and the centres
+// were written.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +32,8 @@ Dynamics all_in_steps(const System& system) {
   return d;
 }
 
-const char* const vectors[] = {"[[1, 0], [0, 1]]", "[[1, 0], [3, 1]]", "[[4, 1], [-7, -2]]", "[[12, 1], [13, 1]]"};
+const char* const vectors[] = {"[[1, 0], [0, 1]]", "[[1, 0], [3, 1]]", "[[4, 1], [-7, -2]]",
+                               "[[12, 1], [13, 1]]"};
 
 // A flight is followed exactly, and in steps, until chaos has amplified rounding.
 TEST(CopiesInSteps, StepsRepeatFlightsAmongTheSameDiscs) {
@@ -39,8 +41,9 @@ TEST(CopiesInSteps, StepsRepeatFlightsAmongTheSameDiscs) {
     for (const char* second : {"[0.5, 0.5]", "[5.5, 0.5]", "[-3.5, 10.5]"})
       for (const char* start : {"[0.5, 0]", "[-20.53, 7.03]"}) {
         const LoadedSystem loaded = read_system(
-            std::string("[table]\nshape = \"discs\"\ncenters = [[0, 0], ") + second + "]\nradius = 0.34\n[lattice]\n" +
-                "vectors = " + lattice + "\n[initial]\nkind = \"point\"\nposition = " + start +
+            std::string("[table]\nshape = \"discs\"\ncenters = [[0, 0], ") + second +
+                "]\nradius = 0.34\n[lattice]\n" + "vectors = " + lattice +
+                "\n[initial]\nkind = \"point\"\nposition = " + start +
                 "\nvelocity = [0.125, 1]\n[integrator]\nstep = 0.25\n[run]\nt_max = 10\n",
             "discs");
         const System& system = loaded.system;
@@ -66,14 +69,18 @@ TEST(CopiesInSteps, StepsRepeatFlightsAmongTheSameDiscs) {
 // Bumps between which particles fly: that gives what integrating everything gives.
 TEST(CopiesInSteps, FlightsEndAtAllCopiesOfSupports) {
   for (const char* lattice : vectors)
-    for (const char* centres : {"[[0, 0], [0.5, 0.5]]", "[[3, 0], [0.5, -1.5]]", "[[0, 0], [100.5, -40.5]]"})
+    for (const char* centres :
+         {"[[0, 0], [0.5, 0.5]]", "[[3, 0], [0.5, -1.5]]", "[[0, 0], [100.5, -40.5]]"})
       for (const char* start : {"[0.03, 0.02]", "[0.5, 0.45]", "[7.53, 0.48]"}) {
-        const LoadedSystem loaded = read_system(
-            std::string("[lattice]\nvectors = ") + lattice + "\n[[potential]]\nkind = \"fermi\"\nheight = 2\n" +
-                "radius = 0.3\nsoftness = 0.0008\ncenters = " + centres + "\nlattice = true\n[particles]\nspeed = 1\n" +
-                "[initial]\nkind = \"point\"\nposition = " + start +
-                "\nvelocity = [1, 0.25]\n[integrator]\nscheme = \"velocity-verlet\"\nstep = 0.0001\n[run]\nt_max = 10\n",
-            "bumps");
+        const LoadedSystem loaded =
+            read_system(std::string("[lattice]\nvectors = ") + lattice +
+                            "\n[[potential]]\nkind = \"fermi\"\nheight = 2\n" +
+                            "radius = 0.3\nsoftness = 0.0008\ncenters = " + centres +
+                            "\nlattice = true\n[particles]\nspeed = 1\n" +
+                            "[initial]\nkind = \"point\"\nposition = " + start +
+                            "\nvelocity = [1, 0.25]\n[integrator]\nscheme = "
+                            "\"velocity-verlet\"\nstep = 0.0001\n[run]\nt_max = 10\n",
+                        "bumps");
         const System& system = loaded.system;
         ASSERT_FALSE(system.dynamics.forces->everywhere());
         World free(*system.table, system.dynamics), stepped(*system.table, all_in_steps(system));

@@ -1,4 +1,5 @@
-// An ellipse that was cut into arcs is the ellipse: whoever stands on one arc stands, nearly, on the ellipses of all others.
+// An ellipse that was cut into arcs is the ellipse: whoever stands on one arc stands, nearly, on
+// the ellipses of all others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ struct Orbit {
   DecisionCounts decisions;
   std::string report;
 };
-Orbit orbit(const Table& table, double omega, const State& start, std::uint64_t hits, DecisionOptions options = {}) {
+Orbit orbit(const Table& table, double omega, const State& start, std::uint64_t hits,
+            DecisionOptions options = {}) {
   World world(table, options);
   Recorder seen;
   world.limit_hits(hits);
@@ -56,7 +58,8 @@ TEST(CutEllipse, HasTheOrbitsOfTheWholeOne) {
   std::uint64_t hits = 0, compared = 0, on_arcs = 0;
   for (long k = 0; k < cases(600, 30'000); ++k) {
     const Scene s = scene(k, 0.05, dice);  // rounded joints of a thinner one make another table
-    const Orbit cut = orbit(s.tables.cut, s.omega, s.start, 60), whole = orbit(s.tables.whole, s.omega, s.start, 60);
+    const Orbit cut = orbit(s.tables.cut, s.omega, s.start, 60),
+                whole = orbit(s.tables.whole, s.omega, s.start, 60);
     decisions += cut.decisions;
     hits += cut.hits.size();
     for (const HitEvent& hit : cut.hits) on_arcs += !s.obstacle || hit.wall > 0 ? 1u : 0u;
@@ -70,7 +73,8 @@ TEST(CutEllipse, HasTheOrbitsOfTheWholeOne) {
       if (far > 1e-5 * s.size) break;
       ASSERT_LT(i, cut.hits.size()) << k << ": " << cut.report;
       ASSERT_LT(distance(cut.hits[i].position, whole.hits[i].position), far) << k << ", hit " << i;
-      ASSERT_EQ(s.obstacle && cut.hits[i].wall > 0, s.obstacle && whole.hits[i].wall > 0) << k << ", hit " << i;
+      ASSERT_EQ(s.obstacle && cut.hits[i].wall > 0, s.obstacle && whole.hits[i].wall > 0)
+          << k << ", hit " << i;
       ++compared;
     }
   }
@@ -84,7 +88,8 @@ TEST(CutEllipse, AllStagesSeeTheSameExits) {
   for (long k = 0; k < cases(80, 4000); ++k) {
     const Scene s = scene(k, k % 2 == 0 ? 0.1 : 1e-3, dice);
     const Orbit filter = orbit(s.tables.cut, s.omega, s.start, 40);
-    for (const DecisionOptions other : {DecisionOptions{1e300, 16}, DecisionOptions{100.0, 16}, DecisionOptions{1.0, 1}}) {
+    for (const DecisionOptions other :
+         {DecisionOptions{1e300, 16}, DecisionOptions{100.0, 16}, DecisionOptions{1.0, 1}}) {
       const Orbit same = orbit(s.tables.cut, s.omega, s.start, 40, other);
       ASSERT_EQ(filter.hits.size(), same.hits.size()) << k;
       for (std::size_t i = 0; i < filter.hits.size(); ++i) {
@@ -96,7 +101,8 @@ TEST(CutEllipse, AllStagesSeeTheSameExits) {
   }
 }
 
-// From the last of some hits, with velocity and field turned round, back to the first one; as far as rounding lets.
+// From the last of some hits, with velocity and field turned round, back to the first one; as far
+// as rounding lets.
 TEST(CutEllipse, OrbitsRunBack) {
   Dice dice(73);
   long back = 0;

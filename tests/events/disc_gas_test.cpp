@@ -32,7 +32,8 @@ TEST(DiscGas, MomentumAndEnergyHaveNoTrend) {
   const double energy = gas.energy();
   const Vector momentum = gas.momentum();
   double size = 0.0;
-  for (const Disc& d : discs) size += d.particle.mass * std::sqrt(dot(d.state.velocity, d.state.velocity));
+  for (const Disc& d : discs)
+    size += d.particle.mass * std::sqrt(dot(d.state.velocity, d.state.velocity));
   const long most = soak() ? 1'000'000 : 30'000;
   Virial seen;
   double n = 0, st = 0, se = 0, stt = 0, ste = 0, t = 0;
@@ -49,8 +50,8 @@ TEST(DiscGas, MomentumAndEnergyHaveNoTrend) {
 }
 
 TEST(DiscGas, TheWayBackLeadsToTheStart) {
-  // Errors grow by a factor of path over radius a contact; few discs, far apart, come back after 100
-  // contacts.
+  // Errors grow by a factor of path over radius a contact; few discs, far apart, come back after
+  // 100 contacts.
   const Table table = loop({Circle{{0, 0}, 1.0, true}});
   const std::vector<Disc> discs{disc_at({-0.3, 0.01}, {1, 0.2}, 0.25),
                                 disc_at({0.3, 0.0}, {-0.4, 0.1}, 0.25)};
@@ -84,7 +85,8 @@ TEST(DiscGas, ARowOfDiscsComesBackAfterManyContacts) {
   const Table table = square();
   std::vector<Disc> row;
   for (int i = 0; i < 4; ++i)
-    row.push_back(disc_at({0.2 * (i + 1), 0.5}, {i % 2 ? -0.3 : 0.7 - 0.1 * i, 0}, 0.03, 1.0 + 0.7 * i));
+    row.push_back(
+        disc_at({0.2 * (i + 1), 0.5}, {i % 2 ? -0.3 : 0.7 - 0.1 * i, 0}, 0.03, 1.0 + 0.7 * i));
   Gas gas(table, row);
   Virial seen;
   double t = 0.0;
@@ -99,7 +101,8 @@ TEST(DiscGas, ARowOfDiscsComesBackAfterManyContacts) {
   home.world.run_until(t, again);
   EXPECT_EQ(again.contacts, seen.contacts);
   for (std::size_t i = 0; i < row.size(); ++i)
-    EXPECT_NEAR(home.world.state_at(static_cast<int>(i), t).position.x, row[i].state.position.x, 1e-11);
+    EXPECT_NEAR(home.world.state_at(static_cast<int>(i), t).position.x, row[i].state.position.x,
+                1e-11);
 }
 
 TEST(DiscGas, SamplingAndPausingChangeNoBit) {
@@ -116,7 +119,8 @@ TEST(DiscGas, SamplingAndPausingChangeNoBit) {
   ContactRecorder c;
   early.world.run_until(12.0, c);
   std::vector<Disc> stored = discs;
-  for (std::size_t i = 0; i < stored.size(); ++i) stored[i].state = early.world.state(static_cast<int>(i));
+  for (std::size_t i = 0; i < stored.size(); ++i)
+    stored[i].state = early.world.state(static_cast<int>(i));
   Gas late(table, stored);
   late.world.run_until(30.0, c);
   ASSERT_GT(a.contacts.size(), 300u);
@@ -143,7 +147,8 @@ TEST(DiscGas, BinsFindWhatAskingAllFinds) {
   all.world.run_until(20.0, b);
   ASSERT_GT(a.contacts.size(), 200u);
   ASSERT_EQ(a.contacts.size(), b.contacts.size());
-  for (std::size_t i = 0; i < a.contacts.size(); ++i) EXPECT_EQ(a.contacts[i].time, b.contacts[i].time) << i;
+  for (std::size_t i = 0; i < a.contacts.size(); ++i)
+    EXPECT_EQ(a.contacts[i].time, b.contacts[i].time) << i;
 }
 
 TEST(DiscGas, PressureOfTwoDiscsOnATorusIsExact) {
@@ -172,7 +177,8 @@ TEST(DiscGas, PressureOfTwoDiscsOnATorusIsExact) {
 }
 
 TEST(DiscGas, CompressibilityFollowsTheVirialSeries) {
-  // Clisby & McCoy 2006, table 1; the correction for N discs is derived in docs/physics/hard-discs.md.
+  // Clisby & McCoy 2006, table 1; the correction for N discs is derived in
+  // docs/physics/hard-discs.md.
   const std::vector<double> b{1.0,       0.78200444, 0.53223180, 0.33355604, 0.1988425,
                               0.1148728, 0.0649930,  0.0362193,  0.0199537};
   const double eta = 0.3, pi = 3.141592653589793;
@@ -202,7 +208,8 @@ TEST(DiscGas, CompressibilityFollowsTheVirialSeries) {
     sum += z;
     square_sum += z * z;
   }
-  const double mean = sum / blocks, error = std::sqrt((square_sum / blocks - mean * mean) / (blocks - 1));
+  const double mean = sum / blocks,
+               error = std::sqrt((square_sum / blocks - mean * mean) / (blocks - 1));
   EXPECT_NEAR(mean, expected, 3.0 * error);
   EXPECT_LT(error, 0.01);
 }

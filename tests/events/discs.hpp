@@ -38,7 +38,8 @@ struct Disc {
   Particle particle;
   State state;
 };
-inline Disc disc_at(Vector position, Vector velocity, double radius, double mass = 1.0, double omega = 0.0) {
+inline Disc disc_at(Vector position, Vector velocity, double radius, double mass = 1.0,
+                    double omega = 0.0) {
   Disc d;
   d.particle.mass = mass;
   d.particle.radius = radius;
@@ -56,7 +57,8 @@ inline std::vector<double> radii_of(const std::vector<Disc>& discs) {
 struct Gas {
   const Table& table;
   World world;
-  Gas(const Table& t, const std::vector<Disc>& discs) : table(t), world(t, discs_of(radii_of(discs))) {
+  Gas(const Table& t, const std::vector<Disc>& discs)
+      : table(t), world(t, discs_of(radii_of(discs))) {
     for (const Disc& d : discs) world.add(d.particle, d.state);
   }
   double energy() const {
@@ -67,12 +69,14 @@ struct Gas {
   }
   Vector momentum() const {
     Vector sum{};
-    for (int i = 0; i < world.size(); ++i) sum = sum + world.particle(i).mass * world.state(i).velocity;
+    for (int i = 0; i < world.size(); ++i)
+      sum = sum + world.particle(i).mass * world.state(i).velocity;
     return sum;
   }
 };
 
-/// Discs on a grid of sites of a square torus of side `side` with random velocities, total momentum about 0.
+/// Discs on a grid of sites of a square torus of side `side` with random velocities, total momentum
+/// about 0.
 inline std::vector<Disc> square_gas(int across, double side, double radius, std::uint64_t seed) {
   RandomStream random(seed, Purpose::initial_state, 0);
   std::vector<Disc> discs;
@@ -83,7 +87,8 @@ inline std::vector<Disc> square_gas(int across, double side, double radius, std:
       discs.push_back(disc_at(x, {random.symmetric(), random.symmetric()}, radius));
     }
   Vector mean{};
-  for (const Disc& d : discs) mean = mean + (1.0 / static_cast<double>(discs.size())) * d.state.velocity;
+  for (const Disc& d : discs)
+    mean = mean + (1.0 / static_cast<double>(discs.size())) * d.state.velocity;
   for (Disc& d : discs) d.state.velocity = d.state.velocity - mean;
   return discs;
 }

@@ -51,11 +51,13 @@ PotentialSpec three_bumps() {
   return bump;
 }
 
-// At t = 14.2467 this particle crosses the edge of one support within another, where the gap rounds to more than 0.
+// At t = 14.2467 this particle crosses the edge of one support within another, where the gap rounds
+// to more than 0.
 TEST(EdgesInSteps, AnEdgeThatIsHeldEndsNoStep) {
   const Table table = square();
   const Dynamics dynamics = bumps(three_bumps(), "velocity-verlet", 0.0045240182404161907);
-  const State at = start({0.88510033188189552, 0.20096750684441766}, {-0.55691887986372834, -0.062057780626760657});
+  const State at = start({0.88510033188189552, 0.20096750684441766},
+                         {-0.55691887986372834, -0.062057780626760657});
   World world(table, dynamics);
   world.add(particle(0.0, std::sqrt(dot(at.velocity, at.velocity))), at);
   ASSERT_TRUE(ends(world, 20.0));
@@ -75,8 +77,9 @@ TEST(EdgesInSteps, CopiesOnALatticeHoldEachOther) {
   }
 }
 
-// Where two edges cross a particle may leave one support and enter the other at once. Orbits are aimed there by going
-// backwards: the other bump acts, so the energy is kept as where everything is integrated, and so is the orbit.
+// Where two edges cross a particle may leave one support and enter the other at once. Orbits are
+// aimed there by going backwards: the other bump acts, so the energy is kept as where everything is
+// integrated, and so is the orbit.
 TEST(EdgesInSteps, WhereTwoEdgesCrossNoBumpIsMissed) {
   Dice dice(7);
   Table plane;
@@ -97,7 +100,8 @@ TEST(EdgesInSteps, WhereTwoEdgesCrossNoBumpIsMissed) {
     const Vector between = supports[1].center - supports[0].center;
     const double square = dot(between, between);
     const double across = std::sqrt(supports[0].radius * supports[0].radius / square - 0.25);
-    const Vector crossing = supports[0].center + 0.5 * between + (across * dice.sign()) * left(between);
+    const Vector crossing =
+        supports[0].center + 0.5 * between + (across * dice.sign()) * left(between);
     const double time = dice.spread(0.003, 0.5);
     World back(plane, everywhere), world(plane, dynamics), stepped(plane, everywhere);
     back.add(particle(), start(crossing, dice.direction()));
@@ -117,8 +121,9 @@ TEST(EdgesInSteps, WhereTwoEdgesCrossNoBumpIsMissed) {
   }
 }
 
-// Where an edge meets a wall, or a corner, the wall comes first. Orbits are aimed there to a few ulps, from inside the
-// support by going backwards and from outside along a line: all do what they do where everything is integrated, but at corners.
+// Where an edge meets a wall, or a corner, the wall comes first. Orbits are aimed there to a few
+// ulps, from inside the support by going backwards and from outside along a line: all do what they
+// do where everything is integrated, but at corners.
 TEST(EdgesInSteps, WhereAnEdgeMeetsAWallTheWallComesFirst) {
   Dice dice(11);
   long hits = 0;
@@ -130,12 +135,14 @@ TEST(EdgesInSteps, WhereAnEdgeMeetsAWallTheWallComesFirst) {
     const double radius = std::sqrt(2.0 * 36.85) * bump.width;
     const double tilt = dice.coin() ? 0.0 : dice.between(-0.3, 0.3), bend = dice.between(0.8, 10.0);
     const int kind = dice.whole(0, 2);
-    const Vector left_end{-1, -tilt}, right_end{1, tilt}, corner{dice.between(-0.5, 0.5), dice.between(-0.2, 0.2)};
-    const Table table = kind == 0 ? polygon({left_end, right_end, {1, 1.5}, {-1, 1.5}})
-                        : kind == 1
-                            ? loop({CircularArc{left_end, right_end, bend, true}, Segment{right_end, {1, 1.5}},
-                                    Segment{{1, 1.5}, {-1, 1.5}}, Segment{{-1, 1.5}, left_end}})
-                            : polygon({left_end, corner, right_end, {1, 1.5}, {-1, 1.5}});
+    const Vector left_end{-1, -tilt}, right_end{1, tilt},
+        corner{dice.between(-0.5, 0.5), dice.between(-0.2, 0.2)};
+    const Table table =
+        kind == 0 ? polygon({left_end, right_end, {1, 1.5}, {-1, 1.5}})
+        : kind == 1
+            ? loop({CircularArc{left_end, right_end, bend, true}, Segment{right_end, {1, 1.5}},
+                    Segment{{1, 1.5}, {-1, 1.5}}, Segment{{-1, 1.5}, left_end}})
+            : polygon({left_end, corner, right_end, {1, 1.5}, {-1, 1.5}});
     const geometry::Curve& wall = table.walls[0].curve;
     const double u = geometry::end_parameter(wall) * (kind == 2 ? 1.0 : dice.between(0.3, 0.7));
     const Vector meeting = geometry::point_at(wall, u), normal = geometry::normal_at(wall, u);
@@ -174,14 +181,15 @@ TEST(EdgesInSteps, WhereAnEdgeMeetsAWallTheWallComesFirst) {
     ASSERT_EQ(seen[0].hits.size(), seen[1].hits.size()) << n;
     hits += static_cast<long>(seen[0].hits.size());
     if (!goes_on) continue;
-    const Vector apart = world.state_at(0, 2.0 * time).position - stepped.state_at(0, 2.0 * time).position;
+    const Vector apart =
+        world.state_at(0, 2.0 * time).position - stepped.state_at(0, 2.0 * time).position;
     EXPECT_LT(std::sqrt(dot(apart, apart)), 1e-6) << n;
   }
   EXPECT_GT(hits, 1000);
 }
 
-// Random bumps, some of them over walls, with and without field: every run ends, nobody is lost, and the energy changes
-// as it does where everything is integrated.
+// Random bumps, some of them over walls, with and without field: every run ends, nobody is lost,
+// and the energy changes as it does where everything is integrated.
 TEST(EdgesInSteps, OrbitsAmongOverlappingBumps) {
   Dice dice(5);
   const Table table = square();
@@ -194,7 +202,8 @@ TEST(EdgesInSteps, OrbitsAmongOverlappingBumps) {
     bump.radius = dice.between(0.02, 0.15);
     bump.softness = dice.spread(0.002, 0.01);
     bump.width = dice.spread(0.01, 0.05);
-    for (int k = dice.whole(2, 5); k > 0; --k) bump.centers.push_back({dice.between(-0.9, 0.9), dice.between(-0.9, 0.9)});
+    for (int k = dice.whole(2, 5); k > 0; --k)
+      bump.centers.push_back({dice.between(-0.9, 0.9), dice.between(-0.9, 0.9)});
     const double length = fermi ? bump.softness : bump.width;
     const Dynamics dynamics = bumps(bump, "", length * dice.between(0.2, 0.5));
     Dynamics everywhere = dynamics;
@@ -202,7 +211,8 @@ TEST(EdgesInSteps, OrbitsAmongOverlappingBumps) {
     World world(table, dynamics), stepped(table, everywhere);
     const double omega = dice.coin() ? 0.0 : dice.between(-2.0, 2.0);
     for (int k = 0; k < 5; ++k) {
-      const State at = start({dice.between(-1, 1), dice.between(-1, 1)}, dice.spread(0.5, 1.5) * dice.direction());
+      const State at = start({dice.between(-1, 1), dice.between(-1, 1)},
+                             dice.spread(0.5, 1.5) * dice.direction());
       double change[2];
       for (World* w : {&world, &stepped}) {
         w->clear();

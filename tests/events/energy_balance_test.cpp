@@ -35,14 +35,16 @@ Dynamics dynamics(const char* scheme, double step, bool pairs) {
 /// Largest change of the energy at the samples, of each particle or of all.
 class Samples : public Observer {
  public:
-  Samples(const Dynamics& d, const Table& table, bool shared) : dynamics_(d), table_(table), shared_(shared) {}
+  Samples(const Dynamics& d, const Table& table, bool shared)
+      : dynamics_(d), table_(table), shared_(shared) {}
   void sample(int, Time, const State& state) override { now_.push_back(state); }
   void sampled(Time) override {
     for (std::size_t i = 0; i < (shared_ ? 1 : now_.size()); ++i) {
       const std::vector<State> states = shared_ ? now_ : std::vector<State>{now_[i]};
       const std::vector<Particle> particles(states.size(), particle());
       const Energy e = energy_of(particles, states, dynamics_, table_);
-      if (first_.size() <= i) first_.push_back(e.total()), largest.push_back(0.0), kinetic.push_back(0.0);
+      if (first_.size() <= i)
+        first_.push_back(e.total()), largest.push_back(0.0), kinetic.push_back(0.0);
       largest[i] = std::max(largest[i], std::fabs(e.total() - first_[i]));
       kinetic[i] = std::max(kinetic[i], e.kinetic);
     }
@@ -106,7 +108,8 @@ TEST(StepCounts, AreThoseOfTheScheme) {
   Observer nobody;
   world.run_until(10.0, nobody);
   EXPECT_EQ(world.step_counts().steps, 80u);
-  EXPECT_EQ(world.step_counts().force_evaluations, 82u) << "one at the start, and the step after the last one";
+  EXPECT_EQ(world.step_counts().force_evaluations, 82u)
+      << "one at the start, and the step after the last one";
 }
 
 TEST(EnergyError, WhatIsNoNumberIsInfinite) {

@@ -1,4 +1,5 @@
-// Where the discs of a lattice are written does not matter: many cells away they are the same lattice.
+// Where the discs of a lattice are written does not matter: many cells away they are the same
+// lattice.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,9 +24,9 @@ Vector in_plane(const System& system, const HitEvent& hit) {
 /// The second disc is written `away` from [1/2, 1/2], a whole number of cells.
 LoadedSystem discs(Vector away, const std::string& vectors, const std::string& rest) {
   const auto shown = [](double x) { return std::to_string(x); };
-  return read_system("[table]\nshape = \"discs\"\ncenters = [[0, 0], [" + shown(0.5 + away.x) + ", " +
-                         shown(0.5 + away.y) + "]]\nradius = 0.3\n[lattice]\nvectors = " + vectors + "\n" + rest +
-                         "[run]\nt_max = 2.5\n",
+  return read_system("[table]\nshape = \"discs\"\ncenters = [[0, 0], [" + shown(0.5 + away.x) +
+                         ", " + shown(0.5 + away.y) + "]]\nradius = 0.3\n[lattice]\nvectors = " +
+                         vectors + "\n" + rest + "[run]\nt_max = 2.5\n",
                      "discs");
 }
 
@@ -54,7 +55,8 @@ TEST(FarDiscs, PointsAreInsideAndHitTheSameDiscs) {
           EXPECT_EQ(world.fate(0), near.fate(0));
           for (std::size_t i = 0; i < found.hits.size(); ++i) {
             EXPECT_EQ(found.hits[i].wall, expected.hits[i].wall);
-            const Vector off = in_plane(there.system, found.hits[i]) - in_plane(here.system, expected.hits[i]);
+            const Vector off =
+                in_plane(there.system, found.hits[i]) - in_plane(here.system, expected.hits[i]);
             EXPECT_LT(std::sqrt(dot(off, off)), 1e-8) << vectors << start << field << away.x;
           }
         }
@@ -63,7 +65,8 @@ TEST(FarDiscs, PointsAreInsideAndHitTheSameDiscs) {
 
 // The start is seen from another cell than it was written in.
 TEST(FarDiscs, AreTrustedAsFarAsNearOnes) {
-  const std::string rest = "[initial]\nkind = \"point\"\nposition = [0.5, 0]\nvelocity = [0.125, 1]\n";
+  const std::string rest =
+      "[initial]\nkind = \"point\"\nposition = [0.5, 0]\nvelocity = [0.125, 1]\n";
   Observer nobody;
   const auto trust = [&](Vector away) {
     LoadedSystem loaded = discs(away, "[[1, 0], [0, 1]]", rest);

@@ -1,4 +1,5 @@
-// Hits on discs much smaller than the flight: where the flight's rounding is large beside the radius.
+// Hits on discs much smaller than the flight: where the flight's rounding is large beside the
+// radius.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +20,8 @@ class OnTheCircle : public Observer {
   void hit(const HitEvent& event) override {
     const Vector d = event.position - disc_.centre;
     const long double x = d.x, y = d.y;
-    const double off = static_cast<double>(std::sqrt(x * x + y * y) - std::sqrt(static_cast<long double>(disc_.r2)));
+    const double off = static_cast<double>(std::sqrt(x * x + y * y) -
+                                           std::sqrt(static_cast<long double>(disc_.r2)));
     worst = std::max(worst, std::fabs(off) / disc_.point_error);
     energy = std::max(energy, std::fabs(dot(event.after, event.after) / (speed_ * speed_) - 1.0));
     ++hits;

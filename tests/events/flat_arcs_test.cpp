@@ -25,8 +25,8 @@ std::string table(double side, double at, double bulge, const char* ellipse) {
                 "pieces = [{%s_via = [\"%.17g\", \"%.17g\"], %s_to = [\"%.17g\", \"%.17g\"]%s, "
                 "name = \"floor\"}, {line_to = [\"%.17g\", \"%.17g\"]},\n"
                 "{line_to = [\"%.17g\", \"%.17g\"]}, {line_to = [\"%.17g\", \"%.17g\"]}]\n",
-                at, at, *ellipse ? "ellipse" : "arc", middle, dip, *ellipse ? "ellipse" : "arc", end, at, ellipse, end, end,
-                at, end, at, at);
+                at, at, *ellipse ? "ellipse" : "arc", middle, dip, *ellipse ? "ellipse" : "arc",
+                end, at, ellipse, end, end, at, end, at, at);
   return text;
 }
 
@@ -59,7 +59,8 @@ struct Distances : Observer {
 
 TEST(FlatArcs, HitsLieOnTheFlattestThatAreTaken) {
   Dice dice(5);
-  for (const char* ellipse : {"", ", ellipse_ratio = \"1/2\"", ", ellipse_ratio = 3, ellipse_angle = \"0.3\""}) {
+  for (const char* ellipse :
+       {"", ", ellipse_ratio = \"1/2\"", ", ellipse_ratio = 3, ellipse_angle = \"0.3\""}) {
     for (const double side : {1.0, 1e-9}) {
       for (const double away : {-0.5, 1000.0}) {
         // The flattest one, by halving.
@@ -79,7 +80,8 @@ TEST(FlatArcs, HitsLieOnTheFlattestThatAreTaken) {
             Distances seen(system.table->walls[0].curve);
             Particle particle;
             State start;
-            start.position = {at + side * dice.between(0.01, 0.99), at + side * dice.between(0.01, 0.99)};
+            start.position = {at + side * dice.between(0.01, 0.99),
+                              at + side * dice.between(0.01, 0.99)};
             start.velocity = dice.direction();
             particle.speed = std::sqrt(dot(start.velocity, start.velocity));
             particle.omega = omega * particle.speed / side;
@@ -100,7 +102,8 @@ TEST(FlatArcs, HitsLieOnTheFlattestThatAreTaken) {
 
 TEST(FlatArcs, FlatterOnesAreRefusedByName) {
   const std::string text = fault(table(1.0, 0.0, 1e-9, ""));
-  EXPECT_NE(text.find("the arc 'floor' is too flat: with a radius of 1.25e+08 over a chord of 1"), std::string::npos)
+  EXPECT_NE(text.find("the arc 'floor' is too flat: with a radius of 1.25e+08 over a chord of 1"),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find("a straight line"), std::string::npos) << text;
   EXPECT_EQ(fault(table(1.0, 0.0, 1e-5, "")), "");

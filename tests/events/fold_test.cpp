@@ -1,4 +1,5 @@
-// Points that a step put far away are brought back into the cell about the centre, and the cells are counted.
+// Points that a step put far away are brought back into the cell about the centre, and the cells
+// are counted.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -19,8 +19,10 @@ namespace {
 
 constexpr DecisionOptions always{1.0, 0}, never_a_grid{1.0, std::numeric_limits<int>::max()};
 
-/// Discs of different sizes at random places of a cell about (0.5, 0.5), apart from each other and from their copies.
-std::vector<Curve> random_discs(int count, double radius, Vector first, Vector second, bool periodic, Dice& dice) {
+/// Discs of different sizes at random places of a cell about (0.5, 0.5), apart from each other and
+/// from their copies.
+std::vector<Curve> random_discs(int count, double radius, Vector first, Vector second,
+                                bool periodic, Dice& dice) {
   std::vector<Circle> placed;
   while (static_cast<int>(placed.size()) < count) {
     const double a = dice.unit() - 0.5, b = dice.unit() - 0.5, r = radius * dice.between(0.3, 1.0);
@@ -53,7 +55,8 @@ Table on_lattice(Table table, Vector first, Vector second) {
 
 Table random_lorentz(Vector first, Vector second, int count, double radius) {
   Dice dice(7);
-  return on_lattice(obstacles(random_discs(count, radius, first, second, true, dice)), first, second);
+  return on_lattice(obstacles(random_discs(count, radius, first, second, true, dice)), first,
+                    second);
 }
 
 /// A star with long thin rays.
@@ -95,7 +98,8 @@ Table comb(int teeth) {
   std::vector<Vector> corners{{0, 0}, {1, 0}, {1, 0.5}};
   for (int i = teeth - 1; i >= 0; --i) {
     const double left = (i + 0.4) / teeth, right = (i + 0.6) / teeth;
-    for (const Vector& corner : {Vector{right, 0.5}, Vector{right, 1}, Vector{left, 1}, Vector{left, 0.5}})
+    for (const Vector& corner :
+         {Vector{right, 0.5}, Vector{right, 1}, Vector{left, 1}, Vector{left, 0.5}})
       corners.push_back(corner);
   }
   corners.push_back({0, 0.5});
@@ -122,15 +126,22 @@ Table many_kinds(int n, bool box) {
     for (int k = 0; k < n; ++k) {
       const double x = i + 0.5, y = k + 0.5;
       switch ((i + 2 * k) % 5) {
-        case 0: add_loop(table, {Circle{{x, y}, s, false}}); break;
+        case 0:
+          add_loop(table, {Circle{{x, y}, s, false}});
+          break;
         case 1:
-          add_loop(table, {Segment{{x - s, y - s}, {x - s, y + s}}, Segment{{x - s, y + s}, {x + s, y + s}},
-                           Segment{{x + s, y + s}, {x + s, y - s}}, Segment{{x + s, y - s}, {x - s, y - s}}});
+          add_loop(
+              table,
+              {Segment{{x - s, y - s}, {x - s, y + s}}, Segment{{x - s, y + s}, {x + s, y + s}},
+               Segment{{x + s, y + s}, {x + s, y - s}}, Segment{{x + s, y - s}, {x - s, y - s}}});
           break;
         case 2:
-          add_loop(table, {Segment{{x + s, y}, {x - s, y}}, CircularArc{{x - s, y}, {x + s, y}, 0.0, false}});
+          add_loop(table, {Segment{{x + s, y}, {x - s, y}},
+                           CircularArc{{x - s, y}, {x + s, y}, 0.0, false}});
           break;
-        case 3: add_loop(table, {Ellipse{{x, y}, {s, 0.125}, 0.5, false}}); break;
+        case 3:
+          add_loop(table, {Ellipse{{x, y}, {s, 0.125}, 0.5, false}});
+          break;
         default:
           add_loop(table, {CircularArc{{x - s, y}, {x + s, y}, -0.5, false},
                            EllipticArc{{x + s, y}, {x - s, y}, {1.0, 0.0}, 0.5, 0.0, false}});
@@ -146,7 +157,8 @@ struct Flown {
 
 class TwoFinders {
  public:
-  explicit TwoFinders(const Table& table) : table_(table), grid_(table, always), loop_(table, never_a_grid) {}
+  explicit TwoFinders(const Table& table)
+      : table_(table), grid_(table, always), loop_(table, never_a_grid) {}
 
   /// From a wall or a point, through as many cells as it passes.
   void fly(Flight flight) {
@@ -162,8 +174,10 @@ class TwoFinders {
       if (a.kind == Ahead::Kind::none) return;
       ASSERT_EQ(a.piece, b.piece) << describe(flight);
       ASSERT_EQ(a.root, b.root) << describe(flight);
-      ASSERT_EQ(std::bit_cast<std::uint64_t>(a.kappa), std::bit_cast<std::uint64_t>(b.kappa)) << describe(flight);
-      ASSERT_EQ(std::bit_cast<std::uint64_t>(a.duration), std::bit_cast<std::uint64_t>(b.duration)) << describe(flight);
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(a.kappa), std::bit_cast<std::uint64_t>(b.kappa))
+          << describe(flight);
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(a.duration), std::bit_cast<std::uint64_t>(b.duration))
+          << describe(flight);
       if (a.kind != Ahead::Kind::edge) {
         ++flown.hits;
         return;
@@ -202,9 +216,9 @@ class TwoFinders {
  private:
   static std::string describe(const Flight& f) {
     char text[300];
-    std::snprintf(text, sizeof text, "wall %d u %a x %a y %a vx %a vy %a omega %a cell %ld %ld", f.wall, f.u, f.start.x,
-                  f.start.y, f.velocity.x, f.velocity.y, f.omega, static_cast<long>(f.cell.first),
-                  static_cast<long>(f.cell.second));
+    std::snprintf(text, sizeof text, "wall %d u %a x %a y %a vx %a vy %a omega %a cell %ld %ld",
+                  f.wall, f.u, f.start.x, f.start.y, f.velocity.x, f.velocity.y, f.omega,
+                  static_cast<long>(f.cell.first), static_cast<long>(f.cell.second));
     return text;
   }
   const Table& table_;
@@ -218,7 +232,8 @@ void fly_everywhere(const Table& table, Vector low, Vector high, long count) {
   Dice dice(3);
   for (long i = 0; i < count; ++i) {
     const double size = high.x - low.x;
-    const double omega = dice.whole(0, 2) == 0 ? 0.0 : dice.sign() / (size * dice.spread(1e-3, 1e3));
+    const double omega =
+        dice.whole(0, 2) == 0 ? 0.0 : dice.sign() / (size * dice.spread(1e-3, 1e3));
     Flight flight;
     if (dice.coin()) {
       if (!finders.from_wall(dice, omega, flight)) continue;
@@ -239,15 +254,16 @@ TEST(Grid, TellsOfDiscsOnASquareLatticeWhatTheLoopTells) {
   fly_everywhere(random_lorentz({1, 0}, {0, 1}, 150, 0.05), {0, 0}, {1, 1}, cases(8000, 400000));
 }
 TEST(Grid, TellsOfDiscsOnAnObliqueLatticeWhatTheLoopTells) {
-  fly_everywhere(random_lorentz({1, 0}, {0.5, 0.8660254037844386}, 60, 0.05), {0, 0}, {1, 1}, cases(6000, 400000));
+  fly_everywhere(random_lorentz({1, 0}, {0.5, 0.8660254037844386}, 60, 0.05), {0, 0}, {1, 1},
+                 cases(6000, 400000));
 }
 TEST(Grid, TellsOfAThinGasWhatTheLoopTells) {
   fly_everywhere(random_lorentz({1, 0}, {0.25, 1}, 40, 0.004), {0, 0}, {1, 1}, cases(3000, 100000));
 }
 TEST(Grid, TellsOfDiscsInThePlaneWhatTheLoopTells) {
   Dice dice(5);
-  fly_everywhere(obstacles(random_discs(150, 0.05, {1, 0}, {0, 1}, false, dice)), {-0.2, -0.2}, {1.2, 1.2},
-                 cases(6000, 400000));
+  fly_everywhere(obstacles(random_discs(150, 0.05, {1, 0}, {0, 1}, false, dice)), {-0.2, -0.2},
+                 {1.2, 1.2}, cases(6000, 400000));
 }
 TEST(Grid, TellsOfPolygonsWhatTheLoopTells) {
   fly_everywhere(star(300, 0.95), {-1, -1}, {1, 1}, cases(6000, 400000));
@@ -261,7 +277,9 @@ TEST(Grid, TellsOfPolygonsOfManySidesWhatTheLoopTells) {
   fly_everywhere(star(1000, 0.2), {-1, -1}, {1, 1}, cases(2000, 100000));
   fly_everywhere(regular_on_lattice(500), {0, 0}, {1, 1}, cases(2000, 100000));
 }
-TEST(Grid, TellsOfAThinCombWhatTheLoopTells) { fly_everywhere(comb(100), {0, 0}, {1, 1}, cases(4000, 200000)); }
+TEST(Grid, TellsOfAThinCombWhatTheLoopTells) {
+  fly_everywhere(comb(100), {0, 0}, {1, 1}, cases(4000, 200000));
+}
 TEST(Grid, TellsOfDiscsInALargeBoxWhatTheLoopTells) {
   for (const double side : {4.0, 20.0, 100.0})
     fly_everywhere(discs_in_a_box(150, 0.04, side), {0, 0}, {side, side}, cases(3000, 150000));
@@ -270,14 +288,16 @@ TEST(Grid, TellsOfDiscsInALargeBoxWhatTheLoopTells) {
 WallGrid grid_of(const Table& table) {
   std::vector<geometry::Piece> pieces;
   for (const Wall& wall : table.walls) pieces.push_back({wall.curve, {}, wall.next, false});
-  return {pieces, {}, {},
-          geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); })};
+  return {pieces, {}, {}, geometry::hull_of(table.walls, [](const Wall& wall) {
+            return geometry::bounding_box(wall.curve);
+          })};
 }
 
 // A clearing that is one cell too wide would lose walls.
 TEST(Grid, KnowsHowFarItsCellsAreFromWalls) {
   int widest = 0;
-  for (const Table& table : {regular(100), regular(10000), star(200, 0.05), comb(30), discs_in_a_box(150, 0.04, 100)}) {
+  for (const Table& table :
+       {regular(100), regular(10000), star(200, 0.05), comb(30), discs_in_a_box(150, 0.04, 100)}) {
     const WallGrid grid = grid_of(table);
     std::vector<std::pair<int, int>> occupied;
     for (int k = 0; k < grid.rows(); ++k)
@@ -298,16 +318,19 @@ TEST(Grid, KnowsHowFarItsCellsAreFromWalls) {
   EXPECT_GT(widest, 64);  // blocks of cells are empty
 }
 
-// Whatever the start's error: all points that the flight may come to are of cells that were visited.
+// Whatever the start's error: all points that the flight may come to are of cells that were
+// visited.
 TEST(Grid, VisitsTheCellsOfAllPointsNearAFlight) {
-  for (const Table& table : {regular(3000), star(300, 0.05), comb(30), discs_in_a_box(150, 0.04, 20)}) {
+  for (const Table& table :
+       {regular(3000), star(300, 0.05), comb(30), discs_in_a_box(150, 0.04, 20)}) {
     const WallGrid grid = grid_of(table);
-    const geometry::Box box =
-        geometry::hull_of(table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
+    const geometry::Box box = geometry::hull_of(
+        table.walls, [](const Wall& wall) { return geometry::bounding_box(wall.curve); });
     const double size = box.high.x - box.low.x;
     Dice dice(19);
     for (long n = 0; n < cases(4000, 200000); ++n) {
-      const Vector start{dice.between(box.low.x, box.high.x), dice.between(box.low.y, box.high.y)}, v = dice.direction();
+      const Vector start{dice.between(box.low.x, box.high.x), dice.between(box.low.y, box.high.y)},
+          v = dice.direction();
       const double delta = size * (dice.coin() ? 1e-12 : dice.spread(1e-4, 1e-1));
       const double omega = dice.coin() ? 0.0 : dice.sign() / (size * dice.spread(1e-2, 1e2));
       std::vector<char> visited(table.walls.size(), 0);
@@ -323,10 +346,12 @@ TEST(Grid, VisitsTheCellsOfAllPointsNearAFlight) {
       const double way = omega == 0.0 ? 1.5 * size : std::min(6.3 / std::fabs(omega), 1.5 * size);
       for (int k = 0; k < 200; ++k) {
         const double t = way * dice.unit(), h = 0.5 * std::fabs(omega);
-        const Vector d = omega == 0.0 ? Vector{t * v.x, t * v.y} : geometry::displacement(h / std::tan(h * t), v, omega, 0.5);
+        const Vector d = omega == 0.0 ? Vector{t * v.x, t * v.y}
+                                      : geometry::displacement(h / std::tan(h * t), v, omega, 0.5);
         const Vector x = start + shift + d;
         if (x.x < box.low.x || x.x > box.high.x || x.y < box.low.y || x.y > box.high.y) continue;
-        for (const int piece : grid.pieces_at(x)) ASSERT_TRUE(visited[static_cast<std::size_t>(piece)]);
+        for (const int piece : grid.pieces_at(x))
+          ASSERT_TRUE(visited[static_cast<std::size_t>(piece)]);
       }
     }
   }
@@ -339,15 +364,16 @@ TEST(Grid, TellsOfEveryKindOfWallWhatTheLoopTells) {
   fly_everywhere(cell, {-1, -1}, {6, 6}, cases(4000, 200000));
 }
 
-// Along the rows and columns of an array whose pitch is a power of two, through corners and tangent to discs:
-// the exact stage has the same pieces to choose from.
+// Along the rows and columns of an array whose pitch is a power of two, through corners and tangent
+// to discs: the exact stage has the same pieces to choose from.
 TEST(Grid, TellsAlongItsLinesWhatTheLoopTells) {
   for (const bool box : {true, false}) {
     const Table table = many_kinds(4, box);
     TwoFinders finders(table);
     for (int i = 1; i < 32; ++i)
       for (const int k : {4, 8, 16, 31})
-        for (const Vector& v : {Vector{1, 0}, Vector{0, 1}, Vector{-1, 0}, Vector{0, -1}, Vector{0.6, 0.8}})
+        for (const Vector& v :
+             {Vector{1, 0}, Vector{0, 1}, Vector{-1, 0}, Vector{0, -1}, Vector{0.6, 0.8}})
           for (const bool turned : {false, true}) {
             const Vector point{(turned ? k : i) * 0.125, (turned ? i : k) * 0.125};
             // Only from points that no obstacle comes near.

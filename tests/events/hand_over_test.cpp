@@ -22,11 +22,13 @@ struct Recorder : Observer {
 };
 
 Vector unwrapped(const System& system, const State& s) {
-  return system.table->lattice ? s.position + system.table->lattice->translation(s.cell) : s.position;
+  return system.table->lattice ? s.position + system.table->lattice->translation(s.cell)
+                               : s.position;
 }
 
 double energy(const System& system, const State& state) {
-  return energy_of({system.particles.data(), 1}, {&state, 1}, system.dynamics, *system.table).total();
+  return energy_of({system.particles.data(), 1}, {&state, 1}, system.dynamics, *system.table)
+      .total();
 }
 
 Dynamics steps(const System& system, double step, const char* scheme = "") {
@@ -46,15 +48,16 @@ std::size_t common(const Recorder& a, const Recorder& b, double tolerance) {
   return k;
 }
 
-// Without forces a step of any splitting scheme is the exact flight: all that steps can add is rounding,
-// which chaos amplifies.
+// Without forces a step of any splitting scheme is the exact flight: all that steps can add is
+// rounding, which chaos amplifies.
 TEST(HandOver, StepsRepeatFlights) {
   struct Case {
     const char* name;
     std::size_t least;
   };
-  for (const Case& c : {Case{"stadium", 20}, Case{"mushroom", 20}, Case{"sinai", 10}, Case{"lorentz-triangular", 15},
-                        Case{"circle", 400}, Case{"magnetic-square", 50}, Case{"ellipse-magnetic", 300}}) {
+  for (const Case& c : {Case{"stadium", 20}, Case{"mushroom", 20}, Case{"sinai", 10},
+                        Case{"lorentz-triangular", 15}, Case{"circle", 400},
+                        Case{"magnetic-square", 50}, Case{"ellipse-magnetic", 300}}) {
     const LoadedSystem loaded = load_system(c.name);
     const System& system = loaded.system;
     Table closed = *system.table;
@@ -74,15 +77,16 @@ TEST(HandOver, StepsRepeatFlights) {
   }
 }
 
-// With a magnetic field He's scheme does not contain the Larmor motion: it follows the exact orbit with its
-// own order.
+// With a magnetic field He's scheme does not contain the Larmor motion: it follows the exact orbit
+// with its own order.
 TEST(HandOver, SchemesFollowTheExactOrbitWithTheirOrder) {
   LoadedSystem loaded = load_system("magnetic-square");
   System& system = loaded.system;
   for (const auto& [scheme, order] : {std::pair{"he-2", 2}, std::pair{"he-4", 4}}) {
     double error[2];
     for (int level = 0; level < 2; ++level) {
-      World exact(*system.table), stepped(*system.table, steps(system, 0.04 / (1 << level), scheme));
+      World exact(*system.table),
+          stepped(*system.table, steps(system, 0.04 / (1 << level), scheme));
       const State start = Sampler(system).draw(exact, 3, 0);
       exact.add(system.particles[0], start);
       stepped.add(system.particles[0], start);
@@ -125,8 +129,9 @@ LoadedSystem dilute_system(const std::string& field) {
   return read_system(text, "dilute");
 }
 
-// The supports cover one per cent of the cell: flying where nothing acts gives the orbit that integrating
-// everything gives, until chaos has amplified rounding, with a small part of the events.
+// The supports cover one per cent of the cell: flying where nothing acts gives the orbit that
+// integrating everything gives, until chaos has amplified rounding, with a small part of the
+// events.
 TEST(HandOver, FlyingBetweenBumpsIsTheSameMotion) {
   for (const char* field : {"0", "0.5", "-1"}) {
     const LoadedSystem loaded = dilute_system(field);
@@ -146,7 +151,8 @@ TEST(HandOver, FlyingBetweenBumpsIsTheSameMotion) {
         world->sample_every(0.5);
         events[k++] = world->run_until(100.0, *recorder);
         // A Larmor circle between the bumps is known never to meet one.
-        EXPECT_TRUE(world->fate(0) == Fate::survived || world->fate(0) == Fate::pinned) << world->report(0);
+        EXPECT_TRUE(world->fate(0) == Fate::survived || world->fate(0) == Fate::pinned)
+            << world->report(0);
         EXPECT_NEAR(energy(system, world->state(0)), energy(system, start), 1e-9);
       }
       EXPECT_LT(20 * events[0], events[1]);
@@ -175,8 +181,8 @@ TEST(HandOver, SamplesChangeNothing) {
   EXPECT_EQ(end[0].velocity, end[1].velocity);
 }
 
-// A bump that reaches over a wall, a hole behind it, and a stretch of free flight: the energy is the same
-// at the end, nothing is lost, and reversed the particle comes back.
+// A bump that reaches over a wall, a hole behind it, and a stretch of free flight: the energy is
+// the same at the end, nothing is lost, and reversed the particle comes back.
 TEST(HandOver, BumpsAtWalls) {
   const char* const text = R"(
 [table]
@@ -226,16 +232,18 @@ t_max = 30
 TEST(HandOver, NobodyIsLostAtJoints) {
   const char* const tables[] = {
       "shape = \"polygon\"\npoints = [[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [0, 2]]\n",
-      "shape = \"polygon\"\npoints = [[0, 0], [2, 0.25], [4, 0], [2.5, 1], [4, 3], [2, 1.5], [0, 3], [1, 1]]\n",
+      "shape = \"polygon\"\npoints = [[0, 0], [2, 0.25], [4, 0], [2.5, 1], [4, 3], [2, 1.5], [0, "
+      "3], [1, 1]]\n",
       "shape = \"mushroom\"\ncap_radius = 1\nstem_width = 0.5\nstem_height = 1\n",
       "shape = \"lemon\"\nradius = 1\nseparation = 1\n",
       "shape = \"annulus\"\nouter = 1\ninner = 0.5\noffset = 0.25\n",
   };
   for (const char* table : tables) {
     for (const char* field : {"0", "0.7"}) {
-      const std::string text = std::string("[table]\n") + table + "[field]\nB = " + field +
-                               "\n[[potential]]\nkind = \"linear\"\nforce = [0.1, -0.3]\n[particles]\nspeed = 1\n"
-                               "[integrator]\nstep = 0.2\n[run]\nt_max = 300\n";
+      const std::string text =
+          std::string("[table]\n") + table + "[field]\nB = " + field +
+          "\n[[potential]]\nkind = \"linear\"\nforce = [0.1, -0.3]\n[particles]\nspeed = 1\n"
+          "[integrator]\nstep = 0.2\n[run]\nt_max = 300\n";
       const LoadedSystem loaded = read_system(text, "joints");
       const System& system = loaded.system;
       for (std::uint64_t trajectory = 0; trajectory < 10; ++trajectory) {

@@ -12,9 +12,12 @@ namespace carom {
 namespace {
 
 LoadedSystem gas(const std::string& integrator) {
-  return read_system("[table]\nshape = \"circle\"\nradius = 1\n[interaction]\nkind = \"coulomb\"\nstrength = 1e-12\n[particles]\ncount = 500\n"
-                     "speed = 1\n[initial]\nkind = \"uniform\"\n[integrator]\n" + integrator + "\n[run]\nt_max = 1\nsample = 1e-5\n",
-                     "gas");
+  return read_system(
+      "[table]\nshape = \"circle\"\nradius = 1\n[interaction]\nkind = \"coulomb\"\nstrength = "
+      "1e-12\n[particles]\ncount = 500\n"
+      "speed = 1\n[initial]\nkind = \"uniform\"\n[integrator]\n" +
+          integrator + "\n[run]\nt_max = 1\nsample = 1e-5\n",
+      "gas");
 }
 
 struct Sampled : Observer {
@@ -34,20 +37,24 @@ Course run(const System& system, double until, int every) {
   add_starts(world, Sampler(system), 0);
   Sampled observer;
   int questions = 0, interrupts = 0;
-  const auto asked = [&] { return every > 0 && interrupts < 10 && ++questions % every == 0 && ++interrupts > 0; };
+  const auto asked = [&] {
+    return every > 0 && interrupts < 10 && ++questions % every == 0 && ++interrupts > 0;
+  };
   for (int n = 0; n < 50; ++n) world.run_until(until, observer, asked);
   if (every > 0) {
     EXPECT_GT(interrupts, 0);
   }
   Course r;
-  for (int i = 0; i < world.size(); ++i) EXPECT_EQ(world.fate(i), Fate::survived) << world.report(i);
+  for (int i = 0; i < world.size(); ++i)
+    EXPECT_EQ(world.fate(i), Fate::survived) << world.report(i);
   for (int i = 0; i < world.size(); ++i) r.end.push_back(world.state_at(i, Time(until)));
   r.samples = observer.x;
   return r;
 }
 
 TEST(Interrupt, WithinAStepChangesNoBit) {
-  for (const char* integrator : {"scheme = \"blanes-moan-srkn11b\"\nstep = 2e-5", "scheme = \"velocity-verlet\"\nstep = 2e-6"}) {
+  for (const char* integrator : {"scheme = \"blanes-moan-srkn11b\"\nstep = 2e-5",
+                                 "scheme = \"velocity-verlet\"\nstep = 2e-6"}) {
     const LoadedSystem loaded = gas(integrator);
     const Course whole = run(loaded.system, 1e-4, 0), parts = run(loaded.system, 1e-4, 1);
     for (std::size_t i = 0; i < whole.end.size(); ++i) {

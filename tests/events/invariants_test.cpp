@@ -26,8 +26,8 @@ struct Departure : Observer {
 };
 
 template <class Function>
-Departure<Function> follow(const Table& table, double omega, Vector position, Vector velocity, std::uint64_t hits,
-                           Function function) {
+Departure<Function> follow(const Table& table, double omega, Vector position, Vector velocity,
+                           std::uint64_t hits, Function function) {
   World world(table);
   world.add(particle(omega), start(position, velocity));
   world.limit_hits(hits);
@@ -45,12 +45,13 @@ TEST(Invariants, ProductOfAngularMomentaAboutTheFociOfAnEllipse) {
   const Table table = loop({Ellipse{{0, 0}, {1, 0}, 0.75, true}});
   const double focus = std::sqrt(1 - 0.5625);
   int signs = 0;
-  for (const Vector x : {Vector{0.1, 0.05}, Vector{0.3, 0.05}, Vector{0.5, 0.05}, Vector{0.7, 0.05}, Vector{0.9, 0.1}}) {
+  for (const Vector x : {Vector{0.1, 0.05}, Vector{0.3, 0.05}, Vector{0.5, 0.05}, Vector{0.7, 0.05},
+                         Vector{0.9, 0.1}}) {
     const auto seen = follow(table, 0.0, x, {0.6, 0.8}, 1'000'000, [&](const HitEvent& e) {
       return angular_momentum(e, {focus, 0}) * angular_momentum(e, {-focus, 0});
     });
-    std::printf("ellipse: product %+.6f departs by %.1e at most, %.1e a hit\n", seen.first, seen.largest,
-                seen.last / 1e6);
+    std::printf("ellipse: product %+.6f departs by %.1e at most, %.1e a hit\n", seen.first,
+                seen.largest, seen.last / 1e6);
     EXPECT_LT(seen.largest, 2e-12);
     signs |= seen.first > 0 ? 1 : 2;
   }
@@ -58,16 +59,18 @@ TEST(Invariants, ProductOfAngularMomentaAboutTheFociOfAnEllipse) {
 }
 
 TEST(Invariants, AnOrbitInTheMushroomsCapStaysThere) {
-  const Table table = loop({Segment{{-0.5, -1}, {0.5, -1}}, Segment{{0.5, -1}, {0.5, 0}}, Segment{{0.5, 0}, {1, 0}},
-                            CircularArc{{1, 0}, {-1, 0}, 0, true}, Segment{{-1, 0}, {-0.5, 0}},
-                            Segment{{-0.5, 0}, {-0.5, -1}}});
-  // Angular momenta 0.51 … 0.95 of a unit circle: the caustic's radius exceeds half the stem's width.
+  const Table table = loop({Segment{{-0.5, -1}, {0.5, -1}}, Segment{{0.5, -1}, {0.5, 0}},
+                            Segment{{0.5, 0}, {1, 0}}, CircularArc{{1, 0}, {-1, 0}, 0, true},
+                            Segment{{-1, 0}, {-0.5, 0}}, Segment{{-0.5, 0}, {-0.5, -1}}});
+  // Angular momenta 0.51 … 0.95 of a unit circle: the caustic's radius exceeds half the stem's
+  // width.
   for (const double momentum : {0.51, 0.6, 0.75, 0.95}) {
     bool in_stem = false;
-    const auto seen = follow(table, 0.0, {momentum, 0.125}, {0.0, 1.0}, 1'000'000, [&](const HitEvent& e) {
-      in_stem = in_stem || e.position.y < 0.0;
-      return std::fabs(angular_momentum(e));
-    });
+    const auto seen =
+        follow(table, 0.0, {momentum, 0.125}, {0.0, 1.0}, 1'000'000, [&](const HitEvent& e) {
+          in_stem = in_stem || e.position.y < 0.0;
+          return std::fabs(angular_momentum(e));
+        });
     std::printf("mushroom: |L| = %.2f departs by %.1e at most\n", momentum, seen.largest);
     EXPECT_FALSE(in_stem);
     EXPECT_LT(seen.largest, 1e-12);
@@ -77,11 +80,12 @@ TEST(Invariants, AnOrbitInTheMushroomsCapStaysThere) {
 TEST(Invariants, CanonicalAngularMomentumInADiscWithField) {
   for (const double radius : {1.0, 1.5})
     for (const double omega : {0.3, -0.7, 1e-6, 5.0}) {
-      const auto seen = follow(disc(radius), omega, {radius - 0.3, 0.05}, {0.6, 0.8}, 1'000'000, [&](const HitEvent& e) {
-        return angular_momentum(e) + 0.5 * omega * dot(e.position, e.position);
-      });
-      std::printf("disc %.1f, omega %+.0e: L departs by %.1e at most, %.1e a hit\n", radius, omega, seen.largest,
-                  seen.last / 1e6);
+      const auto seen = follow(
+          disc(radius), omega, {radius - 0.3, 0.05}, {0.6, 0.8}, 1'000'000, [&](const HitEvent& e) {
+            return angular_momentum(e) + 0.5 * omega * dot(e.position, e.position);
+          });
+      std::printf("disc %.1f, omega %+.0e: L departs by %.1e at most, %.1e a hit\n", radius, omega,
+                  seen.largest, seen.last / 1e6);
       EXPECT_LT(seen.largest, 5e-10);
     }
 }
@@ -101,7 +105,8 @@ TEST(Invariants, TheSpeedStaysOnItsShell) {
 }
 
 /// After `hits` hits the velocity and the field are turned round, and the orbit runs back.
-double reversal_error(const Table& table, double omega, Vector position, Vector velocity, std::uint64_t hits) {
+double reversal_error(const Table& table, double omega, Vector position, Vector velocity,
+                      std::uint64_t hits) {
   World there(table);
   there.add(particle(omega), start(position, velocity));
   there.limit_hits(hits);

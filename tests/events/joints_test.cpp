@@ -23,7 +23,8 @@ struct Course {
   double end = 0.0;
   std::vector<HitEvent> hits;
 };
-Course follow(World& world, Vector at, Vector velocity, double omega, std::uint64_t hits, double t = 1e9) {
+Course follow(World& world, Vector at, Vector velocity, double omega, std::uint64_t hits,
+              double t = 1e9) {
   world.clear();
   world.limit_hits(hits);
   Particle p;
@@ -90,18 +91,21 @@ Shares aim(const char* name, const Table& table, bool smooth, long rays, std::ui
     share.reflected_there += meets_joint && !c.hits.empty();
     if (c.fate == Fate::capped) continue;
     ++share.singular;
-    // Straight on from the start: the joint itself. Later: only orbits on the grid come back to one.
-    const bool explained = c.fate == Fate::singular && !smooth && (c.hits.empty() ? meets_joint : exact);
+    // Straight on from the start: the joint itself. Later: only orbits on the grid come back to
+    // one.
+    const bool explained =
+        c.fate == Fate::singular && !smooth && (c.hits.empty() ? meets_joint : exact);
     if (!explained && share.unexplained++ < 3)
       ADD_FAILURE() << name << ": " << name_of(c.fate) << " after " << c.hits.size() << " hits; "
                     << world.report(0);
   }
   std::printf(
-      "%-18s %7ld rays, %7.3f %% meet the joint exactly, %7.3f %% reflect there, %7.3f %% singular, lost "
+      "%-18s %7ld rays, %7.3f %% meet the joint exactly, %7.3f %% reflect there, %7.3f %% "
+      "singular, lost "
       "%ld\n",
       name, share.rays, 100.0 * double(share.at_joint) / double(rays),
-      100.0 * double(share.reflected_there) / double(rays), 100.0 * double(share.singular) / double(rays),
-      share.lost);
+      100.0 * double(share.reflected_there) / double(rays),
+      100.0 * double(share.singular) / double(rays), share.lost);
   EXPECT_EQ(share.lost, 0) << name;
   EXPECT_EQ(share.unexplained, 0) << name;
   return share;
@@ -113,10 +117,16 @@ TEST(Joints, NoRayIsLost) {
   EXPECT_EQ(square.singular, 0);  // every corner has a limit
   EXPECT_EQ(square.reflected_there, square.at_joint);
   EXPECT_GT(square.at_joint, rays / 5);
-  const Shares star = aim(
-      "star",
-      polygon({{1, 0}, {0.25, 0.25}, {0, 1}, {-0.25, 0.25}, {-1, 0}, {-0.25, -0.25}, {0, -1}, {0.25, -0.25}}),
-      false, rays, 2);
+  const Shares star = aim("star",
+                          polygon({{1, 0},
+                                   {0.25, 0.25},
+                                   {0, 1},
+                                   {-0.25, 0.25},
+                                   {-1, 0},
+                                   {-0.25, -0.25},
+                                   {0, -1},
+                                   {0.25, -0.25}}),
+                          false, rays, 2);
   EXPECT_GT(star.singular, 0);
   aim("triangle", polygon({{0, 0}, {1, 0}, {0.375, 0.75}}), false, rays, 3);
   const Shares smooth = aim("stadium", stadium(0.5, 1.0), true, rays, 4);
@@ -144,8 +154,8 @@ void expect_limit(const Table& table, Vector at, Vector v, int reflections) {
   ASSERT_EQ(c.hits.size(), 1u);
   EXPECT_EQ(c.hits[0].reflections, reflections);
   for (const double off : {1e-7, -1e-7}) {
-    const Course beside =
-        follow(world, at, {v.x - off * v.y, v.y + off * v.x}, 0.0, static_cast<std::uint64_t>(reflections));
+    const Course beside = follow(world, at, {v.x - off * v.y, v.y + off * v.x}, 0.0,
+                                 static_cast<std::uint64_t>(reflections));
     ASSERT_EQ(beside.hits.size(), static_cast<std::size_t>(reflections));
     EXPECT_NEAR(beside.hits.back().after.x, c.hits[0].after.x, 1e-6);
     EXPECT_NEAR(beside.hits.back().after.y, c.hits[0].after.y, 1e-6);
@@ -222,12 +232,13 @@ TEST(Joints, ACuspIsSingular) {
 }
 
 TEST(Joints, ACuspOfEllipsesInAFieldIsSingular) {
-  // A circle of radius 8 about (32, 8) that rolls between an ellipse and the wall, another ellipse or a disc below.
+  // A circle of radius 8 about (32, 8) that rolls between an ellipse and the wall, another ellipse
+  // or a disc below.
   const Ellipse above{{32, 1}, {2, 0}, 0.5, false};
   Table on_wall = rectangle(64, 64);
   add_loop(on_wall, {above});
-  Table two = loop({Segment{{0, -8}, {64, -8}}, Segment{{64, -8}, {64, 64}}, Segment{{64, 64}, {0, 64}},
-                    Segment{{0, 64}, {0, -8}}});
+  Table two = loop({Segment{{0, -8}, {64, -8}}, Segment{{64, -8}, {64, 64}},
+                    Segment{{64, 64}, {0, 64}}, Segment{{0, 64}, {0, -8}}});
   Table mixed = two;
   add_loop(two, {above});
   add_loop(two, {Ellipse{{32, -3}, {4, 0}, 0.75, false}});
@@ -239,15 +250,16 @@ TEST(Joints, ACuspOfEllipsesInAFieldIsSingular) {
     EXPECT_EQ(c.fate, Fate::singular);
     EXPECT_DOUBLE_EQ(c.end, std::acos(0.0));  // a quarter turn
     EXPECT_TRUE(c.hits.empty());
-    EXPECT_EQ(follow(world, {40, 8}, {0, -8}, 1.0, 9, 6.0).fate, Fate::singular);  // the other way round
+    EXPECT_EQ(follow(world, {40, 8}, {0, -8}, 1.0, 9, 6.0).fate,
+              Fate::singular);  // the other way round
     // One digit off it is a hit, or none.
     const Course beside = follow(world, {24, std::nextafter(8.0, 9.0)}, {0, -8}, -1.0, 9, 6.0);
     EXPECT_NE(beside.fate, Fate::singular);
     EXPECT_NE(beside.fate, Fate::lost);
   }
   // Of the ellipse alone a tangency is none: it never hits.
-  Table alone = loop({Segment{{0, -8}, {64, -8}}, Segment{{64, -8}, {64, 64}}, Segment{{64, 64}, {0, 64}},
-                      Segment{{0, 64}, {0, -8}}});
+  Table alone = loop({Segment{{0, -8}, {64, -8}}, Segment{{64, -8}, {64, 64}},
+                      Segment{{64, 64}, {0, 64}}, Segment{{0, 64}, {0, -8}}});
   add_loop(alone, {above});
   World once(alone);
   EXPECT_EQ(follow(once, {24, 8}, {0, -8}, -1.0, 9, 6.0).fate, Fate::pinned);

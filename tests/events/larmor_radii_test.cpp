@@ -1,5 +1,5 @@
-// Larmor radii over eighteen decades: time and place of the next hit against 60 digits, where the flight is a
-// circle with a centre and a radius and nothing of the engine's formulas is used.
+// Larmor radii over eighteen decades: time and place of the next hit against 60 digits, where the
+// flight is a circle with a centre and a radius and nothing of the engine's formulas is used.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -12,7 +12,8 @@
 namespace carom::tests {
 namespace {
 
-using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<60>, boost::multiprecision::et_off>;
+using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<60>,
+                                           boost::multiprecision::et_off>;
 using RealVector = geometry::BasicVector<Real>;
 
 RealVector real(Vector v) { return {Real(v.x), Real(v.y)}; }
@@ -24,7 +25,7 @@ struct Wall60 {
   bool bent = false, closed = false;
   RealVector from, to, centre;
   Real ratio = 1;  ///< of an ellipse: the semi-axis left of from - centre over that one
-  Real turn = 1;  ///< counter-clockwise: 1
+  Real turn = 1;   ///< counter-clockwise: 1
 
   explicit Wall60(const Curve& curve) {
     if (const auto* s = std::get_if<Segment>(&curve)) {
@@ -76,12 +77,13 @@ struct Wall60 {
     }
     return (Real(1) / length(n)) * n;
   }
-  /// An ellipse's other points on the circle about c through `start`, which lies on both: where the squared distance
-  /// from c changes from less to more than the start's, once the start is divided out. Two crossings between
-  /// neighbours of the grid would be missed.
+  /// An ellipse's other points on the circle about c through `start`, which lies on both: where the
+  /// squared distance from c changes from less to more than the start's, once the start is divided
+  /// out. Two crossings between neighbours of the grid would be missed.
   std::vector<RealVector> crossings_of_ellipse(const RealVector& c, const RealVector& start) const {
     const RealVector a = from - centre, b = ratio * left(a);
-    const Real begin = atan2(dot(b, start - centre) / dot(b, b), dot(a, start - centre) / dot(a, a));
+    const Real begin =
+        atan2(dot(b, start - centre) / dot(b, b), dot(a, start - centre) / dot(a, a));
     const Real square = dot(start - c, start - c), whole_turn = 8 * atan(Real(1));
     const auto at = [&](const Real& angle) { return centre + cos(angle) * a + sin(angle) * b; };
     const auto beyond = [&](const Real& way) {
@@ -92,7 +94,8 @@ struct Wall60 {
     std::vector<RealVector> found;
     Real low = Real(1e-20), low_value = beyond(low);
     for (int i = 1; i <= grid; ++i) {
-      const Real high = i == grid ? Real(whole_turn - Real(1e-20)) : Real(whole_turn * i / grid), high_value = beyond(high);
+      const Real high = i == grid ? Real(whole_turn - Real(1e-20)) : Real(whole_turn * i / grid),
+                 high_value = beyond(high);
       if ((low_value < 0) != (high_value < 0)) {
         Real x = low, y = high;
         for (int k = 0; k < 190; ++k) {
@@ -123,7 +126,8 @@ struct Wall60 {
     }
     const RealVector d = centre - c, r = from - centre;
     const Real distance = length(d);
-    const Real along = (radius * radius - dot(r, r) + dot(d, d)) / (2 * distance), square = radius * radius - along * along;
+    const Real along = (radius * radius - dot(r, r) + dot(d, d)) / (2 * distance),
+               square = radius * radius - along * along;
     for (const int sign : {-1, 1}) {
       if (square < 0) continue;
       const RealVector x = c + (along / distance) * d + (sign * sqrt(square) / distance) * left(d);
@@ -140,13 +144,14 @@ struct Hit60 {
 };
 
 /// The first crossing of the boundary after the start, which is a crossing itself.
-Hit60 first_hit(const std::vector<Wall60>& walls, const RealVector& x, const RealVector& v, const Real& omega) {
+Hit60 first_hit(const std::vector<Wall60>& walls, const RealVector& x, const RealVector& v,
+                const Real& omega) {
   const RealVector centre = x - (Real(1) / omega) * left(v), e = x - centre;
   const Real whole_turn = 8 * atan(Real(1));
   Hit60 first;
   for (std::size_t i = 0; i < walls.size(); ++i)
     for (const RealVector& p : walls[i].crossings(centre, x)) {
-      if (length(p - x) < Real(1e-25)) continue;  // the start
+      if (length(p - x) < Real(1e-25)) continue;                     // the start
       Real angle = atan2(cross(p - centre, e), dot(p - centre, e));  // clockwise
       if (omega < 0) angle = -angle;
       if (angle < 0) angle += whole_turn;
@@ -156,7 +161,8 @@ Hit60 first_hit(const std::vector<Wall60>& walls, const RealVector& x, const Rea
   return first;
 }
 
-/// Errors in units of 2^-53, times the cosine of incidence: what a rounding of the place does to a hit.
+/// Errors in units of 2^-53, times the cosine of incidence: what a rounding of the place does to a
+/// hit.
 struct Errors {
   double same_wall = 0.0;   ///< of the time, relative
   double other_wall = 0.0;  ///< of the time, against the table's size (at speed 1)
@@ -172,8 +178,10 @@ void compare(const Table& table, double size, int decade, Dice& dice, Errors& er
   const Curve& curve = table.walls[static_cast<std::size_t>(s.wall)].curve;
   s.u = dice.between(0.05, 0.95) * geometry::end_parameter(curve);
   s.position = geometry::point_at(curve, s.u);
-  const double angle = dice.between(0.15, 3.0), radius = std::pow(10.0, decade) * dice.between(1.0, 2.0);
-  s.velocity = std::cos(angle) * geometry::tangent_at(curve, s.u) + std::sin(angle) * geometry::normal_at(curve, s.u);
+  const double angle = dice.between(0.15, 3.0),
+               radius = std::pow(10.0, decade) * dice.between(1.0, 2.0);
+  s.velocity = std::cos(angle) * geometry::tangent_at(curve, s.u) +
+               std::sin(angle) * geometry::normal_at(curve, s.u);
   const double omega = dice.sign() / radius;
   World world(table);
   world.add(particle(omega), s);
@@ -188,7 +196,9 @@ void compare(const Table& table, double size, int decade, Dice& dice, Errors& er
   ASSERT_EQ(hit.wall, exact.wall) << "radius " << radius;
   const Wall60& met = walls[static_cast<std::size_t>(hit.wall)];
   const double cosine = abs(dot(met.inward(exact.place), real(hit.before))).convert_to<double>();
-  const double off = abs(Real(hit.time.high) + Real(hit.time.low) - exact.time).convert_to<double>() * cosine * 0x1p53;
+  const double off =
+      abs(Real(hit.time.high) + Real(hit.time.low) - exact.time).convert_to<double>() * cosine *
+      0x1p53;
   if (exact.wall == s.wall)
     errors.same_wall = std::fmax(errors.same_wall, off / exact.time.convert_to<double>());
   else
@@ -205,18 +215,21 @@ TEST(LarmorRadii, OverEighteenDecadesAgainstSixtyDigits) {
     Table table;
     double size, time, place;  // and twice the largest errors seen in 2000 flights a decade
   };
-  const Case all[] = {{"segments", square(), 1.0, 8.0, 5.0},
-                      {"segments and arcs", stadium(), 2.0, 46.0, 30.0},
-                      {"circle", disc(1.0), 1.0, 14.0, 18.0},
-                      {"ellipse", loop({Ellipse{{0.1, -0.2}, {0.8, 0.6}, 0.7, true}}), 1.0, 16.0, 20.0}};
+  const Case all[] = {
+      {"segments", square(), 1.0, 8.0, 5.0},
+      {"segments and arcs", stadium(), 2.0, 46.0, 30.0},
+      {"circle", disc(1.0), 1.0, 14.0, 18.0},
+      {"ellipse", loop({Ellipse{{0.1, -0.2}, {0.8, 0.6}, 0.7, true}}), 1.0, 16.0, 20.0}};
   std::printf("largest errors in units of 2^-53, times the cosine of incidence\n");
   for (const Case& one : all) {
     Dice dice(7);
     for (int decade = -6; decade <= 12; ++decade) {
       Errors errors;
       for (long i = cases(60, 2000); i > 0; --i) compare(one.table, one.size, decade, dice, errors);
-      std::printf("%-18s radius 1e%+03d: time %5.1f relative, same wall; %5.1f of the size, other; place %5.1f\n", one.name,
-                  decade, errors.same_wall, errors.other_wall, errors.place);
+      std::printf(
+          "%-18s radius 1e%+03d: time %5.1f relative, same wall; %5.1f of the size, other; place "
+          "%5.1f\n",
+          one.name, decade, errors.same_wall, errors.other_wall, errors.place);
       EXPECT_GT(errors.hits, 0);
       EXPECT_LT(std::fmax(errors.same_wall, errors.other_wall), one.time);
       EXPECT_LT(errors.place, one.place);

@@ -1,4 +1,5 @@
-// Steps are counted in doubles: what is so late that they cannot be counted ends by a reason, and never hangs.
+// Steps are counted in doubles: what is so late that they cannot be counted ends by a reason, and
+// never hangs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,9 +23,11 @@ TEST(LateSteps, TheNextMultipleIsFoundOrInfinite) {
 }
 
 TEST(LateSteps, AParticleThatIsIntegratedThereIsLostWithTheReason) {
-  const System system =
-      read_system("[table]\nshape = \"circle\"\nradius = 1\n[[potential]]\nkind = \"harmonic\"\n[integrator]\nstep = 1e-6\n", "late")
-          .system;
+  const System system = read_system(
+                            "[table]\nshape = \"circle\"\nradius = 1\n[[potential]]\nkind = "
+                            "\"harmonic\"\n[integrator]\nstep = 1e-6\n",
+                            "late")
+                            .system;
   World world(*system.table, system.dynamics);
   State start;
   start.position = {0.25, 0.0};

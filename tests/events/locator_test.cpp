@@ -29,12 +29,16 @@ TEST(Locators, AgreeWithTheExactRegion) {
       for (int i = 0; i < 200; ++i) {
         Vector p{dice.between(-2, 2) * size, dice.between(-2, 2) * size};
         if (dice.coin()) {
-          const auto wall = static_cast<std::size_t>(dice.whole(0, static_cast<int>(table.walls.size()) - 1));
+          const auto wall =
+              static_cast<std::size_t>(dice.whole(0, static_cast<int>(table.walls.size()) - 1));
           const geometry::Curve& curve = table.walls[wall].curve;
           const double end = geometry::end_parameter(curve);
-          const Vector a = geometry::point_at(curve, 0.0), b = geometry::point_at(curve, 0.999999 * end);
-          p = dice.coin() ? geometry::point_at(curve, dice.between(0, 1) * end) : a + dice.between(0, 1) * (b - a);
-          for (int n = dice.whole(0, 4); n > 0; --n) p.x = std::nextafter(p.x, dice.coin() ? 1e30 : -1e30);
+          const Vector a = geometry::point_at(curve, 0.0),
+                       b = geometry::point_at(curve, 0.999999 * end);
+          p = dice.coin() ? geometry::point_at(curve, dice.between(0, 1) * end)
+                          : a + dice.between(0, 1) * (b - a);
+          for (int n = dice.whole(0, 4); n > 0; --n)
+            p.x = std::nextafter(p.x, dice.coin() ? 1e30 : -1e30);
           ++near;
         }
         const bool exactly = geometry::locate(loop, p) > 0;

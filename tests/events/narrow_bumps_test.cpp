@@ -21,7 +21,8 @@ State end_of(const System& system, bool everywhere) {
   world.run_until(12.0, nobody);
   EXPECT_EQ(world.fate(0), Fate::survived) << world.report(0);
   const State end = world.state_at(0, 12.0);
-  const double energy = energy_of({system.particles.data(), 1}, {&end, 1}, dynamics, *system.table).total();
+  const double energy =
+      energy_of({system.particles.data(), 1}, {&end, 1}, dynamics, *system.table).total();
   EXPECT_NEAR(energy, 0.5, 1e-8);
   return end;
 }
@@ -30,11 +31,12 @@ TEST(NarrowBumps, AreMetByAdaptiveSchemes) {
   for (const char* bump : {"kind = \"gaussian\"\nheight = 2\nwidth = 0.01\n",
                            "kind = \"fermi\"\nheight = 2\nradius = 0.1\nsoftness = 0.001\n"}) {
     const auto with = [&](const std::string& integrator) {
-      return read_system(std::string("[table]\nshape = \"rectangle\"\nwidth = 20\nheight = 10\n[[potential]]\n") + bump +
-                             "center = [15, 5]\n[particles]\nspeed = 1\n[initial]\nkind = \"point\"\n" +
-                             "position = [10, 5.002]\nvelocity = [1, 0]\n[integrator]\n" + integrator +
-                             "\n[run]\nt_max = 12\n",
-                         "narrow");
+      return read_system(
+          std::string("[table]\nshape = \"rectangle\"\nwidth = 20\nheight = 10\n[[potential]]\n") +
+              bump + "center = [15, 5]\n[particles]\nspeed = 1\n[initial]\nkind = \"point\"\n" +
+              "position = [10, 5.002]\nvelocity = [1, 0]\n[integrator]\n" + integrator +
+              "\n[run]\nt_max = 12\n",
+          "narrow");
     };
     const State expected = end_of(with("step = 0.0005").system, false);
     EXPECT_LT(expected.velocity.x, 0.0);  // it was turned back

@@ -11,7 +11,8 @@ namespace {
 
 using geometry::EllipticArc;
 
-// A thin half ellipse over its axis: orbits of a radius like its height cross the arc several times.
+// A thin half ellipse over its axis: orbits of a radius like its height cross the arc several
+// times.
 Table thin_arc() {
   return loop({Segment{{-1, 0}, {1, 0}}, EllipticArc{{1, 0}, {-1, 0}, {1, 0}, 0.25, 0.0, true}});
 }

@@ -43,12 +43,13 @@ Result run(const System& system, bool everywhere, double until) {
   return r;
 }
 
-LoadedSystem yukawa(const std::string& table, int count, const std::string& range, const std::string& field) {
-  return read_system(table + "[interaction]\nkind = \"yukawa\"\nstrength = 0.01\nrange = " + range +
-                         "\n[field]\nB = " + field +
-                         "\n[particles]\nspeed = 1\ncount = " + std::to_string(count) +
-                         "\n[initial]\nkind = \"uniform\"\n[integrator]\nstep = 0.0005\n[run]\nt_max = 10\n",
-                     "yukawa");
+LoadedSystem yukawa(const std::string& table, int count, const std::string& range,
+                    const std::string& field) {
+  return read_system(
+      table + "[interaction]\nkind = \"yukawa\"\nstrength = 0.01\nrange = " + range +
+          "\n[field]\nB = " + field + "\n[particles]\nspeed = 1\ncount = " + std::to_string(count) +
+          "\n[initial]\nkind = \"uniform\"\n[integrator]\nstep = 0.0005\n[run]\nt_max = 10\n",
+      "yukawa");
 }
 
 const char* const square = "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n";
@@ -102,14 +103,15 @@ std::string list_of(const std::string& interaction, const std::string& starts, i
          "\n[integrator]\nstep = 0.0025\n[run]\nt_max = 1\n";
 }
 
-// Where a potential acts everywhere, particles that start within their range interact from the first step on.
+// Where a potential acts everywhere, particles that start within their range interact from the
+// first step on.
 TEST(Range, ThoseThatStartUnderAForceInteractAtOnce) {
   const char* const starts = "[[-0.1, 0, 0, 1], [0.1, 0, 1, 0]]";
   for (const char* kind : {"kind = \"yukawa\"\nstrength = 1\nrange = 0.5",
                            "kind = \"soft-sphere\"\ndiameter = 0.2\nexponent = 12\nstrength = 1",
                            "kind = \"lennard-jones\"\ndiameter = 0.2\ndepth = 1"}) {
-    const LoadedSystem loaded =
-        read_system("[[potential]]\nkind = \"harmonic\"\nomega = 1\n" + list_of(kind, starts, 2), "trap");
+    const LoadedSystem loaded = read_system(
+        "[[potential]]\nkind = \"harmonic\"\nomega = 1\n" + list_of(kind, starts, 2), "trap");
     expect_as_in_one_group(loaded.system, 1.0, 1e-12);
   }
 }
@@ -129,20 +131,24 @@ TEST(Range, AChainStartsAsOneGroup) {
 TEST(Range, GroupsTakeInGroups) {
   const LoadedSystem loaded =
       read_system(list_of("kind = \"yukawa\"\nstrength = 0.05\nrange = 0.02",
-                          "[[-1, 0.1, 1, 0], [-1, -0.1, 1, 0], [1, 0.12, -1, 0], [1, -0.11, -1, 0], [0.13, 1, 0, -1], "
-                          "[-0.14, 1, 0, -1]]", 6),
+                          "[[-1, 0.1, 1, 0], [-1, -0.1, 1, 0], [1, 0.12, -1, 0], [1, -0.11, -1, "
+                          "0], [0.13, 1, 0, -1], "
+                          "[-0.14, 1, 0, -1]]",
+                          6),
                   "pairs");
   ASSERT_LT(loaded.system.dynamics.forces->pair_range(), 1.0);
   expect_as_in_one_group(loaded.system, 2.0, 1e-9);
 }
 
-// Two that enter within a step of a group, one free and one under a force: the group's step ends then.
+// Two that enter within a step of a group, one free and one under a force: the group's step ends
+// then.
 TEST(Range, LateParticlesInteractAtOnce) {
   for (const bool trap : {false, true}) {
-    const LoadedSystem loaded = read_system((trap ? "[[potential]]\nkind = \"harmonic\"\nomega = 1\n" : "") +
-                                                list_of("kind = \"yukawa\"\nstrength = 1\nrange = 0.1",
-                                                        "[[0, 0, 1, 0], [0.3, 0, 0, 1], [0, 9, 1, 0]]", 3),
-                                            "late");
+    const LoadedSystem loaded =
+        read_system((trap ? "[[potential]]\nkind = \"harmonic\"\nomega = 1\n" : "") +
+                        list_of("kind = \"yukawa\"\nstrength = 1\nrange = 0.1",
+                                "[[0, 0, 1, 0], [0.3, 0, 0, 1], [0, 9, 1, 0]]", 3),
+                    "late");
     std::vector<Vector> end;
     for (const bool everywhere : {false, true}) {
       Dynamics dynamics = loaded.system.dynamics;
@@ -171,8 +177,10 @@ TEST(Range, LateParticlesInteractAtOnce) {
 // Without a time of steps there is none at which groups look around: a mistake of the user's.
 TEST(Range, NeedsTheLengthOfAStep) {
   const LoadedSystem loaded = read_system(
-      "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[interaction]\nkind = \"yukawa\"\nstrength = 1\nrange = 0.5\n"
-      "[particles]\ncount = 2\nspeed = 1\n[initial]\nkind = \"list\"\nstarts = [[0, 0, 1, 0], [1, 0, 1, 0]]\n"
+      "[[potential]]\nkind = \"harmonic\"\nomega = 1\n[interaction]\nkind = \"yukawa\"\nstrength = "
+      "1\nrange = 0.5\n"
+      "[particles]\ncount = 2\nspeed = 1\n[initial]\nkind = \"list\"\nstarts = [[0, 0, 1, 0], [1, "
+      "0, 1, 0]]\n"
       "[integrator]\nscheme = \"arkode\"\n[run]\nt_max = 1\n",
       "arkode");
   try {

@@ -1,4 +1,5 @@
-// Powers of two are no arithmetic: a system in other units must give the same bits, wherever it is allowed.
+// Powers of two are no arithmetic: a system in other units must give the same bits, wherever it is
+// allowed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,9 +27,11 @@ std::string text_of(const std::string& shape, int length, int speed, double b) {
   if (shape == "rectangle") t += "width = " + l(1.0) + "\nheight = " + l(0.75) + "\n";
   if (shape == "stadium") t += "half_length = " + l(0.5) + "\nradius = " + l(1.0) + "\n";
   if (shape == "ellipse") t += "a = " + l(1.0) + "\nb = " + l(0.75) + "\n";
-  if (shape == "annulus") t += "outer = " + l(1.0) + "\ninner = " + l(0.25) + "\noffset = " + l(0.375) + "\n";
+  if (shape == "annulus")
+    t += "outer = " + l(1.0) + "\ninner = " + l(0.25) + "\noffset = " + l(0.375) + "\n";
   if (shape == "sinai") t += "side = " + l(1.0) + "\nradius = " + l(0.25) + "\n";
-  return t + "[field]\nB = " + scaled(b, speed - length) + "\n[particles]\nspeed = " + scaled(1.0, speed) +
+  return t + "[field]\nB = " + scaled(b, speed - length) +
+         "\n[particles]\nspeed = " + scaled(1.0, speed) +
          "\n[initial]\nkind = \"uniform\"\n[run]\nt_max = " + scaled(64.0, length - speed) + "\n";
 }
 
@@ -70,7 +73,8 @@ TEST(Scales, PowersOfTwoChangeNoBit) {
           if (fault(text) != "no fault") continue;
           ++allowed;
           const Orbits other = run(text);
-          ASSERT_EQ(other.hits.size(), usual.hits.size()) << shape << " " << b << " " << length << " " << speed;
+          ASSERT_EQ(other.hits.size(), usual.hits.size())
+              << shape << " " << b << " " << length << " " << speed;
           EXPECT_EQ(other.decisions.filter, usual.decisions.filter);
           EXPECT_EQ(other.decisions.exact, usual.decisions.exact);
           for (std::size_t i = 0; i < usual.hits.size(); ++i) {
@@ -87,16 +91,21 @@ TEST(Scales, PowersOfTwoChangeNoBit) {
   }
 }
 
-// In each of these hits were missed or found at wrong walls: squares that vanish or overflow, and bounds with them.
+// In each of these hits were missed or found at wrong walls: squares that vanish or overflow, and
+// bounds with them.
 TEST(Scales, BeyondTheRangeTheyAreRefused) {
-  EXPECT_NE(fault(text_of("rectangle", 0, 504, 0.75)).find("particles: the speed is 5.24e+151: flights are decided between"),
+  EXPECT_NE(fault(text_of("rectangle", 0, 504, 0.75))
+                .find("particles: the speed is 5.24e+151: flights are decided between"),
             std::string::npos)
       << fault(text_of("rectangle", 0, 504, 0.75));
   for (const auto& [length, speed] : {std::pair{0, 511}, {95, -420}, {-95, 420}, {0, -480}})
-    for (const double b : {0.0, 0.75}) EXPECT_NE(fault(text_of("stadium", length, speed, b)), "no fault");
-  EXPECT_NE(fault(text_of("ellipse", 0, 70, 0.75)).find("beside an ellipse in a magnetic field is"), std::string::npos);
+    for (const double b : {0.0, 0.75})
+      EXPECT_NE(fault(text_of("stadium", length, speed, b)), "no fault");
+  EXPECT_NE(fault(text_of("ellipse", 0, 70, 0.75)).find("beside an ellipse in a magnetic field is"),
+            std::string::npos);
   EXPECT_EQ(fault(text_of("ellipse", 0, 70, 0.0)), "no fault");
-  EXPECT_NE(fault(text_of("rectangle", 0, 0, 0x1p201)).find("the cyclotron frequency is"), std::string::npos);
+  EXPECT_NE(fault(text_of("rectangle", 0, 0, 0x1p201)).find("the cyclotron frequency is"),
+            std::string::npos);
 }
 
 }  // namespace

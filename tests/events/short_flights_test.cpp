@@ -1,4 +1,5 @@
-// Flights of no length beside a joint, in a field: a hit that lies close comes soon, not a full turn later.
+// Flights of no length beside a joint, in a field: a hit that lies close comes soon, not a full
+// turn later.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +16,8 @@ namespace {
 using tests::Dice;
 using tests::Shape;
 
-std::optional<HitEvent> first_hit(const Table& table, const Particle& particle, const State& start, double inflation) {
+std::optional<HitEvent> first_hit(const Table& table, const Particle& particle, const State& start,
+                                  double inflation) {
   World world(table, DecisionOptions{inflation});
   world.limit_hits(1);
   try {
@@ -32,9 +34,11 @@ std::optional<HitEvent> first_hit(const Table& table, const Particle& particle, 
 TEST(ShortFlights, AreNoFullTurns) {
   Dice dice(3);
   long beside = 0;
-  const Shape shapes[] = {Shape::polygon, Shape::arcs, Shape::stadium, Shape::mushroom, Shape::elliptic_arcs};
+  const Shape shapes[] = {Shape::polygon, Shape::arcs, Shape::stadium, Shape::mushroom,
+                          Shape::elliptic_arcs};
   for (long n = 0; n < tests::cases(150, 3000); ++n) {
-    const Table table = tests::random_table(shapes[n % 5], 1.0, {dice.between(-3, 3), dice.between(-3, 3)}, dice);
+    const Table table =
+        tests::random_table(shapes[n % 5], 1.0, {dice.between(-3, 3), dice.between(-3, 3)}, dice);
     for (int w = 0; w < static_cast<int>(table.walls.size()); ++w) {
       const Wall& wall = table.walls[static_cast<std::size_t>(w)];
       if (geometry::is_closed(wall.curve)) continue;
@@ -56,7 +60,8 @@ TEST(ShortFlights, AreNoFullTurns) {
         EXPECT_GT(hit->time.value(), 0.0);
         if (std::sqrt(dot(way, way)) < 1e-9) {
           ++beside;
-          EXPECT_LT(hit->time.value(), 1e-8) << "wall " << w << " u " << start.u << " omega " << particle.omega;
+          EXPECT_LT(hit->time.value(), 1e-8)
+              << "wall " << w << " u " << start.u << " omega " << particle.omega;
         }
         for (const double inflation : {0x1p20, 1e300}) {
           const auto same = first_hit(table, particle, start, inflation);

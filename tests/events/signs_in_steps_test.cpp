@@ -1,5 +1,5 @@
-// Paths whose velocities say one thing about a wall and whose positions another: a scheme's velocity is not quite the
-// derivative of its positions. Nobody is lost.
+// Paths whose velocities say one thing about a wall and whose positions another: a scheme's
+// velocity is not quite the derivative of its positions. Nobody is lost.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,8 +37,8 @@ std::size_t hits_of(World& world, Vector position, Vector velocity, double until
   return recorder.hits.size();
 }
 
-// A force turns the path back at the wall. Where it ends a step beyond the wall with a velocity that points inwards
-// already, it has crossed.
+// A force turns the path back at the wall. Where it ends a step beyond the wall with a velocity
+// that points inwards already, it has crossed.
 TEST(SignsInSteps, OfPositionsDecideWherePathsGraze) {
   const Table table = tests::polygon({{-0.7, -0.5}, {0.6, -0.5}, {0.6, 0.8}, {-0.7, 0.8}});
   {
@@ -52,14 +52,17 @@ TEST(SignsInSteps, OfPositionsDecideWherePathsGraze) {
     Dice dice(7);
     for (long k = 0; k < tests::cases(2000, 400000); ++k) {
       // The velocity across the wall is used up near it.
-      const double speed = dice.spread(1e-3, 0.1), y = dice.between(-0.2, 0.4), force = 0.7 * (1.0 + 2.0 * y);
-      const double way = speed * speed / (2.0 * force) * (1.0 + dice.sign() * dice.spread(1e-4, 0.3));
+      const double speed = dice.spread(1e-3, 0.1), y = dice.between(-0.2, 0.4),
+                   force = 0.7 * (1.0 + 2.0 * y);
+      const double way =
+          speed * speed / (2.0 * force) * (1.0 + dice.sign() * dice.spread(1e-4, 0.3));
       hits_of(world, {-0.7 + way, y}, {-speed, dice.between(-0.4, 0.4)}, 3.0 * speed / force);
     }
   }
 }
 
-// Nearly along a wall, parts of a path stay unclear however short they are: then the positions at their ends decide.
+// Nearly along a wall, parts of a path stay unclear however short they are: then the positions at
+// their ends decide.
 TEST(SignsInSteps, OfPositionsDecideNearlyAlongAWall) {
   const Table table = tests::polygon({{-0.7, 0}, {0.6, 0}, {0.6, 0.8}, {-0.7, 0.8}});
   {
@@ -69,7 +72,8 @@ TEST(SignsInSteps, OfPositionsDecideNearlyAlongAWall) {
               1u);
   }
   for (const auto& [scheme, step] : {std::pair{"velocity-verlet", 0.1}, {"forest-ruth-4", 0.1}}) {
-    for (const PotentialSpec::Kind kind : {PotentialSpec::Kind::harmonic, PotentialSpec::Kind::henon_heiles}) {
+    for (const PotentialSpec::Kind kind :
+         {PotentialSpec::Kind::harmonic, PotentialSpec::Kind::henon_heiles}) {
       World world(table, stepped(scheme, step, kind));
       Dice dice(5);
       for (long k = 0; k < tests::cases(100, 2000); ++k)

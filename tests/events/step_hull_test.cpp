@@ -20,7 +20,9 @@ struct Step {
 };
 
 Step random_step(RandomStream& random) {
-  const auto about = [&](double size) { return Vector{size * (random.uniform() - 0.5), size * (random.uniform() - 0.5)}; };
+  const auto about = [&](double size) {
+    return Vector{size * (random.uniform() - 0.5), size * (random.uniform() - 0.5)};
+  };
   const Vector x = about(6.0), way = about(0.6);
   return {x, way + about(0.2), x + way, way + about(0.2)};
 }
@@ -35,8 +37,10 @@ Vector point_of(const StepHull<double>& hull, double t) {
 }
 
 std::vector<Curve> walls() {
-  return {geometry::Segment{{-1.0, -1.2}, {0.7, 0.4}}, geometry::Segment{{-2.0, 1.0}, {2.0, 1.0}},
-          geometry::Circle{{0.3, -0.2}, 0.8, true}, geometry::Circle{{0.3, -0.2}, 0.8, false},
+  return {geometry::Segment{{-1.0, -1.2}, {0.7, 0.4}},
+          geometry::Segment{{-2.0, 1.0}, {2.0, 1.0}},
+          geometry::Circle{{0.3, -0.2}, 0.8, true},
+          geometry::Circle{{0.3, -0.2}, 0.8, false},
           geometry::CircularArc{{1.0, 0.0}, {-1.0, 0.5}, 0.3, true},
           geometry::CircularArc{{1.0, 0.0}, {-1.0, 0.5}, 0.3, false},
           geometry::Ellipse{{0.1, 0.2}, {1.5, 0.4}, 0.5, true}};
@@ -52,7 +56,8 @@ TEST(StepHull, KeepsNoPathOffAWallThatItCrosses) {
       const StepHull<double> hull = hull_of(random_step(random));
       bool crosses = false;
       for (int k = 0; k < parts && !crosses; ++k) {
-        const Vector p = point_of(hull, double(k) / parts), q = point_of(hull, double(k + 1) / parts);
+        const Vector p = point_of(hull, double(k) / parts),
+                     q = point_of(hull, double(k + 1) / parts);
         crosses = b.gap(p) > 0.0 && b.gap(q) < 0.0 && b.covers(p) && b.covers(q);
       }
       const bool stays = stays_off(b, hull);
@@ -68,7 +73,8 @@ TEST(StepHull, KeepsNoPathOffAWallThatItCrosses) {
 
 // A long wall's line says nothing: the piece is asked, too.
 TEST(StepHull, AsksThePieceAsWellAsItsCurve) {
-  const Barrier<double> line = barrier_of<double>(geometry::Segment{{0.0, 0.0}, {1.0, 0.0}}, Vector{});
+  const Barrier<double> line =
+      barrier_of<double>(geometry::Segment{{0.0, 0.0}, {1.0, 0.0}}, Vector{});
   const Step across{{3.0, 0.1}, {0.0, -0.2}, {3.0, -0.1}, {0.0, -0.2}};
   EXPECT_TRUE(stays_off(line, hull_of(across)));
   Step through = across;

@@ -20,7 +20,9 @@ const Kind kinds[] = {Kind::line,       Kind::segment,    Kind::circle,    Kind:
 
 class Cases {
  public:
-  double in(double low, double high) { return low + (high - low) * std::uniform_real_distribution<double>()(random_); }
+  double in(double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>()(random_);
+  }
   Vector point() { return {in(-1, 1), in(-1, 1)}; }
   Surface surface(Kind kind) { return {kind, point(), point(), in(0.2, 1.5), in(-0.7, 0.7)}; }
   FreeFlight flight(double omega, double duration) {
@@ -55,7 +57,8 @@ std::vector<Change> sampled(const Surface& s, const FreeFlight& f, int steps) {
     if (i > 0 && (g > 0) != (before > 0)) {
       bool inside = true;
       if (s.kind == Kind::segment) {
-        const double part = dot(position - s.from, s.to - s.from) / dot(s.to - s.from, s.to - s.from);
+        const double part =
+            dot(position - s.from, s.to - s.from) / dot(s.to - s.from, s.to - s.from);
         inside = part >= 0 && part < 1;
       }
       if (inside) changes.push_back({t_before, t, g > 0 ? 1 : -1});
@@ -118,7 +121,8 @@ TEST(Surface, ALarmorCircleCrossesTwiceATurn) {
   FreeFlight f{{0, 0}, {1, 0}, 1.0, 21 * 3.14159265358979, {}};
   f.end = moved(f.position, f.velocity, f.omega, f.duration).first;
   EXPECT_EQ(all({Kind::position_y, {}, {}, 0, -0.5}, f).size(), 21u);
-  EXPECT_EQ(all({Kind::position_x, {}, {}, 0, 0.25}, f).size(), 22u) << "the first at once, the last at the end";
+  EXPECT_EQ(all({Kind::position_x, {}, {}, 0, 0.25}, f).size(), 22u)
+      << "the first at once, the last at the end";
   EXPECT_EQ(all({Kind::velocity_x, {}, {}, 0, 0.1}, f).size(), 21u);
   EXPECT_EQ(all({Kind::position_y, {}, {}, 0, 0.5}, f).size(), 0u);
   EXPECT_EQ(all({Kind::circle, {0, -1}, {}, 0.5, 0}, f).size(), 0u) << "concentric";
@@ -160,7 +164,8 @@ TEST(Surface, FlightsCanBeCut) {
         const FreeFlight first{whole.position, whole.velocity, omega, cut, position};
         const FreeFlight second{position, velocity, omega, 4 - cut, whole.end};
         const auto a = all(s, first), b = all(s, second);
-        ASSERT_EQ(a.size() + b.size(), expected.size()) << static_cast<int>(kind) << ' ' << omega << ' ' << cut;
+        ASSERT_EQ(a.size() + b.size(), expected.size())
+            << static_cast<int>(kind) << ' ' << omega << ' ' << cut;
         for (std::size_t k = 0; k < expected.size(); ++k) {
           const double t = k < a.size() ? a[k].time : cut + b[k - a.size()].time;
           EXPECT_NEAR(t, expected[k].time, 1e-6);
@@ -200,8 +205,8 @@ TEST(Surface, StartsOnTheSurfaceCountToThePositiveSide) {
   EXPECT_TRUE(all(x, {{-1, 0}, {1, 0}, 0, 1, {0, 0}}).empty());
 }
 
-// A chord through a circle so small that its far side lies in the last digits of the way: where the flight comes
-// nearest to the centre Newton's method says nothing.
+// A chord through a circle so small that its far side lies in the last digits of the way: where the
+// flight comes nearest to the centre Newton's method says nothing.
 TEST(Surface, ShortChordsAreAsExactAsLongOnes) {
   for (double radius = 1e-3; radius > 1e-15; radius *= 0.3) {
     const FreeFlight f{{-1, 0}, {1, 0}, 0, 3, {2, 0}};
@@ -234,7 +239,8 @@ TEST(BracketedRoot, LeavesNoDoubleBetweenTheSides) {
         Path path{order, zero, floor};
         const double root = bracketed_root(path, 0.0, 1.0);
         const bool above = path.g(root) > 0.0;
-        EXPECT_TRUE(path.g(root) == 0.0 || path.g(std::nextafter(root, above ? 0.0 : 1.0)) * path.g(root) <= 0.0)
+        EXPECT_TRUE(path.g(root) == 0.0 ||
+                    path.g(std::nextafter(root, above ? 0.0 : 1.0)) * path.g(root) <= 0.0)
             << order << ' ' << floor << ' ' << zero;
         EXPECT_LT(path.calls, 250);
       }

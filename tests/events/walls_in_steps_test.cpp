@@ -1,8 +1,8 @@
 // Walls inside steps: every scheme keeps its order through collisions, in 34 digits.
 //
 // With CAROM_SOAK set all schemes are measured and printed, else a few.
-// The loop below is the plainest one that steps, finds the first wall, reflects and goes on. The wells
-// are off the centre: a centred one hides errors by symmetry.
+// The loop below is the plainest one that steps, finds the first wall, reflects and goes on. The
+// wells are off the centre: a centred one hides errors by symmetry.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/float128.hpp>
@@ -49,7 +49,8 @@ std::vector<Barrier<Real>> rectangular_wall() {
   const geometry::Vector corners[] = {{-0.5, -0.375}, {0.5, -0.375}, {0.5, 0.375}, {-0.5, 0.375}};
   std::vector<Barrier<Real>> walls;
   for (int i = 0; i < 4; ++i)
-    walls.push_back(barrier_of<Real>(geometry::Segment{corners[i], corners[(i + 1) % 4]}, Vector{}));
+    walls.push_back(
+        barrier_of<Real>(geometry::Segment{corners[i], corners[(i + 1) % 4]}, Vector{}));
   return walls;
 }
 
@@ -59,7 +60,8 @@ struct Orbit {
 };
 
 Orbit follow(Stepper<Real>& stepper, const ForceLaw<Real>& law, const Real& omega,
-             const std::vector<Barrier<Real>>& walls, Phase<Real> phase, const Real& duration, int steps) {
+             const std::vector<Barrier<Real>>& walls, Phase<Real> phase, const Real& duration,
+             int steps) {
   const std::vector<Real> omegas = {omega};
   StepPath<Real> path(stepper, law, omegas);
   CrossingSearch<Real> search(path);
@@ -90,7 +92,9 @@ Orbit follow(Stepper<Real>& stepper, const ForceLaw<Real>& law, const Real& omeg
   return orbit;
 }
 
-double error_of(const Phase<Real>& a, const Phase<Real>& b) { return static_cast<double>(distance(a, b)); }
+double error_of(const Phase<Real>& a, const Phase<Real>& b) {
+  return static_cast<double>(distance(a, b));
+}
 
 struct Setting {
   const char* name;
@@ -124,28 +128,32 @@ TEST_P(WallsInSteps, KeepTheOrder) {
   const Phase<Real> start{{s.position}, {s.velocity}};
   const auto run = [&](const Scheme& scheme, int steps) {
     const std::vector<Real> omegas = {omega};
-    return follow(*stepper_of<Real>(scheme, law, omegas), law, omega, walls, start, duration, steps);
+    return follow(*stepper_of<Real>(scheme, law, omegas), law, omega, walls, start, duration,
+                  steps);
   };
   const Orbit exact = run(find_scheme("kahan-li-8"), 40000);
   EXPECT_GE(exact.hits, 50);
   for (const Scheme& scheme : schemes()) {
-    const bool picked = scheme.name == "mclachlan-2" || scheme.name == "ruth-3" || scheme.name == "he-4" ||
-                        scheme.name == "blanes-moan-srkn6b" || scheme.name == "mclachlan-atela-5" ||
-                        scheme.name == "blanes-moan-srkn11b" || scheme.form == Scheme::Form::spreiter_walter;
+    const bool picked =
+        scheme.name == "mclachlan-2" || scheme.name == "ruth-3" || scheme.name == "he-4" ||
+        scheme.name == "blanes-moan-srkn6b" || scheme.name == "mclachlan-atela-5" ||
+        scheme.name == "blanes-moan-srkn11b" || scheme.form == Scheme::Form::spreiter_walter;
     if (!soak && !picked) continue;
     const int steps = scheme.order < 4 ? 64000 : scheme.order < 6 ? 12000 : soak ? 10000 : 6000;
     const double coarse = error_of(run(scheme, steps).end, exact.end);
     const double fine = error_of(run(scheme, 2 * steps).end, exact.end);
     const double order = std::log2(coarse / fine);
     if (soak)
-      std::printf("%-36s %-24s order %d  measured %.3f  error %.2g\n", s.name, std::string(scheme.name).c_str(),
-                  scheme.order, order, fine);
+      std::printf("%-36s %-24s order %d  measured %.3f  error %.2g\n", s.name,
+                  std::string(scheme.name).c_str(), scheme.order, order, fine);
     EXPECT_NEAR(order, scheme.order, 0.15) << scheme.name << " errors " << coarse << " " << fine;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Settings, WallsInSteps, testing::ValuesIn(settings),
-                         [](const auto& setting) { return "Setting" + std::to_string(setting.index); });
+                         [](const auto& setting) {
+                           return "Setting" + std::to_string(setting.index);
+                         });
 
 }  // namespace
 }  // namespace carom

@@ -11,7 +11,9 @@
 namespace carom::tests {
 namespace {
 
-Vector unwrapped(const Table& t, const State& s) { return s.position + t.lattice->translation(s.cell); }
+Vector unwrapped(const Table& t, const State& s) {
+  return s.position + t.lattice->translation(s.cell);
+}
 
 TEST(World, FliesStraightThroughASquare) {
   const Table table = square();
@@ -110,7 +112,8 @@ TEST(World, PinnedOrbitsAreKnownAtOnce) {
   const Table gas = lorentz({4, 0}, {0, 4});
   World wide(gas);
   Recorder there;
-  wide.add(particle(-1.0, std::sqrt(0.953125)), start({1.375, 1.25}, {0.75, -0.625}));  // circles about (2, 2), the cells' corner
+  wide.add(particle(-1.0, std::sqrt(0.953125)),
+           start({1.375, 1.25}, {0.75, -0.625}));  // circles about (2, 2), the cells' corner
   wide.run_until(1e9, there);
   ASSERT_EQ(there.ends.size(), 1u);
   EXPECT_EQ(there.ends[0].fate, Fate::pinned);
@@ -141,7 +144,8 @@ TEST(World, RefusesStartsOutsideTheTable) {
 TEST(World, RefusesAVelocityOffTheEnergyShell) {
   const Table table = square();
   World world(table);
-  EXPECT_THROW(world.add(particle(0.0, 1.0), start({0.5, 0.5}, {1.0, 1e-6})), std::invalid_argument);
+  EXPECT_THROW(world.add(particle(0.0, 1.0), start({0.5, 0.5}, {1.0, 1e-6})),
+               std::invalid_argument);
   EXPECT_NO_THROW(world.add(particle(0.0, 2.0), start({0.5, 0.5}, {1.2, 1.6})));
 }
 
@@ -176,8 +180,7 @@ TEST(World, ALatticeIsItsUnfoldedPlane) {
   const Table gas = lorentz(first, second);
   std::vector<Vector> centres;
   for (int m = -12; m <= 12; ++m)
-    for (int n = -12; n <= 12; ++n)
-      centres.push_back(gas.lattice->translation({m, n}));
+    for (int n = -12; n <= 12; ++n) centres.push_back(gas.lattice->translation({m, n}));
   const Table plane = discs(centres);
   for (const double omega : {0.0, 0.25, -0.7}) {
     World folded(gas), unfolded(plane);
@@ -224,8 +227,10 @@ TEST(World, SeveralParticlesDoNotSeeEachOther) {
   World together(table);
   Recorder all;
   std::vector<State> starts;
-  for (int i = 0; i < 7; ++i) starts.push_back(start({0.1 * i, 0.05 * i}, i % 2 ? Vector{0.6, 0.8} : Vector{-0.8, 0.6}));
-  for (int i = 0; i < 7; ++i) together.add(particle(0.1 * i, 1.0), starts[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 7; ++i)
+    starts.push_back(start({0.1 * i, 0.05 * i}, i % 2 ? Vector{0.6, 0.8} : Vector{-0.8, 0.6}));
+  for (int i = 0; i < 7; ++i)
+    together.add(particle(0.1 * i, 1.0), starts[static_cast<std::size_t>(i)]);
   together.run_until(50.0, all);
   double last = 0.0;
   for (const HitEvent& hit : all.hits) {
@@ -283,10 +288,12 @@ TEST(World, InflatedBoundsChangeNoBit) {
                              loop({Ellipse{{0, 0}, {1, 0}, 0.75, true}})})
     for (const double omega : {0.0, 0.6, -2.0}) {
       Recorder usual, inflated, exact;
-      const std::pair<double, Recorder*> runs[] = {{1.0, &usual}, {0x1p20, &inflated}, {1e300, &exact}};
+      const std::pair<double, Recorder*> runs[] = {
+          {1.0, &usual}, {0x1p20, &inflated}, {1e300, &exact}};
       for (const auto& [inflation, recorder] : runs) {
         World world(table, {inflation});
-        world.add(particle(omega), start({table.extent == Extent::lattice ? 1.05 : 0.125, 0.1}, {0.6, 0.8}));
+        world.add(particle(omega),
+                  start({table.extent == Extent::lattice ? 1.05 : 0.125, 0.1}, {0.6, 0.8}));
         world.run_until(25.0, *recorder);
       }
       ASSERT_EQ(usual.hits.size(), inflated.hits.size());

@@ -1,4 +1,5 @@
-// Bounds of forces over complex neighbourhoods: they hold at random places, and are not far above what is found there.
+// Bounds of forces over complex neighbourhoods: they hold at random places, and are not far above
+// what is found there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,13 +38,17 @@ Gradient central(std::function<Complex(Complex r)> slope) {
 
 class Places {
  public:
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  /// The largest |grad V| at displacements of size rho (where an analytic function is largest) from points of the box.
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  /// The largest |grad V| at displacements of size rho (where an analytic function is largest) from
+  /// points of the box.
   double largest(const Gradient& gradient, const Neighbourhood& n, int count = 400) {
     double most = 0.0;
     for (int k = 0; k < count; ++k) {
       const double x = uniform(n.low.x, n.high.x), y = uniform(n.low.y, n.high.y);
-      const Complex p = std::polar(n.rho, uniform(-3.2, 3.2)), q = std::polar(n.rho, uniform(-3.2, 3.2));
+      const Complex p = std::polar(n.rho, uniform(-3.2, 3.2)),
+                    q = std::polar(n.rho, uniform(-3.2, 3.2));
       const auto [gx, gy] = gradient(x + 0.5 * (p + q), y + Complex(0, -0.5) * (p - q));
       most = std::max(most, size(gx, gy));
     }
@@ -58,9 +63,10 @@ class Places {
   std::mt19937_64 random_{20261};
 };
 
-/// Of 300 neighbourhoods with bounds: none may be exceeded. Returns the share of those that are within a factor of it.
-double check(const std::function<ForceBound(const Neighbourhood&)>& bound, const Gradient& gradient, double reach,
-             double factor, const std::string& name) {
+/// Of 300 neighbourhoods with bounds: none may be exceeded. Returns the share of those that are
+/// within a factor of it.
+double check(const std::function<ForceBound(const Neighbourhood&)>& bound, const Gradient& gradient,
+             double reach, double factor, const std::string& name) {
   Places places;
   int bounded = 0, close = 0;
   for (int k = 0; k < 300; ++k) {
@@ -69,7 +75,8 @@ double check(const std::function<ForceBound(const Neighbourhood&)>& bound, const
     if (!std::isfinite(b.force) || b.jump > 0.0) continue;
     ++bounded;
     const double found = places.largest(gradient, n);
-    EXPECT_LE(found, b.force * (1.0 + 1e-9)) << name << " near " << n.low.x << ", " << n.low.y << ", rho " << n.rho;
+    EXPECT_LE(found, b.force * (1.0 + 1e-9))
+        << name << " near " << n.low.x << ", " << n.low.y << ", rho " << n.rho;
     close += b.force < factor * found;
   }
   EXPECT_GT(bounded, 60) << name;
@@ -99,14 +106,20 @@ std::vector<Named> named() {
     s.force = {0.3, -1.2};
     list.push_back({name, s, std::move(gradient)});
   };
-  add("harmonic", Kind::harmonic, [](Complex x, Complex y) { return std::pair{0.64 * x, 1.96 * y}; });
+  add("harmonic", Kind::harmonic, [](Complex x, Complex y) {
+    return std::pair{0.64 * x, 1.96 * y};
+  });
   add("quartic", Kind::quartic, central([](Complex r) { return 3.6 * r * r * r; }));
   add("power", Kind::power, central([](Complex r) { return 3.6 * r * r * r; }));
   add("coulomb", Kind::coulomb, central([](Complex r) { return 2.5 / (r * r); }));
-  add("gaussian", Kind::gaussian, central([](Complex r) { return 1.3 * r / 0.09 * std::exp(-r * r / 0.18); }));
-  add("henon-heiles", Kind::henon_heiles,
-      [](Complex x, Complex y) { return std::pair{x + 2.0 * x * y, y + x * x - y * y}; });
-  add("linear", Kind::linear, [](Complex, Complex) { return std::pair{Complex(0.3), Complex(-1.2)}; });
+  add("gaussian", Kind::gaussian,
+      central([](Complex r) { return 1.3 * r / 0.09 * std::exp(-r * r / 0.18); }));
+  add("henon-heiles", Kind::henon_heiles, [](Complex x, Complex y) {
+    return std::pair{x + 2.0 * x * y, y + x * x - y * y};
+  });
+  add("linear", Kind::linear, [](Complex, Complex) {
+    return std::pair{Complex(0.3), Complex(-1.2)};
+  });
   const auto fermi = [](double sign) {
     return central([sign](Complex r) {
       const Complex e = std::exp(sign * (r - 0.4) / 0.15), one = 1.0 + e;
@@ -122,7 +135,8 @@ TEST(ForceBounds, HoldForNamedPotentials) {
   const Particle p;
   for (const Named& n : named()) {
     const auto potential = make_potential(n.spec, {});
-    const double close = check([&](const Neighbourhood& at) { return potential->bound(p, at); }, n.gradient, 2.0, 30.0, n.name);
+    const double close = check([&](const Neighbourhood& at) { return potential->bound(p, at); },
+                               n.gradient, 2.0, 30.0, n.name);
     EXPECT_GT(close, 0.6) << n.name;
   }
 }
@@ -135,31 +149,37 @@ TEST(ForceBounds, HoldForTypedPotentials) {
   const Typed list[] = {
       {"50*exp(-((x-1)^2+(y-1)^2)/(2*0.3^2))",
        [](Complex x, Complex y) {
-         const Complex u = x - 1.0, v = y - 1.0, e = 50.0 * std::exp(-(u * u + v * v) / 0.18) / 0.09;
+         const Complex u = x - 1.0, v = y - 1.0,
+                       e = 50.0 * std::exp(-(u * u + v * v) / 0.18) / 0.09;
          return std::pair{-u * e, -v * e};
        }},
       {"1.3/(1+exp((sqrt(x^2+y^2)-0.4)/0.15))", central([](Complex r) {
          const Complex e = std::exp((r - 0.4) / 0.15), one = 1.0 + e;
          return 1.3 / 0.15 * e / (one * one);
        })},
-      {"cos(3*x)*sin(2*y)+tanh(x)", [](Complex x, Complex y) {
+      {"cos(3*x)*sin(2*y)+tanh(x)",
+       [](Complex x, Complex y) {
          const Complex c = std::cosh(x);
          return std::pair{-3.0 * std::sin(3.0 * x) * std::sin(2.0 * y) + 1.0 / (c * c),
                           2.0 * std::cos(3.0 * x) * std::cos(2.0 * y)};
        }},
       {"1/(x^2+y^2)", central([](Complex r) { return -2.0 / (r * r * r); })},
-      {"log(x^2+y^2+1)+x^3*y-(x^2+1)^1.5", [](Complex x, Complex y) {
+      {"log(x^2+y^2+1)+x^3*y-(x^2+1)^1.5",
+       [](Complex x, Complex y) {
          const Complex s = x * x + y * y + 1.0;
-         return std::pair{2.0 * x / s + 3.0 * x * x * y - 3.0 * x * std::sqrt(x * x + 1.0), 2.0 * y / s + x * x * x};
+         return std::pair{2.0 * x / s + 3.0 * x * x * y - 3.0 * x * std::sqrt(x * x + 1.0),
+                          2.0 * y / s + x * x * x};
        }},
-      {"cosh(x)*exp(-y)", [](Complex x, Complex y) {
+      {"cosh(x)*exp(-y)",
+       [](Complex x, Complex y) {
          return std::pair{std::sinh(x) * std::exp(-y), -std::cosh(x) * std::exp(-y)};
        }},
   };
   const std::string variables[] = {"x", "y"};
   for (const Typed& t : list) {
     const TypedExpression v = TypedExpression::parse(t.text, variables, {}, {});
-    const double close = check([&](const Neighbourhood& n) { return bound_of(v, n); }, t.gradient, 2.0, 100.0, t.text);
+    const double close = check([&](const Neighbourhood& n) { return bound_of(v, n); }, t.gradient,
+                               2.0, 100.0, t.text);
     EXPECT_GT(close, 0.5) << t.text;
   }
 }
@@ -169,7 +189,11 @@ TEST(ForceBounds, HoldWhereAnglesHaveNoDigitsLeft) {
   const std::string variables[] = {"x", "y"};
   for (const char* text : {"sin(x)", "cos(3*x)", "sin(1e21*x)*cos(y)"})
     for (const double x : {1e17, 1e21, 1e100, 1e300})
-      EXPECT_GE(bound_of(TypedExpression::parse(text, variables, {}, {}), {{x, 0.0}, {x, 0.0}, 1e-30}).force, 1.0) << text << x;
+      EXPECT_GE(
+          bound_of(TypedExpression::parse(text, variables, {}, {}), {{x, 0.0}, {x, 0.0}, 1e-30})
+              .force,
+          1.0)
+          << text << x;
 }
 
 TEST(ForceBounds, KinksHaveAJumpAndNoMoreThanThat) {
@@ -200,7 +224,8 @@ TEST(ForceBounds, HoldForPairs) {
          const Complex s6 = std::pow(0.9 / r, 6);
          return 24.0 * 1.1 * s6 * (2.0 * s6 - 1.0) / r;
        }},
-      {InteractionSpec::Kind::soft_sphere, [](Complex r) { return 12.0 * 1.5 * std::pow(0.9 / r, 12) / r; }},
+      {InteractionSpec::Kind::soft_sphere,
+       [](Complex r) { return 12.0 * 1.5 * std::pow(0.9 / r, 12) / r; }},
   };
   Places places;
   for (const Pair& pair : list) {

@@ -1,4 +1,5 @@
-// Derivatives of typed formulas: against closed forms, and against difference quotients with 40 digits.
+// Derivatives of typed formulas: against closed forms, and against difference quotients with 40
+// digits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +47,8 @@ TEST(FormulaDerivatives, Gaussian) {
 
 TEST(FormulaDerivatives, Yukawa) {
   const std::vector<std::string> variables = {"r"};
-  const TypedExpression w = TypedExpression::parse("g*exp(-r/l)/r", variables, {{"g", 2.5}, {"l", 0.8}}, {});
+  const TypedExpression w =
+      TypedExpression::parse("g*exp(-r/l)/r", variables, {{"g", 2.5}, {"l", 0.8}}, {});
   for (double a = 0.01; a < 6.0; a *= 1.07) {
     const Real r = a, l = 0.8, value = Real(2.5) * exp(-r / l) / r;
     const double at[] = {a};
@@ -58,7 +60,8 @@ TEST(FormulaDerivatives, Yukawa) {
 }
 
 TEST(FormulaDerivatives, LennardJonesAndPowers) {
-  const TypedExpression v = formula("4*((x^2+y^2)^-6 - (x^2+y^2)^-3) + (x^2+y^2)^-0.5 + x^2.3*y^-1.5");
+  const TypedExpression v =
+      formula("4*((x^2+y^2)^-6 - (x^2+y^2)^-3) + (x^2+y^2)^-0.5 + x^2.3*y^-1.5");
   for (double a = 0.6; a < 2.0; a += 0.037) {
     const double b = 0.9;
     const Real x = a, y = b, s = x * x + y * y;
@@ -89,19 +92,19 @@ TEST(FormulaDerivatives, FunctionsAreAsAccurateAsStated) {
   };
   const auto cosine_squared = [](Real x) { return Real(1 / (cosh(x) * cosh(x))); };
   const Claim claims[] = {
-      {"tan(x)", [](Real x) { return Real(tan(x)); }, [](Real x) { return Real(1 / (cos(x) * cos(x))); }, 3,
-       4, 1e-8, 30},
-      {"sinh(x)", [](Real x) { return Real(sinh(x)); }, [](Real x) { return Real(cosh(x)); }, 4, 4, 1e-8,
-       710.4},
-      {"cosh(x)", [](Real x) { return Real(cosh(x)); }, [](Real x) { return Real(sinh(x)); }, 4, 4, 1e-8,
-       710.4},
+      {"tan(x)", [](Real x) { return Real(tan(x)); },
+       [](Real x) { return Real(1 / (cos(x) * cos(x))); }, 3, 4, 1e-8, 30},
+      {"sinh(x)", [](Real x) { return Real(sinh(x)); }, [](Real x) { return Real(cosh(x)); }, 4, 4,
+       1e-8, 710.4},
+      {"cosh(x)", [](Real x) { return Real(cosh(x)); }, [](Real x) { return Real(sinh(x)); }, 4, 4,
+       1e-8, 710.4},
       {"tanh(x)", [](Real x) { return Real(tanh(x)); }, cosine_squared, 4, 6, 1e-8, 350},
-      {"abs(x)", [](Real x) { return Real(abs(x)); }, [](Real x) { return Real(x < 0 ? -1 : 1); }, 0.0, 0.0,
-       1e-8, 10},
-      {"x^7", [](Real x) { return Real(pow(x, 7)); }, [](Real x) { return Real(7 * pow(x, 6)); }, 7, 8, 0.01,
-       100},
-      {"x^-40", [](Real x) { return Real(pow(x, -40)); }, [](Real x) { return Real(-40 * pow(x, -41)); }, 40,
-       44, 0.1, 100},
+      {"abs(x)", [](Real x) { return Real(abs(x)); }, [](Real x) { return Real(x < 0 ? -1 : 1); },
+       0.0, 0.0, 1e-8, 10},
+      {"x^7", [](Real x) { return Real(pow(x, 7)); }, [](Real x) { return Real(7 * pow(x, 6)); }, 7,
+       8, 0.01, 100},
+      {"x^-40", [](Real x) { return Real(pow(x, -40)); },
+       [](Real x) { return Real(-40 * pow(x, -41)); }, 40, 44, 0.1, 100},
   };
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -117,11 +120,13 @@ TEST(FormulaDerivatives, FunctionsAreAsAccurateAsStated) {
     }
     EXPECT_LE(worst, claim.bound) << claim.text;
     EXPECT_LE(worst_slope, claim.slope_bound) << claim.text;
-    RecordProperty(claim.text, std::to_string(worst) + " ulp, slope " + std::to_string(worst_slope));
+    RecordProperty(claim.text,
+                   std::to_string(worst) + " ulp, slope " + std::to_string(worst_slope));
   }
 }
 
-// A random formula: its text, and the same with 40 digits. `largest` takes in every intermediate result.
+// A random formula: its text, and the same with 40 digits. `largest` takes in every intermediate
+// result.
 struct RandomFormula {
   std::string text;
   std::function<Real(const Real&, const Real&)> value;
@@ -189,9 +194,11 @@ class Generator {
       case 12:
         return of("(2+sin" + t + ")^-4", [](const Real& v) { return Real(pow(2 + sin(v), -4)); });
       case 13:
-        return of("(2+sin" + t + ")^2.5", [](const Real& v) { return Real(pow(2 + sin(v), Real(2.5))); });
+        return of("(2+sin" + t + ")^2.5",
+                  [](const Real& v) { return Real(pow(2 + sin(v), Real(2.5))); });
       case 14:
-        return of("(2+sin" + t + ")^-1.25", [](const Real& v) { return Real(pow(2 + sin(v), Real(-1.25))); });
+        return of("(2+sin" + t + ")^-1.25",
+                  [](const Real& v) { return Real(pow(2 + sin(v), Real(-1.25))); });
       default:
         return of("1/(2-sin" + t + ")", [](const Real& v) { return Real(1 / (2 - sin(v))); });
     }
@@ -200,8 +207,9 @@ class Generator {
   RandomFormula binary(const RandomFormula& a, const RandomFormula& b) {
     const std::string s = "(" + a.text + ")", t = "(" + b.text + ")";
     const auto of = [&](const std::string& text, std::function<Real(const Real&, const Real&)> f) {
-      return RandomFormula{
-          text, [a, b, f](const Real& x, const Real& y) { return f(a.value(x, y), b.value(x, y)); }};
+      return RandomFormula{text, [a, b, f](const Real& x, const Real& y) {
+                             return f(a.value(x, y), b.value(x, y));
+                           }};
     };
     switch (pick(9)) {
       case 0:
@@ -212,7 +220,8 @@ class Generator {
       case 3:
         return of(s + "*" + t, [](const Real& u, const Real& v) { return Real(u * v); });
       case 4:
-        return of(s + "/(1+" + t + "^2)", [](const Real& u, const Real& v) { return Real(u / (1 + v * v)); });
+        return of(s + "/(1+" + t + "^2)",
+                  [](const Real& u, const Real& v) { return Real(u / (1 + v * v)); });
       case 5:
         return of("(2+sin" + s + ")^sin" + t,
                   [](const Real& u, const Real& v) { return Real(pow(2 + sin(u), sin(v))); });
@@ -220,9 +229,11 @@ class Generator {
         return of("atan2(" + s + ",2+sin" + t + ")",
                   [](const Real& u, const Real& v) { return Real(atan2(u, 2 + sin(v))); });
       case 7:
-        return of("min(" + s + "," + t + ")", [](const Real& u, const Real& v) { return u < v ? u : v; });
+        return of("min(" + s + "," + t + ")",
+                  [](const Real& u, const Real& v) { return u < v ? u : v; });
       default:
-        return of("max(" + s + "," + t + ")", [](const Real& u, const Real& v) { return u > v ? u : v; });
+        return of("max(" + s + "," + t + ")",
+                  [](const Real& u, const Real& v) { return u > v ? u : v; });
     }
   }
 

@@ -11,8 +11,8 @@
 
 namespace carom {
 
-using FortyDigits =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<40>, boost::multiprecision::et_off>;
+using FortyDigits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<40>,
+                                                  boost::multiprecision::et_off>;
 
 inline TypedExpression formula(const std::string& text,
                                const std::map<std::string, double>& parameters = {}) {

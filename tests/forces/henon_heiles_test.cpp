@@ -57,8 +57,9 @@ TEST(HenonHeiles, PeriodOfTheLineOrbit) {
   const LoadedSystem loaded = load_system("henon-heiles");
   const System& system = loaded.system;
   for (const LineOrbit& orbit : line_orbits) {
-    for (const Dynamics& dynamics : {with(system, "", 0.02, 0.0), with(system, "kahan-li-8", 0.05, 0.0),
-                                     with(system, "arkode", 0.0, 1e-13)}) {
+    for (const Dynamics& dynamics :
+         {with(system, "", 0.02, 0.0), with(system, "kahan-li-8", 0.05, 0.0),
+          with(system, "arkode", 0.0, 1e-13)}) {
       for (const auto kind : {Surface::Kind::position_y, Surface::Kind::velocity_y}) {
         Surface surface;
         surface.kind = kind;
@@ -70,7 +71,8 @@ TEST(HenonHeiles, PeriodOfTheLineOrbit) {
         for (const std::vector<double>& times : {seen.up, seen.down}) {
           ASSERT_GE(times.size(), 3u);
           for (std::size_t i = 1; i < times.size(); ++i)
-            EXPECT_NEAR((times[i] - times[i - 1]) / orbit.period, 1.0, 1e-12) << dynamics.integrator.scheme;
+            EXPECT_NEAR((times[i] - times[i - 1]) / orbit.period, 1.0, 1e-12)
+                << dynamics.integrator.scheme;
         }
         for (const State& s : seen.where) {
           EXPECT_EQ(s.position.x, 0.0);
@@ -83,14 +85,15 @@ TEST(HenonHeiles, PeriodOfTheLineOrbit) {
   }
 }
 
-// Trace of the transverse part of the monodromy matrix: orbits at x = d and v_x = d followed for one period.
-// Their mirror images are orbits, too, so that x(T)/d is a central difference; its errors of d^2 and d^4 are
-// taken away with d, d/2 and d/4 (Richardson).
+// Trace of the transverse part of the monodromy matrix: orbits at x = d and v_x = d followed for
+// one period. Their mirror images are orbits, too, so that x(T)/d is a central difference; its
+// errors of d^2 and d^4 are taken away with d, d/2 and d/4 (Richardson).
 TEST(HenonHeiles, TraceOfTheLineOrbit) {
   const LoadedSystem loaded = load_system("henon-heiles");
   const System& system = loaded.system;
   for (const LineOrbit& orbit : line_orbits) {
-    for (const Dynamics& dynamics : {with(system, "", 0.02, 0.0), with(system, "arkode", 0.0, 1e-14)}) {
+    for (const Dynamics& dynamics :
+         {with(system, "", 0.02, 0.0), with(system, "arkode", 0.0, 1e-14)}) {
       double estimate[3];
       for (int level = 0; level < 3; ++level) {
         const double d = 0x1p-8 / (1 << level);

@@ -43,16 +43,19 @@ std::vector<Case> cases() {
   s.kind = Kind::yukawa;
   all.push_back({"yukawa", s, [=](const Real& r) { return k * q * exp(-r / l) / r; }, 1e-3, 15.0});
   s.kind = Kind::lennard_jones;
-  all.push_back({"lennard-jones", s, [=](const Real& r) { return 4 * e * (pow(d / r, 12) - pow(d / r, 6)); },
-                 0.5, 100.0});
+  all.push_back({"lennard-jones", s,
+                 [=](const Real& r) { return 4 * e * (pow(d / r, 12) - pow(d / r, 6)); }, 0.5,
+                 100.0});
   s.kind = Kind::soft_sphere;
   for (const int exponent : {1, 2, 9, 12, 36}) {
     s.exponent = exponent;
-    all.push_back({"soft-sphere", s, [=](const Real& r) { return k * pow(d / r, exponent); }, 0.3, 20.0});
+    all.push_back(
+        {"soft-sphere", s, [=](const Real& r) { return k * pow(d / r, exponent); }, 0.3, 20.0});
   }
   s.kind = Kind::expression;
   const std::vector<std::string> variables = {"r"};
-  s.expression = std::make_shared<TypedExpression>(TypedExpression::parse("exp(-r^2)/r", variables, {}, {}));
+  s.expression =
+      std::make_shared<TypedExpression>(TypedExpression::parse("exp(-r^2)/r", variables, {}, {}));
   all.push_back({"expression", s, [=](const Real& r) { return exp(-r * r) / r; }, 0.1, 4.0});
   return all;
 }
@@ -71,22 +74,26 @@ TEST(Interactions, EnergiesAndForcesOfEveryKind) {
     EXPECT_FALSE(field->external());
     for (double r = c.smallest; r < c.largest; r *= 1.37) {
       const Vector separation{0.6 * r, -0.8 * r};
-      const Real exact = sqrt(Real(separation.x) * separation.x + Real(separation.y) * separation.y);
+      const Real exact =
+          sqrt(Real(separation.x) * separation.x + Real(separation.y) * separation.y);
       const Real d = exact * Real("1e-12"), slope = (c.law(exact + d) - c.law(exact - d)) / (2 * d);
       Vector force{};
       const double w = field->add_pair(p[0], p[1], separation, force);
-      // Terms of both signs cancel in Lennard-Jones' law: errors count against the larger of the two.
+      // Terms of both signs cancel in Lennard-Jones' law: errors count against the larger of the
+      // two.
       const double size = static_cast<double>(abs(c.law(exact))) +
                           (c.spec.kind == Kind::lennard_jones ? 8.0 * std::pow(0.9 / r, 6) : 0.0);
-      const double slope_size = static_cast<double>(abs(slope)) +
-                                (c.spec.kind == Kind::lennard_jones ? 48.0 * std::pow(0.9 / r, 6) / r : 0.0);
+      const double slope_size =
+          static_cast<double>(abs(slope)) +
+          (c.spec.kind == Kind::lennard_jones ? 48.0 * std::pow(0.9 / r, 6) / r : 0.0);
       // An exponential has the error of its argument, a power as many roundings as factors.
       double roundings = 1.0;
       if (c.spec.kind == Kind::yukawa) roundings += r / c.spec.range;
       if (c.spec.kind == Kind::expression) roundings += r * r;
       if (c.spec.kind == Kind::soft_sphere) roundings += c.spec.exponent / 8.0;
       const double tolerance = 4e-15 * roundings;
-      EXPECT_LT(std::fabs(static_cast<double>(w - c.law(exact))), tolerance * size) << c.name << " " << r;
+      EXPECT_LT(std::fabs(static_cast<double>(w - c.law(exact))), tolerance * size)
+          << c.name << " " << r;
       EXPECT_LT(std::fabs(static_cast<double>(force.x + slope * separation.x / exact)),
                 tolerance * slope_size)
           << c.name << " " << r;
@@ -146,7 +153,8 @@ TEST(Interactions, EndWhereTheTailIsBelowItsBound) {
     ASSERT_EQ(std::isfinite(field->pair_range()), finite) << c.name;
     if (!finite) continue;
     EXPECT_LE(abs(c.law(field->pair_range())), field->tail_bound()) << c.name;
-    EXPECT_GT(abs(c.law(0.8 * field->pair_range())), field->tail_bound()) << c.name << c.spec.exponent;
+    EXPECT_GT(abs(c.law(0.8 * field->pair_range())), field->tail_bound())
+        << c.name << c.spec.exponent;
   }
 }
 

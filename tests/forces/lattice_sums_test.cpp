@@ -1,5 +1,5 @@
-// Tables of lattice sums: against the copies added one by one, and the bound of what their polynomials leave
-// out.
+// Tables of lattice sums: against the copies added one by one, and the bound of what their
+// polynomials leave out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,8 @@ std::vector<Case> random_cases(int n, unsigned seed) {
     // Every other lattice is given by vectors that are not its shortest.
     const double skew = i % 2 == 0 ? 0.0 : 3.0;
     c.lattice = geometry::make_lattice(
-        {size, 0.0}, {(uniform(generator) + skew) * size, (0.5 + uniform(generator)) * size}, {0.0, 0.0});
+        {size, 0.0}, {(uniform(generator) + skew) * size, (0.5 + uniform(generator)) * size},
+        {0.0, 0.0});
     for (int k = 0; k <= i % 3; ++k)
       c.centers.push_back({size * uniform(generator), -size * uniform(generator)});
     cases.push_back(c);
@@ -54,7 +55,8 @@ Vector in_cell(const geometry::Lattice& lattice, std::mt19937_64& generator) {
   std::uniform_real_distribution<double> uniform(-0.6, 0.6);
   const double m = uniform(generator), n = uniform(generator);
   return nearest_copy(
-      {m * lattice.first.x + n * lattice.second.x, m * lattice.first.y + n * lattice.second.y}, lattice);
+      {m * lattice.first.x + n * lattice.second.x, m * lattice.first.y + n * lattice.second.y},
+      lattice);
 }
 
 TEST(LatticeTables, AreTheSumsOfAllCopies) {
@@ -75,8 +77,8 @@ TEST(LatticeTables, AreTheSumsOfAllCopies) {
       Vector f{}, g{};
       const double v = potential->add_force({}, x, f), w = one_by_one->add_force({}, x, g);
       // Both round: by the sum's size, and where the point lies by that of the lattice.
-      const double size =
-          std::sqrt(dot(c.lattice.first, c.lattice.first) + dot(c.lattice.second, c.lattice.second));
+      const double size = std::sqrt(dot(c.lattice.first, c.lattice.first) +
+                                    dot(c.lattice.second, c.lattice.second));
       const double tolerance = 1e-15 + 2e-15 * w + 3e-16 * size / c.shape.length();
       EXPECT_NEAR(v, w, tolerance);
       EXPECT_NEAR(f.x * c.shape.length(), g.x * c.shape.length(), tolerance);
@@ -89,7 +91,8 @@ TEST(LatticeTables, AreTheSumsOfAllCopies) {
 // Bumps much smaller than the mesh: many nodes have none near.
 TEST(LatticeTables, HaveNoBumpsWhereThereAreNone) {
   for (const Kind kind : {Kind::fermi, Kind::gaussian}) {
-    const Case c{{kind, 0.02, 0.001, 0.008}, {{0.05, -0.1}}, geometry::make_lattice({1, 0}, {0, 1}, {0, 0})};
+    const Case c{
+        {kind, 0.02, 0.001, 0.008}, {{0.05, -0.1}}, geometry::make_lattice({1, 0}, {0, 1}, {0, 0})};
     const auto potential = make_lattice_bumps(c.shape, 1.0, c.centers, c.lattice, c.reach());
     const auto copies = copies_that_reach(c.centers, c.lattice, c.reach());
     const auto one_by_one = kind == Kind::fermi
@@ -98,7 +101,8 @@ TEST(LatticeTables, HaveNoBumpsWhereThereAreNone) {
     for (double x = -0.5; x <= 0.5; x += 0x1p-7)
       for (double y = -0.5; y <= 0.5; y += 0x1p-7) {
         Vector f{}, g{};
-        EXPECT_NEAR(potential->add_force({}, {x, y}, f), one_by_one->add_force({}, {x, y}, g), 1e-13);
+        EXPECT_NEAR(potential->add_force({}, {x, y}, f), one_by_one->add_force({}, {x, y}, g),
+                    1e-13);
         EXPECT_NEAR(f.x, g.x, 1e-10);
         EXPECT_NEAR(f.y, g.y, 1e-10);
       }
@@ -111,8 +115,8 @@ Real value40(const BumpShape& s, const Real& x, const Real& y) {
   return 1 / (1 + exp((sqrt(square) - s.radius) / s.softness));
 }
 
-// Taylor's polynomials of low degree, whose error is far above rounding, against 40 digits: it is below its
-// bound, and the bound is not wasteful.
+// Taylor's polynomials of low degree, whose error is far above rounding, against 40 digits: it is
+// below its bound, and the bound is not wasteful.
 TEST(LatticeTables, SeriesKeepTheirBounds) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -122,7 +126,8 @@ TEST(LatticeTables, SeriesKeepTheirBounds) {
                 0.03 + 0.3 * uniform(generator), 0.4};
     const double angle = 7.0 * uniform(generator), r = 0.2 + 1.2 * uniform(generator);
     const double mesh = 0.15 * std::min(r, s.length());
-    const Vector d{r * std::cos(angle), r * std::sin(angle)}, a{mesh, 0.1 * mesh}, b{-0.3 * mesh, 0.8 * mesh};
+    const Vector d{r * std::cos(angle), r * std::sin(angle)}, a{mesh, 0.1 * mesh},
+        b{-0.3 * mesh, 0.8 * mesh};
     const Vector sum = a + b, difference = a - b;
     const double way = 0.5 * std::sqrt(std::max(dot(sum, sum), dot(difference, difference)));
     const SeriesErrors bounds = series_errors(s, r, way);
@@ -151,7 +156,8 @@ TEST(LatticeTables, SeriesKeepTheirBounds) {
         // Slopes along a and b, each at most the gradient times their length.
         const Real h("1e-12");
         const auto slope = [&](Vector e) -> Real {
-          return (value40(s, x + h * e.x, y + h * e.y) - value40(s, x - h * e.x, y - h * e.y)) / (2 * h);
+          return (value40(s, x + h * e.x, y + h * e.y) - value40(s, x - h * e.x, y - h * e.y)) /
+                 (2 * h);
         };
         const double to_bound = s.length() / mesh / 1.01;
         error = std::max(error, to_bound * std::fabs(static_cast<double>(by_x - slope(a))));
@@ -168,8 +174,9 @@ TEST(LatticeTables, SeriesKeepTheirBounds) {
 
 // A table is periodic for ever, as far as the point itself is exact.
 TEST(LatticeTables, ArePeriodic) {
-  const Case c{
-      {Kind::fermi, 0.15, 0.1, 1.0}, {{0.0, 0.0}}, geometry::make_lattice({1, 0}, {0.25, 1}, {0, 0})};
+  const Case c{{Kind::fermi, 0.15, 0.1, 1.0},
+               {{0.0, 0.0}},
+               geometry::make_lattice({1, 0}, {0.25, 1}, {0, 0})};
   const auto potential = make_lattice_bumps(c.shape, 1.0, c.centers, c.lattice, c.reach());
   for (const geometry::Cell cell : {geometry::Cell{1, 0}, {-3, 2}, {0, 40}, {1000, -999}}) {
     const Vector x{0.25, 0.375}, far = x + c.lattice.translation(cell);  // exact

@@ -36,21 +36,25 @@ TEST(Potentials, PushManyParticlesAsTheyPushEach) {
   Particle particle;
   particle.mass = 1.7;
   particle.charge = 0.6;
-  for (const Kind kind : {Kind::fermi, Kind::gaussian, Kind::harmonic, Kind::quartic, Kind::power, Kind::coulomb,
-                          Kind::henon_heiles, Kind::linear, Kind::soft_circle, Kind::soft_stadium}) {
+  for (const Kind kind :
+       {Kind::fermi, Kind::gaussian, Kind::harmonic, Kind::quartic, Kind::power, Kind::coulomb,
+        Kind::henon_heiles, Kind::linear, Kind::soft_circle, Kind::soft_stadium}) {
     const auto potential = make_potential(spec_of(kind), {});
     RandomStream random(3, Purpose::initial_state, 1);
     std::vector<double> x(count), y(count), fx(count), fy(count);
     std::vector<geometry::Vector> expected;
     for (std::size_t i = 0; i < count; ++i) {
-      for (double* number : {&x[i], &y[i], &fx[i], &fy[i]}) *number = 3.0 * (random.uniform() - 0.5);
+      for (double* number : {&x[i], &y[i], &fx[i], &fy[i]})
+        *number = 3.0 * (random.uniform() - 0.5);
       expected.push_back({fx[i], fy[i]});
       potential->add_force(particle, {x[i], y[i]}, expected.back());
     }
     potential->add_forces(particle, count, x.data(), y.data(), fx.data(), fy.data());
     for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_EQ(std::bit_cast<std::uint64_t>(fx[i]), std::bit_cast<std::uint64_t>(expected[i].x)) << int(kind);
-      EXPECT_EQ(std::bit_cast<std::uint64_t>(fy[i]), std::bit_cast<std::uint64_t>(expected[i].y)) << int(kind);
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(fx[i]), std::bit_cast<std::uint64_t>(expected[i].x))
+          << int(kind);
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(fy[i]), std::bit_cast<std::uint64_t>(expected[i].y))
+          << int(kind);
     }
   }
 }

@@ -1,4 +1,5 @@
-// Particles that act on each other: closed forms, conserved quantities, and the scaling of Coulomb forces.
+// Particles that act on each other: closed forms, conserved quantities, and the scaling of Coulomb
+// forces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,14 +57,16 @@ TEST(Ring, CoulombEnergy) {
       Vector force{};
       for (std::size_t j = 0; j < states.size(); ++j)
         if (j != i)
-          dynamics.forces->add_pair(particles[i], particles[j], states[i].position - states[j].position,
-                                    force);
-      EXPECT_LT(length(force - (exact / count) * states[i].position) / length(force), 5e-14) << count;
+          dynamics.forces->add_pair(particles[i], particles[j],
+                                    states[i].position - states[j].position, force);
+      EXPECT_LT(length(force - (exact / count) * states[i].position) / length(force), 5e-14)
+          << count;
     }
   }
 }
 
-// Eight partners at a time or one after the other: the same forces to rounding, whatever is left over.
+// Eight partners at a time or one after the other: the same forces to rounding, whatever is left
+// over.
 TEST(CoulombPairs, AllAtOnceAreTheirSum) {
   for (const std::size_t count : {2u, 15u, 16u, 17u, 23u, 24u, 25u, 64u, 101u}) {
     ForceSpec spec;
@@ -95,8 +98,9 @@ TEST(CoulombPairs, AllAtOnceAreTheirSum) {
   }
 }
 
-// What is kept on a hyperbola about a centre that repels, V = k/r, in complex numbers: the direction from
-// which a particle comes and that to which it goes, at infinity, from any of its states.
+// What is kept on a hyperbola about a centre that repels, V = k/r, in complex numbers: the
+// direction from which a particle comes and that to which it goes, at infinity, from any of its
+// states.
 struct Hyperbola {
   std::complex<double> coming, going;
   double energy, impact;
@@ -105,7 +109,8 @@ struct Hyperbola {
     energy = 0.5 * mass * dot(v, v) + k / length(x);
     const double angular = mass * cross(x, v), momentum = std::sqrt(2.0 * mass * energy);
     impact = std::fabs(angular) / momentum;
-    // The Laplace vector p x L + m k r/|r|; far away r and p have the direction sought, up to a sign.
+    // The Laplace vector p x L + m k r/|r|; far away r and p have the direction sought, up to a
+    // sign.
     const std::complex<double> laplace = -i * angular * p + mass * k * r / std::abs(r);
     going = laplace / (mass * k - i * momentum * angular);
     coming = laplace / (-mass * k - i * momentum * angular);
@@ -116,7 +121,8 @@ double scattering_angle(const Hyperbola& before, const Hyperbola& after) {
   return std::fabs(std::arg(after.going / before.coming));
 }
 
-// Rutherford's formula. Start and end are at finite distances: the rest of the way is Kepler's hyperbola.
+// Rutherford's formula. Start and end are at finite distances: the rest of the way is Kepler's
+// hyperbola.
 TEST(Rutherford, ScatteringOffACentre) {
   const LoadedSystem loaded = read_system(R"(
 [[potential]]
@@ -182,13 +188,15 @@ starts = [[1, 0, 1, 0]]
   world.run_until(20.0, nobody);
   const std::vector<State> end = states_of(world, 20.0);
   const Hyperbola before(mass, k, one.position - two.position, one.velocity - two.velocity);
-  const Hyperbola after(mass, k, end[0].position - end[1].position, end[0].velocity - end[1].velocity);
-  EXPECT_NEAR(scattering_angle(before, after), 2.0 * std::atan(k / (2.0 * before.energy * before.impact)),
-              1e-11);
+  const Hyperbola after(mass, k, end[0].position - end[1].position,
+                        end[0].velocity - end[1].velocity);
+  EXPECT_NEAR(scattering_angle(before, after),
+              2.0 * std::atan(k / (2.0 * before.energy * before.impact)), 1e-11);
 }
 
 /// The momentum that pair forces keep in a uniform field: m v' = m omega (y', -x') + F.
-Vector canonical_momentum(const std::vector<Particle>& particles, const std::vector<State>& states) {
+Vector canonical_momentum(const std::vector<Particle>& particles,
+                          const std::vector<State>& states) {
   Vector sum = momentum_of(particles, states);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const Vector& x = states[i].position;
@@ -197,13 +205,15 @@ Vector canonical_momentum(const std::vector<Particle>& particles, const std::vec
   return sum;
 }
 
-// Newton's third law, for every interaction, with unequal masses and charges, with and without a field;
-// Yukawa and the others of finite range form groups that change. What is left is rounding: of velocities, and
-// where positions count, of adding the same short way thousands of times, which rounds to the same side.
+// Newton's third law, for every interaction, with unequal masses and charges, with and without a
+// field; Yukawa and the others of finite range form groups that change. What is left is rounding:
+// of velocities, and where positions count, of adding the same short way thousands of times, which
+// rounds to the same side.
 TEST(ThirdLaw, KeepsMomenta) {
   for (const char* interaction :
        {"kind = \"coulomb\"", "kind = \"yukawa\"\nrange = 0.01\nstrength = 2",
-        "kind = \"lennard-jones\"\ndiameter = 0.2\ndepth = 0.1", "kind = \"soft-sphere\"\ndiameter = 0.3",
+        "kind = \"lennard-jones\"\ndiameter = 0.2\ndepth = 0.1",
+        "kind = \"soft-sphere\"\ndiameter = 0.3",
         "kind = \"soft-sphere\"\ndiameter = 0.3\nexponent = 9",
         "kind = \"expression\"\nexpression = \"exp(-r^2)\""}) {
     for (const auto& [field, rounding] : {std::pair{"0", 1e-13}, std::pair{"0.8", 1e-12}}) {
@@ -219,8 +229,8 @@ TEST(ThirdLaw, KeepsMomenta) {
       std::vector<State> start;
       for (int i = 0; i < 8; ++i) {
         const double angle = 0.3 + 0.9 * i;
-        start.push_back(
-            state_of({0.7 * (i % 3) + 0.02 * i, 0.6 * (i / 3)}, {std::cos(angle), std::sin(angle)}));
+        start.push_back(state_of({0.7 * (i % 3) + 0.02 * i, 0.6 * (i / 3)},
+                                 {std::cos(angle), std::sin(angle)}));
         world.add(system.particles[static_cast<std::size_t>(i)], start.back());
       }
       Observer nobody;
@@ -254,7 +264,8 @@ std::string text_of(double x) {
   return text;
 }
 
-/// Three particles in the hard circle, everything scaled: alpha with energy * size, B with 1 / time.
+/// Three particles in the hard circle, everything scaled: alpha with energy * size, B with 1 /
+/// time.
 Hits three_in_a_circle(const Scale& scale, double time) {
   SystemOverrides set;
   set.set = {{"particles.count", "3"},
@@ -276,8 +287,8 @@ Hits three_in_a_circle(const Scale& scale, double time) {
   return hits;
 }
 
-// Powers of two change no bit of an orbit; other factors change rounding, which chaos amplifies. Its growth
-// is measured by two orbits that differ by that much, and by nothing else.
+// Powers of two change no bit of an orbit; other factors change rounding, which chaos amplifies.
+// Its growth is measured by two orbits that differ by that much, and by nothing else.
 TEST(CoulombScaling, RepeatsTheOrbit) {
   const Hits one = three_in_a_circle({}, 8.0);
   ASSERT_GT(one.all.size(), 20u);
@@ -296,7 +307,8 @@ TEST(CoulombScaling, RepeatsTheOrbit) {
     ASSERT_GT(scaled.all.size(), 8u);
     for (std::size_t i = 0; i < scaled.all.size(); ++i) {
       EXPECT_EQ(scaled.all[i].particle, one.all[i].particle);
-      EXPECT_LT(length((1.0 / scale.size) * scaled.all[i].position - one.all[i].position), 1e-10) << i;
+      EXPECT_LT(length((1.0 / scale.size) * scaled.all[i].position - one.all[i].position), 1e-10)
+          << i;
       EXPECT_NEAR(scaled.all[i].time.value() / scale.time(), one.all[i].time.value(), 1e-10) << i;
     }
   }

@@ -52,19 +52,26 @@ Potential40 formula40(const PotentialSpec& s) {
   const Real m = heavy().mass, q = heavy().charge;
   const auto r = [](const Real& x, const Real& y) { return sqrt(x * x + y * y); };
   switch (s.kind) {
-    case Kind::fermi: return [=](const Real& x, const Real& y) { return h / (1 + exp((r(x, y) - a) / sigma)); };
+    case Kind::fermi:
+      return [=](const Real& x, const Real& y) { return h / (1 + exp((r(x, y) - a) / sigma)); };
     case Kind::gaussian:
       return [=](const Real& x, const Real& y) { return h * exp(-(x * x + y * y) / (2 * w * w)); };
     case Kind::harmonic:
       return [=](const Real& x, const Real& y) {
         return m * (Real(s.omega_x) * s.omega_x * x * x + Real(s.omega_y) * s.omega_y * y * y) / 2;
       };
-    case Kind::quartic: return [=](const Real& x, const Real& y) { return k * pow(x * x + y * y, 2); };
-    case Kind::power: return [=](const Real& x, const Real& y) { return k * pow(r(x, y), Real(s.exponent)); };
-    case Kind::coulomb: return [=](const Real& x, const Real& y) { return q * s.charge / r(x, y); };
+    case Kind::quartic:
+      return [=](const Real& x, const Real& y) { return k * pow(x * x + y * y, 2); };
+    case Kind::power:
+      return [=](const Real& x, const Real& y) { return k * pow(r(x, y), Real(s.exponent)); };
+    case Kind::coulomb:
+      return [=](const Real& x, const Real& y) { return q * s.charge / r(x, y); };
     case Kind::henon_heiles:
-      return [=](const Real& x, const Real& y) { return (x * x + y * y) / 2 + x * x * y - y * y * y / 3; };
-    case Kind::linear: return [=](const Real& x, const Real& y) { return -(s.force.x * x + s.force.y * y); };
+      return [=](const Real& x, const Real& y) {
+        return (x * x + y * y) / 2 + x * x * y - y * y * y / 3;
+      };
+    case Kind::linear:
+      return [=](const Real& x, const Real& y) { return -(s.force.x * x + s.force.y * y); };
     case Kind::soft_circle:
       return [=](const Real& x, const Real& y) { return h / (1 + exp((a - r(x, y)) / sigma)); };
     case Kind::soft_stadium:
@@ -72,7 +79,8 @@ Potential40 formula40(const PotentialSpec& s) {
         const Real half = s.half_length, beyond = abs(x) > half ? Real(abs(x) - half) : Real(0);
         return h / (1 + exp((a - r(beyond, y)) / sigma));
       };
-    case Kind::expression: break;
+    case Kind::expression:
+      break;
   }
   return [=](const Real& x, const Real& y) { return x * sin(y) - exp(-x * x); };
 }
@@ -90,20 +98,22 @@ void expect_exact(const PotentialSpec& s, Vector at, double tolerance) {
   Real value = 0, fx = 0, fy = 0, size = 0, force_size = 0;
   for (const Vector& c : s.centers) {
     const Real x = Real(at.x) - c.x, y = Real(at.y) - c.y;
-    const Real gx = (v(x + d, y) - v(x - d, y)) / (2 * d), gy = (v(x, y + d) - v(x, y - d)) / (2 * d);
+    const Real gx = (v(x + d, y) - v(x - d, y)) / (2 * d),
+               gy = (v(x, y + d) - v(x, y - d)) / (2 * d);
     value += v(x, y);
     fx -= gx;
     fy -= gy;
     size += abs(v(x, y));
     force_size += abs(gx) + abs(gy);
   }
-  // Potentials with a height are as exact as that height; others as their terms, each of a few products.
+  // Potentials with a height are as exact as that height; others as their terms, each of a few
+  // products.
   size += abs(Real(s.height)) + 1;
   force_size += size / (s.kind == Kind::fermi || s.kind >= Kind::soft_circle ? s.softness : 1.0);
   Vector force{};
   const double computed = field_of(s)->add_external(heavy(), at, force);
-  const std::string where = std::to_string(static_cast<int>(s.kind)) + " at " + std::to_string(at.x) + ", " +
-                            std::to_string(at.y);
+  const std::string where = std::to_string(static_cast<int>(s.kind)) + " at " +
+                            std::to_string(at.x) + ", " + std::to_string(at.y);
   EXPECT_LT(static_cast<double>(abs(computed - value) / size), tolerance) << where;
   EXPECT_LT(static_cast<double>(abs(force.x - fx) / force_size), tolerance) << where;
   EXPECT_LT(static_cast<double>(abs(force.y - fy) / force_size), tolerance) << where;
@@ -112,8 +122,9 @@ void expect_exact(const PotentialSpec& s, Vector at, double tolerance) {
 TEST(Potentials, ValuesAndForcesOfEveryKind) {
   std::mt19937_64 generator(11);
   std::uniform_real_distribution<double> uniform(-2.5, 2.5);
-  for (const Kind kind : {Kind::fermi, Kind::harmonic, Kind::gaussian, Kind::quartic, Kind::power, Kind::coulomb,
-                          Kind::henon_heiles, Kind::linear, Kind::soft_circle, Kind::soft_stadium, Kind::expression}) {
+  for (const Kind kind : {Kind::fermi, Kind::harmonic, Kind::gaussian, Kind::quartic, Kind::power,
+                          Kind::coulomb, Kind::henon_heiles, Kind::linear, Kind::soft_circle,
+                          Kind::soft_stadium, Kind::expression}) {
     PotentialSpec s = spec_of(kind);
     if (kind == Kind::expression)
       s.expression = std::make_shared<TypedExpression>(formula("x*sin(y) - exp(-x*x)"));
@@ -125,7 +136,8 @@ TEST(Potentials, PowersOfEverySort) {
   PotentialSpec s = spec_of(Kind::power);
   for (const double exponent : {2.0, 4.0, 12.0, 1.0, 2.5, -1.0, -2.0}) {
     s.exponent = exponent;
-    for (const Vector at : {Vector{0.9, 0.4}, Vector{-1.1, 1.7}, Vector{0.3, -2.0}}) expect_exact(s, at, 1e-14);
+    for (const Vector at : {Vector{0.9, 0.4}, Vector{-1.1, 1.7}, Vector{0.3, -2.0}})
+      expect_exact(s, at, 1e-14);
   }
 }
 
@@ -138,7 +150,8 @@ TEST(Potentials, ForcesAddToWhatIsThere) {
   EXPECT_DOUBLE_EQ(force.y, -4.0 + alone.y);
 }
 
-// Far away an exponential overflows, in the middle a direction is missing: both are numbers all the same.
+// Far away an exponential overflows, in the middle a direction is missing: both are numbers all the
+// same.
 TEST(Potentials, BumpsAreNumbersEverywhere) {
   for (const double softness : {1e-6, 1e-3, 0.1, 10.0})
     for (const Kind kind : {Kind::fermi, Kind::gaussian, Kind::soft_circle, Kind::soft_stadium}) {
@@ -148,8 +161,10 @@ TEST(Potentials, BumpsAreNumbersEverywhere) {
       for (const double r : {0.0, 1e-300, 1e-20, 1.0, 1e3, 1e6, 1e12}) {
         Vector force{};
         const double v = field_of(s)->add_external(heavy(), {0.6 * r, -0.8 * r}, force);
-        EXPECT_TRUE(v >= 0.0 && v <= s.height) << static_cast<int>(kind) << " " << softness << " " << r;
-        EXPECT_TRUE(std::isfinite(force.x) && std::isfinite(force.y)) << static_cast<int>(kind) << " " << softness;
+        EXPECT_TRUE(v >= 0.0 && v <= s.height)
+            << static_cast<int>(kind) << " " << softness << " " << r;
+        EXPECT_TRUE(std::isfinite(force.x) && std::isfinite(force.y))
+            << static_cast<int>(kind) << " " << softness;
         const bool wall = kind == Kind::soft_circle || kind == Kind::soft_stadium;
         if (r > 1e3 && softness < 1.0) {
           EXPECT_NEAR(v, wall ? s.height : 0.0, 1e-100);
@@ -173,14 +188,17 @@ TEST(Potentials, SupportsEndWhereTheTailIsBelowItsBound) {
       EXPECT_DOUBLE_EQ(field->tail_bound(), 1e-16 * std::fabs(height));
       const double reach = field->supports()[0].radius;
       Vector unused{};
-      EXPECT_LE(std::fabs(field->add_external(heavy(), {0.25 + reach, -0.5}, unused)), field->tail_bound());
-      EXPECT_GT(std::fabs(field->add_external(heavy(), {0.25, -0.5 + 0.99 * reach}, unused)), field->tail_bound());
+      EXPECT_LE(std::fabs(field->add_external(heavy(), {0.25 + reach, -0.5}, unused)),
+                field->tail_bound());
+      EXPECT_GT(std::fabs(field->add_external(heavy(), {0.25, -0.5 + 0.99 * reach}, unused)),
+                field->tail_bound());
     }
   EXPECT_TRUE(field_of(spec_of(Kind::harmonic))->everywhere());
   EXPECT_TRUE(field_of(spec_of(Kind::soft_circle))->everywhere());
 }
 
-std::shared_ptr<const ForceField> on_lattice(const PotentialSpec& s, const geometry::Lattice& lattice) {
+std::shared_ptr<const ForceField> on_lattice(const PotentialSpec& s,
+                                             const geometry::Lattice& lattice) {
   ForceSpec spec;
   spec.potentials = {s};
   spec.potentials[0].lattice = true;
@@ -200,7 +218,8 @@ TEST(LatticeSums, AreCoveredOrNot) {
   EXPECT_TRUE(on_lattice(s, square)->supports().empty());
 }
 
-// One support each for what repeats others, lies in others, or stands out by rounding; on a lattice also in copies.
+// One support each for what repeats others, lies in others, or stands out by rounding; on a lattice
+// also in copies.
 TEST(Supports, DoNotLieInOthers) {
   PotentialSpec s = spec_of(Kind::gaussian);
   s.width = 0.02;
@@ -218,9 +237,11 @@ TEST(Supports, DoNotLieInOthers) {
   for (const Support& support : in_plane->supports())
     EXPECT_NEAR(support.radius, support.center.x == 0.2 ? radius * 0.005 / 0.021 : radius, 1e-15);
 
-  const geometry::Lattice lattice = geometry::make_lattice({1, 0}, {0.5, 0x1.bb67ae8584caap-1}, {0, 0});
+  const geometry::Lattice lattice =
+      geometry::make_lattice({1, 0}, {0.5, 0x1.bb67ae8584caap-1}, {0, 0});
   for (PotentialSpec& p : spec.potentials) p.lattice = true;
-  spec.potentials[0].centers = {{0, 0}, {0.5, 0x1.bb67ae8584cabp-1}, {-3, 0}};  // an ulp above a lattice point
+  spec.potentials[0].centers = {
+      {0, 0}, {0.5, 0x1.bb67ae8584cabp-1}, {-3, 0}};  // an ulp above a lattice point
   spec.potentials[1].centers = {{4, 0}};
   spec.potentials[2].centers = {{0.01, 0}};
   EXPECT_EQ(ForceField::build(spec, {heavy()}, lattice)->supports().size(), 1u);
@@ -235,11 +256,12 @@ TEST(LatticeSums, LeaveOutLessThanTheirBound) {
     const double b = 0.4 + 1.2 * uniform(generator), shear = uniform(generator) - 0.5;
     const geometry::Lattice lattice = geometry::make_lattice({1, 0}, {shear, b}, {0.1, 0.2});
     const Vector center{uniform(generator), uniform(generator)};
-    const double radius = 0.5 * uniform(generator), softness = std::pow(10.0, -2.0 + 1.5 * uniform(generator));
+    const double radius = 0.5 * uniform(generator),
+                 softness = std::pow(10.0, -2.0 + 1.5 * uniform(generator));
     const double width = softness * 3.0;
     for (const bool gaussian : {false, true}) {
-      const double reach =
-          gaussian ? gaussian_sum_reach(width, lattice) : fermi_sum_reach(radius, softness, lattice);
+      const double reach = gaussian ? gaussian_sum_reach(width, lattice)
+                                    : fermi_sum_reach(radius, softness, lattice);
       const auto kept = copies_that_reach({center}, lattice, reach);
       const auto all = copies_that_reach({center}, lattice, 1.6 * reach);
       for (const geometry::CellEdge& edge : lattice.edges) {
@@ -250,7 +272,8 @@ TEST(LatticeSums, LeaveOutLessThanTheirBound) {
           // Nothing within reach of the corner may be missing.
           EXPECT_TRUE(is_kept || r > reach * (1 - 1e-14));
           if (!is_kept || r > reach)
-            left_out += gaussian ? std::exp(-r * r / (2 * width * width)) : std::exp((radius - r) / softness);
+            left_out += gaussian ? std::exp(-r * r / (2 * width * width))
+                                 : std::exp((radius - r) / softness);
         }
         EXPECT_LT(left_out, 1e-16);
         largest = std::max(largest, left_out);
@@ -309,8 +332,8 @@ Real soft_lorentz(const Real& x, const Real& y, double within) {
 TEST(LatticeSums, SoftLorentzGas) {
   const System system = load_system("soft-lorentz").system;
   const Real low = sqrt(Real(3)) / 6;
-  // Centre, saddle, hollow. Sums over neighbours nearer than 1.8 are the numbers known for this system;
-  // all the others together add up to 3e-7.
+  // Centre, saddle, hollow. Sums over neighbours nearer than 1.8 are the numbers known for this
+  // system; all the others together add up to 3e-7.
   const struct {
     Real x, y;
     double all, near;

@@ -54,7 +54,8 @@ TEST(TypedExpression, NumbersMeanWhatIsWritten) {
 
 TEST(TypedExpression, PolynomialsHaveTheBitsOfTheSameLineOfCode) {
   const TypedExpression henon_heiles = formula("(x^2+y^2)/2 + x^2*y - y^3/3");
-  const TypedExpression quartic = formula("a*(x^2+y^2)^2 - 0.3*x + y/7 - (1 - x)*(2 - y)", {{"a", 0.1}});
+  const TypedExpression quartic =
+      formula("a*(x^2+y^2)^2 - 0.3*x + y/7 - (1 - x)*(2 - y)", {{"a", 0.1}});
   const TypedExpression product = formula("x*x*x*x - y*y*y + x - y*y");
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> uniform(-3.0, 3.0);
@@ -71,7 +72,8 @@ TEST(TypedExpression, PolynomialsHaveTheBitsOfTheSameLineOfCode) {
 }
 
 TEST(TypedExpression, ComputesWhatIsWrittenTwiceAlikeAndDropsWhatIsNotNeeded) {
-  const TypedExpression f = formula("(x*y - 3)^0 + (x + y)*(x - y) + (x + y)^2 + (x + y)^3 + (y + x)^2.5");
+  const TypedExpression f =
+      formula("(x*y - 3)^0 + (x + y)*(x - y) + (x + y)^2 + (x + y)^3 + (y + x)^2.5");
   const double at[] = {1.25, 2.75};
   EXPECT_EQ(f.value(at), 1.0 + 4.0 * -1.5 + 16.0 + 64.0 + 32.0);
   EXPECT_EQ(gradient_at(f, 1.25, 2.75).x, (-1.5 + 4.0) + 8.0 + 48.0 + 20.0);
@@ -165,15 +167,16 @@ void expect_fault(const Fault& fault) {
     EXPECT_EQ(error.place().column, 14 + fault.column) << fault.text << ": " << error.what();
     EXPECT_EQ(error.place().key, "potential[0].expression");
     EXPECT_EQ(error.problem().substr(0, fault.problem.size()), fault.problem) << fault.text;
-    EXPECT_NE(error.expected().find(fault.expected), std::string::npos) << fault.text << ": " << error.what();
+    EXPECT_NE(error.expected().find(fault.expected), std::string::npos)
+        << fault.text << ": " << error.what();
     EXPECT_EQ(error.nearest(), fault.nearest) << fault.text;
   }
 }
 
 TEST(TypedExpression, PointsAtTheCharacterToBlame) {
   const Fault faults[] = {
-      {"x^2 + z", 7, "unknown name 'z' at character 7 of \"x^2 + z\"", "x, y, alpha, pi, e or a function",
-       ""},
+      {"x^2 + z", 7, "unknown name 'z' at character 7 of \"x^2 + z\"",
+       "x, y, alpha, pi, e or a function", ""},
       {"x + alhpa", 5, "unknown name 'alhpa'", "alpha", "alpha"},
       {"sqr(x)", 1, "unknown function 'sqr'", "sqrt, exp", "sqrt"},
       {"1 + Sin(x)", 5, "unknown function 'Sin'", "sin", "sin"},
@@ -230,10 +233,10 @@ TEST(TypedExpression, CountsLinesOfLongFormulasAndLeavesOutUnknownPlaces) {
     TypedExpression::parse("1/q", r, {}, Place{"command line", 0, 0, "interaction.expression"});
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_EQ(
-        std::string(error.what()),
-        "command line: interaction.expression: unknown name 'q' at character 3 of \"1/q\" (expected r, pi, "
-        "e or a function)");
+    EXPECT_EQ(std::string(error.what()),
+              "command line: interaction.expression: unknown name 'q' at character 3 of \"1/q\" "
+              "(expected r, pi, "
+              "e or a function)");
   }
 }
 

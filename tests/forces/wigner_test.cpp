@@ -1,4 +1,5 @@
-// Coulomb particles in a harmonic well, E = sum r^2 + sum 1/r: ground states and small oscillations.
+// Coulomb particles in a harmonic well, E = sum r^2 + sum 1/r: ground states and small
+// oscillations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,8 +47,8 @@ double power(const Positions& a, const Positions& b) {
   return sum;
 }
 
-/// Cools by FIRE (Bitzek et al. 2006): the particles move under their forces and stop wherever they would
-/// climb. Returns the size of the force that is left.
+/// Cools by FIRE (Bitzek et al. 2006): the particles move under their forces and stop wherever they
+/// would climb. Returns the size of the force that is left.
 double cool(const System& system, Positions& x, double& energy) {
   Positions v(x.size()), force;
   double step = 0.02, mixing = 0.1, left = 0.0;
@@ -96,7 +97,8 @@ Positions ground_state(const System& system, double& lowest) {
 }
 
 TEST(Wigner, GroundStates) {
-  const std::pair<int, double> known[] = {{2, 0.75}, {3, 1.3103706971}, {4, 1.8354456111}, {5, 2.3384453805}};
+  const std::pair<int, double> known[] = {
+      {2, 0.75}, {3, 1.3103706971}, {4, 1.8354456111}, {5, 2.3384453805}};
   for (const auto& [count, each] : known) {
     const LoadedSystem loaded = molecule(count);
     double energy = 0.0;
@@ -126,8 +128,8 @@ struct Samples : Observer {
   }
 };
 
-/// Frequency of an oscillation about `rest` from its zeros on the way up, each from the cubic through the
-/// four samples around it.
+/// Frequency of an oscillation about `rest` from its zeros on the way up, each from the cubic
+/// through the four samples around it.
 double frequency(const std::vector<double>& y, double rest, double interval) {
   std::vector<double> zeros;
   for (std::size_t i = 2; i + 1 < y.size(); ++i) {
@@ -146,11 +148,12 @@ double frequency(const std::vector<double>& y, double rest, double interval) {
     zeros.push_back((static_cast<double>(i - 1) + s) * interval);
   }
   EXPECT_GE(zeros.size(), 3u);
-  return 2.0 * std::numbers::pi * static_cast<double>(zeros.size() - 1) / (zeros.back() - zeros.front());
+  return 2.0 * std::numbers::pi * static_cast<double>(zeros.size() - 1) /
+         (zeros.back() - zeros.front());
 }
 
-std::vector<Positions> follow(const System& system, const Positions& x, const Positions& v, double time,
-                              double interval) {
+std::vector<Positions> follow(const System& system, const Positions& x, const Positions& v,
+                              double time, double interval) {
   World world(*system.table, system.dynamics);
   for (std::size_t i = 0; i < x.size(); ++i) {
     State s;
@@ -161,7 +164,8 @@ std::vector<Positions> follow(const System& system, const Positions& x, const Po
   world.sample_every(interval);
   Samples samples;
   world.run_until(time, samples);
-  for (int i = 0; i < world.size(); ++i) EXPECT_EQ(world.fate(i), Fate::survived) << world.report(i);
+  for (int i = 0; i < world.size(); ++i)
+    EXPECT_EQ(world.fate(i), Fate::survived) << world.report(i);
   return samples.x;
 }
 
@@ -175,15 +179,16 @@ TEST(Wigner, BreathesAtRootThreeOmega) {
     Positions v = x;
     for (Vector& u : v) u = amplitude * u;
     std::vector<double> size;
-    for (const Positions& p : follow(loaded.system, x, v, 30.0, interval)) size.push_back(power(p, p));
+    for (const Positions& p : follow(loaded.system, x, v, 30.0, interval))
+      size.push_back(power(p, p));
     // Beyond the first order in the amplitude, 1e-4, the size swings by its square.
     const double measured = frequency(size, power(x, x), interval);
     EXPECT_NEAR(measured / (std::numbers::sqrt3 * omega), 1.0, 1e-7) << count;
   }
 }
 
-// Kohn's theorem: the centre of mass swings at omega for any amplitude and any motion of the others, and with
-// a magnetic field as a single particle does.
+// Kohn's theorem: the centre of mass swings at omega for any amplitude and any motion of the
+// others, and with a magnetic field as a single particle does.
 TEST(Wigner, CentreOfMassMovesAlone) {
   const double omega = std::numbers::sqrt2;
   for (const double field : {0.0, 0.7}) {
@@ -198,7 +203,8 @@ TEST(Wigner, CentreOfMassMovesAlone) {
       for (const Vector& r : p) sum = sum + r;
       return (1.0 / static_cast<double>(p.size())) * sum;
     };
-    // z'' = -i w z' - omega^2 z: z = a exp(-i f t) + b exp(i g t), f, g = sqrt(omega^2 + w^2/4) +- w/2.
+    // z'' = -i w z' - omega^2 z: z = a exp(-i f t) + b exp(i g t), f, g = sqrt(omega^2 + w^2/4) +-
+    // w/2.
     const double root = std::sqrt(omega * omega + 0.25 * field * field), f = root + 0.5 * field,
                  g = root - 0.5 * field;
     const Vector z = centre(x), u = centre(v);
@@ -208,7 +214,8 @@ TEST(Wigner, CentreOfMassMovesAlone) {
     const std::vector<Positions> seen = follow(system, x, v, 30.0, 0.5);
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const double t = 0.5 * static_cast<double>(i);
-      const double cf = std::cos(f * t), sf = std::sin(f * t), cg = std::cos(g * t), sg = std::sin(g * t);
+      const double cf = std::cos(f * t), sf = std::sin(f * t), cg = std::cos(g * t),
+                   sg = std::sin(g * t);
       const Vector exact{a.x * cf + a.y * sf + b.x * cg - b.y * sg,
                          a.y * cf - a.x * sf + b.y * cg + b.x * sg};
       const Vector d = centre(seen[i]) - exact;

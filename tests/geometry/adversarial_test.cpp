@@ -6,8 +6,8 @@ namespace {
 
 enum class Stage { filter, exact };
 
-/// Runs a family: `make` fills in a start on a bench, or gives false. At least 99 % of a filter family
-/// must be decided by the filter, all of an exact one beyond it.
+/// Runs a family: `make` fills in a start on a bench, or gives false. At least 99 % of a filter
+/// family must be decided by the filter, all of an exact one beyond it.
 template <class MakeBench, class MakeStart>
 Tally run(const char* name, Stage stage, long count, MakeBench&& make_bench, MakeStart&& make,
           int per_table = 40, double share = 0.99) {
@@ -59,18 +59,24 @@ bool aim_at_joint(const Bench& bench, Dice& dice, double omega_times_size, doubl
   return a.kind != Ahead::Kind::wall || a.piece == wall || a.piece == begins.previous;
 }
 
-constexpr Shape jointed[] = {Shape::polygon, Shape::arcs, Shape::stadium, Shape::mushroom, Shape::discs};
-Table jointed_table(double size, Dice& dice) { return sound_table(jointed[dice.whole(0, 4)], size, dice); }
+constexpr Shape jointed[] = {Shape::polygon, Shape::arcs, Shape::stadium, Shape::mushroom,
+                             Shape::discs};
+Table jointed_table(double size, Dice& dice) {
+  return sound_table(jointed[dice.whole(0, 4)], size, dice);
+}
 
 TEST(Adversarial, AimedAtJoints) {
   for (const double size : {1.0, 1e-6, 1e6}) {
     const auto table = [&](Dice& dice) { return jointed_table(size, dice); };
     for (const double field : {0.0, 1.3, -0.4}) {
       run("at joints, to the last digit", Stage::exact, count(), table,
-          [&](const Bench& b, Dice& dice, Start& s) { return aim_at_joint(b, dice, field, size, 0.0, s); });
-      run("beside joints, by 1e-9", Stage::filter, count(), table, [&](const Bench& b, Dice& dice, Start& s) {
-        return aim_at_joint(b, dice, field, size, dice.sign() * dice.between(1e-9, 2e-9), s);
-      });
+          [&](const Bench& b, Dice& dice, Start& s) {
+            return aim_at_joint(b, dice, field, size, 0.0, s);
+          });
+      run("beside joints, by 1e-9", Stage::filter, count(), table,
+          [&](const Bench& b, Dice& dice, Start& s) {
+            return aim_at_joint(b, dice, field, size, dice.sign() * dice.between(1e-9, 2e-9), s);
+          });
     }
   }
 }
@@ -79,7 +85,9 @@ TEST(Adversarial, AimedAtJointsOfEllipticArcs) {
   const auto table = [](Dice& dice) { return sound_table(Shape::elliptic_arcs, 1.0, dice); };
   for (const double field : {0.0, 0.7, -1.1})
     run("at elliptic joints, last digit", Stage::exact, cases(100, 2000), table,
-        [&](const Bench& b, Dice& dice, Start& s) { return aim_at_joint(b, dice, field, 1.0, 0.0, s); });
+        [&](const Bench& b, Dice& dice, Start& s) {
+          return aim_at_joint(b, dice, field, 1.0, 0.0, s);
+        });
 }
 
 /// A star polygon with whole coordinates, and aims that meet a joint exactly.
@@ -99,14 +107,16 @@ Table whole_star(Dice& dice) {
 
 TEST(Adversarial, ExactlyThroughJoints) {
   const Tally t = run(
-      "exactly through joints", Stage::exact, count(), whole_star, [](const Bench& b, Dice& dice, Start& s) {
+      "exactly through joints", Stage::exact, count(), whole_star,
+      [](const Bench& b, Dice& dice, Start& s) {
         const auto& walls = b.table().walls;
         s.wall = dice.whole(0, static_cast<int>(walls.size()) - 1);
         s.u = 0.25 * dice.whole(1, 3);
         const Vector at = b.place(s);
         s.velocity =
             geometry::start_point(
-                walls[static_cast<std::size_t>(dice.whole(0, static_cast<int>(walls.size()) - 1))].curve) -
+                walls[static_cast<std::size_t>(dice.whole(0, static_cast<int>(walls.size()) - 1))]
+                    .curve) -
             at;
         return true;
       });
@@ -199,10 +209,13 @@ TEST(Adversarial, Grazing) {
 }
 
 TEST(Adversarial, LarmorCirclesGraze) {
-  const auto table = [](Dice& dice) { return with_disc(rectangle(4, 4), {2, 2}, dice.between(0.2, 0.8)); };
+  const auto table = [](Dice& dice) {
+    return with_disc(rectangle(4, 4), {2, 2}, dice.between(0.2, 0.8));
+  };
   for (const bool exact : {true, false})
     run(exact ? "Larmor circle grazing, last digit" : "Larmor circle grazing within 1e-6",
-        exact ? Stage::exact : Stage::filter, count(), table, [&](const Bench& b, Dice& dice, Start& s) {
+        exact ? Stage::exact : Stage::filter, count(), table,
+        [&](const Bench& b, Dice& dice, Start& s) {
           const double r = std::get<Circle>(b.table().walls[4].curve).radius;
           const double rho = dice.between(0.1, 0.5),
                        gap = exact ? 0.0 : dice.sign() * dice.between(0.5e-6, 1e-6);
@@ -220,16 +233,18 @@ TEST(Adversarial, LarmorCirclesGraze) {
 
 TEST(Adversarial, ExactTangencyIsNoHit) {
   // Along y = centre + r from the left; and Larmor circles of radius rho about a Pythagorean point.
-  const auto table = [](Dice& dice) { return with_disc(rectangle(8, 8), {4, 4}, 0.125 * dice.whole(1, 24)); };
-  const Tally t =
-      run("exactly tangent lines", Stage::exact, count(), table, [](const Bench& b, Dice& dice, Start& s) {
-        const double r = std::get<Circle>(b.table().walls[4].curve).radius;
-        const bool up = dice.coin();
-        s.wall = up ? 0 : 3;  // bottom, left (downwards from y = 8)
-        s.u = (4.0 + dice.sign() * r) / 8.0;
-        s.velocity = up ? Vector{0, 1} : Vector{1, 0};
-        return true;
-      });
+  const auto table = [](Dice& dice) {
+    return with_disc(rectangle(8, 8), {4, 4}, 0.125 * dice.whole(1, 24));
+  };
+  const Tally t = run("exactly tangent lines", Stage::exact, count(), table,
+                      [](const Bench& b, Dice& dice, Start& s) {
+                        const double r = std::get<Circle>(b.table().walls[4].curve).radius;
+                        const bool up = dice.coin();
+                        s.wall = up ? 0 : 3;  // bottom, left (downwards from y = 8)
+                        s.u = (4.0 + dice.sign() * r) / 8.0;
+                        s.velocity = up ? Vector{0, 1} : Vector{1, 0};
+                        return true;
+                      });
   EXPECT_EQ(t.joints + t.none, 0);
   run("exactly tangent Larmor circles", Stage::exact, count(), table,
       [](const Bench& b, Dice& dice, Start& s) {
@@ -272,24 +287,25 @@ TEST(Adversarial, ConcentricLarmorCircles) {
     return with_disc(loop({Circle{{3, -1}, 1.0, true}}), {3, -1}, 0.125 * dice.whole(1, 6));
   };
   for (const bool near : {false, true}) {
-    const Tally t =
-        run(near ? "concentric, radii alike to 2^-51" : "concentric", near ? Stage::exact : Stage::filter,
-            count(), table, [&](const Bench& b, Dice& dice, Start& s) {
-              const double inner = std::get<Circle>(b.table().walls[1].curve).radius;
-              const double rho = near ? (dice.coin() ? 1.0 - 0x1p-51 : inner + 0x1p-51)
-                                      : dice.between(inner + 1e-3, 1.0 - 1e-3);
-              const double x = 3.0 + rho;  // exact up to 2^-51
-              s.point = {x, -1.0};
-              s.omega = dice.sign() * 4.0;
-              s.velocity = {0.0, -s.omega * (x - 3.0)};
-              return true;
-            });
+    const Tally t = run(near ? "concentric, radii alike to 2^-51" : "concentric",
+                        near ? Stage::exact : Stage::filter, count(), table,
+                        [&](const Bench& b, Dice& dice, Start& s) {
+                          const double inner = std::get<Circle>(b.table().walls[1].curve).radius;
+                          const double rho = near ? (dice.coin() ? 1.0 - 0x1p-51 : inner + 0x1p-51)
+                                                  : dice.between(inner + 1e-3, 1.0 - 1e-3);
+                          const double x = 3.0 + rho;  // exact up to 2^-51
+                          s.point = {x, -1.0};
+                          s.omega = dice.sign() * 4.0;
+                          s.velocity = {0.0, -s.omega * (x - 3.0)};
+                          return true;
+                        });
     EXPECT_EQ(t.none, t.cases);  // nothing is ever met
   }
 }
 
 TEST(Adversarial, NearlyEqualTimes) {
-  // A flat obstacle just below the top: its near side and the wall behind it are met at nearly one time.
+  // A flat obstacle just below the top: its near side and the wall behind it are met at nearly one
+  // time.
   for (const bool near : {true, false})
     run(
         near ? "slit of 2^-51" : "slit of 1e-9", near ? Stage::exact : Stage::filter, count(),
@@ -310,9 +326,12 @@ TEST(Adversarial, NearlyEqualTimes) {
 }
 
 TEST(Adversarial, AlongTheAxes) {
-  const auto axis = [](Dice& dice) { return dice.coin() ? Vector{dice.sign(), 0} : Vector{0, dice.sign()}; };
+  const auto axis = [](Dice& dice) {
+    return dice.coin() ? Vector{dice.sign(), 0} : Vector{0, dice.sign()};
+  };
   run(
-      "vertical and horizontal", Stage::filter, count(), [](Dice& dice) { return jointed_table(1.0, dice); },
+      "vertical and horizontal", Stage::filter, count(),
+      [](Dice& dice) { return jointed_table(1.0, dice); },
       [&](const Bench& b, Dice& dice, Start& s) {
         s = b.on_wall(dice, 1.0, 0.0);
         s.velocity = axis(dice);
@@ -324,7 +343,8 @@ TEST(Adversarial, AlongTheAxes) {
         // From the centre, which sees every corner of the star.
         const auto& walls = b.table().walls;
         const Vector j = geometry::start_point(
-            walls[static_cast<std::size_t>(dice.whole(0, static_cast<int>(walls.size()) - 1))].curve);
+            walls[static_cast<std::size_t>(dice.whole(0, static_cast<int>(walls.size()) - 1))]
+                .curve);
         const bool across = dice.coin();
         s.point = across ? Vector{0.5 * j.x, j.y} : Vector{j.x, 0.5 * j.y};
         s.velocity = across ? Vector{j.x > 0 ? 1.0 : -1.0, 0} : Vector{0, j.y > 0 ? 1.0 : -1.0};

@@ -34,7 +34,8 @@ class Ratios {
   }
   void expect() const {
     for (const auto& [name, ratio] : largest_) {
-      std::printf("%-34s max(error/bound) %8.5f over %ld cases\n", name.c_str(), ratio, count_.at(name));
+      std::printf("%-34s max(error/bound) %8.5f over %ld cases\n", name.c_str(), ratio,
+                  count_.at(name));
       EXPECT_LE(ratio, 1.0) << name;
       EXPECT_GT(ratio, 0.01) << name;
     }
@@ -57,14 +58,16 @@ struct Sample {
   Sample(Dice& dice, bool exact, double of_size) : size(of_size) {
     start = size * Vector{dice.between(-1, 1), dice.between(-1, 1)};
     const double speed = dice.spread(1e-3, 1e3);
-    velocity = speed * (dice.whole(0, 5) == 0 ? Vector{1.0, 0x1p-30 * dice.unit()} : dice.direction());
+    velocity =
+        speed * (dice.whole(0, 5) == 0 ? Vector{1.0, 0x1p-30 * dice.unit()} : dice.direction());
     if (dice.coin()) std::swap(velocity.x, velocity.y);
     omega = dice.whole(0, 3) == 0
                 ? 0.0
-                : dice.sign() * (dice.coin() ? dice.spread(1e-6, 1e6) : dice.spread(0.1, 10) * speed / size);
+                : dice.sign() *
+                      (dice.coin() ? dice.spread(1e-6, 1e6) : dice.spread(0.1, 10) * speed / size);
     scale = {exact ? 0.0 : dice.spread(u, 100 * u) * size, norm_1(velocity), std::fabs(omega), 1.0};
-    exact_start = quad(start) +
-                  QuadVector{Quad(scale.delta) * Quad(dice.sign()), Quad(scale.delta) * Quad(dice.sign())};
+    exact_start = quad(start) + QuadVector{Quad(scale.delta) * Quad(dice.sign()),
+                                           Quad(scale.delta) * Quad(dice.sign())};
     square = dot(velocity, velocity) * (1.0 + 60.0 * u * dice.whole(-1, 1));
   }
 };
@@ -80,7 +83,8 @@ struct Scene {
   Scene(double of_size, const Curve& c) : size(of_size), curve(c), rounded(c), exact(c) {}
 };
 
-/// Rounding alone, and a start that is known to `delta`. `make` builds a scene, `measure` adds to the ratios.
+/// Rounding alone, and a start that is known to `delta`. `make` builds a scene, `measure` adds to
+/// the ratios.
 template <class Make, class Measure>
 void sweep(const char* what, Make&& make, Measure&& measure) {
   for (const bool exact : {true, false}) {
@@ -98,9 +102,13 @@ void sweep(const char* what, Make&& make, Measure&& measure) {
 }
 
 /// A place about as far away as the size, or much nearer.
-inline Vector place(double size, Dice& dice) { return (dice.spread(1e-3, 2.0) * size) * dice.direction(); }
+inline Vector place(double size, Dice& dice) {
+  return (dice.spread(1e-3, 2.0) * size) * dice.direction();
+}
 
-inline Curve random_segment(double size, Dice& dice) { return Segment{place(size, dice), place(size, dice)}; }
+inline Curve random_segment(double size, Dice& dice) {
+  return Segment{place(size, dice), place(size, dice)};
+}
 /// Flat and full ones too.
 inline Curve random_circle(double size, Dice& dice) {
   if (dice.coin()) return Circle{place(size, dice), size * dice.spread(1e-3, 1.0), dice.coin()};
@@ -110,9 +118,11 @@ inline Curve random_circle(double size, Dice& dice) {
 inline Curve random_ellipse(double size, Dice& dice) {
   const double ratio = dice.spread(0.05, 1.0);
   if (dice.coin())
-    return Ellipse{place(size, dice), size * dice.spread(1e-2, 1.0) * dice.direction(), ratio, dice.coin()};
+    return Ellipse{place(size, dice), size * dice.spread(1e-2, 1.0) * dice.direction(), ratio,
+                   dice.coin()};
   const double offset = dice.sign() * (dice.coin() ? dice.between(0, 2) : dice.spread(1, 1e4));
-  return EllipticArc{place(size, dice), place(size, dice), dice.direction(), ratio, offset, dice.coin()};
+  return EllipticArc{place(size, dice), place(size, dice), dice.direction(), ratio, offset,
+                     dice.coin()};
 }
 
 }  // namespace carom::tests::bounds

@@ -28,15 +28,18 @@ TEST(Bounds, CentreOfALarmorCircle) {
     const double turn = s.omega > 0.0 ? 1.0 : -1.0, omega = turn * s.omega;
     const QuadVector v = quad(turn * s.velocity), d = q.to - q.from;
     const Quad length = root(dot(d, d));
-    const QuadVector tangent = (Quad(1) / length) * d, centre = centre_of_circle(s.exact_start - q.from, v, Quad(omega));
+    const QuadVector tangent = (Quad(1) / length) * d,
+                     centre = centre_of_circle(s.exact_start - q.from, v, Quad(omega));
     const Vector e = s.start - w.from, rounded = centre_of_circle(e, turn * s.velocity, omega);
-    const CentreError bound = centre_error(s.scale, std::fmax(norm_1(e), std::fmax(norm_1(s.start - w.to), norm_1(w.direction))));
-    r.add("joint inside", dot(centre, centre) - dot(v, v), dot(rounded, rounded) - s.square, bound.joint);
+    const CentreError bound = centre_error(
+        s.scale, std::fmax(norm_1(e), std::fmax(norm_1(s.start - w.to), norm_1(w.direction))));
+    r.add("joint inside", dot(centre, centre) - dot(v, v), dot(rounded, rounded) - s.square,
+          bound.joint);
     r.add("height", root(dot(v, v)) - magnitude(cross(tangent, centre)),
           std::sqrt(s.square) - std::fabs(cross(w.tangent, rounded)), bound.segment);
     r.add("foot", dot(tangent, centre), dot(w.tangent, rounded), bound.segment);
-    r.add("far foot", Quad(omega) * length - dot(tangent, centre), omega * w.length - dot(w.tangent, rounded),
-          bound.segment);
+    r.add("far foot", Quad(omega) * length - dot(tangent, centre),
+          omega * w.length - dot(w.tangent, rounded), bound.segment);
   });
 }
 
@@ -61,17 +64,19 @@ TEST(Bounds, CircleAndDerivedNumbers) {
   sweep("circle", random_circle, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
     const PreparedCurve& w = scene.rounded;
     const QuadCurve& q = scene.exact;
-    const auto value = circle_quadratic(s.exact_start - q.centre, dot(q.a, q.a), quad(s.velocity),
-                                        dot(quad(s.velocity), quad(s.velocity)), Quad(s.omega), Quad(0.5));
+    const auto value =
+        circle_quadratic(s.exact_start - q.centre, dot(q.a, q.a), quad(s.velocity),
+                         dot(quad(s.velocity), quad(s.velocity)), Quad(s.omega), Quad(0.5));
     const Vector e = s.start - w.centre;
-    const auto rounded = s.omega == 0.0 ? circle_quadratic(e, w.r2, s.velocity, s.square)
-                                        : circle_quadratic(e, w.r2, s.velocity, s.square, s.omega, 0.5);
+    const auto rounded = s.omega == 0.0
+                             ? circle_quadratic(e, w.r2, s.velocity, s.square)
+                             : circle_quadratic(e, w.r2, s.velocity, s.square, s.omega, 0.5);
     const QuadraticError bound = circle_error(s.scale, norm_1(e), w.centre_error, w.r2);
     r.add("circle a", value.a, rounded.a, bound.a);
     r.add("circle b", value.b, rounded.b, bound.b);
     r.add("circle c", value.c, rounded.c, bound.c);
-    r.add("circle discriminant", value.b * value.b - value.a * value.c, rising_root(rounded).discriminant,
-          discriminant_error(rounded, bound));
+    r.add("circle discriminant", value.b * value.b - value.a * value.c,
+          rising_root(rounded).discriminant, discriminant_error(rounded, bound));
   });
 }
 
@@ -80,11 +85,13 @@ TEST(Bounds, CircleSeenFromNearItsCentre) {
   Ratios r;
   Dice dice(11);
   for (long i = cases(200000, 20000000); i > 0; --i) {
-    const double radius = dice.between(1.0, 1.0005), r2 = PreparedCurve(Circle{{0, 0}, radius, false}).r2;
+    const double radius = dice.between(1.0, 1.0005),
+                 r2 = PreparedCurve(Circle{{0, 0}, radius, false}).r2;
     const Vector e = dice.spread(0x1p-28, 0x1p-25) * dice.direction();
     const FlightScale still{};
     const Quad exact = dot(quad(e), quad(e)) - Quad(radius) * Quad(radius);
-    r.add("circle a near the centre", exact, circle_quadratic(e, r2, Vector{1, 0}, 1.0).a, circle_error(still, norm_1(e), 0.0, r2).a);
+    r.add("circle a near the centre", exact, circle_quadratic(e, r2, Vector{1, 0}, 1.0).a,
+          circle_error(still, norm_1(e), 0.0, r2).a);
   }
   r.expect();
 }
@@ -100,7 +107,8 @@ TEST(Bounds, DiscriminantAndKappa) {
     const double part = dice.coin() ? 0.0 : dice.spread(u, 1e-6);
     const QuadraticError e{part * dice.unit(), part * dice.unit() * scale,
                            part * dice.unit() * scale * scale};
-    const Quad a = Quad(q.a) + Quad(e.a) * Quad(dice.sign()), b = Quad(q.b) + Quad(e.b) * Quad(dice.sign()),
+    const Quad a = Quad(q.a) + Quad(e.a) * Quad(dice.sign()),
+               b = Quad(q.b) + Quad(e.b) * Quad(dice.sign()),
                c = Quad(q.c) + Quad(e.c) * Quad(dice.sign()), discriminant = b * b - a * c;
     const Root found = rising_root(q);
     const char* kind = part == 0.0 ? "rounding alone" : "with errors";
@@ -114,11 +122,13 @@ TEST(Bounds, DiscriminantAndKappa) {
     r.add((std::string("kappa, ") + kind).c_str(), kappa, found.kappa, error);
     // The point there: kappa at the edge of its error.
     Sample s(dice, part == 0.0, random_size(dice));
-    s.scale.omega = std::fabs(
-        s.omega = dice.coin() ? 0.0 : dice.sign() * dice.spread(1e-3, 1e3) * std::fabs(found.kappa));
+    s.scale.omega = std::fabs(s.omega = dice.coin() ? 0.0
+                                                    : dice.sign() * dice.spread(1e-3, 1e3) *
+                                                          std::fabs(found.kappa));
     const QuadVector x = displacement(kappa, quad(s.velocity), Quad(s.omega), Quad(0.5));
     const Vector d = displacement(found.kappa, s.velocity, s.omega, 0.5);
-    r.add((std::string("point, ") + kind).c_str(), largest(x + (s.exact_start - quad(s.start)) - quad(d)),
+    r.add((std::string("point, ") + kind).c_str(),
+          largest(x + (s.exact_start - quad(s.start)) - quad(d)),
           point_error(s.scale, found.kappa, error, norm_1(d)));
   }
   r.expect();
@@ -131,9 +141,10 @@ TEST(Bounds, EllipseWithoutField) {
     const QuadVector e = s.exact_start - q.centre, v = quad(s.velocity);
     const Quad r2 = q.metric(q.a, q.a);
     const Vector f = s.start - w.centre;
-    const auto rounded = geometry::ellipse_quadratic(f, s.velocity, w.first_direction, w.first_weight, w.second_weight);
-    const QuadraticError bound = ellipse_error(s.scale, norm_1(f), w.centre_error,
-                                               std::max(norm_1(w.first_axis), norm_1(w.second_axis)));
+    const auto rounded = geometry::ellipse_quadratic(f, s.velocity, w.first_direction,
+                                                     w.first_weight, w.second_weight);
+    const QuadraticError bound = ellipse_error(
+        s.scale, norm_1(f), w.centre_error, std::max(norm_1(w.first_axis), norm_1(w.second_axis)));
     r.add("ellipse a", q.metric(e, e) / r2 - Quad(1), rounded.a, bound.a);
     r.add("ellipse b", q.metric(e, v) / r2, rounded.b, bound.b);
     r.add("ellipse c", q.metric(v, v) / r2, rounded.c, bound.c);
@@ -147,15 +158,18 @@ TEST(Bounds, EllipseInAField) {
     const QuadCurve& q = scene.exact;
     const QuadVector e = s.exact_start - q.centre, v = quad(s.velocity), j = right(v);
     const Quad r2 = q.metric(q.a, q.a), omega(s.omega), n = Quad(0.25) * omega * omega;
-    const Quad h = q.metric(e, e) / r2 - Quad(1), ev = q.metric(e, v) / r2, ew = omega * q.metric(e, j) / r2;
+    const Quad h = q.metric(e, e) / r2 - Quad(1), ev = q.metric(e, v) / r2,
+               ew = omega * q.metric(e, j) / r2;
     const Quad value[5] = {n * (n * h + ew + q.metric(j, j) / r2),
                            Quad(2) * n * ev + omega * q.metric(v, j) / r2,
                            Quad(2) * n * h + ew + q.metric(v, v) / r2, Quad(2) * ev, h};
     const Vector f = s.start - w.centre, jv = right(s.velocity);
     const auto map = [&](Vector x) { return Vector{dot(w.first_axis, x), dot(w.second_axis, x)}; };
-    const Quartic<double> rounded = ellipse_quartic(map(f), 1.0, map(s.velocity), map(jv), s.omega, 0.5);
-    const QuarticError bound = quartic_error(s.scale, norm_1(f), w.centre_error,
-                                             std::max(norm_1(w.first_axis), norm_1(w.second_axis)), false);
+    const Quartic<double> rounded =
+        ellipse_quartic(map(f), 1.0, map(s.velocity), map(jv), s.omega, 0.5);
+    const QuarticError bound =
+        quartic_error(s.scale, norm_1(f), w.centre_error,
+                      std::max(norm_1(w.first_axis), norm_1(w.second_axis)), false);
     const char* names[] = {"quartic 0", "quartic 1", "quartic 2", "quartic 3", "quartic 4"};
     for (int i = 0; i < 5; ++i) r.add(names[i], value[i], rounded.q[i], bound.q[i]);
   });
@@ -186,13 +200,14 @@ TEST(Bounds, PointsAndNormals) {
                   : kind == 1 ? random_circle(size, dice)
                               : random_ellipse(size, dice);
     // Now and then a small curve far from the origin.
-    if (dice.whole(0, 3) == 0) curve = displaced(curve, (dice.spread(1.0, 1e6) * size) * dice.direction());
+    if (dice.whole(0, 3) == 0)
+      curve = displaced(curve, (dice.spread(1.0, 1e6) * size) * dice.direction());
     const std::string name = kind == 0 ? "segment" : kind == 1 ? "circle" : "ellipse";
     const PreparedCurve w(curve);
     const QuadCurve q(curve);
     for (int i = 0; i < points; ++i) {
-      const double at =
-          std::fmin(std::fmax(first_parameter, dice.unit() * end_parameter(curve)), last_parameter(curve));
+      const double at = std::fmin(std::fmax(first_parameter, dice.unit() * end_parameter(curve)),
+                                  last_parameter(curve));
       const Vector x = w.point(at);
       r.add((name + " point").c_str(), largest(q.point(at) - quad(x)), w.point_error);
       // A hit lands beside the curve by the rounding of the flight.

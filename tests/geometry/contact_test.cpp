@@ -55,7 +55,8 @@ Line line_of(const Curve& curve) {
 }
 
 Met oracle(const Curve& a, const Curve& b) {
-  const bool line_a = std::holds_alternative<Segment>(a), line_b = std::holds_alternative<Segment>(b);
+  const bool line_a = std::holds_alternative<Segment>(a),
+             line_b = std::holds_alternative<Segment>(b);
   if (line_a && line_b) return oracle(line_of(a), line_of(b));
   if (line_a) return oracle(line_of(a), arc_of(b));
   if (line_b) return oracle(line_of(b), arc_of(a));
@@ -132,7 +133,8 @@ TEST(Contact, AgreesWithTheCircularKernel) {
       joints += c.kind == Contact::Kind::joint;
     }
     std::sort(places.begin(), places.end());
-    for (std::size_t k = 0; k < places.size(); ++k) ASSERT_NEAR(places[k], expected.places[k], 1e-9) << i;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      ASSERT_NEAR(places[k], expected.places[k], 1e-9) << i;
   }
   // Each kind has been met often.
   EXPECT_GT(crossings, 1000);
@@ -149,7 +151,8 @@ Curve flattened(const Curve& curve) {
     return Ellipse{flat(c->centre), {c->radius, 0.0}, 0.5, c->counterclockwise};
   const auto& arc = std::get<CircularArc>(curve);
   // left(B - A) flattened is 2 K (B - A) for p = (1, 0), k = 1/2.
-  return EllipticArc{flat(arc.from), flat(arc.to), {1.0, 0.0}, 0.5, 2.0 * arc.offset, arc.counterclockwise};
+  return EllipticArc{flat(arc.from),   flat(arc.to),        {1.0, 0.0}, 0.5,
+                     2.0 * arc.offset, arc.counterclockwise};
 }
 
 TEST(Contact, EllipsesAreFlattenedCircles) {

@@ -14,7 +14,9 @@ namespace {
 constexpr double pi = 3.141592653589793;
 
 Lattice square(double a = 1.0) { return make_lattice({a, 0}, {0, a}, {0, 0}); }
-Lattice triangular(double a) { return make_lattice({a, 0}, {a / 2, a * std::sqrt(3.0) / 2}, {0, 0}); }
+Lattice triangular(double a) {
+  return make_lattice({a, 0}, {a / 2, a * std::sqrt(3.0) / 2}, {0, 0});
+}
 Curve disc(double r, Vector c = {}) { return Circle{c, r, false}; }
 
 double width(const Corridors& corridors, const Cell& cell) {
@@ -74,7 +76,8 @@ TEST(Corridors, DiscsThatTouchALineFromBothSidesLeaveNone) {
   const double r = std::sqrt(0.125);
   const bool above = r * r * 8 >= 1;  // rounded, but far from a tie
   EXPECT_EQ(free_corridors(square(), {disc(r)}).list.size(), above ? 2u : 4u);
-  EXPECT_EQ(free_corridors(square(), {disc(std::nextafter(r, above ? 0.0 : 1.0))}).list.size(), above ? 4u : 2u);
+  EXPECT_EQ(free_corridors(square(), {disc(std::nextafter(r, above ? 0.0 : 1.0))}).list.size(),
+            above ? 4u : 2u);
 }
 
 TEST(Corridors, DoNotDependOnWhereTheObstaclesAreDrawn) {
@@ -87,7 +90,8 @@ TEST(Corridors, DoNotDependOnWhereTheObstaclesAreDrawn) {
 }
 
 // Shares of lines of one direction that hit nothing, by the distance of lines to discs.
-double open_share(const Lattice& lattice, const std::vector<Circle>& discs, const Cell& cell, int lines) {
+double open_share(const Lattice& lattice, const std::vector<Circle>& discs, const Cell& cell,
+                  int lines) {
   const Vector p = lattice.translation(cell);
   const double length = std::sqrt(dot(p, p)), period = lattice.cell_area() / length;
   int open = 0;
@@ -138,7 +142,8 @@ TEST(Corridors, OfPolygonsAndRoundedOnes) {
   EXPECT_NEAR(width(a, {1, 0}), 0.4, 1e-15);
   EXPECT_NEAR(width(a, {1, 1}), std::sqrt(0.5) * (1 - 0.6), 1e-15);
   // Clockwise: the base runs to the left below the dome.
-  const std::vector<Curve> dome{CircularArc{{-0.4, 0}, {0.4, 0}, 0.0, false}, Segment{{0.4, 0}, {-0.4, 0}}};
+  const std::vector<Curve> dome{CircularArc{{-0.4, 0}, {0.4, 0}, 0.0, false},
+                                Segment{{0.4, 0}, {-0.4, 0}}};
   const Corridors b = free_corridors(square(), dome);
   EXPECT_NEAR(width(b, {1, 0}), 0.6, 1e-15) << "the dome is 0.4 high";
   EXPECT_NEAR(width(b, {0, 1}), 0.2, 1e-15);

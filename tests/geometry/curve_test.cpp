@@ -92,8 +92,8 @@ std::vector<Curve> family(double size, unsigned seed) {
     for (int i = 0; i < 4; ++i) {
       curves.push_back(CircularArc{point(), point(), offset(random), turn});
       const Vector axis = point();  // the offset of an elliptic arc is counted in |axis|^-2
-      curves.push_back(
-          EllipticArc{point(), point(), axis, ratio(random), offset(random) / dot(axis, axis), turn});
+      curves.push_back(EllipticArc{point(), point(), axis, ratio(random),
+                                   offset(random) / dot(axis, axis), turn});
     }
   }
   return curves;
@@ -120,10 +120,12 @@ TEST_P(Curves, PointsAreTheRationalParametrisationRounded) {
       constexpr double unit = 0x1p-53;
       // The bound beside conic_point, coordinate by coordinate.
       const double reach = f.kind == CurveFrame::Kind::segment ? 0.0 : 10.0;
-      EXPECT_LE(static_cast<double>(abs(q.x - p.x)),
-                unit * (std::fabs(p.x) * 1.001 + (2.0 + reach) * (std::fabs(f.a.x) + std::fabs(f.b.x))));
-      EXPECT_LE(static_cast<double>(abs(q.y - p.y)),
-                unit * (std::fabs(p.y) * 1.001 + (2.0 + reach) * (std::fabs(f.a.y) + std::fabs(f.b.y))));
+      EXPECT_LE(
+          static_cast<double>(abs(q.x - p.x)),
+          unit * (std::fabs(p.x) * 1.001 + (2.0 + reach) * (std::fabs(f.a.x) + std::fabs(f.b.x))));
+      EXPECT_LE(
+          static_cast<double>(abs(q.y - p.y)),
+          unit * (std::fabs(p.y) * 1.001 + (2.0 + reach) * (std::fabs(f.a.y) + std::fabs(f.b.y))));
     }
   }
 }
@@ -246,13 +248,15 @@ TEST_P(Curves, ReversedIsTheSamePointSet) {
     EXPECT_EQ(start_point(r), end_point(c));
     EXPECT_EQ(end_point(r), start_point(c));
     EXPECT_NEAR(length(r), length(c), 1e-14 * length(c));
-    EXPECT_NEAR(area_integral(r), -area_integral(c), 1e-13 * (size * size + std::fabs(area_integral(c))));
+    EXPECT_NEAR(area_integral(r), -area_integral(c),
+                1e-13 * (size * size + std::fabs(area_integral(c))));
     for (int i = 0; i < 20; ++i) {
       const double u = parameter(c);
       const Vector p = point_at(c, u);
       const double back = parameter_of(r, p);
       EXPECT_LE(norm(point_at(r, back) - p), 1e-14 * (size + frame_of(c).major));
-      EXPECT_NEAR(arc_length_at(r, back), length(c) - arc_length_at(c, u), 1e-13 * (size + length(c)));
+      EXPECT_NEAR(arc_length_at(r, back), length(c) - arc_length_at(c, u),
+                  1e-13 * (size + length(c)));
     }
   }
 }
@@ -267,10 +271,10 @@ TEST_P(Curves, BoxesContainTheCurveTightly) {
       const double u = end * i / 4000.0;
       const Point p = exact.at(Real(u));
       const Real digits = size * Real("1e-50");  // of the reference itself
-      ASSERT_TRUE(p.x >= box.low.x - digits && p.x <= box.high.x + digits && p.y >= box.low.y - digits &&
-                  p.y <= box.high.y + digits)
-          << "kind " << c.index() << " u = " << u << ": " << p.x - box.low.x << " " << box.high.x - p.x << " "
-          << p.y - box.low.y << " " << box.high.y - p.y;
+      ASSERT_TRUE(p.x >= box.low.x - digits && p.x <= box.high.x + digits &&
+                  p.y >= box.low.y - digits && p.y <= box.high.y + digits)
+          << "kind " << c.index() << " u = " << u << ": " << p.x - box.low.x << " "
+          << box.high.x - p.x << " " << p.y - box.low.y << " " << box.high.y - p.y;
       const Vector q{static_cast<double>(p.x), static_cast<double>(p.y)};
       low = {std::fmin(low.x, q.x), std::fmin(low.y, q.y)};
       high = {std::fmax(high.x, q.x), std::fmax(high.y, q.y)};
@@ -384,7 +388,8 @@ TEST(Curve, ThinEllipses) {
     const CurveFrame f = frame_of(thin);
     const double total = length(f), seam = 0x1p-5 * f.minor / f.major;
     // Both sides of the seam between the short rule and the elliptic integral, and some others.
-    for (const double u : {0.5 * seam, std::nextafter(seam, 0.0), seam, 1.5 * seam, 0.3, 1.0, 2.7, 3.99}) {
+    for (const double u :
+         {0.5 * seam, std::nextafter(seam, 0.0), seam, 1.5 * seam, 0.3, 1.0, 2.7, 3.99}) {
       const auto speed = [&](const Real& v) {
         const Point d = exact.derivative(v);
         return sqrt(dot(d, d));
@@ -396,7 +401,8 @@ TEST(Curve, ThinEllipses) {
           sum += boost::math::quadrature::gauss<Real, 30>::integrate(speed, quarter + i * step,
                                                                      quarter + (i + 1) * step);
       }
-      EXPECT_NEAR(arc_length_at(f, u), static_cast<double>(sum), 1e-15 * total) << ratio << " " << u;
+      EXPECT_NEAR(arc_length_at(f, u), static_cast<double>(sum), 1e-15 * total)
+          << ratio << " " << u;
       EXPECT_NEAR(parameter_at_length(f, arc_length_at(f, u)), u, 1e-15 * f.major / f.minor)
           << ratio << " " << u;
     }
@@ -416,7 +422,8 @@ TEST(Curve, LengthsOfEllipsesAtTheEndsOfQuarters) {
       const CurveFrame g = frame_of(half);
       EXPECT_NEAR(length(g), 0.5 * length(f), 5e-14) << i << " " << angle;
       for (const double u : {1.0 - 0x1p-53, 1.0, 1.0 + 0x1p-52, 2.0 - 0x1p-52})
-        EXPECT_NEAR(arc_length_at(g, u), (u < 1.5 ? 0.25 : 0.5) * length(f), 5e-14) << i << " " << angle;
+        EXPECT_NEAR(arc_length_at(g, u), (u < 1.5 ? 0.25 : 0.5) * length(f), 5e-14)
+            << i << " " << angle;
     }
 }
 

@@ -1,5 +1,5 @@
-// One decision taken three times: by the filter (exact arithmetic where it cannot tell), in integers
-// alone, and by CGAL.
+// One decision taken three times: by the filter (exact arithmetic where it cannot tell), in
+// integers alone, and by CGAL.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,12 +34,14 @@ inline bool sound(const Table& t) {
 /// A random table with a hole somewhere.
 inline Table sound_table(Shape shape, double size, Dice& dice, double flattest = 30.0) {
   for (;;) {
-    const Vector at = shape == Shape::mushroom ? Vector{} : (2.0 * size * dice.unit()) * dice.direction();
+    const Vector at =
+        shape == Shape::mushroom ? Vector{} : (2.0 * size * dice.unit()) * dice.direction();
     Table t = random_table(shape, size, at, dice, flattest);
     if (!sound(t)) continue;
     const int wall = dice.whole(0, static_cast<int>(t.walls.size()) - 1);
     Wall& w = t.walls[static_cast<std::size_t>(wall)];
-    const double end = geometry::end_parameter(w.curve), from = dice.coin() ? 0.0 : dice.unit() * end;
+    const double end = geometry::end_parameter(w.curve),
+                 from = dice.coin() ? 0.0 : dice.unit() * end;
     t.holes.push_back({"hole", wall, from, from + (end - from) * dice.between(0.1, 0.9)});
     w.holes.push_back(0);
     return t;
@@ -64,14 +66,16 @@ struct Tally {
   double filter_share() const { return cases > 0 ? double(by_filter) / double(cases) : 0.0; }
   void print(const char* name) const {
     std::printf(
-        "%-36s %8ld cases, %8.4f %% by the filter, CGAL %7ld, joints %ld, cusps %ld, none %ld, holes %ld\n",
+        "%-36s %8ld cases, %8.4f %% by the filter, CGAL %7ld, joints %ld, cusps %ld, none %ld, "
+        "holes %ld\n",
         name, cases, 100.0 * filter_share(), by_cgal, joints, cusps, none, holes);
   }
 };
 
 class Bench {
  public:
-  explicit Bench(Table table) : table_(std::move(table)), fast_(table_), integers_(table_, {no_filter}) {}
+  explicit Bench(Table table)
+      : table_(std::move(table)), fast_(table_), integers_(table_, {no_filter}) {}
 
   const Table& table() const { return table_; }
   const HitFinder& finder() const { return fast_; }
@@ -95,8 +99,8 @@ class Bench {
     if (s.wall < 0) return true;
     if (fast_.exact().inward(s.wall, s.u, s.velocity) != Sign::positive) return false;
     return s.u > 0.0 || curve(s.wall).closed ||
-           fast_.exact().inward_at_end(table_.walls[static_cast<std::size_t>(s.wall)].previous, s.velocity) ==
-               Sign::positive;
+           fast_.exact().inward_at_end(table_.walls[static_cast<std::size_t>(s.wall)].previous,
+                                       s.velocity) == Sign::positive;
   }
   Ahead ahead(const Start& s) const {
     DecisionCounts counts;
@@ -116,7 +120,8 @@ class Bench {
       const double h = 0.5 * s.omega, angle = 0.5 * a.duration * h;
       const double kappa = h * std::cos(angle) / std::sin(angle);
       free.point = from + geometry::displacement(kappa, s.velocity, s.omega, 0.5);
-      free.velocity = geometry::turned(geometry::flight_factors(kappa, s.omega, 0.5), s.velocity, s.omega);
+      free.velocity =
+          geometry::turned(geometry::flight_factors(kappa, s.omega, 0.5), s.velocity, s.omega);
     }
     return free;
   }
@@ -144,8 +149,9 @@ class Bench {
     tally.joints += a.kind == Ahead::Kind::joint;
     tally.cusps += a.kind == Ahead::Kind::cusp;
     tally.none += a.kind == Ahead::Kind::none;
-    const bool same = a.kind == b.kind && a.piece == b.piece &&
-                      (a.kind == Ahead::Kind::none || (a.kappa == b.kappa && a.duration == b.duration));
+    const bool same =
+        a.kind == b.kind && a.piece == b.piece &&
+        (a.kind == Ahead::Kind::none || (a.kappa == b.kappa && a.duration == b.duration));
     if (!same && tally.differ++ < 3)
       ADD_FAILURE() << "filter " << text(a) << ", integers " << text(b) << "; " << text(s);
     int hole = -2;
@@ -154,8 +160,9 @@ class Bench {
       DecisionCounts fast, slow;
       hole = fast_.land(f, a, fast).hole;
       if (hole != integers_.land(g, b, slow).hole && tally.differ++ < 3)
-        ADD_FAILURE() << "hole " << hole << ", integers " << integers_.land(g, b, slow).hole << " at u "
-                      << fast_.land(f, a, fast).at.u << "; " << text(a) << "; " << text(s);
+        ADD_FAILURE() << "hole " << hole << ", integers " << integers_.land(g, b, slow).hole
+                      << " at u " << fast_.land(f, a, fast).at.u << "; " << text(a) << "; "
+                      << text(s);
       ++tally.hole_decisions;
       tally.hole_by_filter += fast.exact == 0;
       tally.holes += hole >= 0;
@@ -171,8 +178,8 @@ class Bench {
                                                                     : 3) &&
         (e.kind == Expected::Kind::none || e.kind == Expected::Kind::cusp || e.wall == a.piece);
     if (!agrees && tally.cgal_differs++ < 3)
-      ADD_FAILURE() << "engine " << text(a) << ", CGAL " << static_cast<int>(e.kind) << " wall " << e.wall
-                    << "; " << text(s);
+      ADD_FAILURE() << "engine " << text(a) << ", CGAL " << static_cast<int>(e.kind) << " wall "
+                    << e.wall << "; " << text(s);
     if (agrees && hole != -2) {
       int expected = -1;
       for (const int h : table_.walls[static_cast<std::size_t>(a.piece)].holes)
@@ -187,8 +194,8 @@ class Bench {
  private:
   static std::string text(const Ahead& a) {
     char line[120];
-    std::snprintf(line, sizeof line, "kind %d piece %d kappa %a duration %a", static_cast<int>(a.kind),
-                  a.piece, a.kappa, a.duration);
+    std::snprintf(line, sizeof line, "kind %d piece %d kappa %a duration %a",
+                  static_cast<int>(a.kind), a.piece, a.kappa, a.duration);
     return line;
   }
   std::string text(const Start& s) const {

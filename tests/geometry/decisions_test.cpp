@@ -24,7 +24,8 @@ Tally random_flights(Shape shape, double size, long count, long with_cgal, std::
       const double omega =
           dice.whole(0, 2) == 0
               ? 0.0
-              : dice.sign() * speed / (size * dice.spread(0.03, dice.coin() ? 10.0 : spread.largest_radius));
+              : dice.sign() * speed /
+                    (size * dice.spread(0.03, dice.coin() ? 10.0 : spread.largest_radius));
       Start s = bench.on_wall(dice, speed, omega);
       if (dice.whole(0, 3) == 0) s = bench.half_way(s);
       const bool ask = (tally.cases * with_cgal) / count != ((tally.cases + 1) * with_cgal) / count;
@@ -44,7 +45,11 @@ TEST_P(RandomFlights, FilterIntegersAndCgalAgree) {
     const Tally t = random_flights(shape, size, quartic ? cases(500, 20000) : cases(2500, 60000),
                                    quartic ? cases(120, 4000) : cases(1000, 60000),
                                    static_cast<std::uint64_t>(shape) + 1);
-    t.print((std::string(name) + " of size " + (size == 1.0 ? "1" : size < 1.0 ? "1e-6" : "1e6")).c_str());
+    t.print((std::string(name) + " of size " +
+             (size == 1.0  ? "1"
+              : size < 1.0 ? "1e-6"
+                           : "1e6"))
+                .c_str());
     EXPECT_EQ(t.differ, 0);
     EXPECT_EQ(t.cgal_differs, 0);
     EXPECT_GE(t.filter_share(), 0.999);
@@ -57,7 +62,8 @@ TEST(Decisions, FlatArcsAndNearlyStraightFlightsAgree) {
   for (const auto& [shape, name] :
        {std::pair{Shape::arcs, "flat arcs"}, std::pair{Shape::elliptic_arcs, "flat elliptic arcs"},
         std::pair{Shape::stadium, "nearly straight flights"}}) {
-    const Tally t = random_flights(shape, 1.0, cases(400, 10000), cases(200, 4000), 77, {1e9, 1e13});
+    const Tally t =
+        random_flights(shape, 1.0, cases(400, 10000), cases(200, 4000), 77, {1e9, 1e13});
     t.print(name);
     EXPECT_EQ(t.differ, 0);
     EXPECT_EQ(t.cgal_differs, 0);
@@ -70,7 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(std::pair{Shape::polygon, "polygons"}, std::pair{Shape::arcs, "arcs"},
                     std::pair{Shape::stadium, "stadiums"}, std::pair{Shape::mushroom, "mushrooms"},
                     std::pair{Shape::discs, "discs"}, std::pair{Shape::annulus, "annuli"},
-                    std::pair{Shape::ellipse, "ellipses"}, std::pair{Shape::elliptic_arcs, "elliptic_arcs"}),
+                    std::pair{Shape::ellipse, "ellipses"},
+                    std::pair{Shape::elliptic_arcs, "elliptic_arcs"}),
     [](const auto& shape) { return std::string(shape.param.second); });
 
 }  // namespace

@@ -12,7 +12,9 @@
 namespace carom::geometry {
 namespace {
 
-Box box_about(Vector c, double width, double height) { return {c - Vector{width, height}, c + Vector{width, height}}; }
+Box box_about(Vector c, double width, double height) {
+  return {c - Vector{width, height}, c + Vector{width, height}};
+}
 
 TEST(LatticeCopies, AreThoseOfATryAtAllCells) {
   std::mt19937_64 random(11);
@@ -21,13 +23,15 @@ TEST(LatticeCopies, AreThoseOfATryAtAllCells) {
     const Vector a{number(random), number(random)}, b{number(random), number(random)};
     if (std::fabs(cross(a, b)) < 0.2) continue;
     const Lattice lattice = make_lattice(a, b + (n % 5 - 2.0) * a, {0.0, 0.0});
-    const Box moving = box_about({number(random), number(random)}, std::fabs(number(random)), std::fabs(number(random)));
+    const Box moving = box_about({number(random), number(random)}, std::fabs(number(random)),
+                                 std::fabs(number(random)));
     const Box fixed = box_about({number(random), number(random)}, 1.0, std::fabs(number(random)));
     std::vector<Cell> expected;
     for (std::int64_t i = -150; i <= 150; ++i)
       for (std::int64_t j = -150; j <= 150; ++j) {
         const Vector t = lattice.translation({i, j}), low = moving.low + t, high = moving.high + t;
-        if (low.x <= fixed.high.x && fixed.low.x <= high.x && low.y <= fixed.high.y && fixed.low.y <= high.y)
+        if (low.x <= fixed.high.x && fixed.low.x <= high.x && low.y <= fixed.high.y &&
+            fixed.low.y <= high.y)
           expected.push_back({i, j});
       }
     const auto found = cells_that_reach(lattice, moving, fixed, 100000);
@@ -61,13 +65,17 @@ TEST(LatticeCopies, ObstaclesTooWideForTheirCellAreRefusedAtOnce) {
     const auto faults = check_region(disc, RegionKind::lattice, l, 3);
     ASSERT_FALSE(faults.empty());
     EXPECT_EQ(faults.front().kind, RegionFault::Kind::crossing);
-    EXPECT_NE(faults.front().sentence.find("overlap"), std::string::npos) << faults.front().sentence;
+    EXPECT_NE(faults.front().sentence.find("overlap"), std::string::npos)
+        << faults.front().sentence;
   }
   // Apart from its neighbours, yet spread over many cells.
-  const std::vector<Loop> two = {{{"here", Circle{{0.0, 0.0}, 0.2, false}}}, {{"far", Circle{{1e9, 1e9 + 0.5}, 0.2, false}}}};
-  const auto faults = check_region(two, RegionKind::lattice, make_lattice({1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}), 3);
+  const std::vector<Loop> two = {{{"here", Circle{{0.0, 0.0}, 0.2, false}}},
+                                 {{"far", Circle{{1e9, 1e9 + 0.5}, 0.2, false}}}};
+  const auto faults =
+      check_region(two, RegionKind::lattice, make_lattice({1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}), 3);
   ASSERT_FALSE(faults.empty());
-  EXPECT_NE(faults.front().sentence.find("spread over more than"), std::string::npos) << faults.front().sentence;
+  EXPECT_NE(faults.front().sentence.find("spread over more than"), std::string::npos)
+      << faults.front().sentence;
 }
 
 }  // namespace

@@ -9,9 +9,9 @@ constexpr int reach = 6;  // cells laid out to each side; the horizon is far nea
 Table lorentz(double spacing, bool square) {
   Table t;
   t.extent = Extent::lattice;
-  t.lattice =
-      square ? geometry::make_lattice({spacing, 0}, {0, spacing}, {0, 0})
-             : geometry::make_lattice({spacing, 0}, {0.5 * spacing, 0.5 * std::sqrt(3.0) * spacing}, {0, 0});
+  t.lattice = square ? geometry::make_lattice({spacing, 0}, {0, spacing}, {0, 0})
+                     : geometry::make_lattice(
+                           {spacing, 0}, {0.5 * spacing, 0.5 * std::sqrt(3.0) * spacing}, {0, 0});
   add_loop(t, {Circle{{0, 0}, 1.0, false}});
   if (square) add_loop(t, {Circle{{0.5 * spacing, 0.5 * spacing}, 0.4, false}});
   return t;

@@ -70,7 +70,8 @@ TEST(Lattice, AnyTwoVectors) {
   for (const double size : {1e-6, 1.0, 1e6}) {
     std::uniform_real_distribution<double> box(-size, size);
     for (int i = 0; i < 300; ++i) {
-      const Vector a{box(random), box(random)}, b{box(random), box(random)}, c{box(random), box(random)};
+      const Vector a{box(random), box(random)}, b{box(random), box(random)},
+          c{box(random), box(random)};
       const double sine = std::fabs(cross(a, b)) / std::sqrt(dot(a, a) * dot(b, b));
       if (sine < 0.01) continue;
       const Lattice l = make_lattice(a, b, c);

@@ -30,8 +30,8 @@ Kernel::FT number(const mpq_class& q) { return Kernel::FT(q.get_mpq_t()); }
 Kernel::Point_2 point_of(const Rational& p) { return {number(p.x), number(p.y)}; }
 CORE::BigInt big(const mpz_class& z) { return CORE::BigInt(z.get_str(16), 16); }
 
-/// A conic: centre + ((1 - t^2) a + 2 t b)/(1 + t^2) while t grows from 0 over infinity to 0; a piece of it
-/// ends at t = end (0: never).
+/// A conic: centre + ((1 - t^2) a + 2 t b)/(1 + t^2) while t grows from 0 over infinity to 0; a
+/// piece of it ends at t = end (0: never).
 struct Shape {
   bool segment = false, circle = false, closed = false;
   Rational from, to, centre, a, b;
@@ -49,7 +49,8 @@ struct Shaper {
     const Rational from = rational(s.from), to = rational(s.to);
     const mpq_class half(1, 2), offset(s.offset);
     const Rational chord = to - from;
-    return conic(from, to, half * (from + to) + offset * left(chord), 1, 0, 1, s.counterclockwise, true);
+    return conic(from, to, half * (from + to) + offset * left(chord), 1, 0, 1, s.counterclockwise,
+                 true);
   }
   Shape operator()(const EllipticArc& s) const {
     const Rational from = rational(s.from), to = rational(s.to), p = rational(s.axis);
@@ -57,7 +58,8 @@ struct Shaper {
     const Rational e = to - from, q = left(p);
     const mpq_class eq = -dot(e, q), ep = k * k * dot(e, p);
     const Rational turned = eq * p + ep * q;
-    return conic(from, to, half * (from + to) + offset * turned, p.x, p.y, k, s.counterclockwise, false);
+    return conic(from, to, half * (from + to) + offset * turned, p.x, p.y, k, s.counterclockwise,
+                 false);
   }
   Shape operator()(const Circle& s) const {
     const Rational centre = rational(s.centre), radius{mpq_class(s.radius), 0};
@@ -73,8 +75,9 @@ struct Shaper {
     return c;
   }
   /// b is a, pressed to a circle along the axis p, turned, and drawn out again.
-  static Shape conic(const Rational& from, const Rational& to, const Rational& centre, const mpq_class& px,
-                     const mpq_class& py, const mpq_class& k, bool counterclockwise, bool circle) {
+  static Shape conic(const Rational& from, const Rational& to, const Rational& centre,
+                     const mpq_class& px, const mpq_class& py, const mpq_class& k,
+                     bool counterclockwise, bool circle) {
     Shape c;
     c.circle = circle;
     c.from = from;
@@ -219,7 +222,8 @@ struct Oracle::Data {
     return p.turn.sector != 0;
   }
 
-  void add(std::vector<Passage>& all, int wall, bool joint, const Kernel::Circular_arc_point_2& at) const {
+  void add(std::vector<Passage>& all, int wall, bool joint,
+           const Kernel::Circular_arc_point_2& at) const {
     Passage p;
     p.wall = wall;
     p.joint = joint;
@@ -233,7 +237,8 @@ struct Oracle::Data {
     if (c.segment) {
       const Rational d = c.to - c.from;
       const int low = sign_of(linear(at, d.x, d.y, -dot(d, from)));
-      return (low > 0 || (from_included && low == 0)) && sign_of(linear(at, d.x, d.y, -dot(d, to))) < 0;
+      return (low > 0 || (from_included && low == 0)) &&
+             sign_of(linear(at, d.x, d.y, -dot(d, to))) < 0;
     }
     // Angles from the start of the curve.
     const auto angle = [&](const Kernel::Circular_arc_point_2& x) {
@@ -249,7 +254,8 @@ struct Oracle::Data {
 
   void pass(std::vector<Passage>& all, int wall) const {
     const Shape& c = shapes[static_cast<std::size_t>(wall)];
-    if (!c.closed && on_flight(c.from)) add(all, wall, true, Kernel::Circular_arc_point_2(point_of(c.from)));
+    if (!c.closed && on_flight(c.from))
+      add(all, wall, true, Kernel::Circular_arc_point_2(point_of(c.from)));
     if (!c.segment && !c.circle) return pass_ellipse(all, wall);
     std::vector<std::pair<Kernel::Circular_arc_point_2, unsigned>> met;
     const auto meet = [&](const auto& trace, const auto& carrier) {
@@ -265,13 +271,15 @@ struct Oracle::Data {
       return Kernel::Line_2(point_of(at), point_of(at + along));
     };
     if (c.segment && flight.straight) {
-      const auto crossing = CGAL::intersection(line(flight.start, flight.v), line(c.from, c.to - c.from));
+      const auto crossing =
+          CGAL::intersection(line(flight.start, flight.v), line(c.from, c.to - c.from));
       if (crossing)
         if (const auto* p = boost::get<Kernel::Point_2>(&*crossing)) met.emplace_back(*p, 1U);
     } else {
       const Kernel::Line_2 own = c.segment ? line(c.from, c.to - c.from) : Kernel::Line_2();
       const Kernel::Circle_2 round =
-          c.segment ? Kernel::Circle_2() : Kernel::Circle_2(point_of(c.centre), number(dot(c.a, c.a)));
+          c.segment ? Kernel::Circle_2()
+                    : Kernel::Circle_2(point_of(c.centre), number(dot(c.a, c.a)));
       if (flight.straight) {
         meet(line(flight.start, flight.v), round);
       } else {
@@ -287,7 +295,8 @@ struct Oracle::Data {
         add(all, wall, false, at);
   }
 
-  /// The ellipse's parametrisation put into the equation of the flight: a quartic (line: quadratic) in t.
+  /// The ellipse's parametrisation put into the equation of the flight: a quartic (line: quadratic)
+  /// in t.
   void pass_ellipse(std::vector<Passage>& all, int wall) const {
     const Shape& c = shapes[static_cast<std::size_t>(wall)];
     std::vector<mpq_class> f;
@@ -303,7 +312,8 @@ struct Oracle::Data {
       f = {ee + ea + aa, 2 * eb + 2 * ab, 2 * ee - 2 * aa + 4 * bb, 2 * eb - 2 * ab, ee - ea + aa};
     }
     mpz_class denominator = 1;
-    for (const mpq_class& q : f) mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(), q.get_den_mpz_t());
+    for (const mpq_class& q : f)
+      mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(), q.get_den_mpz_t());
     std::vector<CORE::BigInt> integers;
     for (const mpq_class& q : f)
       integers.push_back(big(mpz_class(q.get_num() * (denominator / q.get_den()))));

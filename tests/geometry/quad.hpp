@@ -28,7 +28,8 @@ inline Quad root(const Quad& x) {
   return r;
 }
 
-/// A curve from its definition: segment from -> to, or centre, start vector a and its quarter turn b.
+/// A curve from its definition: segment from -> to, or centre, start vector a and its quarter turn
+/// b.
 struct QuadCurve {
   bool segment = false;
   Quad sense = 1;  // +1: domain inside
@@ -42,13 +43,17 @@ struct QuadCurve {
     from = quad(s.from);
     to = quad(s.to);
   }
-  void operator()(const geometry::CircularArc& s) { arc(s.from, s.to, s.offset, s.counterclockwise); }
+  void operator()(const geometry::CircularArc& s) {
+    arc(s.from, s.to, s.offset, s.counterclockwise);
+  }
   void operator()(const geometry::EllipticArc& s) {
     p = quad(s.axis);
     k = Quad(s.ratio);
     arc(s.from, s.to, s.offset, s.counterclockwise);
   }
-  void operator()(const geometry::Circle& s) { full(s.centre, {s.radius, 0.0}, s.counterclockwise); }
+  void operator()(const geometry::Circle& s) {
+    full(s.centre, {s.radius, 0.0}, s.counterclockwise);
+  }
   void operator()(const geometry::Ellipse& s) {
     p = quad(s.axis);
     k = Quad(s.ratio);

@@ -17,8 +17,8 @@ const double pi = std::acos(-1.0);
 Loop polygon(const std::vector<Vector>& corners, const std::string& name = "side") {
   Loop loop;
   for (std::size_t i = 0; i < corners.size(); ++i)
-    loop.push_back(
-        {name + "_" + std::to_string(i + 1), Segment{corners[i], corners[(i + 1) % corners.size()]}});
+    loop.push_back({name + "_" + std::to_string(i + 1),
+                    Segment{corners[i], corners[(i + 1) % corners.size()]}});
   return loop;
 }
 Loop rectangle(Vector low, Vector high) {
@@ -48,7 +48,8 @@ Loop mushroom(double cap, double width, double height) {
 }
 Loop reversed_loop(const Loop& loop) {
   Loop result;
-  for (auto it = loop.rbegin(); it != loop.rend(); ++it) result.push_back({it->name, reversed(it->curve)});
+  for (auto it = loop.rbegin(); it != loop.rend(); ++it)
+    result.push_back({it->name, reversed(it->curve)});
   return result;
 }
 
@@ -105,16 +106,18 @@ TEST(Region, AnyStartAndOrderTellTheSame) {
 TEST(Region, ReversedIsAFault) {
   for (const Loop& loop : {rectangle({0, 0}, {1, 1}), circle(1), stadium(1, 1), mushroom(1, 1, 1)})
     EXPECT_EQ(bounded({reversed_loop(loop)}).at(0).kind, Kind::orientation);
-  expect_fault(bounded({reversed_loop(circle(1))}), Kind::orientation,
-               "the outer loop 'circle' runs clockwise: it must run counter-clockwise, with the domain on "
-               "its left");
   expect_fault(
-      bounded({circle(1), reversed_loop(disc({0, 0}, 0.5))}), Kind::orientation,
-      "the obstacle 'disc' runs counter-clockwise: an obstacle must run clockwise, with the domain on "
+      bounded({reversed_loop(circle(1))}), Kind::orientation,
+      "the outer loop 'circle' runs clockwise: it must run counter-clockwise, with the domain on "
       "its left");
+  expect_fault(bounded({circle(1), reversed_loop(disc({0, 0}, 0.5))}), Kind::orientation,
+               "the obstacle 'disc' runs counter-clockwise: an obstacle must run clockwise, with "
+               "the domain on "
+               "its left");
   EXPECT_EQ(check_region({circle(1)}, RegionKind::open).at(0).kind, Kind::orientation);
   // Two outer loops side by side.
-  EXPECT_EQ(bounded({rectangle({0, 0}, {1, 1}), rectangle({2, 0}, {3, 1})}).at(0).kind, Kind::orientation);
+  EXPECT_EQ(bounded({rectangle({0, 0}, {1, 1}), rectangle({2, 0}, {3, 1})}).at(0).kind,
+            Kind::orientation);
 }
 
 TEST(Region, NoExtent) {
@@ -124,7 +127,8 @@ TEST(Region, NoExtent) {
                "wall 'circle': a circle whose radius is not positive");
   expect_fault(bounded({circle(-1.0)}), Kind::no_extent,
                "wall 'circle': a circle whose radius is not positive");
-  expect_fault(bounded({circle(NAN)}), Kind::no_extent, "wall 'circle' has a number that is not finite");
+  expect_fault(bounded({circle(NAN)}), Kind::no_extent,
+               "wall 'circle' has a number that is not finite");
   expect_fault(bounded({{{"e", Ellipse{{0, 0}, {1, 0}, 0.0, true}}}}), Kind::no_extent,
                "wall 'e': a curve without extent: radius, axis or ratio is not positive");
   expect_fault(bounded({{{"a", CircularArc{{1, 0}, {1, 0}, 1.0, true}}}}), Kind::no_extent,
@@ -144,9 +148,9 @@ TEST(Region, Open) {
   // By the last bit.
   open = rectangle({0, 0}, {1, 1});
   open[0].curve = Segment{{0, 0}, {std::nextafter(1.0, 2.0), 0}};
-  expect_fault(
-      bounded({open}), Kind::open_loop,
-      "the loop is open: wall 'bottom' ends at (1.0000000000000002, 0), but 'right' starts at (1, 0)");
+  expect_fault(bounded({open}), Kind::open_loop,
+               "the loop is open: wall 'bottom' ends at (1.0000000000000002, 0), but 'right' "
+               "starts at (1, 0)");
   EXPECT_EQ(bounded({{}}).at(0).kind, Kind::open_loop);
   Loop mixed = rectangle({0, 0}, {1, 1});
   mixed.push_back({"ring", Circle{{0, 0}, 1, true}});
@@ -166,22 +170,24 @@ TEST(Region, SelfCrossing) {
   EXPECT_NE(faults[0].sentence.find("walls 'bottom' and 'top' cross near ("), std::string::npos);
   // It touches the opposite side: not simple either.
   bitten[2].curve = EllipticArc{{1, 1}, {0, 1}, {1, 0}, 2.0, 0.0, false};
-  expect_fault(bounded({bitten}), Kind::crossing, "walls 'bottom' and 'top' of one loop touch near (0.5, 0)");
+  expect_fault(bounded({bitten}), Kind::crossing,
+               "walls 'bottom' and 'top' of one loop touch near (0.5, 0)");
   // A spike: the path returns along itself.
   expect_fault(bounded({polygon({{0, 0}, {1, 0}, {2, 0}, {1, 0}, {1, 1}})}), Kind::crossing,
                "walls 'side_2' and 'side_3' run along each other near (1, 0)");
   // A corner on another side, and two corners at one point.
   expect_fault(bounded({polygon({{0, 0}, {2, 0}, {2, 2}, {1, 0}, {0, 2}})}), Kind::crossing,
                "walls 'side_1' and 'side_4' of one loop meet near (1, 0)");
-  EXPECT_EQ(bounded({polygon({{0, 0}, {1, 1}, {2, 0}, {2, 2}, {1, 1}, {0, 2}})}).at(0).kind, Kind::crossing);
+  EXPECT_EQ(bounded({polygon({{0, 0}, {1, 1}, {2, 0}, {2, 2}, {1, 1}, {0, 2}})}).at(0).kind,
+            Kind::crossing);
 }
 
 TEST(Region, LoopsThatCross) {
   const Faults faults = bounded({rectangle({0, 0}, {1, 1}), disc({0.0, 0.5}, 0.25)});
   EXPECT_EQ(faults.size(), 2u);
   EXPECT_EQ(sentences({faults[0]}).substr(0, 37), "walls 'left' and 'disc' cross near (0");
-  expect_fault(check_region({disc({0, 0}, 1, "a"), disc({1.5, 0}, 1, "b")}, RegionKind::open), Kind::crossing,
-               "discs 'a' and 'b' overlap near (0.75, 0)");
+  expect_fault(check_region({disc({0, 0}, 1, "a"), disc({1.5, 0}, 1, "b")}, RegionKind::open),
+               Kind::crossing, "discs 'a' and 'b' overlap near (0.75, 0)");
   expect_fault(bounded({circle(1), disc({0.75, 0}, 0.5)}), Kind::crossing,
                "discs 'circle' and 'disc' cross near (0.875, 0.4841)");
   expect_fault(bounded({circle(1), disc({0, 0}, 1)}), Kind::crossing,
@@ -201,30 +207,34 @@ TEST(Region, CuspsAreLegal) {
   expect_sound({disc({0, 0}, 1, "a"), disc({2, 0}, 1, "b")}, RegionKind::open);
   expect_sound({rectangle({0, 0}, {4, 4}), {{"e", Ellipse{{2, 2}, {2, 0}, 0.5, false}}}});
   // A diamond whose corners rest on the sides, and one that pierces a side by the last bit.
-  expect_sound({rectangle({0, 0}, {2, 2}), reversed_loop(polygon({{1, 0}, {2, 1}, {1, 2}, {0, 1}}, "d"))});
-  const Faults faults = bounded(
-      {rectangle({0, 0}, {2, 2}), reversed_loop(polygon({{1, -1e-300}, {2, 1}, {1, 2}, {0, 1}}, "d"))});
+  expect_sound(
+      {rectangle({0, 0}, {2, 2}), reversed_loop(polygon({{1, 0}, {2, 1}, {1, 2}, {0, 1}}, "d"))});
+  const Faults faults =
+      bounded({rectangle({0, 0}, {2, 2}),
+               reversed_loop(polygon({{1, -1e-300}, {2, 1}, {1, 2}, {0, 1}}, "d"))});
   EXPECT_EQ(faults.size(), 2u) << sentences(faults);
   // Corner against corner, and a smooth joint (tangent continued) against a line.
   expect_sound({rectangle({0, 0}, {2, 2}), reversed_loop(polygon({{0, 0}, {2, 1}, {1, 2}}, "d"))});
   Loop pill = reversed_loop(stadium(1, 1));
   expect_sound({rectangle({-3, -3}, {3, 3}), pill, {{"e", Ellipse{{1, 2}, {1, 0}, 1.0, false}}}});
   // Larger by the last bit, it is not a cusp any more.
-  EXPECT_FALSE(bounded({rectangle({0, 0}, {1, 1}), disc({0.5, 0.5}, std::nextafter(0.5, 1.0))}).empty());
   EXPECT_FALSE(
-      check_region({disc({0, 0}, 1, "a"), disc({2, 0}, std::nextafter(1.0, 2.0), "b")}, RegionKind::open)
-          .empty());
+      bounded({rectangle({0, 0}, {1, 1}), disc({0.5, 0.5}, std::nextafter(0.5, 1.0))}).empty());
+  EXPECT_FALSE(check_region({disc({0, 0}, 1, "a"), disc({2, 0}, std::nextafter(1.0, 2.0), "b")},
+                            RegionKind::open)
+                   .empty());
 }
 
 TEST(Region, Nesting) {
   expect_fault(bounded({circle(1), disc({3, 0}, 0.5)}), Kind::nesting,
                "the obstacle 'disc' lies outside the outer loop");
-  expect_fault(bounded({stadium(1, 1), reversed_loop(rectangle({1.8, 0.8}, {1.9, 0.9}))}), Kind::nesting,
-               "the obstacle of wall 'left' lies outside the outer loop");
+  expect_fault(bounded({stadium(1, 1), reversed_loop(rectangle({1.8, 0.8}, {1.9, 0.9}))}),
+               Kind::nesting, "the obstacle of wall 'left' lies outside the outer loop");
   expect_fault(bounded({circle(4), disc({0, 0}, 2, "a"), disc({0.5, 0}, 1, "b")}), Kind::nesting,
                "obstacle 'b' lies inside obstacle 'a'");
-  expect_fault(bounded({circle(8), reversed_loop(rectangle({-2, -2}, {2, 2})), disc({0.5, 0}, 1, "b")}),
-               Kind::nesting, "the obstacle 'b' lies inside the obstacle of wall 'left'");
+  expect_fault(
+      bounded({circle(8), reversed_loop(rectangle({-2, -2}, {2, 2})), disc({0.5, 0}, 1, "b")}),
+      Kind::nesting, "the obstacle 'b' lies inside the obstacle of wall 'left'");
   expect_sound({circle(8), reversed_loop(rectangle({-2, -2}, {2, 2})), disc({4, 0}, 1, "b")});
 }
 
@@ -235,12 +245,14 @@ TEST(Region, Lattices) {
   expect_fault(check_region({disc({0, 0}, 0.625)}, RegionKind::lattice, square), Kind::crossing,
                "discs 'disc' and the copy of 'disc' in cell (1, 0) overlap near (0.5, 0)");
   // Moved by a lattice vector, or spread over several cells: the same region.
-  expect_sound({disc({5, -3}, 0.25, "a"), disc({0.5, 0.5}, 0.25, "b")}, RegionKind::lattice, square);
-  EXPECT_FALSE(
-      check_region({disc({5, -3}, 0.25, "a"), disc({0.25, 0}, 0.25, "b")}, RegionKind::lattice, square)
-          .empty());
+  expect_sound({disc({5, -3}, 0.25, "a"), disc({0.5, 0.5}, 0.25, "b")}, RegionKind::lattice,
+               square);
+  EXPECT_FALSE(check_region({disc({5, -3}, 0.25, "a"), disc({0.25, 0}, 0.25, "b")},
+                            RegionKind::lattice, square)
+                   .empty());
   // One disc inside a copy of another.
-  EXPECT_EQ(check_region({disc({5, -3}, 0.4, "a"), disc({0.125, 0}, 0.1, "b")}, RegionKind::lattice, square)
+  EXPECT_EQ(check_region({disc({5, -3}, 0.4, "a"), disc({0.125, 0}, 0.1, "b")}, RegionKind::lattice,
+                         square)
                 .at(0)
                 .kind,
             Kind::nesting);
@@ -251,7 +263,9 @@ TEST(Region, Lattices) {
   const auto bar = [](double length) { return reversed_loop(rectangle({0, 0}, {length, 0.25})); };
   expect_sound({bar(0.75)}, RegionKind::lattice, square);
   EXPECT_FALSE(check_region({bar(1.25)}, RegionKind::lattice, square).empty());
-  EXPECT_EQ(check_region({bar(0.75), disc({2.375, 0.125}, 0.0625)}, RegionKind::lattice, square).at(0).kind,
+  EXPECT_EQ(check_region({bar(0.75), disc({2.375, 0.125}, 0.0625)}, RegionKind::lattice, square)
+                .at(0)
+                .kind,
             Kind::nesting);
 }
 
@@ -317,7 +331,8 @@ TEST(Region, RaysThroughJointsAndTangents) {
 TEST(Region, ManyWalls) {
   std::vector<Vector> corners;
   const int n = 10000;
-  for (int i = 0; i < n; ++i) corners.push_back({std::cos(2 * pi * i / n), std::sin(2 * pi * i / n)});
+  for (int i = 0; i < n; ++i)
+    corners.push_back({std::cos(2 * pi * i / n), std::sin(2 * pi * i / n)});
   std::vector<Loop> loops{polygon(corners)};
   for (int i = 0; i < 20; ++i)
     loops.push_back(disc({0.04 * i - 0.4, 0.0}, 0.019, "disc_" + std::to_string(i)));
@@ -326,7 +341,8 @@ TEST(Region, ManyWalls) {
   EXPECT_FALSE(bounded({polygon(corners), disc({0, 0}, 0.125)}).empty());
 }
 
-// Thin rays, whose boxes overlap far more often than they come near each other; one of them too long.
+// Thin rays, whose boxes overlap far more often than they come near each other; one of them too
+// long.
 TEST(Region, ManyRays) {
   std::vector<Vector> corners;
   const int n = 1500;
@@ -344,7 +360,8 @@ TEST(Region, ManyRays) {
 TEST(Region, ManyDiscs) {
   std::vector<Loop> loops{rectangle({-1, -1}, {316, 316})};
   for (int i = 0; i < 316; ++i)
-    for (int j = 0; j < 316; ++j) loops.push_back(disc({1.0 * i, 1.0 * j}, 0.5, "disc_" + std::to_string(i)));
+    for (int j = 0; j < 316; ++j)
+      loops.push_back(disc({1.0 * i, 1.0 * j}, 0.5, "disc_" + std::to_string(i)));
   expect_sound(loops);  // each touches its neighbours
   loops[1000] = disc({2.0, 51.0}, 0.625, "large");
   EXPECT_FALSE(bounded(loops).empty());

@@ -21,17 +21,21 @@ using problems::Problem;
 
 /// Hénon–Heiles as a law of its own.
 struct HenonHeilesLaw : ForceLaw<double> {
-  void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+  void accelerations(std::span<const geometry::Vector> x,
+                     std::span<geometry::Vector> a) const override {
     problem.accelerations(x, a);
   }
   std::span<const double> masses() const override { return problem.masses(); }
-  double potential_energy(std::span<const geometry::Vector> x) const override { return problem.potential(x); }
+  double potential_energy(std::span<const geometry::Vector> x) const override {
+    return problem.potential(x);
+  }
   HenonHeiles<double> problem{"0"};
 };
 
 class Adaptive : public testing::TestWithParam<std::string> {
  protected:
-  static std::unique_ptr<Stepper<double>> stepper(const Problem<double>& problem, double tolerance) {
+  static std::unique_ptr<Stepper<double>> stepper(const Problem<double>& problem,
+                                                  double tolerance) {
     IntegratorPlan plan;
     plan.scheme = GetParam();
     plan.tolerance = tolerance;
@@ -66,7 +70,8 @@ TEST_P(Adaptive, ParallelsOfOneMotionAreAlike) {
   // The same motion on a larger scale takes the same steps: no length is built in.
   struct Scaled final : ForceLaw<double> {
     explicit Scaled(double factor) : scale(factor) {}
-    void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+    void accelerations(std::span<const geometry::Vector> x,
+                       std::span<geometry::Vector> a) const override {
       const std::vector<geometry::Vector> unit{(1.0 / scale) * x[0]};
       law.accelerations(unit, a);
       a[0] = scale * a[0];
@@ -79,7 +84,8 @@ TEST_P(Adaptive, ParallelsOfOneMotionAreAlike) {
     const Scaled law(scale);
     const std::vector<double> omega{0.0};
     const auto s = make_stepper(IntegratorPlan{.scheme = GetParam()}, law, omega);
-    Phase<double> phase{{scale * law.law.start.position[0]}, {scale * law.law.start.velocity[0]}}, next;
+    Phase<double> phase{{scale * law.law.start.position[0]}, {scale * law.law.start.velocity[0]}},
+        next;
     for (double t = 0.0; t < 5.0;) {
       t += s->step(phase, 5.0 - t, next);
       std::swap(phase, next);
@@ -155,7 +161,8 @@ TEST_P(Adaptive, TinyPartsAndStepsAreTaken) {
 TEST_P(Adaptive, StepsDoNotGrowOverTheNextForce) {
   // Nothing acts between soft walls at |x| = 1: the error control alone would jump over them.
   struct SoftBox final : ForceLaw<double> {
-    void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+    void accelerations(std::span<const geometry::Vector> x,
+                       std::span<geometry::Vector> a) const override {
       const double beyond = std::max(std::fabs(x[0].x) - 1.0, 0.0);
       a[0] = {-std::copysign(100.0 * beyond * beyond * beyond, x[0].x), 0.0};
     }
@@ -186,7 +193,8 @@ TEST_P(Adaptive, RestMovesOn) {
 
 TEST_P(Adaptive, NotANumberIsSeenAndErrorsOfTheLawGetThrough) {
   struct Bad final : ForceLaw<double> {
-    void accelerations(std::span<const geometry::Vector>, std::span<geometry::Vector> a) const override {
+    void accelerations(std::span<const geometry::Vector>,
+                       std::span<geometry::Vector> a) const override {
       if (throws) throw std::runtime_error("law");
       a[0] = {std::nan(""), 0.0};
     }
@@ -212,8 +220,8 @@ struct Ride {
   std::vector<double> steps;
 };
 
-Ride ride(const std::string& scheme, const ForceLaw<double>& law, Phase<double> phase, double until, double tolerance,
-          long most = 1'000'000) {
+Ride ride(const std::string& scheme, const ForceLaw<double>& law, Phase<double> phase, double until,
+          double tolerance, long most = 1'000'000) {
   const std::vector<double> omega{0.0};
   const auto s = make_stepper({.scheme = scheme, .tolerance = tolerance}, law, omega);
   const auto energy = [&](const Phase<double>& p) {
@@ -244,7 +252,8 @@ struct OneParticle : ForceLaw<double> {
 /// height exp(-r^2/(2 width^2)) about the origin.
 struct Bump : OneParticle {
   Bump(double h, double w) : height(h), width(w) {}
-  void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+  void accelerations(std::span<const geometry::Vector> x,
+                     std::span<geometry::Vector> a) const override {
     a[0] = (potential_energy(x) / (width * width)) * x[0];
   }
   double potential_energy(std::span<const geometry::Vector> x) const override {
@@ -276,11 +285,14 @@ TEST_P(Adaptive, NoStepEndsInABumpThatItsStagesMissed) {
 
 TEST_P(Adaptive, TheLongestStepIsKept) {
   struct Limited final : HenonHeilesLaw {
-    double longest_step(const Phase<double>&, const double& asked) const override { return std::min(asked, 0.01); }
+    double longest_step(const Phase<double>&, const double& asked) const override {
+      return std::min(asked, 0.01);
+    }
   } limited;
   const HenonHeilesLaw free;
   const Phase<double> start = HenonHeiles<double>("0").start;
-  const Ride a = ride(GetParam(), free, start, 20.0, 1e-8), b = ride(GetParam(), limited, start, 20.0, 1e-8);
+  const Ride a = ride(GetParam(), free, start, 20.0, 1e-8),
+             b = ride(GetParam(), limited, start, 20.0, 1e-8);
   EXPECT_GT(*std::max_element(a.steps.begin(), a.steps.end()), 0.02);
   EXPECT_LE(*std::max_element(b.steps.begin(), b.steps.end()), 0.01 * (1.0 + 1e-12));
   EXPECT_LT(b.steps.size(), 2100U);  // steps stay as long as they may be
@@ -296,9 +308,11 @@ TEST_P(Adaptive, StepsGrowAgainBehindALimit) {
   } limited;
   const HenonHeilesLaw free;
   const Phase<double> start = HenonHeiles<double>("0").start;
-  const Ride a = ride(GetParam(), free, start, 20.0, 1e-9), b = ride(GetParam(), limited, start, 20.0, 1e-9);
+  const Ride a = ride(GetParam(), free, start, 20.0, 1e-9),
+             b = ride(GetParam(), limited, start, 20.0, 1e-9);
   EXPECT_LT(distance(a.end, b.end), 1e-6);
-  EXPECT_GT(*std::max_element(b.steps.begin(), b.steps.end()), 0.5 * *std::max_element(a.steps.begin(), a.steps.end()));
+  EXPECT_GT(*std::max_element(b.steps.begin(), b.steps.end()),
+            0.5 * *std::max_element(a.steps.begin(), a.steps.end()));
   EXPECT_LT(b.energy_error, 1e-7);
 }
 
@@ -323,7 +337,8 @@ TEST_P(Adaptive, PathThroughALimitIsAFunctionOfItsBeginning) {
   for (double t = 0.0; t < 2.0;) {
     const double duration = alone->step(a, far, next_a);
     ASSERT_EQ(watched->step(b, far, next_b), duration);
-    for (const double part : {0.3, 0.9999, 0.01}) ASSERT_EQ(watched->step(b, part * duration, seen), part * duration);
+    for (const double part : {0.3, 0.9999, 0.01})
+      ASSERT_EQ(watched->step(b, part * duration, seen), part * duration);
     ASSERT_TRUE(distance(next_a, next_b) == 0.0) << t;
     t += duration;
     std::swap(a, next_a);
@@ -353,7 +368,8 @@ TEST_P(Adaptive, AForceThatNoStepResolvesIsAFailure) {
 TEST_P(Adaptive, APotentialThatJumpsIsAFailure) {
   // No force says so: the angle about the origin, which jumps by 2 pi.
   struct Angle final : OneParticle {
-    void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+    void accelerations(std::span<const geometry::Vector> x,
+                       std::span<geometry::Vector> a) const override {
       a[0] = (strength / dot(x[0], x[0])) * right(x[0]);
       a[0] = -a[0];
     }
@@ -373,21 +389,29 @@ TEST_P(Adaptive, APotentialThatJumpsIsAFailure) {
 
 TEST_P(Adaptive, KinksAndRoundedPotentialsAreNone) {
   struct Kink final : OneParticle {
-    void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+    void accelerations(std::span<const geometry::Vector> x,
+                       std::span<geometry::Vector> a) const override {
       a[0] = {x[0].x > 0.0 ? -1.0 : 1.0, 0.0};
     }
-    double potential_energy(std::span<const geometry::Vector> x) const override { return std::fabs(x[0].x); }
+    double potential_energy(std::span<const geometry::Vector> x) const override {
+      return std::fabs(x[0].x);
+    }
   } kink;
-  // Computed with an error of 1e-7, a thousand times the change that the tolerance allows: the sum is large.
+  // Computed with an error of 1e-7, a thousand times the change that the tolerance allows: the sum
+  // is large.
   struct Offset final : OneParticle {
-    void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+    void accelerations(std::span<const geometry::Vector> x,
+                       std::span<geometry::Vector> a) const override {
       a[0] = {-x[0].x, 0.0};
     }
-    double potential_energy(std::span<const geometry::Vector> x) const override { return 1e9 + 0.5 * x[0].x * x[0].x; }
+    double potential_energy(std::span<const geometry::Vector> x) const override {
+      return 1e9 + 0.5 * x[0].x * x[0].x;
+    }
   } offset;
   // The same with an error of 1e-9: its terms are large.
   struct Cancelled final : OneParticle {
-    void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+    void accelerations(std::span<const geometry::Vector> x,
+                       std::span<geometry::Vector> a) const override {
       a[0] = {-std::sin(1e-3 * x[0].x) * 1e3, 0.0};
     }
     double potential_energy(std::span<const geometry::Vector> x) const override {
@@ -398,7 +422,8 @@ TEST_P(Adaptive, KinksAndRoundedPotentialsAreNone) {
   const Ride a = ride(GetParam(), kink, start, 20.0, 1e-9);
   EXPECT_EQ(a.failure, "");
   EXPECT_LT(a.energy_error, 1e-6);
-  for (const ForceLaw<double>* law : {static_cast<ForceLaw<double>*>(&offset), static_cast<ForceLaw<double>*>(&cancelled)}) {
+  for (const ForceLaw<double>* law :
+       {static_cast<ForceLaw<double>*>(&offset), static_cast<ForceLaw<double>*>(&cancelled)}) {
     const Ride b = ride(GetParam(), *law, start, 20.0, 1e-12);
     EXPECT_EQ(b.failure, "");
     EXPECT_LT(b.steps.size(), 2000U);
@@ -410,7 +435,8 @@ TEST_P(Adaptive, GoodStepsKeepTheEnergyByFar) {
   // With and without the check of the energy the steps are the same: it rejects no good one.
   struct Blind final : ForceLaw<double> {
     explicit Blind(const Problem<double>& p) : problem(p) {}
-    void accelerations(std::span<const geometry::Vector> x, std::span<geometry::Vector> a) const override {
+    void accelerations(std::span<const geometry::Vector> x,
+                       std::span<geometry::Vector> a) const override {
       problem.accelerations(x, a);
     }
     const Problem<double>& problem;
@@ -420,10 +446,12 @@ TEST_P(Adaptive, GoodStepsKeepTheEnergyByFar) {
       const CoulombParticles<double> problem(omega);
       const Blind blind(problem);
       const auto with = stepper(problem, tolerance);
-      const auto without = make_stepper({.scheme = GetParam(), .tolerance = tolerance}, blind, problem.omega);
+      const auto without =
+          make_stepper({.scheme = GetParam(), .tolerance = tolerance}, blind, problem.omega);
       Phase<double> a = problem.start, b = problem.start, next_a, next_b;
       for (int k = 0; k < 2000; ++k) {
-        ASSERT_EQ(with->step(a, 100.0, next_a), without->step(b, 100.0, next_b)) << omega << ' ' << tolerance << ' ' << k;
+        ASSERT_EQ(with->step(a, 100.0, next_a), without->step(b, 100.0, next_b))
+            << omega << ' ' << tolerance << ' ' << k;
         std::swap(a, next_a);
         std::swap(b, next_b);
       }

@@ -1,4 +1,5 @@
-// The table of the adaptive Runge–Kutta scheme: order conditions to all digits, and an estimate that sees all of a step.
+// The table of the adaptive Runge–Kutta scheme: order conditions to all digits, and an estimate
+// that sees all of a step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,7 +130,8 @@ TEST(EmbeddedTable, EstimateSeesAllOfTheStep) {
   const Numbers numbers(verner_9_8());
   std::vector<double> seen;
   for (std::size_t i = 0; i < numbers.time.size(); ++i)
-    if (abs(numbers.weight[i] - numbers.embedded[i]) > Real("1e-3")) seen.push_back(static_cast<double>(numbers.time[i]));
+    if (abs(numbers.weight[i] - numbers.embedded[i]) > Real("1e-3"))
+      seen.push_back(static_cast<double>(numbers.time[i]));
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(seen.front(), 0.0);
   EXPECT_EQ(seen.back(), 1.0);

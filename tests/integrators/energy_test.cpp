@@ -1,4 +1,5 @@
-// The energy of symplectic schemes oscillates and has no trend: over 10^5 steps, with CAROM_SOAK=1 over 10^7.
+// The energy of symplectic schemes oscillates and has no trend: over 10^5 steps, with CAROM_SOAK=1
+// over 10^7.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,10 +19,12 @@ constexpr int blocks = 100;
 
 struct Drift {
   double oscillation;  ///< largest less smallest energy
-  double change;       ///< what the least squares line through the means of blocks gains over the whole time
+  double change;  ///< what the least squares line through the means of blocks gains over the whole
+                  ///< time
 };
 
-Drift energy_drift(const Scheme& scheme, const problems::Problem<double>& problem, double step, long steps) {
+Drift energy_drift(const Scheme& scheme, const problems::Problem<double>& problem, double step,
+                   long steps) {
   const auto stepper = stepper_of<double>(scheme, problem, problem.omega);
   Phase<double> phase = problem.start, next;
   const double start = problem.energy(phase);
@@ -49,8 +52,9 @@ TEST_P(Energy, OscillatesWithoutTrend) {
   const long steps = soak ? 10000000 : 100000;
   const Scheme& scheme = find_scheme(GetParam());
   const auto stages = stages_of<double>(scheme);
-  const auto kicks = std::count_if(stages.begin(), stages.end(),
-                                   [](const auto& s) { return s.kind == Stage<double>::Kind::kick; });
+  const auto kicks = std::count_if(stages.begin(), stages.end(), [](const auto& s) {
+    return s.kind == Stage<double>::Kind::kick;
+  });
   const double step = static_cast<double>(kicks) / 32.0;  // equal work for all
   // Without field the energy has slow waves as well, which only a long run sees to their end.
   const std::vector<const char*> fields = soak ? std::vector{"0", "1.5"} : std::vector{"1.5"};
@@ -61,8 +65,8 @@ TEST_P(Energy, OscillatesWithoutTrend) {
     EXPECT_GT(drift.oscillation, 1e-12);  // far above rounding, else nothing was shown
     EXPECT_LT(drift.oscillation, 0.05);
     if (soak) {
-      std::cout << "| " << scheme.name << " | " << step << " | " << omega << " | " << drift.oscillation
-                << " | " << drift.change / drift.oscillation << " |\n";
+      std::cout << "| " << scheme.name << " | " << step << " | " << omega << " | "
+                << drift.oscillation << " | " << drift.change / drift.oscillation << " |\n";
     }
   }
 }
@@ -75,7 +79,9 @@ TEST(EnergyDrift, IsSeenWhereThereIsOne) {
       start = {{{0.1, 0.2}}, {{1.0, 0.0}}};
     }
     double potential(std::span<const Vector>) const override { return 0.0; }
-    void compute(std::span<const Vector>, std::span<Vector> a) const override { a[0] = {1e-8, 0.0}; }
+    void compute(std::span<const Vector>, std::span<Vector> a) const override {
+      a[0] = {1e-8, 0.0};
+    }
   } problem;
   const Drift drift = energy_drift(find_scheme("velocity-verlet"), problem, 1.0, 10000);
   EXPECT_NEAR(drift.change / drift.oscillation, 1.0, 0.01);
@@ -88,11 +94,12 @@ std::vector<std::string> symplectic_names() {
   return list;
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, Energy, testing::ValuesIn(symplectic_names()), [](const auto& made) {
-  std::string name = made.param;
-  std::erase(name, '-');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Schemes, Energy, testing::ValuesIn(symplectic_names()),
+                         [](const auto& made) {
+                           std::string name = made.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace carom

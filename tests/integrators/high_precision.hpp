@@ -9,13 +9,17 @@
 
 namespace carom {
 
-using HighPrecision =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<40>, boost::multiprecision::et_off>;
+using HighPrecision = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<40>,
+                                                    boost::multiprecision::et_off>;
 
 template <>
 struct Arithmetic<HighPrecision> {
-  static HighPrecision parse(std::string_view decimal) { return HighPrecision(std::string(decimal)); }
-  static SineCosine<HighPrecision> turn(const HighPrecision& angle) { return {sin(angle), cos(angle)}; }
+  static HighPrecision parse(std::string_view decimal) {
+    return HighPrecision(std::string(decimal));
+  }
+  static SineCosine<HighPrecision> turn(const HighPrecision& angle) {
+    return {sin(angle), cos(angle)};
+  }
 };
 
 }  // namespace carom

@@ -1,9 +1,9 @@
-// The order conditions of Runge–Kutta–Nyström methods, to all digits of the coefficients: a convergence test
-// does not see the last ones.
+// The order conditions of Runge–Kutta–Nyström methods, to all digits of the coefficients: a
+// convergence test does not see the last ones.
 //
-// A kick at the time c (sum of the drifts before) with weight b sees the earlier ones by b_j (c_i - c_j). For
-// every tree, that is a derivative of the force with m arguments v and the others forces in turn, the
-// weighted sum over the kicks must be what the exact motion gives.
+// A kick at the time c (sum of the drifts before) with weight b sees the earlier ones by b_j (c_i -
+// c_j). For every tree, that is a derivative of the force with m arguments v and the others forces
+// in turn, the weighted sum over the kicks must be what the exact motion gives.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -65,7 +65,8 @@ struct Kicks {
 };
 
 /// All trees of an order; the inner ones from `least` on, so that none comes twice.
-void add_trees(int rest, Tree tree, int least_order, std::size_t least_index, std::vector<Tree>& list) {
+void add_trees(int rest, Tree tree, int least_order, std::size_t least_index,
+               std::vector<Tree>& list) {
   static std::vector<std::vector<Tree>> known;
   Tree leaf = tree;
   leaf.velocities = rest;
@@ -115,7 +116,8 @@ TEST(OrderConditions, HoldToAllDigitsUpToTheOrderAndNotBeyond) {
         }
         largest = std::max<Real>(largest, abs(velocity - tree.exact() / Real(order)));
         if (order < scheme.order)
-          largest = std::max<Real>(largest, abs(position - tree.exact() / Real(order * (order + 1))));
+          largest =
+              std::max<Real>(largest, abs(position - tree.exact() / Real(order * (order + 1))));
       }
       return largest;
     };

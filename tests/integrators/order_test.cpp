@@ -1,4 +1,5 @@
-// The measured order of every scheme is its declared one: potentials and pairs, with and without field.
+// The measured order of every scheme is its declared one: potentials and pairs, with and without
+// field.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -14,8 +14,8 @@
 namespace carom {
 
 // Enough digits for Jacobians by differences.
-using Precise =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
+using Precise = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
+                                              boost::multiprecision::et_off>;
 template <>
 struct Arithmetic<Precise> {
   static Precise parse(std::string_view decimal) { return Precise(std::string(decimal)); }
@@ -47,7 +47,8 @@ TEST(Schemes, StagesInDoubleAreTheRoundedOnes) {
     const auto exact = stages_of<Real>(scheme);
     ASSERT_EQ(rounded.size(), exact.size());
     for (std::size_t k = 0; k < exact.size(); ++k) {
-      EXPECT_NEAR(rounded[k].coefficient, static_cast<double>(exact[k].coefficient), 2e-15) << scheme.name;
+      EXPECT_NEAR(rounded[k].coefficient, static_cast<double>(exact[k].coefficient), 2e-15)
+          << scheme.name;
     }
   }
 }
@@ -97,8 +98,10 @@ TEST(Schemes, ReversalNeedsTheFieldTurnedRound) {
     const auto forth = stepper_of<Real>(scheme, problem, problem.omega);
     const auto back = stepper_of<Real>(scheme, problem, opposite);
     const Phase<Real> turned = reversed(walk(*forth, problem.start, step, 5));
-    EXPECT_LT(distance(reversed(walk(*back, turned, step, 5)), problem.start), Real("1e-35")) << scheme.name;
-    EXPECT_GT(distance(reversed(walk(*forth, turned, step, 5)), problem.start), Real("1e-2")) << scheme.name;
+    EXPECT_LT(distance(reversed(walk(*back, turned, step, 5)), problem.start), Real("1e-35"))
+        << scheme.name;
+    EXPECT_GT(distance(reversed(walk(*forth, turned, step, 5)), problem.start), Real("1e-2"))
+        << scheme.name;
   }
 }
 
@@ -126,7 +129,8 @@ Matrix jacobian(Stepper<Precise>& stepper, const Phase<Precise>& at, const Preci
   return j;
 }
 
-// dx dvx + dy dvy - omega dx dy: the form that a = F + omega J v keeps, in positions and velocities.
+// dx dvx + dy dvy - omega dx dy: the form that a = F + omega J v keeps, in positions and
+// velocities.
 Matrix symplectic_form(const std::vector<Precise>& omega) {
   const std::size_t n = omega.size();
   Matrix s(4 * n, std::vector<Precise>(4 * n, Precise(0)));

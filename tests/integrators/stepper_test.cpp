@@ -1,4 +1,5 @@
-// Steps in double precision: exact free motion, forces computed once, bits that depend on the start alone.
+// Steps in double precision: exact free motion, forces computed once, bits that depend on the start
+// alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,8 +39,10 @@ TEST(LarmorDrift, IsAccurateForAnyFrequency) {
       LarmorDrift<HighPrecision>(sign * omega, time).move(exact_x, exact_u);
       EXPECT_NEAR(static_cast<double>(HighPrecision(x.x) - exact_x.x), 0.0, 5e-16) << omega;
       EXPECT_NEAR(static_cast<double>(HighPrecision(x.y) - exact_x.y), 0.0, 5e-16) << omega;
-      EXPECT_NEAR(static_cast<double>(HighPrecision(u.x) - exact_u.x), 0.0, 5e-16 + 1e-16 * omega) << omega;
-      EXPECT_NEAR(static_cast<double>(HighPrecision(u.y) - exact_u.y), 0.0, 5e-16 + 1e-16 * omega) << omega;
+      EXPECT_NEAR(static_cast<double>(HighPrecision(u.x) - exact_u.x), 0.0, 5e-16 + 1e-16 * omega)
+          << omega;
+      EXPECT_NEAR(static_cast<double>(HighPrecision(u.y) - exact_u.y), 0.0, 5e-16 + 1e-16 * omega)
+          << omega;
     }
   }
 }
@@ -63,14 +66,16 @@ TEST(LarmorDrift, KeepsTheSpeedOverManyTurns) {
     const LarmorDrift<double> drift(angle, 1.0);
     Vector v{0.6, 0.8};
     for (int k = 0; k < 1000000; ++k) drift.turn(v);
-    EXPECT_NEAR(dot(v, v), 1.0, 1e-12) << angle;  // by chance 2e-13; a rounded sine and cosine: 1e-10
+    EXPECT_NEAR(dot(v, v), 1.0, 1e-12)
+        << angle;  // by chance 2e-13; a rounded sine and cosine: 1e-10
   }
 }
 
 TEST(Splitting, FliesFreeParticlesExactly) {
   const NoForce<HighPrecision> none;
   const std::vector<HighPrecision> omega{HighPrecision("1.5"), HighPrecision(0)};
-  const Phase<HighPrecision> from{{{1, 2}, {3, 4}}, {{HighPrecision("0.3"), HighPrecision("-0.9")}, {1, -1}}};
+  const Phase<HighPrecision> from{{{1, 2}, {3, 4}},
+                                  {{HighPrecision("0.3"), HighPrecision("-0.9")}, {1, -1}}};
   Phase<HighPrecision> exact = from;
   LarmorDrift<HighPrecision>(omega[0], 10).move(exact.position[0], exact.velocity[0]);
   LarmorDrift<HighPrecision>(omega[1], 10).move(exact.position[1], exact.velocity[1]);
@@ -95,7 +100,8 @@ TEST(SpreiterWalter, IsExactInAUniformForce) {
     Phase<HighPrecision> to;
     SpreiterWalterStepper<HighPrecision>(law, omega).step(from, HighPrecision(2), to);
     const auto fine = stepper_of<HighPrecision>(find_scheme("kahan-li-8"), law, omega);
-    EXPECT_LT(distance(to, walk(*fine, from, HighPrecision(2) / 2000, 2000)), HighPrecision("1e-28"))
+    EXPECT_LT(distance(to, walk(*fine, from, HighPrecision(2) / 2000, 2000)),
+              HighPrecision("1e-28"))
         << frequency;
   }
 }
@@ -103,14 +109,18 @@ TEST(SpreiterWalter, IsExactInAUniformForce) {
 TEST(SpreiterWalter, WithoutFieldIsVelocityVerlet) {
   const HenonHeiles<HighPrecision> problem("0");
   const HighPrecision step = HighPrecision(1) / 20;
-  const auto ours = stepper_of<HighPrecision>(find_scheme("spreiter-walter"), problem, problem.omega);
-  const auto verlet = stepper_of<HighPrecision>(find_scheme("velocity-verlet"), problem, problem.omega);
-  EXPECT_LT(distance(walk(*ours, problem.start, step, 100), walk(*verlet, problem.start, step, 100)),
-            HighPrecision("1e-36"));
+  const auto ours =
+      stepper_of<HighPrecision>(find_scheme("spreiter-walter"), problem, problem.omega);
+  const auto verlet =
+      stepper_of<HighPrecision>(find_scheme("velocity-verlet"), problem, problem.omega);
+  EXPECT_LT(
+      distance(walk(*ours, problem.start, step, 100), walk(*verlet, problem.start, step, 100)),
+      HighPrecision("1e-36"));
 }
 
 bool same(const Phase<double>& a, const Phase<double>& b) {
-  return std::memcmp(a.position.data(), b.position.data(), a.position.size() * sizeof(Vector)) == 0 &&
+  return std::memcmp(a.position.data(), b.position.data(), a.position.size() * sizeof(Vector)) ==
+             0 &&
          std::memcmp(a.velocity.data(), b.velocity.data(), a.velocity.size() * sizeof(Vector)) == 0;
 }
 

@@ -54,7 +54,8 @@ TEST(Fuzz, DamagedSystemsAreRefusedOrRead) {
       try {
         const LoadedSystem loaded = read_system(text, "fuzz.toml");
         ++read;
-        ASSERT_EQ(read_system(loaded.resolved_toml, "again").resolved_toml, loaded.resolved_toml) << text;
+        ASSERT_EQ(read_system(loaded.resolved_toml, "again").resolved_toml, loaded.resolved_toml)
+            << text;
       } catch (const InputError& error) {
         ++refused;
         EXPECT_FALSE(error.problem().empty());
@@ -70,12 +71,13 @@ TEST(Fuzz, DamagedSystemsAreRefusedOrRead) {
 
 TEST(Fuzz, AnyPathAndValueCanBeSet) {
   Cases cases;
-  const std::string paths[] = {"table.shape",    "table.hole",      "table.hole[0]", "table.hole[0].width",
-                               "run.times",      "table",           "run",           "initial.kind",
-                               "particles.mass", "title",           "field.B",       "table.width",
-                               "run.seed",       "lattice.vectors", "initial"};
+  const std::string paths[] = {
+      "table.shape", "table.hole",  "table.hole[0]", "table.hole[0].width", "run.times",
+      "table",       "run",         "initial.kind",  "particles.mass",      "title",
+      "field.B",     "table.width", "run.seed",      "lattice.vectors",     "initial"};
   for (int k = 0; k < 2000; ++k) {
-    const std::string value = pieces[cases.below(std::size(pieces))] + pieces[cases.below(std::size(pieces))];
+    const std::string value =
+        pieces[cases.below(std::size(pieces))] + pieces[cases.below(std::size(pieces))];
     const std::string message =
         fault(std::string(builtin_systems()[cases.below(builtin_systems().size())].toml),
               set(paths[cases.below(std::size(paths))], value));

@@ -32,9 +32,11 @@ TEST(Overrides, SetReplacesWhatItExcludes) {
 
 TEST(Overrides, FaultsAreOnTheCommandLine) {
   EXPECT_EQ(fault(square(), set("table.widht", "1")),
-            "command line: table.widht: unknown key 'widht' for 'rectangle' (expected one of shape, width, "
+            "command line: table.widht: unknown key 'widht' for 'rectangle' (expected one of "
+            "shape, width, "
             "height, obstacle, hole; did you mean 'width'?)");
-  EXPECT_HAS(fault(square(), set("table.width", "wide")), "command line: table.width: unknown word 'wide'");
+  EXPECT_HAS(fault(square(), set("table.width", "wide")),
+             "command line: table.width: unknown word 'wide'");
   EXPECT_HAS(fault(square(), set("rnu.t_max", "1")), "did you mean 'run'?");
   EXPECT_HAS(fault(square(), set("table.width.x", "1")), "'width' is a number, it has no key 'x'");
   EXPECT_HAS(fault(square(), set("table.hole[1].wall", "top")), "there is no 'hole[1]'");
@@ -80,7 +82,8 @@ TEST(Overrides, TimesInTheirOwnNotation) {
 TEST(Overrides, AShorterRunCutsTheTimesOfTheFile) {
   SystemOverrides o;
   o.t_max = "10.5";
-  const LoadedSystem loaded = read_system(square("[run]\ntimes = [0.1, 5, 10.5, 20]\n"), "test.toml", o);
+  const LoadedSystem loaded =
+      read_system(square("[run]\ntimes = [0.1, 5, 10.5, 20]\n"), "test.toml", o);
   EXPECT_EQ(loaded.system.run.times, (std::vector<double>{0.1, 5, 10.5}));
   EXPECT_EQ(read(loaded.resolved_toml).run.times, loaded.system.run.times);
   o.times = "1,20";
@@ -98,7 +101,8 @@ TEST(Overrides, PositionAndVelocityReplaceTheStart) {
   EXPECT_EQ(s.particles[0].speed, 5.0);
   EXPECT_EQ(read(square("[particles]\nspeed = 2\n"), o).particles[0].speed, 2.0);
 
-  const std::string point = square("[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nangle = 0\n");
+  const std::string point =
+      square("[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nangle = 0\n");
   o.position.clear();
   EXPECT_EQ(read(point, o).initial.position, (geometry::Vector{0.1, 0.2}));
   EXPECT_EQ(read(point, o).initial.velocity, (geometry::Vector{3, 4}));
@@ -121,7 +125,9 @@ TEST(Overrides, BadOptionsAreNamed) {
   SystemOverrides o;
   for (const char* bad : {"0", "-5", "many", "1.5", "nan", "1e30"}) {
     o.trajectories = bad;
-    EXPECT_HAS(fault(square(), o), "command line: --trajectories: must be a whole number from 1 to ") << bad;
+    EXPECT_HAS(fault(square(), o),
+               "command line: --trajectories: must be a whole number from 1 to ")
+        << bad;
   }
   SystemOverrides t;
   for (const char* bad : {"0", "-1", "inf", "long", "1,5"}) {
@@ -137,7 +143,8 @@ TEST(Overrides, AnAngleThatIsSetGoesWithThePosition) {
   EXPECT_EQ(s.initial.position, (geometry::Vector{0.3, 0.4}));
   EXPECT_EQ(s.initial.velocity, (geometry::Vector{0, 1}));
   o.velocity = "1,0";
-  EXPECT_HAS(fault(square(), o), "command line: initial.angle: initial.angle is given beside --velocity");
+  EXPECT_HAS(fault(square(), o),
+             "command line: initial.angle: initial.angle is given beside --velocity");
   SystemOverrides v = set("initial.velocity", "[0, 1]");
   v.position = "0.3,0.4";
   EXPECT_EQ(read(square(), v).initial.velocity, (geometry::Vector{0, 1}));
@@ -168,15 +175,20 @@ TEST(Overrides, DefaultTimesOfAStoredSystemFollowItsLastTime) {
 }
 
 TEST(Overrides, TrajectoriesAreThoseThatAreListed) {
-  const std::string list = square("[initial]\nkind = \"list\"\nstarts = [[0.5,0.5,1,0],[0.4,0.5,1,0],[0.3,0.5,1,0]]\n");
+  const std::string list =
+      square("[initial]\nkind = \"list\"\nstarts = [[0.5,0.5,1,0],[0.4,0.5,1,0],[0.3,0.5,1,0]]\n");
   EXPECT_EQ(read(list).run.trajectories, 3u);
   EXPECT_EQ(read(list + "[particles]\ncount = 2\n").run.trajectories, 2u);
   EXPECT_EQ(read(list + "[run]\ntrajectories = 7\n").run.trajectories, 7u);
   EXPECT_EQ(read(square()).run.trajectories, 100000u);
   const std::string hole = "[[table.hole]]\nwall = \"top\"\ncenter = 0.5\nwidth = 0.1\n";
-  EXPECT_EQ(read(square(hole + "[initial]\nkind = \"point\"\nposition = [0.5,0.5]\nangle = 1\n")).run.trajectories, 1u);
+  EXPECT_EQ(read(square(hole + "[initial]\nkind = \"point\"\nposition = [0.5,0.5]\nangle = 1\n"))
+                .run.trajectories,
+            1u);
   EXPECT_EQ(read(square(hole + "[initial]\nkind = \"point\"\nposition = [0.5,0.5]\nangle = 1\n"
-                               "[[injection]]\nhole = \"hole_1\"\nrate = 1\n")).run.trajectories, 100000u)
+                               "[[injection]]\nhole = \"hole_1\"\nrate = 1\n"))
+                .run.trajectories,
+            100000u)
       << "what enters is drawn";
 }
 

@@ -17,8 +17,10 @@ class PointsFile : public testing::Test {
  protected:
   LoadedSystem read_with(const std::string& points, const std::string& table) const {
     std::ofstream(folder_.file("points.csv")) << points;
-    return read_system("[table]\npath = \"points.csv\"\n" + table + "[initial]\nkind = \"line\"\nfrom = [-9, -9]\nto = [-8, -9]\nangle = 0\n",
-                       folder_.file("a.toml"));
+    return read_system(
+        "[table]\npath = \"points.csv\"\n" + table +
+            "[initial]\nkind = \"line\"\nfrom = [-9, -9]\nto = [-8, -9]\nangle = 0\n",
+        folder_.file("a.toml"));
   }
   std::string fault_of(const std::string& points, const std::string& table) const {
     try {
@@ -33,12 +35,14 @@ class PointsFile : public testing::Test {
 };
 
 TEST_F(PointsFile, HoldsDiscs) {
-  const LoadedSystem loaded = read_with("# x, y, radius\n0, 0, 1/3\n1, sqrt(2)/4, 0.5\r\n", "shape = \"discs\"\n");
+  const LoadedSystem loaded =
+      read_with("# x, y, radius\n0, 0, 1/3\n1, sqrt(2)/4, 0.5\r\n", "shape = \"discs\"\n");
   const Table& table = *loaded.system.table;
   ASSERT_EQ(table.walls.size(), 2u);
   EXPECT_EQ(std::get<Circle>(table.walls[0].curve).radius, 1.0 / 3.0);
   EXPECT_EQ(std::get<Circle>(table.walls[1].curve).centre, (Vector{1.0, 0x1.6a09e667f3bcdp-2}));
-  EXPECT_EQ(read_with("0 0\n3 0\n", "shape = \"discs\"\nradius = 1\n").system.table->walls.size(), 2u);
+  EXPECT_EQ(read_with("0 0\n3 0\n", "shape = \"discs\"\nradius = 1\n").system.table->walls.size(),
+            2u);
 }
 
 TEST_F(PointsFile, HoldsCorners) {
@@ -57,13 +61,15 @@ TEST_F(PointsFile, ResolvedSystemsHoldThePoints) {
 }
 
 TEST_F(PointsFile, FaultsNameTheLine) {
-  const std::string discs = "shape = \"discs\"\n", round = "shape = \"discs\"\nradius = 1\n", polygon = "shape = \"polygon\"\n";
+  const std::string discs = "shape = \"discs\"\n", round = "shape = \"discs\"\nradius = 1\n",
+                    polygon = "shape = \"polygon\"\n";
   const std::tuple<const char*, std::string, const char*> faults[] = {
       {"0 0 1\n5 0\n", discs, "points.csv, line 2, column 1: this disc has no radius"},
       {"0 0\n5 0 1\n", round, "points.csv, line 2, column 1: this disc has a radius"},
       {"0 0 1\n", round, "has the discs' radii already"},
       {"0 0\n", discs, "table.radius"},
-      {"0\n", discs, "points.csv, line 1, column 1: a disc has two or three numbers, but the line has 1"},
+      {"0\n", discs,
+       "points.csv, line 1, column 1: a disc has two or three numbers, but the line has 1"},
       {"0 0 1\n\n5 zero 1\n", discs, "points.csv, line 3, column 3"},
       {"0 0 1\n0.5 0 -1\n", discs, "points.csv, line 2, column 7: radius must be positive"},
       {"0 0 1\n1 0 1\n", discs, "points.csv, line"},
@@ -71,7 +77,8 @@ TEST_F(PointsFile, FaultsNameTheLine) {
       {"0 0\n1 0\n1 0\n1 1\n", polygon, "points.csv, line 3, column 1: the same point twice"},
       {"# nothing\n", polygon, "the file holds no corner"},
       {"0 0\n", discs + "centers = [[0, 0]]\n", "'path' and 'centers' are both given"},
-      {"0 0\n", "shape = \"circle\"\nradius = 1\n", "unknown key 'path' for 'circle', it belongs to polygon, discs"},
+      {"0 0\n", "shape = \"circle\"\nradius = 1\n",
+       "unknown key 'path' for 'circle', it belongs to polygon, discs"},
   };
   for (const auto& [points, table, message] : faults) EXPECT_HAS(fault_of(points, table), message);
 }

@@ -37,7 +37,9 @@ TEST(Progress, SaysThatItIsAtWorkWhileNothingIsShown) {
     const Progress progress(true);
     char text[256];
     pollfd wait{terminal, POLLIN, 0};
-    if (poll(&wait, 1, 60'000) == 1) seen.assign(text, static_cast<std::size_t>(std::max<ssize_t>(0, read(terminal, text, sizeof text))));
+    if (poll(&wait, 1, 60'000) == 1)
+      seen.assign(
+          text, static_cast<std::size_t>(std::max<ssize_t>(0, read(terminal, text, sizeof text))));
   }
   std::fflush(stderr);
   dup2(before, STDERR_FILENO);

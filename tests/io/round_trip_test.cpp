@@ -9,7 +9,8 @@ namespace carom::tests {
 namespace {
 
 bool same(const geometry::Curve& a, const geometry::Curve& b) {
-  if (a.index() != b.index() || !(geometry::start_point(a) == geometry::start_point(b))) return false;
+  if (a.index() != b.index() || !(geometry::start_point(a) == geometry::start_point(b)))
+    return false;
   for (const double part : {0.2, 0.5, 0.9}) {
     const double u = part * geometry::end_parameter(a);
     if (!(geometry::point_at(a, u) == geometry::point_at(b, u))) return false;
@@ -78,10 +79,22 @@ void expect_round_trip(const LoadedSystem& loaded) {
 }
 
 TEST(RoundTrip, BuiltInSystems) {
-  const std::vector<std::string> contract{
-      "magnetic-square", "mushroom",           "stadium",        "circle",     "ellipse-magnetic",
-      "sinai",           "lorentz-triangular", "lorentz-square", "lorentz-random", "three-disc", "siam-photon",
-      "coulomb-circle",  "wigner",             "soft-lorentz",   "henon-heiles", "antidot-magnetic"};
+  const std::vector<std::string> contract{"magnetic-square",
+                                          "mushroom",
+                                          "stadium",
+                                          "circle",
+                                          "ellipse-magnetic",
+                                          "sinai",
+                                          "lorentz-triangular",
+                                          "lorentz-square",
+                                          "lorentz-random",
+                                          "three-disc",
+                                          "siam-photon",
+                                          "coulomb-circle",
+                                          "wigner",
+                                          "soft-lorentz",
+                                          "henon-heiles",
+                                          "antidot-magnetic"};
   EXPECT_EQ(builtin_systems().size(), contract.size());
   for (const std::string& name : contract) {
     SCOPED_TRACE(name);
@@ -94,32 +107,41 @@ TEST(RoundTrip, BuiltInSystems) {
 
 TEST(RoundTrip, EverySection) {
   const std::string hole = "[[table.hole]]\nwall = \"top\"\ncenter = \"1/3\"\nwidth = 0.1\n";
-  for (const std::string& text : {
-           square(hole + "[initial]\nkind = \"hole\"\nhole = \"hole_1\"\n"),
-           square("[field]\nB = \"1/3\"\n[particles]\nmass = [1, \"2/3\"]\ncharge = [-1, 2]\nenergy = 0.1\n"),
-           square("[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nvelocity = [0.3, \"sqrt(2)\"]\n"
-                  "[field]\nlarmor_radius = 0.3\n"),
-           square("[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nangle = 0.3\n"),
-           square("[initial]\nkind = \"birkhoff\"\nwall = \"top\"\ns = {from = 0, to = 0.9, count = 4}\n"
-                  "v_parallel = [0.1, -0.2]\n[run]\nsample = 0.1\ncollisions = 7\ntimes = [1, 2, 3]\n"),
-           square("[initial]\nkind = \"line\"\nfrom = [0.1, 0.1]\nto = [0.9, 0.1]\nangle = \"pi/3\"\n"),
-           square("[initial]\nkind = \"rectangle\"\nmin = [0.1, 0.1]\nmax = [0.2, 0.2]\n"
-                  "[run]\nt_max = \"2*pi\"\nseed = 0x10\n"),
-           std::string(
-               "title = \"a \\\"b\\\" \\n é\"\n[table]\nshape = \"regular\"\nsides = 5\nradius = 1_0.5\n"),
-           std::string(
-               "[table]\nshape = \"path\"\n[[table.loop]]\nstart = [-1, 0]\npieces = [{line_to = [1, 0]},\n"
-               "{arc_via = [0, 1], arc_to = [-1, 0], name = \"dome\"}]\n"),
-           square("[[table.obstacle]]\nshape = \"circle\"\ncenter = [\"1/3\", 0.2]\nradius = 0.1\n"
-                  "[[table.obstacle]]\nshape = \"ellipse\"\ncenter = [0.7, 0.2]\na = 0.1\nb = \"1/7\"\nangle = 0.3\n"
-                  "name = \"egg\"\n"
-                  "[[table.obstacle]]\nshape = \"polygon\"\npoints = [[0.5, 0.5], [0.7, 0.5], [0.6, 0.6]]\n"
-                  "[[table.hole]]\nwall = \"obstacle_3_side_2\"\ncenter = 0.05\nwidth = 0.01\n"),
-           std::string("[table]\nshape = \"sinai\"\nside = 1\nradius = 0.2\n"
-                       "[[table.obstacle]]\nshape = \"circle\"\ncenter = [0, 0]\nradius = 0.1\n"),
-           std::string("[table]\nshape = \"discs\"\ncenters = [[0, 0], [3, 0]]\nradii = [1, \"1/2\"]\n"
-                       "[lattice]\nvectors = [[6, 0], [\"1/2\", 4]]\n"),
-       }) {
+  for (
+      const std::string& text : {
+          square(hole + "[initial]\nkind = \"hole\"\nhole = \"hole_1\"\n"),
+          square("[field]\nB = \"1/3\"\n[particles]\nmass = [1, \"2/3\"]\ncharge = [-1, 2]\nenergy "
+                 "= 0.1\n"),
+          square(
+              "[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nvelocity = [0.3, \"sqrt(2)\"]\n"
+              "[field]\nlarmor_radius = 0.3\n"),
+          square("[initial]\nkind = \"point\"\nposition = [0.1, 0.2]\nangle = 0.3\n"),
+          square(
+              "[initial]\nkind = \"birkhoff\"\nwall = \"top\"\ns = {from = 0, to = 0.9, count = "
+              "4}\n"
+              "v_parallel = [0.1, -0.2]\n[run]\nsample = 0.1\ncollisions = 7\ntimes = [1, 2, 3]\n"),
+          square(
+              "[initial]\nkind = \"line\"\nfrom = [0.1, 0.1]\nto = [0.9, 0.1]\nangle = \"pi/3\"\n"),
+          square("[initial]\nkind = \"rectangle\"\nmin = [0.1, 0.1]\nmax = [0.2, 0.2]\n"
+                 "[run]\nt_max = \"2*pi\"\nseed = 0x10\n"),
+          std::string("title = \"a \\\"b\\\" \\n é\"\n[table]\nshape = \"regular\"\nsides = "
+                      "5\nradius = 1_0.5\n"),
+          std::string("[table]\nshape = \"path\"\n[[table.loop]]\nstart = [-1, 0]\npieces = "
+                      "[{line_to = [1, 0]},\n"
+                      "{arc_via = [0, 1], arc_to = [-1, 0], name = \"dome\"}]\n"),
+          square("[[table.obstacle]]\nshape = \"circle\"\ncenter = [\"1/3\", 0.2]\nradius = 0.1\n"
+                 "[[table.obstacle]]\nshape = \"ellipse\"\ncenter = [0.7, 0.2]\na = 0.1\nb = "
+                 "\"1/7\"\nangle = 0.3\n"
+                 "name = \"egg\"\n"
+                 "[[table.obstacle]]\nshape = \"polygon\"\npoints = [[0.5, 0.5], [0.7, 0.5], [0.6, "
+                 "0.6]]\n"
+                 "[[table.hole]]\nwall = \"obstacle_3_side_2\"\ncenter = 0.05\nwidth = 0.01\n"),
+          std::string("[table]\nshape = \"sinai\"\nside = 1\nradius = 0.2\n"
+                      "[[table.obstacle]]\nshape = \"circle\"\ncenter = [0, 0]\nradius = 0.1\n"),
+          std::string(
+              "[table]\nshape = \"discs\"\ncenters = [[0, 0], [3, 0]]\nradii = [1, \"1/2\"]\n"
+              "[lattice]\nvectors = [[6, 0], [\"1/2\", 4]]\n"),
+      }) {
     SCOPED_TRACE(text);
     expect_round_trip(read_system(text, "test.toml"));
   }
@@ -140,7 +162,8 @@ TEST(RoundTrip, OverridesAreInTheResolvedSystem) {
 }
 
 TEST(RoundTrip, NumbersStayAsWritten) {
-  const std::string resolved = read_system(square("[run]\nt_max = 1.50e2\n"), "test.toml").resolved_toml;
+  const std::string resolved =
+      read_system(square("[run]\nt_max = 1.50e2\n"), "test.toml").resolved_toml;
   EXPECT_HAS(resolved, "t_max = 1.50e2\n");
   EXPECT_HAS(resolved, "from = \"(1.50e2)/1000\", to = 1.50e2");
 }

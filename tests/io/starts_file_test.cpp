@@ -12,7 +12,8 @@ class StartsFile : public testing::Test {
  protected:
   LoadedSystem read_with(const std::string& starts) const {
     std::ofstream(folder_.file("starts.txt")) << starts;
-    return read_system(square("[initial]\nkind = \"file\"\npath = \"starts.txt\"\n"), folder_.file("a.toml"));
+    return read_system(square("[initial]\nkind = \"file\"\npath = \"starts.txt\"\n"),
+                       folder_.file("a.toml"));
   }
   std::string fault_of(const std::string& starts) const {
     try {
@@ -27,7 +28,8 @@ class StartsFile : public testing::Test {
 };
 
 TEST_F(StartsFile, IsTheListItHolds) {
-  const LoadedSystem loaded = read_with("# x y vx vy\n0.25 0.5 1 0\n\n1/3, sqrt(2)/4, 0, -1  # exact\r\n");
+  const LoadedSystem loaded =
+      read_with("# x y vx vy\n0.25 0.5 1 0\n\n1/3, sqrt(2)/4, 0, -1  # exact\r\n");
   const InitialCondition& initial = loaded.system.initial;
   ASSERT_EQ(initial.kind, InitialCondition::Kind::list);
   ASSERT_EQ(initial.positions.size(), 2u);
@@ -47,11 +49,13 @@ TEST_F(StartsFile, ResolvedSystemsHoldTheStarts) {
 
 // As with one start: its length is the speed unless one is set.
 TEST_F(StartsFile, VelocitiesAreSpeedsToo) {
-  EXPECT_EQ(read_with("0.25 0.5 2 0\n0.5 0.5 0 -2\n0.5 0.25 1.2 1.6\n").system.particles.at(0).speed, 2.0);
+  EXPECT_EQ(
+      read_with("0.25 0.5 2 0\n0.5 0.5 0 -2\n0.5 0.25 1.2 1.6\n").system.particles.at(0).speed,
+      2.0);
   EXPECT_HAS(fault_of("0.25 0.5 2 0\n0.5 0.5 0 1\n"), "starts.txt, line 2, column 1");
   const auto speeds = [](const std::string& particles, const std::string& starts) {
-    const LoadedSystem loaded =
-        read_system(square(particles + "[initial]\nkind = \"list\"\nstarts = " + starts + "\n"), "list");
+    const LoadedSystem loaded = read_system(
+        square(particles + "[initial]\nkind = \"list\"\nstarts = " + starts + "\n"), "list");
     EXPECT_EQ(read_system(loaded.resolved_toml, "again").resolved_toml, loaded.resolved_toml);
     std::vector<double> result;
     for (const Particle& p : loaded.system.particles) result.push_back(p.speed);
@@ -70,7 +74,8 @@ TEST_F(StartsFile, VelocitiesAreSpeedsToo) {
 
 TEST_F(StartsFile, FaultsNameTheLine) {
   const std::pair<const char*, const char*> faults[] = {
-      {"0.5 0.5 1 0\n0.5 0.5 1\n", "starts.txt, line 2, column 1: a start has four numbers, but the line has 3"},
+      {"0.5 0.5 1 0\n0.5 0.5 1\n",
+       "starts.txt, line 2, column 1: a start has four numbers, but the line has 3"},
       {"0.5 0.5 1 zero\n", "starts.txt, line 1, column 11"},
       {"0.5 0.5 0 0\n", "the velocity is zero"},
       {"# nothing\n", "the file holds no start"},
@@ -79,8 +84,12 @@ TEST_F(StartsFile, FaultsNameTheLine) {
 }
 
 TEST_F(StartsFile, MayBeginWithAByteOrderMark) {
-  EXPECT_EQ(read_with("\xEF\xBB\xBF""0.25 0.5 1 0\n").system.initial.positions[0], (geometry::Vector{0.25, 0.5}));
-  EXPECT_EQ(read_with("\xEF\xBB\xBF# x y vx vy\n0.25 0.5 1 0\n").system.initial.positions.size(), 1u);
+  EXPECT_EQ(read_with("\xEF\xBB\xBF"
+                      "0.25 0.5 1 0\n")
+                .system.initial.positions[0],
+            (geometry::Vector{0.25, 0.5}));
+  EXPECT_EQ(read_with("\xEF\xBB\xBF# x y vx vy\n0.25 0.5 1 0\n").system.initial.positions.size(),
+            1u);
 }
 
 }  // namespace

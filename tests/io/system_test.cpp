@@ -32,7 +32,8 @@ TEST(System, DefaultsOfTheContract) {
 TEST(System, CyclotronFrequency) {
   const auto omega = [](const std::string& text) { return read(square(text)).particles[0].omega; };
   EXPECT_EQ(omega("[field]\nB = 0.1\n"), 0.1);
-  EXPECT_EQ(omega("[field]\nB = 0.3\n[particles]\nmass = 0.1\ncharge = -2\n"), -6.0);  // rounded once
+  EXPECT_EQ(omega("[field]\nB = 0.3\n[particles]\nmass = 0.1\ncharge = -2\n"),
+            -6.0);  // rounded once
   EXPECT_EQ(omega("[field]\nlarmor_radius = 0.5\n[particles]\nspeed = 3\n"), 6.0);
   EXPECT_EQ(omega("[field]\nlarmor_radius = 0.5\n[particles]\nspeed = 3\ncharge = -7\n"), -6.0);
   EXPECT_EQ(omega("[field]\nlarmor_radius = 2\n[particles]\ncount = 3\n"), 0.5);
@@ -42,7 +43,8 @@ TEST(System, CyclotronFrequency) {
 TEST(System, SpeedFromEnergyOrVelocity) {
   EXPECT_EQ(read(square("[particles]\nenergy = 2\n")).particles[0].speed, 2.0);
   EXPECT_EQ(read(square("[particles]\nenergy = 0.1\nmass = 0.2\n")).particles[0].speed, 1.0);
-  const std::string start = "[initial]\nkind = \"point\"\nposition = [0.5, 0.5]\nvelocity = [3, -4]\n";
+  const std::string start =
+      "[initial]\nkind = \"point\"\nposition = [0.5, 0.5]\nvelocity = [3, -4]\n";
   const System free = read(square(start));
   EXPECT_EQ(free.particles[0].speed, 5.0);
   EXPECT_EQ(free.initial.velocity, (geometry::Vector{3, -4}));
@@ -52,8 +54,8 @@ TEST(System, SpeedFromEnergyOrVelocity) {
 }
 
 TEST(System, ListsMakeParticles) {
-  const System s =
-      read(square("[field]\nB = 2\n[particles]\nmass = [1, 2, 4]\ncharge = [1, -1, \"1/2\"]\nspeed = 3\n"));
+  const System s = read(square(
+      "[field]\nB = 2\n[particles]\nmass = [1, 2, 4]\ncharge = [1, -1, \"1/2\"]\nspeed = 3\n"));
   ASSERT_EQ(s.particles.size(), 3u);
   EXPECT_EQ(s.particles[1].mass, 2.0);
   EXPECT_EQ(s.particles[1].omega, -1.0);
@@ -73,13 +75,16 @@ TEST(System, Starts) {
   EXPECT_EQ(initial("kind = \"boundary\"\nwall = \"top\"\n").wall, 2);
   EXPECT_EQ(initial("kind = \"boundary\"\nhole = \"door\"\n").hole, 0);
   EXPECT_EQ(initial("kind = \"hole\"\nhole = \"door\"\n").kind, Kind::hole);
-  const InitialCondition up = initial("kind = \"point\"\nposition = [\"1/2\", \"1/10\"]\nangle = \"pi/2\"\n");
+  const InitialCondition up =
+      initial("kind = \"point\"\nposition = [\"1/2\", \"1/10\"]\nangle = \"pi/2\"\n");
   EXPECT_EQ(up.position, (geometry::Vector{0.5, 0.1}));
   EXPECT_EQ(up.velocity, (geometry::Vector{0, 1}));  // exactly up
-  const InitialCondition box = initial("kind = \"rectangle\"\nmin = [0.1, 0.2]\nmax = [0.3, 0.4]\n");
+  const InitialCondition box =
+      initial("kind = \"rectangle\"\nmin = [0.1, 0.2]\nmax = [0.3, 0.4]\n");
   EXPECT_EQ(box.low, (geometry::Vector{0.1, 0.2}));
   EXPECT_EQ(box.high, (geometry::Vector{0.3, 0.4}));
-  const InitialCondition line = initial("kind = \"line\"\nfrom = [0.1, 0.2]\nto = [0.3, 0.4]\nangle = 0.5\n");
+  const InitialCondition line =
+      initial("kind = \"line\"\nfrom = [0.1, 0.2]\nto = [0.3, 0.4]\nangle = 0.5\n");
   EXPECT_EQ(line.to, (geometry::Vector{0.3, 0.4}));
   EXPECT_EQ(line.angle, 0.5);
 }
@@ -96,8 +101,8 @@ TEST(System, BirkhoffStartsPairListsAndCrossGrids) {
   EXPECT_EQ(pairs.v_parallel, (std::vector<double>{0.3, 0.4}));
   const InitialCondition fan = initial("s = 0.25\nv_parallel = [0.3, 0.4]\n");
   EXPECT_EQ(fan.s, (std::vector<double>{0.25, 0.25}));
-  const InitialCondition grid =
-      initial("s = {from = 0, to = 0.5, count = 3}\nv_parallel = {from = -0.5, to = 0.5, count = 2}\n");
+  const InitialCondition grid = initial(
+      "s = {from = 0, to = 0.5, count = 3}\nv_parallel = {from = -0.5, to = 0.5, count = 2}\n");
   EXPECT_EQ(grid.s, (std::vector<double>{0, 0.25, 0.5, 0, 0.25, 0.5}));
   EXPECT_EQ(grid.v_parallel, (std::vector<double>{-0.5, -0.5, -0.5, 0.5, 0.5, 0.5}));
 }
@@ -133,8 +138,10 @@ TEST(System, PathsFromTheFile) {
       "pieces = [{line_to = [1, 0], name = \"floor\"}, {arc_via = [0, 1], arc_to = [-1, 0], name = "
       "\"dome\"}]\n"
       "[[table.loop]]\nstart = [\"1/4\", \"1/4\"]\n"
-      "pieces = [{ellipse_via = [0, 0.125], ellipse_to = [\"-1/4\", \"1/4\"], ellipse_ratio = 0.5},\n"
-      "          {ellipse_via = [0, 0.375], ellipse_to = [\"1/4\", \"1/4\"], ellipse_ratio = 0.5, name = "
+      "pieces = [{ellipse_via = [0, 0.125], ellipse_to = [\"-1/4\", \"1/4\"], ellipse_ratio = "
+      "0.5},\n"
+      "          {ellipse_via = [0, 0.375], ellipse_to = [\"1/4\", \"1/4\"], ellipse_ratio = 0.5, "
+      "name = "
       "\"lid\"}]\n"
       "[[table.hole]]\nwall = \"dome\"\ncenter = \"pi/2\"\nwidth = 0.2\n");
   ASSERT_EQ(s.table->walls.size(), 4u);

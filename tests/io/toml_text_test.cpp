@@ -69,7 +69,8 @@ TEST(TomlText, ValuesFromTheCommandLine) {
 
 TEST(TomlText, WhatIsPrintedReadsBack) {
   const std::string text =
-      "title = \"a \\\"b\\\" \\\\ \\u0001 é\"\n\n[table]\nlist = [1.50, [\"x\", true], {a = 1, \"b c\" = "
+      "title = \"a \\\"b\\\" \\\\ \\u0001 é\"\n\n[table]\nlist = [1.50, [\"x\", true], {a = 1, \"b "
+      "c\" = "
       "[]}]\n\n"
       "[[table.hole]]\nw = 1\n\n[[table.hole]]\nw = 2\n\n[run]\nt = 1e3\n";
   EXPECT_EQ(io::print_document(io::parse_document(text, "a")), text);

@@ -40,7 +40,8 @@ TEST(WorkFolder, StaysWithACheckpoint) {
   const std::string file = folder.file("a");
   for (int i = 0; i < 2; ++i) {
     const ArchiveLock lock = lock_archive(file);
-    for (const std::string& name : {checkpoint_of(file), records_of(file), aside_of(file)}) std::ofstream(name) << "x";
+    for (const std::string& name : {checkpoint_of(file), records_of(file), aside_of(file)})
+      std::ofstream(name) << "x";
   }
   EXPECT_TRUE(exists(checkpoint_of(file)) && exists(records_of(file)) && !exists(aside_of(file)));
   EXPECT_TRUE(has_checkpoint(file));

@@ -16,11 +16,14 @@ namespace {
 using tests::Dice;
 using tests::Vector;
 
-/// What a hit adds to the size of the angular momentum, in radii times speed: the mean of 64 orbits.
+/// What a hit adds to the size of the angular momentum, in radii times speed: the mean of 64
+/// orbits.
 double drift(Vector centre, double radius, double speed, std::uint64_t hits, Dice& dice) {
   const Table table = tests::loop({geometry::Circle{centre, radius, true}});
   const geometry::Curve& curve = table.walls[0].curve;
-  const auto momentum = [&](const State& s) { return std::fabs(cross(s.position - centre, s.velocity)); };
+  const auto momentum = [&](const State& s) {
+    return std::fabs(cross(s.position - centre, s.velocity));
+  };
   std::vector<LaneStart> starts;
   double before = 0.0, after = 0.0;
   while (starts.size() < 64) {
@@ -49,7 +52,8 @@ TEST(AngularMomentum, HasNoDriftInDiscs) {
   for (int i = 0; i < 90; ++i) {
     const double radius = dice.spread(std::exp(-1.0), std::exp(1.0)),
                  speed = dice.spread(std::exp(-1.0), std::exp(1.0));
-    const Vector centre = i % 3 == 0 ? Vector{0, 0} : Vector{dice.between(-2, 2), dice.between(-2, 2)};
+    const Vector centre =
+        i % 3 == 0 ? Vector{0, 0} : Vector{dice.between(-2, 2), dice.between(-2, 2)};
     const double found = std::fabs(drift(centre, radius, speed, 20000, dice));
     EXPECT_LT(found, 2e-18) << radius << " " << speed << " " << centre.x << " " << centre.y;
     largest = std::max(largest, found);

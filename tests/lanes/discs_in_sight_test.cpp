@@ -1,4 +1,5 @@
-// The disc that a flight from another one meets, by the table of what it sees, against all discs around it.
+// The disc that a flight from another one meets, by the table of what it sees, against all discs
+// around it.
 #include "lanes/discs_in_sight.hpp"
 
 #include <gtest/gtest.h>
@@ -34,9 +35,10 @@ std::size_t entry_of(const LaneTable& t, Vector velocity, double aside) {
   const bool steep = std::fabs(velocity.x) < std::fabs(velocity.y);
   const double small = steep ? velocity.x : velocity.y, big = steep ? velocity.y : velocity.x;
   const double quadrant = (steep ? 2.0 : 0.0) + (big < 0.0 ? 1.0 : 0.0);
-  const double direction =
-      std::nearbyint(small * t.directions_per_unit + (quadrant + 0.5) * LaneTable::sight_directions);
-  const double offset = std::nearbyint(aside * t.offsets_per_length + 0.5 * LaneTable::sight_offsets);
+  const double direction = std::nearbyint(small * t.directions_per_unit +
+                                          (quadrant + 0.5) * LaneTable::sight_directions);
+  const double offset =
+      std::nearbyint(aside * t.offsets_per_length + 0.5 * LaneTable::sight_offsets);
   return static_cast<std::size_t>(direction * LaneTable::sight_offsets + offset);
 }
 
@@ -46,11 +48,12 @@ struct Cell {
   friend Cell operator+(Cell a, Cell b) { return {a.first + b.first, a.second + b.second}; }
 };
 Vector place_of(const LaneTable& t, Cell c) {
-  return {c.first * t.lattice_x[0] + c.second * t.lattice_x[1], c.first * t.lattice_y[0] + c.second * t.lattice_y[1]};
+  return {c.first * t.lattice_x[0] + c.second * t.lattice_x[1],
+          c.first * t.lattice_y[0] + c.second * t.lattice_y[1]};
 }
 
-/// The first copy of the disc that a flight cuts, of all within so many cells; and how near to a rim lines
-/// come before they end there.
+/// The first copy of the disc that a flight cuts, of all within so many cells; and how near to a
+/// rim lines come before they end there.
 struct FirstCut {
   Cell cell{0, 0};
   double doubt = HUGE_VAL;
@@ -73,7 +76,8 @@ FirstCut first_cut(const LaneTable& t, Vector velocity, double aside) {
   return found;
 }
 Cell cell_in(unsigned seen, int part) {
-  return {static_cast<signed char>(seen >> (16 * part)), static_cast<signed char>(seen >> (16 * part + 8))};
+  return {static_cast<signed char>(seen >> (16 * part)),
+          static_cast<signed char>(seen >> (16 * part + 8))};
 }
 
 /// The same by the table: the cell, how often it was asked, and how often it named two discs.
@@ -87,7 +91,8 @@ ByTable by_table(const LaneTable& t, Vector velocity, double aside) {
   double side = aside;
   while (found.asked++ < 200) {
     const unsigned seen = t.sights[entry_of(t, velocity, side)];
-    if (seen == LaneTable::no_sight || std::abs(found.cell.first) + std::abs(found.cell.second) > LaneTable::farthest_cell) {
+    if (seen == LaneTable::no_sight ||
+        std::abs(found.cell.first) + std::abs(found.cell.second) > LaneTable::farthest_cell) {
       found.known = false;
       return found;
     }
@@ -111,7 +116,8 @@ TEST(DiscsInSight, AreThoseThatFlightsMeet) {
     // Thin cells, too: discs that nearly touch in rows far apart.
     const bool thin = k % 2 == 0;
     const double height = thin ? dice.spread(1.2, 25.0) : dice.between(0.7, 1.5);
-    const Vector first{size, 0.0}, second = size * height * Vector{std::cos(angle), std::sin(angle)};
+    const Vector first{size, 0.0},
+        second = size * height * Vector{std::cos(angle), std::sin(angle)};
     // Written by longer vectors, too, and not in the middle of the cell.
     const Vector longer = second + static_cast<double>(dice.whole(-2, 2)) * first;
     const Vector centre = size * Vector{dice.between(-0.03, 0.03), dice.between(-0.03, 0.03)};
@@ -126,7 +132,9 @@ TEST(DiscsInSight, AreThoseThatFlightsMeet) {
     ASSERT_EQ(t.sights, entries.data());
     for (int i = 0; i < 3000; ++i) {
       // Across the rows, too, where one disc after the other is passed.
-      Vector velocity = thin && dice.coin() ? Vector{dice.sign() * dice.spread(1e-4, 0.1), dice.sign()} : dice.direction();
+      Vector velocity = thin && dice.coin()
+                            ? Vector{dice.sign() * dice.spread(1e-4, 0.1), dice.sign()}
+                            : dice.direction();
       velocity = (1.0 / std::sqrt(dot(velocity, velocity))) * velocity;
       const double aside = t.radius[0] * dice.between(-1.0, 1.0);
       const FirstCut met = first_cut(t, velocity, aside);
@@ -138,7 +146,8 @@ TEST(DiscsInSight, AreThoseThatFlightsMeet) {
         continue;
       }
       ++(found.asked > 1 ? several : found.two > 0 ? two : one);
-      ASSERT_EQ(found.cell, met.cell) << k << ": " << velocity.x << " " << velocity.y << " " << aside;
+      ASSERT_EQ(found.cell, met.cell)
+          << k << ": " << velocity.x << " " << velocity.y << " " << aside;
     }
   }
   EXPECT_GT(tables, 5);
@@ -148,11 +157,14 @@ TEST(DiscsInSight, AreThoseThatFlightsMeet) {
   EXPECT_LT(unknown, (one + two) / 1000);
   // Beside a disc that is passed may lie the one that the flight began on.
   EXPECT_LT(in_thin, (one + two) / 15);
-  std::printf("%ld tables: %ld flights see one disc, %ld two, %ld ask again; left are %ld, and %ld in thin cells\n", tables, one, two, several,
-              unknown, in_thin);
+  std::printf(
+      "%ld tables: %ld flights see one disc, %ld two, %ld ask again; left are %ld, and %ld in thin "
+      "cells\n",
+      tables, one, two, several, unknown, in_thin);
 }
 
-// Discs of one row are passed one after the other: none may name the disc that the flight began on, nor each other.
+// Discs of one row are passed one after the other: none may name the disc that the flight began on,
+// nor each other.
 TEST(DiscsInSight, OfARowLieAhead) {
   struct Case {
     double height, radius, slope, aside;
@@ -165,7 +177,8 @@ TEST(DiscsInSight, OfARowLieAhead) {
     start.state.wall = 0;
     const HitFinder finder(table);
     const geometry::PreparedCurve& curve = finder.curve(0);
-    start.state.u = curve.parameter(std::sqrt(c.radius * c.radius - c.aside * c.aside) * v + c.aside * Vector{v.y, -v.x});
+    start.state.u = curve.parameter(std::sqrt(c.radius * c.radius - c.aside * c.aside) * v +
+                                    c.aside * Vector{v.y, -v.x});
     start.state.position = geometry::point_at(table.walls[0].curve, start.state.u);
     start.state.velocity = v;
     start.particle.speed = std::sqrt(dot(v, v));
@@ -191,15 +204,18 @@ TEST(DiscsInSight, OfARowLieAhead) {
   }
 }
 
-// Few flights ask more than once, be the horizon finite or not. Discs too small for the margins have no table.
+// Few flights ask more than once, be the horizon finite or not. Discs too small for the margins
+// have no table.
 TEST(DiscsInSight, AreSeenAtOnce) {
   struct Case {
     double height, radius;
     int most;  ///< of 10 000 flights
   };
   Dice dice(18);
-  for (const Case c : {Case{std::sqrt(0.75), 0.45, 50}, Case{std::sqrt(0.75), 0.2, 300}, Case{1.0, 0.25, 200}, Case{1.0, 0.1, 1500}}) {
-    const Table table = lattice_of_discs({1, 0}, {c.height < 1.0 ? 0.5 : 0.0, c.height}, c.radius, {0, 0});
+  for (const Case c : {Case{std::sqrt(0.75), 0.45, 50}, Case{std::sqrt(0.75), 0.2, 300},
+                       Case{1.0, 0.25, 200}, Case{1.0, 0.1, 1500}}) {
+    const Table table =
+        lattice_of_discs({1, 0}, {c.height < 1.0 ? 0.5 : 0.0, c.height}, c.radius, {0, 0});
     const HitFinder finder(table);
     LaneTable t = lanes::make_lane_table(finder);
     const auto entries = lanes::discs_in_sight(t);
@@ -207,7 +223,11 @@ TEST(DiscsInSight, AreSeenAtOnce) {
     int more = 0;
     for (int i = 0; i < 10000; ++i) {
       const Vector v = dice.direction();
-      more += by_table(t, (1.0 / std::sqrt(dot(v, v))) * v, c.radius * dice.between(-1.0, 1.0)).asked > 1 ? 1 : 0;
+      more +=
+          by_table(t, (1.0 / std::sqrt(dot(v, v))) * v, c.radius * dice.between(-1.0, 1.0)).asked >
+                  1
+              ? 1
+              : 0;
     }
     EXPECT_LT(more, c.most) << c.radius;
   }

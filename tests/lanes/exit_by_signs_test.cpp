@@ -1,5 +1,5 @@
-// Where the sides of the joints tell the exit: all flights from one piece with the same joints on their right
-// leave by one piece.
+// Where the sides of the joints tell the exit: all flights from one piece with the same joints on
+// their right leave by one piece.
 #include "lanes/exit_by_signs.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ using tests::Shape;
 using tests::Vector;
 
 /// The piece where the scalar engine sees a flight from a wall end; -1 if it is not one.
-int exit_of(World& world, const Table& table, const LaneTable& t, int wall, double u, Vector velocity) {
+int exit_of(World& world, const Table& table, const LaneTable& t, int wall, double u,
+            Vector velocity) {
   world.clear();
   world.limit_hits(1);
   Particle particle;
@@ -60,8 +61,8 @@ TEST(ExitBySigns, IsOneForAllFlightsWithTheSameJointsOnTheRight) {
       const double u = geometry::end_parameter(curve) * dice.between(0.001, 0.999);
       const Vector velocity = dice.direction();
       if (dot(velocity, geometry::normal_at(curve, u)) < 1e-3) continue;
-      const int entry = lanes::entry_of(t, lanes::piece_at(t, wall, u), geometry::point_at(curve, u),
-                                        velocity, 0x1p-36 * t.size);
+      const int entry = lanes::entry_of(t, lanes::piece_at(t, wall, u),
+                                        geometry::point_at(curve, u), velocity, 0x1p-36 * t.size);
       const int exit = exit_of(world, table, t, wall, u, velocity);
       if (entry < 0 || exit < 0) continue;
       const auto [first, is_new] = exits.insert({entry, exit});
@@ -84,19 +85,21 @@ TEST(ExitBySigns, IsNotAskedForWhereAnArcBulgesIntoTheDomain) {
 
 // A spike that reaches into the cap of an arc is met by flights that leave and reach that arc, too.
 TEST(ExitBySigns, IsNotAskedForWhereAJointLiesInACap) {
-  // Three quarters of the unit circle, its opening to the right; from its ends two walls to a tip far inside
-  // the disc.
+  // Three quarters of the unit circle, its opening to the right; from its ends two walls to a tip
+  // far inside the disc.
   const double s = std::sqrt(0.5);
   for (const double tip : {-0.5, 2.0}) {
-    const Table table = tests::loop({tests::CircularArc{{s, s}, {s, -s}, -s, true},
-                                     tests::Segment{{s, -s}, {tip, 0}}, tests::Segment{{tip, 0}, {s, s}}});
+    const Table table =
+        tests::loop({tests::CircularArc{{s, s}, {s, -s}, -s, true},
+                     tests::Segment{{s, -s}, {tip, 0}}, tests::Segment{{tip, 0}, {s, s}}});
     const LaneTable t = lanes::make_lane_table(HitFinder(table));
     EXPECT_FALSE(t.convex);
     EXPECT_EQ(t.by_signs, tip > s);
   }
 }
 
-// A start whose position is not the one of its parameter is flown from the parameter: its exit tells nothing of the position's line.
+// A start whose position is not the one of its parameter is flown from the parameter: its exit
+// tells nothing of the position's line.
 TEST(ExitBySigns, IsNotLearntFromAStartBesideItsPlace) {
   const Table table = tests::mushroom(1.0, 0.3, 0.7);
   Dice dice(5);
@@ -115,13 +118,13 @@ TEST(ExitBySigns, IsNotLearntFromAStartBesideItsPlace) {
   FreeLanes lanes(table, {starts[0].particle}, widest_instruction_set());
   lanes.limit_hits(40);
   lanes.run_until(1e300, tests::one_by_one(starts), [&](const LaneEnd& end) {
-        World world(table);
-        world.limit_hits(40);
-        world.add(starts[end.tag].particle, starts[end.tag].state);
-        Observer nobody;
-        world.run_until(1e300, nobody);
-        EXPECT_EQ(world.state(0).position, end.state.position) << end.tag;
-      });
+    World world(table);
+    world.limit_hits(40);
+    world.add(starts[end.tag].particle, starts[end.tag].state);
+    Observer nobody;
+    world.run_until(1e300, nobody);
+    EXPECT_EQ(world.state(0).position, end.state.position) << end.tag;
+  });
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Lanes round a b + c once, like the C library's fma, on every instruction set; and no orbit tells who did it.
+// Lanes round a b + c once, like the C library's fma, on every instruction set; and no orbit tells
+// who did it.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -32,7 +33,9 @@ void expect_fused(tests::FuseAll fuse_all, const char* what) {
   std::mt19937_64 engine(7);
   const auto number = [&](int range) {
     const auto exponent = static_cast<int>(engine() % static_cast<unsigned>(2 * range + 1)) - range;
-    return std::ldexp((static_cast<double>(engine() >> 11) + 0.5) * ((engine() & 1) != 0 ? 0x1p-53 : -0x1p-53), exponent);
+    return std::ldexp(
+        (static_cast<double>(engine() >> 11) + 0.5) * ((engine() & 1) != 0 ? 0x1p-53 : -0x1p-53),
+        exponent);
   };
   for (int k = 0; k < 20'000; ++k) {
     double a[count], b[count], c[count], sums[count];
@@ -42,7 +45,9 @@ void expect_fused(tests::FuseAll fuse_all, const char* what) {
       c[i] = i % 2 == 0 ? -a[i] * b[i] : number(i == 7 ? 1000 : 60);  // cancelling, or any
     }
     fuse_all(a, b, c, sums, count);
-    for (int i = 0; i < count; ++i) ASSERT_EQ(bits(sums[i]), bits(std::fma(a[i], b[i], c[i]))) << what << " " << a[i] << " " << b[i] << " " << c[i];
+    for (int i = 0; i < count; ++i)
+      ASSERT_EQ(bits(sums[i]), bits(std::fma(a[i], b[i], c[i])))
+          << what << " " << a[i] << " " << b[i] << " " << c[i];
   }
 }
 
@@ -76,7 +81,8 @@ std::vector<std::uint64_t> ends(const Table& table, double omega, bool in_lanes)
   if (in_lanes) {
     FreeLanes lanes(table, {starts[0].particle}, InstructionSet::baseline);
     lanes.limit_hits(100);
-    lanes.run_until(1e300, tests::one_by_one(starts), [&](const LaneEnd& end) { keep(end.tag, end.state); });
+    lanes.run_until(1e300, tests::one_by_one(starts),
+                    [&](const LaneEnd& end) { keep(end.tag, end.state); });
     return found;
   }
   World world(table);
@@ -93,7 +99,8 @@ std::vector<std::uint64_t> ends(const Table& table, double omega, bool in_lanes)
 
 TEST(FusedInLanes, AreTheSameOrbitsWithoutTheInstruction) {
   const Table ellipse = tests::loop({geometry::Ellipse{{0, 0}, {1, 0}, 0.75, true}});
-  for (const Table& table : {tests::stadium(), tests::disc(1.3), tests::mushroom(1.0, 0.5, 1.0), tests::with_disc(tests::square(), {0.8, 0.8}, 0.1), ellipse})
+  for (const Table& table : {tests::stadium(), tests::disc(1.3), tests::mushroom(1.0, 0.5, 1.0),
+                             tests::with_disc(tests::square(), {0.8, 0.8}, 0.1), ellipse})
     for (const double omega : {0.0, 0.4}) {
       const auto expected = ends(table, omega, false);
       const Processor without(false);

@@ -1,4 +1,5 @@
-// Lanes against the scalar engine: every orbit, bit for bit, on every instruction set of this machine.
+// Lanes against the scalar engine: every orbit, bit for bit, on every instruction set of this
+// machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +33,8 @@ struct Flown {
 };
 
 /// A start on a wall, or in the domain.
-LaneStart random_start(const Table& table, const World& world, Dice& dice, double size, double speed, double omega = 0.0) {
+LaneStart random_start(const Table& table, const World& world, Dice& dice, double size,
+                       double speed, double omega = 0.0) {
   LaneStart start;
   start.particle.speed = speed;
   start.particle.omega = omega;
@@ -71,7 +73,8 @@ class Listener : public Observer {
   std::vector<double>* hit_times = nullptr;
 };
 
-Flown by_world(World& world, const LaneStart& start, const Case& all, std::vector<double>* hit_times = nullptr) {
+Flown by_world(World& world, const LaneStart& start, const Case& all,
+               std::vector<double>* hit_times = nullptr) {
   Listener listener;
   listener.hit_times = hit_times;
   world.sample_at(all.times);
@@ -79,26 +82,38 @@ Flown by_world(World& world, const LaneStart& start, const Case& all, std::vecto
   world.limit_hits(all.limit);
   world.add(start.particle, start.state, start.hits);
   world.run_until(all.t_end, listener);
-  return {{start.tag, world.fate(0), world.finished(0) ? listener.time : world.state(0).time, world.state(0),
-           world.hole(0), world.hits(0), world.last_wall(0), {}},
+  return {{start.tag,
+           world.fate(0),
+           world.finished(0) ? listener.time : world.state(0).time,
+           world.state(0),
+           world.hole(0),
+           world.hits(0),
+           world.last_wall(0),
+           {}},
           listener.reports};
 }
 
-/// Report times: any, those of hits, and the end of the run, which may be that of a hit, too. Some start later than others.
+/// Report times: any, those of hits, and the end of the run, which may be that of a hit, too. Some
+/// start later than others.
 void add_times(Case& all, const Table& table, Dice& dice) {
   World world(table);
   std::vector<double> hits;
   for (int i = 0; i < 5; ++i) by_world(world, all.starts[static_cast<std::size_t>(i)], all, &hits);
   if (hits.empty()) return;
-  if (dice.coin()) all.t_end = hits[static_cast<std::size_t>(dice.whole(0, std::min(4, static_cast<int>(hits.size()) - 1)))];
+  if (dice.coin())
+    all.t_end = hits[static_cast<std::size_t>(
+        dice.whole(0, std::min(4, static_cast<int>(hits.size()) - 1)))];
   const double last = std::min(*std::max_element(hits.begin(), hits.end()), all.t_end);
   for (int n = dice.whole(1, 40); n > 0; --n)
-    all.times.push_back(dice.coin() ? hits[static_cast<std::size_t>(dice.whole(0, static_cast<int>(hits.size()) - 1))]
-                                    : 1.2 * last * dice.between(0.0, 1.0));
+    all.times.push_back(
+        dice.coin()
+            ? hits[static_cast<std::size_t>(dice.whole(0, static_cast<int>(hits.size()) - 1))]
+            : 1.2 * last * dice.between(0.0, 1.0));
   if (dice.coin()) all.times.push_back(0.0);
   if (dice.coin() && all.t_end < 1e300) all.times.push_back(all.t_end);
   if (dice.coin())
-    for (std::size_t i = 0; i < all.starts.size(); i += 7) all.starts[i].state.time = Time(last * dice.between(0.0, 0.5));
+    for (std::size_t i = 0; i < all.starts.size(); i += 7)
+      all.starts[i].state.time = Time(last * dice.between(0.0, 0.5));
   std::sort(all.times.begin(), all.times.end());
   all.times.erase(std::unique(all.times.begin(), all.times.end()), all.times.end());
 }
@@ -122,8 +137,10 @@ void expect_same(const LaneEnd& a, const LaneEnd& b) {
 void expect_same(const std::vector<State>& a, const std::vector<State>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) {
-    const bool same = bits(a[k].time.high) == bits(b[k].time.high) && bits(a[k].position.x) == bits(b[k].position.x) &&
-                      bits(a[k].position.y) == bits(b[k].position.y) && bits(a[k].velocity.x) == bits(b[k].velocity.x) &&
+    const bool same = bits(a[k].time.high) == bits(b[k].time.high) &&
+                      bits(a[k].position.x) == bits(b[k].position.x) &&
+                      bits(a[k].position.y) == bits(b[k].position.y) &&
+                      bits(a[k].velocity.x) == bits(b[k].velocity.x) &&
                       bits(a[k].velocity.y) == bits(b[k].velocity.y) && a[k].cell == b[k].cell;
     ASSERT_TRUE(same) << "report " << k << " at " << b[k].time.high;
   }
@@ -158,7 +175,8 @@ void compare(const Table& table, Case& all, Totals& totals, const char* what) {
         [&](const LaneEnd& end) {
           ++ended;
           ++totals.fates[end.fate];
-          SCOPED_TRACE(std::string(what) + " " + name_of(set) + " start " + std::to_string(end.tag));
+          SCOPED_TRACE(std::string(what) + " " + name_of(set) + " start " +
+                       std::to_string(end.tag));
           if (testing::Test::HasFailure()) return;
           expect_same(end, expected[end.tag].end);
           expect_same(reports[end.tag], expected[end.tag].reports);
@@ -181,7 +199,8 @@ void add_holes(Table& table, Dice& dice) {
       hole.name = "hole";
       hole.wall = static_cast<int>(i);
       hole.from = dice.whole(0, 3) == 0 ? from : from + (end - from) * dice.between(0.05, 0.5);
-      hole.to = dice.whole(0, 3) == 0 ? end : hole.from + (end - hole.from) * dice.between(0.02, 0.2);
+      hole.to =
+          dice.whole(0, 3) == 0 ? end : hole.from + (end - hole.from) * dice.between(0.02, 0.2);
       table.walls[i].holes.push_back(static_cast<int>(table.holes.size()));
       table.holes.push_back(hole);
       from = hole.to;
@@ -192,7 +211,8 @@ void add_holes(Table& table, Dice& dice) {
 
 class Lanes : public testing::TestWithParam<Shape> {};
 
-/// Random tables of the shape and trajectories there: how they ended, and who decided. `turn`: the sign of omega.
+/// Random tables of the shape and trajectories there: how they ended, and who decided. `turn`: the
+/// sign of omega.
 Totals compare_on_tables(Shape shape, int turn, long tables) {
   Dice dice(17 + static_cast<std::uint64_t>(shape) + static_cast<std::uint64_t>(1000 * (turn + 1)));
   Totals totals;
@@ -206,7 +226,8 @@ Totals compare_on_tables(Shape shape, int turn, long tables) {
     const double speed = dice.coin() ? 1.0 : dice.spread(1e-3, 1e3);
     const double omega = turn * dice.spread(0.01, 10.0) * speed / size;
     if (dice.coin()) all.t_end = dice.spread(1.0, 1000.0) * size / speed;
-    for (int i = 0; i < 150; ++i) all.starts.push_back(random_start(table, world, dice, size, speed, omega));
+    for (int i = 0; i < 150; ++i)
+      all.starts.push_back(random_start(table, world, dice, size, speed, omega));
     if (dice.coin()) add_times(all, table, dice);
     EXPECT_TRUE(FreeLanes::suits(table, {all.starts[0].particle}));
     compare(table, all, totals, std::to_string(k).c_str());
@@ -232,35 +253,43 @@ TEST_P(Lanes, FlyLarmorCirclesBothWays) {
     // Who meets no wall is told so by the scalar engine.
     const int pinned = totals.fates[Fate::pinned];
     EXPECT_GT(pinned, 0);
-    // Flat arcs and fields that bend a flight within a hundredth of their radius are of very different lengths.
-    // An arc that a circle may leave elsewhere through its ellipse is left, too.
-    const double share = GetParam() == Shape::elliptic_arcs ? 0.4 : GetParam() == Shape::arcs ? 0.05 : 0.01;
-    EXPECT_LT(static_cast<double>(totals.scalar) - pinned, share * static_cast<double>(totals.hits));
+    // Flat arcs and fields that bend a flight within a hundredth of their radius are of very
+    // different lengths. An arc that a circle may leave elsewhere through its ellipse is left, too.
+    const double share = GetParam() == Shape::elliptic_arcs ? 0.4
+                         : GetParam() == Shape::arcs        ? 0.05
+                                                            : 0.01;
+    EXPECT_LT(static_cast<double>(totals.scalar) - pinned,
+              share * static_cast<double>(totals.hits));
   }
 }
 
 std::string name_of_shape(const testing::TestParamInfo<Shape>& tested) {
-  constexpr const char* names[] = {"polygon", "arcs", "stadium", "mushroom", "discs", "annulus", "ellipse", "elliptic_arcs"};
+  constexpr const char* names[] = {"polygon", "arcs",    "stadium", "mushroom",
+                                   "discs",   "annulus", "ellipse", "elliptic_arcs"};
   return names[static_cast<int>(tested.param)];
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, Lanes,
-                         testing::Values(Shape::polygon, Shape::arcs, Shape::stadium, Shape::mushroom, Shape::discs,
-                                         Shape::annulus, Shape::ellipse, Shape::elliptic_arcs),
+                         testing::Values(Shape::polygon, Shape::arcs, Shape::stadium,
+                                         Shape::mushroom, Shape::discs, Shape::annulus,
+                                         Shape::ellipse, Shape::elliptic_arcs),
                          name_of_shape);
 
-// Arcs of exactly one ellipse are one curve to them; other arcs of nearly one are for the scalar engine.
+// Arcs of exactly one ellipse are one curve to them; other arcs of nearly one are for the scalar
+// engine.
 TEST(LaneRuns, FlyAmongArcsOfOneEllipse) {
   for (const bool exactly : {true, false}) {
     Dice dice(exactly ? 23 : 24);
     Totals totals;
     for (long k = 0; k < tests::cases(exactly ? 60 : 30, 6000) && !HasFailure(); ++k) {
-      const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), thinnest = exactly || dice.coin() ? 0.1 : 1e-3;
+      const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6),
+                   thinnest = exactly || dice.coin() ? 0.1 : 1e-3;
       Table table = tests::cut_ellipse(size, dice.coin(), exactly, thinnest, dice).cut;
       if (dice.coin()) add_holes(table, dice);
       const World world(table);
       Case all;
       const double omega = k % 8 == 0 ? 0.0 : dice.sign() * dice.spread(0.02, 5.0) / size;
-      for (int i = 0; i < 50; ++i) all.starts.push_back(random_start(table, world, dice, size, 1.0, omega));
+      for (int i = 0; i < 50; ++i)
+        all.starts.push_back(random_start(table, world, dice, size, 1.0, omega));
       compare(table, all, totals, std::to_string(k).c_str());
     }
     EXPECT_GT(totals.hits, 50'000u);
@@ -287,7 +316,8 @@ TEST(LaneRuns, LeaveTheOpenPlane) {
     LaneStart start;
     const tests::Vector v = dice.direction();
     const double distance = dice.spread(10.0, 1e12);
-    start.state.position = tests::Vector{0, 2.2} + (1.0 + 1e-9 * dice.between(-1, 1)) * left(v) - distance * v;
+    start.state.position =
+        tests::Vector{0, 2.2} + (1.0 + 1e-9 * dice.between(-1, 1)) * left(v) - distance * v;
     start.state.velocity = v;
     start.particle.speed = std::sqrt(dot(v, v));
     far.starts.push_back(start);
@@ -305,27 +335,34 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
     // Also of discs that nearly touch, in rows far apart.
     const bool thin = k % 6 == 0;
     for (int i = k % 3 == 0 ? 1 : dice.whole(1, 3); i > 0; --i)
-      centres.push_back(thin ? tests::Vector{} : tests::Vector{size * (0.22 * i - 0.44), size * dice.between(-0.1, 0.1)});
-    const double radius = thin         ? 0.4999 - dice.spread(1e-6, 0.3)
-                          : k % 3 == 0 ? dice.between(0.05, 0.3)
+      centres.push_back(
+          thin ? tests::Vector{}
+               : tests::Vector{size * (0.22 * i - 0.44), size * dice.between(-0.1, 0.1)});
+    const double radius = thin          ? 0.4999 - dice.spread(1e-6, 0.3)
+                          : k % 3 == 0  ? dice.between(0.05, 0.3)
                           : dice.coin() ? dice.between(0.02, 0.1)
                                         : dice.spread(0.004, 0.1);
     Table table;
-    for (const tests::Vector& c : centres) tests::add_loop(table, {geometry::Circle{c, radius * size, false}});
+    for (const tests::Vector& c : centres)
+      tests::add_loop(table, {geometry::Circle{c, radius * size, false}});
     table.extent = Extent::lattice;
     // One disc among rectangles, some of them turned, not in their middle; or hexagons.
     const bool rectangles = k % 3 == 0;
     const tests::Vector first{size, dice.coin() ? 0.0 : (rectangles ? 0.75 : 0.1) * size};
-    const double stretch = first.y != 0.0 ? dice.whole(1, 2) : thin ? dice.spread(1.2, 20.0) : dice.between(0.8, 1.6);  // at right angles to the last digit
-    const tests::Vector second =
-        rectangles ? stretch * tests::Vector{-first.y, first.x} : size * tests::Vector{std::cos(angle), std::sin(angle)};
+    const double stretch = first.y != 0.0 ? dice.whole(1, 2)
+                           : thin         ? dice.spread(1.2, 20.0)
+                                  : dice.between(0.8, 1.6);  // at right angles to the last digit
+    const tests::Vector second = rectangles
+                                     ? stretch * tests::Vector{-first.y, first.x}
+                                     : size * tests::Vector{std::cos(angle), std::sin(angle)};
     table.lattice = geometry::make_lattice(first, second, {0, 0});
     add_holes(table, dice);
     const World world(table);
     Case all;
     all.limit = static_cast<std::uint64_t>(dice.whole(1, rectangles ? 1000 : 100));
     if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size;
-    for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, 1.0));
+    for (int i = 0; i < 100; ++i)
+      all.starts.push_back(random_start(table, world, dice, 3.0 * size, 1.0));
     if (!FreeLanes::suits(table, {all.starts[0].particle})) continue;
     if (dice.coin()) add_times(all, table, dice);
     const Totals before = totals;
@@ -340,7 +377,8 @@ TEST(LaneRuns, CrossTheCellsOfLattices) {
   // Among small discs flights often cross more cells than lanes follow.
   EXPECT_LT(static_cast<double>(totals.scalar), 0.15 * static_cast<double>(totals.hits));
   EXPECT_GT(in_rectangles.hits, 10000u);
-  EXPECT_LT(static_cast<double>(in_rectangles.scalar), 0.05 * static_cast<double>(in_rectangles.hits));
+  EXPECT_LT(static_cast<double>(in_rectangles.scalar),
+            0.05 * static_cast<double>(in_rectangles.hits));
 }
 
 // Larmor circles among the discs of all cells that they may come to.
@@ -349,20 +387,29 @@ TEST(LaneRuns, TurnAmongTheDiscsOfLattices) {
   Totals totals;
   int tables = 0;
   for (long k = 0; k < tests::cases(40, 4000) && !HasFailure(); ++k) {
-    const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), angle = dice.between(0.9, 2.2), speed = dice.coin() ? 1.0 : dice.spread(1e-3, 1e3);
+    const double size = dice.coin() ? 1.0 : dice.spread(1e-6, 1e6), angle = dice.between(0.9, 2.2),
+                 speed = dice.coin() ? 1.0 : dice.spread(1e-3, 1e3);
     Table table;
     for (int i = dice.whole(1, 2); i > 0; --i)
-      tests::add_loop(table, {geometry::Circle{{size * (0.3 * i - 0.45), size * dice.between(-0.1, 0.1)}, size * dice.between(0.02, 0.14), false}});
+      tests::add_loop(table,
+                      {geometry::Circle{{size * (0.3 * i - 0.45), size * dice.between(-0.1, 0.1)},
+                                        size * dice.between(0.02, 0.14),
+                                        false}});
     table.extent = Extent::lattice;
-    table.lattice = geometry::make_lattice({size, 0.0}, size * dice.between(1.0, 1.5) * tests::Vector{std::cos(angle), std::sin(angle)}, {0, 0});
+    table.lattice = geometry::make_lattice(
+        {size, 0.0},
+        size * dice.between(1.0, 1.5) * tests::Vector{std::cos(angle), std::sin(angle)}, {0, 0});
     if (dice.coin()) add_holes(table, dice);
     const World world(table);
     Case all;
     all.limit = static_cast<std::uint64_t>(dice.whole(1, 300));
     if (dice.coin()) all.t_end = dice.spread(1.0, 300.0) * size / speed;
     const double radius = size * dice.spread(0.05, 2.0);
-    for (int i = 0; i < 100; ++i) all.starts.push_back(random_start(table, world, dice, 3.0 * size, speed, dice.sign() * speed / radius));
-    for (LaneStart& start : all.starts) start.particle.omega = std::copysign(start.particle.omega, all.starts[0].particle.omega);
+    for (int i = 0; i < 100; ++i)
+      all.starts.push_back(
+          random_start(table, world, dice, 3.0 * size, speed, dice.sign() * speed / radius));
+    for (LaneStart& start : all.starts)
+      start.particle.omega = std::copysign(start.particle.omega, all.starts[0].particle.omega);
     if (!FreeLanes::suits(table, {all.starts[0].particle})) continue;
     ++tables;
     if (dice.coin()) add_times(all, table, dice);
@@ -371,22 +418,26 @@ TEST(LaneRuns, TurnAmongTheDiscsOfLattices) {
   EXPECT_GT(tables, 10);
   EXPECT_GT(totals.hits, 50000u);
   EXPECT_GT(totals.reports, 1000u);
-  for (const Fate fate : {Fate::escaped, Fate::survived, Fate::capped, Fate::pinned}) EXPECT_GT(totals.fates[fate], 100) << name_of(fate);
-  EXPECT_LT(static_cast<double>(totals.scalar) - totals.fates[Fate::pinned], 0.01 * static_cast<double>(totals.hits));
+  for (const Fate fate : {Fate::escaped, Fate::survived, Fate::capped, Fate::pinned})
+    EXPECT_GT(totals.fates[fate], 100) << name_of(fate);
+  EXPECT_LT(static_cast<double>(totals.scalar) - totals.fates[Fate::pinned],
+            0.01 * static_cast<double>(totals.hits));
 }
 
 // A hole that is all of a closed wall has no end that a start could touch.
 TEST(LaneRuns, LeaveThroughAWallThatIsAllHole) {
   Dice dice(9);
   for (const bool ellipse : {false, true}) {
-    Table table = ellipse ? tests::loop({geometry::Ellipse{{0, 0}, {1, 0}, 0.7, true}}) : tests::disc(1.0);
+    Table table =
+        ellipse ? tests::loop({geometry::Ellipse{{0, 0}, {1, 0}, 0.7, true}}) : tests::disc(1.0);
     const double end = geometry::end_parameter(table.walls[0].curve);
     table.holes.push_back({"hole", 0, 0.0, end});
     table.walls[0].holes = {0};
     Case all;
     for (int i = 0; i < 400; ++i) {
       LaneStart start;
-      start.state.velocity = tests::Vector{1.0, i % 4 == 0 ? 0.0 : dice.sign() * dice.spread(1e-18, 1e-3)};
+      start.state.velocity =
+          tests::Vector{1.0, i % 4 == 0 ? 0.0 : dice.sign() * dice.spread(1e-18, 1e-3)};
       start.particle.speed = std::sqrt(dot(start.state.velocity, start.state.velocity));
       start.particle.omega = i < 200 ? 0.0 : 0.3;
       if (i == 200) {

@@ -24,7 +24,8 @@ class LongRunsInLanes : public testing::TestWithParam<Tabled> {};
 
 TEST_P(LongRunsInLanes, LoseNoParticle) {
   constexpr std::uint64_t hits_each = 10'000;
-  const auto trajectories = static_cast<std::uint64_t>(tests::cases(100, 100'000));  // 10^6 hits, or 10^9
+  const auto trajectories =
+      static_cast<std::uint64_t>(tests::cases(100, 100'000));  // 10^6 hits, or 10^9
   const std::string text = std::string(GetParam().text) +
                            "[particles]\nspeed = 1\n[initial]\nkind = \"boundary\"\n"
                            "[run]\nt_max = 1e9\ncollisions = 10000\ntrajectories = 1\n";
@@ -50,24 +51,30 @@ TEST_P(LongRunsInLanes, LoseNoParticle) {
         singular += end.fate == Fate::singular;
         pinned += end.fate == Fate::pinned;
         EXPECT_NE(end.fate, Fate::lost) << end.report;
-        if (end.fate == Fate::capped) { EXPECT_EQ(end.hits, hits_each); }
+        if (end.fate == Fate::capped) {
+          EXPECT_EQ(end.hits, hits_each);
+        }
       });
   EXPECT_EQ(capped + singular + pinned, trajectories);
   EXPECT_GT(capped, trajectories / 2);
   const LaneEffort& effort = lanes.effort();
   EXPECT_LT(static_cast<double>(effort.scalar), 1e-3 * static_cast<double>(effort.hits));
   RecordProperty("hits", std::to_string(effort.hits));
-  std::printf("%s: %llu hits, %llu by the scalar engine, %llu singular, lost none\n", GetParam().name,
-              static_cast<unsigned long long>(effort.hits), static_cast<unsigned long long>(effort.scalar),
+  std::printf("%s: %llu hits, %llu by the scalar engine, %llu singular, lost none\n",
+              GetParam().name, static_cast<unsigned long long>(effort.hits),
+              static_cast<unsigned long long>(effort.scalar),
               static_cast<unsigned long long>(singular));
 }
 
-// Cells of hits are counted in words of 32 bits, which are emptied after many sweeps: more than the halves of this run have, in the soak.
+// Cells of hits are counted in words of 32 bits, which are emptied after many sweeps: more than the
+// halves of this run have, in the soak.
 TEST(LongRunsOnLattices, EndInTheSameCellAtOnceAndByHalves) {
   const System system = read_system(
-      "[table]\nshape = \"sinai\"\nside = 1\nradius = \"1/4\"\ntorus = true\n[particles]\nspeed = 1\n[initial]\nkind = \"boundary\"\n"
-      "[run]\nt_max = 1\ntrajectories = 1\n",
-      "torus").system;
+                            "[table]\nshape = \"sinai\"\nside = 1\nradius = \"1/4\"\ntorus = "
+                            "true\n[particles]\nspeed = 1\n[initial]\nkind = \"boundary\"\n"
+                            "[run]\nt_max = 1\ntrajectories = 1\n",
+                            "torus")
+                            .system;
   const auto hits = static_cast<std::uint64_t>(tests::cases(2000, 10'000'000));
   World world(*system.table);
   const Sampler sampler(system);
@@ -89,7 +96,9 @@ TEST(LongRunsOnLattices, EndInTheSameCellAtOnceAndByHalves) {
           start.tag = given++;
           return true;
         },
-        [&](const LaneEnd& end) { starts[end.tag].state = end.state, starts[end.tag].hits = end.hits; });
+        [&](const LaneEnd& end) {
+          starts[end.tag].state = end.state, starts[end.tag].hits = end.hits;
+        });
   };
   fly(at_once, hits);
   fly(by_halves, hits / 2);
@@ -111,15 +120,22 @@ INSTANTIATE_TEST_SUITE_P(
         Tabled{"circle", "[table]\nshape = \"circle\"\nradius = 1\n"},
         Tabled{"stadium", "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n"},
         Tabled{"sinai", "[table]\nshape = \"sinai\"\nside = 1\nradius = \"1/4\"\ntorus = false\n"},
-        Tabled{"mushroom", "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n"},
+        Tabled{"mushroom",
+               "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n"},
         Tabled{"torus", "[table]\nshape = \"sinai\"\nside = 1\nradius = \"1/4\"\ntorus = true\n"},
-        Tabled{"lorentz", "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 1\nradius = 0.45\n"},
+        Tabled{
+            "lorentz",
+            "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 1\nradius = 0.45\n"},
         Tabled{"ellipse", "[table]\nshape = \"ellipse\"\na = 2\nb = 1\n"},
-        Tabled{"magnetic_square", "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n"},
+        Tabled{"magnetic_square",
+               "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = "
+               "0.5075\n"},
         Tabled{"magnetic_stadium",
-               "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[field]\nlarmor_radius = 2\n"},
-        Tabled{"magnetic_mushroom", "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n"
-                                    "[field]\nlarmor_radius = 2\n"}),
+               "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[field]\nlarmor_radius "
+               "= 2\n"},
+        Tabled{"magnetic_mushroom",
+               "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n"
+               "[field]\nlarmor_radius = 2\n"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace

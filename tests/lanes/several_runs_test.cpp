@@ -11,7 +11,8 @@
 namespace carom {
 namespace {
 
-// A particle that meets no wall is the scalar engine's: it does not keep the report times of a run before.
+// A particle that meets no wall is the scalar engine's: it does not keep the report times of a run
+// before.
 TEST(LaneRuns, ReportWhatIsAskedOfThisRun) {
   const Table table = tests::disc(1.0);
   LaneStart pinned;
@@ -23,7 +24,9 @@ TEST(LaneRuns, ReportWhatIsAskedOfThisRun) {
   for (const std::vector<double>& times : {std::vector<double>{1.0, 2.0, 9.0}, {}, {3.0}}) {
     lanes.sample_at(times, times.empty() ? FreeLanes::Sampled() : count);
     bool given = false;
-    lanes.run_until(5.0, [&](LaneStart& start) { return start = pinned, !std::exchange(given, true); }, [](const LaneEnd&) {});
+    lanes.run_until(
+        5.0, [&](LaneStart& start) { return start = pinned, !std::exchange(given, true); },
+        [](const LaneEnd&) {});
   }
   EXPECT_EQ(reports, 3);
 }
@@ -40,7 +43,8 @@ TEST(LaneRuns, StopWithinAFlight) {
   FreeLanes lanes(table, {corridor.particle}, widest_instruction_set());
   int asked = 0, ended = 0;
   lanes.run_until(
-      1e12, [&](LaneStart& start) { return start = corridor, true; }, [&](const LaneEnd&) { ++ended; }, [&] { return ++asked > 10; });
+      1e12, [&](LaneStart& start) { return start = corridor, true; },
+      [&](const LaneEnd&) { ++ended; }, [&] { return ++asked > 10; });
   EXPECT_EQ(asked, 11);
   EXPECT_EQ(ended, 0);
 }

@@ -1,4 +1,5 @@
-// Trajectories under forces, among walls and through holes: lanes against World, the same bits for every end.
+// Trajectories under forces, among walls and through holes: lanes against World, the same bits for
+// every end.
 #include "carom/lanes/soft_lanes.hpp"
 
 #include <gtest/gtest.h>
@@ -136,8 +137,8 @@ speed = 1
 };
 
 System system_of(const Case& c, double t_max, const char* initial = nullptr) {
-  const std::string text = std::string(c.text) + "[initial]\n" + (initial ? initial : c.initial) + "\n[run]\ntrajectories = 1\nt_max = " +
-                           std::to_string(t_max) + "\n";
+  const std::string text = std::string(c.text) + "[initial]\n" + (initial ? initial : c.initial) +
+                           "\n[run]\ntrajectories = 1\nt_max = " + std::to_string(t_max) + "\n";
   return read_system(text, c.name).system;
 }
 
@@ -164,8 +165,15 @@ End by_world(const System& system, const State& start, std::uint64_t limit) {
   world.add(system.particles[0], start);
   LastEnd last;
   world.run_until(system.run.t_max, last);
-  return {world.fate(0), world.hits(0),  world.last_wall(0), world.hole(0), world.finished(0) ? last.time : world.state(0).time,
-          world.state(0), world.report(0), world.step_counts(), world.energy_balance(0).kinetic};
+  return {world.fate(0),
+          world.hits(0),
+          world.last_wall(0),
+          world.hole(0),
+          world.finished(0) ? last.time : world.state(0).time,
+          world.state(0),
+          world.report(0),
+          world.step_counts(),
+          world.energy_balance(0).kinetic};
 }
 
 void expect_same(const End& a, const LaneEnd& b, const std::string& where) {
@@ -177,10 +185,18 @@ void expect_same(const End& a, const LaneEnd& b, const std::string& where) {
   EXPECT_EQ(a.state.wall, b.state.wall) << where;
   EXPECT_EQ(a.state.cell, b.state.cell) << where;
   EXPECT_EQ(a.state.time, b.state.time) << where;
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.state.position.x), std::bit_cast<std::uint64_t>(b.state.position.x)) << where;
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.state.position.y), std::bit_cast<std::uint64_t>(b.state.position.y)) << where;
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.state.velocity.x), std::bit_cast<std::uint64_t>(b.state.velocity.x)) << where;
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.state.velocity.y), std::bit_cast<std::uint64_t>(b.state.velocity.y)) << where;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.state.position.x),
+            std::bit_cast<std::uint64_t>(b.state.position.x))
+      << where;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.state.position.y),
+            std::bit_cast<std::uint64_t>(b.state.position.y))
+      << where;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.state.velocity.x),
+            std::bit_cast<std::uint64_t>(b.state.velocity.x))
+      << where;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a.state.velocity.y),
+            std::bit_cast<std::uint64_t>(b.state.velocity.y))
+      << where;
   EXPECT_EQ(a.report, b.report) << where;
   EXPECT_EQ(a.steps.steps, b.steps.steps) << where;
   EXPECT_EQ(a.steps.force_evaluations, b.steps.force_evaluations) << where;
@@ -188,7 +204,8 @@ void expect_same(const End& a, const LaneEnd& b, const std::string& where) {
 }
 
 /// Returns how many ended in each way.
-std::vector<int> compare(const System& system, std::uint64_t count, const std::string& name, std::uint64_t limit = UINT64_MAX) {
+std::vector<int> compare(const System& system, std::uint64_t count, const std::string& name,
+                         std::uint64_t limit = UINT64_MAX) {
   const World world(*system.table, system.dynamics);
   const Sampler sampler(system);
   std::vector<State> starts;
@@ -213,7 +230,8 @@ std::vector<int> compare(const System& system, std::uint64_t count, const std::s
           return true;
         },
         [&](const LaneEnd& end) {
-          expect_same(expected[end.tag], end, name + ' ' + name_of(set) + " trajectory " + std::to_string(end.tag));
+          expect_same(expected[end.tag], end,
+                      name + ' ' + name_of(set) + " trajectory " + std::to_string(end.tag));
           ++ended;
         });
     EXPECT_EQ(ended, count);
@@ -242,7 +260,8 @@ TEST(SoftLanes, StartsOnWallsToo) {
 
 // Ends at a step's end, within the first step, and after a number of hits.
 TEST(SoftLanes, EndsWhereItShould) {
-  for (const double t_max : {0.01, 0.07, 0.14, 0.15}) compare(system_of(cases[0], t_max), 130, "early end");
+  for (const double t_max : {0.01, 0.07, 0.14, 0.15})
+    compare(system_of(cases[0], t_max), 130, "early end");
   const std::vector<int> fates = compare(system_of(cases[1], 40.0), 80, "capped", 5);
   EXPECT_GT(fates[static_cast<std::size_t>(Fate::capped)], 40);
   // More steps than anybody counts.

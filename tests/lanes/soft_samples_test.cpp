@@ -27,8 +27,9 @@ System system_of(const std::string& name, const Settings& settings = {}) {
 
 /// Above its saddles Hénon–Heiles lets some of the particles run away.
 System running_away() {
-  System system = system_of("henon-heiles",
-                            {{"particles.energy", "0.18"}, {"run.t_max", "40"}, {"run.trajectories", "40"}});
+  System system =
+      system_of("henon-heiles",
+                {{"particles.energy", "0.18"}, {"run.t_max", "40"}, {"run.trajectories", "40"}});
   system.initial.kind = InitialCondition::Kind::rectangle;
   system.initial.low = {-0.5, -0.5};
   system.initial.high = {0.5, 0.5};
@@ -103,8 +104,8 @@ TEST(SoftLanes, AreTheWorldsBits) {
 
 TEST(SoftLanes, KnowEverySplittingScheme) {
   for (const Scheme& scheme : schemes()) {
-    const System system =
-        system_of("antidot-magnetic", {{"integrator.scheme", "\"" + std::string(scheme.name) + "\""}});
+    const System system = system_of(
+        "antidot-magnetic", {{"integrator.scheme", "\"" + std::string(scheme.name) + "\""}});
     if (scheme.form == Scheme::Form::spreiter_walter)
       EXPECT_FALSE(SoftLanes::suits(*system.table, system.dynamics, system.particles));
     else
@@ -177,9 +178,7 @@ trajectories = 150
       .system;
 }
 
-TEST(SoftLanes, MeetWallsWithinSteps) {
-  compare(among_walls(true), 150, "discs among bumps");
-}
+TEST(SoftLanes, MeetWallsWithinSteps) { compare(among_walls(true), 150, "discs among bumps"); }
 
 TEST(SoftLanes, RefuseWhatTheyCannotDo) {
   for (const char* name : {"stadium", "coulomb-circle", "wigner"}) {
@@ -196,7 +195,8 @@ TEST(SoftLanes, TellWhoIsLost) {
   const World world(*system.table, system.dynamics);
   const Sampler sampler(system);
   std::vector<LaneStart> starts;
-  for (std::uint64_t k = 0; k < 30; ++k) starts.push_back({k, system.particles[0], sampler.draw(world, k, 0), 0});
+  for (std::uint64_t k = 0; k < 30; ++k)
+    starts.push_back({k, system.particles[0], sampler.draw(world, k, 0), 0});
   SoftLanes lanes(*system.table, system.dynamics, system.particles[0], widest_instruction_set());
   int lost = 0, ends = 0;
   lanes.run_until(40.0, tests::one_by_one(starts), [&](const LaneEnd& end) {
@@ -216,10 +216,12 @@ TEST(SoftLanes, TellWhoIsLost) {
 
 // Ensembles: one by one, in lanes of any kind, on any number of threads, in blocks of any size.
 TEST(SoftDiffusion, IsTheSameInEveryWay) {
-  for (const std::string name : {"soft-lorentz", "antidot-magnetic", "discs", "stadium with a hole"}) {
+  for (const std::string name :
+       {"soft-lorentz", "antidot-magnetic", "discs", "stadium with a hole"}) {
     const bool walls = name == "discs" || name == "stadium with a hole";
-    const System system = walls ? among_walls(name == "discs")
-                                : system_of(name, {{"run.t_max", "3"}, {"run.trajectories", "150"}});
+    const System system = walls
+                              ? among_walls(name == "discs")
+                              : system_of(name, {{"run.t_max", "3"}, {"run.trajectories", "150"}});
     DiffusionOptions options;
     options.lanes.reset();
     options.threads = 1;
@@ -263,8 +265,8 @@ TEST(SoftDiffusion, IsTheSameInEveryWay) {
 
 // Those who are lost run one by one, and count as there.
 TEST(SoftDiffusion, CountsTheLost) {
-  const System system =
-      system_of("henon-heiles", {{"particles.energy", "3"}, {"run.t_max", "20"}, {"run.trajectories", "40"}});
+  const System system = system_of(
+      "henon-heiles", {{"particles.energy", "3"}, {"run.t_max", "20"}, {"run.trajectories", "40"}});
   DiffusionOptions options;
   options.lanes.reset();
   const DiffusionResult expected = run_diffusion(system, options);

@@ -16,7 +16,8 @@ constexpr Real pi = std::numbers::pi_v<Real>;
 // Free motion for a time in the field, written with the exponential of the velocity's rotation.
 Phase<Real> fly(const Phase<Real>& p, Real omega, Real t) {
   if (omega == 0) return {p.x + t * p.vx, p.y + t * p.vy, p.vx, p.vy};
-  const Real s = std::sin(omega * t), half = std::sin(omega * t / 2), c = 2 * half * half;  // 1 - cos
+  const Real s = std::sin(omega * t), half = std::sin(omega * t / 2),
+             c = 2 * half * half;  // 1 - cos
   return {p.x + (s * p.vx + c * p.vy) / omega, p.y + (s * p.vy - c * p.vx) / omega,
           p.vx - c * p.vx + s * p.vy, p.vy - c * p.vy - s * p.vx};
 }
@@ -83,7 +84,8 @@ TEST(Disc, ConservesTheCanonicalAngularMomentum) {
     const Real first = canonical_angular_momentum(disc.phase(hit), omega);
     for (int k = 0; k < 100; ++k) {
       const Phase<Real> between = fly(disc.phase(hit), omega, (disc.next(hit).time - hit.time) / 3);
-      ASSERT_WITHIN(canonical_angular_momentum(between, omega), first, 1e-15L * (1 + std::abs(omega)));
+      ASSERT_WITHIN(canonical_angular_momentum(between, omega), first,
+                    1e-15L * (1 + std::abs(omega)));
       hit = disc.next(hit);
     }
   }
@@ -106,7 +108,8 @@ TEST(Disc, ClosesItsPolygonsAndStars) {
     const Real beta = pi / 2 - pi / static_cast<Real>(corners);  // theta advances by 2 pi / corners
     const DiscHit<Real> hit = disc.after({0.1L, beta, 0}, static_cast<std::uint64_t>(corners));
     EXPECT_WITHIN(hit.theta, 0.1L + 2 * pi, 1e-16L * 50);
-    EXPECT_WITHIN(hit.time, 2 * static_cast<Real>(corners) * std::sin(pi / static_cast<Real>(corners)),
+    EXPECT_WITHIN(hit.time,
+                  2 * static_cast<Real>(corners) * std::sin(pi / static_cast<Real>(corners)),
                   1e-16L * 50);
   }
   // Perpendicular starts with rho = R: quarter arcs about the corners of a square, four to a turn.
@@ -128,8 +131,8 @@ TEST(Disc, AWeakFieldIsAlmostNone) {
   }
 }
 
-// With cosine starts the mean flight is pi (A - A0)/L, A0 = pi (R - rho)^2 for rho < R. The mean over
-// sin(beta) is taken by midpoints, so this is the formula and no statistics.
+// With cosine starts the mean flight is pi (A - A0)/L, A0 = pi (R - rho)^2 for rho < R. The mean
+// over sin(beta) is taken by midpoints, so this is the formula and no statistics.
 TEST(Disc, HasTheMeanFlightOfSantalo) {
   for (const Real rho : {Real{0.1L}, Real{0.5L}, Real{0.9L}, Real{1.5L}, Real{20}}) {
     const Disc<Real> disc(1, 2, 2 / rho);
@@ -163,7 +166,8 @@ TEST(Disc, FindsTheFirstHitFromInside) {
     const Real tolerance = 1e-15L * (1 + std::abs(omega));
     ASSERT_WITHIN(arrived.x, left.x, tolerance);
     ASSERT_WITHIN(arrived.y, left.y, tolerance);
-    ASSERT_WITHIN(arrived.vx * left.vx + arrived.vy * left.vy, -std::cos(2 * hit->beta), 100 * tolerance);
+    ASSERT_WITHIN(arrived.vx * left.vx + arrived.vy * left.vy, -std::cos(2 * hit->beta),
+                  100 * tolerance);
     for (int k = 1; k < 20; ++k) {
       const Phase<Real> p = fly(start, omega, hit->time * static_cast<Real>(k) / 20);
       ASSERT_LT(std::hypot(p.x, p.y), 1);

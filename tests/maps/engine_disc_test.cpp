@@ -26,17 +26,20 @@ Difference compare(double omega, double radius, const State& start, std::uint64_
   EXPECT_EQ(hits.size(), count);
   const Real r = radius, w = omega;
   const maps::Disc<Real> disc(r, speed, w);
-  const maps::Phase<Real> phase{start.position.x, start.position.y, start.velocity.x, start.velocity.y};
+  const maps::Phase<Real> phase{start.position.x, start.position.y, start.velocity.x,
+                                start.velocity.y};
   const auto first = disc.first_hit(phase);
   const Real momentum = maps::canonical_angular_momentum(phase, w);
   Difference largest;
   for (std::size_t n = 0; n < hits.size(); ++n) {
     const HitEvent& hit = hits[n];
     const auto expected = disc.after(*first, n);
-    const Real theta = std::atan2(static_cast<Real>(hit.position.y), static_cast<Real>(hit.position.x));
+    const Real theta =
+        std::atan2(static_cast<Real>(hit.position.y), static_cast<Real>(hit.position.x));
     const Real time = static_cast<Real>(hit.time.high) + static_cast<Real>(hit.time.low);
     const maps::Phase<Real> after{hit.position.x, hit.position.y, hit.after.x, hit.after.y};
-    largest.angle = std::max(largest.angle, std::abs(std::remainder(theta - expected.theta, two_pi)));
+    largest.angle =
+        std::max(largest.angle, std::abs(std::remainder(theta - expected.theta, two_pi)));
     largest.time = std::max(largest.time, std::abs(time - expected.time));
     largest.momentum =
         std::max(largest.momentum, std::abs(maps::canonical_angular_momentum(after, w) - momentum));
@@ -51,8 +54,8 @@ struct DiscCase {
 };
 class DiscField : public ::testing::TestWithParam<DiscCase> {};
 
-// A rounding of 2^-53 a hit that always has the same sign makes the momentum drift like n 2^-53, and the
-// angle and the time like n^2 2^-53; a wrong decision would be of the order 1.
+// A rounding of 2^-53 a hit that always has the same sign makes the momentum drift like n 2^-53,
+// and the angle and the time like n^2 2^-53; a wrong decision would be of the order 1.
 TEST_P(DiscField, AgreesForAMillionHits) {
   const auto [radius, omega] = GetParam();
   State start;
@@ -62,16 +65,18 @@ TEST_P(DiscField, AgreesForAMillionHits) {
   EXPECT_LT(d.momentum, 0x1p-53L * many * radius);
   EXPECT_LT(d.angle, 0x1p-53L * many * many);
   EXPECT_LT(d.time, 0x1p-53L * many * many * radius);
-  std::printf("R %g, omega %g: angle %.2Lg, time %.2Lg, momentum %.2Lg\n", radius, omega, d.angle, d.time,
-              d.momentum);
+  std::printf("R %g, omega %g: angle %.2Lg, time %.2Lg, momentum %.2Lg\n", radius, omega, d.angle,
+              d.time, d.momentum);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fields, DiscField,
                          ::testing::Values(DiscCase{1, 0}, DiscCase{1.5, 0}, DiscCase{1, 1},
-                                           DiscCase{1.5, -1.2}, DiscCase{3, 0.01}, DiscCase{1, 1e-6}));
+                                           DiscCase{1.5, -1.2}, DiscCase{3, 0.01},
+                                           DiscCase{1, 1e-6}));
 
-// The speed of the shell and the one that flights are timed by agree beyond their last digits: else each hit would
-// lie off its wall by the difference, always to the same side, and the momentum would drift by 2^-53 a hit.
+// The speed of the shell and the one that flights are timed by agree beyond their last digits: else
+// each hit would lie off its wall by the difference, always to the same side, and the momentum
+// would drift by 2^-53 a hit.
 TEST(DiscOrbit, KeepsItsMomentumAtAnySpeed) {
   for (const double speed : {1.3, 0.9, 0.7})
     for (const double radius : {1.0, 0.77, 1.7}) {

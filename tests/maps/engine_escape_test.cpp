@@ -62,8 +62,8 @@ TEST_P(MagneticSquareEscape, HasTheRateOfTheMap) {
   hole.wall = "bottom";
   hole.center = ExactNumber("0.5", Place{});
   hole.width = ExactNumber("0.3", Place{});
-  system.table =
-      std::make_shared<Table>(witness::table("rectangle", {{"width", "1"}, {"height", "1"}}, {hole}));
+  system.table = std::make_shared<Table>(
+      witness::table("rectangle", {{"width", "1"}, {"height", "1"}}, {hole}));
   system.particles = {{1, 1, 1, turn / rho}};
   system.run.trajectories = asked != nullptr ? std::strtoull(asked, nullptr, 10) : 100000;
   system.run.t_max = asked_time != nullptr ? std::strtod(asked_time, nullptr) : 40.0;
@@ -86,7 +86,8 @@ TEST_P(MagneticSquareEscape, HasTheRateOfTheMap) {
   }
   const std::uint64_t n = system.run.trajectories;
   const ChiSquare time = compare(with_rest(engine.counts.gone_in, n), with_rest(counts.gone_in, n));
-  const ChiSquare hits = compare(with_rest(engine.counts.gone_in_hits, n), with_rest(counts.gone_in_hits, n));
+  const ChiSquare hits =
+      compare(with_rest(engine.counts.gone_in_hits, n), with_rest(counts.gone_in_hits, n));
   const ChiSquare pinned =
       compare({engine.counts.pinned, n - engine.counts.pinned}, {counts.pinned, n - counts.pinned});
   EXPECT_LT(time.deviate(), 3.09);
@@ -94,10 +95,12 @@ TEST_P(MagneticSquareEscape, HasTheRateOfTheMap) {
   EXPECT_LT(pinned.value, 10.8);
   EXPECT_GE(time.degrees, 20);
   std::printf(
-      "rho %g: chi^2 of times %.1f with %d degrees (deviate %.2f), of hits %.1f with %d (%.2f); pinned %llu, "
+      "rho %g: chi^2 of times %.1f with %d degrees (deviate %.2f), of hits %.1f with %d (%.2f); "
+      "pinned %llu, "
       "%llu; survivors %llu, %llu of %llu\n",
-      turn * rho, time.value, time.degrees, time.deviate(), hits.value, hits.degrees, hits.deviate(),
-      static_cast<unsigned long long>(engine.counts.pinned), static_cast<unsigned long long>(counts.pinned),
+      turn * rho, time.value, time.degrees, time.deviate(), hits.value, hits.degrees,
+      hits.deviate(), static_cast<unsigned long long>(engine.counts.pinned),
+      static_cast<unsigned long long>(counts.pinned),
       static_cast<unsigned long long>(engine.counts.survived),
       static_cast<unsigned long long>(counts.survived), static_cast<unsigned long long>(n));
 }

@@ -22,7 +22,8 @@ TEST(EngineRectangle, IsTheUnfoldedLineForAMillionHits) {
   State start;
   start.position = {0.3, 0.7};
   start.velocity = {0.6, 0.8};
-  for (const geometry::Vector velocity : {geometry::Vector{0.6, 0.8}, geometry::Vector{-0.28, 0.96}}) {
+  for (const geometry::Vector velocity :
+       {geometry::Vector{0.6, 0.8}, geometry::Vector{-0.28, 0.96}}) {
     start.velocity = velocity;
     const double speed = std::sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
     const auto hits = witness::orbit(table, {1, 1, speed, 0}, start, 1000000);
@@ -40,8 +41,8 @@ TEST(EngineRectangle, IsTheUnfoldedLineForAMillionHits) {
         continue;
       }
       time = std::max(time, std::abs(instant(hits[n].time) - e.time));
-      place = std::max(
-          {place, std::abs(hits[n].position.x - e.phase.x), std::abs(hits[n].position.y - e.phase.y)});
+      place = std::max({place, std::abs(hits[n].position.x - e.phase.x),
+                        std::abs(hits[n].position.y - e.phase.y)});
     }
     EXPECT_LT(time, 1e-8L);
     EXPECT_LT(place, 1e-8L);
@@ -64,7 +65,8 @@ TEST(EngineMagneticRectangle, KeepsToTheScallopsForAMillionHits) {
     for (const HitEvent& hit : hits) {
       particle = *map.next(particle);
       ASSERT_EQ(static_cast<int>(particle.side), hit.wall);
-      place = std::max({place, std::abs(hit.position.x - particle.x), std::abs(hit.position.y - particle.y)});
+      place = std::max(
+          {place, std::abs(hit.position.x - particle.x), std::abs(hit.position.y - particle.y)});
       time = std::max(time, std::abs(instant(hit.time) - particle.time));
     }
     EXPECT_EQ(hits.size(), 1000000u);
@@ -74,9 +76,9 @@ TEST(EngineMagneticRectangle, KeepsToTheScallopsForAMillionHits) {
   }
 }
 
-// Chaotic: hit by hit until rounding has grown. The map in long double is the truth for the engine and
-// for the map in double, which are both orbits with roundings of 2^-53: the engine must keep up with
-// the latter.
+// Chaotic: hit by hit until rounding has grown. The map in long double is the truth for the engine
+// and for the map in double, which are both orbits with roundings of 2^-53: the engine must keep up
+// with the latter.
 TEST(EngineMagneticRectangle, FollowsChaosUntilRoundingHasGrown) {
   const Table table = witness::table("rectangle", {{"width", "1"}, {"height", "1"}});
   std::mt19937_64 random(7);
@@ -91,7 +93,8 @@ TEST(EngineMagneticRectangle, FollowsChaosUntilRoundingHasGrown) {
     start.position = {uniform(), uniform()};
     const double angle = 2 * std::numbers::pi * uniform();
     start.velocity = {std::cos(angle), std::sin(angle)};
-    const double speed = std::sqrt(start.velocity.x * start.velocity.x + start.velocity.y * start.velocity.y);
+    const double speed =
+        std::sqrt(start.velocity.x * start.velocity.x + start.velocity.y * start.velocity.y);
     const double omega = turn / rho;
     const auto hits = witness::orbit(table, {1, 1, speed, omega}, start, most);
     ASSERT_EQ(hits.size(), most);
@@ -102,7 +105,8 @@ TEST(EngineMagneticRectangle, FollowsChaosUntilRoundingHasGrown) {
     const maps::MagneticRectangle<Real> fine(1, 1, exact_speed, omega);
     const maps::MagneticRectangle<double> coarse(1, 1, static_cast<double>(exact_speed), omega);
     maps::Gyration<Real> truth{start.position.x, start.position.y, exact_angle};
-    maps::Gyration<double> rounded{start.position.x, start.position.y, static_cast<double>(exact_angle)};
+    maps::Gyration<double> rounded{start.position.x, start.position.y,
+                                   static_cast<double>(exact_angle)};
     bool engine_follows = true, map_follows = true;
     for (std::size_t n = 0; n < most && (engine_follows || map_follows); ++n) {
       truth = *fine.next(truth);
@@ -110,8 +114,10 @@ TEST(EngineMagneticRectangle, FollowsChaosUntilRoundingHasGrown) {
       const HitEvent& hit = hits[n];
       const Real engine_error =
           std::max({std::abs(hit.position.x - truth.x), std::abs(hit.position.y - truth.y)});
-      const Real map_error = std::max({std::abs(rounded.x - truth.x), std::abs(rounded.y - truth.y)});
-      engine_follows = engine_follows && engine_error < 1e-4L && hit.wall == static_cast<int>(truth.side);
+      const Real map_error =
+          std::max({std::abs(rounded.x - truth.x), std::abs(rounded.y - truth.y)});
+      engine_follows =
+          engine_follows && engine_error < 1e-4L && hit.wall == static_cast<int>(truth.side);
       map_follows = map_follows && map_error < 1e-4L && rounded.side == truth.side;
       if (n < 5) {  // a few hits: nothing but rounding
         ASSERT_EQ(hit.wall, static_cast<int>(truth.side));
@@ -123,8 +129,9 @@ TEST(EngineMagneticRectangle, FollowsChaosUntilRoundingHasGrown) {
     }
     ++compared;
   }
-  std::printf("chaos: engine follows %.1f hits, map in double %.1f, largest error in five hits %.2g\n",
-              engine_length / compared, map_length / compared, error_ratio);
+  std::printf(
+      "chaos: engine follows %.1f hits, map in double %.1f, largest error in five hits %.2g\n",
+      engine_length / compared, map_length / compared, error_ratio);
   EXPECT_GT(engine_length, 0.9 * map_length);
   EXPECT_GT(engine_length / compared, 20);
 }

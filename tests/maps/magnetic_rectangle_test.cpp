@@ -31,7 +31,8 @@ Point along(const Gyration<Real>& from, Real speed, Real omega, Real t) {
 }
 
 Gyration<Real> random_start(std::mt19937_64& random, Real width, Real height) {
-  return {uniform<Real>(random, 0, width), uniform<Real>(random, 0, height), uniform<Real>(random, -pi, pi)};
+  return {uniform<Real>(random, 0, width), uniform<Real>(random, 0, height),
+          uniform<Real>(random, -pi, pi)};
 }
 
 TEST(MagneticRectangle, EachHitIsTheFirstPointOfTheArcOnAWall) {
@@ -59,7 +60,8 @@ TEST(MagneticRectangle, EachHitIsTheFirstPointOfTheArcOnAWall) {
       ASSERT_WITHIN(std::sin(hit->angle), std::sin(particle.angle - omega * flight), 1e-14L);
       for (int j = 1; j < 30; ++j) {
         const Point p = along(particle, speed, omega, flight * static_cast<Real>(j) / 30);
-        ASSERT_TRUE(p.x > -1e-15L && p.x < width + 1e-15L && p.y > -1e-15L && p.y < height + 1e-15L);
+        ASSERT_TRUE(p.x > -1e-15L && p.x < width + 1e-15L && p.y > -1e-15L &&
+                    p.y < height + 1e-15L);
       }
       particle = *table.next(particle);
     }
@@ -91,14 +93,15 @@ TEST(MagneticRectangle, RunsBackwardsInTheReversedField) {
     Gyration<Real> particle = *first;
     for (int k = 0; k < 10; ++k) particle = *table.next(particle);
     const Real elapsed = particle.time - first->time;
-    // Back along the arc that led here: the velocity before the hit, reversed, is the one after it with
-    // its other component reversed.
+    // Back along the arc that led here: the velocity before the hit, reversed, is the one after it
+    // with its other component reversed.
     const bool vertical = particle.side == Side::left || particle.side == Side::right;
     particle.angle = vertical ? -particle.angle : pi - particle.angle;
     const Real turned = particle.time;
     for (int k = 0; k < 10; ++k) particle = *reversed.next(particle);
     EXPECT_EQ(particle.side, first->side);
-    EXPECT_WITHIN(particle.x, first->x, 1e-9L);  // rounding grown by ten chaotic hits, there and back
+    EXPECT_WITHIN(particle.x, first->x,
+                  1e-9L);  // rounding grown by ten chaotic hits, there and back
     EXPECT_WITHIN(particle.y, first->y, 1e-9L);
     EXPECT_WITHIN(particle.time - turned, elapsed, 1e-9L);
   }
@@ -198,7 +201,8 @@ TEST(MagneticRectangle, TheHoleIsClosedAtItsStartAndOpenAtItsEnd) {
   EXPECT_WITHIN(s, 0.5, 1e-15);
   const double before = std::nextafter(s, 0), beyond = std::nextafter(s, 1);
   const auto leaves = [&](double from, double to) {
-    return table.escape({Side::bottom, from, to}, 0.25, 1e-300, std::numbers::pi / 2, 1.0).hits == 0;
+    return table.escape({Side::bottom, from, to}, 0.25, 1e-300, std::numbers::pi / 2, 1.0).hits ==
+           0;
   };
   EXPECT_TRUE(leaves(s, beyond));
   EXPECT_TRUE(leaves(before, beyond));

@@ -36,8 +36,8 @@ TEST(Rectangle, UnfoldingIsBouncing) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 100; ++i) {
     const Real width = uniform(random, 0.5L, 2), height = uniform(random, 0.5L, 2);
-    const Phase<Real> start{uniform(random, 0, width), uniform(random, 0, height), uniform(random, -1, 1),
-                            uniform(random, -1, 1)};
+    const Phase<Real> start{uniform(random, 0, width), uniform(random, 0, height),
+                            uniform(random, -1, 1), uniform(random, -1, 1)};
     const auto hits = Rectangle<Real>(width, height).hits(start, 200);
     ASSERT_EQ(hits.size(), 200u);
     SideHit<Real> bounced{Side::none, 0, start};
@@ -97,7 +97,8 @@ TEST(Ellipse, ConservesTheFocalProduct) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 200; ++i) {
     const Real a = uniform(random, 1, 2), b = uniform(random, 0.3L, 1);
-    const Real phi = uniform(random, 0, 6.28L), direction = phi + 3.14L + uniform(random, -0.5L, 0.5L);
+    const Real phi = uniform(random, 0, 6.28L),
+               direction = phi + 3.14L + uniform(random, -0.5L, 0.5L);
     Phase<Real> p{a * std::cos(phi), b * std::sin(phi), std::cos(direction), std::sin(direction)};
     if (p.x * p.vx / (a * a) + p.y * p.vy / (b * b) > 0) p = {p.x, p.y, -p.vx, -p.vy};
     const Real first = focal_product(a, b, p), focus = std::sqrt((a - b) * (a + b));

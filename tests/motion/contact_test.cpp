@@ -131,15 +131,18 @@ TEST(Contact, BoundsLeaveOutNoContactOfThePlainSearch) {
     double other = 3.0 * random.symmetric();
     if (i % 5 == 0) other = 0.0;
     if (i % 5 == 1) other = -omega;
-    if (i % 5 == 2) other = 2.0 * omega * (1.0 + (i % 2) * std::ldexp(random.symmetric(), -(i % 40)));
-    if (i % 5 == 3) other = 1.5 * omega * (1.0 + (i % 2) * std::ldexp(random.symmetric(), -(i % 40)));
+    if (i % 5 == 2)
+      other = 2.0 * omega * (1.0 + (i % 2) * std::ldexp(random.symmetric(), -(i % 40)));
+    if (i % 5 == 3)
+      other = 1.5 * omega * (1.0 + (i % 2) * std::ldexp(random.symmetric(), -(i % 40)));
     PairFlight p = random_pair(random, omega, other);
     if (i % 3 == 0) p.separation = std::ldexp(1.0, i % 11) * p.separation;
     if (i % 11 == 0) p.second = std::ldexp(1.0, -(i % 13)) * p.second;
     if (i % 17 == 0) p.second = {};
     const double until = 100.0, t = guided_time_to_contact(p, 1.0, until, &strides);
     const double expected = enclosed_time_to_contact(p, 1.0, until);
-    plain += static_cast<std::int64_t>(std::min(expected, until) * std::max(std::fabs(omega), std::fabs(other)));
+    plain += static_cast<std::int64_t>(std::min(expected, until) *
+                                       std::max(std::fabs(omega), std::fabs(other)));
     if (expected < until) {
       ++contacts;
       EXPECT_EQ(t, expected) << i;
@@ -157,7 +160,8 @@ TEST(Contact, IsFoundInAnyFieldInABoundedNumberOfStrides) {
     std::int64_t strides = 0;
     int contacts = 0;
     for (int i = 0; i < 400; ++i) {
-      double omega = field, other = i % 4 == 0 ? 0.0 : (i % 4 == 1 ? -1.0 : (i % 4 == 2 ? 2.0 : 0.7)) * field;
+      double omega = field,
+             other = i % 4 == 0 ? 0.0 : (i % 4 == 1 ? -1.0 : (i % 4 == 2 ? 2.0 : 0.7)) * field;
       if (i % 8 > 3) std::swap(omega, other);
       PairFlight p = random_pair(random, omega, other);
       const bool straight = omega == 0.0 || other == 0.0;
@@ -209,7 +213,8 @@ TEST(Contact, ConservesMomentumAndEnergyForAnyMasses) {
     EXPECT_GT(dot(d, c.first - c.second), 0.0);
     // The relative velocity along the line of centres is turned round.
     EXPECT_NEAR(dot(d, c.first - c.second), -dot(d, p.first - p.second), 1e-14);
-    EXPECT_NEAR(geometry::cross(d, c.first - c.second), geometry::cross(d, p.first - p.second), 1e-14);
+    EXPECT_NEAR(geometry::cross(d, c.first - c.second), geometry::cross(d, p.first - p.second),
+                1e-14);
     EXPECT_NEAR(c.transfer, m * std::sqrt(dot(c.first - p.first, c.first - p.first)), 1e-14);
   }
 }

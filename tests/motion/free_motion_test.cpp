@@ -47,11 +47,13 @@ TEST(FreeMotion, WeakFieldsKeepTheirDigits) {
 }
 
 TEST(FreeMotion, CornersHaveOneLimit) {
-  // n reflections at an angle pi/n: whichever wall comes first, the velocity afterwards is the same.
+  // n reflections at an angle pi/n: whichever wall comes first, the velocity afterwards is the
+  // same.
   for (int n = 1; n <= 6; ++n) {
     const double angle = std::acos(-1.0) / n;
-    const Vector begins{0.0, 1.0};                                // normal of the wall along +x
-    const Vector ends{std::sin(angle), -std::cos(angle)};         // of the wall that comes down to the corner
+    const Vector begins{0.0, 1.0};  // normal of the wall along +x
+    const Vector ends{std::sin(angle),
+                      -std::cos(angle)};  // of the wall that comes down to the corner
     const Vector v{-std::cos(0.5 * angle + 0.1), -std::sin(0.5 * angle + 0.1)};
     const Vector a = reflected_at_corner(v, ends, begins, n);
     const Vector b = reflected_at_corner(v, begins, ends, n);

@@ -16,7 +16,8 @@ using tests::Dice;
 
 // The form that motion in a field keeps: dx dv_x + dy dv_y - omega dx dy.
 double form(const Deviation& a, const Deviation& b, double omega) {
-  return dot(a.position, b.velocity) - dot(b.position, a.velocity) - omega * cross(a.position, b.position);
+  return dot(a.position, b.velocity) - dot(b.position, a.velocity) -
+         omega * cross(a.position, b.position);
 }
 Deviation any(Dice& dice) {
   return {{dice.between(-1, 1), dice.between(-1, 1)}, {dice.between(-1, 1), dice.between(-1, 1)}};
@@ -43,14 +44,16 @@ TEST(Tangent, ReflectionsKeepTheSymplecticForm) {
   for (int i = 0; i < 1000; ++i) {
     const Vector normal = dice.direction();
     const double omega = i % 5 == 0 ? 0.0 : dice.between(-3, 3), curvature = dice.between(-3, 3);
-    const ReflectionTangent map = reflection_tangent(normal, curvature, incoming(dice, normal), omega);
+    const ReflectionTangent map =
+        reflection_tangent(normal, curvature, incoming(dice, normal), omega);
     const Deviation a = any(dice), b = any(dice);
     EXPECT_NEAR(form(map(a), map(b), omega), form(a, b, omega), 1e-10);
   }
 }
 
 TEST(Tangent, TheFlowsOwnDirectionIsCarriedAlong) {
-  // A state a little later is on the same orbit, before and after; and it has no delay-free displacement.
+  // A state a little later is on the same orbit, before and after; and it has no delay-free
+  // displacement.
   Dice dice(3);
   for (int i = 0; i < 1000; ++i) {
     const Vector normal = dice.direction(), v = incoming(dice, normal);
@@ -72,7 +75,8 @@ TEST(Tangent, TheFlowsOwnDirectionIsCarriedAlong) {
 TEST(Tangent, FlightsAgreeWithDifferences) {
   Dice dice(4);
   for (int i = 0; i < 200; ++i) {
-    const double omega = i % 5 == 0 ? 0.0 : dice.between(-3, 3), t = dice.between(0, 4), h = 0x1p-20;
+    const double omega = i % 5 == 0 ? 0.0 : dice.between(-3, 3), t = dice.between(0, 4),
+                 h = 0x1p-20;
     const Vector x = dice.direction(), v = dice.direction();
     const Deviation d = any(dice), image = flight_tangent(omega, t)(d);
     const auto [x1, v1] = moved(x + h * d.position, v + h * d.velocity, omega, t);

@@ -11,12 +11,14 @@ TEST(Faults, SizesMustBePositiveAndInRange) {
     EXPECT_HAS(message, "expected");
   }
   EXPECT_EQ(fault(shape("circle", {{"radius", "-1/2"}})),
-            "test.toml, line 7, column 3: table.radius: must be positive, not -1/2 (expected a number > 0)");
+            "test.toml, line 7, column 3: table.radius: must be positive, not -1/2 (expected a "
+            "number > 0)");
 }
 
 TEST(Faults, SizesMustFitTogether) {
-  EXPECT_HAS(fault(shape("mushroom", {{"cap_radius", "1"}, {"stem_width", "2.1"}, {"stem_height", "1"}})),
-             "table.stem_width: the stem is wider than the cap (expected stem_width <= 2 cap_radius)");
+  EXPECT_HAS(
+      fault(shape("mushroom", {{"cap_radius", "1"}, {"stem_width", "2.1"}, {"stem_height", "1"}})),
+      "table.stem_width: the stem is wider than the cap (expected stem_width <= 2 cap_radius)");
   EXPECT_HAS(fault(shape("lemon", {{"radius", "1"}, {"separation", "2"}})),
              "table.separation: the two circles do not overlap");
   EXPECT_HAS(fault(shape("lemon", {{"radius", "1"}, {"separation", "3"}})), "do not overlap");
@@ -32,9 +34,9 @@ TEST(Faults, SizesMustFitTogether) {
 }
 
 TEST(Faults, MissingNumbersAreNamed) {
-  EXPECT_EQ(
-      fault(shape("rectangle", {{"width", "1"}})),
-      "test.toml, line 2, column 1: table.height: the shape 'rectangle' needs 'height' (expected a number)");
+  EXPECT_EQ(fault(shape("rectangle", {{"width", "1"}})),
+            "test.toml, line 2, column 1: table.height: the shape 'rectangle' needs 'height' "
+            "(expected a number)");
   EXPECT_HAS(fault(shape("polygon")), "needs 'points'");
   EXPECT_HAS(fault(shape("discs", {{"radius", "1"}})), "needs 'centers'");
   EXPECT_HAS(fault(shape("path")), "needs a loop");
@@ -68,7 +70,8 @@ TEST(Faults, PathsMustClose) {
   EXPECT_HAS(fault(spec), "ends where it begins");
   spec.loops = {loop(at("0", "0"), {line_to("1", "0"), arc_to(at("1/2", "0"), at("0", "0"))})};
   EXPECT_HAS(fault(spec), "no circular arc");
-  spec.loops = {loop(at("0", "0"), {line_to("1", "0", "a"), line_to("1", "1", "a"), line_to("0", "0")})};
+  spec.loops = {
+      loop(at("0", "0"), {line_to("1", "0", "a"), line_to("1", "1", "a"), line_to("0", "0")})};
   EXPECT_HAS(fault(spec), "two walls are called 'a'");
   spec.loops = {loop(at("0", "0"), {})};
   EXPECT_HAS(fault(spec), "no pieces");
@@ -77,11 +80,15 @@ TEST(Faults, PathsMustClose) {
 TEST(Faults, LatticesMustSpanThePlaneAndLeadSomewhere) {
   TableSpec spec = shape("discs", {{"radius", "1"}});
   spec.points["centers"] = {at("0", "0")};
-  spec.lattice = LatticeSpec{at("3", "0"), at("6", "0"), Place{"test.toml", 30, 5, "lattice.vectors"}};
-  EXPECT_HAS(fault(spec), "test.toml, line 30, column 5: lattice.vectors: the lattice vectors are parallel");
+  spec.lattice =
+      LatticeSpec{at("3", "0"), at("6", "0"), Place{"test.toml", 30, 5, "lattice.vectors"}};
+  EXPECT_HAS(fault(spec),
+             "test.toml, line 30, column 5: lattice.vectors: the lattice vectors are parallel");
   spec.numbers.insert_or_assign("radius", exact("0.2"));
-  spec.lattice = LatticeSpec{at("1", "0"), at("10000.25", "1"), Place{"test.toml", 30, 5, "lattice.vectors"}};
-  EXPECT_HAS(fault(spec), "lattice.vectors: the lattice vectors are more than 1024 times as long as it needs");
+  spec.lattice =
+      LatticeSpec{at("1", "0"), at("10000.25", "1"), Place{"test.toml", 30, 5, "lattice.vectors"}};
+  EXPECT_HAS(fault(spec),
+             "lattice.vectors: the lattice vectors are more than 1024 times as long as it needs");
   EXPECT_HAS(fault(spec), "shorter vectors of the same lattice: [1, 0] and [0.25, 1]");
   spec.lattice = LatticeSpec{at("1", "0"), at("1000.25", "1"), {}};
   EXPECT_EQ(fault(spec), "no fault");

@@ -35,7 +35,9 @@ TEST(Holes, LieAtTheirArcLength) {
 }
 
 TEST(Holes, InTwoPiecesHaveOneName) {
-  const Table table = build_table(with_hole(with_hole(with_hole(circle, "circle", "2", "0.4"), "circle", "0", "0.5"), "circle", "3", "0.1"));
+  const Table table = build_table(
+      with_hole(with_hole(with_hole(circle, "circle", "2", "0.4"), "circle", "0", "0.5"), "circle",
+                "3", "0.1"));
   ASSERT_EQ(table.holes.size(), 4u);
   EXPECT_EQ(hole_names(table), (std::vector<std::string>{"hole_1", "hole_2", "hole_3"}));
   EXPECT_EQ(hole_numbers(table), (std::vector<int>{0, 1, 1, 2}));
@@ -48,8 +50,8 @@ TEST(Holes, RunAlongTheWallWithTheDomainOnTheLeft) {
   const geometry::Curve& top = table.walls[static_cast<std::size_t>(table.wall_index("top"))].curve;
   EXPECT_EQ(geometry::point_at(top, table.holes[0].from), (geometry::Vector{0.8125, 1}));
   // An obstacle's circle runs clockwise from angle 0: a quarter of it ends at the bottom.
-  const Table disc =
-      build_table(with_hole(shape("sinai", {{"side", "2"}, {"radius", "1/2"}}), "disc", "pi/4", "pi/4"));
+  const Table disc = build_table(
+      with_hole(shape("sinai", {{"side", "2"}, {"radius", "1/2"}}), "disc", "pi/4", "pi/4"));
   const geometry::Vector middle = geometry::point_at(disc.walls[0].curve, 1.0);
   EXPECT_EQ(middle, (geometry::Vector{1, 0.5}));
 }
@@ -67,8 +69,8 @@ TEST(Holes, MayFillTheirWall) {
   const Table straight = build_table(with_hole(square, "right", "1/2", "1"));
   EXPECT_EQ(straight.holes[0].from, 0.0);
   EXPECT_EQ(straight.holes[0].to, 1.0);
-  const Table cap = build_table(
-      with_hole(shape("stadium", {{"half_length", "1"}, {"radius", "1/3"}}), "right", "pi/6", "pi/3"));
+  const Table cap = build_table(with_hole(
+      shape("stadium", {{"half_length", "1"}, {"radius", "1/3"}}), "right", "pi/6", "pi/3"));
   EXPECT_EQ(cap.holes[0].from, 0.0);
   EXPECT_EQ(cap.holes[0].to, geometry::end_parameter(cap.walls[1].curve));
   const Table all = build_table(with_hole(circle, "circle", "0", "2*pi"));
@@ -97,27 +99,32 @@ TEST(Holes, WrapPastTheStartOfAClosedCurve) {
 
 TEST(Holes, FaultsAreFoundAtTheirPlace) {
   EXPECT_EQ(fault(with_hole(square, "botom", "1/2", "0.1")),
-            "test.toml, line 21, column 8: table.hole[0].wall: unknown wall 'botom' (expected one of bottom, "
+            "test.toml, line 21, column 8: table.hole[0].wall: unknown wall 'botom' (expected one "
+            "of bottom, "
             "right, top, left; did you mean 'bottom'?)");
   EXPECT_HAS(fault(with_hole(square, "top", "1/2", "1.1")),
              "table.hole[0].width: the hole is wider than its wall");
   EXPECT_HAS(fault(with_hole(circle, "circle", "1", "6.3")), "the hole is wider than its wall");
   EXPECT_HAS(fault(with_hole(square, "top", "0.05", "0.2")),
              "table.hole[0].center: the hole reaches over the end");
-  EXPECT_HAS(fault(with_hole(square, "top", "0.95", "0.2")), "reaches over the end of its wall 'top'");
+  EXPECT_HAS(fault(with_hole(square, "top", "0.95", "0.2")),
+             "reaches over the end of its wall 'top'");
   EXPECT_HAS(fault(with_hole(circle, "circle", "-1", "0.2")), "not on the wall");
   EXPECT_HAS(fault(with_hole(circle, "circle", "7", "0.2")), "not on the wall");
   for (const char* width : {"0", "-0.1"}) {
     EXPECT_HAS(fault(with_hole(square, "top", "1/2", width)), "must be positive");
   }
   EXPECT_HAS(fault(with_hole(square, "top", "1/2", "1e-20")), "too narrow");
-  const TableSpec overlap = with_hole(with_hole(square, "top", "0.5", "0.2", "a"), "top", "0.6", "0.1", "b");
+  const TableSpec overlap =
+      with_hole(with_hole(square, "top", "0.5", "0.2", "a"), "top", "0.6", "0.1", "b");
   EXPECT_HAS(fault(overlap), "table.hole[1].center: the hole 'b' overlaps 'a' on wall 'top'");
   EXPECT_HAS(fault(with_hole(with_hole(circle, "circle", "0", "1"), "circle", "6", "0.1")),
              "overlaps 'hole_1'");
-  EXPECT_HAS(fault(with_hole(with_hole(square, "top", "0.2", "0.2", "a"), "left", "0.6", "0.1", "a")),
-             "two holes are called 'a'");
-  EXPECT_EQ(fault(with_hole(with_hole(square, "top", "0.2", "0.2"), "top", "0.6", "0.1")), "no fault");
+  EXPECT_HAS(
+      fault(with_hole(with_hole(square, "top", "0.2", "0.2", "a"), "left", "0.6", "0.1", "a")),
+      "two holes are called 'a'");
+  EXPECT_EQ(fault(with_hole(with_hole(square, "top", "0.2", "0.2"), "top", "0.6", "0.1")),
+            "no fault");
 }
 
 }  // namespace

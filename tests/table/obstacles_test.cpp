@@ -15,7 +15,8 @@ ObstacleSpec placed(Shape shape, int line) {
   o.place = Place{"test.toml", line, 1, "table.obstacle"};
   return o;
 }
-ObstacleSpec disc(const std::string& x, const std::string& y, const std::string& radius, int line = 30) {
+ObstacleSpec disc(const std::string& x, const std::string& y, const std::string& radius,
+                  int line = 30) {
   ObstacleSpec o = placed(Shape::circle, line);
   o.center = at(x, y);
   o.radius = exact(radius);
@@ -55,7 +56,8 @@ TEST(Obstacles, TakeTheirAreaFromEveryShape) {
       {shape("ellipse", {{"a", "2"}, {"b", "1"}}), disc("0.3", "0", "0.1")},
       {shape("annulus", {{"outer", "1"}, {"inner", "0.3"}}), disc("0.6", "0", "0.1")},
       {shape("stadium", {{"half_length", "1"}, {"radius", "1"}}), disc("0.6", "0", "0.1")},
-      {shape("mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}}), disc("0", "-0.5", "0.1")},
+      {shape("mushroom", {{"cap_radius", "1"}, {"stem_width", "1"}, {"stem_height", "1"}}),
+       disc("0", "-0.5", "0.1")},
       {shape("lemon", {{"radius", "1"}, {"separation", "1"}}), disc("0", "0", "0.1")},
       {walled, disc("0.15", "0.15", "0.1")},
       {torus, disc("0", "0", "0.1")},  // across the corners of the cell
@@ -66,7 +68,8 @@ TEST(Obstacles, TakeTheirAreaFromEveryShape) {
     ASSERT_EQ(table.walls.size(), without.walls.size() + 1) << spec.shape;
     EXPECT_EQ(table.walls.back().name, "obstacle_1");
     EXPECT_NEAR(measure(table).area, measure(without).area - 0.01 * pi, 1e-14) << spec.shape;
-    EXPECT_NEAR(measure(table).perimeter, measure(without).perimeter + 0.2 * pi, 1e-14) << spec.shape;
+    EXPECT_NEAR(measure(table).perimeter, measure(without).perimeter + 0.2 * pi, 1e-14)
+        << spec.shape;
   }
 }
 
@@ -87,7 +90,8 @@ TEST(Obstacles, EllipsesLieAtTheirAngle) {
 
 // The sides keep their names, whichever way round the corners are listed.
 TEST(Obstacles, PolygonsGoEitherWayRound) {
-  const Table clockwise = build_table(with(square(), {block({{"1", "1"}, {"1", "2"}, {"2", "1"}})}));
+  const Table clockwise =
+      build_table(with(square(), {block({{"1", "1"}, {"1", "2"}, {"2", "1"}})}));
   const Table turned = build_table(with(square(), {block({{"1", "1"}, {"2", "1"}, {"1", "2"}})}));
   const auto ends = [](const Table& table, const char* name) {
     const auto& side = std::get<geometry::Segment>(table.wall(table.wall_index(name)).curve);
@@ -112,8 +116,10 @@ TEST(Obstacles, TheWayRoundIsExact) {
 }
 
 TEST(Obstacles, CarryHoles) {
-  TableSpec spec = with(square(), {disc("1", "1", "1/2"), block({{"2", "2"}, {"3", "2"}, {"3", "3"}})});
-  spec = with_hole(with_hole(spec, "obstacle_1", "pi/4", "pi/4"), "obstacle_2_side_2", "1/2", "1/4");
+  TableSpec spec =
+      with(square(), {disc("1", "1", "1/2"), block({{"2", "2"}, {"3", "2"}, {"3", "3"}})});
+  spec =
+      with_hole(with_hole(spec, "obstacle_1", "pi/4", "pi/4"), "obstacle_2_side_2", "1/2", "1/4");
   const Table table = build_table(spec);
   ASSERT_EQ(table.holes.size(), 2U);
   EXPECT_EQ(table.holes[0].wall, table.wall_index("obstacle_1"));
@@ -124,15 +130,17 @@ TEST(Obstacles, CarryHoles) {
 }
 
 TEST(Obstacles, MustLieInsideAndApart) {
-  EXPECT_EQ(error_of(with(square(), {disc("1", "1", "1"), disc("3", "1", "1")})).problem(), "no fault");  // cusps
+  EXPECT_EQ(error_of(with(square(), {disc("1", "1", "1"), disc("3", "1", "1")})).problem(),
+            "no fault");  // cusps
   for (const auto& obstacles : std::vector<std::vector<ObstacleSpec>>{
-           {disc("1", "1", "1/2", 7), disc("4", "1", "1/2", 8)},                  // across a wall
-           {disc("1", "1", "1/2", 7), disc("9", "1", "1/2", 8)},                  // outside
-           {disc("1", "1", "1/2", 7), disc("1.9", "1", "1/2", 8)},                // across another
-           {disc("1", "1", "1/2", 7), disc("1.1", "1", "1/8", 8)},                // within another
-           {disc("1", "1", "1/2", 7), disc("3", "1", "0", 8)},                    // no size
-           {disc("1", "1", "1/2", 7), block({{"2", "2"}, {"3", "2"}}, 8)},        // no polygon
-           {disc("1", "1", "1/2", 7), block({{"2", "2"}, {"3", "3"}, {"3", "2"}, {"2", "3"}}, 8)}}) {
+           {disc("1", "1", "1/2", 7), disc("4", "1", "1/2", 8)},            // across a wall
+           {disc("1", "1", "1/2", 7), disc("9", "1", "1/2", 8)},            // outside
+           {disc("1", "1", "1/2", 7), disc("1.9", "1", "1/2", 8)},          // across another
+           {disc("1", "1", "1/2", 7), disc("1.1", "1", "1/8", 8)},          // within another
+           {disc("1", "1", "1/2", 7), disc("3", "1", "0", 8)},              // no size
+           {disc("1", "1", "1/2", 7), block({{"2", "2"}, {"3", "2"}}, 8)},  // no polygon
+           {disc("1", "1", "1/2", 7),
+            block({{"2", "2"}, {"3", "3"}, {"3", "2"}, {"2", "3"}}, 8)}}) {
     const InputError error = error_of(with(square(), obstacles));
     EXPECT_NE(error.problem(), "no fault");
     EXPECT_TRUE(error.place().line == 8 || error.place().key.empty()) << error.what();

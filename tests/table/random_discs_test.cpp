@@ -1,4 +1,5 @@
-// Random discs: apart, the same on every machine, refused where there is no room; and tables of many walls.
+// Random discs: apart, the same on every machine, refused where there is no room; and tables of
+// many walls.
 #include <cmath>
 #include <ctime>
 
@@ -10,12 +11,15 @@ namespace {
 using geometry::Circle;
 using geometry::Vector;
 
-TableSpec random_discs(const std::string& count, const std::string& side, const std::string& radius = "1",
-                       const std::string& seed = "1") {
-  return shape("random-discs", {{"count", count}, {"side", side}, {"radius", radius}, {"seed", seed}});
+TableSpec random_discs(const std::string& count, const std::string& side,
+                       const std::string& radius = "1", const std::string& seed = "1") {
+  return shape("random-discs",
+               {{"count", count}, {"side", side}, {"radius", radius}, {"seed", seed}});
 }
 
-Vector centre(const Table& table, std::size_t disc) { return std::get<Circle>(table.walls[disc].curve).centre; }
+Vector centre(const Table& table, std::size_t disc) {
+  return std::get<Circle>(table.walls[disc].curve).centre;
+}
 
 TEST(RandomDiscs, AreApartAlsoAcrossTheEdges) {
   const Table table = build_table(random_discs("100", "32"));
@@ -26,7 +30,8 @@ TEST(RandomDiscs, AreApartAlsoAcrossTheEdges) {
   for (std::size_t a = 0; a < 100; ++a)
     for (std::size_t b = 0; b < a; ++b) {
       const Vector d = centre(table, a) - centre(table, b);
-      const double x = std::fmin(std::fabs(d.x), 32.0 - std::fabs(d.x)), y = std::fmin(std::fabs(d.y), 32.0 - std::fabs(d.y));
+      const double x = std::fmin(std::fabs(d.x), 32.0 - std::fabs(d.x)),
+                   y = std::fmin(std::fabs(d.y), 32.0 - std::fabs(d.y));
       nearest = std::fmin(nearest, std::sqrt(x * x + y * y));
     }
   EXPECT_GT(nearest, 2.0);
@@ -34,7 +39,8 @@ TEST(RandomDiscs, AreApartAlsoAcrossTheEdges) {
 }
 
 TEST(RandomDiscs, AreAFunctionOfTheSeed) {
-  const Table one = build_table(random_discs("100", "32")), again = build_table(random_discs("100", "32")),
+  const Table one = build_table(random_discs("100", "32")),
+              again = build_table(random_discs("100", "32")),
               other = build_table(random_discs("100", "32", "1", "2"));
   // To the last bit on every machine: products and sums of numbers that Philox draws.
   EXPECT_EQ(centre(one, 0).x, 0x1.fa0cd0009ec47p+4);
@@ -56,14 +62,16 @@ TEST(RandomDiscs, StayWithinWalls) {
 
 TEST(RandomDiscs, NeedRoom) {
   EXPECT_HAS(fault(random_discs("150", "32")), "no fault");
-  EXPECT_HAS(fault(random_discs("300", "32")), "test.toml, line 7, column 3: table.count: no room was found for disc");
+  EXPECT_HAS(fault(random_discs("300", "32")),
+             "test.toml, line 7, column 3: table.count: no room was found for disc");
   EXPECT_HAS(fault(random_discs("2", "4")), "table.radius: the discs are too large");
   EXPECT_HAS(fault(random_discs("0", "32")), "table.count: must be a whole number");
   EXPECT_HAS(fault(random_discs("2.5", "32")), "table.count: must be a whole number");
   EXPECT_HAS(fault(shape("random-discs", {{"side", "32"}, {"radius", "1"}})), "needs 'count'");
 }
 
-// Nothing in the building grows with the square of the walls: ten times as many take less than thirty times as long.
+// Nothing in the building grows with the square of the walls: ten times as many take less than
+// thirty times as long.
 TEST(RandomDiscs, AreBuiltInTimeProportionalToTheirNumber) {
   const auto seconds = [](const std::string& count, const std::string& side) {
     const std::clock_t before = std::clock();

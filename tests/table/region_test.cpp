@@ -15,7 +15,8 @@ TableSpec polygon(const std::vector<std::pair<std::string, std::string>>& corner
   return spec;
 }
 
-TableSpec discs(const std::vector<std::pair<std::string, std::string>>& centers, const std::string& radius) {
+TableSpec discs(const std::vector<std::pair<std::string, std::string>>& centers,
+                const std::string& radius) {
   TableSpec spec = shape("discs", {{"radius", radius}});
   for (const auto& [x, y] : centers) spec.points["centers"].push_back(at(x, y));
   return spec;
@@ -53,7 +54,8 @@ TEST(Region, DiscsMustBeApartFromTheirImages) {
   TableSpec spec = discs({{"0", "0"}, {"2", "0"}}, "1/2");
   spec.lattice = LatticeSpec{at("4", "0"), at("0", "2"), {}};
   EXPECT_EQ(fault(spec), "no fault");
-  spec.lattice = LatticeSpec{at("2.5", "0"), at("0", "2"), {}};  // disc_2 and the next disc_1 are 0.5 apart
+  spec.lattice =
+      LatticeSpec{at("2.5", "0"), at("0", "2"), {}};  // disc_2 and the next disc_1 are 0.5 apart
   EXPECT_NE(fault(spec), "no fault");
   spec.lattice = LatticeSpec{at("4", "0"), at("0", "0.9"), {}};  // each meets its own image
   EXPECT_NE(fault(spec), "no fault");
@@ -61,15 +63,16 @@ TEST(Region, DiscsMustBeApartFromTheirImages) {
 
 TEST(Region, ObstaclesMustLieInside) {
   TableSpec spec = shape("path");
-  spec.loops.push_back(
-      loop(at("0", "0"), {line_to("1", "0"), line_to("1", "1"), line_to("0", "1"), line_to("0", "0")}));
+  spec.loops.push_back(loop(
+      at("0", "0"), {line_to("1", "0"), line_to("1", "1"), line_to("0", "1"), line_to("0", "0")}));
   const LoopSpec clockwise =
       loop(at("0.2", "0.2"), {line_to("0.2", "0.4"), line_to("0.4", "0.2"), line_to("0.2", "0.2")});
   spec.loops.push_back(clockwise);
   EXPECT_EQ(fault(spec), "no fault");
   spec.loops[1] = loop(at("2", "2"), {line_to("2", "3"), line_to("3", "2"), line_to("2", "2")});
   EXPECT_NE(fault(spec), "no fault");
-  spec.loops[1] = loop(at("0.5", "0.5"), {line_to("0.5", "3"), line_to("0.7", "0.5"), line_to("0.5", "0.5")});
+  spec.loops[1] =
+      loop(at("0.5", "0.5"), {line_to("0.5", "3"), line_to("0.7", "0.5"), line_to("0.5", "0.5")});
   EXPECT_HAS(fault(spec), "test.toml, line 12, column 5: table.loop[0].pieces");
   spec.loops[1] =
       loop(at("0.2", "0.2"), {line_to("0.4", "0.2"), line_to("0.2", "0.4"), line_to("0.2", "0.2")});

@@ -31,19 +31,20 @@ bool in_disc(double x, double y, double r) { return x * x + y * y < r * r; }
 
 TableSpec path_spec() {
   TableSpec spec = shape("path");
-  // A D lying on its back: half disc of radius 1 over [-1, 1], below it a box of height 1/2; inside, a
-  // small clockwise square.
-  spec.loops.push_back(loop(at("-1", "-1/2"), {line_to("1", "-1/2", "floor"), line_to("1", "0"),
-                                               arc_to(at("0", "1"), at("-1", "0")), line_to("-1", "-1/2")}));
-  spec.loops.push_back(loop(
-      at("0", "0"), {line_to("0", "1/4"), line_to("1/4", "1/4"), line_to("1/4", "0"), line_to("0", "0")}));
+  // A D lying on its back: half disc of radius 1 over [-1, 1], below it a box of height 1/2;
+  // inside, a small clockwise square.
+  spec.loops.push_back(
+      loop(at("-1", "-1/2"), {line_to("1", "-1/2", "floor"), line_to("1", "0"),
+                              arc_to(at("0", "1"), at("-1", "0")), line_to("-1", "-1/2")}));
+  spec.loops.push_back(loop(at("0", "0"), {line_to("0", "1/4"), line_to("1/4", "1/4"),
+                                           line_to("1/4", "0"), line_to("0", "0")}));
   return spec;
 }
 
 TableSpec half_ellipse() {
   TableSpec spec = shape("path");
-  spec.loops.push_back(
-      loop(at("-2", "0"), {line_to("2", "0"), ellipse_to(at("0", "1"), at("-2", "0"), "1/2", "0")}));
+  spec.loops.push_back(loop(
+      at("-2", "0"), {line_to("2", "0"), ellipse_to(at("0", "1"), at("-2", "0"), "1/2", "0")}));
   return spec;
 }
 
@@ -53,7 +54,8 @@ TableSpec closed_sinai() {
   return spec;
 }
 
-TableSpec lorentz(const std::string& lattice, const std::string& spacing, const std::string& radius) {
+TableSpec lorentz(const std::string& lattice, const std::string& spacing,
+                  const std::string& radius) {
   TableSpec spec = shape("lorentz", {{"spacing", spacing}, {"radius", radius}});
   spec.words["lattice"] = lattice;
   return spec;
@@ -93,7 +95,9 @@ std::vector<Case> cases() {
        {"side_1", "side_2", "side_3"},
        std::sqrt(3) / 4,
        3.0,
-       [](double x, double y) { return y > 0 && y < std::sqrt(3) * x && y < std::sqrt(3) * (1 - x); }},
+       [](double x, double y) {
+         return y > 0 && y < std::sqrt(3) * x && y < std::sqrt(3) * (1 - x);
+       }},
       {"regular",
        shape("regular", {{"sides", "6"}, {"radius", "2"}, {"angle", "pi/6"}}),
        {"side_1", "side_2", "side_3", "side_4", "side_5", "side_6"},
@@ -145,7 +149,9 @@ std::vector<Case> cases() {
        {"stem_bottom", "stem_right", "cap", "stem_left"},
        pi / 18 + 4.0 / 3,
        pi / 3 + 2.0 / 3 + 4,
-       [](double x, double y) { return y > 0 ? in_disc(x, y, 1 / 3.0) : std::fabs(x) < 1 / 3.0 && y > -2; }},
+       [](double x, double y) {
+         return y > 0 ? in_disc(x, y, 1 / 3.0) : std::fabs(x) < 1 / 3.0 && y > -2;
+       }},
       {"lemon",
        shape("lemon", {{"radius", "1"}, {"separation", "1"}}),
        {"right", "left"},
@@ -231,7 +237,8 @@ TEST_P(Shapes, NormalsPointIntoTheDomain) {
     const double end = geometry::end_parameter(wall.curve);
     for (int k = 0; k < 16; ++k) {
       const double u = end * (k + 0.5) / 16;
-      const geometry::Vector p = geometry::point_at(wall.curve, u), n = geometry::normal_at(wall.curve, u);
+      const geometry::Vector p = geometry::point_at(wall.curve, u),
+                             n = geometry::normal_at(wall.curve, u);
       const geometry::Vector in = p + 1e-9 * n, out = p - 1e-9 * n;
       EXPECT_TRUE(GetParam().inside(in.x, in.y)) << wall.name << " at " << u;
       EXPECT_FALSE(GetParam().inside(out.x, out.y)) << wall.name << " at " << u;
@@ -260,13 +267,15 @@ INSTANTIATE_TEST_SUITE_P(All, Shapes, testing::ValuesIn(cases()), label_of);
 TEST(Tables, HalfCirclesJoinStraightWallsWithTheirTangent) {
   for (const TableSpec& spec :
        {shape("stadium", {{"half_length", "0.1"}, {"radius", "1/3"}}),
-        shape("mushroom", {{"cap_radius", "0.7"}, {"stem_width", "1.4"}, {"stem_height", "sqrt(2)"}})}) {
+        shape("mushroom",
+              {{"cap_radius", "0.7"}, {"stem_width", "1.4"}, {"stem_height", "sqrt(2)"}})}) {
     const Table table = build_table(spec);
     for (const Wall& wall : table.walls) {
       if (!std::holds_alternative<geometry::CircularArc>(wall.curve)) continue;
       EXPECT_EQ(std::get<geometry::CircularArc>(wall.curve).offset, 0.0);
       const Wall& before = table.walls[static_cast<std::size_t>(wall.previous)];
-      EXPECT_EQ(geometry::tangent_at(wall.curve, 0.0), geometry::tangent_at(before.curve, 0.5)) << wall.name;
+      EXPECT_EQ(geometry::tangent_at(wall.curve, 0.0), geometry::tangent_at(before.curve, 0.5))
+          << wall.name;
     }
   }
 }
@@ -274,13 +283,15 @@ TEST(Tables, HalfCirclesJoinStraightWallsWithTheirTangent) {
 TEST(Tables, RegularPolygonsDeclareTheCornersThatHaveALimit) {
   const int declared[] = {3, 2, 0, 0, 0};
   for (int n = 3; n <= 7; ++n) {
-    const Table table = build_table(shape("regular", {{"sides", std::to_string(n)}, {"radius", "1"}}));
+    const Table table =
+        build_table(shape("regular", {{"sides", std::to_string(n)}, {"radius", "1"}}));
     for (const Wall& wall : table.walls) EXPECT_EQ(wall.corner, declared[n - 3]) << n;
   }
 }
 
 TEST(Tables, RegularPolygonsAreSymmetricToTheLastBit) {
-  const Table square = build_table(shape("regular", {{"sides", "4"}, {"radius", "1"}, {"angle", "pi/4"}}));
+  const Table square =
+      build_table(shape("regular", {{"sides", "4"}, {"radius", "1"}, {"angle", "pi/4"}}));
   const geometry::Vector a = geometry::start_point(square.walls[0].curve);
   EXPECT_EQ(a.x, a.y);
   EXPECT_EQ(a.x, std::sqrt(0.5));
@@ -312,7 +323,8 @@ TEST(Tables, ExtentTellsWhereTheWallsLead) {
   EXPECT_FALSE(build_table(closed_sinai()).lattice);
   EXPECT_EQ(build_table(repeated_discs()).extent, Extent::lattice);
   TableSpec obstacle = shape("path");
-  obstacle.loops.push_back(loop(at("0", "0"), {line_to("0", "1"), line_to("1", "0"), line_to("0", "0")}));
+  obstacle.loops.push_back(
+      loop(at("0", "0"), {line_to("0", "1"), line_to("1", "0"), line_to("0", "0")}));
   EXPECT_EQ(build_table(obstacle).extent, Extent::open_plane);
 }
 

@@ -18,7 +18,8 @@ inline ExactNumber exact(const std::string& text, const std::string& key = "") {
 
 inline ExactPoint at(const std::string& x, const std::string& y) { return {exact(x), exact(y)}; }
 
-inline TableSpec shape(const std::string& name, const std::map<std::string, std::string>& numbers = {}) {
+inline TableSpec shape(const std::string& name,
+                       const std::map<std::string, std::string>& numbers = {}) {
   TableSpec spec;
   spec.shape = name;
   spec.place = Place{"test.toml", 1, 1, "table"};

@@ -1,6 +1,6 @@
-// CPU time of certified orbits with 20 digits from several directions, all attempts counted, beside plain MPFR of a somewhat
-// higher precision, without guarantee, from the same starts. The last hits of both must agree, and the mean flight of the
-// orbits of a table must be what geometry says.
+// CPU time of certified orbits with 20 digits from several directions, all attempts counted, beside
+// plain MPFR of a somewhat higher precision, without guarantee, from the same starts. The last hits
+// of both must agree, and the mean flight of the orbits of a table must be what geometry says.
 #include <fmt/format.h>
 
 #include <carom/carom.hpp>
@@ -30,7 +30,13 @@ const Row rows[] = {
     {"stadium", "stadium", {{"half_length", "1"}, {"radius", "1"}}, true, "0", "1/10", "11/50"},
     {"disc in a square", "sinai", {{"side", "1"}, {"radius", "0.4"}}, false, "0", "0.05", "0.07"},
     {"disc on a torus", "sinai", {{"side", "1"}, {"radius", "0.4"}}, true, "0", "0.05", "0.07"},
-    {"magnetic square", "rectangle", {{"width", "1"}, {"height", "1"}}, true, "4000/2030", "0.3", "0.2"},
+    {"magnetic square",
+     "rectangle",
+     {{"width", "1"}, {"height", "1"}},
+     true,
+     "4000/2030",
+     "0.3",
+     "0.2"},
 };
 
 ExactNumber written(const std::string& text) { return {text, Place{}}; }
@@ -63,7 +69,8 @@ void measure_row(Report& report, const Row& row) {
   int attempts = 0;
   bool same = true;
   for (int i = 0; i < starts; ++i) {
-    system.start.direction = {written("1"), written(fmt::format("7/10 + {}/{}", i, 3 * starts + 1))};
+    system.start.direction = {written("1"),
+                              written(fmt::format("7/10 + {}/{}", i, 3 * starts + 1))};
     const double start = cpu_seconds();
     CertifiedOrbit orbit = certified_orbit(system, hits, 20);
     const CertifiedEnd end = orbit.finish();
@@ -73,12 +80,14 @@ void measure_row(Report& report, const Row& row) {
     attempts += orbit.effort().attempts;
     bits += static_cast<double>(orbit.effort().bits);
     stretched += orbit.effort().tangent_bits;
-    const long plain_bits = orbit.effort().bits + orbit.effort().bits / 16 + 64;  // its roundings do feed each other
+    const long plain_bits =
+        orbit.effort().bits + orbit.effort().bits / 16 + 64;  // its roundings do feed each other
     const double before = cpu_seconds();
     const PlainEnd hoped = plain_orbit(system, hits, plain_bits);
     plain += cpu_seconds() - before;
-    same = same && end.fate == CertifiedFate::completed && end.wall == hoped.wall && end.cell == hoped.cell &&
-           agree(end.x.text(20), hoped.x) && agree(end.vy.text(20), hoped.vy);
+    same = same && end.fate == CertifiedFate::completed && end.wall == hoped.wall &&
+           end.cell == hoped.cell && agree(end.x.text(20), hoped.x) &&
+           agree(end.vy.text(20), hoped.vy);
     flown += end.t.to_double();
   }
   const double all = static_cast<double>(starts) * static_cast<double>(hits);
@@ -87,9 +96,12 @@ void measure_row(Report& report, const Row& row) {
   const bool geometric = row.omega[0] == '0';
   const bool right = !geometric || std::fabs(mean / geometry_mean - 1.0) < 6.0 / std::sqrt(all);
   const double each = sum / starts * 1e9;
-  report.add({fmt::format("certified {}, {} hits", row.name, hits), "balls", each, each / chain(), "plain MPFR", plain / sum,
-              fmt::format("last digits {}, mean flight {:.4f}{}; longest {:.1f} ms, {:.2f} attempts, {:.0f} bits, {:.3f} of them lost a hit",
-                          same ? "agree" : "DIFFER", mean, geometric ? fmt::format(" of {:.4f}", geometry_mean) : "", 1e3 * longest,
+  report.add({fmt::format("certified {}, {} hits", row.name, hits), "balls", each, each / chain(),
+              "plain MPFR", plain / sum,
+              fmt::format("last digits {}, mean flight {:.4f}{}; longest {:.1f} ms, {:.2f} "
+                          "attempts, {:.0f} bits, {:.3f} of them lost a hit",
+                          same ? "agree" : "DIFFER", mean,
+                          geometric ? fmt::format(" of {:.4f}", geometry_mean) : "", 1e3 * longest,
                           static_cast<double>(attempts) / starts, bits / starts, stretched / all),
               same && right});
 }

@@ -1,5 +1,5 @@
-// Whole ensembles, starts and sums included: lanes beside the scalar engine, and two threads beside one. Digests and what is
-// added up must be equal, and the mean flight or the energy right.
+// Whole ensembles, starts and sums included: lanes beside the scalar engine, and two threads beside
+// one. Digests and what is added up must be equal, and the mean flight or the energy right.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -32,10 +32,12 @@ System system_of(const char* name, double t_end, std::uint64_t trajectories) {
 
 /// Digests, and what was added up beside them.
 bool same_bits(const EscapeResult& a, const EscapeResult& b) {
-  return a.digest == b.digest && a.counts.collisions == b.counts.collisions && a.counts.gone_in == b.counts.gone_in;
+  return a.digest == b.digest && a.counts.collisions == b.counts.collisions &&
+         a.counts.gone_in == b.counts.gone_in;
 }
 bool same_bits(const DiffusionResult& a, const DiffusionResult& b) {
-  bool same = a.digest == b.digest && a.collisions == b.collisions && a.energy_change == b.energy_change;
+  bool same =
+      a.digest == b.digest && a.collisions == b.collisions && a.energy_change == b.energy_change;
   for (std::size_t group = 0; group < DisplacementSums::groups; ++group)
     for (std::size_t k = 0; k < a.sums.times().size(); ++k) {
       const DisplacementSums::Sum &one = a.sums.of(group, k), &other = b.sums.of(group, k);
@@ -45,17 +47,21 @@ bool same_bits(const DiffusionResult& a, const DiffusionResult& b) {
   return same;
 }
 
-/// `run(lanes)` returns an ensemble's result, `events` how many it counts, `check` what its physics says.
+/// `run(lanes)` returns an ensemble's result, `events` how many it counts, `check` what its physics
+/// says.
 template <class Run, class Events, class Check>
-void measure_row(Report& report, const std::string& what, int times, const Run& run, const Events& events, const Check& check) {
+void measure_row(Report& report, const std::string& what, int times, const Run& run,
+                 const Events& events, const Check& check) {
   Best scalar, lanes;
   auto one = run(false), other = run(true);
   scalar.repeat(1, [&] { return events(one = run(false)); });
   lanes.repeat(times, [&] { return events(other = run(true)); });
   const auto [text, right] = check(other);
   const bool same = same_bits(one, other);
-  report.add({what, name_of(widest_instruction_set()), lanes.each, lanes.ratio, "scalar", scalar.each / lanes.each,
-              fmt::format("digests and sums {}, {}", same ? "equal" : "DIFFER", text), same && right});
+  report.add({what, name_of(widest_instruction_set()), lanes.each, lanes.ratio, "scalar",
+              scalar.each / lanes.each,
+              fmt::format("digests and sums {}, {}", same ? "equal" : "DIFFER", text),
+              same && right});
 }
 
 struct Checked {
@@ -72,12 +78,15 @@ void diffusion(Report& report, const char* name) {
     return run_diffusion(system, how);
   };
   const auto events = [](const DiffusionResult& r) { return static_cast<double>(r.collisions); };
-  measure_row(report, fmt::format("diffusion {}, a hit", name), 5, run, events, [&](const DiffusionResult& r) {
-    const double expected = measure(*system.table).mean_flight;
-    const double mean = system.run.times.back() * static_cast<double>(r.trajectories) / static_cast<double>(r.collisions);
-    return Checked{fmt::format("mean flight {:.4f} of {:.4f}; {} report times", mean, expected, system.run.times.size()),
-                   std::fabs(mean / expected - 1.0) < 0.01};
-  });
+  measure_row(report, fmt::format("diffusion {}, a hit", name), 5, run, events,
+              [&](const DiffusionResult& r) {
+                const double expected = measure(*system.table).mean_flight;
+                const double mean = system.run.times.back() * static_cast<double>(r.trajectories) /
+                                    static_cast<double>(r.collisions);
+                return Checked{fmt::format("mean flight {:.4f} of {:.4f}; {} report times", mean,
+                                           expected, system.run.times.size()),
+                               std::fabs(mean / expected - 1.0) < 0.01};
+              });
 }
 
 // Figure 6 of Solanpaa et al. (2016), its beginning.
@@ -89,10 +98,15 @@ void soft_diffusion(Report& report) {
     how.lanes = lanes ? std::optional(widest_instruction_set()) : std::nullopt;
     return run_diffusion(system, how);
   };
-  const auto steps = [&](const DiffusionResult& r) { return system.run.times.back() / system.dynamics.integrator.step * static_cast<double>(r.trajectories); };
-  measure_row(report, "diffusion soft-lorentz, a step", 2, run, steps, [](const DiffusionResult& r) {
-    return Checked{fmt::format("energy within {:.1e}", r.energy_change), r.energy_change < 1e-6};
-  });
+  const auto steps = [&](const DiffusionResult& r) {
+    return system.run.times.back() / system.dynamics.integrator.step *
+           static_cast<double>(r.trajectories);
+  };
+  measure_row(report, "diffusion soft-lorentz, a step", 2, run, steps,
+              [](const DiffusionResult& r) {
+                return Checked{fmt::format("energy within {:.1e}", r.energy_change),
+                               r.energy_change < 1e-6};
+              });
 }
 
 EscapeResult escapes(const System& system, bool lanes, int threads) {
@@ -104,11 +118,15 @@ EscapeResult escapes(const System& system, bool lanes, int threads) {
 
 void magnetic_square(Report& report) {
   const System system = system_of("magnetic-square", 100.0, 100'000);
-  const auto events = [](const EscapeResult& r) { return static_cast<double>(r.counts.collisions); };
+  const auto events = [](const EscapeResult& r) {
+    return static_cast<double>(r.counts.collisions);
+  };
   const auto run = [&](bool lanes) { return escapes(system, lanes, 1); };
   measure_row(report, "escape magnetic-square, a hit", 5, run, events, [](const EscapeResult& r) {
-    const double busy = 1.0 - static_cast<double>(r.effort.idle) / static_cast<double>(r.effort.steps);
-    return Checked{fmt::format("nobody lost, lanes {:.1f} % busy", 100.0 * busy), r.counts.lost == 0};
+    const double busy =
+        1.0 - static_cast<double>(r.effort.idle) / static_cast<double>(r.effort.steps);
+    return Checked{fmt::format("nobody lost, lanes {:.1f} % busy", 100.0 * busy),
+                   r.counts.lost == 0};
   });
 }
 
@@ -131,8 +149,11 @@ void two_threads(Report& report) {
     if (wall[0] / wall[1] > best) best = wall[0] / wall[1], cpu = work[1] / work[0];
     each = std::min(each, wall[1] / static_cast<double>(results[1].counts.collisions) * 1e9);
   }
-  report.add({"two threads, a hit, wall time", name_of(widest_instruction_set()), each, each / chain(), "one thread", best,
-              fmt::format("digests and sums {}, CPU time {:.3f} of one thread's", same ? "equal" : "DIFFER", cpu), same});
+  report.add({"two threads, a hit, wall time", name_of(widest_instruction_set()), each,
+              each / chain(), "one thread", best,
+              fmt::format("digests and sums {}, CPU time {:.3f} of one thread's",
+                          same ? "equal" : "DIFFER", cpu),
+              same});
 }
 
 }  // namespace

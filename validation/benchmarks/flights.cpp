@@ -1,6 +1,7 @@
-// CPU time of one hit by the scalar event engine, each beside a physical identity: the mean flight of
-// cosine starts is pi (A - A0) / L, where A0 is the area of the centres of Larmor circles that fit into the
-// table (docs/physics). Beside it a time-stepper of the same system, and a plain loop over obstacles in doubles.
+// CPU time of one hit by the scalar event engine, each beside a physical identity: the mean flight
+// of cosine starts is pi (A - A0) / L, where A0 is the area of the centres of Larmor circles that
+// fit into the table (docs/physics). Beside it a time-stepper of the same system, and a plain loop
+// over obstacles in doubles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,12 +31,12 @@ struct Flights : Observer {
 
 struct Row {
   const char* name;
-  const char* table;     // TOML of [table] and [field]
+  const char* table;  // TOML of [table] and [field]
   double omega;
   Level (*stepped)(double, double) = nullptr;  // null: no time-stepper
   Obstacles (*loop)() = nullptr;               // null: no loop over obstacles
   double loop_flight = 0.0;                    // mean flight of its one orbit; 0: that of the table
-  const char* fewer = nullptr;                 // a row before: the same gas or polygon, of fewer walls
+  const char* fewer = nullptr;  // a row before: the same gas or polygon, of fewer walls
 };
 
 constexpr std::uint64_t trajectories = 200;  // of 1000 hits
@@ -77,9 +78,16 @@ void measure_row(Report& report, const Row& row, Costs& costs) {
   });
   costs[row.name] = best.each;
   const double off = (flight.mean() - expected) / flight.error();
-  Line line{std::string(row.name) + ", a hit", "scalar", best.each, best.ratio, "", 0.0,
-            fmt::format("mean flight {:.5f}, {:+.1f} errors off pi A/L = {:.5f}; {} of {:.0e} decisions beyond doubles", flight.mean(), off,
-                        expected, world.decisions().exact, static_cast<double>(world.decisions().filter)),
+  Line line{std::string(row.name) + ", a hit",
+            "scalar",
+            best.each,
+            best.ratio,
+            "",
+            0.0,
+            fmt::format("mean flight {:.5f}, {:+.1f} errors off pi A/L = {:.5f}; {} of {:.0e} "
+                        "decisions beyond doubles",
+                        flight.mean(), off, expected, world.decisions().exact,
+                        static_cast<double>(world.decisions().filter)),
             std::fabs(off) < 5.0};
   if (row.fewer && costs.contains(row.fewer)) {
     line.against = row.fewer;
@@ -89,7 +97,8 @@ void measure_row(Report& report, const Row& row, Costs& costs) {
     line.against = "steps in time of 1e-4";
     const double start = cpu_seconds();
     const auto stepped = step_in_time(row.stepped, row.omega, 1e-4, 300);
-    line.ratio = (cpu_seconds() - start) / static_cast<double>(stepped.hits) * 1e9 / best.each + 0.0 * stepped.checksum;
+    line.ratio = (cpu_seconds() - start) / static_cast<double>(stepped.hits) * 1e9 / best.each +
+                 0.0 * stepped.checksum;
   }
   report.add(line);
   if (!row.loop) return;
@@ -97,36 +106,44 @@ void measure_row(Report& report, const Row& row, Costs& costs) {
   const double start = cpu_seconds();
   const auto flown = fly_among(obstacles, row.omega, 100'000);
   const double each = (cpu_seconds() - start) / static_cast<double>(flown.hits) * 1e9;
-  const double mean = flown.time / static_cast<double>(flown.hits), wanted = row.loop_flight > 0 ? row.loop_flight : expected;
-  report.add({std::string(row.name) + ", a hit", "peer's way", each, each * best.ratio / best.each, "scalar", best.each / each,
-              fmt::format("mean flight of one orbit {:.4f}, expected {:.4f}; DynamicalBilliards.jl reports {} ns", mean, wanted,
-                          row.omega == 0.0 ? "45.6" : "294.5"),
-              !flown.left && std::fabs(mean / wanted - 1.0) < 0.02});
+  const double mean = flown.time / static_cast<double>(flown.hits),
+               wanted = row.loop_flight > 0 ? row.loop_flight : expected;
+  report.add(
+      {std::string(row.name) + ", a hit", "peer's way", each, each * best.ratio / best.each,
+       "scalar", best.each / each,
+       fmt::format(
+           "mean flight of one orbit {:.4f}, expected {:.4f}; DynamicalBilliards.jl reports {} ns",
+           mean, wanted, row.omega == 0.0 ? "45.6" : "294.5"),
+       !flown.left && std::fabs(mean / wanted - 1.0) < 0.02});
 }
 
 const Row rows[] = {
-    {"square", "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n", 0, square,
-     unit_square, 0.723733},  // 1 / (cos 1 + sin 1)
+    {"square", "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n", 0, square, unit_square,
+     0.723733},  // 1 / (cos 1 + sin 1)
     {"stadium", "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n", 0, stadium,
      unit_stadium},
-    {"mushroom",
-     "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n", 0},
+    {"mushroom", "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n",
+     0},
     {"sinai torus", "[table]\nshape = \"sinai\"\nside = 1\nradius = 0.4\ntorus = true\n", 0},
     {"lorentz triangular",
      "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 2.2\nradius = 1\n", 0},
-    {"random lorentz 10", "[table]\nshape = \"random-discs\"\nside = \"sqrt(102.4)\"\nradius = 1\ncount = 10\n", 0},
+    {"random lorentz 10",
+     "[table]\nshape = \"random-discs\"\nside = \"sqrt(102.4)\"\nradius = 1\ncount = 10\n", 0},
     {"random lorentz 100000",
-     "[table]\nshape = \"random-discs\"\nside = \"sqrt(1024000)\"\nradius = 1\ncount = 100000\n", 0, nullptr, nullptr, 0.0, "random lorentz 10"},
+     "[table]\nshape = \"random-discs\"\nside = \"sqrt(1024000)\"\nradius = 1\ncount = 100000\n", 0,
+     nullptr, nullptr, 0.0, "random lorentz 10"},
     {"regular 100", "[table]\nshape = \"regular\"\nsides = 100\nradius = 1\n", 0},
-    {"regular 10000", "[table]\nshape = \"regular\"\nsides = 10000\nradius = 1\n", 0, nullptr, nullptr, 0.0, "regular 100"},
+    {"regular 10000", "[table]\nshape = \"regular\"\nsides = 10000\nradius = 1\n", 0, nullptr,
+     nullptr, 0.0, "regular 100"},
     {"ellipse", "[table]\nshape = \"ellipse\"\na = 1\nb = 0.75\n", 0, ellipse},
     {"magnetic square",
-     "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n", 1 / 0.5075,
-     square, unit_square},
+     "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n",
+     1 / 0.5075, square, unit_square},
     {"magnetic stadium",
-     "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[field]\nlarmor_radius = 3\n", 1 / 3.0,
-     stadium, unit_stadium},
-    {"magnetic ellipse", "[table]\nshape = \"ellipse\"\na = 1\nb = 0.75\n[field]\nlarmor_radius = 3\n", 1 / 3.0,
+     "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[field]\nlarmor_radius = 3\n",
+     1 / 3.0, stadium, unit_stadium},
+    {"magnetic ellipse",
+     "[table]\nshape = \"ellipse\"\na = 1\nb = 0.75\n[field]\nlarmor_radius = 3\n", 1 / 3.0,
      ellipse},
 };
 

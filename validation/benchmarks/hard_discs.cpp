@@ -1,5 +1,5 @@
-// Hard discs on a torus: contacts a second, what is conserved, and the compressibility factor against the
-// virial series.
+// Hard discs on a torus: contacts a second, what is conserved, and the compressibility factor
+// against the virial series.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -36,9 +36,11 @@ double virial_series(double eta) {
   for (const double c : b) z += c * (power *= 2.0 * eta);
   return z;
 }
-// What a torus with N discs has: Z - (rho/2N) d/drho log(d(rho Z)/drho), docs/physics/hard-discs.md.
+// What a torus with N discs has: Z - (rho/2N) d/drho log(d(rho Z)/drho),
+// docs/physics/hard-discs.md.
 double of_discs(double eta, int count) {
-  double first = 1.0, second = 0.0, power = 1.0, k = 1.0;  // d(rho Z)/drho and rho times its derivative
+  double first = 1.0, second = 0.0, power = 1.0,
+         k = 1.0;  // d(rho Z)/drho and rho times its derivative
   for (const double c : b) {
     power *= 2.0 * eta;
     first += (k + 1.0) * c * power;
@@ -64,8 +66,8 @@ void measure_discs(Report& report) {
   spec.interaction->kind = InteractionSpec::Kind::hard_discs;
   spec.interaction->radii.assign(static_cast<std::size_t>(count), radius);
   Dynamics dynamics;
-  dynamics.forces =
-      ForceField::build(spec, std::vector<Particle>(static_cast<std::size_t>(count)), table.lattice);
+  dynamics.forces = ForceField::build(spec, std::vector<Particle>(static_cast<std::size_t>(count)),
+                                      table.lattice);
 
   RandomStream random(seed, Purpose::initial_state, 0);
   std::vector<Vector> v;
@@ -86,7 +88,8 @@ void measure_discs(Report& report) {
   }
   const auto energy = [&] {
     double e = 0.0;
-    for (int i = 0; i < count; ++i) e += 0.5 * dot(world.state(i).velocity, world.state(i).velocity);
+    for (int i = 0; i < count; ++i)
+      e += 0.5 * dot(world.state(i).velocity, world.state(i).velocity);
     return e;
   };
   const auto momentum = [&] {
@@ -99,7 +102,8 @@ void measure_discs(Report& report) {
   double t = 30.0 / speed;  // forgets the square order
   world.run_until(t, warm);
 
-  // Blocks of equal time: N kT (Z - 1) = sum sigma |J| / (2 t), and E = (N - 1) kT as the momentum is zero.
+  // Blocks of equal time: N kT (Z - 1) = sum sigma |J| / (2 t), and E = (N - 1) kT as the momentum
+  // is zero.
   std::vector<double> z;
   double worst = 0.0, seconds = 0.0;
   const double block = 20.0 / speed;
@@ -117,23 +121,29 @@ void measure_discs(Report& report) {
   double average = 0.0, square = 0.0;
   for (const double x : z) average += x / n;
   for (const double x : z) square += (x - average) * (x - average);
-  const double each = seconds / static_cast<double>(seen.contacts) * 1e9, error = std::sqrt(square / (n * (n - 1.0)));
+  const double each = seconds / static_cast<double>(seen.contacts) * 1e9,
+               error = std::sqrt(square / (n * (n - 1.0)));
   const double expected = of_discs(eta, count);
   PairLoop loop(side, radius);
   for (int i = 0; i < count; ++i) {
     const State state = world.state(i);
-    const Vector there = state.position + table.lattice->translation(state.cell) + (t - state.time.value()) * state.velocity;
+    const Vector there = state.position + table.lattice->translation(state.cell) +
+                         (t - state.time.value()) * state.velocity;
     loop.add(there.x, there.y, state.velocity.x, state.velocity.y);
   }
   constexpr long looped = 20'000;
   double virial = 0.0;
   const double begin = cpu_seconds(), flown = loop.run(looped, virial);
-  const double other = (cpu_seconds() - begin) / looped * 1e9, z_of_loop = 1.0 + virial / (2.0 * start * flown) * (count - 1.0) / count;
-  report.add({fmt::format("{} hard discs, a contact", count), "scalar", each, each / chain(), "loop over pairs", other / each,
-              fmt::format("Z {:.5f}({:.5f}) of {:.5f}, by the loop {:.3f}; energy within {:.0e}, momentum {:.0e}; {:.2f} events a contact", average,
-                          error, expected, z_of_loop, worst, momentum() / (count * speed),
+  const double other = (cpu_seconds() - begin) / looped * 1e9,
+               z_of_loop = 1.0 + virial / (2.0 * start * flown) * (count - 1.0) / count;
+  report.add({fmt::format("{} hard discs, a contact", count), "scalar", each, each / chain(),
+              "loop over pairs", other / each,
+              fmt::format("Z {:.5f}({:.5f}) of {:.5f}, by the loop {:.3f}; energy within {:.0e}, "
+                          "momentum {:.0e}; {:.2f} events a contact",
+                          average, error, expected, z_of_loop, worst, momentum() / (count * speed),
                           static_cast<double>(events) / static_cast<double>(seen.contacts)),
-              std::fabs(average - expected) < 4.0 * error && std::fabs(z_of_loop - expected) < 0.05 && worst < 1e-12});
+              std::fabs(average - expected) < 4.0 * error &&
+                  std::fabs(z_of_loop - expected) < 0.05 && worst < 1e-12});
 }
 
 }  // namespace

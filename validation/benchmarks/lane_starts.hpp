@@ -10,7 +10,8 @@
 namespace carom::bench {
 
 /// Gives them one after the other. They must live as long.
-inline std::function<bool(LaneStart&)> each_of(const Particle& particle, const std::vector<State>& starts) {
+inline std::function<bool(LaneStart&)> each_of(const Particle& particle,
+                                               const std::vector<State>& starts) {
   return [&, next = std::size_t{0}](LaneStart& start) mutable {
     if (next == starts.size()) return false;
     start = {next, particle, starts[next], 0};

@@ -16,8 +16,10 @@ namespace carom::bench {
 Report::Report(Aim aim, std::vector<std::string> wanted) : aim_(aim) {
   if (aim_ == Aim::list) return;
   for (std::string& name : wanted) wanted_.push_back({std::move(name)});
-  fmt::print("CPU time, the least of several runs; a link: 1 + 1/sqrt(x), {:.2f} ns here\n\n", chain());
-  fmt::print("{:<38} {:<10} {:>10} {:>8}  {:<21} {:>8}  {}\n", "what", "path", "ns", "links", "against", "times", "check");
+  fmt::print("CPU time, the least of several runs; a link: 1 + 1/sqrt(x), {:.2f} ns here\n\n",
+             chain());
+  fmt::print("{:<38} {:<10} {:>10} {:>8}  {:<21} {:>8}  {}\n", "what", "path", "ns", "links",
+             "against", "times", "check");
 }
 
 bool Report::wants(std::string_view what) {
@@ -33,16 +35,19 @@ bool Report::wants(std::string_view what) {
 
 void Report::add(const Line& line) {
   wrong_ = wrong_ || !line.right;
-  const std::string against = line.against.empty() ? fmt::format("{:<30}", "") : fmt::format("{:<21} {:>8.3g}", line.against, line.ratio);
-  fmt::print("{:<38} {:<10} {:>10.4g} {:>8.3g}  {}  {}{}\n", line.what, line.path, line.each, line.links, against, line.check,
-             line.right ? "" : "  WRONG");
+  const std::string against = line.against.empty()
+                                  ? fmt::format("{:<30}", "")
+                                  : fmt::format("{:<21} {:>8.3g}", line.against, line.ratio);
+  fmt::print("{:<38} {:<10} {:>10.4g} {:>8.3g}  {}  {}{}\n", line.what, line.path, line.each,
+             line.links, against, line.check, line.right ? "" : "  WRONG");
   std::fflush(stdout);
 }
 
 bool Report::failed() const {
   for (const Name& name : wanted_)
     if (!name.found) fmt::print(stderr, "bench: no row begins with '{}'\n", name.begin);
-  return wrong_ || std::any_of(wanted_.begin(), wanted_.end(), [](const Name& name) { return !name.found; });
+  return wrong_ ||
+         std::any_of(wanted_.begin(), wanted_.end(), [](const Name& name) { return !name.found; });
 }
 
 }  // namespace carom::bench
@@ -50,11 +55,14 @@ bool Report::failed() const {
 int main(int argc, char** argv) {
   using namespace carom::bench;
   const std::vector<std::string> names(argv + 1, argv + argc);
-  const bool help = std::any_of(names.begin(), names.end(), [](const std::string& name) { return name == "--help" || name == "-h"; });
+  const bool help = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name == "--help" || name == "-h";
+  });
   if (help) fmt::print("bench [NAME...]: measures the rows whose names begin so, or all of\n");
   Report report = help ? Report(Report::Aim::list) : Report(Report::Aim::measure, names);
-  for (const auto& rows : {straight_and_larmor_flights, flights_in_lanes, steps_under_forces, questions_of_resolution, contacts_of_hard_discs,
-                           certified_orbits, whole_ensembles})
+  for (const auto& rows :
+       {straight_and_larmor_flights, flights_in_lanes, steps_under_forces, questions_of_resolution,
+        contacts_of_hard_discs, certified_orbits, whole_ensembles})
     rows(report);
   return report.failed() ? 1 : 0;
 }

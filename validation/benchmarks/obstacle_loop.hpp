@@ -1,7 +1,7 @@
-// The way of most published billiard programs (e.g. Datseris 2017): in doubles, a time to each obstacle by
-// the formula of its kind, the least of them taken, arcs by the mathematical library. No decision is certain,
-// and what stands on an obstacle is told by a small length. Short and plain on purpose: the event engine is
-// compared with its speed only.
+// The way of most published billiard programs (e.g. Datseris 2017): in doubles, a time to each
+// obstacle by the formula of its kind, the least of them taken, arcs by the mathematical library.
+// No decision is certain, and what stands on an obstacle is told by a small length. Short and plain
+// on purpose: the event engine is compared with its speed only.
 #pragma once
 
 #include <cmath>
@@ -91,7 +91,8 @@ class HalfCircleObstacle : public Obstacle {
     return best;
   }
   double bent(const Flyer& p, double cx, double cy, double omega) const override {
-    const double r = 1 / std::fabs(omega), dx = cx - x_, dy = cy - y_, d = std::sqrt(dx * dx + dy * dy);
+    const double r = 1 / std::fabs(omega), dx = cx - x_, dy = cy - y_,
+                 d = std::sqrt(dx * dx + dy * dy);
     if (d > r + radius_ || d < std::fabs(r - radius_)) return none;
     const double along = (radius_ * radius_ - r * r + d * d) / (2 * d);
     const double off = std::sqrt(std::fmax(0.0, radius_ * radius_ - along * along));

@@ -1,6 +1,6 @@
-// Hard discs of unit mass on a square torus by the plainest loop: after each contact both discs are asked for their next one with
-// every other and its images, and the first of all pairs is found by looking at each. In doubles, nothing certain: the event
-// engine is compared with its speed only.
+// Hard discs of unit mass on a square torus by the plainest loop: after each contact both discs are
+// asked for their next one with every other and its images, and the first of all pairs is found by
+// looking at each. In doubles, nothing certain: the event engine is compared with its speed only.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,8 @@ class PairLoop {
 
   void add(double x, double y, double vx, double vy) { discs_.push_back({x, y, vx, vy}); }
 
-  /// Follows `contacts` of them; the time that they take. `virial` adds up diameter times what each passes on.
+  /// Follows `contacts` of them; the time that they take. `virial` adds up diameter times what each
+  /// passes on.
   double run(long contacts, double& virial) {
     for (std::size_t i = 0; i < discs_.size(); ++i) predict(i);
     const double start = now_;
@@ -28,7 +29,8 @@ class PairLoop {
       move_to(discs_[first].next);
       virial += collide(discs_[first], discs_[second]);
       for (std::size_t i = 0; i < discs_.size(); ++i)
-        if (i == first || i == second || discs_[i].partner == first || discs_[i].partner == second) predict(i);
+        if (i == first || i == second || discs_[i].partner == first || discs_[i].partner == second)
+          predict(i);
     }
     return now_ - start;
   }
@@ -56,9 +58,11 @@ class PairLoop {
     for (std::size_t j = 0; j < discs_.size(); ++j) {
       const Disc& b = discs_[j];
       if (j == i) continue;
-      const double vx = b.vx - a.vx, vy = b.vy - a.vy, v2 = vx * vx + vy * vy, x = nearest(b.x - a.x), y = nearest(b.y - a.y);
+      const double vx = b.vx - a.vx, vy = b.vy - a.vy, v2 = vx * vx + vy * vy,
+                   x = nearest(b.x - a.x), y = nearest(b.y - a.y);
       for (int image = 0; image < 9; ++image) {
-        const double dx = x + side_ * (image % 3 - 1), dy = y + side_ * (image / 3 - 1), along = dx * vx + dy * vy;
+        const double dx = x + side_ * (image % 3 - 1), dy = y + side_ * (image / 3 - 1),
+                     along = dx * vx + dy * vy;
         const double under = along * along - v2 * (dx * dx + dy * dy - diameter_ * diameter_);
         if (along >= 0.0 || under < 0.0) continue;
         const double t = now_ + (-along - std::sqrt(under)) / v2;

@@ -15,7 +15,9 @@ class Plain {
   /// Bits of results in this thread, while it lives.
   class Precision {
    public:
-    explicit Precision(mpfr_prec_t bits) : before_(mpfr_get_default_prec()) { mpfr_set_default_prec(bits); }
+    explicit Precision(mpfr_prec_t bits) : before_(mpfr_get_default_prec()) {
+      mpfr_set_default_prec(bits);
+    }
     ~Precision() { mpfr_set_default_prec(before_); }
     Precision(const Precision&) = delete;
     Precision& operator=(const Precision&) = delete;
@@ -91,7 +93,6 @@ class Plain {
 /// For a choice between formulas of the same number.
 inline double middle_of(const Plain& x) { return x.to_double(); }
 
-
 // Found by the flights of larmor_flight.hpp.
 static Plain time_at(const Kappa<Plain>& k, const MotionOf<Plain>& motion) {
   const bool turned = sign(k.q) == Sign::negative;
@@ -102,7 +103,8 @@ static Plain time_at(const Kappa<Plain>& k, const MotionOf<Plain>& motion) {
   return angle / h;
 }
 
-/// Exits as near to each other as their numbers can tell: the distance of two roots is that of a root from rounding.
+/// Exits as near to each other as their numbers can tell: the distance of two roots is that of a
+/// root from rounding.
 template <>
 struct IsolationEffort<Plain> {
   int deepest = static_cast<int>(std::max<mpfr_prec_t>(mpfr_get_default_prec() / 2, 25));
@@ -141,8 +143,8 @@ PlainEnd plain_orbit(const ExactSystem& system, std::uint64_t collisions, long b
   state.standing = start.standing();
   PlainEnd end;
   while (end.collisions < collisions) {
-    const Choice choice = scene.next(start.whereabouts(), state.position, state.velocity, state.standing,
-                                     near(state.position), near(state.velocity));
+    const Choice choice = scene.next(start.whereabouts(), state.position, state.velocity,
+                                     state.standing, near(state.position), near(state.velocity));
     if (choice.answer != Choice::wall) break;
     fly_to(scene, choice.first, state);
     end.wall = state.standing;

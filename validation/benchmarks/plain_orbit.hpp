@@ -1,5 +1,5 @@
-// Orbits in plain MPFR numbers: the formulas of certified orbits, each operation rounded once. Nothing tells how many
-// digits are right: these orbits are for comparison with certified ones.
+// Orbits in plain MPFR numbers: the formulas of certified orbits, each operation rounded once.
+// Nothing tells how many digits are right: these orbits are for comparison with certified ones.
 #pragma once
 
 #include <cstdint>

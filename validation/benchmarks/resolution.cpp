@@ -1,5 +1,6 @@
-// CPU time of the question whether a step resolves its forces, beside a whole step in the widest lanes there are. Every step
-// of these orbits is resolved, and the energy is what the scheme promises.
+// CPU time of the question whether a step resolves its forces, beside a whole step in the widest
+// lanes there are. Every step of these orbits is resolved, and the energy is what the scheme
+// promises.
 #include <fmt/format.h>
 
 #include <carom/carom.hpp>
@@ -21,7 +22,7 @@ namespace {
 
 struct Row {
   const char* name;
-  double energy;  ///< most that a particle's may change
+  double energy;               ///< most that a particle's may change
   const char* text = nullptr;  ///< none: the built-in system
 };
 constexpr Row rows[] = {
@@ -29,11 +30,15 @@ constexpr Row rows[] = {
     {"antidot-magnetic", 1e-6},
     {"typed bumps in a box", 1e-6,
      "[table]\nshape = \"rectangle\"\nwidth = 2\nheight = 2\n[[potential]]\nkind = \"expression\"\n"
-     "expression = \"50*exp(-((x-1)^2+(y-1)^2)/(2*0.03^2))+0.2*cos(3*x)*sin(2*y)\"\n[particles]\nspeed = 1\n"
-     "[integrator]\nstep = 0.01\n[initial]\nkind = \"rectangle\"\nmin = [0.1, 0.1]\nmax = [0.5, 0.5]\n[run]\nt_max = 1\n"},
+     "expression = "
+     "\"50*exp(-((x-1)^2+(y-1)^2)/(2*0.03^2))+0.2*cos(3*x)*sin(2*y)\"\n[particles]\nspeed = 1\n"
+     "[integrator]\nstep = 0.01\n[initial]\nkind = \"rectangle\"\nmin = [0.1, 0.1]\nmax = [0.5, "
+     "0.5]\n[run]\nt_max = 1\n"},
     {"typed Henon-Heiles", 1e-9,
-     "[[potential]]\nkind = \"expression\"\nexpression = \"(x^2+y^2)/2+x^2*y-y^3/3\"\n[particles]\nspeed = 0.3\n"
-     "[integrator]\nstep = 0.05\n[initial]\nkind = \"rectangle\"\nmin = [-0.2, -0.2]\nmax = [0.2, 0.2]\n[run]\nt_max = 1\n"},
+     "[[potential]]\nkind = \"expression\"\nexpression = "
+     "\"(x^2+y^2)/2+x^2*y-y^3/3\"\n[particles]\nspeed = 0.3\n"
+     "[integrator]\nstep = 0.05\n[initial]\nkind = \"rectangle\"\nmin = [-0.2, -0.2]\nmax = [0.2, "
+     "0.2]\n[run]\nt_max = 1\n"},
 };
 
 /// The states after each step.
@@ -44,7 +49,8 @@ struct Recorder final : Observer {
 
 void measure_row(Report& report, const Row& row) {
   constexpr std::uint64_t trajectories = 64, steps = 500;
-  const System system = row.text ? read_system(row.text, row.name).system : load_system(row.name).system;
+  const System system =
+      row.text ? read_system(row.text, row.name).system : load_system(row.name).system;
   const Particle& particle = system.particles[0];
   const double step = system.dynamics.integrator.step, t_end = step * static_cast<double>(steps);
   World world(*system.table, system.dynamics);
@@ -64,7 +70,8 @@ void measure_row(Report& report, const Row& row) {
     change = std::fmax(change, std::fabs(energy(recorder.states.back()) - energy(starts.back())));
   }
   ForceMap map(*system.dynamics.forces, particle);
-  const resolution::Span span = resolution::span_of(step / resolution::steps_a_radius, particle.omega);
+  const resolution::Span span =
+      resolution::span_of(step / resolution::steps_a_radius, particle.omega);
   std::size_t resolved = 0;
   Best question;
   question.repeat(5, [&] {
@@ -81,9 +88,10 @@ void measure_row(Report& report, const Row& row) {
     lanes.run_until(t_end, each_of(particle, starts), [](const LaneEnd&) {});
     return static_cast<double>(steps * trajectories);
   });
-  report.add({std::string(row.name) + ", a question", "scalar", question.each, question.ratio, "a whole step",
-              whole.each / question.each,
-              fmt::format("{} of {} steps resolved, energy within {:.1e}", resolved, recorder.states.size(), change),
+  report.add({std::string(row.name) + ", a question", "scalar", question.each, question.ratio,
+              "a whole step", whole.each / question.each,
+              fmt::format("{} of {} steps resolved, energy within {:.1e}", resolved,
+                          recorder.states.size(), change),
               resolved == recorder.states.size() && change < row.energy});
 }
 

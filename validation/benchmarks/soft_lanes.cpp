@@ -1,6 +1,7 @@
-// CPU time of one step of a particle under forces, in lanes of every instruction set of this machine, beside the
-// scalar engine and a chain of dependent square roots and divisions in the same run. All ends must be the same
-// bits on every row, and the energy must be what the scheme promises.
+// CPU time of one step of a particle under forces, in lanes of every instruction set of this
+// machine, beside the scalar engine and a chain of dependent square roots and divisions in the same
+// run. All ends must be the same bits on every row, and the energy must be what the scheme
+// promises.
 #include <fmt/format.h>
 
 #include <bit>
@@ -23,7 +24,7 @@ namespace {
 
 struct Row {
   const char* name;
-  double energy;  ///< most that a particle's may change
+  double energy;               ///< most that a particle's may change
   const char* text = nullptr;  ///< TOML but for [initial] and [run]; none: the built-in system
 };
 constexpr Row rows[] = {
@@ -33,19 +34,25 @@ constexpr Row rows[] = {
      "[table]\nshape = \"circle\"\nradius = 1\n[[potential]]\nkind = \"linear\"\nforce = [0, -1]\n"
      "[particles]\nspeed = 1.5\n[integrator]\nstep = 0.05\n"},
     {"well in a stadium", 1e-9,
-     "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[[potential]]\nkind = \"harmonic\"\nomega = 1\n"
+     "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n[[potential]]\nkind = "
+     "\"harmonic\"\nomega = 1\n"
      "[particles]\nspeed = 1.5\n[integrator]\nstep = 0.1\n"},
     {"Henon-Heiles in a field", 1e-9,
-     "[table]\nshape = \"circle\"\nradius = 0.5\n[[potential]]\nkind = \"henon-heiles\"\n[field]\nB = 1\n"
+     "[table]\nshape = \"circle\"\nradius = 0.5\n[[potential]]\nkind = "
+     "\"henon-heiles\"\n[field]\nB = 1\n"
      "[particles]\nspeed = 0.7\n[integrator]\nstep = 0.05\n"},
     {"discs among bumps", 1e-6,
-     "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 1\nradius = 0.2\n[[potential]]\nkind = \"fermi\"\n"
-     "radius = 0.3\nsoftness = 0.05\nheight = 0.3\nlattice = true\n[particles]\nenergy = 0.5\n[integrator]\nstep = 0.05\n"},
+     "[table]\nshape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 1\nradius = "
+     "0.2\n[[potential]]\nkind = \"fermi\"\n"
+     "radius = 0.3\nsoftness = 0.05\nheight = 0.3\nlattice = true\n[particles]\nenergy = "
+     "0.5\n[integrator]\nstep = 0.05\n"},
 };
 
 System system_of(const Row& row) {
   if (!row.text) return load_system(row.name).system;
-  return read_system(std::string(row.text) + "[initial]\nkind = \"uniform\"\n[run]\nt_max = 1\n", row.name).system;
+  return read_system(std::string(row.text) + "[initial]\nkind = \"uniform\"\n[run]\nt_max = 1\n",
+                     row.name)
+      .system;
 }
 
 std::uint64_t digest_of(const std::vector<State>& ends) {
@@ -60,7 +67,8 @@ std::uint64_t digest_of(const std::vector<State>& ends) {
 }
 
 double energy_of(const System& system, const State& state) {
-  return carom::energy_of(system.particles, std::span(&state, 1), system.dynamics, *system.table).total();
+  return carom::energy_of(system.particles, std::span(&state, 1), system.dynamics, *system.table)
+      .total();
 }
 
 void measure_row(Report& report, const Row& row) {
@@ -91,20 +99,25 @@ void measure_row(Report& report, const Row& row) {
   const std::uint64_t expected = digest_of(ends);
   double change = 0.0;
   for (std::size_t i = 0; i < trajectories; ++i)
-    change = std::fmax(change, std::fabs(energy_of(system, ends[i]) - energy_of(system, starts[i])));
+    change =
+        std::fmax(change, std::fabs(energy_of(system, ends[i]) - energy_of(system, starts[i])));
   const bool right = change < row.energy;
   for (const InstructionSet set : available_instruction_sets()) {
     SoftLanes lanes(*system.table, system.dynamics, system.particles[0], set);
     Best best;
     best.repeat(5, [&] {
-      lanes.run_until(t_end, each_of(system.particles[0], starts), [&](const LaneEnd& end) { ends[end.tag] = end.state; });
+      lanes.run_until(t_end, each_of(system.particles[0], starts),
+                      [&](const LaneEnd& end) { ends[end.tag] = end.state; });
       return done;
     });
     const bool same = digest_of(ends) == expected;
-    report.add({std::string(row.name) + ", a step", name_of(set), best.each, best.ratio, "scalar", scalar.each / best.each,
-                fmt::format("ends {}, energy within {:.1e}{}", same ? "equal" : "DIFFER", change,
-                            hits > 0 ? fmt::format("; {:.1f} steps a hit", done / static_cast<double>(hits)) : ""),
-                same && right});
+    report.add(
+        {std::string(row.name) + ", a step", name_of(set), best.each, best.ratio, "scalar",
+         scalar.each / best.each,
+         fmt::format(
+             "ends {}, energy within {:.1e}{}", same ? "equal" : "DIFFER", change,
+             hits > 0 ? fmt::format("; {:.1f} steps a hit", done / static_cast<double>(hits)) : ""),
+         same && right});
   }
 }
 

@@ -1,4 +1,5 @@
-// The one table of ./dev bench: what each thing costs, beside a second path in the same run and a physical check.
+// The one table of ./dev bench: what each thing costs, beside a second path in the same run and a
+// physical check.
 #pragma once
 
 #include <functional>
@@ -24,7 +25,8 @@ struct Line {
 class Report {
  public:
   enum class Aim { measure, list };
-  /// `wanted`: beginnings of names; none: all. To list is to want nothing and to print the name of each row once.
+  /// `wanted`: beginnings of names; none: all. To list is to want nothing and to print the name of
+  /// each row once.
   explicit Report(Aim aim, std::vector<std::string> wanted = {});
   bool wants(std::string_view what);
   void add(const Line& line);
@@ -43,12 +45,13 @@ class Report {
 };
 
 /// The rows, by room.
-void straight_and_larmor_flights(Report&);  ///< scalar engine, stepping in time, a loop over obstacles
-void flights_in_lanes(Report&);             ///< lanes of every instruction set of this machine
-void steps_under_forces(Report&);           ///< the same for steps
-void questions_of_resolution(Report&);      ///< does a step resolve its forces?
+void straight_and_larmor_flights(
+    Report&);                           ///< scalar engine, stepping in time, a loop over obstacles
+void flights_in_lanes(Report&);         ///< lanes of every instruction set of this machine
+void steps_under_forces(Report&);       ///< the same for steps
+void questions_of_resolution(Report&);  ///< does a step resolve its forces?
 void contacts_of_hard_discs(Report&);
-void certified_orbits(Report&);             ///< beside plain MPFR
-void whole_ensembles(Report&);              ///< starts, sums and threads included
+void certified_orbits(Report&);  ///< beside plain MPFR
+void whole_ensembles(Report&);   ///< starts, sums and threads included
 
 }  // namespace carom::bench

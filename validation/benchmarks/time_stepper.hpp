@@ -1,6 +1,6 @@
-// The way of stepping in time: drift with a fixed step (a rotation of the velocity with a field), and turn
-// back at a wall when the step has left the table. Short and plain on purpose: it is what the event engine
-// is compared with, in speed only.
+// The way of stepping in time: drift with a fixed step (a rotation of the velocity with a field),
+// and turn back at a wall when the step has left the table. Short and plain on purpose: it is what
+// the event engine is compared with, in speed only.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,13 @@ inline Level square(double x, double y) {
   int nearest = 0;
   for (int i = 1; i < 4; ++i)
     if (d[i] < d[nearest]) nearest = i;
-  return {d[nearest], nearest == 0 ? 1.0 : nearest == 1 ? -1.0 : 0.0, nearest == 2 ? 1.0 : nearest == 3 ? -1.0 : 0.0};
+  return {d[nearest],
+          nearest == 0   ? 1.0
+          : nearest == 1 ? -1.0
+                         : 0.0,
+          nearest == 2   ? 1.0
+          : nearest == 3 ? -1.0
+                         : 0.0};
 }
 inline Level stadium(double x, double y) {
   const double e = x < -1 ? x + 1 : x > 1 ? x - 1 : 0.0;
@@ -50,7 +56,8 @@ StepResult step_in_time(Table table, double omega, double step, std::uint64_t hi
       vx = rotated;
       continue;
     }
-    const double twice = 2 * (vx * level.gx + vy * level.gy) / (level.gx * level.gx + level.gy * level.gy);
+    const double twice =
+        2 * (vx * level.gx + vy * level.gy) / (level.gx * level.gx + level.gy * level.gy);
     vx -= twice * level.gx;
     vy -= twice * level.gy;
     ++result.hits;

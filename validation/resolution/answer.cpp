@@ -21,12 +21,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Of positions, and of velocities relative to the largest speed; tables and bumps have sizes of about 1.
+/// Of positions, and of velocities relative to the largest speed; tables and bumps have sizes of
+/// about 1.
 constexpr double loose_error = 1e-3;
 
-/// Granted beside what the program states, times the growth: positions and velocities of size 1 are doubles,
-/// rounded in every step. With the default scheme at a sensible step the median of error over growth is
-/// 1e-14.
+/// Granted beside what the program states, times the growth: positions and velocities of size 1 are
+/// doubles, rounded in every step. With the default scheme at a sensible step the median of error
+/// over growth is 1e-14.
 constexpr double rounding_of_doubles = 1e-14;
 
 double seconds_since(Clock::time_point start) {
@@ -44,7 +45,8 @@ class Reader {
 
  private:
   void blanks() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == ',')) ++at_;
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == ','))
+      ++at_;
   }
   char next() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   std::string string() {
@@ -105,13 +107,15 @@ double number(const Answer& answer, const std::string& key) {
   return std::strtod(found->second.c_str(), nullptr);
 }
 
-/// The error of position and velocity that the program states: the one place that decides what it claims.
+/// The error of position and velocity that the program states: the one place that decides what it
+/// claims.
 std::pair<double, double> stated_error(const Answer& answer) {
   if (answer.keys.contains("state_error.position"))
     return {number(answer, "state_error.position"), number(answer, "state_error.velocity")};
   // Programs without that key state the energy's error alone.
   const bool largest = answer.keys.contains("energy_error.largest");
-  const double energy = std::fabs(number(answer, largest ? "energy_error.largest" : "energy_error"));
+  const double energy =
+      std::fabs(number(answer, largest ? "energy_error.largest" : "energy_error"));
   const double error = std::fmax(1e-6, 100 * energy);
   return {error, error};
 }
@@ -199,19 +203,22 @@ Judgement judge(const Answer& answer, const Reference& reference) {
   if (answer.exit_status == 3 || answer.keys.contains("note")) return verdict(Verdict::energy);
   if (answer.exit_status != 0) return verdict(Verdict::crashed);
   // Numbers that are not known (null) agree with nothing.
-  const double rounding = rounding_of_doubles * reference.growth * std::fmax(1.0, reference.fastest);
+  const double rounding =
+      rounding_of_doubles * reference.growth * std::fmax(1.0, reference.fastest);
   const bool within = result.position <= result.stated_position + rounding &&
                       result.velocity <= result.stated_velocity + rounding &&
                       number(answer, "t") == reference.t_end;
   // Runs that part from those with half the step before the end say so.
-  if (answer.keys.contains("state_error.until") && number(answer, "state_error.until") < reference.t_end)
+  if (answer.keys.contains("state_error.until") &&
+      number(answer, "state_error.until") < reference.t_end)
     return verdict(Verdict::loosely);
   const double velocity_loose = loose_error * std::fmax(1.0, reference.fastest);
   if (!within) {
     const bool near = result.position <= loose_error && result.velocity <= velocity_loose;
     return verdict(near ? Verdict::beyond : Verdict::wrong);
   }
-  const bool loose = result.stated_position > loose_error || result.stated_velocity > velocity_loose;
+  const bool loose =
+      result.stated_position > loose_error || result.stated_velocity > velocity_loose;
   return verdict(loose ? Verdict::loosely : Verdict::agrees);
 }
 

@@ -13,8 +13,9 @@ struct Answer {
   int signal = 0;         ///< that ended the program, or 0
   bool too_slow = false;  ///< stopped by this program
   double seconds = 0.0;
-  std::string error;                        ///< first line of standard error
-  std::map<std::string, std::string> keys;  ///< of the JSON: "energy_error.end" is a key in an object
+  std::string error;  ///< first line of standard error
+  std::map<std::string, std::string>
+      keys;  ///< of the JSON: "energy_error.end" is a key in an object
 };
 
 /// Runs `program run file --json`.

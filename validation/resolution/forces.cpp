@@ -8,11 +8,12 @@ namespace {
 /// exp(-this) is nothing, for a summand of this height and width: its force is below 1e-29.
 template <class Real>
 Real exponent_of_nothing(const Term& term) {
-  return Real(67) + logarithm(Real(1) + size(Real(term.height)) + size(Real(term.height)) / Real(term.width));
+  return Real(67) +
+         logarithm(Real(1) + size(Real(term.height)) + size(Real(term.height)) / Real(term.width));
 }
 
-/// A summand in x and y whose derivatives are those of a function of one linear combination s = a x + b y -
-/// c.
+/// A summand in x and y whose derivatives are those of a function of one linear combination s = a x
+/// + b y - c.
 template <class Real>
 class OnLine : public Force<Real> {
  public:
@@ -143,7 +144,8 @@ class Linear : public OnLine<Real> {
   Real potential(Real x, Real y) const override { return -this->s_at(x, y); }
   Real lowest() const override { return 0; }  // the orbit bounds it by the way
   Limit<Real> limit(Real, Real) const override { return {Real(0), Real(1e30L)}; }
-  void extend(int k, const Series<Real>&, const Series<Real>&, Series<Real>& ax, Series<Real>& ay) override {
+  void extend(int k, const Series<Real>&, const Series<Real>&, Series<Real>& ax,
+              Series<Real>& ay) override {
     if (k == 0) this->add(k, Real(1), ax, ay);
   }
 };
@@ -204,7 +206,8 @@ class Centre {
     ax[k] += factor * product(e_, dx_, k);
     ay[k] += factor * product(e_, dy_, k);
   }
-  void extend_fermi(int k, Real height, Real radius, Real softness, Series<Real>& ax, Series<Real>& ay) {
+  void extend_fermi(int k, Real height, Real radius, Real softness, Series<Real>& ax,
+                    Series<Real>& ay) {
     extend_root(r_, square_, k);
     extend_reciprocal(inverse_, r_, k);
     u_[k] = (r_[k] - (k == 0 ? radius : Real(0))) / softness;
@@ -227,7 +230,11 @@ template <class Real>
 class Bump : public Force<Real> {
  public:
   explicit Bump(const Term& t)
-      : rational_(t.shape == Term::Shape::rational), height_(t.height), width_(t.width), a_(t.a), b_(t.b) {
+      : rational_(t.shape == Term::Shape::rational),
+        height_(t.height),
+        width_(t.width),
+        a_(t.a),
+        b_(t.b) {
     edge_ = width_ * root(2 * exponent_of_nothing<Real>(t));
     centre_.place(a_, b_);
   }

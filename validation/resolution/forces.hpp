@@ -1,5 +1,6 @@
-// The forces of a system as power series along its orbit, and its potential as a plain formula. They share
-// nothing with each other but the system's numbers, so that the energy of an orbit tests both.
+// The forces of a system as power series along its orbit, and its potential as a plain formula.
+// They share nothing with each other but the system's numbers, so that the energy of an orbit tests
+// both.
 #pragma once
 
 #include <memory>
@@ -10,9 +11,9 @@
 
 namespace resolution {
 
-/// How a summand limits a step that begins at a point: as long as the way is shorter than `distance` it is
-/// not felt (below 1e-29 of the kinetic energy at the start); once it may be felt, no step's way is longer
-/// than `reach`.
+/// How a summand limits a step that begins at a point: as long as the way is shorter than
+/// `distance` it is not felt (below 1e-29 of the kinetic energy at the start); once it may be felt,
+/// no step's way is longer than `reach`.
 template <class Real>
 struct Limit {
   Real distance, reach;

@@ -1,6 +1,7 @@
-// Random systems whose forces are narrow, steep or many, each run by Carom under several schemes and compared
-// with an orbit in 34 digits by formulas and a method of this program's own. Every run must agree within the
-// error that it states, or say that it does not; the rest is wrong in silence.
+// Random systems whose forces are narrow, steep or many, each run by Carom under several schemes
+// and compared with an orbit in 34 digits by formulas and a method of this program's own. Every run
+// must agree within the error that it states, or say that it does not; the rest is wrong in
+// silence.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -29,7 +30,8 @@ const char* const usage =
     "  --seed S         of the systems (1)\n"
     "  --from I         index of the first system (0); system I of a seed is always the same\n"
     "  --count N        number of systems (2000)\n"
-    "  --folder F       where the files go (resolution); those of runs that are wrong in silence stay\n"
+    "  --folder F       where the files go (resolution); those of runs that are wrong in silence "
+    "stay\n"
     "  --results F      append a line for each run to this file\n"
     "  --chosen         also without step and tolerance: the program chooses\n"
     "  --growth G       orbits end before nearby ones have separated by this factor (1000)\n"
@@ -56,17 +58,18 @@ std::string written(double value) {
 
 /// A number in [0, 1) from a seed, an index and a purpose.
 double drawn(std::uint64_t seed, std::uint64_t index, std::uint64_t purpose) {
-  std::uint64_t z =
-      (seed * 0x9e3779b97f4a7c15u) ^ (index * 0xd1342543de82ef95u) ^ (purpose * 0xbf58476d1ce4e5b9u);
+  std::uint64_t z = (seed * 0x9e3779b97f4a7c15u) ^ (index * 0xd1342543de82ef95u) ^
+                    (purpose * 0xbf58476d1ce4e5b9u);
   for (int round = 0; round < 3; ++round) z = (z ^ (z >> 29)) * 0x94d049bb133111ebu;
   return static_cast<double>(z >> 11) * 0x1p-53;
 }
 
-/// The ways in which Carom runs a system. A sensible step is a small part of the time in which the particle
-/// goes through the narrowest force; one that is far too long is 2 to 100 times that time.
+/// The ways in which Carom runs a system. A sensible step is a small part of the time in which the
+/// particle goes through the narrowest force; one that is far too long is 2 to 100 times that time.
 std::vector<Mode> modes_of(const Options& options, std::uint64_t index, const System& system,
                            const Reference& reference) {
-  std::vector<Mode> modes = {{"cvode", "scheme = \"cvode\"\n"}, {"arkode", "scheme = \"arkode\"\n"}};
+  std::vector<Mode> modes = {{"cvode", "scheme = \"cvode\"\n"},
+                             {"arkode", "scheme = \"arkode\"\n"}};
   const struct {
     const char* name;
     double sensible;
@@ -77,13 +80,14 @@ std::vector<Mode> modes_of(const Options& options, std::uint64_t index, const Sy
       std::min(reference.t_end, system.field != 0.0 ? 0.9 / std::fabs(system.field) : 1e30);
   std::uint64_t purpose = 0;
   for (const auto& scheme : schemes) {
-    const double sensible = std::min(longest, std::max(scheme.sensible * through, reference.t_end / 1e6));
+    const double sensible =
+        std::min(longest, std::max(scheme.sensible * through, reference.t_end / 1e6));
     const double factor = 2.0 * std::pow(50.0, drawn(options.seed, index, ++purpose));
     const double long_step = std::min(longest, through * factor);
     const std::string line = "scheme = \"" + std::string(scheme.name) + "\"\nstep = ";
     modes.push_back({scheme.name, line + written(static_cast<float>(sensible)) + "\n"});
-    modes.push_back(
-        {std::string(scheme.name) + ", long", line + written(static_cast<float>(long_step)) + "\n"});
+    modes.push_back({std::string(scheme.name) + ", long",
+                     line + written(static_cast<float>(long_step)) + "\n"});
   }
   if (options.chosen) modes.push_back({"chosen", ""});
   return modes;
@@ -135,9 +139,10 @@ class Referee {
     worst_quick_ = std::max(worst_quick_, reference.quick_distance);
     if (reference.energy_change <= 1e-25 && reference.quick_distance <= 1e-11) return;
     ++failures_;
-    std::printf("seed %llu, system %llu (%s): REFERENCE IN DOUBT: energy %.1e, from long double %.1e\n",
-                as_printed(options_.seed), as_printed(index), system.family.c_str(), reference.energy_change,
-                reference.quick_distance);
+    std::printf(
+        "seed %llu, system %llu (%s): REFERENCE IN DOUBT: energy %.1e, from long double %.1e\n",
+        as_printed(options_.seed), as_printed(index), system.family.c_str(),
+        reference.energy_change, reference.quick_distance);
   }
 
   void test_reference(std::uint64_t index, const System& system, const Reference& reference) {
@@ -151,10 +156,12 @@ class Referee {
     failures_ += good ? 0 : 1;
     if (!good || options_.count <= 20)
       std::printf(
-          "seed %llu, system %llu (%s): t %.3g, %ld steps, growth %.0f; finer %.1e, reversed %.1e, force "
+          "seed %llu, system %llu (%s): t %.3g, %ld steps, growth %.0f; finer %.1e, reversed %.1e, "
+          "force "
           "%.1e%s\n",
           as_printed(options_.seed), as_printed(index), system.family.c_str(), reference.t_end,
-          reference.steps, reference.growth, test.finer, test.reversed, test.force, good ? "" : "  FAILED");
+          reference.steps, reference.growth, test.finer, test.reversed, test.force,
+          good ? "" : "  FAILED");
   }
 
   void test_program(std::uint64_t index, const System& system, const Reference& reference) {
@@ -179,27 +186,30 @@ class Referee {
     }
   }
 
-  std::string line_of(std::uint64_t index, const System& system, const Mode& mode, const Answer& answer,
-                      const Judgement& judgement, const Reference& reference) const {
+  std::string line_of(std::uint64_t index, const System& system, const Mode& mode,
+                      const Answer& answer, const Judgement& judgement,
+                      const Reference& reference) const {
     char line[300];
-    std::snprintf(line, sizeof line,
-                  "%llu %llu %-8s %-26s %-10s position %.1e of %.1e, velocity %.1e of %.1e, t %.4g, growth "
-                  "%.0f, %.2f s",
-                  as_printed(options_.seed), as_printed(index), system.family.c_str(), mode.name.c_str(),
-                  verdict_names[static_cast<int>(judgement.verdict)], judgement.position,
-                  judgement.stated_position, judgement.velocity, judgement.stated_velocity, reference.t_end,
-                  reference.growth, answer.seconds);
+    std::snprintf(
+        line, sizeof line,
+        "%llu %llu %-8s %-26s %-10s position %.1e of %.1e, velocity %.1e of %.1e, t %.4g, growth "
+        "%.0f, %.2f s",
+        as_printed(options_.seed), as_printed(index), system.family.c_str(), mode.name.c_str(),
+        verdict_names[static_cast<int>(judgement.verdict)], judgement.position,
+        judgement.stated_position, judgement.velocity, judgement.stated_velocity, reference.t_end,
+        reference.growth, answer.seconds);
     return line;
   }
 
   void print() const {
     std::printf(
-        "reference: largest energy change %.1e, largest distance from long double %.1e, none for %d "
+        "reference: largest energy change %.1e, largest distance from long double %.1e, none for "
+        "%d "
         "systems\n",
         worst_energy_, worst_quick_, without_reference_);
     if (options_.self_test) {
-      std::printf("self-test: half the way %.1e, turned back %.1e, force %.1e; failed %d\n", worst_.finer,
-                  worst_.reversed, worst_.force, failures_);
+      std::printf("self-test: half the way %.1e, turned back %.1e, force %.1e; failed %d\n",
+                  worst_.finer, worst_.reversed, worst_.force, failures_);
       return;
     }
     for (const std::string& line : failed_) std::printf("%s\n", line.c_str());

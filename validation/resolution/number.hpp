@@ -1,5 +1,5 @@
-// The two arithmetics of the reference: quad (113 bits, 34 digits) is the reference itself, long double
-// measures how fast nearby orbits separate.
+// The two arithmetics of the reference: quad (113 bits, 34 digits) is the reference itself, long
+// double measures how fast nearby orbits separate.
 #pragma once
 
 #include <quadmath.h>

@@ -19,8 +19,8 @@ Real slope(const Series<Real>& p, int order, Real t) {
   return sum;
 }
 
-/// The first root in (0, end] of a polynomial that is positive at 0. Intervals are excluded, or known to hold
-/// one root at most, by bounds of the derivatives over all of [0, end].
+/// The first root in (0, end] of a polynomial that is positive at 0. Intervals are excluded, or
+/// known to hold one root at most, by bounds of the derivatives over all of [0, end].
 template <class Real>
 class FirstRoot {
  public:
@@ -119,8 +119,9 @@ Real Orbit<Real>::longest_way() const {
   return way;
 }
 
-// A time in which no way longer than `way` can be gone: with the energy E - (lowest potential) all kinetic,
-// and the uniform force F adding to it, the way is at most v t + F t²/2; each of the two gets half.
+// A time in which no way longer than `way` can be gone: with the energy E - (lowest potential) all
+// kinetic, and the uniform force F adding to it, the way is at most v t + F t²/2; each of the two
+// gets half.
 template <class Real>
 Real Orbit<Real>::time_for(Real way, Real energy) const {
   const Real pull = root(pull_x_ * pull_x_ + pull_y_ * pull_y_);
@@ -156,17 +157,18 @@ void Orbit<Real>::expand(Real way) {
   }
 }
 
-// The step at which the last two terms of position and velocity are `tolerance`, shortened by a safety
-// factor.
+// The step at which the last two terms of position and velocity are `tolerance`, shortened by a
+// safety factor.
 template <class Real>
 Real Orbit<Real>::step_by_series() const {
   Real shortest = 1e30L;
   for (int order = accuracy_.order - 1; order <= accuracy_.order; ++order) {
     const auto k = static_cast<std::size_t>(order);
-    const Real largest = std::max(std::max(size(x_[k]), size(y_[k])), std::max(size(vx_[k]), size(vy_[k])));
+    const Real largest =
+        std::max(std::max(size(x_[k]), size(y_[k])), std::max(size(vx_[k]), size(vy_[k])));
     if (largest > 0)
-      shortest =
-          std::min(shortest, exponential(logarithm(Real(accuracy_.tolerance) / largest) / Real(order)));
+      shortest = std::min(
+          shortest, exponential(logarithm(Real(accuracy_.tolerance) / largest) / Real(order)));
   }
   return Real(0.7L) * shortest;
 }
@@ -178,7 +180,8 @@ bool Orbit<Real>::find_hit(Real step, Real& when, int& wall) const {
   Real first = step;
   for (int side = 0; side < 4; ++side) {
     const Series<Real>& path = side < 2 ? x_ : y_;
-    // Distance from the wall, positive inside. From the wall that it stands on, a root at 0 is divided out.
+    // Distance from the wall, positive inside. From the wall that it stands on, a root at 0 is
+    // divided out.
     Series<Real> gap{};
     const Real sign = side % 2 == 0 ? 1 : -1;
     const int shift = side == on_wall_ ? 1 : 0, order = accuracy_.order - shift;

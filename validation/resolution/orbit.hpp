@@ -1,6 +1,6 @@
-// The reference: Taylor's method with walls. A step is as long as the series' last terms allow, and never
-// longer than what the forces' own lengths allow, so that it cannot pass over one that its start does not
-// show.
+// The reference: Taylor's method with walls. A step is as long as the series' last terms allow, and
+// never longer than what the forces' own lengths allow, so that it cannot pass over one that its
+// start does not show.
 #pragma once
 
 #include <memory>

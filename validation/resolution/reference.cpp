@@ -20,7 +20,8 @@ struct Growth {
   State<long double> end = {};
 };
 
-// Compares with two nearby orbits at `count` times. Without one good time, the caller takes shorter ones.
+// Compares with two nearby orbits at `count` times. Without one good time, the caller takes shorter
+// ones.
 Growth stable_time(const System& system, double limit, double longest, int count) {
   Growth found;
   Orbit<long double> orbit(system, quick_accuracy), first(system, quick_accuracy),
@@ -37,7 +38,8 @@ Growth stable_time(const System& system, double limit, double longest, int count
       first.advance(t);
       second.advance(t);
       for (const auto* near : {&first, &second})
-        largest = std::max(largest, static_cast<double>(distance(orbit.state, near->state) / apart));
+        largest =
+            std::max(largest, static_cast<double>(distance(orbit.state, near->state) / apart));
       if (largest > limit) break;
       found = {t, largest, orbit.state};
     }
@@ -86,8 +88,8 @@ SelfTest self_test(const System& system, const Reference& reference) {
   back.turn_back();
   result.reversed = static_cast<double>(distance(back.state, start));
 
-  // At the start, the end and between: the force series' first coefficient against central differences of
-  // order 8.
+  // At the start, the end and between: the force series' first coefficient against central
+  // differences of order 8.
   const auto forces = forces_of<Quad>(system);
   const Quad h = Quad(system.scale) / 1000;
   const Quad weights[4] = {Quad(4) / 5, -Quad(1) / 5, Quad(4) / 105, -Quad(1) / 280};

@@ -1,6 +1,6 @@
-// Power series in the time since the start of a step, built one coefficient after the other: the k-th of a
-// result needs the coefficients 0 to k of its arguments. These recurrences are all that Taylor's method
-// needs.
+// Power series in the time since the start of a step, built one coefficient after the other: the
+// k-th of a result needs the coefficients 0 to k of its arguments. These recurrences are all that
+// Taylor's method needs.
 #pragma once
 
 #include <array>

@@ -13,7 +13,8 @@ namespace {
 /// Numbers of one system: splitmix64 (Steele, Lea & Flood 2014), the same on every machine.
 class Random {
  public:
-  Random(std::uint64_t seed, std::uint64_t index) : state_(seed * 0x9e3779b97f4a7c15u + 0x1234567u) {
+  Random(std::uint64_t seed, std::uint64_t index)
+      : state_(seed * 0x9e3779b97f4a7c15u + 0x1234567u) {
     state_ = word() ^ (index * 0xd1342543de82ef95u);
     word();
   }
@@ -27,7 +28,8 @@ class Random {
     return rounded(from + (to - from) * static_cast<double>(word() >> 11) * 0x1p-53);
   }
   double log_uniform(double from, double to) {
-    return rounded(from * std::exp(std::log(to / from) * static_cast<double>(word() >> 11) * 0x1p-53));
+    return rounded(from *
+                   std::exp(std::log(to / from) * static_cast<double>(word() >> 11) * 0x1p-53));
   }
   bool chance(double p) { return static_cast<double>(word() >> 11) * 0x1p-53 < p; }
   int below(int n) { return static_cast<int>(word() % static_cast<std::uint64_t>(n)); }
@@ -65,8 +67,12 @@ void choose_direction(Random& random, Term& t) {
   const int kind = random.below(4);
   const double angle = random.uniform(0.0, 2 * std::numbers::pi);
   const double sign = random.chance(0.5) ? 1.0 : -1.0;
-  t.a = kind == 0 ? sign : kind == 1 ? 0.0 : static_cast<double>(static_cast<float>(std::cos(angle)));
-  t.b = kind == 0 ? 0.0 : kind == 1 ? sign : static_cast<double>(static_cast<float>(std::sin(angle)));
+  t.a = kind == 0   ? sign
+        : kind == 1 ? 0.0
+                    : static_cast<double>(static_cast<float>(std::cos(angle)));
+  t.b = kind == 0   ? 0.0
+        : kind == 1 ? sign
+                    : static_cast<double>(static_cast<float>(std::sin(angle)));
 }
 
 Term some_ridge(Random& random, const Region& region) {
@@ -76,7 +82,8 @@ Term some_ridge(Random& random, const Region& region) {
   t.height = t.shape == Term::Shape::soft_wall ? kinetic : some_height(random);
   t.width = random.log_uniform(0.002, 0.5);
   choose_direction(random, t);
-  t.c = t.a * random.uniform(region.left, region.right) + t.b * random.uniform(region.bottom, region.top);
+  t.c = t.a * random.uniform(region.left, region.right) +
+        t.b * random.uniform(region.bottom, region.top);
   return t;
 }
 
@@ -133,26 +140,29 @@ double potential(System system, double x, double y) {
   return static_cast<double>(sum);
 }
 
-/// A start of speed 1 where little of the energy is potential; half of them aim at a summand. False if none
-/// is found.
+/// A start of speed 1 where little of the energy is potential; half of them aim at a summand. False
+/// if none is found.
 bool choose_start(Random& random, System& system, const Region& region) {
   const bool aimed = random.chance(0.6);
   std::vector<Term> targets;
   for (const Term& t : system.terms)
-    if (t.shape != Term::Shape::linear && t.shape != Term::Shape::wave && t.shape != Term::Shape::peaks)
+    if (t.shape != Term::Shape::linear && t.shape != Term::Shape::wave &&
+        t.shape != Term::Shape::peaks)
       targets.push_back(t);
   for (int attempt = 0; attempt < 200; ++attempt) {
-    const double x = random.uniform(region.left, region.right), y = random.uniform(region.bottom, region.top);
+    const double x = random.uniform(region.left, region.right),
+                 y = random.uniform(region.bottom, region.top);
     double angle = random.uniform(0.0, 2 * std::numbers::pi);
     if (aimed && !targets.empty()) {
-      const Term& t = targets[static_cast<std::size_t>(random.below(static_cast<int>(targets.size())))];
+      const Term& t =
+          targets[static_cast<std::size_t>(random.below(static_cast<int>(targets.size())))];
       double to_x = t.a - x, to_y = t.b - y;
       if (system.lattice) {
         to_x = -x + random.below(3) * system.vectors[0] + random.below(3) * system.vectors[2];
         to_y = -y + random.below(3) * system.vectors[1] + random.below(3) * system.vectors[3];
       }
-      const bool line =
-          t.shape == Term::Shape::ridge || t.shape == Term::Shape::soft_wall || t.shape == Term::Shape::edge;
+      const bool line = t.shape == Term::Shape::ridge || t.shape == Term::Shape::soft_wall ||
+                        t.shape == Term::Shape::edge;
       if (line) {
         const double s = t.a * x + t.b * y - t.c;
         to_x = -s * t.a;
@@ -160,7 +170,8 @@ bool choose_start(Random& random, System& system, const Region& region) {
       }
       const double distance = std::hypot(to_x, to_y);
       if (distance < 3 * t.width) continue;
-      const double miss = line ? random.uniform(-0.7, 0.7) : random.uniform(-2.0, 2.0) * t.width / distance;
+      const double miss =
+          line ? random.uniform(-0.7, 0.7) : random.uniform(-2.0, 2.0) * t.width / distance;
       angle = std::atan2(to_y, to_x) + miss;
     }
     if (potential(system, x, y) > 0.5 * kinetic) continue;
@@ -192,7 +203,8 @@ bool try_system(Random& random, std::uint64_t index, System& system) {
       break;
     case 2:
       system.family = "ridge";
-      for (int i = 1 + random.below(2); i-- > 0;) system.terms.push_back(some_ridge(random, region));
+      for (int i = 1 + random.below(2); i-- > 0;)
+        system.terms.push_back(some_ridge(random, region));
       break;
     case 3:
       system.family = "waves";
@@ -209,7 +221,8 @@ bool try_system(Random& random, std::uint64_t index, System& system) {
       system.field = (random.chance(0.5) ? 1 : -1) * random.log_uniform(0.3, 10.0);
       for (int i = 1 + random.below(3); i-- > 0;) system.terms.push_back(some_bump(random, region));
       Term pull{Term::Shape::linear};
-      const double drift = random.log_uniform(0.2, 5.0), angle = random.uniform(0.0, 2 * std::numbers::pi);
+      const double drift = random.log_uniform(0.2, 5.0),
+                   angle = random.uniform(0.0, 2 * std::numbers::pi);
       pull.a = static_cast<double>(static_cast<float>(std::cos(angle) * drift * system.field));
       pull.b = static_cast<double>(static_cast<float>(std::sin(angle) * drift * system.field));
       system.terms.push_back(pull);
@@ -229,7 +242,9 @@ std::string written(double value) {
 }
 
 /// For a place in a formula: negative numbers in parentheses.
-std::string in_formula(double value) { return value < 0.0 ? "(" + written(value) + ")" : written(value); }
+std::string in_formula(double value) {
+  return value < 0.0 ? "(" + written(value) + ")" : written(value);
+}
 
 std::string distance(const std::string& coordinate, double from) {
   return from == 0.0 ? coordinate : "(" + coordinate + "-" + in_formula(from) + ")";
@@ -238,7 +253,8 @@ std::string distance(const std::string& coordinate, double from) {
 std::string formula(const Term& t) {
   const std::string height = in_formula(t.height), width = in_formula(t.width);
   const std::string square = "(" + distance("x", t.a) + "^2+" + distance("y", t.b) + "^2)";
-  const std::string s = "(" + in_formula(t.a) + "*x+" + in_formula(t.b) + "*y-" + in_formula(t.c) + ")";
+  const std::string s =
+      "(" + in_formula(t.a) + "*x+" + in_formula(t.b) + "*y-" + in_formula(t.c) + ")";
   switch (t.shape) {
     case Term::Shape::gaussian:
       return height + "*exp(-" + square + "/(2*" + width + "^2))";
@@ -253,8 +269,8 @@ std::string formula(const Term& t) {
     case Term::Shape::wave:
       return height + "*cos" + s;
     case Term::Shape::peaks:
-      return height + "*exp(" + in_formula(t.c) + "*(cos(" + in_formula(t.a) + "*x)+cos(" + in_formula(t.b) +
-             "*y)-2))";
+      return height + "*exp(" + in_formula(t.c) + "*(cos(" + in_formula(t.a) + "*x)+cos(" +
+             in_formula(t.b) + "*y)-2))";
     case Term::Shape::linear:
       return "(-(" + in_formula(t.a) + "*x+" + in_formula(t.b) + "*y))";
     default:
@@ -278,13 +294,15 @@ std::string toml(const System& system, double t_max, const std::string& integrat
     text += "[table]\nshape = \"rectangle\"\nwidth = " + written(system.width) +
             "\nheight = " + written(system.height) + "\n";
   if (system.lattice)
-    text += "[lattice]\nvectors = [[" + written(system.vectors[0]) + ", " + written(system.vectors[1]) +
-            "], [" + written(system.vectors[2]) + ", " + written(system.vectors[3]) + "]]\n";
+    text += "[lattice]\nvectors = [[" + written(system.vectors[0]) + ", " +
+            written(system.vectors[1]) + "], [" + written(system.vectors[2]) + ", " +
+            written(system.vectors[3]) + "]]\n";
   std::string sum;
   for (const Term& t : system.terms) {
     if (t.shape == Term::Shape::fermi) {
       text += "[[potential]]\nkind = \"fermi\"\nheight = " + written(t.height) +
-              "\nradius = " + written(t.c) + "\nsoftness = " + written(t.width) + "\nlattice = true\n";
+              "\nradius = " + written(t.c) + "\nsoftness = " + written(t.width) +
+              "\nlattice = true\n";
     } else if (t.shape == Term::Shape::bells) {
       text += "[[potential]]\nkind = \"gaussian\"\nheight = " + written(t.height) +
               "\nwidth = " + written(t.width) + "\nlattice = true\n";

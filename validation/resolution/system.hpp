@@ -1,5 +1,5 @@
-// A random system: what Carom is given as a TOML file and the reference computes by formulas of its own.
-// Mass and charge are 1. Every number is a double that the file holds to its last digit.
+// A random system: what Carom is given as a TOML file and the reference computes by formulas of its
+// own. Mass and charge are 1. Every number is a double that the file holds to its last digit.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace resolution {
 
-/// One summand of the potential. s = a x + b y - c where a line is meant, r the distance from (a, b).
+/// One summand of the potential. s = a x + b y - c where a line is meant, r the distance from (a,
+/// b).
 struct Term {
   enum class Shape {
     gaussian,   ///< height exp(-r²/(2 width²))
@@ -20,8 +21,9 @@ struct Term {
     wave,       ///< height cos(s)
     peaks,      ///< height exp(c (cos(a x) + cos(b y) - 2))
     linear,     ///< -(a x + b y)
-    fermi,  ///< height / (1 + exp((r - c)/width)), and its copies on the lattice; r from the lattice points
-    bells   ///< height exp(-r²/(2 width²)), and its copies on the lattice
+    fermi,      ///< height / (1 + exp((r - c)/width)), and its copies on the lattice; r from the
+                ///< lattice points
+    bells       ///< height exp(-r²/(2 width²)), and its copies on the lattice
   };
   Shape shape = Shape::gaussian;
   double height = 0.0, width = 0.0, a = 0.0, b = 0.0, c = 0.0;

@@ -1,6 +1,6 @@
-// What walls inside the steps do to the energy: how much a hit changes it, and how the change grows over
-// many hits, with and without magnetic field. Henon-Heiles in a hard circle about a point off its centre;
-// the bottom of the potential is where the energy is counted from.
+// What walls inside the steps do to the energy: how much a hit changes it, and how the change grows
+// over many hits, with and without magnetic field. Henon-Heiles in a hard circle about a point off
+// its centre; the bottom of the potential is where the energy is counted from.
 //
 //   energy_at_walls [hits]        prints the table of docs/physics/walls-in-steps.md
 #include <cmath>
@@ -37,7 +37,7 @@ double energy_of(const Phase<double>& p) {
 }
 
 struct Statistics {
-  double hit = 0.0;             ///< root mean square of the change from one hit to the next
+  double hit = 0.0;  ///< root mean square of the change from one hit to the next
   double mean = 0.0, error = 0.0, spread = 0.0;  ///< of the change after all hits, over the orbits
 };
 
@@ -49,7 +49,8 @@ Statistics measure(const Scheme& scheme, double omega, double step, int hits) {
     stepper = std::make_unique<SpreiterWalterStepper<double>>(law, omegas);
   else
     stepper = std::make_unique<SplittingStepper<double>>(scheme, law, omegas);
-  const Barrier<double> wall = barrier_of<double>(geometry::Circle{{0.05, 0.03}, 0.5, true}, Vector{});
+  const Barrier<double> wall =
+      barrier_of<double>(geometry::Circle{{0.05, 0.03}, 0.5, true}, Vector{});
   double sum = 0.0, squares = 0.0, hit_squares = 0.0;
   for (int orbit = 0; orbit < orbits; ++orbit) {
     RandomStream random(1, Purpose::initial_state, static_cast<std::uint64_t>(orbit));
@@ -65,7 +66,8 @@ Statistics measure(const Scheme& scheme, double omega, double step, int hits) {
     for (int done = 0; done < hits;) {
       path.begin(p, rest);
       const PathHull<double> hull(path.start(), path.end(), 0);
-      auto* found = stays_off(wall, hull) ? nullptr : search.first(wall, 0, path.start(), path.end());
+      auto* found =
+          stays_off(wall, hull) ? nullptr : search.first(wall, 0, path.start(), path.end());
       if (!found) {
         p = path.end().phase;
         rest = step;
@@ -97,13 +99,16 @@ Statistics measure(const Scheme& scheme, double omega, double step, int hits) {
 
 int main(int argc, char** argv) {
   const int hits = argc > 1 ? std::atoi(argv[1]) : 4000;
-  std::printf("| scheme | omega | step | rms change a hit | hits | mean change | spread |\n|---|---|---|---|---|---|---|\n");
-  for (const char* name : {"velocity-verlet", "spreiter-walter", "he-4", "blanes-moan-srkn6b", "blanes-moan-srkn11b"})
+  std::printf(
+      "| scheme | omega | step | rms change a hit | hits | mean change | spread "
+      "|\n|---|---|---|---|---|---|---|\n");
+  for (const char* name :
+       {"velocity-verlet", "spreiter-walter", "he-4", "blanes-moan-srkn6b", "blanes-moan-srkn11b"})
     for (const double omega : {0.0, 1.0})
       for (const double step : {0.2, 0.1, 0.05})
         for (const int n : {hits / 16, hits}) {
           const Statistics s = measure(find_scheme(name), omega, step, n);
-          std::printf("| %s | %g | %g | %.2g | %d | %.2g +- %.1g | %.2g |\n", name, omega, step, s.hit, n, s.mean, s.error,
-                      s.spread);
+          std::printf("| %s | %g | %g | %.2g | %d | %.2g +- %.1g | %.2g |\n", name, omega, step,
+                      s.hit, n, s.mean, s.error, s.spread);
         }
 }

@@ -1,9 +1,12 @@
-// What each scheme costs: force evaluations per unit of time until the error at the end is below a bound.
+// What each scheme costs: force evaluations per unit of time until the error at the end is below a
+// bound.
 //
-//   scheme_costs            a Markdown table of costs; the last column is the mean (of logarithms) of
+//   scheme_costs            a Markdown table of costs; the last column is the mean (of logarithms)
+//   of
 //                           what a scheme needs against the one that needs least
 //   scheme_costs errors     error against cost, for one who wants to draw it
-//   scheme_costs tables     the same for Runge–Kutta tables with error control; built-in ones of ARKODE beside its own
+//   scheme_costs tables     the same for Runge–Kutta tables with error control; built-in ones of
+//   ARKODE beside its own
 #include <cstdio>  // for the headers of ARKODE, which use FILE
 
 #include <arkode/arkode_butcher_erk.h>
@@ -116,7 +119,8 @@ std::vector<Point> curve(Case& c, const std::string& scheme) {
     }
     return points;
   }
-  const double kicks = std::round(walk(c, {.scheme = scheme, .step = 1.0}, 1000).work * c.time / 1000.0);
+  const double kicks =
+      std::round(walk(c, {.scheme = scheme, .step = 1.0}, 1000).work * c.time / 1000.0);
   for (double work = 4.0; work < c.most_work; work *= std::pow(2.0, 0.25)) {
     const long steps = std::max(1L, std::lround(work * c.time / kicks));
     points.push_back(walk(c, {.scheme = scheme, .step = 1.0}, steps));
@@ -124,14 +128,16 @@ std::vector<Point> curve(Case& c, const std::string& scheme) {
   return points;
 }
 
-/// Least work from which on the error stays below the bound, between two points by logarithms; 0: never.
+/// Least work from which on the error stays below the bound, between two points by logarithms; 0:
+/// never.
 double work_for(const std::vector<Point>& points, double bound) {
   std::size_t k = points.size();
   while (k > 0 && points[k - 1].error < bound) --k;
   if (k == points.size()) return 0.0;
   if (k == 0) return points[0].work;
   const Point &a = points[k - 1], &b = points[k];
-  const double share = (std::log(a.error) - std::log(bound)) / (std::log(a.error) - std::log(b.error));
+  const double share =
+      (std::log(a.error) - std::log(bound)) / (std::log(a.error) - std::log(b.error));
   return a.work * std::pow(b.work / a.work, share);
 }
 
@@ -139,12 +145,12 @@ std::vector<Case> make_cases() {
   std::vector<Case> cases;
   cases.push_back(
       {"Hénon–Heiles, B = 0", std::make_unique<problems::HenonHeiles<double>>("0"), 50.0, 2000.0});
-  cases.push_back(
-      {"Hénon–Heiles, B = 1.5", std::make_unique<problems::HenonHeiles<double>>("1.5"), 50.0, 2000.0});
+  cases.push_back({"Hénon–Heiles, B = 1.5", std::make_unique<problems::HenonHeiles<double>>("1.5"),
+                   50.0, 2000.0});
   cases.push_back(
       {"Coulomb, B = 0", std::make_unique<problems::CoulombParticles<double>>("0"), 20.0, 4000.0});
-  cases.push_back({"Coulomb, ω = 1.5, −0.75, 0", std::make_unique<problems::CoulombParticles<double>>("1.5"),
-                   20.0, 4000.0});
+  cases.push_back({"Coulomb, ω = 1.5, −0.75, 0",
+                   std::make_unique<problems::CoulombParticles<double>>("1.5"), 20.0, 4000.0});
   cases.push_back({"soft Lorentz gas", std::make_unique<SoftLorentz>(), 4.0, 40000.0});
   for (Case& c : cases) {
     walk(c, {.scheme = "kahan-li-8", .step = 1.0}, std::lround(c.most_work * c.time / 8.0), &c.end);

@@ -1,7 +1,9 @@
-// Why Carom looks for walls within the steps: the simpler way, with the walls in the drifts of a scheme, heats. Velocity
-// Verlet in an anisotropic well off the centre of a hard circle; a drift is a straight flight that is reflected, kicks come between.
+// Why Carom looks for walls within the steps: the simpler way, with the walls in the drifts of a
+// scheme, heats. Velocity Verlet in an anisotropic well off the centre of a hard circle; a drift is
+// a straight flight that is reflected, kicks come between.
 //
-//   walls_in_drifts        prints the root mean square of the energy's change; docs/physics/walls-in-steps.md
+//   walls_in_drifts        prints the root mean square of the energy's change;
+//   docs/physics/walls-in-steps.md
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,7 +22,9 @@ constexpr double radius = 0.5, omega_x = 1.14, omega_y = 0.8366;
 constexpr Vector centre{0.21, -0.13};
 constexpr int orbits = 16;
 
-Vector force(Vector x) { return {-omega_x * omega_x * (x.x - centre.x), -omega_y * omega_y * (x.y - centre.y)}; }
+Vector force(Vector x) {
+  return {-omega_x * omega_x * (x.x - centre.x), -omega_y * omega_y * (x.y - centre.y)};
+}
 double energy(Vector x, Vector v) {
   const Vector f = force(x), d = x - centre;
   return 0.5 * dot(v, v) - 0.5 * dot(f, d);
@@ -91,5 +95,6 @@ int main() {
     for (const double t_end : {64.0, 1024.0})
       std::printf("%8g %8g %16.2g %16.2g\n", step, t_end, spread(change_in_drifts, step, t_end),
                   spread(change_within_steps, step, t_end));
-  std::printf("%8g %8g %16.2g\n", 1.0 / 16.0, 16384.0, spread(change_in_drifts, 1.0 / 16.0, 16384.0));
+  std::printf("%8g %8g %16.2g\n", 1.0 / 16.0, 16384.0,
+              spread(change_in_drifts, 1.0 / 16.0, 16384.0));
 }

@@ -53,8 +53,9 @@ std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
   std::vector<std::pair<Kernel::Algebraic_real_1, Kernel::Multiplicity_type>> roots;
   kernel().solve_1_object()(p, std::back_inserter(roots));
   for (const auto& [value, multiplicity] : roots)
-    result.push_back({AlgebraicRoot(std::make_shared<const AlgebraicRoot::Data>(AlgebraicRoot::Data{value})),
-                      static_cast<int>(multiplicity)});
+    result.push_back(
+        {AlgebraicRoot(std::make_shared<const AlgebraicRoot::Data>(AlgebraicRoot::Data{value})),
+         static_cast<int>(multiplicity)});
   return result;
 }
 

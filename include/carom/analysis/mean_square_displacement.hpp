@@ -14,9 +14,9 @@ struct Estimate {
   double value = 0.0, error = 0.0;
 };
 
-/// Sums of |r(t) - r(0)|^2 and |r(t) - r(0)|^4 at given times. Sums are exact and kept apart by group
-/// of trajectories (index modulo the number of groups), so that neither threads nor the order of
-/// merging change a bit.
+/// Sums of |r(t) - r(0)|^2 and |r(t) - r(0)|^4 at given times. Sums are exact and kept apart by
+/// group of trajectories (index modulo the number of groups), so that neither threads nor the order
+/// of merging change a bit.
 class DisplacementSums {
  public:
   /// Enough for an error of 6 % in every standard error.
@@ -50,8 +50,8 @@ struct MomentPoint {
   double t = 0.0;
   std::uint64_t count = 0;
   Estimate square, fourth;
-  /// d ln MSD / d ln t from the report time before to this one, at their geometric mean; NaN for the
-  /// first and for t = 0.
+  /// d ln MSD / d ln t from the report time before to this one, at their geometric mean; NaN for
+  /// the first and for t = 0.
   double middle = 0.0;
   Estimate exponent;
 };
@@ -63,15 +63,16 @@ struct TimeWindow {
   bool holds(double t) const { return t > 0.0 && t >= from * (1 - 1e-9) && t <= to * (1 + 1e-9); }
 };
 
-/// What the moments say together. Fits are weighted by the inverse variance of each point; points of one
-/// trajectory are correlated, so errors are not those of the fit but the jackknife's over groups.
+/// What the moments say together. Fits are weighted by the inverse variance of each point; points
+/// of one trajectory are correlated, so errors are not those of the fit but the jackknife's over
+/// groups.
 struct DiffusionFit {
   TimeWindow window;
   std::size_t points = 0;
-  Estimate D;         ///< quarter of the slope of MSD = 4 D t + c
-  Estimate offset;    ///< c
-  /// a of MSD = A t^a + c: the constant that all diffusion starts with does not count. NaN with fewer than
-  /// four points, and where the best a is not inside of what is searched, 0.05 to 4.
+  Estimate D;       ///< quarter of the slope of MSD = 4 D t + c
+  Estimate offset;  ///< c
+  /// a of MSD = A t^a + c: the constant that all diffusion starts with does not count. NaN with
+  /// fewer than four points, and where the best a is not inside of what is searched, 0.05 to 4.
   Estimate exponent;
   Estimate local_exponent;  ///< slope of ln MSD against ln t; approaches `exponent` as -c/MSD
 };
@@ -79,8 +80,8 @@ struct DiffusionFit {
 /// Moments of the displacement with their errors, and what follows from them: D and exponents.
 class DisplacementMoments {
  public:
-  /// `particles` of each trajectory. Where there are several they need not be independent: then all errors are the
-  /// jackknife's over groups of trajectories.
+  /// `particles` of each trajectory. Where there are several they need not be independent: then all
+  /// errors are the jackknife's over groups of trajectories.
   explicit DisplacementMoments(const DisplacementSums& sums, std::size_t particles = 1);
 
   std::vector<MomentPoint> points() const;

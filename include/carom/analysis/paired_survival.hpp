@@ -18,7 +18,8 @@ struct PairedEnd {
 struct PairedPoint {
   double t = 0.0, first = 0.0, second = 0.0, difference = 0.0, error = 0.0;
   std::uint64_t only_first = 0, only_second = 0;  ///< trajectories still there in one of them alone
-  /// The smallest true difference that the test would find (95 % over all times together) four times in five.
+  /// The smallest true difference that the test would find (95 % over all times together) four
+  /// times in five.
   double detectable = 0.0;
 };
 
@@ -29,19 +30,20 @@ struct PairedResult {
   std::uint64_t other_hits = 0;  ///< the same way out, after another number of hits
   std::uint64_t other_time = 0;  ///< the same in both, but not at the same time
   std::vector<PairedPoint> points;
-  /// The largest |difference| over its error, over all times; how often swaps of random pairs give as
-  /// much; and what they exceed in 5 % of cases.
+  /// The largest |difference| over its error, over all times; how often swaps of random pairs give
+  /// as much; and what they exceed in 5 % of cases.
   double statistic = 0.0, p_value = 1.0, threshold = 0.0;
   std::uint64_t swaps = 0;
   std::uint64_t different() const { return other_hole + other_hits + other_time; }
 };
 
-/// Collects pairs. If neither way is biased, which of a pair's two ends belongs to which way is a toss of a
-/// coin: the swap test tosses it again for each pair.
+/// Collects pairs. If neither way is biased, which of a pair's two ends belongs to which way is a
+/// toss of a coin: the swap test tosses it again for each pair.
 class PairedSurvival {
  public:
   /// `times`: increasing. Ends that differ by at most `tolerance` in time are the same.
-  PairedSurvival(std::vector<double> times, double tolerance) : times_(std::move(times)), tolerance_(tolerance) {}
+  PairedSurvival(std::vector<double> times, double tolerance)
+      : times_(std::move(times)), tolerance_(tolerance) {}
   void add(const PairedEnd& first, const PairedEnd& second);
   PairedResult result(std::uint64_t seed, std::uint64_t swaps = 10000) const;
 
@@ -53,7 +55,8 @@ class PairedSurvival {
   };
   std::vector<double> times_;
   double tolerance_;
-  std::vector<std::uint64_t> gone_first_, gone_second_;  // by the first report time at which they are gone
+  std::vector<std::uint64_t> gone_first_,
+      gone_second_;  // by the first report time at which they are gone
   std::vector<Disagreement> disagreements_;
   std::uint64_t pairs_ = 0, other_hole_ = 0, other_hits_ = 0, other_time_ = 0;
 };

@@ -14,12 +14,12 @@ namespace carom {
 
 /// Which section is taken ([section] of the system file).
 struct SectionPlan {
-  bool boundary = true;       ///< at the walls, in Birkhoff coordinates; else at `surface`
-  int wall = -1;              ///< boundary: this wall alone; -1: all
-  Surface surface;            ///< in the plane: positions on a lattice are unwrapped
-  int direction = 0;          ///< +1, -1: crossings of this direction alone; 0: both
+  bool boundary = true;         ///< at the walls, in Birkhoff coordinates; else at `surface`
+  int wall = -1;                ///< boundary: this wall alone; -1: all
+  Surface surface;              ///< in the plane: positions on a lattice are unwrapped
+  int direction = 0;            ///< +1, -1: crossings of this direction alone; 0: both
   std::uint64_t points = 1000;  ///< most points of a particle; 0: as many as there are until t_max
-  std::uint64_t orbits = 0;   ///< trajectories; 0: one a listed start, else at most 50
+  std::uint64_t orbits = 0;     ///< trajectories; 0: one a listed start, else at most 50
 };
 
 /// One point of a section.
@@ -40,7 +40,8 @@ std::vector<geometry::CurveFrame> frames_of(const Table&);
 class SectionRecorder {
  public:
   /// Refers to all of them.
-  SectionRecorder(const Table& table, const SectionPlan& plan, const std::vector<geometry::CurveFrame>& frames)
+  SectionRecorder(const Table& table, const SectionPlan& plan,
+                  const std::vector<geometry::CurveFrame>& frames)
       : table_(&table), plan_(&plan), frames_(&frames) {}
 
   /// A start on a wall is a point of the boundary section.

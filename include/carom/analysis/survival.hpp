@@ -14,13 +14,14 @@ struct Interval {
 };
 Interval wilson_interval(std::uint64_t successes, std::uint64_t trials);
 
-/// Numbers of hits n at which survival by hits is reported: 0, 1, 2, 3, 5, 10, 20, 30, 50, … < 2^63.
+/// Numbers of hits n at which survival by hits is reported: 0, 1, 2, 3, 5, 10, 20, 30, 50, … <
+/// 2^63.
 const std::vector<std::uint64_t>& reported_hits();
 
 /// Counts of an ensemble; merging is addition, so that order cannot matter.
 ///
-/// A trajectory is *gone* when it escaped or is unbounded. The cap on hits ends a trajectory while it
-/// is still there: it counts as a survivor at every time.
+/// A trajectory is *gone* when it escaped or is unbounded. The cap on hits ends a trajectory while
+/// it is still there: it counts as a survivor at every time.
 struct SurvivalCounts {
   std::vector<double> times;                ///< report times, increasing
   std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
@@ -29,7 +30,8 @@ struct SurvivalCounts {
                 unbounded = 0, unresolved = 0, lost = 0, collisions = 0;
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; counted by whoever follows them
   std::uint64_t most_hits = 0;  ///< of a single trajectory
-  double energy_change = 0.0;   ///< the largest of a particle under forces; from whoever follows them
+  double energy_change =
+      0.0;  ///< the largest of a particle under forces; from whoever follows them
   std::vector<std::uint64_t> hole_escapes;  ///< by hole_names()
 
   SurvivalCounts() = default;
@@ -38,7 +40,8 @@ struct SurvivalCounts {
   void add(Fate fate, double time, std::uint64_t hits, int hole);
   /// Adds the counts of another part of the same ensemble (same times, same holes).
   void merge(const SurvivalCounts& other);
-  /// Trajectories whose fate is known: neither singular nor unresolved nor lost. Shares are taken of these.
+  /// Trajectories whose fate is known: neither singular nor unresolved nor lost. Shares are taken
+  /// of these.
   std::uint64_t followed() const { return trajectories - singular - unresolved - lost; }
 };
 
@@ -51,8 +54,8 @@ struct SurvivalHitsPoint {
   std::uint64_t n;
   double p, low, high;
 };
-/// Escapes per unit time, normalised to all non-singular trajectories: p_e(t) = -dP/dt averaged over
-/// (from, to]; `t` is the middle of it (geometric where from > 0).
+/// Escapes per unit time, normalised to all non-singular trajectories: p_e(t) = -dP/dt averaged
+/// over (from, to]; `t` is the middle of it (geometric where from > 0).
 struct RatePoint {
   double t, from, to, value, low, high;
 };

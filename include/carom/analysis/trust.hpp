@@ -1,5 +1,5 @@
-// How far an orbit in double precision can be trusted: the true orbit is followed beside it in twice the digits.
-// docs/physics/tangent-map.md has the estimate and what it is worth.
+// How far an orbit in double precision can be trusted: the true orbit is followed beside it in
+// twice the digits. docs/physics/tangent-map.md has the estimate and what it is worth.
 #pragma once
 
 #include <cstdint>
@@ -29,27 +29,27 @@ struct Trust {
   OrbitError error;        ///< while open: of the state after the last event
 };
 
-/// The length that tolerances are measured by: the longer side of the box around the walls, on a lattice the
-/// longer of its vectors.
+/// The length that tolerances are measured by: the longer side of the box around the walls, on a
+/// lattice the longer of its vectors.
 double size_of(const Table&);
 
-/// Watches free particles. An orbit is trusted up to a hit if the errors of its point and of its time
-/// times the speed stay below the tolerance times the table's size, that of its direction below the
-/// tolerance, all with a margin, and the engine finds the same walls beyond the error.
+/// Watches free particles. An orbit is trusted up to a hit if the errors of its point and of its
+/// time times the speed stay below the tolerance times the table's size, that of its direction
+/// below the tolerance, all with a margin, and the engine finds the same walls beyond the error.
 class TrustRecorder : public Observer {
  public:
   static constexpr double usual_tolerance = 1e-3;
   /// Errors are taken this many times as large.
   static constexpr double margin = 1.05;
 
-  /// Keeps a reference to the table, which must live as long. `written`: what the table's doubles were rounded
-  /// from, and the first particle's start; nothing: they are what is meant.
+  /// Keeps a reference to the table, which must live as long. `written`: what the table's doubles
+  /// were rounded from, and the first particle's start; nothing: they are what is meant.
   explicit TrustRecorder(const Table&, double tolerance = usual_tolerance,
                          std::shared_ptr<const WrittenSystem> written = nullptr);
   ~TrustRecorder() override;
 
-  /// Follows the world's next particle from its state, which has made `hits` hits; `before`: what was known
-  /// when an earlier part of the run ended there.
+  /// Follows the world's next particle from its state, which has made `hits` hits; `before`: what
+  /// was known when an earlier part of the run ended there.
   void follow(const Particle&, const State&, std::uint64_t hits, const Trust* before = nullptr);
   void hit(const HitEvent&) override;
   void end(const EndEvent&) override;

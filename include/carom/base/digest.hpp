@@ -15,10 +15,12 @@ constexpr std::uint64_t mix(std::uint64_t x) {
 }
 
 /// A hash so far, and the bits of one more number.
-constexpr std::uint64_t mix(std::uint64_t so_far, double value) { return mix(so_far ^ std::bit_cast<std::uint64_t>(value)); }
+constexpr std::uint64_t mix(std::uint64_t so_far, double value) {
+  return mix(so_far ^ std::bit_cast<std::uint64_t>(value));
+}
 
-/// One trajectory's share, as far as its end and its hits tell it from others; a digest is the sum of such shares modulo 2^64
-/// in any order.
+/// One trajectory's share, as far as its end and its hits tell it from others; a digest is the sum
+/// of such shares modulo 2^64 in any order.
 constexpr std::uint64_t trajectory_hash(std::uint64_t index, std::uint64_t fate, double end_time,
                                         std::uint64_t hits, std::int64_t last_wall) {
   std::uint64_t h = mix(index);

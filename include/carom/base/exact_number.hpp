@@ -24,8 +24,8 @@ struct RationalText {
 /// InputError whose message points at the character.
 class ExactNumber {
  public:
-  ExactNumber() = default;                        ///< zero
-  ExactNumber(double value);                      ///< exactly that double; NOLINT
+  ExactNumber() = default;                               ///< zero
+  ExactNumber(double value);                             ///< exactly that double; NOLINT
   ExactNumber(std::string_view text, Place place = {});  ///< parses; throws InputError; NOLINT
 
   /// The nearest double (correctly rounded, ties to even). Throws InputError on overflow.

@@ -1,7 +1,8 @@
 // a b + c, rounded once: on every machine the same number.
 //
-// A processor is asked once, when the program starts, whether it has an instruction for it; others compute it from exact products
-// and sums. So formulas may round less and still give the same bits everywhere.
+// A processor is asked once, when the program starts, whether it has an instruction for it; others
+// compute it from exact products and sums. So formulas may round less and still give the same bits
+// everywhere.
 #pragma once
 
 #include <type_traits>
@@ -14,10 +15,13 @@ extern bool fuses;
 double fused_in_software(double a, double b, double c);
 }  // namespace detail
 
-/// What fused_product does with a kind of number: of exact numbers, balls and the like product and sum as they are.
+/// What fused_product does with a kind of number: of exact numbers, balls and the like product and
+/// sum as they are.
 template <class Number>
 struct FusedProduct {
-  static constexpr Number of(const Number& a, const Number& b, const Number& c) { return a * b + c; }
+  static constexpr Number of(const Number& a, const Number& b, const Number& c) {
+    return a * b + c;
+  }
 };
 
 template <>
@@ -30,16 +34,20 @@ struct FusedProduct<double> {
   }
   [[gnu::always_inline]] static constexpr double of(double a, double b, double c) {
     if (std::is_constant_evaluated()) return __builtin_fma(a, b, c);
-    return __builtin_expect(detail::fuses, 1) ? by_instruction(a, b, c) : detail::fused_in_software(a, b, c);
+    return __builtin_expect(detail::fuses, 1) ? by_instruction(a, b, c)
+                                              : detail::fused_in_software(a, b, c);
   }
 #else
-  [[gnu::always_inline]] static double of(double a, double b, double c) { return __builtin_fma(a, b, c); }
+  [[gnu::always_inline]] static double of(double a, double b, double c) {
+    return __builtin_fma(a, b, c);
+  }
 #endif
 };
 
 /// a b + c. Of doubles and of registers of them: rounded once.
 template <class Number>
-[[gnu::always_inline]] constexpr Number fused_product(const Number& a, const Number& b, const Number& c) {
+[[gnu::always_inline]] constexpr Number fused_product(const Number& a, const Number& b,
+                                                      const Number& c) {
   return FusedProduct<Number>::of(a, b, c);
 }
 

@@ -5,9 +5,9 @@
 
 namespace carom {
 
-/// high + low, |low| at most about an ulp of high. Results are good to some 2^-100 of their size, so what a
-/// double lost in rounding can be computed. (Dekker 1971; Knuth's two-sum. No fused operation, so that every
-/// machine finds the same bits.)
+/// high + low, |low| at most about an ulp of high. Results are good to some 2^-100 of their size,
+/// so what a double lost in rounding can be computed. (Dekker 1971; Knuth's two-sum. No fused
+/// operation, so that every machine finds the same bits.)
 struct Twofold {
   double high = 0.0, low = 0.0;
 

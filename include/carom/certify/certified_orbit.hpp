@@ -1,5 +1,5 @@
-// Orbits with guaranteed digits: every number is enclosed by ball arithmetic, and the precision is chosen
-// by the program (docs/physics/certified-orbits.md).
+// Orbits with guaranteed digits: every number is enclosed by ball arithmetic, and the precision is
+// chosen by the program (docs/physics/certified-orbits.md).
 #pragma once
 
 #include <cstddef>
@@ -45,7 +45,7 @@ struct CertifiedState {
 struct CertifiedHit : CertifiedState {
   std::uint64_t number = 0;  ///< counted from 1
   int wall = -1;
-  geometry::Cell cell;       ///< of the wall's copy
+  geometry::Cell cell;  ///< of the wall's copy
 };
 
 /// How a certified orbit ended.
@@ -64,11 +64,12 @@ const char* name_of(CertifiedFate);
 struct CertifiedEnd : CertifiedState {
   CertifiedFate fate = CertifiedFate::completed;
   std::uint64_t collisions = 0;
-  int wall = -1;             ///< of the last hit
-  geometry::Cell cell;       ///< of the last hit, or of the hole it left through
+  int wall = -1;        ///< of the last hit
+  geometry::Cell cell;  ///< of the last hit, or of the hole it left through
   int hole = -1;
-  std::string reason;        ///< of singular and undecided ones
-  std::vector<std::string> ties;  ///< exact coincidences that the orbit went through, decided in rational numbers
+  std::string reason;  ///< of singular and undecided ones
+  std::vector<std::string>
+      ties;  ///< exact coincidences that the orbit went through, decided in rational numbers
 };
 
 /// What an orbit is asked for.
@@ -81,24 +82,25 @@ struct CertifiedTask {
 };
 
 inline constexpr std::uint64_t most_digits = 1'000'000;
-/// Throws InputError, at that place, unless so many digits can be asked for: at least one, at most `most_digits`,
-/// and fewer where the numbers of a table of many walls would take more than 4 GB.
+/// Throws InputError, at that place, unless so many digits can be asked for: at least one, at most
+/// `most_digits`, and fewer where the numbers of a table of many walls would take more than 4 GB.
 void check_digits(std::uint64_t digits, const Table&, const Place& = {});
 
 /// What it took.
 struct CertifiedEffort {
-  long bits = 0;             ///< precision of the last attempt
+  long bits = 0;  ///< precision of the last attempt
   int attempts = 0;
-  bool rescaled = false;     ///< the start's velocity had not the speed: it was taken as a direction
-  double tangent_bits = 0;   ///< log2 of how much the tangent map stretched: bits that the orbit lost
+  bool rescaled = false;  ///< the start's velocity had not the speed: it was taken as a direction
+  double tangent_bits =
+      0;  ///< log2 of how much the tangent map stretched: bits that the orbit lost
 };
 
-/// A sequence of certified hits. Whenever the precision does not suffice, the orbit is run again from
-/// its exact start with more bits; hits that were given out stay true.
+/// A sequence of certified hits. Whenever the precision does not suffice, the orbit is run again
+/// from its exact start with more bits; hits that were given out stay true.
 class CertifiedOrbit {
  public:
-  /// Throws InputError for what has no certified form. `interrupted`, if set, is asked at every hit of the orbit
-  /// and of the look ahead; then the orbit ends with the last hit that was given out.
+  /// Throws InputError for what has no certified form. `interrupted`, if set, is asked at every hit
+  /// of the orbit and of the look ahead; then the orbit ends with the last hit that was given out.
   CertifiedOrbit(const ExactSystem&, const CertifiedTask&, std::function<bool()> interrupted = {});
   ~CertifiedOrbit();
   CertifiedOrbit(CertifiedOrbit&&) noexcept;
@@ -139,12 +141,12 @@ class CertifiedOrbit {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The first `collisions` hits of a system as its file gives it (LoadedSystem::exact, whose start is a point), each
-/// with `digits` guaranteed decimals; fewer where the orbit ends before:
+/// The first `collisions` hits of a system as its file gives it (LoadedSystem::exact, whose start
+/// is a point), each with `digits` guaranteed decimals; fewer where the orbit ends before:
 ///   for (const CertifiedHit& hit : certified_orbit(load_system("siam-photon").exact, 1000, 20)) …
 CertifiedOrbit certified_orbit(const ExactSystem&, std::uint64_t collisions, int digits);
 /// The same on a table, with speed 1 and without field.
-CertifiedOrbit certified_orbit(const TableSpec& table, const ExactStart& start, std::uint64_t collisions,
-                               int digits);
+CertifiedOrbit certified_orbit(const TableSpec& table, const ExactStart& start,
+                               std::uint64_t collisions, int digits);
 
 }  // namespace carom

@@ -11,8 +11,8 @@
 
 namespace carom {
 
-/// Where an orbit starts: a point of the plane, or the point of a wall with parameter u. `direction` is
-/// that of the velocity, its length is free; or its angle is given.
+/// Where an orbit starts: a point of the plane, or the point of a wall with parameter u.
+/// `direction` is that of the velocity, its length is free; or its angle is given.
 struct ExactStart {
   ExactPoint position = {};
   ExactPoint direction = {};
@@ -24,9 +24,10 @@ struct ExactStart {
 /// One free particle on a table, with the numbers that were written.
 struct ExactSystem {
   std::shared_ptr<const TableSpec> spec;
-  std::shared_ptr<const Table> table;  ///< the same in doubles: names, and the order of walls and holes
+  std::shared_ptr<const Table>
+      table;  ///< the same in doubles: names, and the order of walls and holes
   ExactNumber speed{1.0};
-  ExactNumber omega;                   ///< charge B / mass
+  ExactNumber omega;  ///< charge B / mass
   ExactStart start;
 };
 

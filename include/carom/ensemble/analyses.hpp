@@ -12,12 +12,15 @@
 
 namespace carom {
 
-/// One particle of mass, charge and speed 1 on a table, without a field; starts are uniform. RunPlan::times are those of
-/// the system file's default if none are given. Change what should differ: system.particles, system.initial …
+/// One particle of mass, charge and speed 1 on a table, without a field; starts are uniform.
+/// RunPlan::times are those of the system file's default if none are given. Change what should
+/// differ: system.particles, system.initial …
 System make_system(const MadeTable&, RunPlan = {});
 
 /// Survival and escapes of the ensemble.
-inline EscapeResult escape(const System& system, const EscapeOptions& options = {}) { return run_escape(system, options); }
+inline EscapeResult escape(const System& system, const EscapeOptions& options = {}) {
+  return run_escape(system, options);
+}
 
 /// Mean square displacements of the ensemble.
 inline DiffusionResult diffusion(const System& system, const DiffusionOptions& options = {}) {
@@ -25,7 +28,8 @@ inline DiffusionResult diffusion(const System& system, const DiffusionOptions& o
 }
 
 /// One trajectory, followed closely.
-inline SingleRunResult run(const System& system, Observer& observer, const SingleRunOptions& options = {}) {
+inline SingleRunResult run(const System& system, Observer& observer,
+                           const SingleRunOptions& options = {}) {
   return run_single(system, observer, options);
 }
 inline SingleRunResult run(const System& system, const SingleRunOptions& options = {}) {

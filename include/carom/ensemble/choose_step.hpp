@@ -16,10 +16,11 @@ struct ChosenStep {
 /// Must a step be chosen: do forces act, and is neither a step nor a tolerance given?
 bool needs_step(const System&);
 
-/// The longest of 1, 2, 5, 10, ... times a power of ten that resolves the forces (docs/physics/resolution.md) over what is
-/// accessible of a bounded table or a lattice's cell, and on pilot orbits, and that keeps their energy to 1e-10; where none
-/// does, the one that keeps it best. A function of the system alone. Throws InputError where no step resolves the
-/// forces, or the first trajectory cannot start, and SamplingStopped.
+/// The longest of 1, 2, 5, 10, ... times a power of ten that resolves the forces
+/// (docs/physics/resolution.md) over what is accessible of a bounded table or a lattice's cell, and
+/// on pilot orbits, and that keeps their energy to 1e-10; where none does, the one that keeps it
+/// best. A function of the system alone. Throws InputError where no step resolves the forces, or
+/// the first trajectory cannot start, and SamplingStopped.
 ChosenStep choose_step(const System&, const std::function<bool()>& stopped = {});
 
 }  // namespace carom

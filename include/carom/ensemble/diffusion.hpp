@@ -12,7 +12,8 @@
 
 namespace carom {
 
-/// What the table says about diffusion before anything has moved; of one hard disc, the table that its centre sees.
+/// What the table says about diffusion before anything has moved; of one hard disc, the table that
+/// its centre sees.
 struct Horizon {
   enum class Kind {
     finite,      ///< no straight flight is free for ever, or flights are bent
@@ -23,7 +24,8 @@ struct Horizon {
   } kind = Kind::unknown;
   geometry::Corridors corridors;  ///< of a lattice, also where a field bends all flights
   double flight_tail = 0.0;       ///< limit of t P(no hit until t) at speed 1; 0 without corridors
-  std::optional<double> machta_zwanzig;  ///< their estimate of D: triangular lattice of one disc, finite horizon
+  std::optional<double>
+      machta_zwanzig;  ///< their estimate of D: triangular lattice of one disc, finite horizon
 };
 /// From the lattice and the walls alone; exact signs decide whether a corridor is free.
 Horizon horizon_of(const System&);
@@ -34,13 +36,14 @@ std::string no_diffusion(const Horizon&);
 struct DiffusionResult : EnsembleResult {
   DisplacementSums sums;
   /// Particles of all trajectories by how they ended before the last report time.
-  std::uint64_t trajectories = 0, survived = 0, pinned = 0, escaped = 0, singular = 0, unbounded = 0,
-                capped = 0, unresolved = 0, lost = 0;
+  std::uint64_t trajectories = 0, survived = 0, pinned = 0, escaped = 0, singular = 0,
+                unbounded = 0, capped = 0, unresolved = 0, lost = 0;
   std::uint64_t collisions = 0;
-  double energy_change = 0.0;  ///< with forces: the largest of a trajectory from its start to its end
+  double energy_change =
+      0.0;  ///< with forces: the largest of a trajectory from its start to its end
 
-  /// Adds another part of the same ensemble. In any order the sum is the same, bit for bit. False, and no change,
-  /// where a trajectory is in both.
+  /// Adds another part of the same ensemble. In any order the sum is the same, bit for bit. False,
+  /// and no change, where a trajectory is in both.
   bool add(const DiffusionResult& other);
 };
 
@@ -48,8 +51,8 @@ using DiffusionJournal = EnsembleJournal<DiffusionResult>;
 /// `lanes`: those that independent particles fly or are stepped in.
 using DiffusionOptions = EnsembleOptions<DiffusionResult>;
 
-/// Runs trajectories until the last report time and sums their displacements in the plane: whole cells
-/// are subtracted as integers. A particle that ends earlier counts at the times before.
+/// Runs trajectories until the last report time and sums their displacements in the plane: whole
+/// cells are subtracted as integers. A particle that ends earlier counts at the times before.
 DiffusionResult run_diffusion(const System&, const DiffusionOptions& = {});
 
 }  // namespace carom

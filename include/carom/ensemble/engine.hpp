@@ -1,4 +1,5 @@
-// Engines fly trajectories, listeners learn of them: an analysis is a listener, and is written once.
+// Engines fly trajectories, listeners learn of them: an analysis is a listener, and is written
+// once.
 //
 //   starts ---> engine ---> listener
 //
@@ -30,22 +31,24 @@ namespace carom {
 /// One that is flown.
 struct Trajectory {
   std::uint64_t number = 0;  ///< its index in the ensemble
-  /// A small number that no other trajectory has while this one is under way: a listener may keep what it knows of it there.
+  /// A small number that no other trajectory has while this one is under way: a listener may keep
+  /// what it knows of it there.
   std::size_t slot = 0;
   std::vector<Particle> particles;  ///< those of the start first, then those that enter later
-  std::vector<State> starts;        ///< one a particle; at the time of entry of those that enter later
+  std::vector<State> starts;  ///< one a particle; at the time of entry of those that enter later
 };
 
 /// How a particle ended.
 struct ParticleEnd {
   Fate fate = Fate::survived;
-  double time = 0.0;      ///< the last time of the run where it survived or is pinned
-  State state;            ///< after the last event
-  int hole = -1;          ///< a hole of the table, for `escaped`
+  double time = 0.0;  ///< the last time of the run where it survived or is pinned
+  State state;        ///< after the last event
+  int hole = -1;      ///< a hole of the table, for `escaped`
   std::uint64_t hits = 0;
-  int last_wall = -1;     ///< as World::last_wall
-  std::string report;     ///< as World::report
-  EnergyBalance energy;   ///< as World::energy_balance; but for EngineOptions::energy, kinetic ones alone
+  int last_wall = -1;  ///< as World::last_wall
+  std::string report;  ///< as World::report
+  EnergyBalance
+      energy;  ///< as World::energy_balance; but for EngineOptions::energy, kinetic ones alone
 };
 
 struct TrajectoryEnd {
@@ -54,8 +57,8 @@ struct TrajectoryEnd {
   std::uint64_t contacts = 0;  ///< of hard discs
 };
 
-/// What an analysis is told: of one trajectory in the order of events, of several in any order. Trajectories that are under
-/// way when the engine is stopped have no end.
+/// What an analysis is told: of one trajectory in the order of events, of several in any order.
+/// Trajectories that are under way when the engine is stopped have no end.
 class Listener {
  public:
   virtual ~Listener() = default;
@@ -68,7 +71,8 @@ class Listener {
   virtual void crossing(const Trajectory&, int /*particle*/, const State&, int /*direction*/) {}
   /// A particle has ended; others may go on.
   virtual void particle_end(const Trajectory&, int /*particle*/, Fate) {}
-  /// Is the rest of the trajectory of no interest? Asked after hits and crossings; it then ends there.
+  /// Is the rest of the trajectory of no interest? Asked after hits and crossings; it then ends
+  /// there.
   virtual bool enough(const Trajectory&) { return false; }
   virtual void end(const Trajectory&, const TrajectoryEnd&) = 0;
 };
@@ -77,7 +81,8 @@ class Listener {
 class Starts {
  public:
   virtual ~Starts() = default;
-  /// Fills in all but the slot; false: there are no more. `world` tells which points lie in the domain.
+  /// Fills in all but the slot; false: there are no more. `world` tells which points lie in the
+  /// domain.
   virtual bool next(Trajectory&, const World& world) = 0;
 };
 
@@ -102,11 +107,11 @@ class DrawnStarts : public Starts {
 /// What a listener asks for.
 struct EngineOptions {
   double t_end = 0.0;
-  std::vector<double> times = {};      ///< of samples, increasing, up to t_end
-  bool hits = false;                   ///< are hits told?
-  const Surface* surface = nullptr;    ///< crossings of it are told
+  std::vector<double> times = {};         ///< of samples, increasing, up to t_end
+  bool hits = false;                      ///< are hits told?
+  const Surface* surface = nullptr;       ///< crossings of it are told
   std::size_t most_crossings = SIZE_MAX;  ///< of one flight
-  bool energy = false;                 ///< as World::watch_energy
+  bool energy = false;                    ///< as World::watch_energy
   DecisionOptions decisions = {};
   std::optional<InstructionSet> lanes = widest_instruction_set();  ///< empty: one after the other
 };
@@ -114,14 +119,15 @@ struct EngineOptions {
 class Engine {
  public:
   virtual ~Engine() = default;
-  /// Flies all trajectories from their starts until `t_end` or their end. False: `stopped`, asked now and then, said so.
+  /// Flies all trajectories from their starts until `t_end` or their end. False: `stopped`, asked
+  /// now and then, said so.
   virtual bool run(Starts&, Listener&, const std::function<bool()>& stopped = {}) = 0;
   virtual DecisionCounts decisions() const = 0;
   virtual LaneEffort effort() const { return {}; }
 };
 
-/// The engine for a system: lanes of free particles, lanes of particles under forces, or a World for one trajectory after
-/// the other. Refers to the system.
+/// The engine for a system: lanes of free particles, lanes of particles under forces, or a World
+/// for one trajectory after the other. Refers to the system.
 std::unique_ptr<Engine> make_engine(const System&, const EngineOptions&);
 /// Why trajectories fly one after the other, as a phrase; "" where they fly in lanes.
 std::string why_one_by_one(const System&, const EngineOptions& = {});

@@ -17,8 +17,8 @@ struct EscapeResult : EnsembleResult {
   SurvivalCounts counts;
   LaneEffort effort;  ///< of lanes, if any flew
 
-  /// Adds another part of the same ensemble: counts, digest, decisions, times, reports. In any order the
-  /// sum is the same. False, and no change, where a trajectory is in both.
+  /// Adds another part of the same ensemble: counts, digest, decisions, times, reports. In any
+  /// order the sum is the same. False, and no change, where a trajectory is in both.
   bool add(const EscapeResult& other);
 };
 
@@ -32,8 +32,8 @@ struct EscapeOptions : EnsembleOptions<EscapeResult> {
 
 /// Runs the ensemble, or the part that is asked for. Where a trajectory has several
 /// particles, each of them is an entry of its own in every count; one
-/// that is injected counts from the time 0 on as one that is not gone. Throws InputError where the initial
-/// condition is impossible, and whatever `records` and the journal throw.
+/// that is injected counts from the time 0 on as one that is not gone. Throws InputError where the
+/// initial condition is impossible, and whatever `records` and the journal throw.
 EscapeResult run_escape(const System&, const EscapeOptions& = {});
 
 }  // namespace carom

@@ -43,8 +43,9 @@ void add_injected(World&, const System&, const InjectedParticle&, std::uint64_t 
 /// How many particles enter in a trajectory.
 std::size_t injected_count(const System&, std::uint64_t trajectory);
 
-/// The number of a particle in an ensemble: trajectory * count + particle. Where particles are injected
-/// their number may differ between trajectories: trajectory * 2^20 + particle, those of the start first.
+/// The number of a particle in an ensemble: trajectory * count + particle. Where particles are
+/// injected their number may differ between trajectories: trajectory * 2^20 + particle, those of
+/// the start first.
 std::uint64_t particle_index(const System&, std::uint64_t trajectory, std::uint64_t particle);
 
 /// Throws InputError where something is asked for that knows no injections.

@@ -26,7 +26,7 @@ struct TrajectoryRecord {
   double x = 0, y = 0, vx = 0, vy = 0;  ///< start, unwrapped
   Fate fate = Fate::survived;
   std::int32_t hole = -1;  ///< index into hole_names()
-  double time = 0;  ///< end: escape, last hit of an unbounded one, else t_max
+  double time = 0;         ///< end: escape, last hit of an unbounded one, else t_max
   std::uint64_t hits = 0;
 };
 
@@ -34,17 +34,19 @@ struct TrajectoryRecord {
 struct EnsembleResult {
   static constexpr std::size_t most_reports = 5;
 
-  std::uint64_t digest = 0;  ///< sum modulo 2^64 of a hash of each particle's end; see docs/guide/commands.md
+  std::uint64_t digest =
+      0;  ///< sum modulo 2^64 of a hash of each particle's end; see docs/guide/commands.md
   TrajectoryRanges done;  ///< trajectories that are counted
   DecisionCounts decisions;
-  StepCounts steps;         ///< under forces
-  EnergyError energy_error; ///< under forces: the largest of a trajectory
-  bool complete = true;  ///< false when interrupted
+  StepCounts steps;          ///< under forces
+  EnergyError energy_error;  ///< under forces: the largest of a trajectory
+  bool complete = true;      ///< false when interrupted
   double seconds = 0, cpu_seconds = 0;
-  int threads = 1;                                             ///< of each process
-  int ranks = 1;                                               ///< processes that shared it
-  std::optional<InstructionSet> lanes;                         ///< that flew it; empty: the scalar engine did
-  std::vector<std::pair<std::uint64_t, std::string>> reports;  ///< of the first few that failed: index and report
+  int threads = 1;                      ///< of each process
+  int ranks = 1;                        ///< processes that shared it
+  std::optional<InstructionSet> lanes;  ///< that flew it; empty: the scalar engine did
+  std::vector<std::pair<std::uint64_t, std::string>>
+      reports;  ///< of the first few that failed: index and report
 
  protected:
   /// False, and no change, where a trajectory is in both.
@@ -62,9 +64,9 @@ class EnsembleJournal {
   virtual void block(TrajectoryRange, std::vector<TrajectoryRecord>&&) {}
   /// What came until now belongs to the next save(). Never during block().
   virtual void mark() {}
-  /// Keeps `so_far`: all up to the last mark(), and what was there before. From a thread of its own, or
-  /// from one that brings blocks (save_every_blocks), while others come in; one call at a time. May throw: then
-  /// the run ends with that error.
+  /// Keeps `so_far`: all up to the last mark(), and what was there before. From a thread of its
+  /// own, or from one that brings blocks (save_every_blocks), while others come in; one call at a
+  /// time. May throw: then the run ends with that error.
   virtual void save(const Result& so_far) = 0;
 };
 
@@ -80,13 +82,16 @@ struct EnsembleOptions {
   TrajectoryRange part{0, std::numeric_limits<std::uint64_t>::max()};
   /// What was done before, and is not done again: the result holds it too.
   const Result* before = nullptr;
-  EnsembleJournal<Result>* journal = nullptr;  ///< is asked to save first of all, and then now and then
-  double save_every = 10;               ///< seconds
-  std::uint64_t save_every_blocks = 0;  ///< if not 0: whenever that many have come in, whatever the time
+  EnsembleJournal<Result>* journal =
+      nullptr;             ///< is asked to save first of all, and then now and then
+  double save_every = 10;  ///< seconds
+  std::uint64_t save_every_blocks =
+      0;  ///< if not 0: whenever that many have come in, whatever the time
   /// Trajectories that are not done here and not counted: another archive holds them.
   TrajectoryRanges elsewhere;
   const std::atomic<bool>* interrupted = nullptr;  ///< asked between blocks and during long ones
-  /// Called now and then from one thread at a time with the trajectories done so far and the hits of this call alone.
+  /// Called now and then from one thread at a time with the trajectories done so far and the hits
+  /// of this call alone.
   std::function<void(std::uint64_t done, std::uint64_t hits)> progress;
 };
 

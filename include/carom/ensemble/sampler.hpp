@@ -21,32 +21,34 @@ class SamplingStopped : public std::exception {
   const char* what() const noexcept override { return "stopped before a start was found"; }
 };
 
-/// Draws initial states (docs/guide: [initial]). Only + - * / sqrt and base/elementary make a state.
+/// Draws initial states (docs/guide: [initial]). Only + - * / sqrt and base/elementary make a
+/// state.
 ///
 ///   uniform    position uniform in the table or cell, direction uniform
 ///   rectangle  the same in the part of a rectangle that lies in the domain
 ///   line       position uniform in the part of a line that lies in the domain, direction given
-///   boundary   cosine law: uniform in arc length and in the tangential velocity, from one wall or all
-///   hole       cosine law over the opening of one hole or all
-///   birkhoff   given arc length and tangential velocity, one pair of a list for each particle of each trajectory
-///   point      given position and velocity
-///   list       the same, one of a list for each particle of each trajectory
+///   boundary   cosine law: uniform in arc length and in the tangential velocity, from one wall or
+///   all hole       cosine law over the opening of one hole or all birkhoff   given arc length and
+///   tangential velocity, one pair of a list for each particle of each trajectory point      given
+///   position and velocity list       the same, one of a list for each particle of each trajectory
 ///
-/// Where forces act and energies are given, they are total energies: positions are drawn again where the
-/// potential is above, and the speed follows from what is left of it. Interacting particles share the
-/// sum of their energies: what their potential leaves is kinetic energy, in equal parts (Bill2d,
-/// section 4.1), and all of them are drawn again if it leaves nothing. Hard discs are drawn again until none
-/// overlap; they cannot start on a wall.
+/// Where forces act and energies are given, they are total energies: positions are drawn again
+/// where the potential is above, and the speed follows from what is left of it. Interacting
+/// particles share the sum of their energies: what their potential leaves is kinetic energy, in
+/// equal parts (Bill2d, section 4.1), and all of them are drawn again if it leaves nothing. Hard
+/// discs are drawn again until none overlap; they cannot start on a wall.
 class Sampler {
  public:
-  /// Refers to the system. `stopped` is asked every few hundred draws, from any thread: starts may be very rare.
+  /// Refers to the system. `stopped` is asked every few hundred draws, from any thread: starts may
+  /// be very rare.
   explicit Sampler(const System&, std::function<bool()> stopped = {});
   Sampler(const System&, const std::atomic<bool>* interrupted);
   const System& system() const { return system_; }
   bool stopped() const { return stopped_ && stopped_(); }
 
-  /// The state of particle `particle` of trajectory `trajectory`. `world` answers which points lie in
-  /// the domain. Throws InputError when the initial condition is impossible, and SamplingStopped.
+  /// The state of particle `particle` of trajectory `trajectory`. `world` answers which points lie
+  /// in the domain. Throws InputError when the initial condition is impossible, and
+  /// SamplingStopped.
   State draw(const World& world, std::uint64_t trajectory, int particle) const;
   /// The states of all particles of a trajectory.
   std::vector<State> draw_all(const World& world, std::uint64_t trajectory) const;
@@ -54,11 +56,13 @@ class Sampler {
   State cosine_law(RandomStream&, double speed) const;
 
  private:
-  /// An interval of a wall's parameter that cosine-law starts are drawn from. |dr/du| <= bound on it.
+  /// An interval of a wall's parameter that cosine-law starts are drawn from. |dr/du| <= bound on
+  /// it.
   struct Source {
     int wall;
     double from, to;
-    double bound, weight;  ///< weight: bound * (to - from), summed over the sources before it and itself
+    double bound,
+        weight;  ///< weight: bound * (to - from), summed over the sources before it and itself
   };
 
   State draw_free(const World&, RandomStream&, std::uint64_t trajectory, int particle) const;
@@ -71,10 +75,11 @@ class Sampler {
   void stop_if_asked(std::int64_t tries) const {
     if (tries % 256 == 255 && stopped()) throw SamplingStopped();
   }
-  State in_box(const World&, RandomStream&, std::uint64_t trajectory, geometry::Vector low, geometry::Vector high,
-               double speed, const char* where) const;
+  State in_box(const World&, RandomStream&, std::uint64_t trajectory, geometry::Vector low,
+               geometry::Vector high, double speed, const char* where) const;
   State on_line(const World&, RandomStream&, std::uint64_t trajectory, double speed) const;
-  State at_point(const World&, geometry::Vector position, geometry::Vector velocity, double speed) const;
+  State at_point(const World&, geometry::Vector position, geometry::Vector velocity,
+                 double speed) const;
   State birkhoff(std::uint64_t number, double speed) const;
   /// `tangential` and `normal` give the direction against the wall, in any unit.
   State on_wall(int wall, double u, double tangential, double normal, double speed) const;
@@ -92,16 +97,18 @@ int add_start(World&, const System&, const State&, std::uint64_t trajectory, int
 int add_start(World&, const Sampler&, std::uint64_t trajectory, int particle);
 /// Draws and adds all particles of a trajectory.
 void add_starts(World&, const Sampler&, std::uint64_t trajectory);
-/// How many trajectories start differently where starts are listed (point, list, birkhoff): later ones repeat them.
-/// 0 where starts are drawn.
+/// How many trajectories start differently where starts are listed (point, list, birkhoff): later
+/// ones repeat them. 0 where starts are drawn.
 std::uint64_t listed_trajectories(const System&);
-/// Throws InputError if the first trajectory cannot start. Who interrupts it is not told whether it can.
+/// Throws InputError if the first trajectory cannot start. Who interrupts it is not told whether it
+/// can.
 void check_start(const System&, const std::atomic<bool>* interrupted = nullptr);
 /// One state by a sampler made on the spot.
 State draw_initial_state(const System&, const World& world, std::uint64_t trajectory, int particle);
 
-/// The same point of the plane seen from its own cell of the lattice: subtracts lattice vectors from
-/// `position` and counts them in `cell` until it lies in the cell. Tables without a lattice: nothing.
+/// The same point of the plane seen from its own cell of the lattice: subtracts lattice vectors
+/// from `position` and counts them in `cell` until it lies in the cell. Tables without a lattice:
+/// nothing.
 void fold_into_cell(const Table&, geometry::Vector& position, geometry::Cell& cell);
 
 }  // namespace carom

@@ -31,25 +31,28 @@ struct SectionOptions {
 
 /// What a section run counts; the points themselves go to SectionOptions::points.
 struct SectionResult {
-  std::uint64_t orbits = 0;      ///< trajectories that were followed to their end
+  std::uint64_t orbits = 0;  ///< trajectories that were followed to their end
   std::uint64_t points = 0, collisions = 0;
   std::uint64_t incomplete = 0;  ///< particles that met the section less often than asked for
-  std::uint64_t pinned = 0, escaped = 0, capped = 0, singular = 0, unbounded = 0, unresolved = 0, lost = 0;
-  std::uint64_t digest = 0;      ///< sum of a hash of each particle's points
+  std::uint64_t pinned = 0, escaped = 0, capped = 0, singular = 0, unbounded = 0, unresolved = 0,
+                lost = 0;
+  std::uint64_t digest = 0;  ///< sum of a hash of each particle's points
   bool complete = true;
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;
   DecisionCounts decisions;
   StepCounts steps;          ///< under forces
-  EnergyError energy_error;  ///< under forces: the largest of a particle, or of all of an orbit that interact
-  std::vector<std::pair<std::uint64_t, std::string>> reports;  ///< of the first few particles that failed: index and report
+  EnergyError energy_error;  ///< under forces: the largest of a particle, or of all of an orbit
+                             ///< that interact
+  std::vector<std::pair<std::uint64_t, std::string>>
+      reports;  ///< of the first few particles that failed: index and report
 };
 
 /// How many trajectories System::section stands for.
 std::uint64_t section_orbits(const System&);
 
-/// Follows trajectories 0 … section_orbits - 1 until each has its points, or until t_max. The same points
-/// on any number of threads.
+/// Follows trajectories 0 … section_orbits - 1 until each has its points, or until t_max. The same
+/// points on any number of threads.
 SectionResult run_section(const System&, const SectionOptions& = {});
 
 }  // namespace carom

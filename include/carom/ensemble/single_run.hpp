@@ -36,13 +36,13 @@ struct ParticleProgress {
 /// A particle at the end of a run, as people want to see it.
 struct RunEnd {
   ParticleProgress progress;
-  Trust trust;  ///< at the end: up to which collision and time
+  Trust trust;                                 ///< at the end: up to which collision and time
   double t = 0, x = 0, y = 0, vx = 0, vy = 0;  ///< unwrapped
   geometry::Cell cell;
-  /// Relative to the largest kinetic energy seen, at every step and hit: of the particle, or of all that interact. Of these
-  /// `end` is that of the last step if some are gone.
+  /// Relative to the largest kinetic energy seen, at every step and hit: of the particle, or of all
+  /// that interact. Of these `end` is that of the last step if some are gone.
   EnergyError energy_error;
-  std::string report;       ///< of lost, unresolved and singular ones (events/report.hpp)
+  std::string report;  ///< of lost, unresolved and singular ones (events/report.hpp)
 };
 
 /// How to run one trajectory, and from where to go on.
@@ -50,9 +50,11 @@ struct SingleRunOptions {
   DecisionOptions decisions;
   std::vector<ParticleProgress> resume;  ///< empty: start afresh
   StepCounts steps;                      ///< of the part that is resumed
-  std::function<bool()> interrupted;     ///< asked between events, and while starts are drawn: SamplingStopped
-  std::uint64_t trajectory = 0;          ///< index: which start is drawn
-  bool estimate_state_error = false;     ///< under forces: costs up to three times the run (ensemble/state_error.hpp)
+  std::function<bool()>
+      interrupted;  ///< asked between events, and while starts are drawn: SamplingStopped
+  std::uint64_t trajectory = 0;  ///< index: which start is drawn
+  bool estimate_state_error =
+      false;  ///< under forces: costs up to three times the run (ensemble/state_error.hpp)
   /// What the system's doubles were rounded from; null: they are what is meant.
   std::shared_ptr<const WrittenSystem> written;
 };
@@ -63,8 +65,9 @@ struct SingleRunResult {
   bool interrupted = false;
   std::uint64_t collisions = 0;
   std::uint64_t contacts = 0;  ///< of hard discs, each pair once
-  StepCounts steps;  ///< under forces
-  std::optional<StateError> state_error;  ///< under forces, where it is asked for and the run began at its start
+  StepCounts steps;            ///< under forces
+  std::optional<StateError>
+      state_error;  ///< under forces, where it is asked for and the run began at its start
   DecisionCounts decisions;
   double seconds = 0, cpu_seconds = 0;
 };
@@ -72,7 +75,8 @@ struct SingleRunResult {
 /// A t_max that means: until the cap on hits, however long it takes.
 inline constexpr double no_last_time = 1e300;
 
-/// Are rounding errors estimated (analysis/trust.hpp)? Where motion is integrated or discs meet they are not.
+/// Are rounding errors estimated (analysis/trust.hpp)? Where motion is integrated or discs meet
+/// they are not.
 bool estimates_trust(const System&);
 
 /// Follows the particles until t_max or their cap on hits. Samples every System::run.sample.

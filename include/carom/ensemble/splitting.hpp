@@ -15,10 +15,11 @@
 
 namespace carom {
 
-/// A population flies from level to level. At each level those that are left are copied until the population
-/// is as large as before, and share its weight. The first copy of a survivor goes on as it is. Every other
-/// one goes back by a few hits, is kicked there (its v_parallel / v by up to delta), and takes its new way if
-/// that reaches the level after as many hits, too (docs/physics/rare-events.md). Free particles only.
+/// A population flies from level to level. At each level those that are left are copied until the
+/// population is as large as before, and share its weight. The first copy of a survivor goes on as
+/// it is. Every other one goes back by a few hits, is kicked there (its v_parallel / v by up to
+/// delta), and takes its new way if that reaches the level after as many hits, too
+/// (docs/physics/rare-events.md). Free particles only.
 struct SplittingPlan {
   enum class Level {
     time,  ///< the first hit after the time
@@ -26,14 +27,16 @@ struct SplittingPlan {
   } by = Level::time;
   std::vector<double> levels;        ///< increasing; whole numbers for hits
   std::uint64_t population = 20000;  ///< trajectories of each population
-  std::uint64_t repetitions = 16;    ///< independent populations for each size of the kick; at least 2
-  /// The largest delta; half and a quarter of it are taken, too. 0: the largest power of 1/2 up to largest_choice
-  /// at which at most most_kept of the kicked copies of a small population keep their way; a quarter of it, and so
-  /// on, until kicked copies stay as long as others (cost_of_kicks), as far as small populations tell.
+  std::uint64_t repetitions =
+      16;  ///< independent populations for each size of the kick; at least 2
+  /// The largest delta; half and a quarter of it are taken, too. 0: the largest power of 1/2 up to
+  /// largest_choice at which at most most_kept of the kicked copies of a small population keep
+  /// their way; a quarter of it, and so on, until kicked copies stay as long as others
+  /// (cost_of_kicks), as far as small populations tell.
   double kick = 0.0;
   static constexpr double largest_choice = 0x1p-9, most_kept = 0.3;
-  /// Hits by which a copy goes back; at most most_lookback. Where the start is fewer hits away it goes there,
-  /// and the kick is larger.
+  /// Hits by which a copy goes back; at most most_lookback. Where the start is fewer hits away it
+  /// goes there, and the kick is larger.
   std::uint64_t lookback = 6;
   static constexpr std::uint64_t most_lookback = 8;
 };
@@ -65,7 +68,7 @@ struct PopulationRun {
   std::vector<double> gone;            ///< share gone since the report before; by time only
   std::vector<std::uint64_t> reached;  ///< walkers that reached each level
   std::vector<CopiesOfStage> copies;   ///< of each stage; none are kicked before the first
-  double singular = 0.0;               ///< share that ended without a continuation; taken out of the others
+  double singular = 0.0;  ///< share that ended without a continuation; taken out of the others
   std::uint64_t collisions = 0, unresolved = 0, lost = 0, digest = 0;
   std::uint64_t tried = 0,
                 parted = 0;  ///< copies that were kicked, and those whose new way reached the level
@@ -74,8 +77,9 @@ struct PopulationRun {
 /// What all populations give; of an interrupted run, whole repetitions.
 struct SplittingResult {
   SplittingPlan plan;
-  std::vector<double> at;                                   ///< report times, or the levels in hits
-  std::array<std::vector<PopulationRun>, kick_sizes> runs;  ///< those that were finished, by repetition
+  std::vector<double> at;  ///< report times, or the levels in hits
+  std::array<std::vector<PopulationRun>, kick_sizes>
+      runs;  ///< those that were finished, by repetition
   DecisionCounts decisions;
   bool complete = true;  ///< false when interrupted: whole populations only
   double seconds = 0, cpu_seconds = 0;
@@ -95,19 +99,22 @@ struct Mean {
 /// A quantity at each kick and its limit for vanishing kicks: the least-squares line in delta^2.
 struct Extrapolated {
   std::array<Mean, kick_sizes> at_kick;
-  Mean limit;                   ///< error: statistical, from the repetitions
-  double extrapolation = 0;     ///< |limit - value at the smallest kick|: what the limit rests on
-  double kick_error = 0;        ///< where kicked copies certainly go sooner or later than others: twice what that makes
-  double unseen = 0;            ///< where nobody has gone in any population: how many may, of as many starts (Wilson)
+  Mean limit;                ///< error: statistical, from the repetitions
+  double extrapolation = 0;  ///< |limit - value at the smallest kick|: what the limit rests on
+  double kick_error =
+      0;  ///< where kicked copies certainly go sooner or later than others: twice what that makes
+  double unseen =
+      0;  ///< where nobody has gone in any population: how many may, of as many starts (Wilson)
   std::size_t repetitions = 0;  ///< that the limit is a mean of
   /// Populations of fewer trajectories give intervals that hold the value too seldom.
   static constexpr std::uint64_t least_population = 100;
   double least = -std::numeric_limits<double>::infinity(), most = -least;  ///< what is possible
-  /// Half the width of the 95 % band: statistics (Student's t of as many repetitions), extrapolation, the kicks' error
-  /// and what is unseen.
+  /// Half the width of the 95 % band: statistics (Student's t of as many repetitions),
+  /// extrapolation, the kicks' error and what is unseen.
   double band() const;
-  /// Ends of the 95 % interval, as far as that is possible: the band about the value, or, of what cannot be negative, about
-  /// its logarithm. Small populations mostly give too little and seldom far too much.
+  /// Ends of the 95 % interval, as far as that is possible: the band about the value, or, of what
+  /// cannot be negative, about its logarithm. Small populations mostly give too little and seldom
+  /// far too much.
   double low() const;
   double high() const;
 };
@@ -123,9 +130,9 @@ struct SplitRate {
   double t = 0.0, from = 0.0, to = 0.0;
   Extrapolated value;
 };
-/// Kicked copies should stay as long as the first ones, which go on as they are. As they do not, survival at a report is
-/// wrong by this share of it at the smallest kick, as far as the stage after each kick tells; the error is that of the mean
-/// over repetitions.
+/// Kicked copies should stay as long as the first ones, which go on as they are. As they do not,
+/// survival at a report is wrong by this share of it at the smallest kick, as far as the stage
+/// after each kick tells; the error is that of the mean over repetitions.
 Mean cost_of_kicks(const SplittingResult&, std::size_t report);
 /// The same of populations at any one kick, through so many stages.
 Mean cost_of_kicks(const std::vector<PopulationRun>&, std::size_t stages);
@@ -137,7 +144,8 @@ bool is_certain(const Mean& cost, std::size_t repetitions);
 std::vector<SplitPoint> survival(const SplittingResult&);
 /// Escapes per unit time between report times; none by hits.
 std::vector<SplitRate> escape_rate(const SplittingResult&);
-/// -ln(P(last) / P(first)) / (last - first) over the reports first <= at <= last: the rate of decay.
+/// -ln(P(last) / P(first)) / (last - first) over the reports first <= at <= last: the rate of
+/// decay.
 Extrapolated decay_rate(const SplittingResult&, std::size_t first, std::size_t last);
 
 }  // namespace carom

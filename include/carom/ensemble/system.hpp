@@ -18,27 +18,36 @@ namespace carom {
 
 /// How initial states are chosen ([initial] of docs/guide/system-file.md).
 struct InitialCondition {
-  enum class Kind { uniform, boundary, hole, point, birkhoff, rectangle, line, list } kind = Kind::uniform;
-  int wall = -1;                     ///< boundary, birkhoff
-  int hole = -1;                     ///< boundary, hole
-  geometry::Vector position;         ///< point
-  geometry::Vector velocity;         ///< point: direction, or the velocity where no speed is set
-  geometry::Vector low, high;        ///< rectangle: min, max
-  geometry::Vector from, to;         ///< line
-  double angle = 0.0;                ///< line: direction of flight against +x
-  std::vector<double> s, v_parallel; ///< birkhoff: one pair a particle (cyclic)
+  enum class Kind {
+    uniform,
+    boundary,
+    hole,
+    point,
+    birkhoff,
+    rectangle,
+    line,
+    list
+  } kind = Kind::uniform;
+  int wall = -1;                      ///< boundary, birkhoff
+  int hole = -1;                      ///< boundary, hole
+  geometry::Vector position;          ///< point
+  geometry::Vector velocity;          ///< point: direction, or the velocity where no speed is set
+  geometry::Vector low, high;         ///< rectangle: min, max
+  geometry::Vector from, to;          ///< line
+  double angle = 0.0;                 ///< line: direction of flight against +x
+  std::vector<double> s, v_parallel;  ///< birkhoff: one pair a particle (cyclic)
   std::vector<geometry::Vector> positions, velocities;  ///< list: of trajectory i (cyclic)
-  Place place;                       ///< where it is written, for messages about impossible starts
+  Place place;  ///< where it is written, for messages about impossible starts
 };
 
 /// Times at which survival is reported, in increasing order.
 struct RunPlan {
   double t_max = 1000.0;
   std::uint64_t trajectories = 100000;
-  std::uint64_t collisions = 0;      ///< cap on hits (0: none)
+  std::uint64_t collisions = 0;  ///< cap on hits (0: none)
   std::uint64_t seed = 1;
-  double sample = 0.0;               ///< time between samples (0: none)
-  double trust_tolerance = 1e-3;     ///< of errors, relative to the table's size (analysis/trust.hpp)
+  double sample = 0.0;            ///< time between samples (0: none)
+  double trust_tolerance = 1e-3;  ///< of errors, relative to the table's size (analysis/trust.hpp)
   std::vector<double> times = {};
   std::optional<std::pair<double, double>> window = {};  ///< report times that D is taken from
 };
@@ -46,24 +55,24 @@ struct RunPlan {
 /// Particles that enter through a hole during a run: the cosine law over its opening, inwards.
 struct Injection {
   int hole = -1;
-  std::vector<double> times;         ///< of entry, increasing; empty: by rate
-  double rate = 0.0;                 ///< mean number per unit time (Poisson process)
-  Particle particle;                 ///< of each that enters
-  Place place;                       ///< where it is written
+  std::vector<double> times;  ///< of entry, increasing; empty: by rate
+  double rate = 0.0;          ///< mean number per unit time (Poisson process)
+  Particle particle;          ///< of each that enters
+  Place place;                ///< where it is written
 };
 
 /// A system file, read and checked: everything a run needs.
 struct System {
-  std::string name;                  ///< as asked for on the command line
+  std::string name;  ///< as asked for on the command line
   std::string title;
   std::shared_ptr<const Table> table;
-  std::vector<Particle> particles;   ///< one entry a particle; at least one
-  std::vector<double> energies;      ///< total energy of each where energies are given, not speeds
-  Dynamics dynamics;                 ///< [[potential]], [interaction], [integrator]; --engine steps
+  std::vector<Particle> particles;  ///< one entry a particle; at least one
+  std::vector<double> energies;     ///< total energy of each where energies are given, not speeds
+  Dynamics dynamics;                ///< [[potential]], [interaction], [integrator]; --engine steps
   InitialCondition initial;
-  std::vector<Injection> injections; ///< [[injection]]
+  std::vector<Injection> injections;  ///< [[injection]]
   RunPlan run;
-  SectionPlan section;               ///< what `carom section` takes
+  SectionPlan section;  ///< what `carom section` takes
 
   /// Are the particles hard discs?
   bool of_discs() const { return dynamics.forces && !dynamics.forces->disc_radii().empty(); }

@@ -15,16 +15,20 @@ struct TrajectoryRange {
   bool operator==(const TrajectoryRange&) const = default;
 };
 
-/// Part k of N (k from 1 to N < 2^32) of n trajectories. The parts of one N cover 0 … n - 1 once, and
-/// their lengths differ by at most one.
+/// Part k of N (k from 1 to N < 2^32) of n trajectories. The parts of one N cover 0 … n - 1 once,
+/// and their lengths differ by at most one.
 inline TrajectoryRange shard(std::uint64_t k, std::uint64_t of, std::uint64_t trajectories) {
   // floor(j n / N) without the product j n, which may not fit.
-  const auto end = [&](std::uint64_t j) { return trajectories / of * j + trajectories % of * j / of; };
+  const auto end = [&](std::uint64_t j) {
+    return trajectories / of * j + trajectories % of * j / of;
+  };
   return {end(k - 1), end(k)};
 }
 
-/// Part k of N of the trajectories of several ranges, in order: the smallest range that holds it, or an empty one.
-inline TrajectoryRange shard(std::uint64_t k, std::uint64_t of, const std::vector<TrajectoryRange>& ranges) {
+/// Part k of N of the trajectories of several ranges, in order: the smallest range that holds it,
+/// or an empty one.
+inline TrajectoryRange shard(std::uint64_t k, std::uint64_t of,
+                             const std::vector<TrajectoryRange>& ranges) {
   std::uint64_t all = 0;
   for (const TrajectoryRange& range : ranges) all += range.last - range.first;
   const TrajectoryRange numbers = shard(k, of, all);
@@ -33,15 +37,17 @@ inline TrajectoryRange shard(std::uint64_t k, std::uint64_t of, const std::vecto
   std::uint64_t before = 0;
   for (const TrajectoryRange& range : ranges) {
     const std::uint64_t end = before + (range.last - range.first);
-    if (before <= numbers.first && numbers.first < end) part.first = range.first + (numbers.first - before);
-    if (before < numbers.last && numbers.last <= end) part.last = range.first + (numbers.last - before);
+    if (before <= numbers.first && numbers.first < end)
+      part.first = range.first + (numbers.first - before);
+    if (before < numbers.last && numbers.last <= end)
+      part.last = range.first + (numbers.last - before);
     before = end;
   }
   return part;
 }
 
-/// A set of trajectories as sorted ranges that neither touch nor overlap: equal sets are equal values,
-/// in whatever order they were put together.
+/// A set of trajectories as sorted ranges that neither touch nor overlap: equal sets are equal
+/// values, in whatever order they were put together.
 class TrajectoryRanges {
  public:
   /// Adds a range; false, and no change, where one of its trajectories is there already.
@@ -69,7 +75,8 @@ class TrajectoryRanges {
     if (other.ranges_.size() == 1) return add(other.ranges_.front());
     std::vector<TrajectoryRange> sum;
     sum.reserve(ranges_.size() + other.ranges_.size());
-    for (auto a = ranges_.cbegin(), b = other.ranges_.cbegin(); a != ranges_.end() || b != other.ranges_.end();) {
+    for (auto a = ranges_.cbegin(), b = other.ranges_.cbegin();
+         a != ranges_.end() || b != other.ranges_.end();) {
       const bool first = b == other.ranges_.end() || (a != ranges_.end() && a->first < b->first);
       const TrajectoryRange next = first ? *a++ : *b++;
       if (sum.empty() || sum.back().last < next.first)

@@ -13,17 +13,18 @@ namespace carom {
 /// A check that has run: what came out, beside what should.
 struct ValidationCase {
   std::string name;
-  std::string source;           ///< where the expected value comes from
+  std::string source;  ///< where the expected value comes from
   double value = 0.0;
-  double error = 0.0;           ///< own standard error (0: none)
+  double error = 0.0;  ///< own standard error (0: none)
   double expected = 0.0;
   double expected_error = 0.0;  ///< standard error of the expected value (0: exact)
-  double distance = 0.0;        ///< (value - expected) / both errors together, or their difference where these are 0
+  double distance =
+      0.0;  ///< (value - expected) / both errors together, or their difference where these are 0
   bool passed = false;
-  bool complete = true;         ///< false when interrupted: then it neither passed nor failed
+  bool complete = true;  ///< false when interrupted: then it neither passed nor failed
   std::uint64_t seed = 1, hits = 0, unresolved = 0, lost = 0, singular = 0, digest = 0;
-  double filter_share = 1.0;    ///< of decisions, by double precision with its bound
-  std::string report;           ///< of the first trajectory that failed
+  double filter_share = 1.0;  ///< of decisions, by double precision with its bound
+  std::string report;         ///< of the first trajectory that failed
   int threads = 1;
   double seconds = 0.0, cpu_seconds = 0.0;
 };
@@ -34,29 +35,30 @@ struct ValidationOptions {
   const std::atomic<bool>* interrupted = nullptr;
 };
 
-/// How far a value may be from what is expected: four standard errors of their difference, and `below` and
-/// `above` on top where finite times or lengths leave a known bias.
+/// How far a value may be from what is expected: four standard errors of their difference, and
+/// `below` and `above` on top where finite times or lengths leave a known bias.
 struct Allowance {
   double below = 0.0, above = 0.0;
 };
 
 // Every check fails if a trajectory is lost or unresolved. Each sets all but name and source.
 
-/// Mean time between hits from cosine starts on all walls (the invariant measure of the boundary map),
-/// which is pi (A - A0) / L: `no_hit_area` A0 is the area of the centres of Larmor circles that meet no
-/// wall (Santalo; Chernov 1997). The error is from the scatter over trajectories, since orbits need not
-/// be ergodic. run.collisions and run.trajectories say how much is done.
+/// Mean time between hits from cosine starts on all walls (the invariant measure of the boundary
+/// map), which is pi (A - A0) / L: `no_hit_area` A0 is the area of the centres of Larmor circles
+/// that meet no wall (Santalo; Chernov 1997). The error is from the scatter over trajectories,
+/// since orbits need not be ergodic. run.collisions and run.trajectories say how much is done.
 ValidationCase check_mean_flight(const System&, double no_hit_area, const ValidationOptions& = {});
 
 /// A closed table loses nothing: `value` is the number of lost trajectories.
 ValidationCase check_nothing_lost(const System&, const ValidationOptions& = {});
 
 /// Of the trajectories with run.collisions - 1 hits, the share that hits once more.
-ValidationCase check_survival_per_hit(const System&, double expected, const ValidationOptions& = {});
+ValidationCase check_survival_per_hit(const System&, double expected,
+                                      const ValidationOptions& = {});
 
-/// The escape rate g at which the sum of exp(g t) over those with n hits, t the time of the n-th, is the
-/// same for n = run.collisions - 1 and n = run.collisions: without the staircase that the number of
-/// survivors is over time.
+/// The escape rate g at which the sum of exp(g t) over those with n hits, t the time of the n-th,
+/// is the same for n = run.collisions - 1 and n = run.collisions: without the staircase that the
+/// number of survivors is over time.
 ValidationCase check_escape_rate(const System&, double expected, const ValidationOptions& = {});
 
 /// Share of trajectories that survive until t_max or their cap on hits, times `factor`.

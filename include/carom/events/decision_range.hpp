@@ -9,8 +9,8 @@
 
 namespace carom {
 
-/// A table's lengths, and whether the bounds on rounding hold for a particle in it, as they know no underflow and no
-/// overflow. docs/physics/exactness.md, The range, derives the limits.
+/// A table's lengths, and whether the bounds on rounding hold for a particle in it, as they know no
+/// underflow and no overflow. docs/physics/exactness.md, The range, derives the limits.
 class DecisionRange {
  public:
   explicit DecisionRange(const Table&);

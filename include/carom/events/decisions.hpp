@@ -8,13 +8,13 @@ namespace carom {
 /// How decisions are taken. Results never depend on it, only the time they take.
 struct DecisionOptions {
   double filter_inflation = 1.0;  ///< factor on every bound of the filter (>= 1)
-  int grid_from = 16;             ///< pieces of walls from which on a grid tells which are near a flight
+  int grid_from = 16;  ///< pieces of walls from which on a grid tells which are near a flight
 };
 
 /// Where decisions were taken.
 struct DecisionCounts {
-  std::uint64_t filter = 0;   ///< by double precision with its bound
-  std::uint64_t exact = 0;    ///< by exact arithmetic
+  std::uint64_t filter = 0;  ///< by double precision with its bound
+  std::uint64_t exact = 0;   ///< by exact arithmetic
   DecisionCounts& operator+=(const DecisionCounts& o) {
     filter += o.filter;
     exact += o.exact;

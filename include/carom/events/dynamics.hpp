@@ -12,7 +12,7 @@ namespace carom {
 struct Dynamics {
   std::shared_ptr<const ForceField> forces;  ///< null: nothing
   IntegratorPlan integrator;
-  bool everywhere = false;                   ///< integrate also what could be flown exactly
+  bool everywhere = false;  ///< integrate also what could be flown exactly
 };
 
 }  // namespace carom

@@ -24,7 +24,8 @@ struct EnergyError {
   EnergyError& operator+=(const EnergyError&);
 };
 
-/// What is seen of the energy of a particle under forces, or of all particles together where they interact.
+/// What is seen of the energy of a particle under forces, or of all particles together where they
+/// interact.
 struct EnergyBalance {
   double change = 0.0;   ///< since the start, at the end of the latest step
   double largest = 0.0;  ///< the largest change after a step or at a hit, without its sign
@@ -39,16 +40,16 @@ double larger(double, double);
 /// |change| / kinetic, or 0 where nothing has changed.
 double relative_to(double kinetic, double change);
 
-/// One state a particle, all at the same time. Pairs on a lattice see their nearest copies, as in the
-/// motion. Where `interrupt` says so, it stops half done.
+/// One state a particle, all at the same time. Pairs on a lattice see their nearest copies, as in
+/// the motion. Where `interrupt` says so, it stops half done.
 Energy energy_of(std::span<const Particle>, std::span<const State>, const Dynamics&, const Table&,
                  Interrupt* interrupt = nullptr);
 
 /// Sum of m v. Conserved without walls, external forces and field.
 geometry::Vector momentum_of(std::span<const Particle>, std::span<const State>);
 
-/// Sum of m (x cross v + omega r^2 / 2) about the origin of the plane, positions unwrapped: the canonical
-/// angular momentum, conserved where walls and forces are round about the origin.
+/// Sum of m (x cross v + omega r^2 / 2) about the origin of the plane, positions unwrapped: the
+/// canonical angular momentum, conserved where walls and forces are round about the origin.
 double angular_momentum_of(std::span<const Particle>, std::span<const State>, const Table&);
 
 }  // namespace carom

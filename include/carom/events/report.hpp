@@ -8,13 +8,15 @@
 
 namespace carom {
 
-/// Of a particle that ended as lost, unresolved or singular: the reason and its state in decimals, then a tab and the
-/// bits of that state. `reason` may be empty: then it is what the fate says by itself.
+/// Of a particle that ended as lost, unresolved or singular: the reason and its state in decimals,
+/// then a tab and the bits of that state. `reason` may be empty: then it is what the fate says by
+/// itself.
 std::string report_of(const Particle&, const State&, Fate, std::string_view reason);
 
 /// The part of a report for people.
 std::string_view shown(std::string_view report);
-/// The part that a state can be set up again from: wall, u, x, y, vx, vy, omega as hexadecimal numbers, cell, and time.
+/// The part that a state can be set up again from: wall, u, x, y, vx, vy, omega as hexadecimal
+/// numbers, cell, and time.
 std::string_view bits_in(std::string_view report);
 
 }  // namespace carom

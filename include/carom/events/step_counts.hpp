@@ -8,14 +8,17 @@ namespace carom {
 
 /// Counts of integrated motion; parts of an ensemble are added.
 struct StepCounts {
-  std::uint64_t steps = 0;              ///< steps and parts of steps that were taken, each for a whole group
-  std::uint64_t force_evaluations = 0;  ///< of one particle's force, or of all forces in a group, each counted once
-  std::uint64_t unresolved = 0;         ///< steps longer than the forces they swept allow (unresolved = "count")
-  double first_unresolved = 0.0;        ///< time at which the earliest of them began; 0 if there is none
+  std::uint64_t steps = 0;  ///< steps and parts of steps that were taken, each for a whole group
+  std::uint64_t force_evaluations =
+      0;  ///< of one particle's force, or of all forces in a group, each counted once
+  std::uint64_t unresolved =
+      0;  ///< steps longer than the forces they swept allow (unresolved = "count")
+  double first_unresolved = 0.0;  ///< time at which the earliest of them began; 0 if there is none
 
   StepCounts& operator+=(const StepCounts& o) {
     if (o.unresolved > 0)
-      first_unresolved = unresolved > 0 ? std::min(first_unresolved, o.first_unresolved) : o.first_unresolved;
+      first_unresolved =
+          unresolved > 0 ? std::min(first_unresolved, o.first_unresolved) : o.first_unresolved;
     steps += o.steps;
     force_evaluations += o.force_evaluations;
     unresolved += o.unresolved;

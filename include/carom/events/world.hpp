@@ -20,13 +20,14 @@
 
 namespace carom {
 
-/// Particles on one table. Where nothing acts they fly exactly (straight or Larmor flights). Where a
-/// force acts they are integrated, from the edge of its support on and back
+/// Particles on one table. Where nothing acts they fly exactly (straight or Larmor flights). Where
+/// a force acts they are integrated, from the edge of its support on and back
 /// (docs/physics/walls-in-steps.md).
 class World {
  public:
-  /// For free particles: no forces act. make_world(system) (ensemble/trajectories.hpp) makes the world of a System with its
-  /// forces. Keeps a reference to the table, which must live as long. InputError: an arc is too flat.
+  /// For free particles: no forces act. make_world(system) (ensemble/trajectories.hpp) makes the
+  /// world of a System with its forces. Keeps a reference to the table, which must live as long.
+  /// InputError: an arc is too flat.
   explicit World(const Table& table, DecisionOptions options = {});
   World(const Table& table, const Dynamics& dynamics, DecisionOptions options = {});
   explicit World(Table&&, DecisionOptions = {}) = delete;
@@ -34,12 +35,12 @@ class World {
   World(World&&) noexcept;
 
   /// Adds a particle; returns its index. A state off the walls must lie in the domain, else
-  /// std::invalid_argument. Its velocity is kept as it is. Without forces its length must be Particle::speed within
-  /// 32 roundings (64u of its square), and that within the table's DecisionRange, else std::invalid_argument.
-  /// `hits`: how many it has made before, when a stored trajectory goes on. A state of a later time
-  /// than that of the loop is injected then. Hard discs (Particle::radius > 0): no disc may overlap another,
-  /// else std::invalid_argument; the velocity may be of any length, and their positions and those of
-  /// their hits are those of their centres.
+  /// std::invalid_argument. Its velocity is kept as it is. Without forces its length must be
+  /// Particle::speed within 32 roundings (64u of its square), and that within the table's
+  /// DecisionRange, else std::invalid_argument. `hits`: how many it has made before, when a stored
+  /// trajectory goes on. A state of a later time than that of the loop is injected then. Hard discs
+  /// (Particle::radius > 0): no disc may overlap another, else std::invalid_argument; the velocity
+  /// may be of any length, and their positions and those of their hits are those of their centres.
   int add(const Particle& particle, const State& state, std::uint64_t hits = 0);
   /// Removes all particles and sets the clock to 0; keeps the prepared table.
   void clear();
@@ -51,12 +52,12 @@ class World {
   /// Samples at k * interval, k = 0, 1, 2, …
   void sample_every(double interval);
 
-  /// Reports every crossing of the surface from the next run_until on; it must live as long (null: none).
-  /// `most`: of one flight; a pinned orbit would go on for ever.
+  /// Reports every crossing of the surface from the next run_until on; it must live as long (null:
+  /// none). `most`: of one flight; a pinned orbit would go on for ever.
   void watch(const Surface* surface, std::size_t most = SIZE_MAX);
 
-  /// Asked before each event and after the last, in later runs too: true ends the run there. Cheap, or it costs more than
-  /// the events; an interrupt belongs into run_until.
+  /// Asked before each event and after the last, in later runs too: true ends the run there. Cheap,
+  /// or it costs more than the events; an interrupt belongs into run_until.
   void stop_when(std::function<bool()> enough);
 
   /// Runs until `t_end` or until no particle moves any more. `interrupted`, if set, is asked
@@ -70,26 +71,27 @@ class World {
   }
 
   int size() const;
-  bool finished(int particle) const;          ///< has ended
-  Fate fate(int particle) const;              ///< survived while it has not ended
-  const State& state(int particle) const;     ///< after its last event
-  State state_at(int particle, Time t) const; ///< between its last event and the next
+  bool finished(int particle) const;           ///< has ended
+  Fate fate(int particle) const;               ///< survived while it has not ended
+  const State& state(int particle) const;      ///< after its last event
+  State state_at(int particle, Time t) const;  ///< between its last event and the next
   const Particle& particle(int particle) const;
   std::uint64_t hits(int particle) const;
-  int last_wall(int particle) const;          ///< -1 before the first hit
-  int hole(int particle) const;               ///< -1 unless escaped
+  int last_wall(int particle) const;  ///< -1 before the first hit
+  int hole(int particle) const;       ///< -1 unless escaped
   const DecisionCounts& decisions() const;
   /// What integration has cost since the last clear().
   const StepCounts& step_counts() const;
 
-  /// From the next step on, energies are looked at after each one and at each hit. Else energy_balance knows nothing but kinetic
-  /// ones.
+  /// From the next step on, energies are looked at after each one and at each hit. Else
+  /// energy_balance knows nothing but kinetic ones.
   void watch_energy();
   /// Of a particle under forces; of all together where they interact.
   const EnergyBalance& energy_balance(int particle) const;
   /// What was seen before, when a stored trajectory goes on.
   void set_energy_balance(int particle, const EnergyBalance& before);
-  /// For `lost`, `unresolved` and `singular`: why, and the state that caused it (events/report.hpp).
+  /// For `lost`, `unresolved` and `singular`: why, and the state that caused it
+  /// (events/report.hpp).
   const std::string& report(int particle) const;
 
   /// Is the point strictly inside the domain (exact)? For lattices: in the free part of its cell.

@@ -44,13 +44,14 @@ class ForceField {
   double add_pair(const Particle& a, const Particle& b, geometry::Vector separation,
                   geometry::Vector& force) const;
 
-  /// Adds the forces of all pairs. On a lattice a pair feels its nearest copies. Where `interrupt` says so, it stops half done.
+  /// Adds the forces of all pairs. On a lattice a pair feels its nearest copies. Where `interrupt`
+  /// says so, it stops half done.
   void add_pairs(std::span<const Particle> particles, std::span<const geometry::Vector> x,
                  const geometry::Lattice* lattice, std::span<geometry::Vector> force,
                  Interrupt* interrupt = nullptr) const;
 
-  /// How large the external force can be near a place, and that of a pair whose separation is displaced by at most
-  /// `rho` from one of that length: docs/physics/resolution.md.
+  /// How large the external force can be near a place, and that of a pair whose separation is
+  /// displaced by at most `rho` from one of that length: docs/physics/resolution.md.
   ForceBound external_bound(const Particle&, const Neighbourhood&) const;
   ForceBound pair_bound(const Particle& a, const Particle& b, double distance, double rho) const;
   /// Energy of all pairs, which feel each other as in add_pairs.
@@ -64,7 +65,8 @@ class ForceField {
   const std::vector<std::unique_ptr<const Potential>>& potentials() const { return potentials_; }
   /// Does some external potential reach everywhere?
   bool everywhere() const { return everywhere_; }
-  /// Otherwise: discs, in the cell of a lattice, outside which each potential is below tail_bound().
+  /// Otherwise: discs, in the cell of a lattice, outside which each potential is below
+  /// tail_bound().
   const std::vector<Support>& supports() const { return supports_; }
   /// Beyond it |W| is below tail_bound(); infinity for Coulomb forces and typed ones.
   double pair_range() const { return pair_range_; }
@@ -73,9 +75,10 @@ class ForceField {
   /// Radii of hard discs, one a particle; empty without them.
   const std::vector<double>& disc_radii() const { return disc_radii_; }
 
-  /// Throws InputError at the place of the fault. `particles`: whose charges decide whether a Coulomb
-  /// force attracts. `lattice`: the table's, if it has one.
-  static std::shared_ptr<const ForceField> build(const ForceSpec&, const std::vector<Particle>& particles,
+  /// Throws InputError at the place of the fault. `particles`: whose charges decide whether a
+  /// Coulomb force attracts. `lattice`: the table's, if it has one.
+  static std::shared_ptr<const ForceField> build(const ForceSpec&,
+                                                 const std::vector<Particle>& particles,
                                                  const std::optional<geometry::Lattice>& lattice);
 
  private:

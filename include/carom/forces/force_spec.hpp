@@ -12,8 +12,8 @@ namespace carom {
 
 class TypedExpression;
 
-/// An external potential ([[potential]]). r is the distance from a centre, m the particle's mass, q its
-/// charge. Which numbers belong to which kind:
+/// An external potential ([[potential]]). r is the distance from a centre, m the particle's mass, q
+/// its charge. Which numbers belong to which kind:
 ///   fermi         V = height / (1 + exp((r - radius)/softness))      (Bill2d, section 4.4)
 ///   harmonic      V = m (omega_x^2 x^2 + omega_y^2 y^2)/2
 ///   gaussian      V = height exp(-r^2/(2 width^2))
@@ -27,7 +27,17 @@ class TypedExpression;
 ///   expression    V(x, y) as typed
 struct PotentialSpec {
   enum class Kind {
-    fermi, harmonic, gaussian, quartic, power, coulomb, henon_heiles, linear, soft_circle, soft_stadium, expression
+    fermi,
+    harmonic,
+    gaussian,
+    quartic,
+    power,
+    coulomb,
+    henon_heiles,
+    linear,
+    soft_circle,
+    soft_stadium,
+    expression
   } kind = Kind::harmonic;
   Place place;
   double height = 1.0, radius = 1.0, softness = 0.1, width = 1.0;
@@ -40,14 +50,20 @@ struct PotentialSpec {
 };
 
 /// An interaction of pairs ([interaction]). r is their distance.
-///   coulomb        W = strength q_1 q_2 / r                                   (Bill2d, section 2.2)
-///   yukawa         W = strength q_1 q_2 exp(-r/range) / r
-///   lennard_jones  W = 4 depth ((diameter/r)^12 - (diameter/r)^6)
-///   soft_sphere    W = strength (diameter/r)^exponent, a whole exponent
-///   hard_discs     no potential: contacts at the sum of the radii
-///   expression     W(r) as typed
+///   coulomb        W = strength q_1 q_2 / r                                   (Bill2d,
+///   section 2.2) yukawa         W = strength q_1 q_2 exp(-r/range) / r lennard_jones  W = 4 depth
+///   ((diameter/r)^12 - (diameter/r)^6) soft_sphere    W = strength (diameter/r)^exponent, a whole
+///   exponent hard_discs     no potential: contacts at the sum of the radii expression     W(r) as
+///   typed
 struct InteractionSpec {
-  enum class Kind { coulomb, yukawa, lennard_jones, soft_sphere, hard_discs, expression } kind = Kind::coulomb;
+  enum class Kind {
+    coulomb,
+    yukawa,
+    lennard_jones,
+    soft_sphere,
+    hard_discs,
+    expression
+  } kind = Kind::coulomb;
   Place place;
   double strength = 1.0, range = 1.0, depth = 1.0, diameter = 1.0;
   int exponent = 12;

@@ -14,8 +14,8 @@ struct SineCosine {
   Real sine{}, cosine{};
 };
 
-/// Specialised for each arithmetic: `parse` reads a decimal with all its digits, `turn` is the sine and
-/// cosine of an angle.
+/// Specialised for each arithmetic: `parse` reads a decimal with all its digits, `turn` is the sine
+/// and cosine of an angle.
 template <class Real>
 struct Arithmetic;
 

@@ -12,16 +12,19 @@ namespace carom {
 /// A scheme splits a step of time h into motions that are solved exactly:
 ///   drift     the free motion, for the time a h: straight, or on the Larmor circle;
 ///   kick      the force, for the time b h: v += b h a(x);
-///   straight  x += a h v, and turn: v turned by the magnetic field for a h (schemes that split the two).
+///   straight  x += a h v, and turn: v turned by the magnetic field for a h (schemes that split the
+///   two).
 /// Coefficients are decimals with all digits that are known.
 struct Scheme {
   enum class Form {
     listed,     ///< drifts and kicks by turns, all of them
-    symmetric,  ///< the same, read forwards and backwards: the first halves; what the sums (1 each) leave
-                ///< is in the middle
-    verlets,    ///< steps kick 1/2, drift 1, kick 1/2 of lengths w h: the first half of the w, likewise
-    he,         ///< steps straight 1/2, kick 1/2, turn 1, kick 1/2, straight 1/2 of lengths w h, likewise
-    spreiter_walter,  ///< no splitting: motion under a frozen force, see docs/physics/integrators.md
+    symmetric,  ///< the same, read forwards and backwards: the first halves; what the sums (1 each)
+                ///< leave is in the middle
+    verlets,    ///< steps kick 1/2, drift 1, kick 1/2 of lengths w h: the first half of the w,
+                ///< likewise
+    he,  ///< steps straight 1/2, kick 1/2, turn 1, kick 1/2, straight 1/2 of lengths w h, likewise
+    spreiter_walter,  ///< no splitting: motion under a frozen force, see
+                      ///< docs/physics/integrators.md
   };
   enum class Motion { drift, kick };
 

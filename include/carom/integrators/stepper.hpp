@@ -15,8 +15,8 @@ struct Phase {
   std::vector<geometry::BasicVector<Real>> position, velocity;
 };
 
-/// The acceleration of each particle of a group (force / mass), without the magnetic part. Adaptive schemes ask for
-/// more: the energy and the longest step that the forces allow.
+/// The acceleration of each particle of a group (force / mass), without the magnetic part. Adaptive
+/// schemes ask for more: the energy and the longest step that the forces allow.
 template <class Real>
 class ForceLaw {
  public:
@@ -25,27 +25,31 @@ class ForceLaw {
   virtual void accelerations(std::span<const geometry::BasicVector<Real>> position,
                              std::span<geometry::BasicVector<Real>> acceleration) const = 0;
 
-  /// The masses where the exact motion keeps sum m v^2/2 + potential_energy(); empty where it keeps no energy, or none
-  /// that is known.
+  /// The masses where the exact motion keeps sum m v^2/2 + potential_energy(); empty where it keeps
+  /// no energy, or none that is known.
   virtual std::span<const Real> masses() const { return {}; }
   /// The potential energy of the group. Its gradient is minus the forces.
-  virtual Real potential_energy(std::span<const geometry::BasicVector<Real>> /*position*/) const { return Real(0); }
+  virtual Real potential_energy(std::span<const geometry::BasicVector<Real>> /*position*/) const {
+    return Real(0);
+  }
   /// By how much potential_energy() may jump where tails are cut off.
   virtual Real energy_jumps() const { return Real(0); }
 
-  /// The longest step from there, of at most `asked` > 0, in which a scheme cannot miss a force; 0 where there is none.
-  /// A function of its arguments alone.
+  /// The longest step from there, of at most `asked` > 0, in which a scheme cannot miss a force; 0
+  /// where there is none. A function of its arguments alone.
   virtual Real longest_step(const Phase<Real>& /*from*/, const Real& asked) const { return asked; }
 };
 
 /// One step of a scheme. The path of a group is a function of its start alone: step(from, t) for
-/// 0 <= t <= h is the scheme's own continuous path, and a step that is cut short at a wall repeats it.
+/// 0 <= t <= h is the scheme's own continuous path, and a step that is cut short at a wall repeats
+/// it.
 template <class Real>
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// Moves `from` by a time of at most `at_most` > 0 into `to` (never the same object) and returns the
-  /// time it moved: `at_most` itself for fixed schemes; less where an adaptive one needs a smaller step.
+  /// Moves `from` by a time of at most `at_most` > 0 into `to` (never the same object) and returns
+  /// the time it moved: `at_most` itself for fixed schemes; less where an adaptive one needs a
+  /// smaller step.
   virtual Real step(const Phase<Real>& from, Real at_most, Phase<Real>& to) = 0;
   /// Forgets the forces that it remembers, which changes nothing but the cost.
   virtual void forget() {}

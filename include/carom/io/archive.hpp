@@ -19,15 +19,18 @@ namespace carom {
 /// Once, before anything else happens in the program.
 void prepare_archives();
 
-/// Throws InputError where `file` exists and `force` is not set, and where it is no file: a folder, a device, a pipe.
+/// Throws InputError where `file` exists and `force` is not set, and where it is no file: a folder,
+/// a device, a pipe.
 void refuse_existing(const std::string& file, bool force);
 /// Is there an ensemble of this name that has not ended?
 bool has_checkpoint(const std::string& file);
 
-/// For the process that holds the lock of `file`: removes its checkpoint, if it has one, and the records that this names.
+/// For the process that holds the lock of `file`: removes its checkpoint, if it has one, and the
+/// records that this names.
 void remove_checkpoint(const std::string& file);
-/// The file behind a name: symbolic links are followed, to a file that is not there yet, too, so that what stands beside an
-/// archive stands beside the file and not beside the link. Throws InputError where links lead round.
+/// The file behind a name: symbolic links are followed, to a file that is not there yet, too, so
+/// that what stands beside an archive stands beside the file and not beside the link. Throws
+/// InputError where links lead round.
 std::string followed(const std::string& name);
 /// The archive that a user means: FILE for the name of its folder FILE.part.
 std::string archive_named(const std::string& name);
@@ -35,10 +38,12 @@ std::string archive_named(const std::string& name);
 void refuse_inside(const std::string& file);
 
 class WorkFolder;
-/// As long as it lives, no other process writes the archive. It holds the folder FILE.part, in which FILE is made.
+/// As long as it lives, no other process writes the archive. It holds the folder FILE.part, in
+/// which FILE is made.
 using ArchiveLock = std::shared_ptr<WorkFolder>;
-/// Throws InputError where another process writes it, where it is no file, and where FILE.part is something else. Archives
-/// take their lock themselves, unless they are given one that was taken before something was read.
+/// Throws InputError where another process writes it, where it is no file, and where FILE.part is
+/// something else. Archives take their lock themselves, unless they are given one that was taken
+/// before something was read.
 ArchiveLock lock_archive(const std::string& file);
 /// Why it keeps nobody away ("No locks available"): the file system gives none. "" where it does.
 std::string weakness_of(const ArchiveLock&);
@@ -57,16 +62,18 @@ struct Provenance {
 };
 
 /// A run while it happens: hits and samples go to the file in batches, which readers can follow
-/// (HDF5's SWMR mode). A file that is not finished is removed, unless the process is killed: then it
-/// stays readable, with the attribute `complete` still 0.
+/// (HDF5's SWMR mode). A file that is not finished is removed, unless the process is killed: then
+/// it stays readable, with the attribute `complete` still 0.
 class RunArchive : public Observer {
  public:
-  static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&, const Provenance&,
-                                            bool force, std::uint64_t trajectory = 0, ArchiveLock = nullptr);
+  static std::unique_ptr<RunArchive> create(const std::string& file, const LoadedSystem&,
+                                            const Provenance&, bool force,
+                                            std::uint64_t trajectory = 0, ArchiveLock = nullptr);
   /// Goes on with the run stored in `source`: works on a copy aside, which becomes `target`
   /// (often the source itself) when finished.
   static std::unique_ptr<RunArchive> extend(const std::string& source, const std::string& target,
-                                            const LoadedSystem&, const Provenance&, bool force, ArchiveLock = nullptr);
+                                            const LoadedSystem&, const Provenance&, bool force,
+                                            ArchiveLock = nullptr);
   ~RunArchive() override;
 
   void hit(const HitEvent&) override;
@@ -111,7 +118,8 @@ struct StoredEnsemble {
   std::string kind, version, system_name, system_toml, status;
   std::string engine;       ///< "events", "steps" or "auto"
   bool everywhere = false;  ///< --engine steps: integrates everything
-  std::string arithmetic;   ///< fingerprint of the digits that the build computes which wrote it; "": it says none
+  std::string arithmetic;   ///< fingerprint of the digits that the build computes which wrote it;
+                            ///< "": it says none
   std::vector<Origin> origins;
   std::vector<std::string> merged;  ///< the files that `carom merge` added
   Shard shard;
@@ -128,17 +136,20 @@ struct Stored : StoredEnsemble {
 bool is_complete(const std::string& file);
 /// The kind of ensemble that FILE.h5 or its checkpoint holds. Throws InputError for anything else.
 std::string kind_of_ensemble(const std::string& file);
-/// Of FILE.h5 and its checkpoint, what holds more of the same ensemble; where FILE.h5 is anything else, the
-/// checkpoint. Throws InputError where there is no ensemble.
+/// Of FILE.h5 and its checkpoint, what holds more of the same ensemble; where FILE.h5 is anything
+/// else, the checkpoint. Throws InputError where there is no ensemble.
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file);
 /// Throws InputError where it cannot be what this system gave: it was damaged or changed.
 template <class Result>
 void check_stored(const Stored<Result>&, const System&);
-/// Throws InputError where another version of the program wrote it, or a build that computes other digits.
+/// Throws InputError where another version of the program wrote it, or a build that computes other
+/// digits.
 void refuse_other_version(const StoredEnsemble&);
-/// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none. `but` is a key that may.
-std::string difference(const std::string& toml, const std::string& other_toml, const std::string& but = {});
+/// The first key in which two resolved systems differ: "run.seed is 2, not 1". Empty: none. `but`
+/// is a key that may.
+std::string difference(const std::string& toml, const std::string& other_toml,
+                       const std::string& but = {});
 
 /// Where a sum comes from.
 struct EnsemblePart {
@@ -150,16 +161,19 @@ template <class Result>
 struct SumOfParts : Stored<Result> {
   std::vector<EnsemblePart> parts;
 };
-/// The sum of parts of one ensemble, in any order the same; complete where nothing of the shard is missing. One part
-/// at a time is in memory. Throws InputError where parts overlap or do not match, and says in what.
+/// The sum of parts of one ensemble, in any order the same; complete where nothing of the shard is
+/// missing. One part at a time is in memory. Throws InputError where parts overlap or do not match,
+/// and says in what.
 template <class Result>
 SumOfParts<Result> sum_of(const std::vector<std::string>& files, const Shard& shard = {});
 /// Writes the sum as its ensemble's archive, in place of what there is of that name.
 template <class Result>
-void write_sum(const std::string& file, const LoadedSystem&, const Provenance&, const SumOfParts<Result>&, ArchiveLock = nullptr);
+void write_sum(const std::string& file, const LoadedSystem&, const Provenance&,
+               const SumOfParts<Result>&, ArchiveLock = nullptr);
 
-/// An ensemble's result. While the ensemble runs, its checkpoint is in the folder FILE.part: an archive by itself, always
-/// whole, and the records of trajectories. When finished, FILE replaces the folder.
+/// An ensemble's result. While the ensemble runs, its checkpoint is in the folder FILE.part: an
+/// archive by itself, always whole, and the records of trajectories. When finished, FILE replaces
+/// the folder.
 template <class Result>
 class EnsembleArchive : public EnsembleJournal<Result> {
  public:
@@ -172,7 +186,8 @@ class EnsembleArchive : public EnsembleJournal<Result> {
   };
   EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Plan&);
   /// Goes on with a stored ensemble; the plan is that of the store.
-  EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&, const Stored<Result>&, const Plan&);
+  EnsembleArchive(const std::string& file, const LoadedSystem&, const Provenance&,
+                  const Stored<Result>&, const Plan&);
   EnsembleArchive(const EnsembleArchive&) = delete;
   ~EnsembleArchive() override;
 
@@ -195,7 +210,8 @@ extern template class EnsembleArchive<DiffusionResult>;
 /// The points of a section, orbit after orbit; written aside, and renamed when finished.
 class SectionArchive {
  public:
-  SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force, ArchiveLock = nullptr);
+  SectionArchive(const std::string& file, const LoadedSystem&, const Provenance&, bool force,
+                 ArchiveLock = nullptr);
   SectionArchive(const SectionArchive&) = delete;
   ~SectionArchive();
 

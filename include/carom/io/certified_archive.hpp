@@ -1,4 +1,5 @@
-// Archives of certified orbits: every number as its guaranteed decimals and as the double nearest to them.
+// Archives of certified orbits: every number as its guaranteed decimals and as the double nearest
+// to them.
 #pragma once
 
 #include <memory>
@@ -12,12 +13,13 @@ namespace carom {
 /// Written aside and renamed when finished; removed when it is not.
 class CertifiedArchive {
  public:
-  CertifiedArchive(const std::string& file, const LoadedSystem&, const Provenance&, const CertifiedTask&, bool force,
-                   ArchiveLock = nullptr);
+  CertifiedArchive(const std::string& file, const LoadedSystem&, const Provenance&,
+                   const CertifiedTask&, bool force, ArchiveLock = nullptr);
   ~CertifiedArchive();
 
   void hit(const CertifiedHit&);
-  void finish(const CertifiedEnd&, const CertifiedEffort&, const std::string& status, bool complete);
+  void finish(const CertifiedEnd&, const CertifiedEffort&, const std::string& status,
+              bool complete);
 
  private:
   class Implementation;

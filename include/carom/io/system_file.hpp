@@ -16,8 +16,8 @@ struct WrittenSystem;
 
 /// A key of the system file.
 struct KeyDescription {
-  std::string_view section;   ///< "table", "table.hole", "table.loop", "lattice", "field", …
-  std::string_view kind;      ///< shape or kind the key belongs to ("" : all), several by |
+  std::string_view section;  ///< "table", "table.hole", "table.loop", "lattice", "field", …
+  std::string_view kind;     ///< shape or kind the key belongs to ("" : all), several by |
   std::string_view key;
   std::string_view type;      ///< number, integer, string, boolean, point, list of points, …
   std::string_view fallback;  ///< default as written ("" : required or none)
@@ -39,8 +39,8 @@ const std::vector<BuiltinSystem>& builtin_systems();
 struct LoadedSystem {
   System system;
   std::string resolved_toml;
-  /// The same with the numbers as they were written, of the first particle. Its start is that of [initial] if
-  /// that is a point.
+  /// The same with the numbers as they were written, of the first particle. Its start is that of
+  /// [initial] if that is a point.
   ExactSystem exact;
   ExactNumber t_max;
 };
@@ -48,8 +48,10 @@ struct LoadedSystem {
 /// `name`: a file if it has a '/' or ends in ".toml", else a built-in name. Throws InputError.
 LoadedSystem load_system(const std::string& name, const SystemOverrides& = {});
 /// The same from text; `file` is used in messages.
-LoadedSystem read_system(std::string_view toml, const std::string& file, const SystemOverrides& = {});
-/// What the doubles of a system were rounded from (SingleRunOptions::written); null where that is not known.
+LoadedSystem read_system(std::string_view toml, const std::string& file,
+                         const SystemOverrides& = {});
+/// What the doubles of a system were rounded from (SingleRunOptions::written); null where that is
+/// not known.
 std::shared_ptr<const WrittenSystem> written_system(const LoadedSystem&);
 
 }  // namespace carom

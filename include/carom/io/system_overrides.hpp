@@ -1,4 +1,5 @@
-// What the command line changes in a system: text alone, so that parsing a command line needs no system.
+// What the command line changes in a system: text alone, so that parsing a command line needs no
+// system.
 #pragma once
 
 #include <string>
@@ -10,7 +11,8 @@ namespace carom {
 /// Options of the command line that change a system. Values are text; one parser reads them.
 struct SystemOverrides {
   std::vector<std::pair<std::string, std::string>> set;  ///< --set path.to.key=value
-  std::string seed, trajectories, t_max, collisions, times, position, velocity, trust_tolerance, window;  ///< "" : not given
+  std::string seed, trajectories, t_max, collisions, times, position, velocity, trust_tolerance,
+      window;  ///< "" : not given
 };
 
 }  // namespace carom

@@ -12,22 +12,27 @@ namespace carom {
 
 class FreeLanes : public Lanes {
  public:
-  /// Can lanes fly such particles on that table? Straight flights, or Larmor circles that all turn the same way,
-  /// between segments, circles and ellipses: at most 64 pieces. On a lattice among discs that
-  /// lie inside the cell; Larmor circles there that come to at most 64 pieces.
-  static bool suits(const Table& table, const std::vector<Particle>& particles) { return hindrance(table, particles).empty(); }
+  /// Can lanes fly such particles on that table? Straight flights, or Larmor circles that all turn
+  /// the same way, between segments, circles and ellipses: at most 64 pieces. On a lattice among
+  /// discs that lie inside the cell; Larmor circles there that come to at most 64 pieces.
+  static bool suits(const Table& table, const std::vector<Particle>& particles) {
+    return hindrance(table, particles).empty();
+  }
   /// What keeps them out of lanes, as a phrase ("more than 64 walls…"); "" where nothing does.
   static std::string hindrance(const Table&, const std::vector<Particle>&);
 
-  /// `particles` suit, and every start is one of them. Keeps a reference to the table, which must live as long.
-  FreeLanes(const Table& table, const std::vector<Particle>& particles, InstructionSet set, DecisionOptions options = {});
+  /// `particles` suit, and every start is one of them. Keeps a reference to the table, which must
+  /// live as long.
+  FreeLanes(const Table& table, const std::vector<Particle>& particles, InstructionSet set,
+            DecisionOptions options = {});
   FreeLanes(Table&&, const std::vector<Particle>&, InstructionSet, DecisionOptions = {}) = delete;
   ~FreeLanes() override;
 
   void limit_hits(std::uint64_t hits) override;
   void sample_at(std::vector<double> times, Sampled sampled) override;
   void report_hits(Hit) override;
-  void run_until(double t_end, const std::function<bool(LaneStart&)>& next, const std::function<void(const LaneEnd&)>& ended,
+  void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
+                 const std::function<void(const LaneEnd&)>& ended,
                  const std::function<bool()>& interrupted = {}) override;
   DecisionCounts decisions() const override;
   const LaneEffort& effort() const override;

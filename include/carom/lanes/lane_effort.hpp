@@ -18,7 +18,8 @@ struct LaneEffort {
   }
   /// Share of events that lanes did not decide.
   double left() const {
-    return hits + scalar > 0 ? static_cast<double>(scalar) / static_cast<double>(hits + scalar) : 0.0;
+    return hits + scalar > 0 ? static_cast<double>(scalar) / static_cast<double>(hits + scalar)
+                             : 0.0;
   }
   LaneEffort& operator+=(const LaneEffort& o) {
     hits += o.hits;

@@ -1,5 +1,5 @@
-// Many independent trajectories at once, in the lanes of SIMD registers: what free lanes and lanes under forces have in
-// common.
+// Many independent trajectories at once, in the lanes of SIMD registers: what free lanes and lanes
+// under forces have in common.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,9 @@ namespace carom {
 
 /// A trajectory of one particle that is to be followed.
 struct LaneStart {
-  std::uint64_t tag = 0;     ///< the caller's own
+  std::uint64_t tag = 0;  ///< the caller's own
   Particle particle;
-  State state;               ///< as for World::add
+  State state;  ///< as for World::add
   std::uint64_t hits = 0;
 };
 
@@ -29,18 +29,18 @@ struct LaneStart {
 struct LaneEnd {
   std::uint64_t tag = 0;
   Fate fate = Fate::survived;
-  Time time;                 ///< of the end; survivors: that of their last event
-  State state;               ///< after the last event
+  Time time;    ///< of the end; survivors: that of their last event
+  State state;  ///< after the last event
   int hole = -1;
   std::uint64_t hits = 0;
-  int last_wall = -1;        ///< as World::last_wall
-  std::string report;        ///< as World::report
-  StepCounts steps = {};     ///< under forces: as World::step_counts
-  double kinetic = 0.0;      ///< under forces: the largest kinetic energy where a step began
+  int last_wall = -1;     ///< as World::last_wall
+  std::string report;     ///< as World::report
+  StepCounts steps = {};  ///< under forces: as World::step_counts
+  double kinetic = 0.0;   ///< under forces: the largest kinetic energy where a step began
 };
 
-/// Runs particles that do not feel each other: the same orbits as World, bit for bit. A lane decides only what is certain in
-/// double precision; everything else is decided by a World.
+/// Runs particles that do not feel each other: the same orbits as World, bit for bit. A lane
+/// decides only what is certain in double precision; everything else is decided by a World.
 class Lanes {
  public:
   virtual ~Lanes() = default;
@@ -49,16 +49,18 @@ class Lanes {
   virtual void limit_hits(std::uint64_t hits) = 0;
   /// A trajectory's state (not its wall) at the time of that number.
   using Sampled = std::function<void(std::uint64_t tag, std::size_t number, const State&)>;
-  /// Increasing times; `sampled` is told of each trajectory what World's observer would be, in order and before its end.
+  /// Increasing times; `sampled` is told of each trajectory what World's observer would be, in
+  /// order and before its end.
   virtual void sample_at(std::vector<double> times, Sampled sampled) = 0;
   /// A trajectory's state after a hit. False: it ends there, as one that survives.
   using Hit = std::function<bool(std::uint64_t tag, const State&)>;
   virtual void report_hits(Hit) = 0;
-  /// Follows all trajectories that `next` gives (until it returns false) to their end or until `t_end`; `ended`
-  /// receives each, in no particular order. `interrupted`, if set, is asked now and then; true
-  /// returns early, and those under way are forgotten.
+  /// Follows all trajectories that `next` gives (until it returns false) to their end or until
+  /// `t_end`; `ended` receives each, in no particular order. `interrupted`, if set, is asked now
+  /// and then; true returns early, and those under way are forgotten.
   virtual void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
-                         const std::function<void(const LaneEnd&)>& ended, const std::function<bool()>& interrupted = {}) = 0;
+                         const std::function<void(const LaneEnd&)>& ended,
+                         const std::function<bool()>& interrupted = {}) = 0;
 
   virtual DecisionCounts decisions() const = 0;
   virtual const LaneEffort& effort() const = 0;

@@ -14,17 +14,21 @@ namespace carom {
 /// A lane takes whole steps that meet no wall; all other steps are a World's.
 class SoftLanes : public Lanes {
  public:
-  /// Can such particles be stepped so? Where forces act everywhere, and nothing but forces, a magnetic field and
-  /// walls: no interaction, a fixed step, walls = "reflect". The particles are accelerated alike.
-  static bool suits(const Table& table, const Dynamics& dynamics, const std::vector<Particle>& particles) {
+  /// Can such particles be stepped so? Where forces act everywhere, and nothing but forces, a
+  /// magnetic field and walls: no interaction, a fixed step, walls = "reflect". The particles are
+  /// accelerated alike.
+  static bool suits(const Table& table, const Dynamics& dynamics,
+                    const std::vector<Particle>& particles) {
     return hindrance(table, dynamics, particles).empty();
   }
   /// What keeps them out of lanes, as a phrase; "" where nothing does.
   static std::string hindrance(const Table&, const Dynamics&, const std::vector<Particle>&);
 
-  /// `particle` is of the kind that all starts are. Keeps references to table and dynamics, which must live as long.
+  /// `particle` is of the kind that all starts are. Keeps references to table and dynamics, which
+  /// must live as long.
   SoftLanes(const Table&, const Dynamics&, const Particle&, InstructionSet, DecisionOptions = {});
-  SoftLanes(Table&&, const Dynamics&, const Particle&, InstructionSet, DecisionOptions = {}) = delete;
+  SoftLanes(Table&&, const Dynamics&, const Particle&, InstructionSet,
+            DecisionOptions = {}) = delete;
   ~SoftLanes() override;
 
   void limit_hits(std::uint64_t hits) override;
@@ -32,7 +36,8 @@ class SoftLanes : public Lanes {
   void report_hits(Hit) override;
   /// Trajectories begin at time 0.
   void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
-                 const std::function<void(const LaneEnd&)>& ended, const std::function<bool()>& interrupted = {}) override;
+                 const std::function<void(const LaneEnd&)>& ended,
+                 const std::function<bool()>& interrupted = {}) override;
   DecisionCounts decisions() const override;
   /// Steps count as hits do.
   const LaneEffort& effort() const override;

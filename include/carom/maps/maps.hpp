@@ -1,9 +1,10 @@
 // Closed-form collision maps: a witness of the engine that shares nothing with it.
 //
-// Everything here is written from the formulas in angles and with the C library's trigonometry, while
-// the engine works with rational parameters and signs. The conventions are those of Carom: the
-// acceleration is omega (v_y, -v_x), so omega > 0 turns clockwise; the Larmor radius is speed/|omega|.
-// Real is double or long double; the latter follows an orbit with eleven bits to spare.
+// Everything here is written from the formulas in angles and with the C library's trigonometry,
+// while the engine works with rational parameters and signs. The conventions are those of Carom:
+// the acceleration is omega (v_y, -v_x), so omega > 0 turns clockwise; the Larmor radius is
+// speed/|omega|. Real is double or long double; the latter follows an orbit with eleven bits to
+// spare.
 //
 // Sources: disc with a field: Robnik & Berry, J. Phys. A 18 (1985) 1361; rectangle with a field:
 // Berglund & Kunz, J. Stat. Phys. 83 (1996) 81; ellipse: Berry, Eur. J. Phys. 2 (1981) 91.
@@ -34,9 +35,9 @@ class Disc {
  public:
   Disc(Real radius, Real speed, Real omega) : radius_(radius), speed_(speed), omega_(omega) {}
 
-  /// The next hit. beta is conserved. Without a field theta grows by pi - 2 beta, with a clockwise one by
-  /// 2 atan2(rho cos beta, R + rho sin beta); the Larmor circle turns meanwhile by
-  /// 2 atan2(R cos beta, rho + R sin beta). theta is not reduced to one turn.
+  /// The next hit. beta is conserved. Without a field theta grows by pi - 2 beta, with a clockwise
+  /// one by 2 atan2(rho cos beta, R + rho sin beta); the Larmor circle turns meanwhile by 2 atan2(R
+  /// cos beta, rho + R sin beta). theta is not reduced to one turn.
   DiscHit<Real> next(const DiscHit<Real>& hit) const { return after(hit, 1); }
   /// The hit n collisions later, without the ones between.
   DiscHit<Real> after(const DiscHit<Real>& hit, std::uint64_t n) const;
@@ -49,7 +50,8 @@ class Disc {
   Real radius_, speed_, omega_;
 };
 
-/// Sides of the rectangle [0, width] x [0, height]; arc length runs bottom +x, right +y, top -x, left -y.
+/// Sides of the rectangle [0, width] x [0, height]; arc length runs bottom +x, right +y, top -x,
+/// left -y.
 enum class Side { none = -1, bottom = 0, right, top, left };
 
 template <class Real>
@@ -59,7 +61,8 @@ struct SideHit {
   Phase<Real> phase;  ///< after the reflection
 };
 
-/// The rectangle without a field, by unfolding: the orbit is a straight line in a plane of mirror images.
+/// The rectangle without a field, by unfolding: the orbit is a straight line in a plane of mirror
+/// images.
 template <class Real>
 class Rectangle {
  public:
@@ -74,8 +77,8 @@ class Rectangle {
   Real width_, height_;
 };
 
-/// A particle in the magnetic rectangle: the point, the angle of the velocity against +x, the side it
-/// has just left (none: it is inside), the time and the hits so far.
+/// A particle in the magnetic rectangle: the point, the angle of the velocity against +x, the side
+/// it has just left (none: it is inside), the time and the hits so far.
 template <class Real>
 struct Gyration {
   Real x, y, angle;
@@ -119,14 +122,16 @@ class MagneticRectangle {
   Real width_, height_, speed_, omega_;
 };
 
-/// Canonical angular momentum about the origin, x v_y - y v_x + omega (x^2 + y^2)/2: conserved in a disc.
+/// Canonical angular momentum about the origin, x v_y - y v_x + omega (x^2 + y^2)/2: conserved in a
+/// disc.
 template <class Real>
 Real canonical_angular_momentum(const Phase<Real>& p, Real omega) {
   return p.x * p.vy - p.y * p.vx + omega * (p.x * p.x + p.y * p.y) / 2;
 }
 
-/// Product of the angular momenta about the foci (+-sqrt(a^2 - b^2), 0) of the ellipse with semi-axes
-/// a >= b: conserved without a field. Positive: the orbit touches an ellipse; negative: a hyperbola.
+/// Product of the angular momenta about the foci (+-sqrt(a^2 - b^2), 0) of the ellipse with
+/// semi-axes a >= b: conserved without a field. Positive: the orbit touches an ellipse; negative: a
+/// hyperbola.
 template <class Real>
 Real focal_product(Real a, Real b, const Phase<Real>& p);
 

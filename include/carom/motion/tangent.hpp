@@ -6,8 +6,8 @@
 
 namespace carom {
 
-/// The difference of a nearby orbit from a reference orbit at the same time, to first order. Also a linear
-/// functional of such a difference, by its coefficients.
+/// The difference of a nearby orbit from a reference orbit at the same time, to first order. Also a
+/// linear functional of such a difference, by its coefficients.
 struct Deviation {
   geometry::Vector position, velocity;
 
@@ -22,7 +22,8 @@ struct Deviation {
   }
 };
 
-/// A straight or Larmor flight: x' = x + (a + b J) v, v' = (c + s J) v, J the quarter turn clockwise.
+/// A straight or Larmor flight: x' = x + (a + b J) v, v' = (c + s J) v, J the quarter turn
+/// clockwise.
 struct FlightTangent {
   double a = 0.0, b = 0.0, c = 1.0, s = 0.0;
 
@@ -38,9 +39,9 @@ struct FlightTangent {
 };
 FlightTangent flight_tangent(double omega, double duration);
 
-/// An elastic reflection: x' = S x, v' = S v + (kick . x) turned, S the reflection by the wall's tangent. Of
-/// a nearby orbit at the same time, which has not reached the wall yet or has left it already: its delay
-/// is part of the map.
+/// An elastic reflection: x' = S x, v' = S v + (kick . x) turned, S the reflection by the wall's
+/// tangent. Of a nearby orbit at the same time, which has not reached the wall yet or has left it
+/// already: its delay is part of the map.
 struct ReflectionTangent {
   geometry::Vector normal;  ///< unit
   geometry::Vector kick, turned;
@@ -52,8 +53,8 @@ struct ReflectionTangent {
     return {mirrored(d.position), mirrored(d.velocity) + dot(kick, d.position) * turned};
   }
 };
-/// `normal`: unit, into the domain; `curvature`: positive where the wall turns towards the domain; v: the
-/// velocity before.
+/// `normal`: unit, into the domain; `curvature`: positive where the wall turns towards the domain;
+/// v: the velocity before.
 constexpr ReflectionTangent reflection_tangent(const geometry::Vector& normal, double curvature,
                                                const geometry::Vector& v, double omega) {
   const geometry::Vector tangent = right(normal);
@@ -65,8 +66,9 @@ constexpr ReflectionTangent reflection_tangent(const geometry::Vector& normal, d
   return map;
 }
 
-/// A deviation as it is seen at the wall, where the nearby orbit hits it earlier or later: functionals of a
-/// deviation from the velocity v that the reference has there, before or after the reflection.
+/// A deviation as it is seen at the wall, where the nearby orbit hits it earlier or later:
+/// functionals of a deviation from the velocity v that the reference has there, before or after the
+/// reflection.
 struct AtWall {
   Deviation arc;    ///< along the wall
   Deviation delay;  ///< of the hit
@@ -75,8 +77,9 @@ struct AtWall {
 constexpr AtWall at_wall(const geometry::Vector& normal, const geometry::Vector& v, double omega) {
   const geometry::Vector tangent = right(normal);
   const geometry::Vector delay = (-1.0 / dot(normal, v)) * normal;
-  return {
-      {tangent + dot(tangent, v) * delay, {}}, {delay, {}}, {-omega * delay, (1.0 / dot(v, v)) * left(v)}};
+  return {{tangent + dot(tangent, v) * delay, {}},
+          {delay, {}},
+          {-omega * delay, (1.0 / dot(v, v)) * left(v)}};
 }
 
 }  // namespace carom

@@ -3,8 +3,8 @@
 //       .hole("side_1", {.center = 1, .width = 0.2})
 //       .obstacle(carom::disc({1, 0.5}, 0.2))
 //
-// A number is a double, which means exactly that double, or exact text: "1/3"_exact. Where shapes lie and what their walls
-// are called: docs/guide/system-file.md.
+// A number is a double, which means exactly that double, or exact text: "1/3"_exact. Where shapes
+// lie and what their walls are called: docs/guide/system-file.md.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,15 @@
 
 namespace carom {
 
-/// A table with the numbers that it was made from. Each function checks the whole table (docs/guide/system-file.md says of
-/// what) and throws InputError. Copies are cheap.
+/// A table with the numbers that it was made from. Each function checks the whole table
+/// (docs/guide/system-file.md says of what) and throws InputError. Copies are cheap.
 struct MadeTable {
   std::shared_ptr<const TableSpec> spec;  ///< what certified orbits start from
   std::shared_ptr<const Table> table;     ///< in doubles
 
   explicit MadeTable(TableSpec);
-  MadeTable(TableSpec, const Place& where);  ///< `where`: place of an error in a number that has none
+  MadeTable(TableSpec,
+            const Place& where);  ///< `where`: place of an error in a number that has none
   operator const TableSpec&() const { return *spec; }  // NOLINT: a table is its specification
   operator const Table&() const { return *table; }     // NOLINT
 
@@ -38,13 +39,16 @@ MadeTable polygon(std::vector<ExactPoint> points);
 MadeTable regular_polygon(int sides, const ExactNumber& radius, const ExactNumber& angle = 0.0);
 MadeTable circle(const ExactNumber& radius);
 MadeTable ellipse(const ExactNumber& a, const ExactNumber& b);
-MadeTable annulus(const ExactNumber& outer, const ExactNumber& inner, const ExactNumber& offset = 0.0);
+MadeTable annulus(const ExactNumber& outer, const ExactNumber& inner,
+                  const ExactNumber& offset = 0.0);
 MadeTable stadium(const ExactNumber& half_length, const ExactNumber& radius);
-MadeTable mushroom(const ExactNumber& cap_radius, const ExactNumber& stem_width, const ExactNumber& stem_height);
+MadeTable mushroom(const ExactNumber& cap_radius, const ExactNumber& stem_width,
+                   const ExactNumber& stem_height);
 MadeTable lemon(const ExactNumber& radius, const ExactNumber& separation);
 MadeTable sinai(const ExactNumber& side, const ExactNumber& radius, bool torus = true);
 /// `lattice`: triangular or square.
-MadeTable lorentz(const ExactNumber& spacing, const ExactNumber& radius, const std::string& lattice = "triangular");
+MadeTable lorentz(const ExactNumber& spacing, const ExactNumber& radius,
+                  const std::string& lattice = "triangular");
 /// In the open plane; lattice() repeats them.
 MadeTable discs(std::vector<ExactPoint> centers, const ExactNumber& radius);
 MadeTable discs(std::vector<ExactPoint> centers, std::vector<ExactNumber> radii);
@@ -53,7 +57,8 @@ MadeTable path(std::vector<LoopSpec> loops);
 /// Obstacles, for MadeTable::obstacle.
 ObstacleSpec disc(const ExactPoint& center, const ExactNumber& radius);
 /// `angle`: of the semi-axis a against +x, in radians.
-ObstacleSpec elliptic_disc(const ExactPoint& center, const ExactNumber& a, const ExactNumber& b, const ExactNumber& angle = 0.0);
+ObstacleSpec elliptic_disc(const ExactPoint& center, const ExactNumber& a, const ExactNumber& b,
+                           const ExactNumber& angle = 0.0);
 /// A polygon, its corners listed either way round.
 ObstacleSpec block(std::vector<ExactPoint> points);
 

@@ -45,7 +45,8 @@ struct Table {
   /// May walls cross? Not those of a table that was built; the edges of supports of forces do.
   bool crossing = false;
 
-  /// The wall with that index, as events and states name it. Throws std::out_of_range for -1: no wall.
+  /// The wall with that index, as events and states name it. Throws std::out_of_range for -1: no
+  /// wall.
   const Wall& wall(int index) const { return walls.at(static_cast<std::size_t>(index)); }
   /// Index of the wall or hole with that name, or -1.
   int wall_index(const std::string& name) const;

@@ -16,29 +16,29 @@ struct ExactPoint {
   ExactNumber x, y;
 };
 
-/// One piece of a path: which keys are set decides its kind (docs/guide/system-file.md: line_to, arc_via + arc_to,
-/// ellipse_via + ellipse_to + ellipse_ratio + ellipse_angle).
+/// One piece of a path: which keys are set decides its kind (docs/guide/system-file.md: line_to,
+/// arc_via + arc_to, ellipse_via + ellipse_to + ellipse_ratio + ellipse_angle).
 struct PieceSpec {
   enum class Kind { line, arc, ellipse } kind = Kind::line;
   ExactPoint to;
-  ExactPoint via;                      ///< arc, ellipse
-  ExactNumber ratio, angle;            ///< ellipse: minor over major axis, angle of the major one
-  std::string name;                    ///< "" : wall_1, wall_2 … over the whole table
+  ExactPoint via;            ///< arc, ellipse
+  ExactNumber ratio, angle;  ///< ellipse: minor over major axis, angle of the major one
+  std::string name;          ///< "" : wall_1, wall_2 … over the whole table
   Place place;
 };
 
 /// One closed path of walls, piece by piece.
 struct LoopSpec {
   ExactPoint start;
-  std::vector<PieceSpec> pieces;       ///< the last must end at `start`
+  std::vector<PieceSpec> pieces;  ///< the last must end at `start`
   Place place;
 };
 
 /// A hole as the system file gives it.
 struct HoleSpec {
   std::string wall = {};
-  ExactNumber center, width;           ///< arc lengths along the wall
-  std::string name = {};               ///< "" : hole_1, hole_2 …
+  ExactNumber center, width;  ///< arc lengths along the wall
+  std::string name = {};      ///< "" : hole_1, hole_2 …
   Place place = {}, wall_place = {};
 };
 
@@ -47,14 +47,15 @@ inline std::string name_of_hole(const std::vector<HoleSpec>& holes, std::size_t 
   return holes[index].name.empty() ? "hole_" + std::to_string(index + 1) : holes[index].name;
 }
 
-/// An obstacle as the system file gives it: a circle has a center and a radius; an ellipse a center, the semi-axes a
-/// and b, and the angle of a against +x in radians; a polygon has points, either way round.
+/// An obstacle as the system file gives it: a circle has a center and a radius; an ellipse a
+/// center, the semi-axes a and b, and the angle of a against +x in radians; a polygon has points,
+/// either way round.
 struct ObstacleSpec {
   enum class Shape { circle, ellipse, polygon } shape = Shape::circle;
   ExactPoint center;
   ExactNumber radius, a, b, angle;
   std::vector<ExactPoint> points;
-  std::string name;                    ///< "" : obstacle_1, obstacle_2 …
+  std::string name;  ///< "" : obstacle_1, obstacle_2 …
   Place place;
 };
 
@@ -64,9 +65,10 @@ struct LatticeSpec {
   Place place;
 };
 
-/// `numbers`, `points`, `lists` and `words` hold the keys of the shape by name (docs/guide/system-file.md): width,
-/// height, radius, sides, angle, a, b, outer, inner, offset, half_length, cap_radius, stem_width,
-/// stem_height, separation, side, spacing, count, seed; points, centers; radii; lattice.
+/// `numbers`, `points`, `lists` and `words` hold the keys of the shape by name
+/// (docs/guide/system-file.md): width, height, radius, sides, angle, a, b, outer, inner, offset,
+/// half_length, cap_radius, stem_width, stem_height, separation, side, spacing, count, seed;
+/// points, centers; radii; lattice.
 struct TableSpec {
   std::string shape;
   Place place, shape_place;
@@ -74,8 +76,8 @@ struct TableSpec {
   std::map<std::string, std::vector<ExactPoint>> points;
   std::map<std::string, std::vector<ExactNumber>> lists;
   std::map<std::string, std::string> words;
-  bool torus = true;                   ///< sinai, random-discs
-  std::vector<LoopSpec> loops;         ///< path
+  bool torus = true;            ///< sinai, random-discs
+  std::vector<LoopSpec> loops;  ///< path
   std::vector<ObstacleSpec> obstacles;
   std::vector<HoleSpec> holes;
   std::optional<LatticeSpec> lattice;

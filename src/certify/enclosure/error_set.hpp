@@ -1,5 +1,5 @@
-// What is not known of a state in a point and its velocity: how far the true state may be from the one that is
-// computed with many bits.
+// What is not known of a state in a point and its velocity: how far the true state may be from the
+// one that is computed with many bits.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace carom::certify {
 
-/// Errors of a state by direction: of the position along the wall it lies on, of the direction of the
-/// velocity, and the two that the motion keeps small: of the position off the wall, and of the speed.
-/// Positions in units of a length of the table, velocities in units of the speed.
+/// Errors of a state by direction: of the position along the wall it lies on, of the direction of
+/// the velocity, and the two that the motion keeps small: of the position off the wall, and of the
+/// speed. Positions in units of a length of the table, velocities in units of the speed.
 enum Direction : std::size_t { along = 0, turning = 1, off = 2, speed = 3 };
 
 /// A tangent map in these coordinates: Jacobian[i][j] says what of error j arrives in i.
@@ -18,8 +18,8 @@ using Jacobian = std::array<std::array<Interval, 4>, 4>;
 
 class ErrorSet {
  public:
-  /// The state moves by a map with that Jacobian, enclosed over the whole set; `times`: what of error j
-  /// arrives in the flight time.
+  /// The state moves by a map with that Jacobian, enclosed over the whole set; `times`: what of
+  /// error j arrives in the flight time.
   void move(const Jacobian& jacobian, const std::array<Interval, 4>& times);
   /// Every coordinate of the state is changed by at most `size`, and the time by `of_time`.
   void round(const Bound& size, const Bound& of_time);
@@ -31,7 +31,9 @@ class ErrorSet {
   }
 
   /// Largest error in a direction.
-  const Bound& size(Direction d) const { return d == off ? off_ : d == speed ? speed_ : box_.size(d); }
+  const Bound& size(Direction d) const {
+    return d == off ? off_ : d == speed ? speed_ : box_.size(d);
+  }
   Bound of_position() const { return size(along) + off_; }
   Bound of_velocity() const { return size(turning) + speed_; }
   const Bound& of_time() const { return time_; }

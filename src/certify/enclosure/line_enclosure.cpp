@@ -16,7 +16,10 @@ BallVector turned(const BallVector& v, const Ball& c, const Ball& s) {
 }  // namespace
 
 LineEnclosure::LineEnclosure(const Arena& arena, const LineTable& lines, const BallState& start)
-    : arena_(&arena), lines_(&lines), velocity_(middle(start.velocity)), anchor_(middle(start.position)) {
+    : arena_(&arena),
+      lines_(&lines),
+      velocity_(middle(start.velocity)),
+      anchor_(middle(start.position)) {
   start_error_ = radius(start.position);
   const Bound turned = radius(start.velocity) * Bound(1.001 / arena.speed);
   stretch_ = turned;
@@ -46,8 +49,8 @@ LineEnclosure::Shift LineEnclosure::move_anchor(const Copy& copy, bool same) {
   return shift;
 }
 
-// With h/(r |v|) = sin a the velocity turns by a half turn and 2a, to the side on which the wall is; and
-// 2 h c = (h + c)^2 - (h^2 + c^2) takes a square only.
+// With h/(r |v|) = sin a the velocity turns by a half turn and 2a, to the side on which the wall
+// is; and 2 h c = (h + c)^2 - (h^2 + c^2) takes a square only.
 LineEnclosure::Turn LineEnclosure::turn_at(const LineWall& w) const {
   Turn turn;
   const Ball square_of_moment = square(moment_);
@@ -64,7 +67,8 @@ void LineEnclosure::fly(const Copy& copy, bool same, long bits) {
   const LineWall& w = lines_->walls[static_cast<std::size_t>(copy.wall)];
   const Shift shift = move_anchor(copy, same);
   const Interval lever = shift.along;
-  const Bound fresh = size_of(shift.across) * stretch_ + shift.rounding * Bound(1.001 / moment_unit());
+  const Bound fresh =
+      size_of(shift.across) * stretch_ + shift.rounding * Bound(1.001 / moment_unit());
   BallVector onwards;
   Interval J[2][2] = {{Interval(1.0), lever}, {Interval(0.0), Interval(1.0)}};
   Bound gain;  // of the direction by the moment
@@ -72,9 +76,10 @@ void LineEnclosure::fly(const Copy& copy, bool same, long bits) {
     if (!turn_) turn_ = turn_at(w);
     onwards = turned(velocity_, turn_->cosine, turn_->sine);
     // Over all moments that may be: (h + d)^2 - h^2 = 2 h d + d^2.
-    const Bound d = Bound(moment_unit()) *
-                    (box_.size(moment) + size_of(lever) * box_.size(direction) + fresh);
-    const Interval outwards = sqrt(interval_of(turn_->room, Bound(2.0) * size_of(moment_) * d + d * d));
+    const Bound d =
+        Bound(moment_unit()) * (box_.size(moment) + size_of(lever) * box_.size(direction) + fresh);
+    const Interval outwards =
+        sqrt(interval_of(turn_->room, Bound(2.0) * size_of(moment_) * d + d * d));
     const Interval slope = Interval(2.0 * w.side * moment_unit()) / outwards;
     J[1][0] = slope;
     J[1][1] = Interval(1.0) + slope * lever;
@@ -96,11 +101,12 @@ void LineEnclosure::fly(const Copy& copy, bool same, long bits) {
   read(shift);
 }
 
-// The true velocity has the true speed: the computed one is given it to first order. Only the sum of its roundings had
-// changed it.
+// The true velocity has the true speed: the computed one is given it to first order. Only the sum
+// of its roundings had changed it.
 void LineEnclosure::settle(Bound& turned) {
   const MotionOf<Ball>& motion = arena_->scene.motion;
-  const Ball slow = (motion.speed2 - (square(velocity_.x) + square(velocity_.y))) * motion.inverse_speed2;
+  const Ball slow =
+      (motion.speed2 - (square(velocity_.x) + square(velocity_.y))) * motion.inverse_speed2;
   const Bound size = size_of(slow);
   if (Bound(0.01) < size) return;
   const Ball stretch = Ball(0.5) * first_bits(slow);
@@ -129,7 +135,8 @@ void LineEnclosure::read(const Shift& shift) {
     gain = size_of(Interval(w.radius * arena_->speed) / interval_of(ahead_));
   } else {
     const VectorOf<Interval> t = interval_of(w.tangent);
-    gain = size_of(sqrt(dot(t, t)) * Interval(arena_->speed) / cross(interval_of(few_.velocity), t));
+    gain =
+        size_of(sqrt(dot(t, t)) * Interval(arena_->speed) / cross(interval_of(few_.velocity), t));
   }
   along_ = gain * box_.size(moment);
 }
@@ -141,7 +148,8 @@ BallState LineEnclosure::seen(const LineWall& w, Ball& ahead) const {
   s.velocity = {velocity_.x.rounded().widened(error), velocity_.y.rounded().widened(error)};
   s.time = few_.time;
   if (wall_ < 0) {
-    s.position = {anchor_.x.rounded().widened(start_error_), anchor_.y.rounded().widened(start_error_)};
+    s.position = {anchor_.x.rounded().widened(start_error_),
+                  anchor_.y.rounded().widened(start_error_)};
     ahead = Ball(0).widened(Bound(1.01 * arena_->speed) * start_error_);
     return s;
   }
@@ -151,7 +159,8 @@ BallState LineEnclosure::seen(const LineWall& w, Ball& ahead) const {
     const Ball outwards = sqrt(w.size2 - square(h));
     ahead = w.side > 0.0 ? -outwards : outwards;
     const Ball per = arena_->scene.motion.inverse_speed2.rounded();
-    s.position = {w.anchor.x + (v.x * ahead - v.y * h) * per, w.anchor.y + (v.y * ahead + v.x * h) * per};
+    s.position = {w.anchor.x + (v.x * ahead - v.y * h) * per,
+                  w.anchor.y + (v.y * ahead + v.x * h) * per};
   } else {
     const Ball x = h / cross(v, w.tangent);
     s.position = w.anchor + x * w.tangent;

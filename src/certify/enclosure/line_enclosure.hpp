@@ -1,6 +1,7 @@
-// A state as the line of its flight, on straight flights among segments and arcs of circles. On reflection at a
-// circle the moment about its centre stays, and the velocity is turned by an angle that the moment gives: half as many
-// multiplications as for a point, and no error grows but the two of the line.
+// A state as the line of its flight, on straight flights among segments and arcs of circles. On
+// reflection at a circle the moment about its centre stays, and the velocity is turned by an angle
+// that the moment gives: half as many multiplications as for a point, and no error grows but the
+// two of the line.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,9 @@ class LineEnclosure final : public StateEnclosure {
  public:
   LineEnclosure(const Arena&, const LineTable&, const BallState& start);
 
-  std::unique_ptr<StateEnclosure> clone() const override { return std::make_unique<LineEnclosure>(*this); }
+  std::unique_ptr<StateEnclosure> clone() const override {
+    return std::make_unique<LineEnclosure>(*this);
+  }
   void fly(const Copy&, bool same, long bits) override;
   BallState state(long bits) const override;
   VectorOf<Interval> position() const override { return interval_of(few_.position); }
@@ -30,7 +33,8 @@ class LineEnclosure final : public StateEnclosure {
   enum Coordinate : std::size_t { moment = 0, direction = 1 };  // of errors
   /// The reflection at an arc: the velocity is multiplied by cosine + i sine.
   struct Turn {
-    Ball room;  ///< size2 - h^2, the square of the velocity's component along the normal times the radius
+    Ball room;  ///< size2 - h^2, the square of the velocity's component along the normal times the
+                ///< radius
     Ball cosine, sine;
   };
   /// From one anchor to the next, over all states that the true one may be.
@@ -53,14 +57,15 @@ class LineEnclosure final : public StateEnclosure {
   BallVector velocity_;  ///< midpoints
   Ball moment_;
   BallVector anchor_;
-  int wall_ = -1;        ///< that it stands on; -1: at the start, which is the anchor
-  TurningBox box_;       ///< errors of the moment in units of moment_unit, and of the direction
-  Bound stretch_;        ///< |log| of the true speed over that of velocity_
-  Bound along_;          ///< of the position along the wall, in the unit
+  int wall_ = -1;   ///< that it stands on; -1: at the start, which is the anchor
+  TurningBox box_;  ///< errors of the moment in units of moment_unit, and of the direction
+  Bound stretch_;   ///< |log| of the true speed over that of velocity_
+  Bound along_;     ///< of the position along the wall, in the unit
   Bound start_error_;
-  std::optional<Turn> turn_;  ///< of the last arc: again and again the same while the orbit stays there
-  BallState few_;        ///< the true state, enclosed in numbers of few bits
-  Ball ahead_;           ///< v . (P - anchor), likewise
+  std::optional<Turn>
+      turn_;       ///< of the last arc: again and again the same while the orbit stays there
+  BallState few_;  ///< the true state, enclosed in numbers of few bits
+  Ball ahead_;     ///< v . (P - anchor), likewise
   std::uint64_t hits_ = 0;
 };
 

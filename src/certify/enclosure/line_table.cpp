@@ -33,8 +33,14 @@ LineWall line_wall(const WallOf<Ball>& w, const MotionOf<Ball>& motion) {
 }
 
 LineWall rounded(const LineWall& w) {
-  return {w.arc,         w.side, rounded(w.anchor), rounded(w.tangent), rounded(w.double_tangent), w.size2.rounded(),
-          {w.inverse.value.rounded(), w.inverse.above, w.inverse.below}, w.radius};
+  return {w.arc,
+          w.side,
+          rounded(w.anchor),
+          rounded(w.tangent),
+          rounded(w.double_tangent),
+          w.size2.rounded(),
+          {w.inverse.value.rounded(), w.inverse.above, w.inverse.below},
+          w.radius};
 }
 
 }  // namespace

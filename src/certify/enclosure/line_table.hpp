@@ -1,5 +1,5 @@
-// Walls as a straight flight sees them that is known as a line: its velocity v, and its moment h = v x (P - c)
-// about a point c of the wall, which is the same for all points P of the flight.
+// Walls as a straight flight sees them that is known as a line: its velocity v, and its moment h =
+// v x (P - c) about a point c of the wall, which is the same for all points P of the flight.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace carom::certify {
 
-/// A constant factor, and the same as a quotient of two words where it is known to be one: then a product is quick.
+/// A constant factor, and the same as a quotient of two words where it is known to be one: then a
+/// product is quick.
 struct Factor {
   Ball value;
   long above = 0;
@@ -23,9 +24,9 @@ struct LineWall {
   BallVector anchor;          ///< the point c: the centre of an arc, the start of a segment
   BallVector tangent;         ///< of a segment, of any length
   BallVector double_tangent;  ///< 2 tangent/(tangent . tangent)
-  Ball size2;                 ///< of an arc: (radius speed)^2, the square of the largest moment that meets it
-  Factor inverse;             ///< 1/size2
-  double radius = 1.0;        ///< of an arc, nearly
+  Ball size2;      ///< of an arc: (radius speed)^2, the square of the largest moment that meets it
+  Factor inverse;  ///< 1/size2
+  double radius = 1.0;  ///< of an arc, nearly
 };
 
 struct LineTable {

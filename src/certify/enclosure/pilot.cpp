@@ -9,8 +9,8 @@
 namespace carom::certify {
 namespace {
 
-// Variance of a sum of many terms, from sums over some sixteen to thirty-two blocks of equal length: neighbouring terms
-// may be correlated.
+// Variance of a sum of many terms, from sums over some sixteen to thirty-two blocks of equal
+// length: neighbouring terms may be correlated.
 class SumOfBlocks {
  public:
   void add(double sum_so_far) {
@@ -58,20 +58,24 @@ Forecast forecast(const SceneOf<double>& scene, const Whereabouts& where, geomet
   std::uint64_t true_hits = 0;
   PseudoState<double> s{position, velocity, 0.0, standing, {}};
   while (result.hits < horizon.hits && result.bits <= horizon.bits) {
-    if (result.hits % 256 == 0 && horizon.interrupted != nullptr && *horizon.interrupted && (*horizon.interrupted)()) break;
-    const Choice choice = scene.next(where, s.position, s.velocity, s.standing, s.position, s.velocity);
+    if (result.hits % 256 == 0 && horizon.interrupted != nullptr && *horizon.interrupted &&
+        (*horizon.interrupted)())
+      break;
+    const Choice choice =
+        scene.next(where, s.position, s.velocity, s.standing, s.position, s.velocity);
     if (choice.answer != Choice::wall) break;
     const Copy& copy = choice.first;
     const auto& wall = scene.walls[static_cast<std::size_t>(copy.wall)];
     const bool same = copy.wall == s.standing && copy.cell == geometry::Cell{};
-    const geometry::Vector from = scene.lattice ? s.position - scene.translation(copy.cell) : s.position;
+    const geometry::Vector from =
+        scene.lattice ? s.position - scene.translation(copy.cell) : s.position;
     const geometry::Vector before = s.velocity;
     fly_to(scene, copy, s);
     if (!(s.time <= horizon.t_max) || !std::isfinite(s.position.x)) break;
     if (scene.hole_at(copy.wall, s.position).verdict == Verdict::yes) break;
     const FrameOf<double> after{tangent_of(wall, s.position), s.velocity, unit};
     const auto map = tangent_map(wall, from, before, scene.motion, same, frame, after);
-    const auto apply = [&map](double (&x)[2]) {
+    const auto apply = [&map](double(&x)[2]) {
       const double along_wall = map.rows[along][along] * x[0] + map.rows[along][turning] * x[1];
       x[1] = map.rows[turning][along] * x[0] + map.rows[turning][turning] * x[1];
       x[0] = along_wall;
@@ -91,7 +95,8 @@ Forecast forecast(const SceneOf<double>& scene, const Whereabouts& where, geomet
     frame = after;
     ++result.hits;
     result.time = s.time;
-    result.cells = std::fabs(static_cast<double>(s.cell.first)) + std::fabs(static_cast<double>(s.cell.second));
+    result.cells = std::fabs(static_cast<double>(s.cell.first)) +
+                   std::fabs(static_cast<double>(s.cell.second));
   }
   result.spread = of_both * std::sqrt(sums.variance(static_cast<double>(result.hits - true_hits)));
   return result;

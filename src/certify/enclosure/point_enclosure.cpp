@@ -34,13 +34,15 @@ void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
   const WallOf<Ball>& wall = arena_->wall(copy.wall);
   const WallOf<Interval>& fast_wall = arena_->fast_wall(copy.wall);
   const double unit = arena_->unit;
-  const Bound per_unit(1.000001 / unit), per_speed(1.00001 / arena_->speed), per_time(1.000001 / arena_->time_unit);
+  const Bound per_unit(1.000001 / unit), per_speed(1.00001 / arena_->speed),
+      per_time(1.000001 / arena_->time_unit);
   if (!(copy.cell == geometry::Cell{})) {
     const BallVector seen = state_.position - scene.translation(copy.cell);
     errors_.round(radius(seen) * per_unit, Bound());
     state_.position = middle(seen);
   }
-  LandingOf<Ball> landing = flight_to<Ball, Ball>(wall, state_.position, state_.velocity, scene.motion, same);
+  LandingOf<Ball> landing =
+      flight_to<Ball, Ball>(wall, state_.position, state_.velocity, scene.motion, same);
   // The tangent map over all states that the true one may be.
   const VectorOf<Interval> P = position(), v = velocity();
   const bool settles = settles_now(bits);
@@ -55,12 +57,13 @@ void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
   for (Interval& t : map.times) t = t / Interval(arena_->time_unit);
   errors_.move(map.rows, map.times);
   const Ball time = state_.time + landing.time;
-  const Bound rounding = settled + radius(landing.position) * per_unit + radius(landing.velocity) * per_speed;
+  const Bound rounding =
+      settled + radius(landing.position) * per_unit + radius(landing.velocity) * per_speed;
   errors_.round(rounding, time.radius() * per_time);
   state_ = {there, onwards, time.midpoint()};
   frame_ = after;
-  // After settling the state has its speed to first order; a turn by b takes b^2/2 of the component along
-  // the midpoint's velocity.
+  // After settling the state has its speed to first order; a turn by b takes b^2/2 of the component
+  // along the midpoint's velocity.
   const Bound turned = errors_.size(turning);
   if (settles) errors_.constrain(speed, rounding + turned * turned);
   if (same && wall.form == Form::segment) {
@@ -70,11 +73,12 @@ void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
                                Bound(1.000001 / std::sqrt(dot(normal, normal))));
   }
   if (settles && same && wall.form != Form::segment) {
-    // Likewise it is on the curve: a point near it, a along its tangent, is at most a^2/r off it (for a < r/2), where r is
-    // the least radius of curvature.
+    // Likewise it is on the curve: a point near it, a along its tangent, is at most a^2/r off it
+    // (for a < r/2), where r is the least radius of curvature.
     const double radius_below = least_radius(wall) * 0.999999 / unit;
     const Bound moved = errors_.size(along);
-    if (moved.to_double() < 0.5 * radius_below && errors_.size(off).to_double() < 0.5 * radius_below)
+    if (moved.to_double() < 0.5 * radius_below &&
+        errors_.size(off).to_double() < 0.5 * radius_below)
       errors_.constrain(off, rounding + moved * moved * Bound(1.0 / radius_below));
   }
   ++hits_;
@@ -85,9 +89,9 @@ bool PointEnclosure::settles_now(long bits) const {
   return arena_->scene.motion.turns || bits < 2000 || hits_ % 4 == 3;
 }
 
-// The true state lies on the wall and has the true speed: the computed one is put back there to first
-// order in what it has left them by, and what is changed counts as rounding. Without this the errors off
-// the wall and of the speed would feed each other, for their motion is unstable.
+// The true state lies on the wall and has the true speed: the computed one is put back there to
+// first order in what it has left them by, and what is changed counts as rounding. Without this the
+// errors off the wall and of the speed would feed each other, for their motion is unstable.
 Bound PointEnclosure::settle(LandingOf<Ball>& landing, const WallOf<Ball>& w, bool same) const {
   const MotionOf<Ball>& motion = arena_->scene.motion;
   BallVector& v = landing.velocity;

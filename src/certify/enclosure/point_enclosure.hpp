@@ -10,11 +10,17 @@ class PointEnclosure final : public StateEnclosure {
  public:
   PointEnclosure(const Arena&, const BallState& start);
 
-  std::unique_ptr<StateEnclosure> clone() const override { return std::make_unique<PointEnclosure>(*this); }
+  std::unique_ptr<StateEnclosure> clone() const override {
+    return std::make_unique<PointEnclosure>(*this);
+  }
   void fly(const Copy&, bool same, long bits) override;
   BallState state(long bits) const override;
-  VectorOf<Interval> position() const override { return interval_of(state_.position, position_error()); }
-  VectorOf<Interval> velocity() const override { return interval_of(state_.velocity, velocity_error()); }
+  VectorOf<Interval> position() const override {
+    return interval_of(state_.position, position_error());
+  }
+  VectorOf<Interval> velocity() const override {
+    return interval_of(state_.velocity, velocity_error());
+  }
   Ball time() const override { return state_.time.widened(time_error()); }
   Bound position_error() const override { return Bound(arena_->unit) * errors_.of_position(); }
   Bound velocity_error() const override { return Bound(arena_->speed) * errors_.of_velocity(); }

@@ -20,7 +20,9 @@ struct Arena {
   double unit = 1.0, speed = 1.0, time_unit = 1.0;  ///< at least the size of each
 
   const WallOf<Ball>& wall(int index) const { return scene.walls[static_cast<std::size_t>(index)]; }
-  const WallOf<Interval>& fast_wall(int index) const { return fast.walls[static_cast<std::size_t>(index)]; }
+  const WallOf<Interval>& fast_wall(int index) const {
+    return fast.walls[static_cast<std::size_t>(index)];
+  }
 };
 
 /// The state of an orbit on its way from wall to wall. Positions are in the cell of the last hit.
@@ -29,7 +31,8 @@ class StateEnclosure {
   virtual ~StateEnclosure() = default;
   virtual std::unique_ptr<StateEnclosure> clone() const = 0;
 
-  /// Flies to the wall that is next and is reflected there. `same`: the state lies on that wall, in that cell.
+  /// Flies to the wall that is next and is reflected there. `same`: the state lies on that wall, in
+  /// that cell.
   virtual void fly(const Copy&, bool same, long bits) = 0;
 
   /// Contains the true state; by numbers of that many bits where it has more than it needs.
@@ -63,7 +66,8 @@ inline Bound size_of(const Ball& x) {
   arb_get_mag(size.raw(), x.raw());
   return size;
 }
-/// A correction by this ball, of which only the first bits count: short factors make products cheap.
+/// A correction by this ball, of which only the first bits count: short factors make products
+/// cheap.
 inline Ball first_bits(const Ball& x) {
   const Precision few(64);
   return x.rounded().midpoint();

@@ -15,8 +15,8 @@ VectorOf<N> tangent_of(const WallOf<N>& w, const VectorOf<N>& P) {
   return {-(normal.y / length), normal.x / length};
 }
 
-/// Where a state's errors are measured: along `tangent` and left of it in units of `unit`; the velocity
-/// across and along itself.
+/// Where a state's errors are measured: along `tangent` and left of it in units of `unit`; the
+/// velocity across and along itself.
 template <class N>
 struct FrameOf {
   VectorOf<N> tangent, velocity;
@@ -41,7 +41,8 @@ TangentMap<N> tangent_map(const WallOf<N>& w, const VectorOf<N>& P, const Vector
   const N zero{};
   // In the order of Direction: along, turning, off, speed.
   const VectorOf<D> position{D{P.x, {t.x, zero, n.x, zero}}, D{P.y, {t.y, zero, n.y, zero}}};
-  const VectorOf<D> velocity{D{v.x, {zero, across.x, zero, ahead.x}}, D{v.y, {zero, across.y, zero, ahead.y}}};
+  const VectorOf<D> velocity{D{v.x, {zero, across.x, zero, ahead.x}},
+                             D{v.y, {zero, across.y, zero, ahead.y}}};
   const LandingOf<D> landing = flight_to<D, N>(w, position, velocity, motion, standing);
   const VectorOf<N> t2 = after.tangent, n2 = left(t2), across2 = left(after.velocity);
   const N unit2(after.unit), speed2 = square(after.velocity.x) + square(after.velocity.y);
@@ -58,15 +59,17 @@ TangentMap<N> tangent_map(const WallOf<N>& w, const VectorOf<N>& P, const Vector
   return map;
 }
 
-/// Intervals of doubles do not know which exit of an ellipse lies on an arc that ends beside it; balls may.
+/// Intervals of doubles do not know which exit of an ellipse lies on an arc that ends beside it;
+/// balls may.
 inline bool is_known(const TangentMap<Interval>& map) {
   for (const auto& row : map.rows)
     for (const Interval& x : row)
       if (!std::isfinite(x.size())) return false;
   return true;
 }
-TangentMap<Interval> tangent_map_in_balls(const WallOf<Ball>& w, const VectorOf<Ball>& P, const VectorOf<Ball>& v,
-                                          const MotionOf<Ball>& motion, bool standing,
-                                          const FrameOf<Interval>& before, const FrameOf<Interval>& after);
+TangentMap<Interval> tangent_map_in_balls(const WallOf<Ball>& w, const VectorOf<Ball>& P,
+                                          const VectorOf<Ball>& v, const MotionOf<Ball>& motion,
+                                          bool standing, const FrameOf<Interval>& before,
+                                          const FrameOf<Interval>& after);
 
 }  // namespace carom::certify

@@ -7,12 +7,15 @@ namespace carom::certify {
 void TurningBox::move(const Interval (&J)[2][2], const Bound (&fresh)[2]) {
   Interval image[2][2];
   for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j) image[i][j] = J[i][0] * Interval(frame_[0][j]) + J[i][1] * Interval(frame_[1][j]);
-  // The first one becomes the first axis of the new frame, which is (almost) a rotation; the second where it is
-  // much longer. (Were it always the longer one, the axes of a stable orbit would change places again and again,
-  // and each change wraps the set: 0.3 bits a hit in an ellipse instead of none.)
+    for (int j = 0; j < 2; ++j)
+      image[i][j] = J[i][0] * Interval(frame_[0][j]) + J[i][1] * Interval(frame_[1][j]);
+  // The first one becomes the first axis of the new frame, which is (almost) a rotation; the second
+  // where it is much longer. (Were it always the longer one, the axes of a stable orbit would
+  // change places again and again, and each change wraps the set: 0.3 bits a hit in an ellipse
+  // instead of none.)
   Bound length[2];
-  for (int j = 0; j < 2; ++j) length[j] = (size_of(image[0][j]) + size_of(image[1][j])) * extent_[j];
+  for (int j = 0; j < 2; ++j)
+    length[j] = (size_of(image[0][j]) + size_of(image[1][j])) * extent_[j];
   const int longer = length[0] * Bound(64.0) < length[1] ? 1 : 0;
   double c = image[0][longer].middle(), s = image[1][longer].middle();
   const double norm = std::sqrt(c * c + s * s);

@@ -1,5 +1,5 @@
-// A small set of errors in a plane, carried by tangent maps in a frame that turns along (Lohner's QR form), so
-// that it grows as fast as neighbouring orbits part, and no faster.
+// A small set of errors in a plane, carried by tangent maps in a frame that turns along (Lohner's
+// QR form), so that it grows as fast as neighbouring orbits part, and no faster.
 #pragma once
 
 #include "certify/number/ball.hpp"
@@ -9,7 +9,8 @@ namespace carom::certify {
 
 class TurningBox {
  public:
-  /// The errors (x, y) become J (x, y), enclosed over the whole set, and something of at most `fresh` is added.
+  /// The errors (x, y) become J (x, y), enclosed over the whole set, and something of at most
+  /// `fresh` is added.
   void move(const Interval (&J)[2][2], const Bound (&fresh)[2]);
   /// Both are changed by at most `size`.
   void round(const Bound& size);

@@ -1,5 +1,5 @@
-// Straight flights: to a wall that is known, and the reflection there. One formula for balls, intervals,
-// their tangent maps and plain doubles; it chooses nothing.
+// Straight flights: to a wall that is known, and the reflection there. One formula for balls,
+// intervals, their tangent maps and plain doubles; it chooses nothing.
 #pragma once
 
 #include "certify/number/dual.hpp"
@@ -29,10 +29,11 @@ VectorOf<N> reflected(const VectorOf<N>& v, const VectorOf<N>& normal) {
   return {v.x - factor * normal.x, v.y - factor * normal.y};
 }
 
-/// The flight from P with velocity v to the wall `w` and the reflection there. `standing`: P lies on w.
+/// The flight from P with velocity v to the wall `w` and the reflection there. `standing`: P lies
+/// on w.
 template <class N, class C>
-LandingOf<N> fly(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<C>& motion,
-                 bool standing) {
+LandingOf<N> fly(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                 const MotionOf<C>& motion, bool standing) {
   using std::sqrt;
   LandingOf<N> r;
   if (w.form == Form::segment) {
@@ -63,7 +64,8 @@ LandingOf<N> fly(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
     return r;
   }
   const VectorOf<N> e = minus(P, w.centre);
-  const N ex = dot2(e, w.along), ey = dot2(e, w.across), vx = dot2(v, w.along), vy = dot2(v, w.across);
+  const N ex = dot2(e, w.along), ey = dot2(e, w.across), vx = dot2(v, w.along),
+          vy = dot2(v, w.across);
   const N a = square(vx) + square(vy);
   const N b = ex * vx + ey * vy;
   N outwards;

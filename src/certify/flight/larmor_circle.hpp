@@ -1,9 +1,10 @@
 // Places on Larmor circles. One formula for balls, intervals, their tangent maps and plain doubles.
 //
-// A place on the circle is kappa = (omega/2) cot(omega t/2), which is 1/t without field and falls from
-// +infinity to -infinity in one turn. It is kept as a ratio p/q with q > 0: then places just after the start
-// and just before the end of a turn, where kappa is large and q small, need no division by q, and nothing
-// cancels for weak fields. docs/physics/exactness.md derives the polynomials.
+// A place on the circle is kappa = (omega/2) cot(omega t/2), which is 1/t without field and falls
+// from +infinity to -infinity in one turn. It is kept as a ratio p/q with q > 0: then places just
+// after the start and just before the end of a turn, where kappa is large and q small, need no
+// division by q, and nothing cancels for weak fields. docs/physics/exactness.md derives the
+// polynomials.
 #pragma once
 
 #include "certify/flight/flight.hpp"
@@ -33,7 +34,8 @@ double middle_of(const Dual<N>& x) {
 
 /// Where a flight is at kappa, and its velocity there.
 template <class N, class C>
-LandingOf<N> larmor_state(const Kappa<N>& k, const VectorOf<N>& P, const VectorOf<N>& v, const C& h) {
+LandingOf<N> larmor_state(const Kappa<N>& k, const VectorOf<N>& P, const VectorOf<N>& v,
+                          const C& h) {
   const N hq = h * k.q;
   const N share = k.q / (square(k.p) + square(hq));
   const N ahead = k.p * share, aside = hq * share;
@@ -53,18 +55,21 @@ double time_at(const Kappa<double>&, const MotionOf<double>&);
 template <class N>
 Dual<N> time_at(const Kappa<Dual<N>>& k, const MotionOf<N>& motion) {
   const N size = square(k.p.value) + square(motion.half_omega * k.q.value);
-  return Dual<N>::each(
-      N{}, [&](std::size_t i) { return (k.p.value * k.q.slope[i] - k.p.slope[i] * k.q.value) / size; });
+  return Dual<N>::each(N{}, [&](std::size_t i) {
+    return (k.p.value * k.q.slope[i] - k.p.slope[i] * k.q.value) / size;
+  });
 }
 
 void sin_cos(Ball& sin, Ball& cos, const Ball& angle);
 
 /// The state after a time, without a wall: kappa = h cos/sin (h t).
 template <class N>
-LandingOf<N> larmor_state_after(const N& time, const VectorOf<N>& P, const VectorOf<N>& v, const N& h) {
+LandingOf<N> larmor_state_after(const N& time, const VectorOf<N>& P, const VectorOf<N>& v,
+                                const N& h) {
   N sin, cos;
   sin_cos(sin, cos, h * time);
-  const N ahead = cos * sin / h, aside = square(sin) / h, product = cos * sin, squared = square(sin);
+  const N ahead = cos * sin / h, aside = square(sin) / h, product = cos * sin,
+          squared = square(sin);
   const N turned = product + product, less = squared + squared;
   const VectorOf<N> Jv = right_of(v);
   LandingOf<N> r;
@@ -76,7 +81,8 @@ LandingOf<N> larmor_state_after(const N& time, const VectorOf<N>& P, const Vecto
 
 /// Position and velocity after a time without hits.
 template <class N>
-void fly_for(const N& time, VectorOf<N>& position, VectorOf<N>& velocity, const MotionOf<N>& motion) {
+void fly_for(const N& time, VectorOf<N>& position, VectorOf<N>& velocity,
+             const MotionOf<N>& motion) {
   if (!motion.turns) {
     position = {position.x + time * velocity.x, position.y + time * velocity.y};
     return;

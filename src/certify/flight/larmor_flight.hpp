@@ -87,7 +87,8 @@ LandingOf<N> fly_larmor(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf
 template <class N, class C>
 LandingOf<N> flight_to(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
                        const MotionOf<C>& motion, bool standing) {
-  return motion.turns ? fly_larmor<N, C>(w, P, v, motion, standing) : fly<N, C>(w, P, v, motion, standing);
+  return motion.turns ? fly_larmor<N, C>(w, P, v, motion, standing)
+                      : fly<N, C>(w, P, v, motion, standing);
 }
 
 }  // namespace carom::certify

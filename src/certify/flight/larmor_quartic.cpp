@@ -23,7 +23,8 @@ Interval narrowed(const Powers<Interval>& f, const LarmorExit<Interval>& exit) {
 Ball narrowed(const Powers<Ball>& f, const LarmorExit<Ball>& exit) {
   const slong bits = Precision::bits();
   Ball s = union_of(exit.low, exit.high), slope = exit.slope / (exit.high - exit.low);
-  // The slope holds over the bracket, and later over another ball: a step from a point beside it would prove nothing.
+  // The slope holds over the bracket, and later over another ball: a step from a point beside it
+  // would prove nothing.
   std::optional<Ball> over;
   const auto holds_at = [&](const Ball& m) {
     if (over) return over->contains(m);
@@ -32,7 +33,8 @@ Ball narrowed(const Powers<Ball>& f, const LarmorExit<Ball>& exit) {
   for (int step = 0; step < 200; ++step) {
     // Twice as many digits as before, if Newton's steps do what they should.
     const double error = s.radius().log2();
-    const slong enough = static_cast<slong>(std::clamp(64.0 - 3.0 * error, 64.0, static_cast<double>(bits)));
+    const slong enough =
+        static_cast<slong>(std::clamp(64.0 - 3.0 * error, 64.0, static_cast<double>(bits)));
     const Precision precision(enough);
     const Ball m = s.midpoint();
     const Ball image = m - f.at(m) / slope;

@@ -1,6 +1,7 @@
-// A Larmor circle against an ellipse: places where the flight leaves the domain, in their order, as roots
-// of a form of degree four (three from the ellipse itself) in (p, q), kappa = p/q. Descartes' rule in
-// Bernstein form isolates them, so that none is missed; Newton's steps over enclosures make them narrow.
+// A Larmor circle against an ellipse: places where the flight leaves the domain, in their order, as
+// roots of a form of degree four (three from the ellipse itself) in (p, q), kappa = p/q. Descartes'
+// rule in Bernstein form isolates them, so that none is missed; Newton's steps over enclosures make
+// them narrow.
 #pragma once
 
 #include <array>
@@ -21,7 +22,9 @@ struct LarmorForm {
 template <class N, class C>
 LarmorForm<N> larmor_form(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
                           const MotionOf<C>& motion, bool standing) {
-  const auto image = [&w](const VectorOf<N>& d) { return VectorOf<N>{dot2(d, w.along), dot2(d, w.across)}; };
+  const auto image = [&w](const VectorOf<N>& d) {
+    return VectorOf<N>{dot2(d, w.along), dot2(d, w.across)};
+  };
   const VectorOf<N> e = image(minus(P, w.centre)), u = image(v), turned = image(right_of(v));
   const C& h = motion.half_omega;
   const C n = square(h), omega = h + h;
@@ -59,8 +62,8 @@ inline Ball union_of(const Ball& a, const Ball& b) {
   return r;
 }
 
-/// The way of (p, q) along a Larmor circle in three straight pieces, s from 0 to 1 in each. p is in units of
-/// a typical kappa; the pieces' ends are not at places that a simple start could lead to.
+/// The way of (p, q) along a Larmor circle in three straight pieces, s from 0 to 1 in each. p is in
+/// units of a typical kappa; the pieces' ends are not at places that a simple start could lead to.
 struct LarmorChord {
   double p, p_step, q, q_step;
 };
@@ -103,8 +106,8 @@ Powers<N> along_chord(const LarmorForm<N>& f, const LarmorChord& chord) {
   return r;
 }
 
-/// Where the flight leaves the domain: one root between low and high. Or, not certain: it may leave there
-/// or anywhere later.
+/// Where the flight leaves the domain: one root between low and high. Or, not certain: it may leave
+/// there or anywhere later.
 template <class N>
 struct LarmorExit {
   bool certain = false;
@@ -196,7 +199,8 @@ class LarmorExits {
     if (depth == deepest_) return take({false, chord_, low, high, {}});
     std::array<N, 5> left = b, right = b;
     for (std::size_t level = 1; level <= degree_; ++level) {
-      for (std::size_t k = 0; k + level <= degree_; ++k) right[k] = N(0.5) * (right[k] + right[k + 1]);
+      for (std::size_t k = 0; k + level <= degree_; ++k)
+        right[k] = N(0.5) * (right[k] + right[k + 1]);
       left[level] = right[0];
     }
     const N middle = N(0.5) * (low + high);
@@ -233,7 +237,8 @@ template <class N>
 class EllipseFlight {
  public:
   /// `size`: |image of v|, in doubles.
-  EllipseFlight(const LarmorForm<N>& form, double size) : scale_(std::ldexp(1.0, std::ilogb(size))) {
+  EllipseFlight(const LarmorForm<N>& form, double size)
+      : scale_(std::ldexp(1.0, std::ilogb(size))) {
     LarmorForm<N> f = form;
     double power = 1.0;
     for (std::size_t i = 1; i <= f.degree; ++i) {
@@ -247,8 +252,8 @@ class EllipseFlight {
 
   Kappa<N> place(std::size_t chord, const N& s) const { return place_of<N>(chord, s, scale_); }
   Kappa<N> place(const LarmorExit<N>& exit) const {
-    return place(exit.chord,
-                 exit.certain ? narrowed(chords_[exit.chord], exit) : union_of(exit.low, exit.high));
+    return place(exit.chord, exit.certain ? narrowed(chords_[exit.chord], exit)
+                                          : union_of(exit.low, exit.high));
   }
   template <class M>
   static Kappa<M> place_of(std::size_t chord, const M& s, double scale) {
@@ -268,20 +273,21 @@ double kappa_scale(const WallOf<C>& w, const VectorOf<C>& v, const C& h) {
   return std::max(std::sqrt(x * x + y * y), std::fabs(middle_of(h)));
 }
 
-/// The first exit on the wall: its chord and s. Unknown where an exit before it may lie on the wall too, or it
-/// itself beside the wall: the next one must not be taken for it.
+/// The first exit on the wall: its chord and s. Unknown where an exit before it may lie on the wall
+/// too, or it itself beside the wall: the next one must not be taken for it.
 template <class N>
 struct EllipsePlace {
   std::size_t chord = 0;
   N s = N(1.0) / N(0.0);  ///< unknown
 };
 template <class N>
-EllipsePlace<N> ellipse_place(const EllipseFlight<N>& flight, const WallOf<N>& w, const VectorOf<N>& P,
-                              const VectorOf<N>& v, const N& h) {
+EllipsePlace<N> ellipse_place(const EllipseFlight<N>& flight, const WallOf<N>& w,
+                              const VectorOf<N>& P, const VectorOf<N>& v, const N& h) {
   for (const LarmorExit<N>& exit : LarmorExits<N>(flight.chords(), w.closed ? 1 : 5)) {
     if (!exit.certain) break;
     const N s = narrowed(flight.chords()[exit.chord], exit);
-    const Verdict on_wall = on_arc(w, larmor_state<N, N>(flight.place(exit.chord, s), P, v, h).position);
+    const Verdict on_wall =
+        on_arc(w, larmor_state<N, N>(flight.place(exit.chord, s), P, v, h).position);
     if (on_wall == Verdict::yes) return {exit.chord, s};
     if (on_wall == Verdict::undecided) break;
   }
@@ -299,8 +305,8 @@ Kappa<N> ellipse_exit(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N
 
 /// With derivatives: of the root s of f(s), ds = -df/f'.
 template <class N>
-Kappa<Dual<N>> ellipse_exit(const WallOf<N>& w, const VectorOf<Dual<N>>& P, const VectorOf<Dual<N>>& v,
-                            const MotionOf<N>& motion, bool standing) {
+Kappa<Dual<N>> ellipse_exit(const WallOf<N>& w, const VectorOf<Dual<N>>& P,
+                            const VectorOf<Dual<N>>& v, const MotionOf<N>& motion, bool standing) {
   const LarmorForm<Dual<N>> form = larmor_form<Dual<N>, N>(w, P, v, motion, standing);
   LarmorForm<N> values;
   values.degree = form.degree;

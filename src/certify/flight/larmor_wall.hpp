@@ -1,5 +1,5 @@
-// Which wall does a Larmor flight meet first? By signs in any arithmetic, as in next_wall.hpp; what is
-// compared instead of times is -kappa, which grows along the flight.
+// Which wall does a Larmor flight meet first? By signs in any arithmetic, as in next_wall.hpp; what
+// is compared instead of times is -kappa, which grows along the flight.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,8 @@
 
 namespace carom::certify {
 
-/// Does the crossing X of a line lie on the segment? Of plain numbers its start belongs to it, its end does not.
+/// Does the crossing X of a line lie on the segment? Of plain numbers its start belongs to it, its
+/// end does not.
 template <class N>
 Verdict on_segment(const WallOf<N>& w, const VectorOf<N>& X) {
   const Sign after = sign_or_tie(dot(X - w.from, w.chord));
@@ -37,8 +38,8 @@ Meeting<N> meeting_at(Kappa<N> k, Verdict verdict, const WallOf<N>& w, const Vec
   return {verdict, -(k.p / k.q)};
 }
 
-/// A segment or circle; the place is unique, for a circle and a line or circle cross twice, and one of
-/// the two leads into the domain.
+/// A segment or circle; the place is unique, for a circle and a line or circle cross twice, and one
+/// of the two leads into the domain.
 template <class N>
 Meeting<N> meets_larmor(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
                         const MotionOf<N>& motion, bool standing) {
@@ -64,7 +65,8 @@ Meeting<N> meets_ellipse(const WallOf<N>& w, const VectorOf<N>& P, const VectorO
                                 kappa_scale(w, v, motion.half_omega));
   for (const LarmorExit<N>& exit : LarmorExits<N>(flight.chords(), w.closed ? 1 : 5)) {
     const Kappa<N> k = flight.place(exit);
-    // It may leave there or anywhere later: whether on the arc there says nothing, and no time before the bracket's.
+    // It may leave there or anywhere later: whether on the arc there says nothing, and no time
+    // before the bracket's.
     if (!exit.certain) return {Verdict::undecided, -(k.p / k.q)};
     const Meeting<N> m = meeting_at(k, Verdict::yes, w, P, v, motion);
     if (m.verdict != Verdict::no) return m;
@@ -98,7 +100,8 @@ class LarmorPieces {
   }
   /// All of the turn lies before the end of piece k.
   bool last(double k) const { return angle_to(k) > above_pi; }
-  /// -kappa before the end of piece k, as far as walls have been looked for; nothing near the end of the turn.
+  /// -kappa before the end of piece k, as far as walls have been looked for; nothing near the end
+  /// of the turn.
   std::optional<double> seen_to(double k) const {
     const double angle = angle_to(k);
     if (angle > near_end_of_turn) return std::nullopt;
@@ -111,10 +114,12 @@ class LarmorPieces {
   static constexpr double above_pi = 0x1.921fb54442d19p+1;  ///< the double after pi
   /// Any angle below pi whose sine is not small.
   static constexpr double near_end_of_turn = 3.0;
-  /// Below it a flight is straight, but for less than its coordinates are rounded. A field may be too small for a double.
+  /// Below it a flight is straight, but for less than its coordinates are rounded. A field may be
+  /// too small for a double.
   static constexpr double hardly_turned = 0x1p-60;
-  /// Half the angle that is turned by the end of piece k, less 2^-40 of it: that is more than its rounding, and as the
-  /// cotangent has the slope -1/sin^2 it moves kappa by more than sine and cosine are rounded by (2^-50/sin^2).
+  /// Half the angle that is turned by the end of piece k, less 2^-40 of it: that is more than its
+  /// rounding, and as the cotangent has the slope -1/sin^2 it moves kappa by more than sine and
+  /// cosine are rounded by (2^-50/sin^2).
   double angle_to(double k) const { return std::fabs(h_) * (k + 1.0) * time_ * (1.0 - 0x1p-40); }
   geometry::Vector from_, velocity_;
   double h_, time_;

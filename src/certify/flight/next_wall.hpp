@@ -1,4 +1,5 @@
-// Which wall does a straight flight meet first? By signs in any arithmetic; what cannot be told is said.
+// Which wall does a straight flight meet first? By signs in any arithmetic; what cannot be told is
+// said.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +12,9 @@ namespace carom::certify {
 
 enum class Verdict : unsigned char { no, yes, undecided };
 
-/// The sign of a quantity whose zero is a tie: into a joint, touching, at an end. Enclosures report a proven zero as
-/// undecided, so that the tie is looked for in rational numbers. Numbers taken at their word keep it: they give the joint to
-/// one of its walls.
+/// The sign of a quantity whose zero is a tie: into a joint, touching, at an end. Enclosures report
+/// a proven zero as undecided, so that the tie is looked for in rational numbers. Numbers taken at
+/// their word keep it: they give the joint to one of its walls.
 template <class N>
 Sign sign_or_tie(const N& x) {
   return sign(x);
@@ -36,8 +37,8 @@ struct Meeting {
 
 template <class N>
 Meeting<N> meets_segment(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v) {
-  // The flight leaves through a wall that runs from its right to its left. Of plain numbers a zero is a plus, for both
-  // walls of a joint.
+  // The flight leaves through a wall that runs from its right to its left. Of plain numbers a zero
+  // is a plus, for both walls of a joint.
   const Sign start = sign_or_tie(cross(v, w.from - P));
   if (start == Sign::positive || start == Sign::zero) return {};
   const Sign end = sign_or_tie(cross(v, w.to - P));
@@ -45,7 +46,8 @@ Meeting<N> meets_segment(const WallOf<N>& w, const VectorOf<N>& P, const VectorO
   const N height = dot(P - w.from, w.normal);
   const Sign inside = sign_or_tie(height);
   if (inside == Sign::negative || inside == Sign::zero) return {};
-  const bool certain = start != Sign::undecided && end != Sign::undecided && inside != Sign::undecided;
+  const bool certain =
+      start != Sign::undecided && end != Sign::undecided && inside != Sign::undecided;
   return {certain ? Verdict::yes : Verdict::undecided, -(height / dot(v, w.normal))};
 }
 
@@ -102,8 +104,8 @@ Meeting<N> meets_conic(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<
 }
 
 template <class N>
-Meeting<N> meets(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v, const MotionOf<N>& motion,
-                 bool standing) {
+Meeting<N> meets(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                 const MotionOf<N>& motion, bool standing) {
   if (w.form != Form::segment) return meets_conic(w, P, v, motion, standing);
   return standing ? Meeting<N>{} : meets_segment(w, P, v);
 }
@@ -112,11 +114,15 @@ Meeting<N> meets(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
 template <class N, class Key>
 class First {
  public:
-  /// `passed_by`: keys that are touched and not hit. `last`: meetings after that time are of no interest; or null.
-  explicit First(const std::vector<Key>& passed_by, const N* last = nullptr) : passed_by_(passed_by), last_(last) {}
+  /// `passed_by`: keys that are touched and not hit. `last`: meetings after that time are of no
+  /// interest; or null.
+  explicit First(const std::vector<Key>& passed_by, const N* last = nullptr)
+      : passed_by_(passed_by), last_(last) {}
   void offer(const Meeting<N>& m, const Key& key) {
     if (m.verdict == Verdict::no) return;
-    if (!passed_by_.empty() && std::find(passed_by_.begin(), passed_by_.end(), key) != passed_by_.end()) return;
+    if (!passed_by_.empty() &&
+        std::find(passed_by_.begin(), passed_by_.end(), key) != passed_by_.end())
+      return;
     if (last_ != nullptr && sign(m.time - *last_) == Sign::positive) {
       later_ = true;
       return;
@@ -134,8 +140,8 @@ class First {
   bool found() const { return found_; }
   /// Was there one after the last time?
   bool later() const { return later_; }
-  /// Has this one been offered? Not of every one that is said: that only costs time. The copies of a wall along a flight
-  /// are offered again soon, so that the last ones tell.
+  /// Has this one been offered? Not of every one that is said: that only costs time. The copies of
+  /// a wall along a flight are offered again soon, so that the last ones tell.
   bool knows(const Key& key) const {
     if (found_ && best_key_ == key) return true;
     const auto last = others_.size() > 32 ? others_.end() - 32 : others_.begin();

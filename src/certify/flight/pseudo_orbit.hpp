@@ -25,8 +25,8 @@ VectorOf<N> put_back(const WallOf<N>& w, const VectorOf<N>& P) {
   return P + (half * (N(1) - (X * X + Y * Y)) / dot(normal, normal)) * normal;
 }
 
-/// Flies to the wall. The landing is put back to its speed, and on the circle that it stayed on, by one
-/// Newton step each: otherwise the errors of both feed each other.
+/// Flies to the wall. The landing is put back to its speed, and on the circle that it stayed on, by
+/// one Newton step each: otherwise the errors of both feed each other.
 template <class N>
 void fly_to(const SceneOf<N>& scene, const Copy& copy, PseudoState<N>& s) {
   const WallOf<N>& wall = scene.walls[static_cast<std::size_t>(copy.wall)];
@@ -37,8 +37,8 @@ void fly_to(const SceneOf<N>& scene, const Copy& copy, PseudoState<N>& s) {
   }
   const LandingOf<N> landing = flight_to<N, N>(wall, s.position, s.velocity, scene.motion, same);
   const N half(0.5);
-  const N stretch =
-      half * (scene.motion.speed2 - dot(landing.velocity, landing.velocity)) * scene.motion.inverse_speed2;
+  const N stretch = half * (scene.motion.speed2 - dot(landing.velocity, landing.velocity)) *
+                    scene.motion.inverse_speed2;
   s.velocity = landing.velocity + stretch * landing.velocity;
   s.position = landing.position;
   if (same && wall.form != Form::segment) s.position = put_back(wall, s.position);

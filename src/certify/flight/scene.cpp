@@ -5,17 +5,21 @@
 namespace carom::certify {
 namespace {
 
-/// An arc of at most half a turn: its centre is beside it or behind its chord. Of others this is not said.
+/// An arc of at most half a turn: its centre is beside it or behind its chord. Of others this is
+/// not said.
 bool is_half_at_most(const WallOf<Ball>& w) {
   if (w.form == Form::segment || w.closed) return false;
-  return sign(cross(w.chord, w.centre - w.from)) == (w.turn > 0.0 ? Sign::positive : Sign::negative);
+  return sign(cross(w.chord, w.centre - w.from)) ==
+         (w.turn > 0.0 ? Sign::positive : Sign::negative);
 }
 
 }  // namespace
 
 Whereabouts whereabouts_of(const BallTable& table) {
   Whereabouts r;
-  const auto vector = [](const BallVector& v) { return geometry::Vector{v.x.to_double(), v.y.to_double()}; };
+  const auto vector = [](const BallVector& v) {
+    return geometry::Vector{v.x.to_double(), v.y.to_double()};
+  };
   for (const WallOf<Ball>& w : table.walls) {
     Whereabouts::Disc disc;
     if (w.form == Form::segment) {
@@ -30,7 +34,8 @@ Whereabouts whereabouts_of(const BallTable& table) {
     }
     r.widest = std::max(r.widest, disc.radius);
     if (is_half_at_most(w)) {
-      // No point of it is farther from the middle of its chord than the ends; of an ellipse, where that is a circle.
+      // No point of it is farther from the middle of its chord than the ends; of an ellipse, where
+      // that is a circle.
       double half = 0.5 * std::sqrt(dot(vector(w.chord), vector(w.chord)));
       if (w.form == Form::ellipse) {
         const double x = dot(w.along, w.chord).to_double(), y = dot(w.across, w.chord).to_double();
@@ -51,7 +56,8 @@ Whereabouts whereabouts_of(const BallTable& table) {
     const auto length = [](geometry::Vector v) { return std::sqrt(dot(v, v)); };
     r.skew = length(r.to_first) * length(r.first) + length(r.to_second) * length(r.second);
     r.size = length(r.first) + length(r.second);
-    for (const Whereabouts::Disc& disc : r.discs) r.size = std::max(r.size, length(disc.centre) + disc.radius + r.stretch);
+    for (const Whereabouts::Disc& disc : r.discs)
+      r.size = std::max(r.size, length(disc.centre) + disc.radius + r.stretch);
   }
   return r;
 }

@@ -39,23 +39,25 @@ struct Whereabouts {
   std::vector<Disc> discs;
   geometry::Vector first, second;        ///< lattice vectors
   geometry::Vector to_first, to_second;  ///< coordinates of a point by them
-  double stretch = 0.0;                  ///< length of pieces in which flights are followed on a lattice
-  double size = 0.0;                     ///< of the coordinates of all these
-  double widest = 0.0;                   ///< radius of a circle or ellipse, or half a segment
-  double skew = 0.0;                     ///< of the lattice vectors: 2 where they are at right angles
+  double stretch = 0.0;  ///< length of pieces in which flights are followed on a lattice
+  double size = 0.0;     ///< of the coordinates of all these
+  double widest = 0.0;   ///< radius of a circle or ellipse, or half a segment
+  double skew = 0.0;     ///< of the lattice vectors: 2 where they are at right angles
 
-  /// Part of a length that every rounding in the search for walls stays below. A handful of operations is rounded by
-  /// 2^-53 each, and dividing by the cell's area makes that worse by its skew: 32 of them leave much room.
+  /// Part of a length that every rounding in the search for walls stays below. A handful of
+  /// operations is rounded by 2^-53 each, and dividing by the cell's area makes that worse by its
+  /// skew: 32 of them leave much room.
   static constexpr double rounding = 0x1p-48;
-  /// How far the roundings of coordinates may carry the middle of piece k, and what is seen from it, off.
+  /// How far the roundings of coordinates may carry the middle of piece k, and what is seen from
+  /// it, off.
   double rounded_off(double from, double k) const {
     return rounding * skew * (from + size + (k + 2.0) * stretch);
   }
 };
 Whereabouts whereabouts_of(const BallTable&);
 
-/// Calls try_copy(copy) for every copy of a wall that comes near a piece of a flight with that middle; `off`: how far the
-/// piece may be from there.
+/// Calls try_copy(copy) for every copy of a wall that comes near a piece of a flight with that
+/// middle; `off`: how far the piece may be from there.
 template <class Try>
 void near_piece(const Whereabouts& w, geometry::Vector q, double off, Try try_copy) {
   for (std::size_t i = 0; i < w.discs.size(); ++i) {
@@ -68,14 +70,15 @@ void near_piece(const Whereabouts& w, geometry::Vector q, double off, Try try_co
       for (double n = std::ceil(s - s_reach); n <= s + s_reach; ++n) {
         const geometry::Vector there = d - m * w.first - n * w.second;
         if (dot(there, there) > reach * reach) continue;
-        try_copy(Copy{static_cast<int>(i), {static_cast<std::int64_t>(m), static_cast<std::int64_t>(n)}});
+        try_copy(Copy{static_cast<int>(i),
+                      {static_cast<std::int64_t>(m), static_cast<std::int64_t>(n)}});
       }
     }
   }
 }
 
-/// At most how far an enclosure reaches from a point of doubles. Numbers that are taken at their word are that point, but
-/// for rounding.
+/// At most how far an enclosure reaches from a point of doubles. Numbers that are taken at their
+/// word are that point, but for rounding.
 inline double off_by(const VectorOf<Interval>& v, geometry::Vector v0) {
   return (v.x - Interval(v0.x)).size() + (v.y - Interval(v0.y)).size();
 }
@@ -105,9 +108,9 @@ class SceneOf {
 
   VectorOf<N> translation(const geometry::Cell& c) const { return lattice->at(c); }
 
-  /// The first wall ahead of P, which lies on the wall `standing` of cell 0 (-1: on none). `P0` and `v0`:
-  /// the same in doubles, nearly. `last`: the flight's last time (in a field: -kappa there), if it is asked whether
-  /// that comes before all walls.
+  /// The first wall ahead of P, which lies on the wall `standing` of cell 0 (-1: on none). `P0` and
+  /// `v0`: the same in doubles, nearly. `last`: the flight's last time (in a field: -kappa there),
+  /// if it is asked whether that comes before all walls.
   Choice next(const Whereabouts& where, const VectorOf<N>& P, const VectorOf<N>& v, int standing,
               geometry::Vector P0, geometry::Vector v0, const N* last = nullptr) const {
     First<N, Copy> first(passed_by, last);
@@ -120,7 +123,8 @@ class SceneOf {
     }
     if (walls.empty()) return {};
     const double speed = std::sqrt(dot(v0, v0)), from = std::sqrt(dot(P0, P0));
-    // The flight starts near P0 and may turn aside from v0; also on Larmor circles, where a time only rotates the latter.
+    // The flight starts near P0 and may turn aside from v0; also on Larmor circles, where a time
+    // only rotates the latter.
     const double off_start = off_by(P, P0), turned = off_by(v, v0) / speed;
     const auto off = [&](double k) {
       return off_start + (k + 1.0) * where.stretch * turned + where.rounded_off(from, k);
@@ -138,7 +142,9 @@ class SceneOf {
     const auto seen_to = [&](double end) {
       return first.found() && sign(first.time() - N(end)) == Sign::negative;
     };
-    const auto seen_to_last = [&](double end) { return last != nullptr && sign(*last - N(end)) == Sign::negative; };
+    const auto seen_to_last = [&](double end) {
+      return last != nullptr && sign(*last - N(end)) == Sign::negative;
+    };
     if (motion.turns) {
       const LarmorPieces pieces(P0, v0, middle_of(motion.half_omega), where.stretch);
       for (double k = 0.0; k < most_pieces; ++k) {
@@ -165,8 +171,8 @@ class SceneOf {
   }
 
  private:
-  /// `later`: the search stopped at the last time. A wall that was found may lie beyond it, and need not be the first
-  /// there: the caller checks the time.
+  /// `later`: the search stopped at the last time. A wall that was found may lie beyond it, and
+  /// need not be the first there: the caller checks the time.
   static Choice answer(const First<N, Copy>& first, bool later = false) {
     Choice choice;
     const Copy* rival = first.rival();
@@ -189,12 +195,15 @@ SceneOf<To> converted(const SceneOf<From>& scene, const Convert& convert) {
   SceneOf<To> r;
   for (const WallOf<From>& w : scene.walls) r.walls.push_back(converted<To>(w, convert));
   if (scene.lattice) {
-    const auto vector = [&](const VectorOf<From>& v) { return VectorOf<To>{convert(v.x), convert(v.y)}; };
+    const auto vector = [&](const VectorOf<From>& v) {
+      return VectorOf<To>{convert(v.x), convert(v.y)};
+    };
     r.lattice = LatticeOf<To>{vector(scene.lattice->first), vector(scene.lattice->second)};
   }
   for (const HoleOf<From>& h : scene.holes) r.holes.push_back(converted<To>(h, convert));
   const MotionOf<From>& m = scene.motion;
-  r.motion = {convert(m.speed2), convert(m.inverse_speed2), m.turns, convert(m.half_omega), m.time_bits};
+  r.motion = {convert(m.speed2), convert(m.inverse_speed2), m.turns, convert(m.half_omega),
+              m.time_bits};
   return r;
 }
 

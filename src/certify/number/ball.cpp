@@ -6,7 +6,8 @@
 namespace carom::certify {
 
 std::string Ball::decimals(long digits) const {
-  // Scaled to an integer, rounded to nearest, and the point put back: always that many digits behind it.
+  // Scaled to an integer, rounded to nearest, and the point put back: always that many digits
+  // behind it.
   const slong bits = arb_rel_accuracy_bits(x_) > 0 ? static_cast<slong>(arb_bits(x_)) + 64 : 64;
   arb_t scale, scaled;
   arb_init(scale);

@@ -1,5 +1,6 @@
-// Real numbers as balls: a midpoint of any precision and a radius. Every operation encloses: for all
-// numbers in its operands' balls the exact result lies in the result's ball (Arb does the rounding).
+// Real numbers as balls: a midpoint of any precision and a radius. Every operation encloses: for
+// all numbers in its operands' balls the exact result lies in the result's ball (Arb does the
+// rounding).
 #pragma once
 
 #include <arb.h>
@@ -34,12 +35,26 @@ class Bound {
   explicit Bound(mag_srcptr x) : Bound() { mag_set(x_, x); }
   Bound(const Bound& o) : Bound() { mag_set(x_, o.x_); }
   Bound(Bound&& o) noexcept : Bound() { mag_swap(x_, o.x_); }
-  Bound& operator=(const Bound& o) { mag_set(x_, o.x_); return *this; }
-  Bound& operator=(Bound&& o) noexcept { mag_swap(x_, o.x_); return *this; }
+  Bound& operator=(const Bound& o) {
+    mag_set(x_, o.x_);
+    return *this;
+  }
+  Bound& operator=(Bound&& o) noexcept {
+    mag_swap(x_, o.x_);
+    return *this;
+  }
   ~Bound() { mag_clear(x_); }
 
-  friend Bound operator+(const Bound& a, const Bound& b) { Bound r; mag_add(r.x_, a.x_, b.x_); return r; }
-  friend Bound operator*(const Bound& a, const Bound& b) { Bound r; mag_mul(r.x_, a.x_, b.x_); return r; }
+  friend Bound operator+(const Bound& a, const Bound& b) {
+    Bound r;
+    mag_add(r.x_, a.x_, b.x_);
+    return r;
+  }
+  friend Bound operator*(const Bound& a, const Bound& b) {
+    Bound r;
+    mag_mul(r.x_, a.x_, b.x_);
+    return r;
+  }
   friend bool operator<(const Bound& a, const Bound& b) { return mag_cmp(a.x_, b.x_) < 0; }
 
   /// At least the bound; infinity beyond the range of doubles.
@@ -48,7 +63,8 @@ class Bound {
   double log2() const {
     if (mag_is_inf(x_) != 0) return HUGE_VAL;
     if (mag_is_zero(x_) != 0) return -1e18;
-    return fmpz_get_d(MAG_EXPREF(x_)) + std::log2(std::ldexp(static_cast<double>(MAG_MAN(x_)), -MAG_BITS));
+    return fmpz_get_d(MAG_EXPREF(x_)) +
+           std::log2(std::ldexp(static_cast<double>(MAG_MAN(x_)), -MAG_BITS));
   }
   mag_srcptr raw() const { return x_; }
   mag_ptr raw() { return x_; }
@@ -60,12 +76,18 @@ class Bound {
 class Ball {
  public:
   Ball() { arb_init(x_); }
-  Ball(int value) : Ball() { arb_set_si(x_, value); }     // NOLINT: exact
-  Ball(double value) : Ball() { arb_set_d(x_, value); }   // NOLINT: exact
+  Ball(int value) : Ball() { arb_set_si(x_, value); }    // NOLINT: exact
+  Ball(double value) : Ball() { arb_set_d(x_, value); }  // NOLINT: exact
   Ball(const Ball& o) : Ball() { arb_set(x_, o.x_); }
   Ball(Ball&& o) noexcept : Ball() { arb_swap(x_, o.x_); }
-  Ball& operator=(const Ball& o) { arb_set(x_, o.x_); return *this; }
-  Ball& operator=(Ball&& o) noexcept { arb_swap(x_, o.x_); return *this; }
+  Ball& operator=(const Ball& o) {
+    arb_set(x_, o.x_);
+    return *this;
+  }
+  Ball& operator=(Ball&& o) noexcept {
+    arb_swap(x_, o.x_);
+    return *this;
+  }
   ~Ball() { arb_clear(x_); }
 
   friend Ball operator+(const Ball& a, const Ball& b) {

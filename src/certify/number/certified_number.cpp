@@ -1,4 +1,5 @@
-// What certified orbits give out: numbers with their balls, how many digits, and the names of fates.
+// What certified orbits give out: numbers with their balls, how many digits, and the names of
+// fates.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -17,7 +18,8 @@ namespace certify {
 const Ball& ball_of(const CertifiedNumber& number) { return number.enclosure().ball; }
 
 CertifiedNumber number_of(Ball ball) {
-  return CertifiedNumber(std::make_shared<const CertifiedNumber::Enclosure>(CertifiedNumber::Enclosure{std::move(ball)}));
+  return CertifiedNumber(std::make_shared<const CertifiedNumber::Enclosure>(
+      CertifiedNumber::Enclosure{std::move(ball)}));
 }
 
 }  // namespace certify
@@ -60,8 +62,9 @@ void check_digits(std::uint64_t digits, const Table& table, const Place& place) 
   std::string problem = std::to_string(digits) + " digits are more than certified orbits have";
   if (by_memory < most_digits) {
     const double gigabytes = bytes * static_cast<double>(digits) * 1e-9;
-    problem = std::to_string(digits) + " digits of the numbers of " + std::to_string(table.walls.size()) +
-              " walls take " + std::to_string(static_cast<std::uint64_t>(std::min(gigabytes + 0.999, 1e18))) +
+    problem = std::to_string(digits) + " digits of the numbers of " +
+              std::to_string(table.walls.size()) + " walls take " +
+              std::to_string(static_cast<std::uint64_t>(std::min(gigabytes + 0.999, 1e18))) +
               " GB of memory";
   }
   refuse(problem, "at most " + std::to_string(at_most));

@@ -25,7 +25,8 @@ struct Dual {
     return each(-a.value, [&](std::size_t i) { return -a.slope[i]; });
   }
   friend Dual operator*(const Dual& a, const Dual& b) {
-    return each(a.value * b.value, [&](std::size_t i) { return a.slope[i] * b.value + a.value * b.slope[i]; });
+    return each(a.value * b.value,
+                [&](std::size_t i) { return a.slope[i] * b.value + a.value * b.slope[i]; });
   }
   friend Dual operator/(const Dual& a, const Dual& b) {
     const Number q = a.value / b.value;
@@ -62,7 +63,8 @@ Dual<Number> sqrt(const Dual<Number>& a) {
 }
 template <class Number>
 Dual<Number> square(const Dual<Number>& a) {
-  return Dual<Number>::each(square(a.value), [&](std::size_t i) { return (a.value + a.value) * a.slope[i]; });
+  return Dual<Number>::each(square(a.value),
+                            [&](std::size_t i) { return (a.value + a.value) * a.slope[i]; });
 }
 
 }  // namespace carom::certify

@@ -67,7 +67,9 @@ Ball value_of(const ExactNumber& number) {
 
 Sign sign_of(const ExactNumber& number) {
   if (const auto rational = number.to_rational())
-    return rational->numerator == "0" ? Sign::zero : rational->numerator[0] == '-' ? Sign::negative : Sign::positive;
+    return rational->numerator == "0"      ? Sign::zero
+           : rational->numerator[0] == '-' ? Sign::negative
+                                           : Sign::positive;
   for (const slong bits : {bits_of_a_first_look, slong{1024}, most_bits_of_a_sign}) {
     const Precision precision(bits);
     if (const Sign s = sign(value_of(number)); s != Sign::undecided) return s;
@@ -77,7 +79,8 @@ Sign sign_of(const ExactNumber& number) {
 
 CosSin direction_of(const ExactNumber& angle, long part, long whole) {
   CosSin result;
-  const std::string turns = "(" + shapes::quoted(angle) + "/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole) + ")";
+  const std::string turns = "(" + shapes::quoted(angle) + "/(2*pi)+" + std::to_string(part) + "/" +
+                            std::to_string(whole) + ")";
   const ExactNumber halves(turns + "*2", angle.place());  // in units of pi
   if (const auto exact = halves.to_rational()) {
     fmpq_t q;

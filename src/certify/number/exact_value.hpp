@@ -12,14 +12,15 @@ namespace carom::certify {
 Ball value_of(const ExactNumber&);
 
 inline constexpr slong bits_of_a_first_look = 128, most_bits_of_a_sign = 1 << 14;
-/// The sign of a number as written. Undecided where it is not rational and no ball of 2^14 bits tells it from zero.
+/// The sign of a number as written. Undecided where it is not rational and no ball of 2^14 bits
+/// tells it from zero.
 Sign sign_of(const ExactNumber&);
 
 struct CosSin {
   Ball cos, sin;
 };
-/// Of an angle in radians plus `part` of `whole` turns; rational parts of a turn are taken as such, so
-/// that quarters come out exact.
+/// Of an angle in radians plus `part` of `whole` turns; rational parts of a turn are taken as such,
+/// so that quarters come out exact.
 CosSin direction_of(const ExactNumber& angle, long part = 0, long whole = 1);
 
 }  // namespace carom::certify

@@ -1,5 +1,5 @@
-// Intervals of two doubles: fast enclosures for what needs few digits (which wall is next, how errors
-// grow). Each end is rounded to nearest and then moved outwards by more than its rounding.
+// Intervals of two doubles: fast enclosures for what needs few digits (which wall is next, how
+// errors grow). Each end is rounded to nearest and then moved outwards by more than its rounding.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,9 @@ struct Interval {
   Interval(double x) : low(x), high(x) {}  // NOLINT: exact
   Interval(double l, double h) : low(l), high(h) {}
 
-  /// The ends rounded outwards: half an ulp is at most 2^-53 |x|, or 2^-1075 where doubles are denormal. (An end that
-  /// ran over in the wrong direction becomes no number: of such an interval no sign is known.)
+  /// The ends rounded outwards: half an ulp is at most 2^-53 |x|, or 2^-1075 where doubles are
+  /// denormal. (An end that ran over in the wrong direction becomes no number: of such an interval
+  /// no sign is known.)
   static Interval outwards(double l, double h) {
     return {l - (std::fabs(l) * 0x1p-52 + 0x1p-1074), h + (std::fabs(h) * 0x1p-52 + 0x1p-1074)};
   }
@@ -42,17 +43,19 @@ struct Interval {
   double size() const { return std::max(std::fabs(low), std::fabs(high)); }
 
  private:
-  /// Where ends are infinite a product may be no number (0 times infinity), which min and max would drop: then nothing
-  /// is known. Infinities of both signs say no more.
+  /// Where ends are infinite a product may be no number (0 times infinity), which min and max would
+  /// drop: then nothing is known. Infinities of both signs say no more.
   static Interval around(double p, double q, double r, double s) {
     if (std::isnan(p + q + r + s)) return {-HUGE_VAL, HUGE_VAL};
-    return outwards(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
+    return outwards(std::min(std::min(p, q), std::min(r, s)),
+                    std::max(std::max(p, q), std::max(r, s)));
   }
 };
 
 /// Of a number that is known not to be negative.
 inline Interval sqrt(const Interval& a) {
-  const Interval r = Interval::outwards(std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0)));
+  const Interval r =
+      Interval::outwards(std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0)));
   return {std::max(r.low, 0.0), r.high};
 }
 inline Interval square(const Interval& a) {

@@ -1,4 +1,5 @@
-// Rational numbers, in which ties of straight flights are decided. Other numbers stay unknown: nothing is said of them.
+// Rational numbers, in which ties of straight flights are decided. Other numbers stay unknown:
+// nothing is said of them.
 #pragma once
 
 #include <gmpxx.h>
@@ -18,7 +19,8 @@ class NotRational : public std::runtime_error {
   NotRational() : std::runtime_error("not a rational number") {}
 };
 
-/// A rational number, or an unknown one: a number written with roots or pi, or the root of no square.
+/// A rational number, or an unknown one: a number written with roots or pi, or the root of no
+/// square.
 class Rational {
  public:
   Rational() : value_(0) {}
@@ -50,12 +52,16 @@ class Rational {
     return a.value_ && b.value_ ? Rational(mpq_class(*a.value_ * *b.value_)) : unknown();
   }
   friend Rational operator/(const Rational& a, const Rational& b) {
-    return a.value_ && b.value_ && sgn(*b.value_) != 0 ? Rational(mpq_class(*a.value_ / *b.value_)) : unknown();
+    return a.value_ && b.value_ && sgn(*b.value_) != 0 ? Rational(mpq_class(*a.value_ / *b.value_))
+                                                       : unknown();
   }
   friend Rational square(const Rational& a) { return a * a; }
   friend Rational sqrt(const Rational& a) {
-    const auto is_square = [](const mpz_class& n) { return mpz_perfect_square_p(n.get_mpz_t()) != 0; };
-    if (!a.value_ || !is_square(a.value_->get_num()) || !is_square(a.value_->get_den())) return unknown();
+    const auto is_square = [](const mpz_class& n) {
+      return mpz_perfect_square_p(n.get_mpz_t()) != 0;
+    };
+    if (!a.value_ || !is_square(a.value_->get_num()) || !is_square(a.value_->get_den()))
+      return unknown();
     return Rational(mpq_class(sqrt(a.value_->get_num()), sqrt(a.value_->get_den())));
   }
   /// Throws NotRational where the number is unknown.

@@ -23,11 +23,13 @@ Verdict within(const WallOf<Ball>& closed, const BallVector& P) {
   return above_zero(sign_or_tie(closed.turn > 0 ? -beyond : beyond));
 }
 
-// A ray from a point of the domain meets the boundary from inside first, one from outside from outside: that
-// is from inside for the loop turned round. A direction in which this is not told, say into a joint, is
-// replaced by another.
+// A ray from a point of the domain meets the boundary from inside first, one from outside from
+// outside: that is from inside for the loop turned round. A direction in which this is not told,
+// say into a joint, is replaced by another.
 Verdict within(const WallLoop& loop, const std::vector<WallOf<Ball>>& walls, const BallVector& P) {
-  const auto wall = [&](int k) -> const WallOf<Ball>& { return walls[static_cast<std::size_t>(k)]; };
+  const auto wall = [&](int k) -> const WallOf<Ball>& {
+    return walls[static_cast<std::size_t>(k)];
+  };
   if (wall(loop.walls.front()).closed) return within(wall(loop.walls.front()), P);
   for (const geometry::Vector& ray : {geometry::Vector{0.5625, 0.828125},
                                       {-0.875, 0.484375},
@@ -71,7 +73,8 @@ std::vector<WallLoop> loops_of(const Table& table) {
   return loops;
 }
 
-Containment::Containment(const std::vector<WallLoop>& loops, const BallTable& table, const BallVector& P) {
+Containment::Containment(const std::vector<WallLoop>& loops, const BallTable& table,
+                         const BallVector& P) {
   if (!table.lattice) {
     for (const WallLoop& loop : loops) ask({&loop, {}}, table, P);
     return;

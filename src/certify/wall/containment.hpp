@@ -8,7 +8,8 @@
 
 namespace carom::certify {
 
-/// Walls one after the other, back to the first: the whole boundary of the table, or that of an obstacle.
+/// Walls one after the other, back to the first: the whole boundary of the table, or that of an
+/// obstacle.
 struct WallLoop {
   std::vector<int> walls;
   bool obstacle = false;

@@ -63,8 +63,8 @@ class EllipseLength {
     return b_ * sqrt(Ball(1) - m_ * square(s));
   }
 
-  /// Encloses the angle up to which the length is `length`: Newton's steps find it nearly; how far off it is
-  /// follows from what is missing of the length and the least element.
+  /// Encloses the angle up to which the length is `length`: Newton's steps find it nearly; how far
+  /// off it is follows from what is missing of the length and the least element.
   Ball angle_at(const Ball& length, Ball guess) const {
     const slong bits = Precision::bits();
     for (slong now = std::min<slong>(bits, 64);; now = std::min(bits, 2 * now)) {
@@ -109,7 +109,8 @@ Sign past_length(const ExactSystem& system, const HoleSpec& spec, const ExactNum
   return Sign::undecided;
 }
 
-// Of a closed wall a hole is all if it is as wide, wherever it begins. `w`: the wall to the present precision.
+// Of a closed wall a hole is all if it is as wide, wherever it begins. `w`: the wall to the present
+// precision.
 bool is_all_of_its_wall(const ExactSystem& system, const HoleSpec& spec, const WallOf<Ball>& w) {
   if (sign(value_of(spec.width) - arc_length(w)) == Sign::negative) return false;
   const auto at_least = [](Sign s) { return s == Sign::zero || s == Sign::positive; };
@@ -120,7 +121,8 @@ bool is_all_of_its_wall(const ExactSystem& system, const HoleSpec& spec, const W
 
 class Cutter {
  public:
-  Cutter(const WallOf<Ball>& wall, const Ball& from, const Ball& to) : w_(wall), from_(from), to_(to) {}
+  Cutter(const WallOf<Ball>& wall, const Ball& from, const Ball& to)
+      : w_(wall), from_(from), to_(to) {}
 
   void cut(HoleOf<Ball>& hole) const {
     if (w_.form == Form::segment) {
@@ -181,9 +183,12 @@ Ball arc_length(const WallOf<Ball>& w) {
 }
 
 Sign before_start(const HoleSpec& spec) { return sign_of(end_of(spec, "-")); }
-Sign past_end(const ExactSystem& system, const HoleSpec& spec) { return past_length(system, spec, end_of(spec, "+")); }
+Sign past_end(const ExactSystem& system, const HoleSpec& spec) {
+  return past_length(system, spec, end_of(spec, "+"));
+}
 
-std::vector<HoleOf<Ball>> ball_holes(const ExactSystem& system, const std::vector<WallOf<Ball>>& walls) {
+std::vector<HoleOf<Ball>> ball_holes(const ExactSystem& system,
+                                     const std::vector<WallOf<Ball>>& walls) {
   std::vector<HoleOf<Ball>> holes;
   for (std::size_t k = 0; k < system.spec->holes.size(); ++k) {
     const HoleSpec& spec = system.spec->holes[k];

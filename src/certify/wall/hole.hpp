@@ -8,13 +8,14 @@
 
 namespace carom::certify {
 
-/// A hole where no root and no angle is needed to ask for it: on a segment two values of (P - from) . chord,
-/// on a circle or ellipse two directions from the centre, in the frame where an ellipse is a circle.
+/// A hole where no root and no angle is needed to ask for it: on a segment two values of (P - from)
+/// . chord, on a circle or ellipse two directions from the centre, in the frame where an ellipse is
+/// a circle.
 template <class Number>
 struct HoleOf {
   int hole = -1;  ///< in Table::holes
   int wall = -1;
-  bool whole = false;  ///< all of the wall
+  bool whole = false;          ///< all of the wall
   Verdict wide = Verdict::no;  ///< more than half a turn?
   Number low{}, high{};
   VectorOf<Number> first, last;
@@ -22,8 +23,11 @@ struct HoleOf {
 
 template <class To, class From, class Convert>
 HoleOf<To> converted(const HoleOf<From>& h, const Convert& convert) {
-  const auto vector = [&](const VectorOf<From>& v) { return VectorOf<To>{convert(v.x), convert(v.y)}; };
-  return {h.hole, h.wall, h.whole, h.wide, convert(h.low), convert(h.high), vector(h.first), vector(h.last)};
+  const auto vector = [&](const VectorOf<From>& v) {
+    return VectorOf<To>{convert(v.x), convert(v.y)};
+  };
+  return {h.hole,         h.wall,          h.whole,         h.wide,
+          convert(h.low), convert(h.high), vector(h.first), vector(h.last)};
 }
 
 inline Verdict both(Verdict a, Verdict b) {
@@ -34,10 +38,14 @@ inline Verdict opposite(Verdict v) {
   return v == Verdict::yes ? Verdict::no : v == Verdict::no ? Verdict::yes : v;
 }
 inline Verdict at_least_zero(Sign s) {
-  return s == Sign::undecided ? Verdict::undecided : s == Sign::negative ? Verdict::no : Verdict::yes;
+  return s == Sign::undecided  ? Verdict::undecided
+         : s == Sign::negative ? Verdict::no
+                               : Verdict::yes;
 }
 inline Verdict above_zero(Sign s) {
-  return s == Sign::undecided ? Verdict::undecided : s == Sign::positive ? Verdict::yes : Verdict::no;
+  return s == Sign::undecided  ? Verdict::undecided
+         : s == Sign::positive ? Verdict::yes
+                               : Verdict::no;
 }
 
 /// Does the point P of the wall lie in the hole (its start included, its end not)?
@@ -64,8 +72,9 @@ Verdict in_hole(const HoleOf<N>& hole, const WallOf<N>& w, const VectorOf<N>& P)
 /// Of a wall, from its start to its end, to the present precision.
 Ball arc_length(const WallOf<Ball>&);
 
-/// Signs of numbers as written, undecided where neither balls of 2^14 bits nor rational numbers tell: of the arc length at
-/// which a hole starts, and of that at which it ends less the length of its wall.
+/// Signs of numbers as written, undecided where neither balls of 2^14 bits nor rational numbers
+/// tell: of the arc length at which a hole starts, and of that at which it ends less the length of
+/// its wall.
 Sign before_start(const HoleSpec&);
 Sign past_end(const ExactSystem&, const HoleSpec&);
 
@@ -78,7 +87,8 @@ struct Passage {
   int hole = -1;  ///< in Table::holes: the one that is passed, or could not be told
 };
 template <class N>
-Passage passage(const std::vector<HoleOf<N>>& holes, int wall, const WallOf<N>& w, const VectorOf<N>& P) {
+Passage passage(const std::vector<HoleOf<N>>& holes, int wall, const WallOf<N>& w,
+                const VectorOf<N>& P) {
   Passage unknown;
   for (const HoleOf<N>& hole : holes) {
     if (hole.wall != wall) continue;

@@ -22,7 +22,9 @@ struct Source<Rational> {
   }
 };
 
-VectorOf<Rational> rational_direction(const ExactNumber& angle) { return Source<Rational>::direction(angle); }
+VectorOf<Rational> rational_direction(const ExactNumber& angle) {
+  return Source<Rational>::direction(angle);
+}
 
 TableOf<Rational> rational_table(const TableSpec& spec) { return table_of<Rational>(spec); }
 

@@ -11,8 +11,8 @@ inline bool is_zero(const VectorOf<Rational>& v) { return is_zero(v.x) && is_zer
 /// The cosine and sine of an angle: unknown but for quarters of a turn.
 VectorOf<Rational> rational_direction(const ExactNumber& angle);
 
-/// The table of a system; numbers of walls that are not rational are unknown. Throws NotRational where a shape asks
-/// for the sign of one.
+/// The table of a system; numbers of walls that are not rational are unknown. Throws NotRational
+/// where a shape asks for the sign of one.
 TableOf<Rational> rational_table(const TableSpec&);
 
 }  // namespace carom::certify

@@ -12,39 +12,46 @@
 namespace carom::certify {
 namespace {
 
-constexpr const char* off_the_walls = "a point inside, off the walls; kind = \"birkhoff\" starts on a wall";
+constexpr const char* off_the_walls =
+    "a point inside, off the walls; kind = \"birkhoff\" starts on a wall";
 
 std::string called(const ExactSystem& system, int wall) {
   return "'" + system.table->walls[static_cast<std::size_t>(wall)].name + "'";
 }
 
-// Whether a mushroom has a brim, and which way an arc turns, is read off the numbers as written and off the doubles:
-// that may differ.
+// Whether a mushroom has a brim, and which way an arc turns, is read off the numbers as written and
+// off the doubles: that may differ.
 void check_walls(const ExactSystem& system) {
   const Precision precision(bits_of_a_first_look);
   const TableSpec& spec = *system.spec;
   const std::vector<Wall>& rounded = system.table->walls;
   const auto other_walls = [&] {
-    return InputError(spec.shape_place, "the table as it was written has other walls than the same in double precision",
-                      "numbers that differ by more than the rounding of doubles");
+    return InputError(
+        spec.shape_place,
+        "the table as it was written has other walls than the same in double precision",
+        "numbers that differ by more than the rounding of doubles");
   };
   if (spec.shape == "mushroom") {
     const ExactNumber& stem = spec.numbers.at("stem_width");
-    const Sign brim =
-        sign_of(shapes::derived("2*" + shapes::quoted(spec.numbers.at("cap_radius")) + "-" + shapes::quoted(stem), stem));
+    const Sign brim = sign_of(shapes::derived(
+        "2*" + shapes::quoted(spec.numbers.at("cap_radius")) + "-" + shapes::quoted(stem), stem));
     if (brim == Sign::negative)
-      throw InputError(stem.place(), "the stem is wider than the cap", "stem_width <= 2 cap_radius");
+      throw InputError(stem.place(), "the stem is wider than the cap",
+                       "stem_width <= 2 cap_radius");
     if (brim == Sign::undecided)
       throw InputError(stem.place(), "whether the stem is as wide as the cap cannot be told",
                        "numbers that differ by more");
-    if ((brim == Sign::positive) != (system.table->wall_index("brim_left") >= 0)) throw other_walls();
+    if ((brim == Sign::positive) != (system.table->wall_index("brim_left") >= 0))
+      throw other_walls();
   }
   const BallTable table = ball_table(spec);
   for (std::size_t k = 0; k < rounded.size(); ++k) {
     const bool counterclockwise = table.walls[k].turn > 0;
-    if (const auto* arc = std::get_if<geometry::CircularArc>(&rounded[k].curve); arc && arc->counterclockwise != counterclockwise)
+    if (const auto* arc = std::get_if<geometry::CircularArc>(&rounded[k].curve);
+        arc && arc->counterclockwise != counterclockwise)
       throw other_walls();
-    if (const auto* arc = std::get_if<geometry::EllipticArc>(&rounded[k].curve); arc && arc->counterclockwise != counterclockwise)
+    if (const auto* arc = std::get_if<geometry::EllipticArc>(&rounded[k].curve);
+        arc && arc->counterclockwise != counterclockwise)
       throw other_walls();
   }
 }
@@ -55,8 +62,10 @@ void check_velocity(const ExactStart& start) {
   const auto moves = [](Sign s) { return s == Sign::positive || s == Sign::negative; };
   if (moves(x) || moves(y)) return;
   if (x == Sign::zero && y == Sign::zero)
-    throw InputError(start.direction.x.place(), "the velocity is zero", "a velocity that is not zero");
-  throw InputError(start.direction.x.place(), "the velocity cannot be told from zero", "another velocity");
+    throw InputError(start.direction.x.place(), "the velocity is zero",
+                     "a velocity that is not zero");
+  throw InputError(start.direction.x.place(), "the velocity cannot be told from zero",
+                   "another velocity");
 }
 
 void check_on_wall(const ExactSystem& system) {
@@ -81,7 +90,8 @@ void check_on_wall(const ExactSystem& system) {
     const BallVector across = w.form == Form::segment ? w.normal : normal_at<Ball, Ball>(w, P);
     const bool outwards = w.form != Form::segment && w.turn > 0;
     const Sign inwards = sign(outwards ? -dot(v, across) : dot(v, across));
-    if (inwards == Sign::negative) throw InputError(Place{}, "the velocity does not point into the domain");
+    if (inwards == Sign::negative)
+      throw InputError(Place{}, "the velocity does not point into the domain");
     if (inwards != Sign::undecided) return;
   }
 }
@@ -91,17 +101,20 @@ bool lies_on(const WallOf<Rational>& w, const VectorOf<Rational>& P) {
     return sign(a) != Sign::negative && sign(b) != Sign::negative;
   };
   if (!is_zero(level_at(w, P))) return false;
-  if (w.form == Form::segment) return none_negative(dot(P - w.from, w.chord), dot(w.to - P, w.chord));
+  if (w.form == Form::segment)
+    return none_negative(dot(P - w.from, w.chord), dot(w.to - P, w.chord));
   return is_zero(P - w.to) || on_arc(w, P) == Verdict::yes;
 }
 
-// The walls that a point lies on exactly, among those of the loops in doubt, in words. Throws NotRational.
+// The walls that a point lies on exactly, among those of the loops in doubt, in words. Throws
+// NotRational.
 std::string walls_at(const ExactSystem& system, const std::vector<LoopCopy>& in_doubt) {
   const TableOf<Rational> table = rational_table(*system.spec);
   const VectorOf<Rational> P{Rational(system.start.position.x), Rational(system.start.position.y)};
   std::string text;
   for (const LoopCopy& copy : in_doubt) {
-    const VectorOf<Rational> seen = copy.cell == geometry::Cell{} ? P : P - table.lattice->at(copy.cell);
+    const VectorOf<Rational> seen =
+        copy.cell == geometry::Cell{} ? P : P - table.lattice->at(copy.cell);
     for (const int k : copy.loop->walls)
       if (lies_on(table.walls[static_cast<std::size_t>(k)], seen))
         text += (text.empty() ? "" : " and ") + called(system, k);
@@ -112,7 +125,8 @@ std::string walls_at(const ExactSystem& system, const std::vector<LoopCopy>& in_
 void check_inside(const ExactSystem& system) {
   const ExactPoint& at = system.start.position;
   const auto refuse = [&](const std::string& why, const char* expected) {
-    throw InputError(at.x.place(), "the start (" + at.x.text() + ", " + at.y.text() + ") " + why, expected);
+    throw InputError(at.x.place(), "the start (" + at.x.text() + ", " + at.y.text() + ") " + why,
+                     expected);
   };
   const std::vector<WallLoop> loops = loops_of(*system.table);
   for (const slong bits : {bits_of_a_first_look, slong{1024}, most_bits_of_a_sign}) {

@@ -1,4 +1,5 @@
-// Tables as they were written, in any arithmetic that can enclose or hold the numbers of a system file.
+// Tables as they were written, in any arithmetic that can enclose or hold the numbers of a system
+// file.
 #pragma once
 
 #include <string>
@@ -10,8 +11,8 @@
 
 namespace carom::certify {
 
-/// How an arithmetic N takes numbers that were written: value(number), and direction(angle, part, whole), the
-/// cosine and sine of an angle plus a part of whole turns.
+/// How an arithmetic N takes numbers that were written: value(number), and direction(angle, part,
+/// whole), the cosine and sine of an angle plus a part of whole turns.
 template <class N>
 struct Source;
 
@@ -25,7 +26,9 @@ struct WallBuilder {
     return value(corner.radius) * Source<N>::direction(corner.angle, corner.part, corner.whole);
   }
 
-  WallOf<N> operator()(const shapes::WrittenSegment& s) const { return segment_wall(point(s.from), point(s.to)); }
+  WallOf<N> operator()(const shapes::WrittenSegment& s) const {
+    return segment_wall(point(s.from), point(s.to));
+  }
   WallOf<N> operator()(const shapes::WrittenArc& s) const {
     return arc_wall(point(s.from), point(s.to), point(s.centre), square(value(s.radius)), true);
   }
@@ -34,18 +37,20 @@ struct WallBuilder {
   }
   WallOf<N> operator()(const shapes::WrittenEllipse& s) const {
     const N a = value(s.a);
-    return ellipse_wall(point(s.centre), a * Source<N>::direction(s.angle), value(s.b) / a, s.counterclockwise);
+    return ellipse_wall(point(s.centre), a * Source<N>::direction(s.angle), value(s.b) / a,
+                        s.counterclockwise);
   }
   WallOf<N> operator()(const shapes::WrittenPiece& s) const {
     const VectorOf<N> from = point(s.from), to = point(s.piece.to);
     if (s.piece.kind == PieceSpec::Kind::line) return segment_wall(from, to);
-    if (s.piece.kind == PieceSpec::Kind::arc) return arc_through(from, point(s.piece.via), to, s.piece.place);
+    if (s.piece.kind == PieceSpec::Kind::arc)
+      return arc_through(from, point(s.piece.via), to, s.piece.place);
     return elliptic_arc(from, s.piece);
   }
 
  private:
-  static WallOf<N> arc_through(const VectorOf<N>& from, const VectorOf<N>& via, const VectorOf<N>& to,
-                               const Place& place) {
+  static WallOf<N> arc_through(const VectorOf<N>& from, const VectorOf<N>& via,
+                               const VectorOf<N>& to, const Place& place) {
     const VectorOf<N> c = to - from, f = via - from;
     const N turn = cross(f, c);  // > 0: counter-clockwise
     const Sign side = sign(turn);
@@ -60,7 +65,9 @@ struct WallBuilder {
   static WallOf<N> elliptic_arc(const VectorOf<N>& from, const PieceSpec& piece) {
     const VectorOf<N> axis = Source<N>::direction(piece.angle), other = left(axis);
     const N ratio = Source<N>::value(piece.ratio);
-    const auto seen = [&](const VectorOf<N>& P) { return VectorOf<N>{dot(P, axis), dot(P, other) / ratio}; };
+    const auto seen = [&](const VectorOf<N>& P) {
+      return VectorOf<N>{dot(P, axis), dot(P, other) / ratio};
+    };
     const VectorOf<N> to = point(piece.to);
     const WallOf<N> circle = arc_through(seen(from), seen(point(piece.via)), seen(to), piece.place);
     const VectorOf<N> centre = circle.centre.x * axis + (ratio * circle.centre.y) * other;
@@ -73,7 +80,8 @@ TableOf<N> table_of(const TableSpec& spec) {
   TableOf<N> table;
   const shapes::Shape shape = shapes::written_shape(spec);
   for (const shapes::Chain& chain : shape.loops)
-    for (const shapes::NamedCurve& wall : chain) table.walls.push_back(std::visit(WallBuilder<N>{}, wall.curve));
+    for (const shapes::NamedCurve& wall : chain)
+      table.walls.push_back(std::visit(WallBuilder<N>{}, wall.curve));
   if (const auto& lattice = spec.lattice ? spec.lattice : shape.lattice)
     table.lattice = {WallBuilder<N>::point(lattice->first), WallBuilder<N>::point(lattice->second)};
   return table;

@@ -17,21 +17,23 @@ enum class Form : unsigned char { segment, circle, ellipse };
 template <class Number>
 struct WallOf {
   Form form = Form::segment;
-  bool closed = false;       ///< a full circle or ellipse, without joints
-  double turn = 1.0;         ///< +1 counter-clockwise (the domain is inside), -1 clockwise
+  bool closed = false;  ///< a full circle or ellipse, without joints
+  double turn = 1.0;    ///< +1 counter-clockwise (the domain is inside), -1 clockwise
   VectorOf<Number> from, to;
-  VectorOf<Number> chord;    ///< to - from
-  VectorOf<Number> normal;   ///< segment: left(chord)
-  Number double_inverse{};   ///< segment: 2/(normal . normal); circle: 2/radius^2
+  VectorOf<Number> chord;   ///< to - from
+  VectorOf<Number> normal;  ///< segment: left(chord)
+  Number double_inverse{};  ///< segment: 2/(normal . normal); circle: 2/radius^2
   VectorOf<Number> centre;
-  Number radius2{};          ///< circle: radius^2
+  Number radius2{};                ///< circle: radius^2
   VectorOf<Number> along, across;  ///< ellipse: axes over squared semi-axes
 };
 
 /// The same wall in another arithmetic.
 template <class To, class From, class Convert>
 WallOf<To> converted(const WallOf<From>& w, const Convert& convert) {
-  const auto vector = [&](const VectorOf<From>& v) { return VectorOf<To>{convert(v.x), convert(v.y)}; };
+  const auto vector = [&](const VectorOf<From>& v) {
+    return VectorOf<To>{convert(v.x), convert(v.y)};
+  };
   WallOf<To> r;
   r.form = w.form;
   r.closed = w.closed;
@@ -102,8 +104,9 @@ WallOf<N> ellipse_wall(const VectorOf<N>& centre, const VectorOf<N>& axis, const
 
 /// An arc of such an ellipse.
 template <class N>
-WallOf<N> elliptic_arc_wall(const VectorOf<N>& from, const VectorOf<N>& to, const VectorOf<N>& centre,
-                            const VectorOf<N>& axis, const N& ratio, bool counterclockwise) {
+WallOf<N> elliptic_arc_wall(const VectorOf<N>& from, const VectorOf<N>& to,
+                            const VectorOf<N>& centre, const VectorOf<N>& axis, const N& ratio,
+                            bool counterclockwise) {
   WallOf<N> w = ellipse_wall(centre, axis, ratio, counterclockwise);
   w.closed = false;
   w.from = from;
@@ -118,7 +121,8 @@ VectorOf<Number> in_round_frame(const WallOf<Number>& w, const VectorOf<Number>&
   return w.form == Form::ellipse ? VectorOf<Number>{dot(d, w.along), dot(d, w.across)} : d;
 }
 
-/// Zero on the wall's line, circle or ellipse, positive on the left of the line and outside of the others.
+/// Zero on the wall's line, circle or ellipse, positive on the left of the line and outside of the
+/// others.
 template <class Number>
 Number level_at(const WallOf<Number>& w, const VectorOf<Number>& P) {
   if (w.form == Form::segment) return dot(P - w.from, w.normal);
@@ -126,7 +130,8 @@ Number level_at(const WallOf<Number>& w, const VectorOf<Number>& P) {
   return (square(e.x) + square(e.y)) - (w.form == Form::ellipse ? Number(1) : w.radius2);
 }
 
-/// Across a wall at a point of it, of any length: outwards from a circle or ellipse (a segment has one normal).
+/// Across a wall at a point of it, of any length: outwards from a circle or ellipse (a segment has
+/// one normal).
 template <class Number, class Constant>
 VectorOf<Number> normal_at(const WallOf<Constant>& w, const VectorOf<Number>& P) {
   const VectorOf<Number> e{P.x - w.centre.x, P.y - w.centre.y};
@@ -138,11 +143,11 @@ VectorOf<Number> normal_at(const WallOf<Constant>& w, const VectorOf<Number>& P)
 /// What does not change along an orbit.
 template <class Number>
 struct MotionOf {
-  Number speed2{};         ///< |v|^2
+  Number speed2{};  ///< |v|^2
   Number inverse_speed2{};
-  bool turns = false;      ///< in a magnetic field:
-  Number half_omega{};     ///< omega/2; the velocity turns clockwise by omega t
-  long time_bits = 64;     ///< precision of the time from the arctangent
+  bool turns = false;   ///< in a magnetic field:
+  Number half_omega{};  ///< omega/2; the velocity turns clockwise by omega t
+  long time_bits = 64;  ///< precision of the time from the arctangent
 };
 
 /// Where a flight meets a wall, and the velocity after it.

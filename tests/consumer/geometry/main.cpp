@@ -6,7 +6,8 @@ using namespace carom::geometry;
 // A disc inside an ellipse is a sound region; a disc that crosses it is not.
 int main() {
   const Loop ellipse{{"ellipse", Ellipse{.centre = {0, 0}, .axis = {2, 0}, .ratio = 0.5}}};
-  const Loop inside{{"disc", Circle{.centre = {0.5, 0}, .radius = 0.25, .counterclockwise = false}}};
+  const Loop inside{
+      {"disc", Circle{.centre = {0.5, 0}, .radius = 0.25, .counterclockwise = false}}};
   const Loop across{{"disc", Circle{.centre = {2, 0}, .radius = 0.25, .counterclockwise = false}}};
   const auto sound = check_region({ellipse, inside}, RegionKind::bounded);
   const auto faults = check_region({ellipse, across}, RegionKind::bounded);

@@ -10,8 +10,8 @@ namespace carom::geometry {
 
 /// An open strip along a lattice vector that no obstacle enters.
 struct Corridor {
-  Cell direction;      ///< coefficients of `along`: coprime, first > 0, or first == 0 and second == 1
-  Vector along;        ///< shortest lattice vector of that direction
+  Cell direction;  ///< coefficients of `along`: coprime, first > 0, or first == 0 and second == 1
+  Vector along;    ///< shortest lattice vector of that direction
   double width = 0.0;  ///< > 0, rounded
 };
 
@@ -21,7 +21,8 @@ struct Corridors {
   /// False where there were too many directions to look at all of them: then only those with the
   /// shortest vectors, which hold the widest corridors of a single obstacle, have been.
   bool complete = true;
-  /// False where a wall is an arc of an ellipse, for which this is not decided: then the list is empty.
+  /// False where a wall is an arc of an ellipse, for which this is not decided: then the list is
+  /// empty.
   bool decided = true;
 };
 
@@ -31,8 +32,8 @@ struct Corridors {
 /// leave none. The walls must close to loops, each loop's walls one after the other.
 Corridors free_corridors(const Lattice&, const std::vector<Curve>& walls);
 
-/// The limit of t P(t) where P(t) is the share of straight flights of unit speed without a hit until
-/// t, when starts are uniform in the free area of a cell: sum of width^2 |along| / (pi area).
+/// The limit of t P(t) where P(t) is the share of straight flights of unit speed without a hit
+/// until t, when starts are uniform in the free area of a cell: sum of width^2 |along| / (pi area).
 double flight_tail(const Corridors&, double free_area);
 
 }  // namespace carom::geometry

@@ -11,8 +11,8 @@
 //   which is the quarter turn of the metric M(e, f) = k^2 (e.p)(f.p) + (e.q)(f.q), scaled.
 //
 // Parameter u. Segment: A + u (B - A), 0 <= u < 1. The others: u = n + w, where n counts quarter
-// turns (of the metric M) from the start and w in [0, 1) is the tangent of half the remaining angle:
-// with a = start - centre and b its quarter turn in the direction of travel,
+// turns (of the metric M) from the start and w in [0, 1) is the tangent of half the remaining
+// angle: with a = start - centre and b its quarter turn in the direction of travel,
 //   centre + ((1 - w^2) a + 2 w b)/(1 + w^2)           for n = 0,
 // and (a, b) -> (b, -a) for each further quarter. Full circles and ellipses: 0 <= u < 4.
 // docs/physics/exactness.md derives what follows from this.
@@ -30,7 +30,8 @@ struct Segment {
   Vector from, to;
 };
 
-/// A circular arc, exactly through both of its ends; its centre lies `offset` chords from the chord.
+/// A circular arc, exactly through both of its ends; its centre lies `offset` chords from the
+/// chord.
 struct CircularArc {
   Vector from, to;
   double offset = 0.0;  ///< 0: half circle; > 0: centre on the left of from -> to
@@ -83,8 +84,8 @@ Vector tangent_at(const Curve&, double u);
 Vector normal_at(const Curve&, double u);
 /// Signed curvature: positive where the curve turns left (towards the domain: focusing).
 double curvature_at(const Curve&, double u);
-/// Parameter of the point of the curve nearest in angle to `point`, which lies on it up to rounding;
-/// clamped to [first_parameter, last_parameter].
+/// Parameter of the point of the curve nearest in angle to `point`, which lies on it up to
+/// rounding; clamped to [first_parameter, last_parameter].
 double parameter_of(const Curve&, Vector point);
 
 /// Total length, length from the start to u, and its inverse (clamped to the curve).

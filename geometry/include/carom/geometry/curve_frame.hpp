@@ -15,13 +15,13 @@ struct CurveFrame : Frame<double> {
   Vector middle;       ///< centre, rounded
   double major = 0.0;  ///< semi-axes (radius of a circle, length of a segment)
   double minor = 0.0;
-  /// Cosine and sine of the eccentric angle of the start, counted in the direction of travel from an
-  /// end of the minor axis.
+  /// Cosine and sine of the eccentric angle of the start, counted in the direction of travel from
+  /// an end of the minor axis.
   Vector phase{1.0, 0.0};
 };
 
-/// Costs about 4 µs (exact arithmetic): make it once a curve. Throws std::invalid_argument for a curve without extent
-/// (zero length, radius, axis or ratio).
+/// Costs about 4 µs (exact arithmetic): make it once a curve. Throws std::invalid_argument for a
+/// curve without extent (zero length, radius, axis or ratio).
 CurveFrame frame_of(const Curve&);
 
 inline Vector point_at(const CurveFrame& f, double u) {

@@ -2,8 +2,8 @@
 //
 // The boundary is a list of pieces: curves, each possibly displaced by a lattice vector. A flight
 // starts at the exact point of a piece or at two doubles. All answers are signs of polynomials in
-// these numbers, evaluated in integer arithmetic; quartics (a Larmor circle against an ellipse) go to
-// CGAL's algebraic kernel.
+// these numbers, evaluated in integer arithmetic; quartics (a Larmor circle against an ellipse) go
+// to CGAL's algebraic kernel.
 //
 // Laws, each a test:
 // (1) side(joint) of two pieces that share a joint is one number: no flight slips between them.
@@ -28,8 +28,8 @@ struct Piece {
   bool edge = false;  ///< edge of the lattice cell: it leads on instead of reflecting
 };
 
-/// The pieces of a table in integers, for decisions that are always right. Each piece is made when it is first
-/// asked about: a boundary belongs to one thread.
+/// The pieces of a table in integers, for decisions that are always right. Each piece is made when
+/// it is first asked about: a boundary belongs to one thread.
 class ExactBoundary {
  public:
   ExactBoundary(const std::vector<Piece>& pieces, Vector first, Vector second);
@@ -48,7 +48,8 @@ class ExactBoundary {
   };
   Corner corner(int previous, int next) const;
 
-  /// Are both pieces, wherever they are displaced to, of one ellipse, given by the same axis and ratio?
+  /// Are both pieces, wherever they are displaced to, of one ellipse, given by the same axis and
+  /// ratio?
   bool same_ellipse(int first, int second) const;
 
   struct Data;
@@ -70,14 +71,15 @@ class ExactFlight {
   /// What lies first ahead among the given pieces, all displaced by `cell`.
   struct First {
     enum class Kind { none, exit, joint, cusp } kind = Kind::none;
-    int piece = -1;  ///< the piece left through, or the one that starts at the joint
-    int root = 0;    ///< which of the piece's exits, counted along the flight (quartics only)
+    int piece = -1;      ///< the piece left through, or the one that starts at the joint
+    int root = 0;        ///< which of the piece's exits, counted along the flight (quartics only)
     double kappa = 0.0;  ///< rounded, for the rare crossing that doubles cannot resolve
   };
   /// `entry`: the edge through which the flight came into this cell, or -1. Exits through edges
   /// before that crossing do not count. `start` tells which piece of the list, if any, is the one
   /// the particle stands on, and `start_previous` the one that ends there if it stands on a joint.
-  First first(const std::vector<int>& pieces, Cell cell, int entry, int start, int start_previous) const;
+  First first(const std::vector<int>& pieces, Cell cell, int entry, int start,
+              int start_previous) const;
 
   /// Side of the flight on which the exact point u of a piece lies (u < 0: its end).
   Sign side(int piece, double u, Cell cell) const;

@@ -1,9 +1,10 @@
 // Error bounds of the formulas in double precision: the first stage of every decision.
 //
-// Notation: u = 2^-53; the start P of a flight is known to `delta` a coordinate; |.|_1 is the sum of
-// absolute coordinates; s the speed, V = |v|_1, w = |omega|. Each bound is derived in
+// Notation: u = 2^-53; the start P of a flight is known to `delta` a coordinate; |.|_1 is the sum
+// of absolute coordinates; s the speed, V = |v|_1, w = |omega|. Each bound is derived in
 // docs/physics/exactness.md; products of two roundings are covered by the last digit of a constant.
-// No bound is tuned: tests check that the largest error over 10^7 cases is between 1 % and 100 % of it.
+// No bound is tuned: tests check that the largest error over 10^7 cases is between 1 % and 100 % of
+// it.
 #pragma once
 
 #include <cmath>
@@ -23,23 +24,29 @@ struct FlightScale {
 
 /// Error of side_of_flight for d = J - P with |d|_1 = d1.
 inline double side_error(const FlightScale& f, double d1) {
-  // 2 cross(v, d): with S = |v_x d_y| + |v_y d_x| <= V d1, d errs by delta and by u of itself: 2 V delta + 2u S;
-  // two products and their difference 4u S; the last sum 2u S: together 2 V (delta + 4u d1).
-  // omega d.d: 2 w (d1 delta + delta^2) and 2u w d1^2 from d, products, sum and factor 3u, the last sum u:
-  // together 2 w (d1 + delta)(delta + 3u d1).
-  return f.inflation * 2.01 * (f.speed_1 + f.omega * (d1 + f.delta)) * (f.delta + 4.1 * unit_roundoff * d1);
+  // 2 cross(v, d): with S = |v_x d_y| + |v_y d_x| <= V d1, d errs by delta and by u of itself: 2 V
+  // delta + 2u S; two products and their difference 4u S; the last sum 2u S: together 2 V (delta +
+  // 4u d1). omega d.d: 2 w (d1 delta + delta^2) and 2u w d1^2 from d, products, sum and factor 3u,
+  // the last sum u: together 2 w (d1 + delta)(delta + 3u d1).
+  return f.inflation * 2.01 * (f.speed_1 + f.omega * (d1 + f.delta)) *
+         (f.delta + 4.1 * unit_roundoff * d1);
 }
 
-/// Errors of what is made of centre_of_circle for joints at an l1 distance of at most d: of |c|^2 - |v|^2, with |v|^2
-/// the energy shell's; and of lengths compared on a segment: |v| - |cross(t, c)|, dot(t, c), omega L - dot(t, c).
+/// Errors of what is made of centre_of_circle for joints at an l1 distance of at most d: of |c|^2 -
+/// |v|^2, with |v|^2 the energy shell's; and of lengths compared on a segment: |v| - |cross(t, c)|,
+/// dot(t, c), omega L - dot(t, c).
 struct CentreError {
   double joint, segment;
 };
 inline CentreError centre_error(const FlightScale& f, double d) {
-  // |c|_1 <= size. Each coordinate: omega delta, and u from the difference, the product and the sum.
-  const double u = unit_roundoff, size = f.omega * d + f.speed_1, c = f.omega * f.delta + 3.1 * u * size;
-  // Squares and sum 2u, the difference 2u, the shell 64u. Tangent 5u, product, difference; |v| 33u; L 5u, last sums.
-  return {f.inflation * (2.01 * c * (size + c) + 70.0 * u * size * size), f.inflation * (1.42 * c + 44.0 * u * size)};
+  // |c|_1 <= size. Each coordinate: omega delta, and u from the difference, the product and the
+  // sum.
+  const double u = unit_roundoff, size = f.omega * d + f.speed_1,
+               c = f.omega * f.delta + 3.1 * u * size;
+  // Squares and sum 2u, the difference 2u, the shell 64u. Tangent 5u, product, difference; |v| 33u;
+  // L 5u, last sums.
+  return {f.inflation * (2.01 * c * (size + c) + 70.0 * u * size * size),
+          f.inflation * (1.42 * c + 44.0 * u * size)};
 }
 
 /// Errors of the coefficients of a quadratic.
@@ -47,10 +54,11 @@ struct QuadraticError {
   double a, b, c;
 };
 
-/// Line, e = P - A with |e|_1 = e1. Each coordinate of the unit tangent errs by 5u of itself: the direction cut
-/// off (2u), its length (2u, of which the cut takes back its own), the quotient (u). With the sum of the two
-/// products' sizes S <= |e|_2:  a: 1.42 delta + (5u + e u + product u + difference u) S;
-/// b: half of 5u + 2u of S' <= V;  c: n a with two roundings and the last, and half of w (5u + 2u + u + u) V.
+/// Line, e = P - A with |e|_1 = e1. Each coordinate of the unit tangent errs by 5u of itself: the
+/// direction cut off (2u), its length (2u, of which the cut takes back its own), the quotient (u).
+/// With the sum of the two products' sizes S <= |e|_2:  a: 1.42 delta + (5u + e u + product u +
+/// difference u) S; b: half of 5u + 2u of S' <= V;  c: n a with two roundings and the last, and
+/// half of w (5u + 2u + u + u) V.
 inline QuadraticError line_error(const FlightScale& f, double e1) {
   const double u = unit_roundoff;
   const double a = 1.42 * f.delta + 8.0 * u * e1;
@@ -59,8 +67,10 @@ inline QuadraticError line_error(const FlightScale& f, double e1) {
           f.inflation * (n * (a + 4.1 * u * e1) + 4.6 * u * f.omega * f.speed_1)};
 }
 
-/// Circle: e = P - C with |e|_1 = e1; the centre errs by `centre_error`, the squared radius by 2u r2.
-inline QuadraticError circle_error(const FlightScale& f, double e1, double centre_error, double r2) {
+/// Circle: e = P - C with |e|_1 = e1; the centre errs by `centre_error`, the squared radius by 2u
+/// r2.
+inline QuadraticError circle_error(const FlightScale& f, double e1, double centre_error,
+                                   double r2) {
   const double u = unit_roundoff;
   const double eta = f.delta + centre_error + 1.01 * u * e1;
   const double a = 2.01 * e1 * eta + 2.01 * eta * eta + u * (3.1 * e1 * e1 + 4.1 * r2);
@@ -71,13 +81,15 @@ inline QuadraticError circle_error(const FlightScale& f, double e1, double centr
   return {f.inflation * a, f.inflation * b, f.inflation * c};
 }
 
-/// Ellipse without field, in the frame in which it is the unit circle: `row` bounds the l1 norm of the
-/// rows of the map, whose entries err by 4u relative; e = P - C with |e|_1 = e1.
-inline QuadraticError ellipse_error(const FlightScale& f, double e1, double centre_error, double row) {
+/// Ellipse without field, in the frame in which it is the unit circle: `row` bounds the l1 norm of
+/// the rows of the map, whose entries err by 4u relative; e = P - C with |e|_1 = e1.
+inline QuadraticError ellipse_error(const FlightScale& f, double e1, double centre_error,
+                                    double row) {
   const double u = unit_roundoff;
-  const double eta = row * (f.delta + centre_error + 9.1 * u * e1);  // of each mapped coordinate of e
-  const double m = 2.01 * row * e1, n = 2.01 * row * f.speed_1;      // mapped |e|_1, |v|_1
-  const double nu = 8.1 * u * row * f.speed_1;                       // of each mapped coordinate of v
+  const double eta =
+      row * (f.delta + centre_error + 9.1 * u * e1);             // of each mapped coordinate of e
+  const double m = 2.01 * row * e1, n = 2.01 * row * f.speed_1;  // mapped |e|_1, |v|_1
+  const double nu = 8.1 * u * row * f.speed_1;                   // of each mapped coordinate of v
   return {f.inflation * (2.01 * m * eta + 2.01 * eta * eta + 3.1 * u * (m * m + 1.0)),
           f.inflation * (m * nu + n * eta + 2.01 * nu * eta + 2.1 * u * m * n),
           f.inflation * (2.01 * n * nu + 2.01 * nu * nu + 2.1 * u * n * n)};
@@ -102,7 +114,8 @@ inline Root falling_root(const Quadratic<double>& q) { return rising_root(-q); }
 /// Error of the discriminant.
 inline double discriminant_error(const Quadratic<double>& q, const QuadraticError& e) {
   const double a = std::fabs(q.a), b = std::fabs(q.b), c = std::fabs(q.c);
-  return 2.0 * b * e.b + e.b * e.b + a * e.c + c * e.a + e.a * e.c + 3.1 * unit_roundoff * (b * b + a * c);
+  return 2.0 * b * e.b + e.b * e.b + a * e.c + c * e.a + e.a * e.c +
+         3.1 * unit_roundoff * (b * b + a * c);
 }
 
 /// Error of kappa; infinite where the discriminant could be zero or the divisor could vanish.
@@ -117,11 +130,12 @@ inline double kappa_error(const Quadratic<double>& q, const QuadraticError& e, c
   const double divisor_error = q.b <= 0.0 ? e.a : n_error;
   const double numerator_error = q.b <= 0.0 ? n_error : e.c;
   if (!(divisor > divisor_error)) return HUGE_VAL;
-  return (numerator_error + k * divisor_error) / (divisor - divisor_error) + 2.1 * unit_roundoff * k;
+  return (numerator_error + k * divisor_error) / (divisor - divisor_error) +
+         2.1 * unit_roundoff * k;
 }
 
-/// Error of each coordinate of the point at kappa, when kappa errs by `kappa_error` and |x - P|_1 = d1:
-/// |dx/dkappa| = |v| / (kappa^2 + omega^2/4).
+/// Error of each coordinate of the point at kappa, when kappa errs by `kappa_error` and |x - P|_1 =
+/// d1: |dx/dkappa| = |v| / (kappa^2 + omega^2/4).
 inline double point_error(const FlightScale& f, double kappa, double kappa_error, double d1) {
   const double low = std::fabs(kappa) - kappa_error;
   const double n = (low > 0.0 ? low * low : 0.0) + 0.249 * f.omega * f.omega;

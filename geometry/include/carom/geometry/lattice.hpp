@@ -22,9 +22,10 @@ struct CellEdge {
   Cell beyond;
 };
 
-/// A lattice with its cell: the convex region around the origin bounded by the bisectors towards the
-/// six (or four) nearest lattice vectors (the Voronoi cell), shifted by `centre`. Lattice vectors and
-/// cell corners lie on one binary grid, so that translates of an edge by a lattice vector are exact.
+/// A lattice with its cell: the convex region around the origin bounded by the bisectors towards
+/// the six (or four) nearest lattice vectors (the Voronoi cell), shifted by `centre`. Lattice
+/// vectors and cell corners lie on one binary grid, so that translates of an edge by a lattice
+/// vector are exact.
 struct Lattice {
   Vector first, second;
   std::vector<CellEdge> edges;
@@ -35,13 +36,16 @@ struct Lattice {
   }
   /// The point x as it is seen from the cell c.
   Vector seen_from(const Cell& c, const Vector& x) const {
-    return less_multiples(x, static_cast<double>(c.first), first, static_cast<double>(c.second), second);
+    return less_multiples(x, static_cast<double>(c.first), first, static_cast<double>(c.second),
+                          second);
   }
-  double cell_area() const { return cross(first, second) < 0 ? -cross(first, second) : cross(first, second); }
+  double cell_area() const {
+    return cross(first, second) < 0 ? -cross(first, second) : cross(first, second);
+  }
 };
 
-/// Builds the lattice and its cell about `centre`. The vectors are rounded once to a grid of 2^-51 of
-/// the largest component. Throws std::invalid_argument if they are parallel or zero.
+/// Builds the lattice and its cell about `centre`. The vectors are rounded once to a grid of 2^-51
+/// of the largest component. Throws std::invalid_argument if they are parallel or zero.
 Lattice make_lattice(Vector first, Vector second, Vector centre);
 
 }  // namespace carom::geometry

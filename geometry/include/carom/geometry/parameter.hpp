@@ -3,9 +3,9 @@
 // rounded once from its exact value.
 //
 // A conic is run through as  centre + X a + Y b,  X = (1 - w^2)/(1 + w^2), Y = 2w/(1 + w^2)  in its
-// first quarter; a further quarter turns (a, b) into (b, -a). Back, X and Y are linear in the point.
-// Arcs are measured from their start, not from their centre: a flat arc has its centre far away, and
-// everything that is rounded there is as large as the radius.
+// first quarter; a further quarter turns (a, b) into (b, -a). Back, X and Y are linear in the
+// point. Arcs are measured from their start, not from their centre: a flat arc has its centre far
+// away, and everything that is rounded there is as large as the radius.
 //
 // No container and no function of the standard library here: lanes instantiate these templates.
 #pragma once
@@ -17,11 +17,12 @@ namespace carom::geometry {
 /// What the map from the parameter u to a point and back needs of a curve, in one kind of number.
 template <class Number>
 struct Frame {
-  BasicVector<Number> origin;         ///< start of a segment or arc; centre of a closed curve
-  BasicVector<Number> a, b;           ///< start - centre and its quarter turn; segment: a = to - from
-  BasicVector<Number> along, across;  ///< X = start + along . (P - origin), Y = across . (P - origin)
-  Number start{};                     ///< 1 for arcs, 0 for closed curves
-  Number end{}, last{};               ///< end_parameter, last_parameter
+  BasicVector<Number> origin;  ///< start of a segment or arc; centre of a closed curve
+  BasicVector<Number> a, b;    ///< start - centre and its quarter turn; segment: a = to - from
+  BasicVector<Number> along,
+      across;            ///< X = start + along . (P - origin), Y = across . (P - origin)
+  Number start{};        ///< 1 for arcs, 0 for closed curves
+  Number end{}, last{};  ///< end_parameter, last_parameter
 };
 
 namespace detail {
@@ -68,7 +69,8 @@ constexpr Quarter<Number> quarter_of(const Number& x, const Number& y) {
   const Number n = choose(ahead, choose(front, zero, one), choose(back, two, three));
   return {n, quarter_turn(n)};
 }
-inline constexpr Quarter<double> quarters[] = {{0, {1, 0}}, {1, {0, 1}}, {2, {-1, 0}}, {3, {0, -1}}};
+inline constexpr Quarter<double> quarters[] = {
+    {0, {1, 0}}, {1, {0, 1}}, {2, {-1, 0}}, {3, {0, -1}}};
 /// The same by looking it up: a processor cannot guess the quarter.
 constexpr const Quarter<double>& quarter_of(const double& x, const double& y) {
   const unsigned front = x > 0.0, back = x < 0.0;
@@ -84,12 +86,12 @@ constexpr BasicVector<Number> segment_point(const Frame<Number>& f, const Number
   return f.origin + u * f.a;
 }
 
-/// Point of a conic. Written as a displacement from the start of the quarter, 2w (b - w a)/(1 + w^2),
-/// which is small with w. With U = 2^-53 and one coordinate at a time: w^2, 1 + w^2 and the quotient
-/// cost 3U, b and w a as stored and rounded and their difference 3U, the product U; the start of a
-/// further quarter, a sum of two stored numbers, 2U; the last two sums U of the result and of the
-/// displacement. Together: error <= U |result| + 10 U (|a| + |b|), the latter times min(1, 2w) in the
-/// first quarter.
+/// Point of a conic. Written as a displacement from the start of the quarter, 2w (b - w a)/(1 +
+/// w^2), which is small with w. With U = 2^-53 and one coordinate at a time: w^2, 1 + w^2 and the
+/// quotient cost 3U, b and w a as stored and rounded and their difference 3U, the product U; the
+/// start of a further quarter, a sum of two stored numbers, 2U; the last two sums U of the result
+/// and of the displacement. Together: error <= U |result| + 10 U (|a| + |b|), the latter times
+/// min(1, 2w) in the first quarter.
 template <class Number>
 constexpr BasicVector<Number> conic_point(const Frame<Number>& f, const Number& u) {
   const Number one(1);

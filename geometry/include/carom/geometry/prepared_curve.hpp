@@ -1,4 +1,5 @@
-// A curve made ready for flights in double precision: rounded images of its exact data, with bounds.
+// A curve made ready for flights in double precision: rounded images of its exact data, with
+// bounds.
 //
 // u = 2^-53 below; every bound is absolute and per coordinate (docs/physics/exactness.md).
 #pragma once
@@ -28,45 +29,45 @@ struct PreparedCurve {
 
   // Circle and ellipse.
   Vector centre;
-  double r2 = 0.0;            ///< circle: squared radius
-  double weight = 0.0;        ///< circle: 1 / (2 r2) …
-  double strength = 0.0;      ///< … and four times as much
-  double off_power = 1.0;     ///< circle: 1 or 0.75, such that off_power r2 is not near a power of two
+  double r2 = 0.0;         ///< circle: squared radius
+  double weight = 0.0;     ///< circle: 1 / (2 r2) …
+  double strength = 0.0;   ///< … and four times as much
+  double off_power = 1.0;  ///< circle: 1 or 0.75, such that off_power r2 is not near a power of two
   double parameter_stretch = 0.0;  ///< bounds |du| / |dx|_1
-  double centre_error = 0.0;  ///< of `centre`
+  double centre_error = 0.0;       ///< of `centre`
   // Ellipse: rows of the map to the unit circle of its axes, in which flights are intersected.
   Vector first_axis, second_axis;
-  Vector first_direction, second_direction;       ///< the same as unit vectors …
-  double first_weight = 0.0, second_weight = 0.0; ///< … with the squares of their lengths
-  double extent = 0.0;        ///< largest |coordinate| on the curve, rounded up
+  Vector first_direction, second_direction;        ///< the same as unit vectors …
+  double first_weight = 0.0, second_weight = 0.0;  ///< … with the squares of their lengths
+  double extent = 0.0;  ///< largest |coordinate| on the curve, rounded up
 
-  double point_error = 0.0;   ///< of point(u), and of settle(x) against point(parameter(x))
-  double normal_error = 0.0;  ///< of a normal, relative to its l1 norm …
-  double normal_bound = 0.0;  ///< … and in the l1 norm itself, for any normal of this curve
+  double point_error = 0.0;    ///< of point(u), and of settle(x) against point(parameter(x))
+  double normal_error = 0.0;   ///< of a normal, relative to its l1 norm …
+  double normal_bound = 0.0;   ///< … and in the l1 norm itself, for any normal of this curve
   CurveFrame parametrisation;  ///< u to the point and back
 
   explicit PreparedCurve(const Curve& curve);
 
   /// Rounded image of the exact point at u, u in [0, end).
   Vector point(double u) const { return point_at(parametrisation, u); }
-  /// A point on the curve with a normal n into the domain, of any length, and square = k |n|^2, where k is
-  /// a short number that keeps squares about r^2 off the powers of two.
+  /// A point on the curve with a normal n into the domain, of any length, and square = k |n|^2,
+  /// where k is a short number that keeps squares about r^2 off the powers of two.
   struct Frame {
     Vector point, normal;
     double square = 1.0;
     double k = 1.0;
   };
-  /// The frame at a point that is on the curve up to rounding, which is brought back to it: hits on one
-  /// wall do not add up their errors across it. The normal of a conic keeps its length, for dividing by
-  /// its own square leaves no bias from hit to hit, as a rounded radius would.
+  /// The frame at a point that is on the curve up to rounding, which is brought back to it: hits on
+  /// one wall do not add up their errors across it. The normal of a conic keeps its length, for
+  /// dividing by its own square leaves no bias from hit to hit, as a rounded radius would.
   [[gnu::always_inline]] Frame settle(Vector x) const {
     return kind == CurveKind::segment  ? settle_on_segment(x)
            : kind == CurveKind::circle ? settle_on_circle(x)
                                        : settle_on_ellipse(x);
   }
-  /// Where a particle arrives at x with velocity v: the frame there, the parameter, and the factor of its
-  /// reflection. The same numbers as one by one, with one question for the kind of curve; and set number by
-  /// number, so that none waits for another.
+  /// Where a particle arrives at x with velocity v: the frame there, the parameter, and the factor
+  /// of its reflection. The same numbers as one by one, with one question for the kind of curve;
+  /// and set number by number, so that none waits for another.
   struct Arrival {
     Vector point, normal;
     double factor = 0.0;
@@ -84,7 +85,8 @@ struct PreparedCurve {
         reflect_by(settle_on_ellipse(x), v, a);
       a.u = conic_parameter(parametrisation, a.point, first_parameter);
     }
-    if (!(a.u > first_parameter && a.u < last())) [[unlikely]] reflect_by(frame(a.u), v, a);  // put there, off the joints
+    if (!(a.u > first_parameter && a.u < last())) [[unlikely]]
+      reflect_by(frame(a.u), v, a);  // put there, off the joints
   }
   Frame frame(double u) const {
     const Frame f = settle(point(u));
@@ -98,7 +100,8 @@ struct PreparedCurve {
   [[gnu::always_inline]] void arrive_on_circle(Vector x, Vector v, Arrival& a) const {
     const Vector d = x - centre;
     const double step = step_of_length(weight * d, d);
-    if (!(std::fabs(step) < longest_step)) [[unlikely]] return arrive_from_far(d, v, a);
+    if (!(std::fabs(step) < longest_step)) [[unlikely]]
+      return arrive_from_far(d, v, a);
     const Vector on = moved(x, step, d);
     a.point.x = on.x;
     a.point.y = on.y;
@@ -106,7 +109,8 @@ struct PreparedCurve {
     a.normal.y = -orientation * d.y;
     a.factor = -orientation * reflection_factor_on_circle(v, d, strength, step);
   }
-  /// On a circle much smaller than the distance that was flown rounding leaves the point farther off than one step mends.
+  /// On a circle much smaller than the distance that was flown rounding leaves the point farther
+  /// off than one step mends.
   void arrive_from_far(Vector d, Vector v, Arrival& a) const {
     const double scale = std::sqrt(0.5 / dot(weight * d, d));
     const Vector near{scale * d.x, scale * d.y};
@@ -126,9 +130,12 @@ struct PreparedCurve {
     const Vector outward = -left(tangent);
     return {moved(x, step_to_line(x - from, outward), outward), left(tangent), 1.0, 1.0};
   }
-  [[gnu::always_inline]] Frame settle_on_circle(Vector x) const { return settle_on_circle(x, x - centre); }
+  [[gnu::always_inline]] Frame settle_on_circle(Vector x) const {
+    return settle_on_circle(x, x - centre);
+  }
   [[gnu::always_inline]] Frame settle_on_circle(Vector x, Vector e) const {
-    return {moved(x, step_of_length(weight * e, e), e), -orientation * e, dot(off_power * e, e), off_power};
+    return {moved(x, step_of_length(weight * e, e), e), -orientation * e, dot(off_power * e, e),
+            off_power};
   }
   [[gnu::always_inline]] Frame settle_on_ellipse(Vector x) const {
     const Vector e = x - centre;

@@ -52,8 +52,8 @@ std::vector<RegionFault> check_region(const std::vector<Loop>& loops, RegionKind
                                       const std::optional<Lattice>& lattice = std::nullopt,
                                       std::size_t limit = 10);
 
-/// Exact point location with respect to one loop: positive inside (or on the left), negative outside,
-/// zero on it. The loop must be closed and simple.
+/// Exact point location with respect to one loop: positive inside (or on the left), negative
+/// outside, zero on it. The loop must be closed and simple.
 int locate(const Loop& loop, Vector point);
 
 /// Signed area and total length, rounded: obstacles count negative.

@@ -18,7 +18,8 @@ struct BasicVector {
   friend constexpr BasicVector operator*(const Number& s, const BasicVector& a) {
     return {s * a.x, s * a.y};
   }
-  friend bool operator==(const BasicVector&, const BasicVector&) = default;  // constexpr where it can be
+  friend bool operator==(const BasicVector&,
+                         const BasicVector&) = default;  // constexpr where it can be
 };
 
 using Vector = BasicVector<double>;
