@@ -78,8 +78,6 @@ class Group final : public ForceLaw<double> {
   Time next_time() const {
     return next_.member < 0 && whole_step_ ? path_end_ : time_ + next_.duration;
   }
-  /// Is phase() that after whole steps, and not between the drifts of one?
-  bool between_steps() const { return true; }
   /// A prediction was interrupted: forgets all that it computed. Another one is needed before
   /// anything else.
   void drop_prediction();

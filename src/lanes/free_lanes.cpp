@@ -26,14 +26,12 @@ using lanes::turn_of;
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Hits are counted in doubles.
 constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
 // After so many the cells of hits, a signed byte each, are taken out of 32 bits.
 constexpr std::uint64_t most_sweeps = std::uint64_t{1} << 23;
 
-/// Flights get no farther than the diameter of their circle from where they began; straight ones as
-/// far as you like.
+/// Flights along circles get no farther than the diameter; straight ones as far as you like.
 double reach_of(const std::vector<Particle>& particles) {
   double reach = 0.0;
   for (const Particle& p : particles)
@@ -273,7 +271,7 @@ class FreeLanes::Implementation {
       sampled(mine.start.tag, mine.reported, flown(last, mine.start.particle.omega, next));
     }
   }
-  /// Reports the hits of a sweep, if they are asked for; returns the lanes whose hits are enough.
+  /// Reports the hits of a sweep if asked to; returns the lanes whose hits are enough.
   std::vector<int> report_hits(Lanes& lanes) {
     std::vector<int> enough;
     if (!hit) return enough;

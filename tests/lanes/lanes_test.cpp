@@ -480,38 +480,5 @@ TEST(LaneRuns, LeaveTheUnusualToTheWorld) {
   compare(tests::rectangle(1e30, 1e30), huge, none, "huge");
 }
 
-TEST(LaneRuns, GoOnFromWhereTheyWereStopped) {
-  Dice dice(6);
-  const Table table = tests::stadium();
-  const World world(table);
-  FreeLanes lanes(table, {Particle{}}, widest_instruction_set());
-  Case all;
-  all.limit = 50;
-  std::vector<LaneStart> starts;
-  for (int i = 0; i < 100; ++i) starts.push_back(random_start(table, world, dice, 1.0, 1.0));
-  all.starts = starts;
-  World by_steps(table);
-  for (std::uint64_t limit = 10; limit <= 50; limit += 10) {
-    std::vector<LaneStart> next;
-    std::size_t given = 0;
-    lanes.limit_hits(limit);
-    lanes.run_until(
-        1e300,
-        [&](LaneStart& s) {
-          if (given == starts.size()) return false;
-          s = starts[given];
-          s.tag = given++;
-          return true;
-        },
-        [&](const LaneEnd& e) { starts[e.tag].state = e.state, starts[e.tag].hits = e.hits; });
-  }
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const LaneEnd whole = by_world(by_steps, all.starts[i], all).end;
-    EXPECT_EQ(bits(whole.state.position.x), bits(starts[i].state.position.x));
-    EXPECT_EQ(bits(whole.state.velocity.y), bits(starts[i].state.velocity.y));
-    EXPECT_EQ(starts[i].hits, 50u);
-  }
-}
-
 }  // namespace
 }  // namespace carom

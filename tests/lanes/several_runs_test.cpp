@@ -4,8 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/world.hpp"
 #include "carom/geometry/lattice.hpp"
+#include "carom/io/system_file.hpp"
 #include "carom/lanes/free_lanes.hpp"
+#include "lanes/one_by_one.hpp"
 #include "tables_by_hand.hpp"
 
 namespace carom {
@@ -47,6 +51,34 @@ TEST(LaneRuns, StopWithinAFlight) {
       [&](const LaneEnd&) { ++ended; }, [&] { return ++asked > 10; });
   EXPECT_EQ(asked, 11);
   EXPECT_EQ(ended, 0);
+}
+
+TEST(LaneRuns, GoOnFromWhereTheyWereStopped) {
+  const System system = load_system("stadium").system;
+  const Sampler sampler(system);
+  World world(*system.table);
+  std::vector<LaneStart> starts;
+  for (std::uint64_t i = 0; i < 100; ++i)
+    starts.push_back({i, system.particles[0], sampler.draw(world, i, 0), 0});
+  const std::vector<LaneStart> first = starts;
+  FreeLanes lanes(*system.table, system.particles, widest_instruction_set());
+  for (std::uint64_t limit = 10; limit <= 50; limit += 10) {
+    lanes.limit_hits(limit);
+    const std::vector<LaneStart> from = starts;
+    lanes.run_until(1e300, tests::one_by_one(from), [&](const LaneEnd& end) {
+      starts[end.tag].state = end.state;
+      starts[end.tag].hits = end.hits;
+    });
+  }
+  world.limit_hits(50);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    world.clear();
+    world.add(first[i].particle, first[i].state);
+    world.run_until(1e300);
+    EXPECT_EQ(world.state(0).position, starts[i].state.position);
+    EXPECT_EQ(world.state(0).velocity, starts[i].state.velocity);
+    EXPECT_EQ(starts[i].hits, 50u);
+  }
 }
 
 }  // namespace
