@@ -31,9 +31,15 @@ bool DrawnStarts::next(Trajectory& trajectory, const World& world) {
   while (block_.first == block_.last)
     if (!blocks_(block_)) return false;
   trajectory.number = block_.first++;
-  trajectory.particles = sampler_.system().particles;
+  const System& system = sampler_.system();
   trajectory.starts = sampler_.draw_all(world, trajectory.number);
-  for (InjectedParticle& one : injector_.draw(trajectory.number)) {
+  if (system.injections.empty()) {
+    // A trajectory that is used again has them.
+    if (trajectory.particles.empty()) trajectory.particles = system.particles;
+    return true;
+  }
+  trajectory.particles = system.particles;
+  for (const InjectedParticle& one : injector_.draw(trajectory.number)) {
     trajectory.particles.push_back(one.particle);
     trajectory.starts.push_back(one.state);
   }

@@ -11,14 +11,14 @@ InLanes::InLanes(const System& system, const EngineOptions& options, std::unique
       lanes_(std::move(lanes)) {
   if (system.run.collisions > 0) lanes_->limit_hits(system.run.collisions);
   if (!options_.times.empty())
-    lanes_->sample_at(
-        options_.times, [this](std::uint64_t tag, std::size_t number, const State& state) {
-          listener_->sample(flight(tag).trajectory, static_cast<int>(tag % each()), number, state);
-        });
+    lanes_->sample_at(options_.times, [this](std::uint64_t tag, std::size_t number,
+                                             const State& state) {
+      listener_->sample(flight(tag).trajectory, static_cast<int>(particle_of(tag)), number, state);
+    });
   if (options_.hits)
     lanes_->report_hits([this](std::uint64_t tag, const State& state) {
       const Trajectory& trajectory = flight(tag).trajectory;
-      listener_->hit(trajectory, static_cast<int>(tag % each()), state);
+      listener_->hit(trajectory, static_cast<int>(particle_of(tag)), state);
       return !listener_->enough(trajectory);
     });
 }
@@ -30,9 +30,9 @@ bool InLanes::run(Starts& starts, Listener& listener, const std::function<bool()
   begun_ = each();
   const auto next = [&](LaneStart& start) {
     if (begun_ == each() && !begin(starts)) return false;
-    start.tag = latest_ * each() + begun_;
+    start.tag = tag_of(latest_, begun_);
     start.particle = system_.particles[begun_];
-    start.state = flights_[latest_].trajectory.starts[begun_++];
+    start.state = flights_[latest_]->trajectory.starts[begun_++];
     start.hits = 0;
     return true;
   };
@@ -44,11 +44,11 @@ bool InLanes::run(Starts& starts, Listener& listener, const std::function<bool()
 bool InLanes::begin(Starts& starts) {
   if (free_.empty()) {
     free_.push_back(flights_.size());
-    flights_.emplace_back();
-    flights_.back().trajectory.slot = free_.back();
+    flights_.push_back(std::make_unique<Flight>());
+    flights_.back()->trajectory.slot = free_.back();
   }
   latest_ = free_.back();
-  Flight& flight = flights_[latest_];
+  Flight& flight = *flights_[latest_];
   if (!starts.next(flight.trajectory, world_)) return false;
   free_.pop_back();
   begun_ = 0;
@@ -61,7 +61,7 @@ bool InLanes::begin(Starts& starts) {
 
 void InLanes::note(const LaneEnd& end) {
   Flight& f = flight(end.tag);
-  ParticleEnd& mine = f.end.particles[end.tag % each()];
+  ParticleEnd& mine = f.end.particles[particle_of(end.tag)];
   const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
   mine.fate = end.fate;
   mine.time = to_the_end ? options_.t_end : end.time.value();
@@ -69,10 +69,10 @@ void InLanes::note(const LaneEnd& end) {
   mine.hole = end.hole;
   mine.hits = end.hits;
   mine.last_wall = end.last_wall;
-  mine.report = end.report;
+  if (is_failure(end.fate)) mine.report = end.report;
   mine.energy.kinetic = end.kinetic;
   f.end.steps += end.steps;
-  listener_->particle_end(f.trajectory, static_cast<int>(end.tag % each()), end.fate);
+  listener_->particle_end(f.trajectory, static_cast<int>(particle_of(end.tag)), end.fate);
   if (--f.left > 0) return;
   free_.push_back(f.trajectory.slot);
   listener_->end(f.trajectory, f.end);

@@ -1,7 +1,6 @@
 // The engine that flies many trajectories at once in lanes.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <vector>
 
@@ -33,14 +32,19 @@ class InLanes : public Engine {
   std::size_t each() const { return system_.particles.size(); }
   bool begin(Starts&);
   void note(const LaneEnd&);
-  Flight& flight(std::uint64_t tag) { return flights_[tag / each()]; }
+  // A tag tells the slot and the particle.
+  static std::uint64_t tag_of(std::size_t slot, std::size_t particle) {
+    return std::uint64_t{slot} << 32 | particle;
+  }
+  static std::size_t particle_of(std::uint64_t tag) { return tag & 0xffffffff; }
+  Flight& flight(std::uint64_t tag) { return *flights_[tag >> 32]; }
 
   const System& system_;
   const EngineOptions options_;
   World world_;  ///< answers what starts are asked for
   std::unique_ptr<Lanes> lanes_;
   Listener* listener_ = nullptr;
-  std::deque<Flight> flights_;
+  std::vector<std::unique_ptr<Flight>> flights_;  ///< by slot
   std::vector<std::size_t> free_;
   std::size_t latest_ = 0,
               begun_ = 0;  ///< the latest flight, and how many of its particles are in lanes
