@@ -46,7 +46,7 @@ struct ParticleEnd {
   int hole = -1;      ///< a hole of the table, for `escaped`
   std::uint64_t hits = 0;
   int last_wall = -1;  ///< as World::last_wall
-  std::string report;  ///< as World::report
+  std::string report;  ///< as World::report, of one that failed
   EnergyBalance
       energy;  ///< as World::energy_balance; but for EngineOptions::energy, kinetic ones alone
 };
