@@ -120,8 +120,8 @@ double Attempt::needed_bits() const {
   return std::max(error + bits_of(task_.digits) + 2.0, linear_bits());
 }
 
-// Errors by first order have room for the second one in their constants (1.0001 and the like) while
-// they are small parts.
+// Constants of bounds by first order hold a margin for the second order (1.0001 and the like). It
+// is enough while errors are small.
 double Attempt::linear_bits() const { return now_.state->error().log2() + 20.0; }
 
 Outcome Attempt::step() {

@@ -32,7 +32,7 @@ std::atomic<std::int64_t> first_signal{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
 // timeout and mpirun send a signal to the process and then to its group: the second one, at once,
-// is not that of someone who does not want to wait.
+// does not ask for an end without delay.
 extern "C" void on_interrupt(int) {
   constexpr std::int64_t patience = 500'000'000;  // ns
   timespec time{};
@@ -47,8 +47,7 @@ extern "C" void on_interrupt(int) {
 // meant to be the second signal.
 extern "C" void on_limit(int) { interrupted = true; }
 
-// In one piece, so that lines of several processes do not mix; whether it is read is nobody's
-// fault.
+// In one piece, so that lines of several processes do not mix. A closed stderr is no error.
 void write_message(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
 
 Place option_place(const char* option) { return Place{"command line", 0, 0, option}; }

@@ -1,4 +1,4 @@
-// Small systems for the tests of this room.
+// Small systems for the tests of this module.
 #pragma once
 
 #include <memory>

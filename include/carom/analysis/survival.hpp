@@ -30,8 +30,7 @@ struct SurvivalCounts {
                 unbounded = 0, unresolved = 0, lost = 0, collisions = 0;
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; counted by whoever follows them
   std::uint64_t most_hits = 0;  ///< of a single trajectory
-  double energy_change =
-      0.0;  ///< the largest of a particle under forces; from whoever follows them
+  double energy_change = 0.0;   ///< the largest of a particle under forces; set by the ensemble
   std::vector<std::uint64_t> hole_escapes;  ///< by hole_names()
 
   SurvivalCounts() = default;

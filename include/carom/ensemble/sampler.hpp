@@ -100,8 +100,8 @@ void add_starts(World&, const Sampler&, std::uint64_t trajectory);
 /// How many trajectories start differently where starts are listed (point, list, birkhoff): later
 /// ones repeat them. 0 where starts are drawn.
 std::uint64_t listed_trajectories(const System&);
-/// Throws InputError if the first trajectory cannot start. Who interrupts it is not told whether it
-/// can.
+/// Throws InputError if the first trajectory cannot start. Interrupted, it returns
+/// without an answer.
 void check_start(const System&, const std::atomic<bool>* interrupted = nullptr);
 /// One state by a sampler made on the spot.
 State draw_initial_state(const System&, const World& world, std::uint64_t trajectory, int particle);

@@ -103,8 +103,7 @@ struct Extrapolated {
   double extrapolation = 0;  ///< |limit - value at the smallest kick|: what the limit rests on
   double kick_error =
       0;  ///< where kicked copies certainly go sooner or later than others: twice what that makes
-  double unseen =
-      0;  ///< where nobody has gone in any population: how many may, of as many starts (Wilson)
+  double unseen = 0;  ///< where no trajectory has gone in any population: upper limit (Wilson)
   std::size_t repetitions = 0;  ///< that the limit is a mean of
   /// Populations of fewer trajectories give intervals that hold the value too seldom.
   static constexpr std::uint64_t least_population = 100;

@@ -23,10 +23,10 @@ namespace carom {
 /// sqrt is rounded once; exp, log, sin, cos and atan2 are within 1 ulp, tan within 3, sinh, cosh
 /// and tanh within 4. The same bits on every machine.
 ///
-/// Where a formula has no value (1/0, log(-1)) the result is not finite, no error: whoever
-/// integrates has to look. A constant part without a finite value is an InputError. At a kink (abs
-/// at 0, min and max of equal numbers) the slope is 0 for abs, that of the first argument for min
-/// and max.
+/// Where a formula has no value (1/0, log(-1)) the result is not finite, and no error is
+/// thrown: integration has to look. A constant part without a finite value is an InputError. At a
+/// kink (abs at 0, min and max of equal numbers) the slope is 0 for abs, that of the first argument
+/// for min and max.
 class TypedExpression {
  public:
   /// `place` is that of the first character of `text`: errors point at the character to blame.

@@ -46,7 +46,7 @@ struct Whereabouts {
 
   /// Part of a length that every rounding in the search for walls stays below. A handful of
   /// operations is rounded by 2^-53 each, and dividing by the cell's area makes that worse by its
-  /// skew: 32 of them leave much room.
+  /// skew: 32 are far more than these.
   static constexpr double rounding = 0x1p-48;
   /// How far the roundings of coordinates may carry the middle of piece k, and what is seen from
   /// it, off.

@@ -36,7 +36,7 @@ RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, in
                          double scale, int most = 4, double farthest = HUGE_VAL);
 
 /// The root that the first exit most likely is (first_root.hpp). Of the roots found, the one about
-/// it is given this number, whoever asks, and however it was isolated: lanes have it from the same
+/// it is given this number, however it was isolated: lanes have it from the same
 /// operations.
 double likely_root(const Quartic<double>& f, int degree);
 
