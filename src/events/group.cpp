@@ -290,11 +290,13 @@ double Group::energy() {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
       sum += forces.add_external(particles_[i], phase_.position[i], unused);
   }
-  return sum + forces.pair_energy(particles_, phase_.position, in_.lattice);
+  return sum + forces.pair_energy(particles_, phase_.position, in_.lattice, in_.interrupt);
 }
 
 double Group::change_of_energy() {
   const double now = energy(), before = last_energy_.value_or(now);
+  // A sum that was interrupted is none: the change is told the next time.
+  if (in_.interrupt && in_.interrupt->stopped()) return 0.0;
   last_energy_ = now;
   return now - before;
 }

@@ -45,8 +45,8 @@ void ForceField::add_pairs(std::span<const Particle> particles, std::span<const 
 }
 
 double ForceField::pair_energy(std::span<const Particle> particles, std::span<const Vector> x,
-                               const geometry::Lattice* lattice) const {
-  return interaction_ ? interaction_->energy(particles, x, lattice) : 0.0;
+                               const geometry::Lattice* lattice, Interrupt* interrupt) const {
+  return interaction_ ? interaction_->energy(particles, x, lattice, interrupt) : 0.0;
 }
 
 double ForceField::potential_energy(std::span<const Particle> particles, std::span<const Vector> x,
@@ -149,6 +149,7 @@ std::shared_ptr<const ForceField> ForceField::build(
     check(s, particles, lattice.has_value());
     field->potentials_.push_back(make_potential(s, lattice));
     const Potential& p = *field->potentials_.back();
+    field->typed_ = field->typed_ || s.kind == PotentialSpec::Kind::expression;
     field->tail_bound_ = std::max(field->tail_bound_, p.tail());
     // On a lattice a potential that is not repeated would depend on the cell.
     if (lattice && !s.lattice)

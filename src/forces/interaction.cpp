@@ -73,9 +73,10 @@ class Central final : public Interaction {
     }
   }
   double energy(std::span<const Particle> particles, std::span<const Vector> x,
-                const geometry::Lattice* lattice) const override {
+                const geometry::Lattice* lattice, Interrupt* interrupt) const override {
     double all = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
+      if (interrupt && interrupt->after(10.0 * static_cast<double>(x.size() - i))) return all;
       double sum = 0.0;
       for (std::size_t j = i + 1; j < x.size(); ++j) {
         const Vector d = lattice ? nearest_copy(x[i] - x[j], *lattice) : x[i] - x[j];

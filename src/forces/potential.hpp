@@ -58,7 +58,7 @@ class Interaction {
                            double rho) const = 0;
   /// The sum of W over all pairs.
   virtual double energy(std::span<const Particle>, std::span<const geometry::Vector> x,
-                        const geometry::Lattice*) const = 0;
+                        const geometry::Lattice*, Interrupt* interrupt = nullptr) const = 0;
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
 };

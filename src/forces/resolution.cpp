@@ -14,7 +14,7 @@ resolution::Span resolution::span_of(double time, double omega) {
 }
 
 ForceMap::ForceMap(const ForceField& forces, const Particle& kind)
-    : forces_(forces), kind_(kind), entries_(kept_entries) {}
+    : forces_(forces), kind_(kind), first_finer_(forces.typed() ? 0 : 1), entries_(kept_entries) {}
 
 const ForceMap::Entry& ForceMap::compute(Entry& kept, std::uint64_t key, int exponent, double i,
                                          double j) const {
@@ -31,12 +31,12 @@ void ForceMap::resolve_known(const Motions& motions, const resolution::Span& spa
                              bool* known) const {
   int which[most_at_once] = {}, count = 0;
   for (int k = 0; k < motions.count; ++k) which[k] = k;
-  resolve_known(motions, first_finer, which, motions.count, span, known);
+  resolve_known(motions, first_finer_, which, motions.count, span, known);
   for (int k = 0; k < motions.count; ++k) {
     which[count] = k;
     count += !known[k];
   }
-  if (count > 0) resolve_known(motions, first_finer + 1, which, count, span, known);
+  if (count > 0) resolve_known(motions, first_finer_ + 1, which, count, span, known);
 }
 
 // The arithmetic of resolves() and stays().
@@ -80,8 +80,8 @@ bool ForceMap::resolves_closely(Vector x, double square_speed, int coarsest,
   // At rest where no force acts, as at an equilibrium, any displacement may serve.
   if (coarsest == no_exponent) return any(40, -400);
   constexpr int levels = 6, coarser = 20;
-  return any(coarsest - first_finer - 1, coarsest - levels) ||
-         any(coarsest + coarser, coarsest - first_finer + 1);
+  return any(coarsest - first_finer_ - 1, coarsest - levels) ||
+         any(coarsest + coarser, coarsest - first_finer_ + 1);
 }
 
 ForceBound ForceMap::about(Vector x, double rho) {

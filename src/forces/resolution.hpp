@@ -105,7 +105,7 @@ class ForceMap {
   bool resolves(geometry::Vector x, double square_speed, double square_way,
                 const resolution::Span& span) {
     const int coarsest = exponent_for(square_speed, square_way, span);
-    if (coarsest != no_exponent && stays(x, square_speed, coarsest - first_finer, span)) [[likely]]
+    if (coarsest != no_exponent && stays(x, square_speed, coarsest - first_finer_, span)) [[likely]]
       return true;
     return resolves_closely(x, square_speed, coarsest, span);
   }
@@ -135,9 +135,6 @@ class ForceMap {
                            const resolution::Span&, int& left);
 
  private:
-  /// Of the meshes that may answer, those that mostly do come first: of half the coarsest size.
-  /// Which are first changes no answer.
-  static constexpr int first_finer = 1;
   static constexpr int no_exponent = std::numeric_limits<int>::min();
   /// Of an acceleration, over the mesh that the key tells.
   struct Entry {
@@ -211,6 +208,9 @@ class ForceMap {
   static constexpr std::size_t kept_entries = 65536;
   const ForceField& forces_;
   Particle kind_;
+  /// Of the meshes that may answer, those that mostly do come first: of half the coarsest size, or,
+  /// where bounds take long, the coarsest, of which there are fewer. The order changes no answer.
+  const int first_finer_;
   std::vector<Entry> entries_;
   Entry beyond_;  ///< of a mesh whose key does not fit
 };

@@ -54,9 +54,10 @@ class ForceField {
   /// displaced by at most `rho` from one of that length: docs/physics/resolution.md.
   ForceBound external_bound(const Particle&, const Neighbourhood&) const;
   ForceBound pair_bound(const Particle& a, const Particle& b, double distance, double rho) const;
-  /// Energy of all pairs, which feel each other as in add_pairs.
+  /// Energy of all pairs, which feel each other as in add_pairs. Where `interrupt` says so, it
+  /// stops half done.
   double pair_energy(std::span<const Particle> particles, std::span<const geometry::Vector> x,
-                     const geometry::Lattice* lattice) const;
+                     const geometry::Lattice* lattice, Interrupt* interrupt = nullptr) const;
 
   /// The potential energy of all.
   double potential_energy(std::span<const Particle> particles, std::span<const geometry::Vector> x,
@@ -65,6 +66,8 @@ class ForceField {
   const std::vector<std::unique_ptr<const Potential>>& potentials() const { return potentials_; }
   /// Does some external potential reach everywhere?
   bool everywhere() const { return everywhere_; }
+  /// Is some external potential a typed formula, whose bounds take long?
+  bool typed() const { return typed_; }
   /// Otherwise: discs, in the cell of a lattice, outside which each potential is below
   /// tail_bound().
   const std::vector<Support>& supports() const { return supports_; }
@@ -85,7 +88,7 @@ class ForceField {
   std::vector<std::unique_ptr<const Potential>> potentials_;
   std::unique_ptr<const Interaction> interaction_;
   std::vector<Support> supports_;
-  bool everywhere_ = false;
+  bool everywhere_ = false, typed_ = false;
   double pair_range_ = std::numeric_limits<double>::infinity();
   double tail_bound_ = 0.0;
   std::vector<double> disc_radii_;
