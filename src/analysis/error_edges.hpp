@@ -5,7 +5,7 @@
 #include "carom/events/decisions.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/motion/tangent.hpp"
-#include "events/next_hit.hpp"
+#include "events/flight/next_hit.hpp"
 
 namespace carom {
 

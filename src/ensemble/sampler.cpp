@@ -11,7 +11,7 @@
 #include "carom/base/random.hpp"
 #include "carom/events/world.hpp"
 #include "carom/geometry/hull.hpp"
-#include "events/group.hpp"
+#include "events/step/group.hpp"
 
 namespace carom {
 

@@ -1,6 +1,6 @@
 #include "events/samples.hpp"
 
-#include "events/groups.hpp"
+#include "events/step/groups.hpp"
 
 namespace carom {
 

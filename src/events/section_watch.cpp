@@ -1,6 +1,6 @@
 #include "events/section_watch.hpp"
 
-#include "events/group.hpp"
+#include "events/step/group.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "carom/events/world.hpp"
-#include "events/next_hit.hpp"
+#include "events/flight/next_hit.hpp"
 #include "lanes/discs_in_sight.hpp"
 #include "lanes/exit_by_signs.hpp"
 #include "lanes/kernels.hpp"

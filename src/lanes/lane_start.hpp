@@ -2,7 +2,7 @@
 #pragma once
 
 #include "carom/lanes/lanes.hpp"
-#include "events/next_hit.hpp"
+#include "events/flight/next_hit.hpp"
 #include "lanes/kernels.hpp"
 
 namespace carom::lanes {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "carom/table/table.hpp"
-#include "events/next_hit.hpp"
+#include "events/flight/next_hit.hpp"
 #include "lanes/lane_table.hpp"
 
 namespace carom::lanes {

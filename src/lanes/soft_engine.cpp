@@ -8,8 +8,8 @@
 #include "carom/base/elementary.hpp"
 #include "carom/events/report.hpp"
 #include "carom/integrators/scheme.hpp"
-#include "events/group_hit.hpp"
-#include "events/surroundings.hpp"
+#include "events/step/group_hit.hpp"
+#include "events/step/surroundings.hpp"
 #include "forces/potential.hpp"
 
 namespace carom::lanes {

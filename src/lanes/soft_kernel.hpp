@@ -8,7 +8,7 @@
 
 #include <experimental/simd>
 
-#include "events/step_hull.hpp"
+#include "events/step/step_hull.hpp"
 #include "lanes/soft_pack.hpp"
 
 namespace carom::lanes {

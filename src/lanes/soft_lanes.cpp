@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "events/group.hpp"
+#include "events/step/group.hpp"
 #include "lanes/soft_engine.hpp"
 
 namespace carom {

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "events/barrier.hpp"
+#include "events/step/barrier.hpp"
 #include "forces/lattice_sum.hpp"
 #include "integrators/larmor_drift.hpp"
 

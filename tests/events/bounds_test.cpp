@@ -1,5 +1,5 @@
 // The event loop's own bounds against the errors they bound: never above them, and not idle.
-#include "events/bounded.hpp"
+#include "events/flight/bounded.hpp"
 
 #include "geometry/bounds.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "carom/geometry/lattice.hpp"
-#include "events/group.hpp"
+#include "events/step/group.hpp"
 
 namespace carom {
 namespace {

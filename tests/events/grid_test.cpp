@@ -8,9 +8,9 @@
 
 #include "carom/events/world.hpp"
 #include "carom/geometry/hull.hpp"
-#include "events/locator.hpp"
-#include "events/next_hit.hpp"
-#include "events/wall_grid.hpp"
+#include "events/flight/locator.hpp"
+#include "events/flight/next_hit.hpp"
+#include "events/flight/wall_grid.hpp"
 #include "random_tables.hpp"
 #include "events/recorder.hpp"
 

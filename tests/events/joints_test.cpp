@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "carom/events/world.hpp"
-#include "events/next_hit.hpp"
+#include "events/flight/next_hit.hpp"
 #include "random_tables.hpp"
 
 namespace carom::tests {

@@ -6,7 +6,7 @@
 
 #include "carom/events/world.hpp"
 #include "carom/io/system_file.hpp"
-#include "events/group.hpp"
+#include "events/step/group.hpp"
 
 namespace carom {
 namespace {

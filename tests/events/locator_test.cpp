@@ -3,8 +3,8 @@
 
 #include "carom/geometry/curve.hpp"
 #include "carom/geometry/region.hpp"
-#include "events/locator.hpp"
-#include "events/next_hit.hpp"
+#include "events/flight/locator.hpp"
+#include "events/flight/next_hit.hpp"
 #include "random_tables.hpp"
 
 namespace carom {

@@ -1,5 +1,5 @@
 // What keeps a step off a wall, against points of the step's cubic.
-#include "events/step_hull.hpp"
+#include "events/step/step_hull.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "carom/integrators/scheme.hpp"
-#include "events/crossing_in_step.hpp"
+#include "events/step/crossing_in_step.hpp"
 #include "integrators/steppers.hpp"
 
 namespace carom {

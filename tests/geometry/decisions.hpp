@@ -11,7 +11,7 @@
 #include <string>
 
 #include "carom/geometry/region.hpp"
-#include "events/next_hit.hpp"
+#include "events/flight/next_hit.hpp"
 #include "geometry/oracle.hpp"
 #include "random_tables.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "carom/events/world.hpp"
 #include "carom/lanes/free_lanes.hpp"
-#include "events/next_hit.hpp"
+#include "events/flight/next_hit.hpp"
 #include "lanes/make_lane_table.hpp"
 #include "random_tables.hpp"
 

@@ -61,7 +61,7 @@ class Includes(unittest.TestCase):
 
     def test_examples_see_what_users_see(self):
         self.legal("examples/mine.cpp", "#include <carom/carom.hpp>\n#include <cstdio>")
-        self.illegal("examples/mine.cpp", '#include "events/next_hit.hpp"')
+        self.illegal("examples/mine.cpp", '#include "events/flight/next_hit.hpp"')
         self.illegal("examples/mine.cpp", "#include <fmt/core.h>")
 
     def test_comments_do_not_count(self):

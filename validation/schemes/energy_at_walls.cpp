@@ -11,7 +11,7 @@
 
 #include "carom/base/random.hpp"
 #include "carom/integrators/scheme.hpp"
-#include "events/crossing_in_step.hpp"
+#include "events/step/crossing_in_step.hpp"
 #include "integrators/splitting.hpp"
 #include "integrators/spreiter_walter.hpp"
 

@@ -1,0 +1,158 @@
+// Flights in a convex table without obstacles: the frequent case, in which signs alone name the
+// wall.
+#pragma once
+
+#include <cmath>
+
+#include "events/flight/crossing.hpp"
+#include "events/flight/enclosure.hpp"
+#include "events/flight/next_hit.hpp"
+
+namespace carom {
+
+namespace detail {
+
+/// One fraction for b <= 0, another for b > 0, chosen without a branch; and its inverse.
+[[gnu::always_inline]] inline Pair quotients(double b, Pair falling, Pair rising) {
+  const Pair p = both(b) <= 0.0 ? falling : rising;
+  return p / Pair{p[1], p[0]};
+}
+
+/// Squares below this lose digits, and the root of b^2 is not |b|: for the general formulas.
+inline constexpr double least_square = 0x1p-900;
+
+}  // namespace detail
+
+/// Without field.
+[[gnu::always_inline]] inline bool HitFinder::line_in_enclosure(const Flight& f,
+                                                                Ahead& ahead) const {
+  using geometry::Vector;
+  const Vector v = f.velocity, origin = f.start;
+  int wall = 0;
+  if (enclosure_.size() > 1) {
+    // Half the error of side_of_flight, for the distance of the farthest joint.
+    const double bound =
+        options_.filter_inflation * 1.005 * norm_1(v) * (f.start_error + enclosure_rounding_);
+    wall = enclosure_.exit_of_line(origin, v, bound);
+    if (wall < 0) return false;
+    if (wall == enclosure_.size()) {  // all joints on one side: through the arc that it stands on
+      wall = f.start_piece;
+      if (wall < 0 || !enclosure_.bent(wall)) return false;
+    }
+  }
+  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
+  Pair found;  // duration and kappa
+  if (w.kind == geometry::CurveKind::segment) {
+    const Pair p{geometry::fused_cross(w.tangent, origin - w.from),
+                 -geometry::fused_cross(w.tangent, v)};
+    found = p / Pair{p[1], p[0]};
+  } else {
+    // A conic about the domain: all signs turned.
+    const bool stands = wall == f.start_piece;
+    geometry::Quadratic<double> q;
+    if (w.kind == geometry::CurveKind::circle) {
+      q = geometry::circle_quadratic(origin - w.centre, w.r2, v, f.square_speed);
+      if (stands) q.a = 0.0;
+    } else {
+      q = ellipse_quadratic(w, origin - w.centre, v, stands);
+    }
+    const double n = std::fabs(q.b) + (stands ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
+    found = detail::quotients(-q.b, Pair{-q.a, n}, Pair{n, q.c});
+  }
+  const double duration = found[0];
+  if (!(duration > 0.0 && duration < HUGE_VAL)) return false;  // too short a way for doubles
+  ahead.kind = Ahead::Kind::wall;
+  ahead.piece = wall;
+  ahead.root = 0;
+  ahead.kappa = found[1];
+  ahead.duration = duration;
+  return true;
+}
+
+/// A Larmor circle against segments and circular arcs.
+[[gnu::always_inline]] inline bool HitFinder::circle_in_enclosure(const Flight& f,
+                                                                  Ahead& ahead) const {
+  using geometry::Vector;
+  const Vector v = f.velocity, origin = f.start;
+  int wall = f.start_piece;
+  if (wall < 0) return false;
+  if (enclosure_.size() > 1) {
+    const geometry::CentreError error = geometry::centre_error(
+        {f.start_error, norm_1(v), std::fabs(f.omega), options_.filter_inflation},
+        enclosure_.diameter());
+    const Enclosure::Order order =
+        enclosure_.exits_of_circle(wall, origin, v, f.omega, f.square_speed, error);
+    if (!order.decided) return false;
+    for (std::uint64_t walls = order.walls;;) {
+      const int first = enclosure_.first_of(walls, wall, f.omega);
+      if (first == enclosure_.size()) break;  // comes back to the wall it started on
+      if ((order.surely >> first & 1) != 0) {
+        wall = first;
+        break;
+      }
+      const Sign leaves = crossed_twice(f, first);
+      if (leaves == Sign::undecided) return false;
+      if (leaves == Sign::positive) {
+        wall = first;
+        break;
+      }
+      walls &= ~(std::uint64_t{1} << first);
+    }
+  }
+  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
+  geometry::Quadratic<double> q;
+  if (w.kind == geometry::CurveKind::segment) {
+    const Vector d = origin - w.from;
+    const Pair e = keep_if(wall != f.start_piece, Pair{d.x, d.y});
+    q = geometry::line_quadratic(Vector{e[0], e[1]}, w.tangent, v, f.omega, 0.5);
+  } else {
+    q = quadratic<true>(w, origin, v, f.square_speed, f.omega, wall == f.start_piece);
+  }
+  const bool stands = wall == f.start_piece;
+  if (!stands && w.kind == geometry::CurveKind::segment) {
+    // Twice the rounding of lengths exceeds 8u of them.
+    const double bound =
+        options_.filter_inflation * (1.42 * f.start_error + 2.0 * enclosure_rounding_);
+    if (!(std::fabs(q.a) > bound)) [[unlikely]]
+      return false;
+  } else {
+    const geometry::FlightScale scale{f.start_error, norm_1(v), std::fabs(f.omega),
+                                      options_.filter_inflation};
+    if (stands ? !(q.b > 0.0)
+               : !far_root_certain(q, quadratic_error(w, origin, scale, false), false)) [[unlikely]]
+      return false;
+  }
+  const double discriminant = discriminant_of(q);
+  const double n = std::fabs(q.b) + std::sqrt(discriminant > 0.0 ? discriminant : 0.0);
+  const double kappa = detail::quotients(q.b, Pair{n, q.a}, Pair{-q.c, n})[0];
+  if (!(n * n > detail::least_square) || !(std::fabs(kappa) < HUGE_VAL)) return false;
+  ahead.kind = Ahead::Kind::wall;
+  ahead.piece = wall;
+  ahead.root = 0;
+  ahead.kappa = kappa;
+  ahead.duration = duration_at(kappa, f.omega);
+  return true;
+}
+
+[[gnu::always_inline]] inline void HitFinder::next(const Flight& flight, Ahead& ahead,
+                                                   DecisionCounts& counts) const {
+  if (enclosure_.size() > 0) {
+    if (flight.start_previous < 0 &&
+        (flight.omega == 0.0 ? line_in_enclosure(flight, ahead)
+                             : without_ellipses_ && circle_in_enclosure(flight, ahead))) {
+      ++counts.filter;
+      return;
+    }
+  } else if (grid_) {
+    return next_in_grid(flight, ahead, counts);
+  } else if (flight.omega == 0.0 && enclosure_size_ > 0) {
+    if (cells_) look_from(flight);
+    if (filtered_enclosed(flight, ahead)) {
+      ++counts.filter;
+      return;
+    }
+  }
+  next_of_all(flight, ahead, counts);
+}
+
+}  // namespace carom

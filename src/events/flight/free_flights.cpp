@@ -1,0 +1,81 @@
+#include "events/flight/free_flights.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace carom {
+
+using geometry::Vector;
+
+FreeFlights::FreeFlights(const Table& walls, const Table& inside, const ForceRegions& regions,
+                         Bodies& bodies, DecisionOptions options)
+    : finder_(walls, options), bodies_(bodies), regions_(regions), inside_(inside) {
+  for (std::size_t i = 0; i < walls.walls.size(); ++i) {
+    const Wall& w = walls.walls[i];
+    corners_.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
+                       : w.corner > 0
+                           ? w.corner
+                           : finder_.exact().corner(w.previous, static_cast<int>(i)).order);
+  }
+}
+
+bool FreeFlights::apply_apart(int index, Time now, Observer& observer) {
+  return apply(index, now, observer);
+}
+void FreeFlights::predict(int index) { predict(index, bodies_[index]); }
+void FreeFlights::schedule(int index) { schedule(index, bodies_[index]); }
+
+void FreeFlights::check_speed(const Body& b) const {
+  // The bounds of the filter count on the energy shell, as reflections keep it (circle_error).
+  const double shell = b.particle.speed * b.particle.speed;
+  if (!(std::fabs(dot(b.state.velocity, b.state.velocity) - shell) <=
+        64.0 * geometry::unit_roundoff * shell))
+    throw std::invalid_argument("the velocity's length is not the particle's speed");
+}
+
+void FreeFlights::begin(Body& b) const {
+  b.shell = energy_shell(b.particle.speed);
+  b.flight = Flight();
+  b.flight.omega = b.particle.omega;
+  b.flight.square_speed = b.particle.speed * b.particle.speed;
+  if (b.state.wall >= 0) {
+    const auto [point, normal, square, k] = finder_.curve(b.state.wall).frame(b.state.u);
+    // A state that went on from a hit keeps its point; any other starts at the image of u.
+    if (finder_.curve(b.state.wall).parameter(b.state.position) != b.state.u)
+      b.state.position = point;
+    DecisionCounts unused;
+    if (finder_.inward(b.state.wall, b.state.u, b.state.velocity, normal, unused) != Sign::positive)
+      throw std::invalid_argument("the velocity does not point into the domain");
+    finder_.begin_on_wall(b.flight, b.state.wall, b.state.u, b.state.position, b.state.velocity);
+  } else {
+    b.flight.start = b.state.position;
+    b.flight.velocity = b.state.velocity;
+    finder_.begin(b.flight);
+  }
+}
+
+void FreeFlights::begin_on_wall(Body& b, int wall, double u) const {
+  b.particle.speed = std::sqrt(dot(b.state.velocity, b.state.velocity));
+  b.shell = energy_shell(b.particle.speed);
+  b.flight.omega = b.particle.omega;
+  b.flight.square_speed = b.particle.speed * b.particle.speed;
+  finder_.begin_on_wall(b.flight, wall, u, b.state.position, b.state.velocity);
+}
+
+/// The flight ends on the edge of a support.
+void FreeFlights::put_on_edge(Body& b, Time now, const HitFinder::Landing& landing) {
+  b.state.wall = -1;
+  b.state.position = landing.at.point;
+  b.state.velocity = landing.velocity;
+  b.state.cell.first += landing.cell.first;
+  b.state.cell.second += landing.cell.second;
+  b.state.time = now;
+}
+
+bool FreeFlights::contains(Vector point) {
+  if (finder_.surely_inside(point)) return true;
+  if (!locator_) locator_ = std::make_unique<Locator>(inside_);
+  return locator_->contains(point);
+}
+
+}  // namespace carom

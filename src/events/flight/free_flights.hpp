@@ -1,0 +1,192 @@
+// Free particles: flights from wall to wall.
+//
+// These are the functions where the time of a run goes. They are inlined into the event loop, so
+// that its numbers stay in registers from landing to the next hit.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "events/bodies.hpp"
+#include "events/step/force_regions.hpp"
+#include "events/flight/locator.hpp"
+#include "events/flight/next_hit.hpp"
+#include "motion/free_motion.hpp"
+
+namespace carom {
+
+class FreeFlights {
+ public:
+  /// `walls`: what flights meet. `inside`: the table, without edges of supports, that points are
+  /// inside of.
+  FreeFlights(const Table& walls, const Table& inside, const ForceRegions& regions, Bodies& bodies,
+              DecisionOptions options);
+
+  /// Applies what comes first for a free body. False if a flight does not go on by itself: the body
+  /// is where forces act from now on, or is to be looked after because another body may be near.
+  bool apply(int index, Time now, Observer& observer);
+  /// The same for callers that it is not inlined into.
+  bool apply_apart(int index, Time now, Observer& observer);
+
+  /// Throws std::invalid_argument unless the velocity has the length of the particle's speed.
+  void check_speed(const Body& b) const;
+  /// Starts a flight from the body's state. Throws std::invalid_argument if its velocity leads out
+  /// of the domain.
+  void begin(Body& b) const;
+  /// Starts a flight from a point on a wall; the particle's speed is that of its velocity.
+  void begin_on_wall(Body& b, int wall, double u) const;
+  /// Finds what comes first on the flight, and schedules it.
+  void predict(int index);
+  /// Schedules what is known to come first on the flight.
+  void schedule(int index);
+
+  /// Is the point strictly inside (exact)?
+  bool contains(geometry::Vector point);
+
+  const HitFinder& finder() const { return finder_; }
+  DecisionCounts& counts() { return counts_; }
+  const DecisionCounts& counts() const { return counts_; }
+
+ private:
+  void predict(int index, Body& b);
+  void schedule(int index, const Body& b);
+  static void put_on_edge(Body& b, Time now, const HitFinder::Landing& landing);
+  bool reflect(int index, Body& b, Time now, Observer& observer, const HitFinder::Landing& landing);
+
+  HitFinder finder_;
+  Bodies& bodies_;
+  const ForceRegions& regions_;
+  std::vector<int> corners_;  ///< order n of the corner at each wall's start, 0: none
+  DecisionCounts counts_;
+  const Table& inside_;
+  std::unique_ptr<Locator> locator_;  ///< made when it is asked for the first time
+};
+
+[[gnu::always_inline]] inline void FreeFlights::predict(int index, Body& b) {
+  finder_.next(b.flight, b.ahead, counts_);
+  schedule(index, b);
+}
+
+[[gnu::always_inline]] inline void FreeFlights::schedule(int index, const Body& b) {
+  Time when = b.state.time + b.ahead.duration;
+  EventKind kind = EventKind::hit;
+  switch (b.ahead.kind) {
+    case Ahead::Kind::wall:
+      break;
+    case Ahead::Kind::edge:
+      kind = EventKind::cell_edge;
+      break;
+    case Ahead::Kind::joint:
+    case Ahead::Kind::cusp:
+      kind = EventKind::singular;
+      break;
+    case Ahead::Kind::none:
+      when = b.state.time;
+      if (b.particle.omega != 0.0 && b.state.wall < 0)
+        kind = EventKind::pinned;
+      else if (b.particle.omega == 0.0 && finder_.table().extent == Extent::open_plane)
+        kind = EventKind::unbounded;
+      else
+        kind = EventKind::lost;
+      break;
+  }
+  if (regions_.by_range()) {
+    // Nothing but another particle may lie ahead.
+    if (kind == EventKind::pinned || kind == EventKind::unbounded) when = never;
+    if (b.check < when) {
+      when = b.check;
+      kind = EventKind::group;
+    }
+  }
+  bodies_.schedule(index, when, kind);
+}
+
+[[gnu::always_inline]] inline bool FreeFlights::reflect(int index, Body& b, Time now,
+                                                        Observer& observer,
+                                                        const HitFinder::Landing& landing) {
+  const geometry::Vector before = landing.velocity;
+  const geometry::Vector normal = landing.at.normal;
+  const double step = step_to_energy_shell(before, b.shell);
+  geometry::Vector after;
+  int reflections = 1;
+  if (b.ahead.kind == Ahead::Kind::joint) {
+    reflections = corners_[static_cast<std::size_t>(landing.wall)];
+    if (reflections == 0) return bodies_.end(index, Fate::singular, now, observer), true;
+    const int previous = finder_.table().walls[static_cast<std::size_t>(landing.wall)].previous;
+    after = (1.0 + step) *
+            reflected_at_corner(before, finder_.normal_at_end(previous), normal, reflections);
+  } else {
+    after = geometry::reflected(before, normal, landing.at.factor, step);
+  }
+  Sign inward = finder_.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
+  if (inward == Sign::negative && reflections == 1) {
+    // A grazing rounding: reflecting once more turns it back.
+    after = geometry::reflected(after, normal, dot(normal, normal), 1.0, 0.0);
+    inward = finder_.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
+  }
+  if (inward != Sign::positive) return bodies_.end(index, Fate::singular, now, observer), true;
+
+  b.state.wall = landing.wall;
+  b.state.u = landing.at.u;
+  b.state.position = landing.at.point;
+  b.state.velocity = after;
+  b.state.cell.first += landing.cell.first;
+  b.state.cell.second += landing.cell.second;
+  b.state.time.high = now.high;
+  b.state.time.low = now.low;
+  finder_.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
+                        after);
+  const HitEvent& hit = bodies_.count_hit(index, b, before, b.ahead.duration, reflections);
+  if (bodies_.reaches_limit(b)) {
+    observer.hit(hit);
+    return bodies_.end(index, Fate::capped, now, observer), true;
+  }
+  if (!regions_.edges().empty() && regions_.hold(b.state.position)) [[unlikely]] {
+    observer.hit(hit);
+    return false;  // an edge meets the wall there, and the flight would be beyond it
+  }
+  predict(index, b);  // first, while its numbers are at hand
+  observer.hit(hit);
+  return true;
+}
+
+[[gnu::always_inline]] inline bool FreeFlights::apply(int index, Time now, Observer& observer) {
+  Body& b = bodies_[index];
+  const EventKind kind = bodies_.what(index);
+  if (kind != EventKind::hit) switch (kind) {
+      case EventKind::pinned:
+        return bodies_.end(index, Fate::pinned, now, observer), true;
+      case EventKind::unbounded:
+        return bodies_.end(index, Fate::unbounded, b.state.time, observer), true;
+      case EventKind::cell_edge:
+        finder_.cross(b.flight, b.ahead);
+        return predict(index, b), true;
+      case EventKind::hit:
+      case EventKind::singular:
+        break;
+      case EventKind::group:
+        return false;
+      default:
+        return bodies_.end(index, Fate::lost, b.state.time, observer), true;
+    }
+  if (b.ahead.kind == Ahead::Kind::cusp)
+    return bodies_.end(index, Fate::singular, now, observer), true;
+  HitFinder::Landing landing;
+  finder_.land(b.flight, b.ahead, landing, counts_);
+  if (regions_.is_edge(landing.wall)) [[unlikely]] {
+    const HitFinder::Landing there = landing;  // a copy, or the landing would live in memory
+    put_on_edge(b, now, there);
+    return false;
+  }
+  if (b.ahead.kind == Ahead::Kind::joint) {
+    for (const int h : finder_.table().walls[static_cast<std::size_t>(landing.wall)].holes)
+      if (finder_.table().holes[static_cast<std::size_t>(h)].from == 0.0) landing.hole = h;
+  }
+  if (landing.hole >= 0) {
+    b.hole = landing.hole;
+    return bodies_.end(index, Fate::escaped, now, observer), true;
+  }
+  return reflect(index, b, now, observer, landing);
+}
+
+}  // namespace carom

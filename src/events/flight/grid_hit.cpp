@@ -1,0 +1,208 @@
+// Flights among many walls: only those are looked at whose cells the flight passes.
+#include <algorithm>
+#include <cmath>
+
+#include "carom/geometry/hull.hpp"
+#include "events/flight/crossing.hpp"
+#include "events/flight/next_hit.hpp"
+
+namespace carom {
+
+using namespace geometry;
+
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+/// With edges nothing matters outside the lattice's cell; else a flight may start anywhere, but
+/// what does not reach a wall ends nowhere.
+void HitFinder::make_grid(bool edges) {
+  if (pieces_.empty()) return;
+  std::vector<Box> boxes;
+  const Vector none{0.0, 0.0};
+  const Vector first = cells_ ? table_.lattice->first : none,
+               second = cells_ ? table_.lattice->second : none;
+  if (cells_ && edges) {
+    for (const CellEdge& e : table_.lattice->edges) boxes.push_back(bounding_box(e.segment));
+  } else {
+    for (const Piece& p : pieces_) {
+      Box box = bounding_box(p.curve);
+      if (!(p.offset == Cell{})) {
+        // Displaced, with the rounding on the safe side.
+        const Vector t = table_.lattice->translation(p.offset);
+        const double m = std::fabs(static_cast<double>(p.offset.first)),
+                     n = std::fabs(static_cast<double>(p.offset.second));
+        const double size = std::max({std::fabs(box.low.x), std::fabs(box.low.y),
+                                      std::fabs(box.high.x), std::fabs(box.high.y)});
+        const double margin = 8.0 * unit_roundoff * (m * norm_1(first) + n * norm_1(second) + size);
+        box = {{box.low.x + t.x - margin, box.low.y + t.y - margin},
+               {box.high.x + t.x + margin, box.high.y + t.y + margin}};
+      }
+      boxes.push_back(box);
+    }
+  }
+  grid_ = std::make_unique<const WallGrid>(pieces_, first, second, geometry::hull_of(boxes));
+  seen_.assign(data_.size(), 0);
+  near_.reserve(grid_->entries().size());
+  for (const int piece : grid_->entries()) {
+    const PieceData& p = data_[at(piece)];
+    const PreparedCurve& w = *p.shape;
+    const bool disc = p.closed && p.kind == CurveKind::circle;
+    near_.push_back({w.centre.x, w.centre.y, w.r2, w.centre_error, piece, p.offset, disc,
+                     disc && w.orientation < 0});
+  }
+}
+
+/// Does a line enter a disc from outside? Negative: it does not, or cannot leave the domain there.
+/// Positive: it does, and `first` has been compared with it. Undecided: this is for the filter to
+/// tell.
+template <bool cells>
+[[gnu::always_inline]] inline Sign HitFinder::meets_disc(const Flight& f, const Near& disc,
+                                                         FirstDisc& first) const {
+  const bool stands = disc.piece == f.start_piece;
+  if (stands)
+    return disc.domain_outside ? Sign::negative : Sign::undecided;  // a line leaves a disc for good
+  const Origin& origin = origins_[cells ? at(disc.offset) : 0];
+  const Vector e = origin.point - Vector{disc.x, disc.y};
+  const Quadratic<double> q = circle_quadratic(e, disc.r2, f.velocity, f.square_speed);
+  const QuadraticError error = circle_error(origin.scale, norm_1(e), disc.centre_error, disc.r2);
+  // Going away: the distance from the centre grows from here on, and a disc is not entered.
+  if (q.b > error.b && (disc.domain_outside || q.a > error.a)) return Sign::negative;
+  const double discriminant = discriminant_of(q), margin = discriminant_error(q, error);
+  if (discriminant < -margin) return Sign::negative;
+  if (!(disc.domain_outside && q.b < -error.b && q.a > error.a && discriminant > margin))
+    return Sign::undecided;
+  if (disc.piece == first.piece) return Sign::positive;  // again, in another cell
+  const double root = std::sqrt(discriminant), unit = root - q.b, kappa = unit / q.a;
+  const double kappa_spread = kappa_error(q, error, {discriminant, root, kappa});
+  if (first.piece >= 0) {
+    const double gap = kappa - first.kappa;
+    if (!(std::fabs(gap) > kappa_spread + first.error)) return Sign::undecided;
+    if (gap < 0.0) return Sign::positive;
+  }
+  first = {disc.piece, q.a, unit, kappa, kappa_spread};
+  return Sign::positive;
+}
+
+/// On which side of the flight are the joints of some pieces?
+template <bool larmor, bool cells>
+bool HitFinder::see_joints(const Flight& f, std::span<const int> list) const {
+  for (const int piece : list) {
+    const PieceData& p = data_[at(piece)];
+    if (p.closed) continue;
+    const Origin& origin = origins_[cells ? at(p.offset) : 0];
+    for (const int joint : {piece, p.next}) {
+      const Vector d = joints_[at(joint)] - origin.point;
+      const double side =
+          larmor ? side_of_flight(f.velocity, d, f.omega) : 2.0 * geometry::cross(f.velocity, d);
+      left_[at(joint)] = side > 0.0;
+      if (!(std::fabs(side) > side_error(origin.scale, norm_1(d)))) return false;
+    }
+  }
+  return true;
+}
+
+template bool HitFinder::see_joints<false, false>(const Flight&, std::span<const int>) const;
+template bool HitFinder::see_joints<false, true>(const Flight&, std::span<const int>) const;
+template bool HitFinder::see_joints<true, false>(const Flight&, std::span<const int>) const;
+template bool HitFinder::see_joints<true, true>(const Flight&, std::span<const int>) const;
+
+template <class Visit, class Passed>
+void HitFinder::follow(const Flight& f, const Visit& visit, const Passed& passed) const {
+  const Origin& own = origins_[0];
+  const double delta = own.scale.delta * options_.filter_inflation;
+  if (f.omega == 0.0)
+    grid_->along_line(own.point, delta, f.velocity, visit, passed);
+  else
+    grid_->along_circle(own.point, delta, f.velocity, f.omega, std::sqrt(f.square_speed), visit,
+                        passed);
+}
+
+/// All pieces that the whole flight may meet, in their order: for the exact stage.
+const std::vector<int>& HitFinder::pieces_on_way(const Flight& f) const {
+  ++flights_;
+  list_.clear();
+  follow(
+      f,
+      [&](int cell) {
+        for (const int piece : grid_->pieces(cell)) {
+          if (seen_[at(piece)] == flights_) continue;
+          seen_[at(piece)] = flights_;
+          list_.push_back(piece);
+        }
+      },
+      [](double) { return false; });
+  std::sort(list_.begin(), list_.end());
+  return list_;
+}
+
+template <bool larmor, bool cells>
+bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) const {
+  if (f.start_previous >= 0) return false;  // from a joint: by algebra
+  ++flights_;
+  list_.clear();
+  bool decided = true;
+  double error = 0.0;
+  FirstDisc disc;
+  ahead = Ahead();
+  const auto visit = [&](int cell) {
+    const std::size_t end = grid_->first_entry(cell + 1);
+    for (std::size_t i = grid_->first_entry(cell); i < end; ++i) {
+      const Near& near = near_[i];
+      if (!larmor && near.disc && meets_disc<cells>(f, near, disc) != Sign::undecided) continue;
+      if (seen_[at(near.piece)] == flights_) continue;
+      seen_[at(near.piece)] = flights_;
+      list_.push_back(near.piece);
+    }
+  };
+  const auto passed = [&](double kappa) {
+    if (!list_.empty()) {
+      // The first of those so far, against those that are new.
+      if (disc.piece >= 0) list_.push_back(disc.piece);
+      if (ahead.piece >= 0 && ahead.piece != disc.piece) list_.push_back(ahead.piece);
+      decided = filtered_of<larmor, cells, true>(f, ahead, list_, error);
+      if (!decided) return true;
+      list_.clear();
+      if (ahead.piece != disc.piece) disc = FirstDisc();
+    } else if (disc.piece != ahead.piece && disc.piece >= 0) {
+      if (ahead.piece >= 0) {
+        const double gap = disc.kappa - ahead.kappa;
+        decided = std::fabs(gap) > disc.error + error;
+        if (!decided) return true;
+        if (gap < 0.0) disc = FirstDisc();
+      }
+      if (disc.piece >= 0) {
+        ahead.kind = Ahead::Kind::wall;
+        ahead.piece = disc.piece;
+        ahead.kappa = disc.unit / disc.time;
+        ahead.duration = disc.time / disc.unit;
+        error = disc.error;
+      }
+    }
+    return ahead.kind != Ahead::Kind::none && ahead.kappa - error > kappa;
+  };
+  follow(f, visit, passed);
+  return decided;
+}
+
+void HitFinder::next_in_grid(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
+  look_from(f);
+  if (flights_ > 0xfffffff0u) {  // the counter of flights begins again
+    std::fill(seen_.begin(), seen_.end(), 0);
+    flights_ = 0;
+  }
+  if (f.omega == 0.0 ? (cells_ ? filtered_in_grid<false, true>(f, ahead)
+                               : filtered_in_grid<false, false>(f, ahead))
+                     : (cells_ ? filtered_in_grid<true, true>(f, ahead)
+                               : filtered_in_grid<true, false>(f, ahead))) {
+    ++counts.filter;
+  } else {
+    ++counts.exact;
+    ahead = exact_next(f, pieces_on_way(f));
+  }
+  if (ahead.kind == Ahead::Kind::none) ahead.duration = 0.0;
+}
+
+}  // namespace carom

@@ -1,0 +1,339 @@
+// The first time within a step at which a particle passes from a barrier's positive side to the
+// other.
+//
+// The gap along the path is bounded by its Bernstein coefficients between two knots. Where they
+// show that the gap keeps its sign, or only grows, there is no crossing; where it only falls, the
+// signs at the ends tell; where it is convex or concave, the knot of its minimum or maximum
+// decides. Otherwise the interval is halved by another knot of the path itself. So a path that
+// leaves and returns within a step is found, and a path that just fails to touch is told from one
+// that touches by the gap at its minimum, computed with the scheme's own partial step.
+//
+// A particle that stands on a wall to rounding and moves outwards hits it at once: several hit
+// theirs at the same time, or it is in a corner. One that falls beyond the wall without having
+// moved outwards or having come off it, both to rounding, moves along the wall. Parts of a path on
+// which the gap changes by no more than its rounding are told by their ends.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "events/step/barrier.hpp"
+#include "events/step/step_hull.hpp"
+#include "events/step/step_path.hpp"
+
+namespace carom {
+
+/// Values of a polynomial between the smallest and the largest of its Bernstein coefficients.
+template <class Real, std::size_t size>
+struct Bernstein {
+  std::array<Real, size> coefficient;
+
+  Bernstein<Real, size - 1> derivative() const {
+    Bernstein<Real, size - 1> d;
+    for (std::size_t k = 0; k + 1 < size; ++k)
+      d.coefficient[k] = Real(static_cast<int>(size) - 1) * (coefficient[k + 1] - coefficient[k]);
+    return d;
+  }
+  Real lowest() const {
+    Real low = coefficient[0];
+    for (const Real& c : coefficient) low = c < low ? c : low;
+    return low;
+  }
+  Real highest() const {
+    Real high = coefficient[0];
+    for (const Real& c : coefficient) high = high < c ? c : high;
+    return high;
+  }
+};
+
+template <class Real>
+class CrossingSearch {
+ public:
+  using Path = StepPath<Real>;
+  using Knot = typename Path::Knot;
+
+  explicit CrossingSearch(Path& path) : path_(path) {}
+
+  /// Knot of the first crossing of `barrier` by particle `i` between two knots, or nullptr. There
+  /// the particle is on the barrier to rounding.
+  Knot* first(const Barrier<Real>& barrier, std::size_t i, Knot& from, Knot& to) {
+    begin(true, nullptr);
+    if (hits_at_once(barrier, i, from)) return &from;
+    return crossing(barrier, i, from, to);
+  }
+  /// Likewise of a barrier that is no wall: who starts beyond it has left it. If the particle is on
+  /// it at `from` and goes on (`passes`), it has, too: it crosses again once it was inside by more
+  /// than rounding.
+  Knot* first_exit(const Barrier<Real>& edge, std::size_t i, Knot& from, Knot& to, bool passes) {
+    begin(false, passes ? &from : nullptr);
+    return crossing(edge, i, from, to);
+  }
+  /// Is what was found last motion along the wall?
+  bool slides() const { return slides_; }
+  /// Was a search given up, as short parts of the path looked too rough?
+  bool gave_up() const { return gave_up_; }
+
+ private:
+  // Smooth paths need a few, those that graze some tens. Near a pole of a potential every part
+  // would be halved down to rounding. All parts may be halved depth_for_all times.
+  static constexpr int depth_for_all = 10;
+  static constexpr int most_splits = 2 << depth_for_all;
+  // Half a step, halved this often, is less than rounding of its ends.
+  static constexpr int deepest = std::numeric_limits<Real>::digits + 10;
+
+  void begin(bool wall, const Knot* passed) {
+    splits_ = 0;
+    slides_ = false;
+    wall_ = wall;
+    passed_ = passed;
+    last_depth_ = deepest;
+  }
+
+  Knot* crossing(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
+    if (&from == &to) return nullptr;
+    Knot* found = search(b, i, from, to, 0);
+    if (splits_ <= most_splits) return found;
+    // Velocities that are not quite the derivative of the positions leave paths nearly along a wall
+    // unclear however short their parts are. So only what they err by across it counts, and parts
+    // of a thousandth are told by the positions at their ends.
+    last_depth_ = depth_for_all;
+    return search(b, i, from, to, 0);
+  }
+
+  Real gap(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    return b.gap(k.phase.position[i]);
+  }
+  Real rate(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    return b.rate(k.phase.position[i], k.phase.velocity[i]);
+  }
+
+  // Can the path leave the barrier from here?
+  bool inside(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    if (!passed_) return gap(b, i, k) > Real(0);
+    return &k != passed_ && gap(b, i, k) > b.on_wall() * b.rounding(k.phase.position[i]);
+  }
+
+  /// Is it certainly on the outer side?
+  bool beyond(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    return gap(b, i, k) < -b.off_wall(k.phase.position[i]);
+  }
+
+  bool hits_at_once(const Barrier<Real>& b, std::size_t i, const Knot& k) const {
+    const auto &x = k.phase.position[i], &v = k.phase.velocity[i];
+    return b.rate(x, v) < -b.rate_rounding(x, v) && b.stands_on(x);
+  }
+
+  Knot* search(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to, int depth) {
+    const PathArc<Real> arc(path_, from, to, i);
+    Shape shape = Shape::unknown;
+    if (b.conic) {
+      shape = conic_shape(b, arc, noise(b, i, from));
+    } else {
+      Bernstein<Real, 6> g;
+      for (std::size_t k = 0; k < 6; ++k) g.coefficient[k] = b.gap(arc.points[k]);
+      shape = shape_of(g, only_across() ? arc.error_along(b.first) : arc.error, noise(b, i, from));
+    }
+    switch (shape) {
+      case Shape::none:
+        break;
+      case Shape::falling:
+      case Shape::level:
+        return root(b, i, from, to);
+      case Shape::convex: {
+        const bool falls = rate(b, i, from)<Real(0), rises = rate(b, i, to)> Real(0);
+        if (!falls) break;
+        if (!rises) return root(b, i, from, to);
+        Knot& lowest = extremum(b, i, from, to);
+        return gap(b, i, lowest) > Real(0) ? root(b, i, lowest, to) : root(b, i, from, lowest);
+      }
+      case Shape::concave: {
+        const bool rises = rate(b, i, from) > Real(0), falls = rate(b, i, to) < Real(0);
+        if (!falls) break;
+        if (!rises || inside(b, i, from)) return root(b, i, from, to);
+        Knot& highest = extremum(b, i, from, to);
+        return root(b, i, highest, to);
+      }
+      case Shape::unknown:
+        break;
+    }
+    // A scheme's velocity is not quite the derivative of its positions. Where these lead from the
+    // inner side to certainly beyond, there is a crossing, however the velocities at the ends
+    // point.
+    if (shape != Shape::unknown) {
+      if (!wall_ || beyond(b, i, from) || !beyond(b, i, to)) return nullptr;
+      if (gap(b, i, from) > Real(0)) return root(b, i, from, to);
+    }
+    const Real middle = from.time + (to.time - from.time) / Real(2);
+    const bool last = depth >= last_depth_;
+    if (last || !(from.time < middle) || !(middle < to.time)) {
+      Knot* found = root(b, i, from, to);
+      if (!found && only_across() && arc.is_rough()) gave_up_ = true;
+      return found;
+    }
+    if (!only_across() && ++splits_ > most_splits) return nullptr;
+    Knot& half = path_.at(middle);
+    if (Knot* found = search(b, i, from, half, depth + 1)) return found;
+    return search(b, i, half, to, depth + 1);
+  }
+
+  enum class Shape { none, falling, convex, concave, level, unknown };
+
+  // Each of two coefficients errs by one rounding of the gap and one of its control point, at most.
+  static Real noise(const Barrier<Real>& b, std::size_t i, const Knot& k) {
+    return Real(4) * b.rounding(k.phase.position[i]);
+  }
+
+  // `error` is that of the gap; its derivatives err by what the coefficients of a polynomial that
+  // small may differ by. Coefficients that differ by less than `noise` tell nothing, nor do those
+  // within it of the wall.
+  template <std::size_t size>
+  static Shape shape_of(const Bernstein<Real, size>& g, const Real& error, const Real& noise) {
+    if (g.lowest() > error || g.highest() < -(error + noise)) return Shape::none;
+    const Bernstein<Real, size - 1> rate = g.derivative();
+    const Real rate_error = Real(static_cast<int>(size) - 1) * (Real(2) * error + noise);
+    if (rate.lowest() > rate_error) return Shape::none;
+    if (rate.highest() < -rate_error) return Shape::falling;
+    const Bernstein<Real, size - 2> bend = rate.derivative();
+    const Real bend_error = Real(2 * (static_cast<int>(size) - 2)) * rate_error;
+    if (bend.lowest() > bend_error) return Shape::convex;
+    if (bend.highest() < -bend_error) return Shape::concave;
+    return g.highest() - g.lowest() > noise ? Shape::unknown : Shape::level;
+  }
+
+  Shape conic_shape(const Barrier<Real>& b, const PathArc<Real>& arc, const Real& noise) const {
+    using Vector = geometry::BasicVector<Real>;
+    const auto seen = [&](const Vector& e) { return Vector{dot(b.first, e), dot(b.second, e)}; };
+    std::array<Vector, 6> y, d{};  // the quintic's points, and what they differ by from the cubic's
+    Real size(0);
+    for (std::size_t k = 0; k < 6; ++k) {
+      y[k] = seen(arc.points[k] - b.origin);
+      const Real n = PathHull<Real>::norm(y[k]);
+      size = size < n ? n : size;
+    }
+    for (std::size_t k = 0; k < 2; ++k) d[2 + k] = seen(arc.difference[k]);
+    static constexpr std::array<int, 6> five = {1, 5, 10, 10, 5, 1};
+    static constexpr std::array<int, 11> ten = {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1};
+    Bernstein<Real, 11> g, differs;
+    for (std::size_t m = 0; m <= 10; ++m) {
+      Real sum(0), change(0);
+      for (std::size_t k = m > 5 ? m - 5 : 0; k <= 5 && k <= m; ++k) {
+        const Real weight(five[k] * five[m - k]);
+        sum = sum + weight * dot(y[k], y[m - k]);
+        change = change + weight * dot(d[k], Real(2) * y[m - k] - d[m - k]);
+      }
+      g.coefficient[m] = b.orientation * (Real(1) - sum / Real(ten[m])) / Real(2);
+      differs.coefficient[m] = change / Real(2 * ten[m]);
+    }
+    if (only_across()) return shape_of(g, std::max(differs.highest(), -differs.lowest()), noise);
+    const Real stretch = PathHull<Real>::norm(b.first) + PathHull<Real>::norm(b.second);
+    const Real error = stretch * arc.error;  // of y
+    return shape_of(g, size * error + error * error, noise);
+  }
+
+  // The gap falls from a point at or beyond the barrier. Where walls meet smoothly that may be the
+  // highest point of a path along both, just before this one begins.
+  Knot* from_the_wall(const Barrier<Real>& b, std::size_t i, Knot& from, const Knot& to) {
+    if (!wall_ || !beyond(b, i, to) || beyond(b, i, from)) return nullptr;
+    if (!b.covers(from.phase.position[i])) return at_either_end(b, i, from, from, to);
+    slides_ = !hits_at_once(b, i, from);
+    return &from;
+  }
+
+  // The gap falls from `from` to `to`: its zero, if it has one there and on the piece, to the
+  // rounding of the gap. Newton's steps, kept between the best knots on either side.
+  Knot* root(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
+    if (gap(b, i, to) > Real(0)) return nullptr;
+    if (!inside(b, i, from)) return from_the_wall(b, i, from, to);
+    Knot *inside = &from, *outside = &to, *newest = &to;
+    for (int n = 0; n < 2 * deepest; ++n) {
+      const Real g = gap(b, i, *newest);
+      const Real size = g < Real(0) ? -g : g;
+      if (!(size > b.rounding(newest->phase.position[i]))) {
+        inside = newest;
+        break;
+      }
+      const Real middle = inside->time + (outside->time - inside->time) / Real(2);
+      const Real slope = rate(b, i, *newest);
+      Real next = slope < Real(0) ? newest->time - g / slope : middle;
+      if (n % 8 == 7 || !(inside->time < next) || !(next < outside->time)) next = middle;
+      if (!(inside->time < next) || !(next < outside->time)) break;
+      newest = &path_.at(next);
+      (gap(b, i, *newest) > Real(0) ? inside : outside) = newest;
+    }
+    if (b.covers(inside->phase.position[i])) return inside;
+    return at_either_end(b, i, *inside, from, to);
+  }
+
+  Knot* at_either_end(const Barrier<Real>& b, std::size_t i, Knot& found, const Knot& from,
+                      const Knot& to) {
+    if (b.closed) return nullptr;
+    Knot* joint = at_end(b, Barrier<Real>::End::from, i, found, from, to);
+    return joint ? joint : at_end(b, Barrier<Real>::End::to, i, found, from, to);
+  }
+
+  // The path crosses the carrier beyond the piece. If it also passes that end of the piece, to
+  // rounding, the gap changes by no more than rounding between the two, and they cannot be told
+  // apart: nearly along a wall, that may be many roundings of the point. The wall beyond the joint
+  // may find its crossing before it, so neither would be hit. Points of the path are rounded as its
+  // start is, be they nearer to the origin.
+  Knot* at_end(const Barrier<Real>& b, typename Barrier<Real>::End which, std::size_t i,
+               Knot& found, const Knot& from, const Knot& to) {
+    const auto &x = found.phase.position[i], &start = path_.start().phase.position[i],
+               &end = b.point(which);
+    const Real near =
+        b.reach_of_joint(which, b.reach_of_wall(b.rounding(x) < b.rounding(start) ? start : x));
+    Knot* there = &found;
+    for (int n = 0; n < 3; ++n) {  // the path is nearly straight, so nearly at once
+      const auto &y = there->phase.position[i], &v = there->phase.velocity[i];
+      const Real time = there->time + dot(end - y, v) / dot(v, v);
+      if (!(from.time <= time) || !(time <= to.time)) return nullptr;
+      there = &path_.at(time);
+      if (!(PathHull<Real>::norm(there->phase.position[i] - end) > near)) return there;
+    }
+    return nullptr;
+  }
+
+  // Where the gap's rate changes sign: regula falsi with halved weights (Illinois).
+  Knot& extremum(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
+    Knot *low = &from, *high = &to;
+    Real at_low = rate(b, i, from), at_high = rate(b, i, to);
+    const bool convex = at_low < Real(0);
+    for (int n = 0; n < 4 * deepest; ++n) {
+      const Real width = high->time - low->time;
+      Real next = low->time + width * (at_low / (at_low - at_high));
+      if (n % 4 == 3 || !(low->time < next) || !(next < high->time))
+        next = low->time + width / Real(2);
+      if (!(low->time < next) || !(next < high->time)) break;
+      Knot& middle = path_.at(next);
+      const Real r = rate(b, i, middle);
+      if (r == Real(0)) return middle;
+      // A minimum already beyond the barrier, or a maximum before it, says all that is asked.
+      if (convex ? !(gap(b, i, middle) > Real(0)) : inside(b, i, middle)) return middle;
+      if ((r < Real(0)) == convex) {
+        low = &middle;
+        at_low = r;
+        at_high = at_high / Real(2);
+      } else {
+        high = &middle;
+        at_high = r;
+        at_low = at_low / Real(2);
+      }
+    }
+    return (gap(b, i, *low) > gap(b, i, *high)) == convex ? *high : *low;
+  }
+
+  /// Is this the search after one that ran out of splits?
+  bool only_across() const { return last_depth_ < deepest; }
+
+  Path& path_;
+  int splits_ = 0;  ///< of the search under way
+  int last_depth_ = deepest;
+  bool gave_up_ = false;
+  bool wall_ = true;  ///< the barrier under way is one
+  bool slides_ = false;
+  const Knot* passed_ = nullptr;  ///< where the particle has just crossed the barrier and went on
+};
+
+}  // namespace carom

@@ -1,0 +1,50 @@
+#include "events/step/energy_watch.hpp"
+
+#include <cmath>
+
+#include "events/step/group.hpp"
+
+namespace carom {
+
+std::size_t EnergyWatch::entry_of(const Group& group) const {
+  return entry(group.bodies().front());
+}
+
+void EnergyWatch::add(double kinetic) {
+  balances_.push_back({0.0, 0.0, kinetic});
+  changes_.emplace_back();
+}
+
+void EnergyWatch::clear() {
+  balances_.clear();
+  changes_.clear();
+}
+
+void EnergyWatch::before_step(const Group& group) {
+  double kinetic = 0.0;
+  if (together_) {
+    for (int i = 0; i < bodies_.size(); ++i) {
+      const Body& b = bodies_[i];
+      if (!b.finished) kinetic += 0.5 * b.particle.mass * dot(b.state.velocity, b.state.velocity);
+    }
+  } else {
+    kinetic = group.kinetic_energy();
+  }
+  EnergyBalance& balance = balances_[entry_of(group)];
+  balance.kinetic = larger(balance.kinetic, kinetic);
+}
+
+void EnergyWatch::after_step(Group& group) {
+  EnergyBalance& balance = balances_[entry_of(group)];
+  Twofold& change = changes_[entry_of(group)];
+  change = change + group.change_of_energy();
+  balance.change = change.value();
+  balance.largest = larger(balance.largest, std::fabs(balance.change));
+}
+
+void EnergyWatch::set_balance(int body, const EnergyBalance& balance) {
+  balances_[entry(body)] = balance;
+  changes_[entry(body)] = balance.change;
+}
+
+}  // namespace carom

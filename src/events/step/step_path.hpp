@@ -1,0 +1,169 @@
+// The path of a group within one step of its scheme, and its dense output.
+//
+// A point of the path at time t after the start is the scheme's own step of length t from the
+// start. Between two such knots the path is seen as the quintic that has their positions,
+// velocities and accelerations; by how much a cubic without the accelerations differs from it
+// bounds what it errs, as the quintic's own error is of a higher order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "carom/integrators/stepper.hpp"
+#include "events/step/step_hull.hpp"
+
+namespace carom {
+
+template <class Real>
+class StepPath {
+ public:
+  using Vector = geometry::BasicVector<Real>;
+  struct Knot {
+    Real time{};
+    Phase<Real> phase;
+    std::vector<Vector> acceleration;  ///< with the magnetic part; empty until asked for
+  };
+
+  /// Refers to all three; `omega` has one entry a particle.
+  StepPath(Stepper<Real>& stepper, const ForceLaw<Real>& law, std::span<const Real> omega)
+      : stepper_(stepper), law_(law), omega_(omega) {}
+
+  /// A new path from `from`, whose first step takes at most `at_most`. Returns the time it takes.
+  Real begin(const Phase<Real>& from, Real at_most) {
+    // A path that goes on where the last one ended keeps what is known there.
+    const bool goes_on =
+        used_ > 1 && end().phase.position == from.position && end().phase.velocity == from.velocity;
+    if (goes_on) {
+      std::swap(knots_[0], knots_[1]);
+      used_ = 1;
+    } else {
+      used_ = 0;
+      fresh().phase = from;
+    }
+    start().time = Real(0);
+    Knot& end = fresh();
+    end.time = stepper_.step(from, at_most, end.phase);
+    return end.time;
+  }
+  /// The next path is a new one, wherever it begins.
+  void forget() { used_ = 0; }
+  Knot& start() { return *knots_[0]; }
+  Knot& end() { return *knots_[1]; }
+
+  /// The knot at a time between start and end. It stays valid until the next begin.
+  Knot& at(Real time) {
+    for (std::size_t i = 0; i < used_; ++i)
+      if (knots_[i]->time == time) return *knots_[i];
+    Knot& knot = fresh();
+    knot.time = time;
+    move(time, knot.phase);
+    return knot;
+  }
+  /// Keeps the start, the end and this knot alone where all of them together are large.
+  void keep_few(Knot& one) {
+    constexpr std::size_t most = std::size_t{1}
+                                 << 20;  // particles at all knots: some tens of megabytes
+    if (used_ < 4 || used_ * start().phase.position.size() < most) return;
+    const auto there = std::find_if(knots_.begin(), knots_.end(),
+                                    [&](const auto& knot) { return knot.get() == &one; });
+    if (there - knots_.begin() > 2) std::swap(knots_[2], *there);
+    used_ = 3;
+  }
+  /// The phase at a time, without keeping it.
+  void move(Real time, Phase<Real>& to) {
+    if (!(time > Real(0)) || time == end().time) {
+      to = (time > Real(0) ? end() : start()).phase;
+      return;
+    }
+    Real done = stepper_.step(start().phase, time, to);
+    while (done < time) {  // an adaptive scheme may take several steps
+      const Phase<Real> from = to;
+      done = done + stepper_.step(from, time - done, to);
+    }
+  }
+
+  /// Acceleration of particle i at a knot, with the magnetic part.
+  const Vector& acceleration(Knot& knot, std::size_t i) const {
+    if (knot.acceleration.empty()) {
+      knot.acceleration.resize(knot.phase.position.size());
+      law_.accelerations(knot.phase.position, knot.acceleration);
+      for (std::size_t k = 0; k < omega_.size(); ++k)
+        knot.acceleration[k] = knot.acceleration[k] + omega_[k] * right(knot.phase.velocity[k]);
+    }
+    return knot.acceleration[i];
+  }
+
+ private:
+  Knot& fresh() {
+    if (used_ == knots_.size()) knots_.push_back(std::make_unique<Knot>());
+    knots_[used_]->acceleration.clear();
+    return *knots_[used_++];
+  }
+
+  Stepper<Real>& stepper_;
+  const ForceLaw<Real>& law_;
+  std::span<const Real> omega_;
+  std::vector<std::unique_ptr<Knot>> knots_;
+  std::size_t used_ = 0;
+};
+
+/// Where one particle's path between two knots can be.
+template <class Real>
+struct PathHull : StepHull<Real> {
+  using Vector = geometry::BasicVector<Real>;
+
+  PathHull(const typename StepPath<Real>::Knot& a, const typename StepPath<Real>::Knot& b,
+           std::size_t i)
+      : StepHull<Real>(a.phase.position[i], a.phase.velocity[i], b.phase.position[i],
+                       b.phase.velocity[i], (b.time - a.time) / Real(3)) {}
+  static Real norm(const Vector& a) { return step_hull::norm(a); }
+};
+
+/// One particle's path between two knots as a Bezier curve of degree 5, and how far its control
+/// points are from those of the cubic without the accelerations, raised to that degree.
+template <class Real>
+struct PathArc {
+  using Vector = geometry::BasicVector<Real>;
+  std::array<Vector, 6> points;
+  std::array<Vector, 2> difference;  ///< of points 2 and 3; the others agree
+  Real error{};                      ///< the larger of them, in the 1-norm
+
+  PathArc(const StepPath<Real>& path, typename StepPath<Real>::Knot& a,
+          typename StepPath<Real>::Knot& b, std::size_t i) {
+    const Real h = b.time - a.time;
+    const Vector &x0 = a.phase.position[i], &x1 = b.phase.position[i];
+    const Vector v0 = h * a.phase.velocity[i], v1 = h * b.phase.velocity[i];
+    const Vector a0 = (h * h) * path.acceleration(a, i), a1 = (h * h) * path.acceleration(b, i);
+    const Real fifth = Real(1) / Real(5), twentieth = Real(1) / Real(20);
+    points = {x0,
+              x0 + fifth * v0,
+              x0 + (Real(2) * fifth) * v0 + twentieth * a0,
+              x1 - (Real(2) * fifth) * v1 + twentieth * a1,
+              x1 - fifth * v1,
+              x1};
+    const Real tenth = Real(1) / Real(10), third = Real(1) / Real(3);
+    const Vector c1 = x0 + third * v0, c2 = x1 - third * v1;
+    difference = {points[2] - tenth * (x0 + Real(6) * c1 + Real(3) * c2),
+                  points[3] - tenth * (x1 + Real(6) * c2 + Real(3) * c1)};
+    error = std::max(PathHull<Real>::norm(difference[0]), PathHull<Real>::norm(difference[1]));
+  }
+  /// The larger of them along a unit vector.
+  Real error_along(const Vector& unit) const {
+    const Real low = dot(unit, difference[0]), high = dot(unit, difference[1]);
+    return std::max(std::max(low, -low), std::max(high, -high));
+  }
+  /// Does the path's derivative err by more than the way, straight or as the velocities at its ends
+  /// lead? Control points that err by `error` make that of degree 5 err by ten times as much.
+  bool is_rough() const {
+    const auto norm = &PathHull<Real>::norm;
+    const Real led = Real(5) * std::max(norm(points[1] - points[0]), norm(points[5] - points[4]));
+    return Real(10) * error > std::max(led, norm(points[5] - points[0]));
+  }
+};
+
+}  // namespace carom
