@@ -18,7 +18,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "carom_version.hpp"
-#include "cli/ensemble_job.hpp"
+#include "cli/commands/ensemble_job.hpp"
 
 namespace carom::cli {
 

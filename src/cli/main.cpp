@@ -11,9 +11,9 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/io/archive.hpp"
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
-#include "cli/ensemble_job.hpp"
+#include "cli/commands/ensemble_job.hpp"
 #include "cli/mpi_ranks.hpp"
 
 namespace {

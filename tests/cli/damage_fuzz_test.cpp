@@ -16,7 +16,7 @@
 #include "archive_contents.hpp"
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
-#include "io/checksums.hpp"
+#include "io/archive/checksums.hpp"
 #include "program.hpp"
 
 namespace carom {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/checksums.hpp"
+#include "io/archive/checksums.hpp"
 #include "program.hpp"
 
 namespace carom {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "io/checksums.hpp"
+#include "io/archive/checksums.hpp"
 #include "kill_and_resume.hpp"
 
 namespace carom {

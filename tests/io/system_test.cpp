@@ -1,7 +1,7 @@
 // What a system file means.
 #include <cmath>
 
-#include "io/read.hpp"
+#include "io/toml/read.hpp"
 #include "system_text.hpp"
 
 namespace carom::tests {

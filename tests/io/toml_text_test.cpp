@@ -1,5 +1,5 @@
 // Numbers are cut out of the source text.
-#include "io/value.hpp"
+#include "io/toml/value.hpp"
 #include "system_text.hpp"
 
 namespace carom::tests {

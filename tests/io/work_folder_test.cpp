@@ -1,5 +1,5 @@
 // One writer at a time, also while others let go.
-#include "io/work_folder.hpp"
+#include "io/checkpoint/work_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <fcntl.h>

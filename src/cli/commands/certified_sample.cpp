@@ -1,0 +1,190 @@
+#include "cli/commands/certified_sample.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "carom/base/error.hpp"
+#include "carom/certify/certified_orbit.hpp"
+#include "carom/ensemble/paired_escape.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "carom/events/world.hpp"
+#include "cli/common.hpp"
+#include "cli/commands/run_certified.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+Place place_of(const char* option) { return {"command line", 0, 0, option}; }
+
+OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
+  ExactSystem system = loaded.exact;
+  CertifiedTask task;
+  task.collisions = loaded.system.run.collisions;
+  if (loaded.system.run.t_max < no_last_time) task.t_max = ExactNumber(loaded.t_max);
+  task.digits = digits;
+  task.most_bits = 200'000;
+  const bool written = loaded.system.initial.kind == InitialCondition::Kind::point;
+  return [system, task, written](const State& start) mutable -> OtherEnd {
+    // A start that was drawn is its doubles, taken exactly; the direction's length is free.
+    if (!written) system.start = exact_start(start);
+    std::optional<CertifiedOrbit> orbit;
+    try {
+      orbit.emplace(system, task,
+                    [&stop = catch_interrupts()] { return stop.load(std::memory_order_relaxed); });
+    } catch (const InputError&) {  // next to a wall, and outside of the table as it was written
+      return {};
+    }
+    const CertifiedEnd& end = orbit->finish();
+    OtherEnd result{OtherEnd::known, {}};
+    result.end.hits = end.collisions;
+    result.end.hole = end.hole;
+    switch (end.fate) {
+      case CertifiedFate::completed:
+      case CertifiedFate::pinned:
+        return result;
+      case CertifiedFate::escaped:
+      case CertifiedFate::unbounded:
+        result.end.time = end.t.to_double();
+        return result;
+      case CertifiedFate::singular:
+        return {OtherEnd::singular, {}};
+      default:
+        return {};
+    }
+  };
+}
+
+int digits_of(const Options& options) {
+  if (options.digits.empty()) return 10;
+  const std::uint64_t digits = whole_number(options.digits, "--digits", 1);
+  if (digits > 1000)
+    throw InputError(place_of("--digits"), "a sample needs few digits", "at most 1000");
+  return static_cast<int>(digits);
+}
+
+// Refuses what has no certified form before anything is computed.
+void check(const LoadedSystem& loaded) {
+  check_form(loaded.system, "--certify-sample");
+  check_start(loaded.system);
+  ExactSystem exact = loaded.exact;
+  if (loaded.system.initial.kind != InitialCondition::Kind::point)
+    exact.start = exact_start(draw_initial_state(loaded.system, World(*loaded.system.table), 0, 0));
+  CertifiedTask task;
+  task.collisions = 1;
+  const CertifiedOrbit orbit(exact, task);
+}
+
+void add_result(Json& json, const PairedEscapeResult& result, int digits) {
+  const PairedResult& r = result.pairs;
+  json.set("status", result.complete ? "completed" : "interrupted");
+  json.set("pairs", r.pairs).set("digits", digits).set("singular", result.singular);
+  json.set("unresolved", result.unresolved).set("lost", result.lost);
+  json.set("certified_singular", result.other_singular).set("undecided", result.unknown);
+  json.set("other_hole", r.other_hole)
+      .set("other_hits", r.other_hits)
+      .set("other_time", r.other_time);
+  const auto of_pairs = [&](double x) { return r.pairs > 0 ? Json(x) : Json(); };
+  json.set("statistic", of_pairs(r.statistic)).set("threshold", of_pairs(r.threshold));
+  json.set("p_value", of_pairs(r.p_value)).set("swaps", r.swaps);
+  Json points = Json::array();
+  for (const PairedPoint& p : r.points)
+    points.push(Json::object()
+                    .set("t", p.t)
+                    .set("double", p.first)
+                    .set("certified", p.second)
+                    .set("difference", p.difference)
+                    .set("stderr", p.error)
+                    .set("only_double", p.only_first)
+                    .set("only_certified", p.only_second)
+                    .set("detectable", p.detectable));
+  json.set("survival", std::move(points));
+}
+
+std::string text_of(const PairedEscapeResult& result, int digits) {
+  const PairedResult& r = result.pairs;
+  const double all = r.pairs > 0 ? static_cast<double>(r.pairs) : 1.0;
+  const auto share = [&](std::uint64_t n) {
+    return fmt::format("{:>10}  {:>7.3f} %", grouped(n), 100.0 * static_cast<double>(n) / all);
+  };
+  std::string text =
+      fmt::format("The same starts in doubles and certified, {} decimals: {} pairs{}\n", digits,
+                  grouped(r.pairs), result.complete ? "" : " (interrupted)");
+  text += fmt::format("  escape otherwise      {}\n", share(r.different()));
+  text += fmt::format("    elsewhere or not    {}\n", share(r.other_hole));
+  text += fmt::format("    after other hits    {}\n", share(r.other_hits));
+  text += fmt::format("    at another time     {}\n", share(r.other_time));
+  if (result.singular + result.unresolved + result.lost + result.other_singular + result.unknown >
+      0)
+    text += fmt::format(
+        "  not compared          {} singular in doubles, {} certified as singular, {} unresolved, "
+        "{} lost, {} undecided\n",
+        result.singular, result.other_singular, result.unresolved, result.lost, result.unknown);
+  if (r.pairs == 0)
+    return text + fmt::format(
+                      "  no pair was compared: nothing is known of the curves\n  computed in       "
+                      "    {:.3g} s\n",
+                      result.seconds);
+  text += "\n           t      double   certified   difference      error   detectable\n";
+  for (const PairedPoint& p : r.points)
+    text += fmt::format("{:>12.6g}  {:>10.6f}  {:>10.6f}   {:>+10.6f}   {:.6f}     {:.6f}\n", p.t,
+                        p.first, p.second, p.difference, p.error, p.detectable);
+  text += fmt::format(
+      "  largest difference    {:.2f} standard errors; {} random swaps of pairs exceed {:.2f} in 5 "
+      "%\n",
+      r.statistic, grouped(r.swaps), r.threshold);
+  text += fmt::format("  swap test             p = {:.4f}: the curves {}\n", r.p_value,
+                      r.p_value > 0.05 ? "do not differ" : "differ");
+  return text + fmt::format("  computed in           {:.3g} s\n", result.seconds);
+}
+
+}  // namespace
+
+int certified_sample(const Options& options) {
+  if (!options.output.empty())
+    throw InputError(place_of("--output"), "a certified sample writes no archive",
+                     "--json, or no -o");
+  check_engine(options);
+  PairedEscapeOptions how;
+  how.sample = whole_number(options.certify_sample, "--certify-sample", 1);
+  how.threads = threads_of(options);
+  const int digits = digits_of(options);
+  LoadedSystem loaded = load_system(options.system, options.overrides);
+  choose_engine(options.engine, loaded.system);
+  how.interrupted = &catch_interrupts();
+  const System& system = loaded.system;
+  if (how.sample > system.run.trajectories)
+    throw InputError(place_of("--certify-sample"),
+                     fmt::format("the ensemble has {} trajectories", system.run.trajectories),
+                     "a sample of at most these, or more --trajectories");
+  check(loaded);
+  PairedEscapeResult result;
+  {
+    Progress progress(!options.quiet);
+    const double all = static_cast<double>(how.sample);
+    how.progress = [&](std::uint64_t done) {
+      if (progress.due())
+        progress.show(
+            static_cast<double>(done) / all,
+            with_prefix(static_cast<double>(done) / progress.seconds()) + "certified orbits/s");
+    };
+    result = compare_escapes(
+        system, [&] { return certified_flight(loaded, digits); }, how);
+  }
+  if (options.json) {
+    Json json = Json::object();
+    add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+    add_result(json, result, digits);
+    print(json.text() + "\n");
+  } else {
+    print(fmt::format("{}\n", system.title.empty() ? system.name : system.title) +
+          text_of(result, digits));
+  }
+  if (result.lost + result.unresolved > 0) return untrusted;
+  return result.complete ? done : stopped;
+}
+
+}  // namespace carom::cli

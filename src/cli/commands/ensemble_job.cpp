@@ -1,0 +1,136 @@
+#include "cli/commands/ensemble_job.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "carom/base/error.hpp"
+#include "carom/base/exact_number.hpp"
+#include "cli/common.hpp"
+#include "io/checkpoint/rank_parts.hpp"
+#include "io/checkpoint/work_folder.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+Place place_of(const char* option) { return Place{"command line", 0, 0, option}; }
+
+Shard shard_of(const Options& options) {
+  return options.shard.empty() ? Shard{} : carom::shard_of(options.shard, place_of("--shard"));
+}
+
+SystemOverrides overrides_of(const Options& options) {
+  SystemOverrides overrides = options.overrides;
+  overrides.window = options.window;
+  return overrides;
+}
+
+// Loads the system that is stored, and refuses another one. The window may be another: the report
+// alone asks for it.
+LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(Place{stored.file, 0, 0, ""},
+                     "what is asked for is not what is stored: " + what,
+                     "the same system and options, or none");
+  };
+  LoadedSystem loaded =
+      options.system.empty()
+          ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
+          : load_system(options.system, overrides_of(options));
+  const std::string differs = difference(stored.system_toml, loaded.resolved_toml, "run.window");
+  if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
+    refuse(
+        fmt::format("the system is {}, not {}: {}", options.system, stored.system_name, differs));
+  if (!differs.empty()) refuse(differs);
+  System& system = loaded.system;
+  system.name = stored.system_name;
+  if (!system.run.window)
+    system.run.window =
+        read_system(stored.system_toml, stored.file + ": /system").system.run.window;
+  loaded.resolved_toml = stored.system_toml;
+  if (options.engine != "auto" && (options.engine == "steps") != stored.everywhere)
+    refuse(fmt::format("--engine is {}, not {}", options.engine,
+                       stored.everywhere ? "steps" : "auto"));
+  choose_engine(options.engine == "auto" && stored.everywhere ? "steps" : options.engine, system);
+  if (engine_of(system) != stored.engine || system.dynamics.everywhere != stored.everywhere)
+    refuse(fmt::format("--engine is {}, not {}", options.engine,
+                       stored.everywhere ? "steps" : "auto"));
+  if (options.per_trajectory && !stored.per_trajectory) refuse("it has no --per-trajectory");
+  if (!options.shard.empty() && shard_of(options) != stored.shard)
+    refuse(fmt::format("--shard is {}, not {}", options.shard, text_of(stored.shard)));
+  return loaded;
+}
+
+template <class Result>
+EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
+  EnsembleJob<Result> job;
+  job.output = archive_named(options.resume);
+  // What is complete is only shown.
+  if (sharing != Sharing::other && !(is_complete(job.output) && !has_work_folder(job.output))) {
+    job.lock = lock_output(job.output);
+    gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);
+  }
+  job.stored = read_ensemble<Result>(job.output);
+  if (!options.output.empty() && options.output != job.output)
+    throw InputError(place_of("--output"), "an ensemble goes on in the same archive",
+                     "no -o beside --resume");
+  if (!job.stored->result.complete) refuse_other_version(*job.stored);
+  job.loaded = loaded_of(*job.stored, options);
+  check_stored(*job.stored, job.loaded.system);
+  job.shard = job.stored->shard;
+  return job;
+}
+
+}  // namespace
+
+template <class Result>
+EnsembleJob<Result> job_of(const Options& options, Sharing sharing) {
+  if (!options.resume.empty()) return job_to_go_on<Result>(options, sharing);
+  EnsembleJob<Result> job;
+  job.output = options.output;
+  job.shard = shard_of(options);
+  job.loaded = load_system(options.system, overrides_of(options));
+  choose_engine(options.engine, job.loaded.system);
+  if (job.output.empty() || sharing == Sharing::other) return job;
+  job.lock = lock_output(job.output);
+  refuse_existing(job.output, options.force);
+  return job;
+}
+template EnsembleJob<EscapeResult> job_of(const Options&, Sharing);
+template EnsembleJob<DiffusionResult> job_of(const Options&, Sharing);
+
+bool is_plain_ensemble(const Options& options) {
+  const bool adds_up = options.command == "escape" || options.command == "diffusion";
+  return adds_up && options.splitting.empty() && options.certify_sample.empty();
+}
+
+void refuse_parts_of_others(const Options& options) {
+  if (is_plain_ensemble(options)) return;
+  const char* const only = "a plain ensemble: neither --splitting nor --certify-sample";
+  if (!options.resume.empty())
+    throw InputError(place_of("--resume"), "this cannot be continued", only);
+  if (!options.shard.empty()) throw InputError(place_of("--shard"), "this cannot be parted", only);
+}
+
+CheckpointInterval checkpoint_interval(const std::string& text) {
+  const char* const option = "--checkpoint";
+  const std::string in_blocks = "blocks:";
+  CheckpointInterval interval;
+  if (text.starts_with(in_blocks)) {
+    interval.blocks = whole_number(text.substr(in_blocks.size()), option, 1);
+    return interval;
+  }
+  try {
+    interval.seconds = ExactNumber(text, place_of(option)).to_double();
+  } catch (const InputError&) {
+    interval.seconds = 0;  // no number: the message below names both forms
+  }
+  if (!(interval.seconds > 0.0 && interval.seconds < 1e9))
+    throw InputError(place_of(option),
+                     fmt::format("'{}' is neither a time between checkpoints nor blocks:N", text),
+                     "seconds, more than 0 and less than 1e9, or blocks:N");
+  return interval;
+}
+
+}  // namespace carom::cli

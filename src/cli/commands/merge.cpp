@@ -1,0 +1,74 @@
+// carom merge: parts of an ensemble become one archive.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "carom/base/error.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/diffusion_report.hpp"
+#include "cli/reports/doubts.hpp"
+#include "cli/reports/escape_report.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+// What a part lacks is lacking in the sum.
+void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
+  const auto gaps = done.missing_from({0, system.run.trajectories});
+  std::uint64_t missing = 0;
+  for (const TrajectoryRange& gap : gaps) missing += gap.last - gap.first;
+  if (missing > 0)
+    warn(fmt::format("{} of {} trajectories are missing, the first of them {}", grouped(missing),
+                     grouped(system.run.trajectories), gaps.front().first));
+}
+
+int print_sum(const Options& options, const System& system, const EscapeResult& result,
+              const EnsembleContext& context) {
+  print(options.json ? escape_json(system, result, context).text() + "\n"
+                     : escape_text(system, result, context));
+  return doubts_of(system, result).status(true);
+}
+int print_sum(const Options& options, const System& system, const DiffusionResult& result,
+              const EnsembleContext& context) {
+  print_diffusion(options, system, result, context);
+  return doubts_of(system, result).status(true);
+}
+
+template <class Result>
+int merge_parts(const Options& options, const std::string& output,
+                const std::vector<std::string>& files, ArchiveLock lock) {
+  SumOfParts<Result> sum = sum_of<Result>(files);
+  sum.merged.clear();
+  for (const EnsemblePart& part : sum.parts) sum.merged.push_back(part.file);
+  const LoadedSystem loaded = system_of(sum);
+  Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
+  if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
+  write_sum(output, loaded, origin, sum, lock);
+  lock.reset();
+  say_what_is_missing(sum.result.done, loaded.system);
+  warn_of(sum.result.reports);
+  return print_sum(options, loaded.system, sum.result, {sum.status, output, sum.shard});
+}
+
+}  // namespace
+
+int merge(const Options& options) {
+  std::vector<std::string> files = options.files;
+  std::string output = options.output;
+  if (output.empty() && !files.empty()) {
+    output = files.front();
+    files.erase(files.begin());
+  }
+  if (files.empty())
+    throw InputError(Place{"command line", 0, 0, "merge"}, "there is nothing to merge",
+                     "OUT.h5 PART.h5 PART.h5 …");
+  ArchiveLock lock = lock_output(output);
+  refuse_existing(output, options.force);
+  if (kind_of_ensemble(files.front()) == kind_of(DiffusionResult()))
+    return merge_parts<DiffusionResult>(options, output, files, std::move(lock));
+  return merge_parts<EscapeResult>(options, output, files, std::move(lock));
+}
+
+}  // namespace carom::cli

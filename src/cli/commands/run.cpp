@@ -1,0 +1,181 @@
+// carom run: one trajectory, of one or several particles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "carom/events/report.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/doubts.hpp"
+#include "cli/commands/run_certified.hpp"
+#include "cli/reports/run_report.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+// Passes everything on and remembers how far the run is.
+class Counting : public Observer {
+ public:
+  explicit Counting(Observer* next) : next_(next) {}
+  void hit(const HitEvent& event) override {
+    ++hits;
+    time = event.time.value();
+    if (next_) next_->hit(event);
+  }
+  void contact(const ContactEvent& event) override {
+    time = event.time.value();
+    if (next_) next_->contact(event);
+  }
+  void sample(int particle, Time at, const State& state) override {
+    if (next_) next_->sample(particle, at, state);
+  }
+  void sampled(Time at) override {
+    time = at.value();
+    if (next_) next_->sampled(at);
+  }
+  std::uint64_t hits = 0;
+  double time = 0.0;
+
+ private:
+  Observer* next_;
+};
+
+}  // namespace
+
+// A run that is asked for a number of collisions has no last time, unless that is asked for too.
+SystemOverrides run_overrides(const Options& options) {
+  SystemOverrides overrides = options.overrides;
+  if (!overrides.collisions.empty() && overrides.t_max.empty())
+    overrides.t_max = fmt::format("{}", no_last_time);
+  return overrides;
+}
+
+namespace {
+
+void refuse_going_back(const System& system, const StoredRun& stored) {
+  const bool more_hits = system.run.collisions == 0;
+  for (const ParticleProgress& p : stored.particles) {
+    if (p.state.time > Time(system.run.t_max) ||
+        (p.fate == Fate::survived && p.end > Time(system.run.t_max)))
+      throw InputError(Place{"command line", 0, 0, "--t-max"},
+                       fmt::format("the stored run has already reached t = {}", p.end.value()),
+                       "a later time");
+    if (!more_hits && p.hits > system.run.collisions)
+      throw InputError(Place{"command line", 0, 0, "--collisions"},
+                       fmt::format("the stored run has already {} collisions", p.hits),
+                       "a larger number");
+  }
+}
+
+// The archive stays as it is, and the result is printed again; that nothing was added must be said.
+void say_if_ended(const StoredRun& stored) {
+  const auto ended = [](const ParticleProgress& p) {
+    return p.fate == Fate::escaped || p.fate == Fate::unbounded || p.fate == Fate::singular ||
+           is_failure(p.fate);
+  };
+  if (!std::all_of(stored.particles.begin(), stored.particles.end(), ended)) return;
+  const Fate fate = stored.particles.front().fate;
+  const bool same = std::all_of(stored.particles.begin(), stored.particles.end(),
+                                [&](const ParticleProgress& p) { return p.fate == fate; });
+  const std::string how = same && fate == Fate::escaped ? "escaped"
+                          : same                        ? fmt::format("ended ({})", name_of(fate))
+                                                        : "ended";
+  warn(fmt::format("the orbit has already {}: nothing to go on with", how));
+}
+
+}  // namespace
+
+int run(const Options& options) {
+  if (options.precision != "double" || !options.digits.empty()) {
+    check_instruction_set(options);
+    return run_certified(options);
+  }
+  check_engine(options);
+  threads_of(options);  // one trajectory takes one thread; a wrong number is an error all the same
+  SingleRunOptions how;
+  if (!options.trajectory.empty())
+    how.trajectory = whole_number(options.trajectory, "--trajectory", 0);
+
+  LoadedSystem loaded;
+  std::optional<Progress> preparing(std::in_place, !options.quiet);
+  std::unique_ptr<RunArchive> archive;
+  std::string output = options.output;
+  if (options.resume.empty()) {
+    loaded = load_system(options.system, run_overrides(options));
+    choose_engine(options.engine, loaded.system);
+    check_start(loaded.system);  // a start that is impossible must not cost an old archive
+    // From here on a signal must leave a valid archive. Before, it simply ends the program,
+    // whatever that computes.
+    catch_interrupts();
+    if (!output.empty())
+      archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1),
+                                   options.force, how.trajectory, lock_output(output));
+  } else {
+    if (output.empty()) output = options.resume;
+    const ArchiveLock lock = lock_output(output);
+    const StoredRun stored = read_run(options.resume);
+    loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
+    loaded.system.name = stored.system_name;
+    choose_engine(options.engine == "auto" && stored.engine == "steps" ? "steps" : options.engine,
+                  loaded.system);
+    refuse_injections(loaded.system, "a run that is continued");
+    if (!options.overrides.trust_tolerance.empty())
+      throw InputError(Place{"command line", 0, 0, "--trust-tolerance"},
+                       "the stored run has its own tolerance", "a new run");
+    catch_interrupts();
+    how.resume = stored.particles;
+    how.steps = stored.steps;
+    refuse_going_back(loaded.system, stored);
+    say_if_ended(stored);
+    archive = RunArchive::extend(options.resume, output, loaded,
+                                 provenance_of(options, loaded.system, 1), options.force, lock);
+  }
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  const System& system = loaded.system;
+  if (estimates_trust(system)) how.written = written_system(loaded);
+  how.estimate_state_error = true;
+
+  preparing.reset();
+  Counting counting(archive.get());
+  SingleRunResult result;
+  {
+    Progress progress(!options.quiet);
+    how.interrupted = [&] {
+      if (progress.due()) {
+        const double by_time = counting.time / system.run.t_max;
+        const double by_hits = system.run.collisions == 0
+                                   ? 0.0
+                                   : static_cast<double>(counting.hits) /
+                                         (static_cast<double>(system.run.collisions) *
+                                          static_cast<double>(system.particles.size()));
+        progress.show(
+            by_time > by_hits ? by_time : by_hits,
+            counting.hits > 0
+                ? with_prefix(static_cast<double>(counting.hits) / progress.seconds()) + "hits/s"
+                : fmt::format("t = {:.4g}", counting.time));
+      }
+      return interrupted.load(std::memory_order_relaxed);
+    };
+    result = run_single(system, counting, how);
+  }
+  const std::string status = run_status(result);
+  if (archive) archive->finish(result, status);
+
+  for (const RunEnd& particle : result.particles)
+    if (is_failure(particle.progress.fate) && !particle.report.empty())
+      warn(std::string(shown(particle.report)));
+  print(options.json ? run_json(system, result, status, output).text() + "\n"
+                     : run_text(system, result, status, output));
+  return doubts_of(system, result).status(!result.interrupted);
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,140 @@
+// A command that runs an ensemble, from the start or from where it was left.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "carom/base/error.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/doubts.hpp"
+#include "cli/commands/ensemble_job.hpp"
+#include "cli/mpi_ranks.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+/// What is particular to an ensemble.
+template <class Result>
+struct EnsembleKind {
+  std::function<Result(const System&, const EnsembleOptions<Result>&)> run;
+  std::function<void(const EnsembleJob<Result>&, const Result&, const std::string& status)> print;
+};
+
+template <class Result>
+EnsembleOptions<Result> how_to_run(const Options& options) {
+  EnsembleOptions<Result> how;
+  how.threads = threads_of(options);
+  how.lanes = instruction_set_of(options);
+  if (!options.block.empty()) how.block = whole_number(options.block, "--block", 1);
+  if (!options.checkpoint.empty()) {
+    const CheckpointInterval interval = checkpoint_interval(options.checkpoint);
+    how.save_every = interval.seconds;
+    how.save_every_blocks = interval.blocks;
+  }
+  return how;
+}
+
+template <class Result>
+Provenance origin_of(const Options& options, const EnsembleJob<Result>& job) {
+  Provenance origin = provenance_of(options, job.loaded.system, threads_of(options));
+  if (job.stored) origin.before = job.stored->origins;
+  return origin;
+}
+
+// The archive that the ensemble goes into, or null.
+template <class Result>
+std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options,
+                                                    const EnsembleJob<Result>& job) {
+  using Archive = EnsembleArchive<Result>;
+  if (job.output.empty()) return nullptr;
+  const typename Archive::Plan plan{options.force, options.per_trajectory, job.shard, warn,
+                                    job.lock};
+  const Provenance origin = origin_of(options, job);
+  if (job.stored)
+    return std::make_unique<Archive>(job.output, job.loaded, origin, *job.stored, plan);
+  return std::make_unique<Archive>(job.output, job.loaded, origin, plan);
+}
+
+inline const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
+
+template <class Result>
+int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, const Result& result,
+           const std::string& status) {
+  warn_of(result.reports);
+  kind.print(job, result, status);
+  return doubts_of(job.loaded.system, result).status(result.complete);
+}
+
+template <class Result>
+void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, std::uint64_t kept) {
+  if (job.output.empty() || kept == 0) return;
+  warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}",
+                   grouped(kept), options.command, job.output));
+}
+
+template <class Result>
+void say_what_became_of_it(const Options& options, const EnsembleJob<Result>& job,
+                           const Result& result) {
+  if (options.isa != "auto" && !result.lanes)
+    warn("--isa changed nothing: these particles fly one after the other, in no lanes");
+  if (!result.complete) say_how_to_go_on(options, job, result.done.size());
+}
+
+// What `how` asks for, with the progress of this process.
+template <class Result>
+Result fly(const Options& options, const EnsembleKind<Result>& kind, const System& system,
+           EnsembleOptions<Result> how) {
+  const double all = static_cast<double>(how.part.last - how.part.first);
+  const std::uint64_t before = how.before ? how.before->done.size() : 0;
+  Progress progress(!options.quiet, all > 0 ? static_cast<double>(before) / all : 0.0);
+  if (progress.enabled())
+    how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
+      if (progress.due())
+        progress.show(static_cast<double>(trajectories) / all,
+                      hits > 0
+                          ? with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
+                          : with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
+                                "trajectories/s");
+    };
+  return kind.run(system, how);
+}
+
+template <class Result>
+int run_alone(const Options& options, const EnsembleKind<Result>& kind) {
+  check_engine(options);
+  EnsembleOptions<Result> how = how_to_run<Result>(options);
+  std::optional<Progress> preparing(std::in_place, !options.quiet);
+  EnsembleJob<Result> job = job_of<Result>(options);
+  preparing.reset();
+  how.interrupted =
+      &catch_interrupts();  // until here a signal ends the program, whatever it computes
+  if (job.stored && job.stored->result.complete) {
+    if (job.lock)
+      remove_checkpoint(job.output);  // left by a process that was killed at its last step
+    job.lock.reset();
+    return report(kind, job, job.stored->result, job.stored->status);
+  }
+  how.part = job.shard.range(job.loaded.system.run.trajectories);
+  if (job.stored) how.before = &job.stored->result;
+  std::unique_ptr<EnsembleArchive<Result>> archive = archive_of(options, job);
+  how.journal = archive.get();
+  Result result;
+  try {
+    result = fly(options, kind, job.loaded.system, how);
+    if (archive) archive->finish(result, status_of(result.complete));
+  } catch (...) {
+    if (archive) say_how_to_go_on(options, job, archive->kept());
+    throw;
+  }
+  archive.reset();  // whatever becomes of the report
+  job.lock.reset();
+  say_what_became_of_it(options, job, result);
+  return report(kind, job, result, status_of(result.complete));
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,276 @@
+#include "cli/reports/diffusion_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "carom/ensemble/engine.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/doubts.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+using Kind = Horizon::Kind;
+
+constexpr std::size_t corridors_in_text = 6, corridors_in_json = 1000;
+
+const char* name_of(Kind kind) {
+  switch (kind) {
+    case Kind::finite:
+      return "finite";
+    case Kind::infinite:
+      return "infinite";
+    case Kind::bounded:
+      return "bounded";
+    case Kind::open_plane:
+      return "open plane";
+    case Kind::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+Json json_of(const Estimate& e) {
+  return Json::object().set("value", e.value).set("stderr", e.error);
+}
+
+// "0.16993 +- 0.00031": as many digits as the error allows, the error with two.
+std::string with_error(const Estimate& e) {
+  if (!(e.error > 0) || !std::isfinite(e.error)) return fmt::format("{:.6g}", e.value);
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(e.error))), 0, 15);
+  return fmt::format("{:.{}f} +- {:.{}f}", e.value, digits, e.error, digits);
+}
+
+std::string moments_table(const std::vector<MomentPoint>& points) {
+  std::string text =
+      "\n           t           MSD        +-       MSD/4t         <r^4>        +-   local "
+      "exponent\n";
+  for (const MomentPoint& p : points) {
+    text += fmt::format("{:>12.6g}  {:>12.6g}  {:>8.2g}", p.t, p.square.value, p.square.error);
+    text += p.t > 0 ? fmt::format("  {:>11.6g}", p.square.value / (4 * p.t)) : std::string(13, ' ');
+    text += fmt::format("  {:>12.6g}  {:>8.2g}", p.fourth.value, p.fourth.error);
+    if (std::isfinite(p.exponent.value))
+      text += fmt::format("   {:.4f} +- {:.4f}", p.exponent.value, p.exponent.error);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string horizon_text(const Horizon& horizon) {
+  if (horizon.corridors.list.empty()) return {};
+  const auto& list = horizon.corridors.list;
+  std::string text =
+      fmt::format("\nFree corridors: {}{}\n   along                          width\n", list.size(),
+                  horizon.corridors.complete ? "" : " found, not all directions looked at");
+  for (std::size_t i = 0; i < std::min(list.size(), corridors_in_text); ++i)
+    text += fmt::format("   [{}, {}] = ({:.6g}, {:.6g}){:>{}}\n", list[i].direction.first,
+                        list[i].direction.second, list[i].along.x, list[i].along.y,
+                        fmt::format("{:.6g}", list[i].width), 12);
+  if (list.size() > corridors_in_text) text += "   ...\n";
+  if (horizon.kind == Kind::infinite)
+    text += fmt::format("t P(no hit until t) -> {:.6g} at speed 1\n", horizon.flight_tail);
+  else
+    text += "The field bends all flights: the corridors end, and D exists.\n";
+  return text;
+}
+
+std::string fit_text(const DiffusionSummary& summary) {
+  std::string text = "\n";
+  const auto& fit = summary.fit;
+  if (!summary.no_D.empty())
+    text += fmt::format("D {}: {}.\n", summary.estimable ? "does not exist" : "cannot be estimated",
+                        summary.no_D);
+  if (fit && summary.no_D.empty())
+    text += fmt::format("D = {}   from MSD = 4 D t + c, c = {}\n", with_error(fit->D),
+                        with_error(fit->offset));
+  if (!summary.note.empty()) text += fmt::format("    {}\n", summary.note);
+  if (summary.horizon.machta_zwanzig)
+    text += fmt::format("    {:.6g} by Machta and Zwanzig, for narrow gaps\n",
+                        *summary.horizon.machta_zwanzig);
+  if (!fit) return text;
+  if (std::isfinite(fit->exponent.value))
+    text += fmt::format("exponent a = {}   from MSD = A t^a + c;", with_error(fit->exponent));
+  else if (fit->points < 4)
+    text += "exponent a of MSD = A t^a + c needs four times in the window;";
+  else
+    text += "MSD = A t^a + c has no best exponent a between 0.05 and 4;";
+  text += fmt::format(
+      "  slope of ln MSD against ln t {}\n"
+      "window {:.6g} <= t <= {:.6g}, {} times; errors by the jackknife over groups of "
+      "trajectories\n",
+      with_error(fit->local_exponent), fit->window.from, fit->window.to, fit->points);
+  return text;
+}
+
+std::string ends_text(const DiffusionResult& result) {
+  std::string text;
+  const auto add = [&](std::uint64_t number, const char* what) {
+    if (number > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(number), what);
+  };
+  add(result.pinned, "pinned on cyclotron orbits that never hit");
+  add(result.escaped, "escaped");
+  add(result.capped, "ended by the cap on hits");
+  add(result.unbounded, "left all walls behind");
+  add(result.singular, "singular");
+  add(result.unresolved, fmt::format("unresolved: {}", why_unresolved).c_str());
+  add(result.lost, fmt::format("lost: {}", why_lost).c_str());
+  return text.empty() ? text : "\nof the particles: " + text + "\n";
+}
+
+Json diffusion_json(const System& system, const DiffusionResult& result,
+                    const DiffusionSummary& summary, const EnsembleContext& context) {
+  Json json = Json::object();
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
+                  result.lanes ? carom::name_of(*result.lanes) : "baseline");
+  json.set("ranks", result.ranks);
+  json.set("status", context.status);
+  if (context.shard.of > 1) json.set("shard", text_of(context.shard));
+  json.set("trajectories", result.trajectories);
+  json.set("survived", result.survived);
+  json.set("pinned", result.pinned);
+  json.set("escaped", result.escaped);
+  json.set("capped", result.capped);
+  json.set("unbounded", result.unbounded);
+  json.set("singular", result.singular);
+  json.set("unresolved", result.unresolved);
+  json.set("lost", result.lost);
+  json.set("collisions", result.collisions);
+  if (engine_of(system) != "events")
+    json.set("energy_change", result.energy_change)
+        .set("energy_error", energy_json(result.energy_error));
+  add_steps(json, system, result.steps);
+  add_reports(json, result.reports);
+  json.set("digest", fmt::format("{:016x}", result.digest));
+  json.set("decisions", decisions_json(result.decisions));
+  if (const std::string none = why_one_by_one(system); !none.empty()) json.set("no_lanes", none);
+  Json msd = Json::array(), fourth = Json::array(), local = Json::array(),
+       corridors = Json::array();
+  for (const MomentPoint& p : summary.points) {
+    msd.push(
+        Json::object().set("t", p.t).set("value", p.square.value).set("stderr", p.square.error));
+    fourth.push(
+        Json::object().set("t", p.t).set("value", p.fourth.value).set("stderr", p.fourth.error));
+    if (std::isfinite(p.exponent.value))
+      local.push(Json::object()
+                     .set("t", p.middle)
+                     .set("value", p.exponent.value)
+                     .set("stderr", p.exponent.error));
+  }
+  json.set("msd", std::move(msd));
+  json.set("fourth_moment", std::move(fourth));
+  json.set("D", summary.no_D.empty() ? json_of(summary.fit->D) : Json());
+  if (!summary.no_D.empty()) json.set("reason", summary.no_D);
+  if (!summary.note.empty()) json.set("note", summary.note);
+  json.set("exponent", summary.fit ? json_of(summary.fit->exponent) : Json());
+  json.set("local_exponent", summary.fit ? json_of(summary.fit->local_exponent) : Json());
+  json.set("local_exponents", std::move(local));
+  if (summary.fit) {
+    json.set("offset", json_of(summary.fit->offset));
+    json.set("window", Json::object()
+                           .set("from", summary.fit->window.from)
+                           .set("to", summary.fit->window.to)
+                           .set("times", summary.fit->points));
+  }
+  const Horizon& horizon = summary.horizon;
+  json.set("horizon", name_of(horizon.kind));
+  for (std::size_t i = 0; i < std::min(horizon.corridors.list.size(), corridors_in_json); ++i) {
+    const geometry::Corridor& c = horizon.corridors.list[i];
+    Json cell = Json::array(), along = Json::array();
+    cell.push(c.direction.first).push(c.direction.second);
+    along.push(c.along.x).push(c.along.y);
+    corridors.push(Json::object()
+                       .set("direction", std::move(cell))
+                       .set("along", std::move(along))
+                       .set("width", c.width));
+  }
+  json.set("corridors", std::move(corridors));
+  if (horizon.kind == Kind::infinite) json.set("flight_tail", horizon.flight_tail);
+  if (horizon.machta_zwanzig) json.set("machta_zwanzig", *horizon.machta_zwanzig);
+  if (!context.output.empty()) json.set("archive", context.output);
+  return json;
+}
+
+std::string diffusion_text(const System& system, const DiffusionResult& result,
+                           const DiffusionSummary& summary, const EnsembleContext& context) {
+  std::string text = doubts_of(system, result).text() +
+                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text +=
+      fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(result.trajectories),
+                  system.run.times.back(), system.run.seed,
+                  context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
+                  result.complete ? "" : "  (" + context.status + ": those that were finished)");
+  text += moments_table(summary.points);
+  text += fit_text(summary);
+  text += horizon_text(summary.horizon);
+  text += ends_text(result);
+  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
+  const std::string steps = steps_text(system, result.steps);
+  text += fmt::format("\n{} collisions{} in {:.3g} s on {}{} thread{}: {}\n{}   digest {:016x}\n",
+                      grouped(result.collisions), steps.empty() ? "" : ", " + steps, result.seconds,
+                      result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
+                      result.threads, result.threads == 1 ? "" : "s",
+                      pace_text(system, result.collisions, result.steps, result.seconds),
+                      decisions_text(result.decisions), result.digest);
+  text += lanes_text(why_one_by_one(system), result.lanes);
+  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
+  return text;
+}
+
+}  // namespace
+
+DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
+  const auto add = [](std::string& note, const std::string& more) {
+    if (!more.empty()) note += (note.empty() ? "" : "; ") + more;
+  };
+  DiffusionSummary summary;
+  summary.horizon = horizon_of(system);
+  summary.no_D = no_diffusion(summary.horizon);
+  const DisplacementMoments moments(result.sums, system.particles.size());
+  summary.points = moments.points();
+  const auto& window = system.run.window;
+  const TimeWindow asked =
+      window ? TimeWindow{window->first, window->second} : moments.default_window();
+  summary.fit = moments.fit(asked);
+  if (summary.fit && summary.no_D.empty()) {
+    // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
+    const bool enough = std::isfinite(summary.fit->exponent.value);
+    const Estimate& a = enough ? summary.fit->exponent : summary.fit->local_exponent;
+    if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
+      add(summary.note, "the MSD does not grow as t in the window: D depends on it");
+  }
+  // Those that hit often are the first to be ended by a cap.
+  if (result.capped > 0 && summary.fit && summary.no_D.empty()) {
+    const auto last =
+        std::find_if(summary.points.rbegin(), summary.points.rend(),
+                     [&](const MomentPoint& p) { return p.t <= summary.fit->window.to; });
+    if (last != summary.points.rend() && last->count < result.trajectories)
+      add(summary.note,
+          "the cap on hits ended particles before the window's end: those that hit least are left");
+  }
+  add(summary.note, repeated_starts(system));
+  if (!summary.fit && summary.no_D.empty()) {
+    summary.estimable = false;
+    const auto times = std::count_if(summary.points.begin(), summary.points.end(),
+                                     [&](const MomentPoint& p) { return asked.holds(p.t); });
+    summary.no_D =
+        result.trajectories == 0 ? "no trajectory was followed"
+        : times < 2
+            ? "fewer than two report times > 0 in the window"
+            : "nobody was there, nobody had moved, or squares of displacements are too small for "
+              "doubles, at the times of the window";
+  }
+  return summary;
+}
+
+void print_diffusion(const Options& options, const System& system, const DiffusionResult& result,
+                     const EnsembleContext& context) {
+  const DiffusionSummary summary = summary_of(system, result);
+  print(options.json ? diffusion_json(system, result, summary, context).text() + "\n"
+                     : diffusion_text(system, result, summary, context));
+}
+
+}  // namespace carom::cli

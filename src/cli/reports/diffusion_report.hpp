@@ -1,0 +1,27 @@
+// What `carom diffusion` prints.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "carom/ensemble/diffusion.hpp"
+#include "cli/reports/ensemble_context.hpp"
+#include "cli/options.hpp"
+
+namespace carom::cli {
+
+/// A diffusion result with what follows from it.
+struct DiffusionSummary {
+  Horizon horizon;
+  std::vector<MomentPoint> points;
+  std::optional<DiffusionFit> fit;
+  std::string no_D;       ///< why there is no D; "" where there is one
+  bool estimable = true;  ///< false where D may exist and only what was followed does not show it
+  std::string note;       ///< a doubt about D, or ""
+};
+DiffusionSummary summary_of(const System&, const DiffusionResult&);
+
+/// As JSON or as text, to standard output.
+void print_diffusion(const Options&, const System&, const DiffusionResult&, const EnsembleContext&);
+
+}  // namespace carom::cli

@@ -1,0 +1,150 @@
+#include "cli/reports/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "carom/events/report.hpp"
+#include "carom/integrators/scheme.hpp"
+#include "cli/common.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+bool integrated(const System& system) { return engine_of(system) != "events"; }
+
+// `all`: of that many, each of them `what`.
+Doubts doubts(const System& system, std::uint64_t all, const char* what, std::uint64_t unresolved,
+              std::uint64_t lost, const Reports& reports, const EnergyError& energy) {
+  Doubts doubts;
+  if (lost > 0)
+    doubts.lines.push_back(fmt::format("internal error, please report it: {} of {} {}s are lost",
+                                       grouped(lost), grouped(all), what));
+  if (unresolved + lost > 0 && !reports.empty()) {
+    const auto& [index, report] = reports.front();
+    const std::string others =
+        all > 1 ? fmt::format(" ({} {}, the first of {} of {} that could not be followed)", what,
+                              index, grouped(unresolved + lost), grouped(all))
+                : "";
+    doubts.lines.push_back(std::string(shown(report)) + others);
+  } else if (unresolved > 0) {
+    doubts.lines.push_back(
+        fmt::format("{} of {} {}s could not be followed", grouped(unresolved), grouped(all), what));
+  }
+  if (std::string doubt = energy_doubt(system, energy); !doubt.empty())
+    doubts.lines.push_back(std::move(doubt));
+  return doubts;
+}
+
+}  // namespace
+
+std::string Doubts::text() const {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+int Doubts::status(bool complete) const { return any() ? untrusted : complete ? done : stopped; }
+
+std::string energy_doubt(const System& system, const EnergyError& error) {
+  const IntegratorPlan& plan = system.dynamics.integrator;
+  if (!integrated(system) || error.largest <= plan.energy_tolerance) return {};
+  return fmt::format(
+      "the energy changed by {:.2g} of the largest kinetic energy, more than "
+      "integrator.energy_tolerance = {}: take a {}",
+      error.largest, plan.energy_tolerance,
+      is_adaptive(plan.scheme) ? "smaller tolerance" : "shorter step");
+}
+
+Doubts doubts_of(const System& system, const EscapeResult& r) {
+  return doubts(system, r.counts.trajectories, "trajectory", r.counts.unresolved, r.counts.lost,
+                r.reports, r.energy_error);
+}
+Doubts doubts_of(const System& system, const DiffusionResult& r) {
+  return doubts(system, r.trajectories, "particle", r.unresolved, r.lost, r.reports,
+                r.energy_error);
+}
+Doubts doubts_of(const System& system, const SectionResult& r) {
+  return doubts(system, r.orbits * system.particles.size(), "particle", r.unresolved, r.lost,
+                r.reports, r.energy_error);
+}
+Doubts doubts_of(const System& system, const SingleRunResult& r) {
+  std::uint64_t unresolved = 0, lost = 0;
+  Reports reports;
+  EnergyError energy;
+  for (std::size_t p = 0; p < r.particles.size(); ++p) {
+    const RunEnd& end = r.particles[p];
+    unresolved += end.progress.fate == Fate::unresolved;
+    lost += end.progress.fate == Fate::lost;
+    if (is_failure(end.progress.fate) && !end.report.empty()) reports.emplace_back(p, end.report);
+    energy += end.energy_error;
+  }
+  return doubts(system, r.particles.size(), "particle", unresolved, lost, reports, energy);
+}
+
+Json energy_json(const EnergyError& error) {
+  return Json::object().set("end", error.end).set("largest", error.largest);
+}
+
+void add_report(Json& json, const std::string& report) {
+  json.set("reason", shown(report)).set("state", bits_in(report));
+}
+
+void add_reports(Json& json, const Reports& reports) {
+  if (reports.empty()) return;
+  Json list = Json::array();
+  for (const auto& [index, report] : reports) {
+    Json one = Json::object().set("index", index);
+    add_report(one, report);
+    list.push(std::move(one));
+  }
+  json.set("reports", std::move(list));
+}
+
+void warn_of(const Reports& reports) {
+  for (const auto& [index, report] : reports) warn(std::string(shown(report)));
+}
+
+void add_steps(Json& json, const System& system, const StepCounts& steps) {
+  if (!integrated(system)) return;
+  const IntegratorPlan& plan = system.dynamics.integrator;
+  json.set("step", plan.step > 0.0 ? Json(plan.step) : Json());
+  if (plan.step_chosen) json.set("step_chosen", true);
+  json.set("steps", steps.steps).set("force_evaluations", steps.force_evaluations);
+  if (!system.dynamics.integrator.count_unresolved) return;
+  json.set("unresolved_steps", steps.unresolved);
+  json.set("first_unresolved", steps.unresolved > 0 ? Json(steps.first_unresolved) : Json());
+}
+
+std::string steps_text(const System& system, const StepCounts& steps) {
+  if (!integrated(system)) return {};
+  const IntegratorPlan& plan = system.dynamics.integrator;
+  std::string text = fmt::format("{} steps", grouped(steps.steps));
+  if (plan.step > 0.0)
+    text += fmt::format(" of {}{}", plan.step, plan.step_chosen ? " (chosen)" : "");
+  text += fmt::format(", {} force evaluations", grouped(steps.force_evaluations));
+  if (system.dynamics.integrator.count_unresolved)
+    text += steps.unresolved == 0 ? std::string(", no step unresolved")
+                                  : fmt::format(", {} steps unresolved, the first at t = {:.6g}",
+                                                grouped(steps.unresolved), steps.first_unresolved);
+  return text;
+}
+
+std::string pace_text(const System& system, std::uint64_t hits, const StepCounts& steps,
+                      double seconds) {
+  const bool by_steps = hits == 0 && integrated(system);
+  return with_prefix(static_cast<double>(by_steps ? steps.steps : hits) / std::max(seconds, 1e-9)) +
+         (by_steps ? "steps/s" : "hits/s");
+}
+
+std::string energy_text(const System& system, const EnergyError& error) {
+  if (!integrated(system)) return {};
+  return fmt::format(
+      "largest change of a trajectory's energy {:.2g} at the end, {:.2g} at most, relative to its "
+      "largest kinetic energy\n",
+      error.end, error.largest);
+}
+
+}  // namespace carom::cli

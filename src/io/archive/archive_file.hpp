@@ -1,0 +1,52 @@
+// What every archive has in common: the file itself, /system, /provenance, the way it is closed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carom/io/archive.hpp"
+#include "io/archive/hdf5.hpp"
+
+namespace carom {
+
+class ArchiveFile {
+ public:
+  /// Creates `path` (which is removed again unless kept) for the archive called `name` in messages.
+  static ArchiveFile create(const std::string& path, const std::string& name);
+  /// Opens an existing file for changes.
+  static ArchiveFile open(const std::string& path, const std::string& name);
+  ArchiveFile(ArchiveFile&&) noexcept;
+  ArchiveFile& operator=(ArchiveFile&&) = delete;
+  ~ArchiveFile();
+
+  hid_t id() const { return file_.get(); }
+  const std::string& name() const { return name_; }
+  hdf5::Handle group(const char* path, const char* description) const;
+  hdf5::Handle open_group(const char* path) const;
+
+  /// /system, /provenance, root attributes schema, kind, system, complete = 0 and status "running".
+  void write_head(const char* kind, const LoadedSystem&, const Provenance&) const;
+  /// A run that goes on: replaces /system, adds the new command to /provenance, complete = 0.
+  void extend_head(const LoadedSystem&, const Provenance&) const;
+  /// What /provenance says of each part of a run.
+  static std::vector<Origin> read_origins(hid_t provenance, const std::string& name);
+  void start_swmr() const;
+  void set_status(const std::string& status, bool complete) const;
+  /// Where decisions were taken: to what /provenance holds of earlier parts of the run.
+  void add_decisions(const DecisionCounts&) const;
+
+  /// Writes the checksums of all it holds, closes, syncs and renames to `target` (may be the path
+  /// itself).
+  void keep_as(const std::string& target);
+
+ private:
+  ArchiveFile(hdf5::Handle file, std::string path, std::string name);
+  hdf5::Handle file_;
+  std::string path_, name_;
+  bool kept_ = false;
+};
+
+inline constexpr int archive_schema = 1;
+inline constexpr const char* run_archive_kind = "run";
+
+}  // namespace carom

@@ -1,0 +1,119 @@
+// Which trajectories an ensemble's archive counts.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <span>
+#include <sstream>
+#include <utility>
+
+#include "carom/base/error.hpp"
+#include "io/archive/ensemble_columns.hpp"
+#include "io/archive/step_numbers.hpp"
+
+namespace carom {
+
+using hdf5::Description;
+using hdf5::Handle;
+
+Handle open_group(hid_t file, const char* group, const std::string& name) {
+  Handle handle(H5Gopen2(file, group, H5P_DEFAULT), H5Gclose);
+  if (!handle)
+    throw InputError(Place{name, 0, 0, ""}, fmt::format("'{}' is missing", group),
+                     "an archive of an ensemble");
+  return handle;
+}
+
+void write_done(const ArchiveFile& file, const EnsembleResult& result) {
+  std::vector<std::uint64_t> first, last;
+  for (const TrajectoryRange& range : result.done.ranges())
+    first.push_back(range.first), last.push_back(range.last);
+  const Handle group = file.group("done", "Trajectories first … last - 1 are counted here");
+  hdf5::write_column(group.get(), "first", std::span(std::as_const(first)),
+                     {"1", "First trajectory"}, file.name());
+  hdf5::write_column(group.get(), "last", std::span(std::as_const(last)),
+                     {"1", "One after the last"}, file.name());
+  if (result.reports.empty()) return;
+  std::string text;
+  for (const auto& [index, report] : result.reports) text += fmt::format("{}\t{}\n", index, report);
+  hdf5::write_text(file.id(), "lost", text,
+                   {"text",
+                    "The first trajectories that were lost or unresolved: index, reason, state in "
+                    "hexadecimal numbers, between tabs"},
+                   file.name());
+}
+
+void read_done(hid_t file, const std::string& name, EnsembleResult& result) {
+  const Handle done = open_group(file, "done", name);
+  const auto first = hdf5::read_column<std::uint64_t>(done.get(), "first", name);
+  const auto last = hdf5::read_column<std::uint64_t>(done.get(), "last", name);
+  if (first.size() != last.size()) damaged(name, "'/done/first' and '/done/last' differ in length");
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] >= last[i]) damaged(name, "'/done/first' is not below '/done/last'");
+    if (!result.done.add(TrajectoryRange{first[i], last[i]}))
+      damaged(name, "'/done' counts trajectories twice");
+  }
+  if (H5Lexists(file, "lost", H5P_DEFAULT) <= 0) return;
+  std::istringstream lines(hdf5::read_text(file, "lost", name));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t tab = line.find('\t');
+    std::uint64_t index = 0;
+    const bool starts_with_index =
+        tab != std::string::npos && tab > 0 &&
+        std::from_chars(line.data(), line.data() + tab, index).ptr == line.data() + tab;
+    if (!starts_with_index) damaged(name, "a line of '/lost' does not begin with an index");
+    result.reports.emplace_back(index, line.substr(tab + 1));
+  }
+}
+
+namespace {
+
+bool has(hid_t group, const char* column) { return H5Lexists(group, column, H5P_DEFAULT) > 0; }
+
+struct RealNumber {
+  const char* name;
+  double& value;
+  Description description;
+};
+std::vector<RealNumber> reals_of(EnsembleResult& result) {
+  return {
+      {first_unresolved,
+       result.steps.first_unresolved,
+       {"time", "When the earliest of these began"}},
+      {"energy_error_end",
+       result.energy_error.end,
+       {"1", "Largest change of an energy until the end, relative to the largest kinetic energy"}},
+      {"energy_error_largest",
+       result.energy_error.largest,
+       {"1", "Largest change of an energy that was seen, likewise"}}};
+}
+
+}  // namespace
+
+void write_integration(hid_t fates, const EnsembleResult& result, const std::string& name) {
+  for (const StepNumber& number : step_numbers)
+    hdf5::write_column(fates, number.name,
+                       std::span<const std::uint64_t>(&(result.steps.*number.value), 1),
+                       {"1", number.text}, name);
+  EnsembleResult copy = result;
+  for (const RealNumber& number : reals_of(copy))
+    hdf5::write_column(fates, number.name, std::span<const double>(&number.value, 1),
+                       number.description, name);
+}
+
+void read_integration(hid_t fates, const std::string& name, EnsembleResult& result) {
+  if (!has(fates, step_numbers[0].name)) return;
+  for (const StepNumber& number : step_numbers)
+    result.steps.*number.value =
+        read_number<std::uint64_t>(fates, number.name, fmt::format("/fates/{}", number.name), name);
+  for (const RealNumber& number : reals_of(result))
+    number.value =
+        read_number<double>(fates, number.name, fmt::format("/fates/{}", number.name), name);
+}
+
+std::uint64_t read_unresolved(hid_t fates, const std::string& name) {
+  return has(fates, "unresolved")
+             ? read_number<std::uint64_t>(fates, "unresolved", "/fates/unresolved", name)
+             : 0;
+}
+
+}  // namespace carom

@@ -1,0 +1,73 @@
+// What each kind of ensemble adds up, and the records of trajectories, as datasets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "io/archive/archive_file.hpp"
+#include "io/archive/columns.hpp"
+
+namespace carom {
+
+/// Throws InputError: what an archive holds cannot be.
+[[noreturn]] void damaged(const std::string& name, const std::string& problem);
+/// Does what was read belong to the system that it was read with? Throws InputError where it does
+/// not.
+void check_stored(const StoredEnsemble&, const EscapeResult&, const System&);
+void check_stored(const StoredEnsemble&, const DiffusionResult&, const System&);
+
+/// Trajectories that are counted, and reports of those that failed.
+void write_done(const ArchiveFile&, const EnsembleResult&);
+void read_done(hid_t file, const std::string& name, EnsembleResult&);
+
+/// What is added up, and the digest.
+void write_counts(const ArchiveFile&, const EscapeResult&, const System&);
+void read_counts(hid_t file, const std::string& name, EscapeResult&);
+void write_counts(const ArchiveFile&, const DiffusionResult&, const System&);
+void read_counts(hid_t file, const std::string& name, DiffusionResult&);
+
+/// Is motion integrated anywhere?
+inline bool is_integrated(const System& system) {
+  const Dynamics& d = system.dynamics;
+  return d.everywhere || (d.forces && !d.forces->empty());
+}
+/// What integration has cost, and how well energies were kept; archives of earlier builds have none
+/// of it.
+void write_integration(hid_t fates, const EnsembleResult&, const std::string& name);
+void read_integration(hid_t fates, const std::string& name, EnsembleResult&);
+/// 0 in archives of earlier builds, which called these particles lost.
+std::uint64_t read_unresolved(hid_t fates, const std::string& name);
+
+/// A group of an archive that is read; InputError where it is missing.
+hdf5::Handle open_group(hid_t file, const char* group, const std::string& name);
+/// The only number of a column, which is called `path` in messages.
+template <class T>
+T read_number(hid_t group, const char* column, const std::string& path, const std::string& name) {
+  const std::vector<T> values = hdf5::read_column<T>(group, column, name);
+  if (values.size() != 1) damaged(name, "'" + path + "' is not one number");
+  return values.front();
+}
+
+hdf5::Columns create_records(const ArchiveFile&, const System&);
+void append_records(hdf5::Columns&, const std::vector<TrajectoryRecord>&);
+
+/// Reads /trajectories in batches.
+class RecordReader {
+ public:
+  explicit RecordReader(const std::string& file);
+  /// Those that have not been read.
+  std::size_t rows() const { return left_; }
+  /// False, and no records, at the end. Throws InputError where they are not in order of index.
+  bool next(std::vector<TrajectoryRecord>&);
+
+ private:
+  std::string name_;
+  hdf5::Handle file_;
+  std::vector<hdf5::Handle> columns_;
+  std::size_t row_ = 0, left_ = 0;
+  std::uint64_t last_ = 0;  ///< index of the last that was read
+};
+
+}  // namespace carom

@@ -1,0 +1,183 @@
+#include "io/archive/ensemble_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+#include "carom/base/error.hpp"
+#include "carom/table/hole_names.hpp"
+
+namespace carom {
+
+using hdf5::Description;
+using hdf5::Handle;
+
+void write_counts(const ArchiveFile& file, const EscapeResult& result, const System& system) {
+  const std::vector<std::string> holes = hole_names(*system.table);
+  const std::string& target = file.name();
+  const auto column = [&](const Handle& group, const char* name, const auto& points, auto get,
+                          Description description) {
+    std::vector<std::decay_t<decltype(get(points.front()))>> values;
+    for (const auto& point : points) values.push_back(get(point));
+    hdf5::write_column(group.get(), name, std::span(std::as_const(values)), description, target);
+  };
+  const SurvivalCounts& counts = result.counts;
+  {
+    const auto points = survival(counts);
+    const Handle group =
+        file.group("survival", "Share of the non-singular trajectories still there");
+    column(group, "t", points, [](const auto& p) { return p.t; }, {"time", "Time"});
+    column(group, "p", points, [](const auto& p) { return p.p; },
+           {"1", "Share still there after t"});
+    column(group, "low", points, [](const auto& p) { return p.low; },
+           {"1", "Wilson 95 % interval, low end"});
+    column(group, "high", points, [](const auto& p) { return p.high; },
+           {"1", "Wilson 95 % interval, high end"});
+    column(group, "gone", counts.gone_in, [](std::uint64_t n) { return n; },
+           {"1", "Trajectories gone after the time before and by t"});
+  }
+  {
+    const auto points = survival_by_hits(counts);
+    const Handle group = file.group(
+        "survival_hits", "Share of the non-singular trajectories still there after n hits");
+    column(group, "n", points, [](const auto& p) { return p.n; }, {"1", "Reflections"});
+    column(group, "p", points, [](const auto& p) { return p.p; },
+           {"1", "Share still there after n hits"});
+    column(group, "low", points, [](const auto& p) { return p.low; },
+           {"1", "Wilson 95 % interval, low end"});
+    column(group, "high", points, [](const auto& p) { return p.high; },
+           {"1", "Wilson 95 % interval, high end"});
+    const std::vector<std::uint64_t> gone(
+        counts.gone_in_hits.begin(),
+        counts.gone_in_hits.begin() + static_cast<std::ptrdiff_t>(points.size()));
+    column(group, "gone", gone, [](std::uint64_t n) { return n; },
+           {"1", "Trajectories gone after more hits than the number before and at most n"});
+  }
+  {
+    const auto points = escape_rate(counts);
+    const Handle group = file.group("rate", "Escape rate: -dP/dt averaged over (from, to]");
+    column(group, "t", points, [](const auto& p) { return p.t; },
+           {"time", "Middle of the interval"});
+    column(group, "from", points, [](const auto& p) { return p.from; },
+           {"time", "Start of the interval"});
+    column(group, "to", points, [](const auto& p) { return p.to; },
+           {"time", "End of the interval"});
+    column(group, "value", points, [](const auto& p) { return p.value; },
+           {"1/time", "Escape rate"});
+    column(group, "low", points, [](const auto& p) { return p.low; },
+           {"1/time", "95 % interval, low end"});
+    column(group, "high", points, [](const auto& p) { return p.high; },
+           {"1/time", "95 % interval, high end"});
+  }
+  const Handle group = file.group("fates", "Numbers of trajectories by fate");
+  const auto number = [&](const char* name, std::uint64_t value, const char* text) {
+    hdf5::write_column(group.get(), name, std::span<const std::uint64_t>(&value, 1), {"1", text},
+                       target);
+  };
+  number("trajectories", counts.trajectories, "All trajectories");
+  number("escaped", counts.escaped, "Left through a hole");
+  number("survived", counts.survived, "Still there at the end");
+  number("pinned", counts.pinned, "Survivors on a cyclotron orbit that never hits");
+  number("capped", counts.capped, "Survivors ended by the cap on hits");
+  number("singular", counts.singular, "Ended where no continuation is defined");
+  number("unbounded", counts.unbounded, "No wall follows any more");
+  number("unresolved", counts.unresolved, "Ended where integration could not follow");
+  number("lost", counts.lost, "Internal errors: always 0");
+  number("collisions", counts.collisions, "Reflections of all trajectories");
+  number("most_hits", counts.most_hits, "Most reflections of a single trajectory");
+  if (system.of_discs())
+    number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
+  if (is_integrated(system)) write_integration(group.get(), result, target);
+  if (system.dynamics.forces && !system.dynamics.forces->empty())
+    hdf5::write_column(group.get(), "energy_change",
+                       std::span<const double>(&counts.energy_change, 1),
+                       {"energy", "The largest change of a particle's energy"}, target);
+  number("digest", result.digest,
+         "Sum of a hash of each trajectory's end: other ends, another digest");
+  if (!holes.empty()) {
+    const Handle dataset =
+        hdf5::create_fixed(group.get(), "holes", H5T_NATIVE_UINT64, holes.size(),
+                           {"1", "Escapes by hole; names in the attribute `names`"}, target);
+    hdf5::write_attribute(dataset.get(), "names", holes, target);
+    hdf5::check(H5Dwrite(dataset.get(), H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                         counts.hole_escapes.data()) >= 0,
+                target);
+  }
+  const Handle provenance = file.open_group("provenance");
+  const auto write = [&](const char* name, std::uint64_t value) {
+    hdf5::write_attribute(provenance.get(), name, static_cast<std::int64_t>(value), target);
+  };
+  write("lanes_hits", result.effort.hits);
+  write("lanes_left", result.effort.scalar);
+  write("lanes_steps", result.effort.steps);
+  write("lanes_idle", result.effort.idle);
+}
+
+namespace {
+
+std::uint64_t total(const std::vector<std::uint64_t>& numbers) {
+  return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
+}
+
+}  // namespace
+
+void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
+  const auto integers = [&](const Handle& group, const char* column) {
+    return hdf5::read_column<std::uint64_t>(group.get(), column, name);
+  };
+  SurvivalCounts& counts = result.counts;
+  const Handle survival = open_group(file, "survival", name),
+               hits = open_group(file, "survival_hits", name);
+  const Handle fates = open_group(file, "fates", name),
+               provenance = open_group(file, "provenance", name);
+  const auto number = [&](const char* what) {
+    return read_number<std::uint64_t>(fates.get(), what, fmt::format("/fates/{}", what), name);
+  };
+  std::vector<std::uint64_t> by_hole;
+  if (H5Lexists(fates.get(), "holes", H5P_DEFAULT) > 0) by_hole = integers(fates, "holes");
+  counts = SurvivalCounts(hdf5::read_column<double>(survival.get(), "t", name), by_hole.size());
+  counts.hole_escapes = by_hole;
+  counts.gone_in = integers(survival, "gone");
+  const std::vector<std::uint64_t> gone_in_hits = integers(hits, "gone");
+  if (counts.gone_in.size() != counts.times.size())
+    damaged(name, "'/survival/t' and '/survival/gone' differ in length");
+  if (gone_in_hits.size() > counts.gone_in_hits.size())
+    damaged(name, "'/survival_hits/gone' is too long");
+  std::copy(gone_in_hits.begin(), gone_in_hits.end(), counts.gone_in_hits.begin());
+  counts.trajectories = number("trajectories");
+  counts.escaped = number("escaped");
+  counts.survived = number("survived");
+  counts.pinned = number("pinned");
+  counts.capped = number("capped");
+  counts.singular = number("singular");
+  counts.unbounded = number("unbounded");
+  counts.unresolved = read_unresolved(fates.get(), name);
+  counts.lost = number("lost");
+  counts.collisions = number("collisions");
+  counts.most_hits = number("most_hits");
+  if (H5Lexists(fates.get(), "contacts", H5P_DEFAULT) > 0) counts.contacts = number("contacts");
+  if (H5Lexists(fates.get(), "energy_change", H5P_DEFAULT) > 0)
+    counts.energy_change =
+        read_number<double>(fates.get(), "energy_change", "/fates/energy_change", name);
+  if (counts.escaped + counts.survived + counts.singular + counts.unbounded + counts.unresolved +
+          counts.lost !=
+      counts.trajectories)
+    damaged(name, "'/fates' do not add up to '/fates/trajectories'");
+  const std::uint64_t gone = counts.escaped + counts.unbounded;
+  if (total(counts.gone_in) > gone) damaged(name, "'/survival/gone' has more than '/fates'");
+  if (total(counts.gone_in_hits) > gone)
+    damaged(name, "'/survival_hits/gone' has more than '/fates'");
+  result.digest = number("digest");
+  read_integration(fates.get(), name, result);
+  const auto effort = [&](const char* what) {
+    return static_cast<std::uint64_t>(hdf5::read_integer_attribute(provenance.get(), what, name));
+  };
+  result.effort = {effort("lanes_hits"), effort("lanes_left"), effort("lanes_steps"),
+                   effort("lanes_idle")};
+}
+
+}  // namespace carom

@@ -1,0 +1,282 @@
+#include "io/archive/hdf5.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "carom/base/error.hpp"
+
+namespace carom::hdf5 {
+
+namespace {
+
+// The reason that the operating system gave stands in the deepest entry of HDF5's error stack.
+herr_t find_reason(unsigned, const H5E_error2_t* entry, void* data) {
+  const std::string_view text = entry->desc ? entry->desc : "";
+  const std::string_view mark = "error message = '";
+  const std::size_t start = text.find(mark);
+  if (start != std::string_view::npos) {
+    const std::size_t end = text.find('\'', start + mark.size());
+    *static_cast<std::string*>(data) = text.substr(start + mark.size(), end - start - mark.size());
+  }
+  return 0;
+}
+
+Handle string_type(std::size_t size, const std::string& file) {
+  Handle type = checked(H5Tcopy(H5T_C_S1), H5Tclose, file);
+  check(H5Tset_size(type.get(), std::max<std::size_t>(size, 1)) >= 0 &&
+            H5Tset_cset(type.get(), H5T_CSET_UTF8) >= 0 &&
+            H5Tset_strpad(type.get(), H5T_STR_NULLPAD) >= 0,
+        file);
+  return type;
+}
+
+void describe(hid_t dataset, Description description, const std::string& file) {
+  write_attribute(dataset, "units", description.units, file);
+  write_attribute(dataset, "description", description.text, file);
+}
+
+std::string trimmed(std::string text) {
+  text.resize(std::strlen(text.c_str()));
+  return text;
+}
+
+[[noreturn]] void cannot_read(const std::string& file, const char* what) {
+  throw InputError(Place{file, 0, 0, ""}, fmt::format("'{}' is missing or not readable", what),
+                   "an archive that carom wrote");
+}
+
+}  // namespace
+
+void prepare() {
+  H5dont_atexit();
+  silence();
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void silence() {
+  thread_local bool silent = false;
+  if (!silent) H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  silent = true;
+}
+
+void check(bool ok, const std::string& file) {
+  if (ok) return;
+  std::string reason;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reason, &reason);
+  H5Eclear2(H5E_DEFAULT);
+  if (reason.empty()) reason = errno != 0 ? std::strerror(errno) : "the disk may be full";
+  throw InputError(fmt::format("cannot write '{}': {}", file, reason));
+}
+
+Handle checked(hid_t id, Handle::Closer closer, const std::string& file) {
+  check(id >= 0, file);
+  return Handle(id, closer);
+}
+
+void write_attribute(hid_t object, const char* name, std::string_view value,
+                     const std::string& file) {
+  const Handle type = string_type(value.size(), file);
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
+  const Handle attribute = checked(
+      H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, file);
+  const std::string padded(value.empty() ? std::string(1, '\0') : std::string(value));
+  check(H5Awrite(attribute.get(), type.get(), padded.data()) >= 0, file);
+}
+
+void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file) {
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
+  const Handle attribute =
+      checked(H5Acreate2(object, name, H5T_STD_I64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+              H5Aclose, file);
+  check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
+}
+
+void write_attribute(hid_t object, const char* name, double value, const std::string& file) {
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
+  const Handle attribute =
+      checked(H5Acreate2(object, name, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+              H5Aclose, file);
+  check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0, file);
+}
+
+void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
+                     const std::string& file) {
+  std::size_t longest = 1;
+  for (const std::string& value : values) longest = std::max(longest, value.size());
+  std::string all;
+  for (const std::string& value : values) all += value + std::string(longest - value.size(), '\0');
+  const Handle type = string_type(longest, file);
+  const hsize_t size = values.size();
+  const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
+  const Handle attribute = checked(
+      H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, file);
+  check(values.empty() || H5Awrite(attribute.get(), type.get(), all.data()) >= 0, file);
+}
+
+void change_attribute(hid_t object, const char* name, std::string_view value,
+                      const std::string& file) {
+  const Handle attribute = checked(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, file);
+  const Handle type = checked(H5Aget_type(attribute.get()), H5Tclose, file);
+  std::string padded(value);
+  padded.resize(H5Tget_size(type.get()), '\0');
+  check(H5Awrite(attribute.get(), type.get(), padded.data()) >= 0, file);
+}
+
+void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file) {
+  const Handle attribute = checked(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, file);
+  check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
+}
+
+std::string read_string_attribute(hid_t object, const char* name, const std::string& file) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  if (!attribute) cannot_read(file, name);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  std::string text(H5Tget_size(type.get()), '\0');
+  if (H5Aread(attribute.get(), type.get(), text.data()) < 0) cannot_read(file, name);
+  return trimmed(std::move(text));
+}
+
+std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
+                                                    const std::string& file) {
+  if (H5Aexists(object, name) <= 0) return {};
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  if (!attribute) cannot_read(file, name);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose),
+      space(H5Aget_space(attribute.get()), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  const std::size_t length = H5Tget_size(type.get());
+  const bool texts = H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) == 0;
+  if (count < 0 || length == 0 || !texts) cannot_read(file, name);
+  std::string all(static_cast<std::size_t>(count) * length, '\0');
+  if (H5Aread(attribute.get(), type.get(), all.data()) < 0) cannot_read(file, name);
+  std::vector<std::string> values;
+  for (std::size_t at = 0; at < all.size(); at += length)
+    values.push_back(trimmed(all.substr(at, length)));
+  return values;
+}
+
+std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  std::int64_t value = 0;
+  if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_INT64, &value) < 0) cannot_read(file, name);
+  return value;
+}
+
+double read_real_attribute(hid_t object, const char* name, const std::string& file) {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  double value = 0.0;
+  if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0)
+    cannot_read(file, name);
+  return value;
+}
+
+void write_text(hid_t parent, const char* name, std::string_view text, Description description,
+                const std::string& file) {
+  const Handle type = string_type(text.size(), file);
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
+  Handle dataset = checked(
+      H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose, file);
+  describe(dataset.get(), description, file);
+  const std::string padded(text.empty() ? std::string(1, '\0') : std::string(text));
+  check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) >= 0,
+        file);
+  check(dataset.close(), file);
+}
+
+std::string read_text(hid_t parent, const char* name, const std::string& file) {
+  const Handle dataset(H5Dopen2(parent, name, H5P_DEFAULT), H5Dclose);
+  if (!dataset) cannot_read(file, name);
+  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  std::string text(H5Tget_size(type.get()), '\0');
+  if (H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+    cannot_read(file, name);
+  return trimmed(std::move(text));
+}
+
+Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows,
+                    Description description, const std::string& file) {
+  const hsize_t size = rows;
+  const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
+  const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
+  check(H5Pset_alloc_time(layout.get(), H5D_ALLOC_TIME_EARLY) >= 0, file);
+  if (rows > 0) {
+    const hsize_t chunk = std::min<hsize_t>(size, 65536);  // filters work on chunks
+    check(H5Pset_chunk(layout.get(), 1, &chunk) >= 0 && H5Pset_fletcher32(layout.get()) >= 0, file);
+  }
+  Handle dataset =
+      checked(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
+              H5Dclose, file);
+  describe(dataset.get(), description, file);
+  return dataset;
+}
+
+Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk,
+                      Description description, const std::string& file) {
+  const hsize_t none = 0, unlimited = H5S_UNLIMITED, rows = chunk;
+  const Handle space = checked(H5Screate_simple(1, &none, &unlimited), H5Sclose, file);
+  const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
+  check(H5Pset_chunk(layout.get(), 1, &rows) >= 0 && H5Pset_fletcher32(layout.get()) >= 0, file);
+  Handle dataset =
+      checked(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
+              H5Dclose, file);
+  describe(dataset.get(), description, file);
+  return dataset;
+}
+
+std::size_t rows_of(hid_t dataset, const std::string& file) {
+  const Handle space = checked(H5Dget_space(dataset), H5Sclose, file);
+  const hssize_t points = H5Sget_simple_extent_npoints(space.get());
+  check(points >= 0, file);
+  return static_cast<std::size_t>(points);
+}
+
+void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
+                 const std::string& file) {
+  const hsize_t start = row, size = count, end = row + count;
+  check(H5Dset_extent(dataset, &end) >= 0, file);
+  const Handle all = checked(H5Dget_space(dataset), H5Sclose, file);
+  check(H5Sselect_hyperslab(all.get(), H5S_SELECT_SET, &start, nullptr, &size, nullptr) >= 0, file);
+  const Handle memory = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
+  check(H5Dwrite(dataset, type, memory.get(), all.get(), H5P_DEFAULT, values) >= 0, file);
+}
+
+Handle open_column(hid_t parent, const char* name, const std::string& file) {
+  Handle dataset(H5Dopen2(parent, name, H5P_DEFAULT), H5Dclose);
+  if (!dataset) cannot_read(file, name);
+  return dataset;
+}
+
+void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, void* values,
+               const std::string& file) {
+  const hsize_t start = row, size = count;
+  const Handle all(H5Dget_space(dataset), H5Sclose);
+  const Handle memory(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  if (!all || !memory ||
+      H5Sselect_hyperslab(all.get(), H5S_SELECT_SET, &start, nullptr, &size, nullptr) < 0 ||
+      H5Dread(dataset, type, memory.get(), all.get(), H5P_DEFAULT, values) < 0)
+    cannot_read(file, "rows");
+}
+
+template <class T>
+std::vector<T> read_column(hid_t parent, const char* name, const std::string& file) {
+  const Handle dataset = open_column(parent, name, file);
+  std::vector<T> values(rows_of(dataset.get(), file));
+  if (!values.empty() &&
+      H5Dread(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    cannot_read(file, name);
+  return values;
+}
+template std::vector<double> read_column<double>(hid_t, const char*, const std::string&);
+template std::vector<std::int32_t> read_column<std::int32_t>(hid_t, const char*,
+                                                             const std::string&);
+template std::vector<std::int64_t> read_column<std::int64_t>(hid_t, const char*,
+                                                             const std::string&);
+template std::vector<std::uint64_t> read_column<std::uint64_t>(hid_t, const char*,
+                                                               const std::string&);
+
+}  // namespace carom::hdf5

@@ -1,0 +1,441 @@
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/geometry/curve_frame.hpp"
+#include "io/archive/archive_file.hpp"
+#include "io/archive/checksums.hpp"
+#include "io/archive/columns.hpp"
+#include "io/archive/contact_columns.hpp"
+#include "io/archive/ensemble_columns.hpp"
+#include "io/checkpoint/ensemble_files.hpp"
+#include "io/archive/step_numbers.hpp"
+#include "io/archive/trust_columns.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+using hdf5::Description;
+using hdf5::Handle;
+
+namespace {
+
+// Position in the plane from the position in a cell.
+Vector unwrapped(const Table& table, Vector position, const geometry::Cell& cell) {
+  return table.lattice ? position + table.lattice->translation(cell) : position;
+}
+
+// One value a particle.
+template <class T, class Get>
+std::vector<T> collect(const std::vector<RunEnd>& particles, Get get) {
+  std::vector<T> values;
+  for (const RunEnd& particle : particles) values.push_back(static_cast<T>(get(particle)));
+  return values;
+}
+
+// Names and types of /state, where its file layout, writing and reading meet.
+struct StateField {
+  const char* name;
+  bool real;
+  Description description;
+  double (*real_of)(const ParticleProgress&);
+  std::int64_t (*integer_of)(const ParticleProgress&);
+};
+using P = const ParticleProgress&;
+const StateField state_fields[] = {
+    {"wall",
+     false,
+     {"1", "Wall of the last event, -1: off the walls"},
+     nullptr,
+     [](P p) { return std::int64_t{p.state.wall}; }},
+    {"u", true, {"1", "Exact parameter on that wall"}, [](P p) { return p.state.u; }, nullptr},
+    {"x",
+     true,
+     {"length", "Position in the cell"},
+     [](P p) { return p.state.position.x; },
+     nullptr},
+    {"y",
+     true,
+     {"length", "Position in the cell"},
+     [](P p) { return p.state.position.y; },
+     nullptr},
+    {"vx", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.x; }, nullptr},
+    {"vy", true, {"length/time", "Velocity"}, [](P p) { return p.state.velocity.y; }, nullptr},
+    {"cell_first",
+     false,
+     {"1", "Cell of the lattice"},
+     nullptr,
+     [](P p) { return p.state.cell.first; }},
+    {"cell_second",
+     false,
+     {"1", "Cell of the lattice"},
+     nullptr,
+     [](P p) { return p.state.cell.second; }},
+    {"t_high",
+     true,
+     {"time", "Time of the last event, leading double"},
+     [](P p) { return p.state.time.high; },
+     nullptr},
+    {"t_low",
+     true,
+     {"time", "Time of the last event, trailing double"},
+     [](P p) { return p.state.time.low; },
+     nullptr},
+    {"end_high",
+     true,
+     {"time", "Time of the end, leading double"},
+     [](P p) { return p.end.high; },
+     nullptr},
+    {"end_low",
+     true,
+     {"time", "Time of the end, trailing double"},
+     [](P p) { return p.end.low; },
+     nullptr},
+    {"hits",
+     false,
+     {"1", "Reflections so far"},
+     nullptr,
+     [](P p) { return static_cast<std::int64_t>(p.hits); }},
+    {"contacts",
+     false,
+     {"1", "Contacts with other hard discs so far"},
+     nullptr,
+     [](P p) { return static_cast<std::int64_t>(p.contacts); }},
+    {"last_wall",
+     false,
+     {"1", "Wall of the last reflection, -1: none"},
+     nullptr,
+     [](P p) { return std::int64_t{p.last_wall}; }},
+    {"hole",
+     false,
+     {"1", "Hole it escaped through, -1: none"},
+     nullptr,
+     [](P p) { return std::int64_t{p.hole}; }},
+    {"energy_change",
+     true,
+     {"energy", "Change of the energy since the start"},
+     [](P p) { return p.energy.change; },
+     nullptr},
+    {"energy_largest",
+     true,
+     {"energy", "Largest change that was seen"},
+     [](P p) { return p.energy.largest; },
+     nullptr},
+    {"energy_kinetic",
+     true,
+     {"energy", "Largest kinetic energy that was seen"},
+     [](P p) { return p.energy.kinetic; },
+     nullptr},
+    {"fate",
+     false,
+     {"1", "Index into the attribute `names`"},
+     nullptr,
+     [](P p) { return static_cast<std::int64_t>(p.fate); }},
+};
+
+const std::pair<const char*, Description> energy_fields[] = {
+    {"t", {"time", "Time of the sample"}},
+    {"kinetic", {"energy", "Sum of m v^2 / 2"}},
+    {"external", {"energy", "Sum of the external potentials"}},
+    {"pair", {"energy", "Sum of the interactions, each pair once"}},
+    {"total", {"energy", "Their sum"}},
+    {"px", {"momentum", "Sum of m v"}},
+    {"py", {"momentum", "Sum of m v"}},
+    {"angular_momentum",
+     {"angular momentum", "Sum of m (x cross v + omega r^2 / 2), about the origin"}},
+};
+
+std::vector<std::string> fate_names() {
+  std::vector<std::string> names;
+  for (int i = 0; i <= static_cast<int>(last_fate); ++i)
+    names.push_back(name_of(static_cast<Fate>(i)));
+  return names;
+}
+
+}  // namespace
+
+class RunArchive::Implementation {
+ public:
+  Implementation(ArchiveFile opened, std::string final_path, const LoadedSystem& loaded)
+      : file(std::move(opened)),
+        target(std::move(final_path)),
+        table(loaded.system.table),
+        dynamics(loaded.system.dynamics),
+        all_particles(loaded.system.particles),
+        hits(file.name()),
+        samples(file.name()),
+        contacts(file.name()),
+        of_discs(loaded.system.of_discs()),
+        energies(file.name()) {
+    for (const Wall& wall : table->walls) frames.push_back(geometry::frame_of(wall.curve));
+  }
+
+  void create(const LoadedSystem& loaded, const Provenance& origin, std::uint64_t trajectory);
+  void reopen(const LoadedSystem& loaded, const Provenance& origin);
+  void create_state(std::size_t particles);
+  void write_state(const std::vector<RunEnd>& particles);
+  void create_steps();
+  void write_steps(const StepCounts& steps);
+  bool with_energies() const { return of_discs || (dynamics.forces && !dynamics.forces->empty()); }
+
+  ArchiveLock lock;  // first: it lets go last
+  ArchiveFile file;
+  std::string target;
+  std::shared_ptr<const Table> table;
+  Dynamics dynamics;
+  std::vector<Particle> all_particles;
+  std::vector<geometry::CurveFrame> frames;
+  hdf5::Columns hits, samples;
+  ContactColumns contacts;
+  bool of_discs;
+  hdf5::Columns energies;
+  std::vector<Particle> particles_now;  ///< of the sample's time
+  std::vector<State> states_now;
+  double sampled_until = -std::numeric_limits<double>::infinity();
+};
+
+void RunArchive::Implementation::create(const LoadedSystem& loaded, const Provenance& origin,
+                                        std::uint64_t trajectory) {
+  file.write_head(run_archive_kind, loaded, origin);
+  std::vector<std::string> walls;
+  for (const Wall& wall : table->walls) walls.push_back(wall.name);
+  {
+    const Handle group = file.group("collisions", "Reflections in order of time");
+    const hid_t to = group.get();
+    hits.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
+    const hid_t wall =
+        hits.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
+    hdf5::write_attribute(wall, "names", walls, file.name());
+    hits.add<double>(to, "u", {"1", "Exact parameter on the wall"});
+    hits.add<double>(to, "s", {"length", "Arc length along the wall from its start"});
+    hits.add<double>(
+        to, "v_parallel",
+        {"length/time", "Tangential velocity after the hit, positive in the direction of s"});
+    hits.add<double>(to, "t", {"time", "Time of the hit"});
+    hits.add<double>(to, "x", {"length", "Position, unwrapped"});
+    hits.add<double>(to, "y", {"length", "Position, unwrapped"});
+    hits.add<double>(to, "vx", {"length/time", "Velocity after the hit"});
+    hits.add<double>(to, "vy", {"length/time", "Velocity after the hit"});
+    hits.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
+    hits.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
+    hits.add<std::int32_t>(to, "reflections",
+                           {"1", "Reflections counted: n at a corner of angle pi/n"});
+  }
+  {
+    const Handle group = file.group("trajectory", "Samples at even times (run.sample)");
+    const hid_t to = group.get();
+    samples.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
+    samples.add<double>(to, "t", {"time", "Time of the sample"});
+    samples.add<double>(to, "x", {"length", "Position, unwrapped"});
+    samples.add<double>(to, "y", {"length", "Position, unwrapped"});
+    samples.add<double>(to, "vx", {"length/time", "Velocity"});
+    samples.add<double>(to, "vy", {"length/time", "Velocity"});
+    samples.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
+    samples.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
+  }
+  if (of_discs) {
+    const Handle group = file.group("contacts", "Contacts of hard discs in order of time");
+    contacts.create(group.get());
+  }
+  if (with_energies()) {
+    const Handle group = file.group("energy", "Sums over the particles at each sample's time");
+    for (const auto& [name, description] : energy_fields)
+      energies.add<double>(group.get(), name, description);
+  }
+  if (is_integrated(loaded.system)) create_steps();
+  const std::size_t particles =
+      loaded.system.particles.size() + injected_count(loaded.system, trajectory);
+  create_state(particles);
+  if (estimates_trust(loaded.system))
+    create_trust(file.group("trust", "How far each particle can be trusted").get(), particles,
+                 file.name());
+}
+
+void RunArchive::Implementation::create_state(std::size_t particles) {
+  const Handle group = file.group(
+      "state", "The exact state after the last event of each particle; a run goes on from it");
+  for (const StateField& field : state_fields) {
+    const hid_t type = field.real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+    const Handle dataset = hdf5::create_fixed(group.get(), field.name, type, particles,
+                                              field.description, file.name());
+    if (std::string_view(field.name) == "fate")
+      hdf5::write_attribute(dataset.get(), "names", fate_names(), file.name());
+  }
+}
+
+void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Provenance& origin) {
+  file.extend_head(loaded, origin);
+  {
+    const Handle group = file.open_group("collisions");
+    const hid_t from = group.get();
+    hits.open<std::int32_t>(from, "particle");
+    hits.open<std::int32_t>(from, "wall");
+    for (const char* name : {"u", "s", "v_parallel", "t", "x", "y", "vx", "vy"})
+      hits.open<double>(from, name);
+    hits.open<std::int64_t>(from, "cell_first");
+    hits.open<std::int64_t>(from, "cell_second");
+    hits.open<std::int32_t>(from, "reflections");
+  }
+  const Handle group = file.open_group("trajectory");
+  const hid_t from = group.get();
+  const std::vector<double> times = hdf5::read_column<double>(from, "t", file.name());
+  if (!times.empty()) sampled_until = times.back();
+  samples.open<std::int32_t>(from, "particle");
+  for (const char* name : {"t", "x", "y", "vx", "vy"}) samples.open<double>(from, name);
+  samples.open<std::int64_t>(from, "cell_first");
+  samples.open<std::int64_t>(from, "cell_second");
+  if (of_discs) contacts.open(file.open_group("contacts").get());
+  if (with_energies()) {
+    const Handle energy = file.open_group("energy");
+    for (const auto& [name, description] : energy_fields) energies.open<double>(energy.get(), name);
+  }
+}
+
+void RunArchive::Implementation::write_state(const std::vector<RunEnd>& particles) {
+  const Handle group = file.open_group("state");
+  for (const StateField& field : state_fields) {
+    if (H5Lexists(group.get(), field.name, H5P_DEFAULT) <= 0)
+      continue;  // of an archive of an earlier build
+    Handle dataset =
+        hdf5::checked(H5Dopen2(group.get(), field.name, H5P_DEFAULT), H5Dclose, file.name());
+    herr_t written = -1;
+    if (field.real) {
+      const auto values =
+          collect<double>(particles, [&](const RunEnd& p) { return field.real_of(p.progress); });
+      written =
+          H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    } else {
+      const auto values = collect<std::int64_t>(
+          particles, [&](const RunEnd& p) { return field.integer_of(p.progress); });
+      written =
+          H5Dwrite(dataset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    }
+    hdf5::check(written >= 0, file.name());
+    hdf5::check(dataset.close(), file.name());
+  }
+}
+
+void RunArchive::Implementation::create_steps() {
+  const Handle group = file.group("steps", "What integration has cost");
+  const auto create = [&](const char* name, hid_t type, Description description) {
+    hdf5::create_fixed(group.get(), name, type, 1, description, file.name());
+  };
+  for (const StepNumber& number : step_numbers)
+    create(number.name, H5T_NATIVE_UINT64, {"1", number.text});
+  create(first_unresolved, H5T_NATIVE_DOUBLE, {"time", "When the earliest of these began"});
+}
+
+void RunArchive::Implementation::write_steps(const StepCounts& steps) {
+  if (H5Lexists(file.id(), "steps", H5P_DEFAULT) <= 0) return;
+  const Handle group = file.open_group("steps");
+  const auto write = [&](const char* name, hid_t type, const void* value) {
+    Handle dataset = hdf5::checked(H5Dopen2(group.get(), name, H5P_DEFAULT), H5Dclose, file.name());
+    hdf5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0,
+                file.name());
+    hdf5::check(dataset.close(), file.name());
+  };
+  for (const StepNumber& number : step_numbers)
+    write(number.name, H5T_NATIVE_UINT64, &(steps.*number.value));
+  write(first_unresolved, H5T_NATIVE_DOUBLE, &steps.first_unresolved);
+}
+
+RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+RunArchive::~RunArchive() = default;
+
+std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
+                                               const Provenance& origin, bool force,
+                                               std::uint64_t trajectory, ArchiveLock lock) {
+  if (!lock) lock = lock_archive(file);
+  refuse_existing(file, force);
+  auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), file, loaded);
+  made->lock = std::move(lock);
+  made->create(loaded, origin, trajectory);
+  made->file.start_swmr();
+  return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
+}
+
+std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const std::string& target,
+                                               const LoadedSystem& loaded, const Provenance& origin,
+                                               bool force, ArchiveLock lock) {
+  if (!lock) lock = lock_archive(target);
+  std::error_code error;
+  if (!std::filesystem::equivalent(source, target, error)) refuse_existing(target, force);
+  const std::string copy = aside_of(target);
+  if (!std::filesystem::copy_file(source, copy, std::filesystem::copy_options::overwrite_existing,
+                                  error)) {
+    const std::string reason = error.message();
+    std::filesystem::remove(copy, error);
+    throw InputError("cannot write '" + copy + "': " + reason);
+  }
+  auto made = std::make_unique<Implementation>(ArchiveFile::open(copy, target), target, loaded);
+  made->lock = std::move(lock);
+  made->reopen(loaded, origin);
+  made->file.start_swmr();
+  return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
+}
+
+void RunArchive::hit(const HitEvent& event) {
+  Implementation& a = *implementation_;
+  const geometry::CurveFrame& frame = a.frames[static_cast<std::size_t>(event.wall)];
+  const Vector position = unwrapped(*a.table, event.position, event.cell);
+  a.hits.row(std::int32_t{event.particle}, std::int32_t{event.wall}, event.u,
+             geometry::arc_length_at(frame, event.u),
+             dot(event.after, geometry::tangent_at(frame, event.u)), event.time.value(), position.x,
+             position.y, event.after.x, event.after.y, event.cell.first, event.cell.second,
+             std::int32_t{event.reflections});
+}
+
+void RunArchive::contact(const ContactEvent& event) {
+  implementation_->contacts.add(event, *implementation_->table);
+}
+
+void RunArchive::sample(int particle, Time time, const State& state) {
+  Implementation& a = *implementation_;
+  // A run that goes on is asked for its samples from the beginning.
+  if (!(time.value() > a.sampled_until)) return;
+  const Vector position = unwrapped(*a.table, state.position, state.cell);
+  Vector folded = state.position;
+  geometry::Cell cell = state.cell;
+  fold_into_cell(*a.table, folded, cell);
+  a.samples.row(std::int32_t{particle}, time.value(), position.x, position.y, state.velocity.x,
+                state.velocity.y, cell.first, cell.second);
+  if (!a.with_energies()) return;
+  a.particles_now.push_back(a.all_particles.at(static_cast<std::size_t>(particle)));
+  a.states_now.push_back(state);
+}
+
+void RunArchive::sampled(Time time) {
+  Implementation& a = *implementation_;
+  if (a.states_now.empty()) return;
+  const Energy energy = energy_of(a.particles_now, a.states_now, a.dynamics, *a.table);
+  const Vector momentum = momentum_of(a.particles_now, a.states_now);
+  a.energies.row(time.value(), energy.kinetic, energy.external, energy.pair, energy.total(),
+                 momentum.x, momentum.y,
+                 angular_momentum_of(a.particles_now, a.states_now, *a.table));
+  a.particles_now.clear();
+  a.states_now.clear();
+}
+
+void RunArchive::finish(const SingleRunResult& result, const std::string& status) {
+  Implementation& a = *implementation_;
+  a.hits.close();
+  a.samples.close();
+  a.contacts.close();
+  a.energies.close();
+  a.write_state(result.particles);
+  a.write_steps(result.steps);
+  if (result.particles.front().trust.known)
+    write_trust(a.file.open_group("trust").get(), result.particles, a.file.name());
+  a.file.add_decisions(result.decisions);
+  a.file.set_status(status, !result.interrupted);
+  a.file.keep_as(a.target);
+  give_up_checkpoint(a.target);
+  a.lock.reset();
+}
+
+}  // namespace carom

@@ -1,0 +1,97 @@
+#include <span>
+#include <utility>
+
+#include "io/archive/archive_file.hpp"
+#include "io/archive/columns.hpp"
+#include "io/checkpoint/ensemble_files.hpp"
+
+namespace carom {
+
+using hdf5::Handle;
+
+class SectionArchive::Implementation {
+ public:
+  Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin)
+      : target(path), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
+    file.write_head("section", loaded, origin);
+    const System& system = loaded.system;
+    const Handle group =
+        file.group("section", "Points of the section, orbit after orbit, in order of time");
+    const hid_t to = group.get();
+    rows.add<std::uint64_t>(to, "orbit", {"1", "Index of the trajectory"});
+    rows.add<std::uint64_t>(to, "index",
+                            {"1", "Number of the point in the orbit of its particle, from 0"});
+    rows.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
+    const hid_t wall = rows.add<std::int32_t>(
+        to, "wall", {"1", "Index into the attribute `names`, -1: not at a wall"});
+    std::vector<std::string> names;
+    for (const Wall& w : system.table->walls) names.push_back(w.name);
+    if (!names.empty()) hdf5::write_attribute(wall, "names", names, path);
+    rows.add<std::int32_t>(to, "direction", {"1", "Sense of the crossing, 1 or -1; 0 at a wall"});
+    rows.add<double>(to, "t", {"time", "Time"});
+    rows.add<double>(
+        to, "s",
+        {"length", "Length along the wall, line or circle; 0 for conditions on the velocity"});
+    rows.add<double>(to, "v_parallel",
+                     {"length/time", "Velocity in the direction of s; 0 likewise"});
+    rows.add<double>(to, "x", {"length", "Position, unwrapped"});
+    rows.add<double>(to, "y", {"length", "Position, unwrapped"});
+    rows.add<double>(to, "vx", {"length/time", "Velocity, after the hit at a wall"});
+    rows.add<double>(to, "vy", {"length/time", "Velocity, after the hit at a wall"});
+  }
+
+  ArchiveLock lock;
+  std::string target;
+  ArchiveFile file;
+  hdf5::Columns rows;
+};
+
+SectionArchive::SectionArchive(const std::string& file, const LoadedSystem& loaded,
+                               const Provenance& origin, bool force, ArchiveLock lock) {
+  if (!lock) lock = lock_archive(file);
+  refuse_existing(file, force);
+  implementation_ = std::make_unique<Implementation>(file, loaded, origin);
+  implementation_->lock = std::move(lock);
+}
+SectionArchive::~SectionArchive() = default;
+
+void SectionArchive::append(const std::vector<SectionPoint>& points) {
+  hdf5::silence();
+  for (const SectionPoint& p : points)
+    implementation_->rows.row(p.orbit, p.index, p.particle, p.wall, p.direction, p.t, p.s,
+                              p.v_parallel, p.x, p.y, p.vx, p.vy);
+}
+
+void SectionArchive::finish(const SectionResult& result, const std::string& status) {
+  Implementation& a = *implementation_;
+  a.rows.close();
+  {
+    const Handle group = a.file.group("fates", "Numbers of orbits");
+    const auto number = [&](const char* name, std::uint64_t value, const char* text) {
+      hdf5::write_column(group.get(), name, std::span<const std::uint64_t>(&value, 1), {"1", text},
+                         a.target);
+    };
+    number("orbits", result.orbits, "Trajectories followed to their end");
+    number("points", result.points, "Points of all orbits");
+    number("collisions", result.collisions, "Reflections of all orbits");
+    number("incomplete", result.incomplete, "Particles with fewer points than asked for");
+    number("pinned", result.pinned, "On a cyclotron orbit that never hits");
+    number("escaped", result.escaped, "Left through a hole");
+    number("capped", result.capped, "Ended by the cap on hits");
+    number("singular", result.singular, "Ended where no continuation is defined");
+    number("unbounded", result.unbounded, "No wall follows any more");
+    number("unresolved", result.unresolved, "Ended where integration could not follow");
+    number("lost", result.lost, "Internal errors: always 0");
+    number("digest", result.digest,
+           "Sum of a hash of each orbit's points: equal digests, equal bits");
+    const Handle provenance = a.file.open_group("provenance");
+    hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
+  }
+  a.file.add_decisions(result.decisions);
+  a.file.set_status(status, result.complete);
+  a.file.keep_as(a.target);
+  give_up_checkpoint(a.target);
+  a.lock.reset();
+}
+
+}  // namespace carom

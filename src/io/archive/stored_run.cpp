@@ -1,0 +1,91 @@
+// Reads back what a run that goes on needs of its archive.
+#include "carom/base/error.hpp"
+#include "io/archive/archive_file.hpp"
+#include "io/archive/checksums.hpp"
+#include "io/archive/columns.hpp"
+#include "io/checkpoint/ensemble_files.hpp"
+#include "io/archive/step_numbers.hpp"
+#include "io/archive/trust_columns.hpp"
+
+namespace carom {
+
+using hdf5::Handle;
+
+StoredRun read_run(const std::string& name) {
+  const Place place{name, 0, 0, ""};
+  if (!exists(name)) throw InputError(place, "there is no such file");
+  Handle file;  // a pipe would be waited for
+  if (!is_no_file(name))
+    file = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file)
+    throw InputError(place,
+                     "the file is not an archive, or its run was killed or is still going on",
+                     "the archive of a finished or interrupted run");
+  if (hdf5::read_string_attribute(file.get(), "kind", name) != run_archive_kind)
+    throw InputError(place, "the archive holds no run in double precision",
+                     "an archive written by carom run");
+  if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
+    throw InputError(place, "the archive has another schema",
+                     "one written by this version of carom");
+  StoredRun run;
+  run.status = hdf5::read_string_attribute(file.get(), "status", name);
+  if (run.status == "running")
+    throw InputError(place, "its run was killed", "the archive of a finished or interrupted run");
+  hdf5::verify(file.get(), name);  // what goes on is kept beside what it goes on from
+  run.system_toml = hdf5::read_text(file.get(), "system", name);
+  const Handle provenance(H5Gopen2(file.get(), "provenance", H5P_DEFAULT), H5Gclose);
+  run.system_name = hdf5::read_string_attribute(provenance.get(), "system", name);
+  run.engine = hdf5::read_string_attribute(provenance.get(), "engine", name);
+
+  const Handle state(H5Gopen2(file.get(), "state", H5P_DEFAULT), H5Gclose);
+  const auto reals = [&](const char* field) {
+    return hdf5::read_column<double>(state.get(), field, name);
+  };
+  const auto integers = [&](const char* field) {
+    return hdf5::read_column<std::int64_t>(state.get(), field, name);
+  };
+  const auto wall = integers("wall"), first = integers("cell_first"),
+             second = integers("cell_second"), hits = integers("hits"),
+             contacts = integers("contacts"), last_wall = integers("last_wall"),
+             hole = integers("hole"), fate = integers("fate");
+  const auto u = reals("u"), x = reals("x"), y = reals("y"), vx = reals("vx"), vy = reals("vy"),
+             high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
+             end_low = reals("end_low");
+  const auto energies = [&](const char* field) {
+    const bool there = H5Lexists(state.get(), field, H5P_DEFAULT) > 0;
+    return there ? reals(field) : std::vector<double>(wall.size(), 0.0);
+  };
+  const auto change = energies("energy_change"), largest = energies("energy_largest"),
+             kinetic = energies("energy_kinetic");
+  for (std::size_t i = 0; i < wall.size(); ++i) {
+    ParticleProgress p;
+    p.state.wall = static_cast<int>(wall[i]);
+    p.state.u = u.at(i);
+    p.state.position = {x.at(i), y.at(i)};
+    p.state.velocity = {vx.at(i), vy.at(i)};
+    p.state.cell = {first.at(i), second.at(i)};
+    p.state.time = {high.at(i), low.at(i)};
+    p.end = {end_high.at(i), end_low.at(i)};
+    p.hits = static_cast<std::uint64_t>(hits.at(i));
+    p.contacts = static_cast<std::uint64_t>(contacts.at(i));
+    p.last_wall = static_cast<std::int32_t>(last_wall.at(i));
+    p.hole = static_cast<std::int32_t>(hole.at(i));
+    p.fate = static_cast<Fate>(fate.at(i));
+    p.energy = {change.at(i), largest.at(i), kinetic.at(i)};
+    run.particles.push_back(p);
+  }
+  if (H5Lexists(file.get(), "steps", H5P_DEFAULT) > 0) {
+    const Handle steps(H5Gopen2(file.get(), "steps", H5P_DEFAULT), H5Gclose);
+    for (const StepNumber& number : step_numbers)
+      run.steps.*number.value =
+          hdf5::read_column<std::uint64_t>(steps.get(), number.name, name).at(0);
+    run.steps.first_unresolved =
+        hdf5::read_column<double>(steps.get(), first_unresolved, name).at(0);
+  }
+  if (H5Lexists(file.get(), "trust", H5P_DEFAULT) > 0)
+    read_trust(Handle(H5Gopen2(file.get(), "trust", H5P_DEFAULT), H5Gclose).get(), run.particles,
+               name);
+  return run;
+}
+
+}  // namespace carom

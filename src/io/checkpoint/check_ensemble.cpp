@@ -1,0 +1,100 @@
+// Archives of ensembles that were changed or damaged are refused, and told of by their dataset.
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "carom/table/hole_names.hpp"
+#include "io/archive/ensemble_columns.hpp"
+
+namespace carom {
+
+namespace {
+
+// `trajectories`: those that are counted, each particle once.
+void check_common(const StoredEnsemble& stored, const EnsembleResult& result,
+                  std::uint64_t trajectories, const char* where, const System& system) {
+  const TrajectoryRange part = stored.shard.range(system.run.trajectories);
+  const std::vector<TrajectoryRange>& done = result.done.ranges();
+  if (!done.empty() && (done.front().first < part.first || done.back().last > part.last))
+    damaged(stored.file, fmt::format("'/done' counts others than the trajectories {} to {}",
+                                     part.first, part.last - 1));
+  if (result.complete && !result.done.missing_from(part).empty())
+    damaged(stored.file, "it says that it is complete, and '/done' has gaps");
+  // Of those that are injected, each trajectory may have another number.
+  if (system.injections.empty() && trajectories != result.done.size() * system.particles.size())
+    damaged(stored.file,
+            fmt::format("'{}' is not the number of particles that '/done' counts", where));
+}
+
+// Those who are sampled are there; nobody comes back.
+void check_samples(const StoredEnsemble& stored, const DiffusionResult& result) {
+  const std::size_t times = result.sums.times().size();
+  std::vector<std::uint64_t> there(times, 0);
+  bool descends = true;
+  for (std::size_t group = 0; group < DisplacementSums::groups; ++group)
+    for (std::size_t k = 0; k < times; ++k) {
+      there[k] += result.sums.of(group, k).count;
+      descends = descends &&
+                 (k == 0 || result.sums.of(group, k).count <= result.sums.of(group, k - 1).count);
+    }
+  if (times == 0) return;
+  if (!descends || there.front() > result.trajectories || there.back() < result.survived)
+    damaged(stored.file, "'/msd_groups/count' and '/fates' contradict each other");
+}
+
+// A finished ensemble has a record of each particle that it counts; one that is under way keeps
+// them elsewhere.
+void check_rows(const StoredEnsemble& stored, std::uint64_t particles) {
+  const hdf5::Handle file(H5Fopen(stored.file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file || H5Lexists(file.get(), "trajectories", H5P_DEFAULT) <= 0) return;
+  if (RecordReader(stored.file).rows() != particles)
+    damaged(stored.file, "'/trajectories' has not one row a particle of '/fates'");
+}
+
+void check_times(const StoredEnsemble& stored, const std::vector<double>& times, const char* where,
+                 const System& system) {
+  if (times != system.run.times)
+    damaged(stored.file, fmt::format("'{}' are not the report times of '/system'", where));
+}
+
+}  // namespace
+
+void damaged(const std::string& name, const std::string& problem) {
+  throw InputError(Place{name, 0, 0, ""}, problem, "an archive as carom wrote it");
+}
+
+void check_stored(const StoredEnsemble& stored, const EscapeResult& result, const System& system) {
+  const SurvivalCounts& counts = result.counts;
+  check_common(stored, result, counts.trajectories, "/fates/trajectories", system);
+  check_times(stored, counts.times, "/survival/t", system);
+  if (counts.hole_escapes.size() != hole_names(*system.table).size())
+    damaged(stored.file, "'/fates/holes' are not the holes of '/system'");
+  if (std::accumulate(counts.hole_escapes.begin(), counts.hole_escapes.end(), std::uint64_t{0}) !=
+      counts.escaped)
+    damaged(stored.file, "'/fates/holes' do not add up to '/fates/escaped'");
+  if (counts.pinned > counts.survived || counts.capped > counts.survived - counts.pinned)
+    damaged(stored.file, "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'");
+  const std::uint64_t mean = counts.trajectories == 0 ? 0 : counts.collisions / counts.trajectories;
+  if (counts.most_hits > counts.collisions || mean > counts.most_hits)
+    damaged(stored.file, "'/fates/collisions' and '/fates/most_hits' contradict each other");
+  check_rows(stored, counts.trajectories);
+}
+
+void check_stored(const StoredEnsemble& stored, const DiffusionResult& result,
+                  const System& system) {
+  check_common(stored, result, result.trajectories, "/fates/trajectories", system);
+  check_times(stored, result.sums.times(), "/msd/t", system);
+  if (result.survived + result.escaped + result.capped + result.singular + result.unbounded +
+          result.unresolved + result.lost !=
+      result.trajectories)
+    damaged(stored.file, "'/fates' do not add up to '/fates/trajectories'");
+  if (result.pinned > result.survived)
+    damaged(stored.file, "'/fates/pinned' is more than '/fates/survived'");
+  check_samples(stored, result);
+}
+
+}  // namespace carom

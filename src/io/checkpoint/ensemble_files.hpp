@@ -1,0 +1,32 @@
+// The files of an ensemble that has not ended, and how their records are read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carom/io/archive.hpp"
+#include "io/archive/archive_file.hpp"
+#include "io/checkpoint/record_log.hpp"
+#include "io/checkpoint/work_folder.hpp"
+
+namespace carom {
+
+/// Do both hold parts of one ensemble, or the whole, by one version?
+bool are_one_ensemble(const StoredEnsemble&, const StoredEnsemble&);
+/// Opens an archive of this schema; throws InputError for anything else.
+hdf5::Handle open_ensemble(const std::string& name);
+
+/// /provenance of an ensemble, besides what every archive has; what is counted. `arithmetic`: of
+/// those who computed it, or "".
+void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere,
+                 const std::string& arithmetic);
+inline constexpr const char* arithmetic_key = "arithmetic";
+/// Where the records of a checkpoint stand.
+void write_pieces(const ArchiveFile&, const std::vector<RecordLog::Piece>&);
+/// Throws InputError where they are not those of the trajectories that it counts.
+std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint,
+                                          const TrajectoryRanges& done);
+/// All records of an archive to a log, in order of index.
+void copy_records(const StoredEnsemble&, const TrajectoryRanges& done, const System&, RecordLog&);
+
+}  // namespace carom

@@ -1,0 +1,54 @@
+// [integrator].
+#include <algorithm>
+#include <cmath>
+
+#include "carom/integrators/scheme.hpp"
+#include "io/toml/read.hpp"
+
+namespace carom::io {
+
+IntegratorPlan read_integrator(Value& root, bool forces, const std::vector<Particle>& particles,
+                               bool walls) {
+  IntegratorPlan plan;
+  Value* value = root.find("integrator");
+  if (value == nullptr) {
+    if (!forces) return plan;
+    io::Value empty;
+    empty.place = {root.place.file, 0, 0, "integrator"};
+    value = &root.set("integrator", empty);
+  }
+  TomlSection section(*value, "integrator");
+  section.check_keys();
+  const Value& scheme = section.get("scheme");
+  plan.scheme = as_text(scheme);
+  if (!is_adaptive(plan.scheme)) find_scheme(plan.scheme, scheme.place);
+  Place place = value->place;
+  if (const Value* step = section.find("step")) {
+    plan.step = as_positive(*step);
+    place = step->place;
+  }
+  if (const Value* tolerance = section.find("tolerance")) {
+    plan.tolerance = as_positive(*tolerance);
+    place = tolerance->place;
+  } else if (is_adaptive(plan.scheme)) {
+    plan.tolerance = default_tolerance;
+    section.fill("tolerance", number_value("1e-12", section.place_of("tolerance")));
+  }
+  plan.energy_tolerance = as_positive(section.get("energy_tolerance"));
+  const Value& unresolved = section.get("unresolved");
+  plan.count_unresolved = as_text(unresolved) == "count";
+  if (!plan.count_unresolved && as_text(unresolved) != "stop")
+    throw InputError(unresolved.place,
+                     "unknown treatment of unresolved steps '" + unresolved.text + "'",
+                     "\"stop\" or \"count\"", nearest_name(unresolved.text, {"stop", "count"}));
+  place.key = "integrator";  // the checks add the key at fault
+  if (forces || plan.tolerance > 0.0) check_plan(plan, place);
+  if (forces) {
+    double largest = 0.0;
+    for (const Particle& p : particles) largest = std::max(largest, std::fabs(p.omega));
+    check_turn(plan, largest, walls, place);
+  }
+  return plan;
+}
+
+}  // namespace carom::io

@@ -1,0 +1,16 @@
+// [initial] kind = "file": starts kept in a text file.
+#pragma once
+
+#include "io/toml/value.hpp"
+
+namespace carom::io {
+
+/// Turns kind = "file" into the list of the starts that the file holds, so that what is resolved
+/// can be run again without it. Anything else is left alone.
+void take_starts_from_file(Value& initial);
+
+/// Where starts are listed, and neither speed nor energy is given, the velocities' lengths are the
+/// speeds.
+void take_speeds_from_starts(Value& root);
+
+}  // namespace carom::io
