@@ -38,7 +38,6 @@
 #include "carom/ensemble/system.hpp"
 #include "carom/ensemble/trajectories.hpp"
 #include "carom/ensemble/trajectory_ranges.hpp"
-#include "carom/ensemble/validation.hpp"
 #include "carom/events/decision_range.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/events/dynamics.hpp"

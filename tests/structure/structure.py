@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Reads the tree and says where it leaves the plan of the house.
+"""Checks that the sources keep the rules of the tables below: dependencies, packages, lengths, format.
 
     structure.py includes | umbrella | libm | length | format  [ROOT]
 
-Exit status 1 and one line a fault if there is one. The plan is data: the tables below.
+Prints one line for each fault; the exit status is then 1.
 """
 import pathlib
 import re
@@ -11,9 +11,9 @@ import shutil
 import subprocess
 import sys
 
-# Which rooms a room includes: itself, base and these, nothing through others. Ensembles feed the accumulators of analysis/,
-# which know nothing of ensembles. Certified orbits share no flight with the engine: certify/ sees no events/.
-ARROWS = {
+# Modules that a module may include besides itself and base/; dependencies of dependencies do not count. The accumulators of
+# analysis/ know nothing of ensembles. Certified orbits test the engine, so certify/ includes nothing of events/.
+DEPENDENCIES = {
     "base": [],
     "geometry": [],
     "table": ["geometry"],
@@ -26,11 +26,12 @@ ARROWS = {
     "lanes": ["events", "forces", "geometry", "integrators", "motion", "table"],
     "ensemble": ["analysis", "events", "forces", "geometry", "integrators", "lanes", "motion", "table"],
     "io": ["analysis", "certify", "ensemble", "events", "forces", "geometry", "integrators", "table"],
-    "cli": ["certify", "ensemble", "events", "geometry", "integrators", "io", "lanes", "table"],
+    "validation": ["analysis", "ensemble", "events", "io"],
+    "cli": ["certify", "ensemble", "events", "geometry", "integrators", "io", "lanes", "table", "validation"],
 }
-# The witness shares nothing with what it testifies against.
+# The closed-form maps check the engine, so they share nothing with it.
 MAPS_MAY_INCLUDE = {"carom/maps/maps.hpp", "carom/base/error.hpp"}
-# Generated into the build folder: header and the room it belongs to.
+# Generated into the build folder: header and its module.
 GENERATED = {"carom_version.hpp": "base"}
 UMBRELLA = "include/carom/carom.hpp"
 
@@ -44,11 +45,11 @@ PACKAGES = {
     r"Random123/": r"src/base/random\.cpp",
     r"toml\+\+/|hdf5": r"src/io/",
     r"CLI/": r"src/cli/options\.cpp",
-    r"omp\.h": r"src/ensemble/",
+    r"omp\.h": r"src/ensemble/|validation/cases/",
     r"mpi\.h": r"src/cli/mpi_ranks\.cpp",
     r"sundials|arkode/|cvode/|nvector/|sunlinsol/|sunnonlinsol/": r"src/integrators/",
 }
-# C++ rooms in which states, times and random numbers are made, and what is stored in archives of ensembles, which
+# C++ files in which states, times and random numbers are made, and what is stored in archives of ensembles, which
 # are compared bit by bit; base/elementary.cpp is the door.
 LIBM_FREE = (
     r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|lanes|ensemble)/"
@@ -78,44 +79,44 @@ def without_comments(text, strings=True):
 
 def sources(root):
     """(path relative to root, text) of every C++ file of the library and the program."""
-    for folder in ("include", "geometry", "src"):
+    for folder in ("include", "geometry", "src", "validation/cases"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in (".cpp", ".hpp"):
                 yield path.relative_to(root).as_posix(), path.read_text(encoding="utf-8")
 
 
-def room_of(path):
+def module_of(path):
     if path.startswith("geometry/"):
         return "geometry"
-    match = re.match(r"(?:src|include/carom)/(\w+)/", path)
+    match = re.match(r"(?:src/|include/carom/|(?=validation/))(\w+)/", path)
     return match.group(1) if match else None
 
 
-def included_room(root, path, header):
-    """The room a quoted header belongs to, or None."""
+def included_module(root, path, header):
+    """The module of a quoted header, or None."""
     if header in GENERATED:
         return GENERATED[header]
     here = (root / path).parent
-    for folder in (here, root / "include", root / "geometry/include", root / "src", root / "geometry/src"):
+    for folder in (here, root / "include", root / "geometry/include", root / "src", root / "geometry/src", root):
         found = (folder / header).resolve()
         if found.is_file() and found.is_relative_to(root.resolve()):
-            return room_of(found.relative_to(root.resolve()).as_posix())
+            return module_of(found.relative_to(root.resolve()).as_posix())
     return None
 
 
-def check_plan(room, seen=()):
-    """Arrows lead in no circle."""
-    if room in seen:
-        raise SystemExit(f"the plan itself runs in a circle: {' -> '.join([*seen, room])}")
-    for other in ARROWS[room] + ["base"] * (room != "base"):
-        check_plan(other, (*seen, room))
+def check_cycles(module, seen=()):
+    """The declared dependencies have no cycle."""
+    if module in seen:
+        raise SystemExit(f"the declared dependencies have a cycle: {' -> '.join([*seen, module])}")
+    for other in DEPENDENCIES[module] + ["base"] * (module != "base"):
+        check_cycles(other, (*seen, module))
 
 
 def check_includes(root):
-    for room in ARROWS:
-        check_plan(room)
+    for module in DEPENDENCIES:
+        check_cycles(module)
     for path, text in sources(root):
-        room = room_of(path)
+        module = module_of(path)
         public = "include/" in path
         code = without_comments(text, strings=False)
         for match in INCLUDE.finditer(code):
@@ -132,18 +133,18 @@ def check_includes(root):
                 continue
             if path == UMBRELLA:
                 if header.startswith("carom/maps/"):
-                    yield f"{place}: the maps are a witness, not a part of the library"
+                    yield f"{place}: the maps check the library and are not a part of it"
                 continue
-            target = included_room(root, path, header)
-            if room == "maps":
+            target = included_module(root, path, header)
+            if module == "maps":
                 if header not in MAPS_MAY_INCLUDE:
                     yield f"{place}: maps/ includes nothing of the project but base/error.hpp, not {header}"
-            elif room not in ARROWS:
-                yield f"{place}: the plan has no room '{room}'"
+            elif module not in DEPENDENCIES:
+                yield f"{place}: no module is declared as '{module}'"
             elif target is None:
                 yield f"{place}: no such header in the project: {header}"
-            elif target not in (room, "base", *ARROWS[room]):
-                yield f"{place}: {room}/ must not include {target}/ ({header})"
+            elif target not in (module, "base", *DEPENDENCIES[module]):
+                yield f"{place}: {module}/ must not include {target}/ ({header})"
     # Examples see what users see: an installed library.
     for path in sorted((root / "examples").glob("*.cpp")):
         for match in INCLUDE.finditer(without_comments(path.read_text(encoding="utf-8"), strings=False)):
@@ -216,7 +217,7 @@ def main(arguments):
     if not any(sources(root)):
         raise SystemExit(f"no sources in {root}")
     faults = list(CHECKS[arguments[0]](root))
-    print("\n".join(faults) if faults else "as planned")
+    print("\n".join(faults) if faults else "no faults")
     return 1 if faults else 0
 
 

@@ -9,7 +9,7 @@
 #include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
-#include "cli/commands/validation_cases.hpp"
+#include "validation/cases/cases.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -31,7 +31,7 @@ std::string number_text(double value) {
   return value < 10.0 ? fmt::format("{:.7f}", value) : fmt::format("{:.7g}", value);
 }
 
-std::string line_of(const ValidationCase& c, Allowance allowance) {
+std::string line_of(const validation::Check& c, validation::Allowance allowance) {
   std::string line =
       fmt::format("{}  {:<34} seed {}  {:>12.4g} hits {:>7.2f} s  ", c.passed ? "passed" : "FAILED",
                   c.name, c.seed, static_cast<double>(c.hits), c.seconds);
@@ -52,7 +52,7 @@ std::string line_of(const ValidationCase& c, Allowance allowance) {
   return line + (c.report.empty() ? "" : "\n        " + std::string(shown(c.report))) + "\n";
 }
 
-Json json_of(const ValidationCase& c, Allowance allowance) {
+Json json_of(const validation::Check& c, validation::Allowance allowance) {
   Json json = Json::object();
   json.set("name", c.name).set("passed", c.passed).set("seed", c.seed).set("value", c.value);
   json.set("error", c.error).set("expected", c.expected);
@@ -72,8 +72,8 @@ Json json_of(const ValidationCase& c, Allowance allowance) {
 }  // namespace
 
 int validate(const Options& options) {
-  const std::vector<PlannedCase> plan = planned_cases(options.soak, scale_of(options));
-  ValidationOptions how;
+  const std::vector<validation::Case> plan = validation::all_cases(options.soak, scale_of(options));
+  validation::CheckOptions how;
   how.threads = threads_of(options);
   how.interrupted = &catch_interrupts();
   Progress progress(!options.quiet && options.json);  // text shows its progress by itself
@@ -84,7 +84,7 @@ int validate(const Options& options) {
   for (std::size_t i = 0; i < plan.size() && complete; ++i) {
     if (progress.enabled())
       progress.show(static_cast<double>(i) / static_cast<double>(plan.size()), plan[i].name);
-    ValidationCase c = plan[i].run(how);
+    validation::Check c = plan[i].run(how);
     c.name = plan[i].name;
     c.source = plan[i].source;
     complete = c.complete;

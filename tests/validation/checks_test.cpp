@@ -1,5 +1,5 @@
 // The checks of carom validate: they pass where they should, and can fail.
-#include "carom/ensemble/validation.hpp"
+#include "validation/cases/checks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,19 +7,21 @@
 #include <cmath>
 #include <string>
 
-#include "systems.hpp"
+#include "carom/io/system_file.hpp"
 
-namespace carom {
+namespace carom::validation {
 namespace {
 
+System system_of(const std::string& toml) { return read_system(toml, "test").system; }
+
 System closed_circle(const char* initial, const char* run) {
-  return make_system(std::string("[table]\nshape = \"circle\"\nradius = 1\n[initial]\nkind = \"") +
-                     initial + "\"\n[run]\nt_max = 1e12\n" + run);
+  return system_of(std::string("[table]\nshape = \"circle\"\nradius = 1\n[initial]\nkind = \"") +
+                   initial + "\"\n[run]\nt_max = 1e12\n" + run);
 }
 
 TEST(Validation, MeanFlightOfADisc) {
   const System system = closed_circle("boundary", "collisions = 100\ntrajectories = 2000\n");
-  const ValidationCase c = check_mean_flight(system, 0.0);
+  const Check c = check_mean_flight(system, 0.0);
   EXPECT_TRUE(c.passed);
   EXPECT_NEAR(c.expected, 1.5707963267948966, 1e-15);
   EXPECT_EQ(c.hits, 200000u);
@@ -30,15 +32,15 @@ TEST(Validation, MeanFlightOfADisc) {
 
 TEST(Validation, IsTheSameOnAnyNumberOfThreads) {
   const System system = closed_circle("boundary", "collisions = 20\ntrajectories = 500\n");
-  const ValidationCase one = check_mean_flight(system, 0.0, {1, nullptr});
-  const ValidationCase three = check_mean_flight(system, 0.0, {3, nullptr});
+  const Check one = check_mean_flight(system, 0.0, {1, nullptr});
+  const Check three = check_mean_flight(system, 0.0, {3, nullptr});
   EXPECT_EQ(one.value, three.value);
   EXPECT_EQ(one.error, three.error);
   EXPECT_EQ(three.threads, 3);
 }
 
 TEST(Validation, NothingIsLostInADisc) {
-  const ValidationCase c =
+  const Check c =
       check_nothing_lost(closed_circle("uniform", "collisions = 1000\ntrajectories = 100\n"));
   EXPECT_TRUE(c.passed);
   EXPECT_EQ(c.hits, 100000u);
@@ -47,7 +49,7 @@ TEST(Validation, NothingIsLostInADisc) {
 }
 
 TEST(Validation, TwoDiscsLoseByTheirMultiplier) {
-  const System system = make_system(R"(
+  const System system = system_of(R"(
 [table]
 shape = "discs"
 centers = [[0, 0], [6, 0]]
@@ -63,10 +65,10 @@ collisions = 4
 trajectories = 200000
 )");
   const double multiplier = 5.0 + std::sqrt(24.0);
-  const ValidationCase share = check_survival_per_hit(system, 1.0 / multiplier);
+  const Check share = check_survival_per_hit(system, 1.0 / multiplier);
   EXPECT_TRUE(share.passed) << share.value;
   EXPECT_LT(share.error, 0.003);
-  const ValidationCase rate = check_escape_rate(system, std::log(multiplier) / 4.0);
+  const Check rate = check_escape_rate(system, std::log(multiplier) / 4.0);
   EXPECT_TRUE(rate.passed) << rate.value;
   EXPECT_LT(rate.error, 0.01);
   EXPECT_FALSE(check_survival_per_hit(system, 1.2 / multiplier).passed);
@@ -87,7 +89,7 @@ TEST(Validation, BothErrorsCount) {
   // All of a thousand survive: the own error is about 1e-3, and 0.1 is far away unless the
   // reference is as uncertain.
   EXPECT_FALSE(check_survivors(system, 1.0, {0.9, 0.001}, {}).passed);
-  const ValidationCase c = check_survivors(system, 1.0, {0.9, 0.05}, {});
+  const Check c = check_survivors(system, 1.0, {0.9, 0.05}, {});
   EXPECT_TRUE(c.passed);
   EXPECT_EQ(c.expected_error, 0.05);
   EXPECT_NEAR(c.distance, 2.0, 1e-3);
@@ -95,7 +97,7 @@ TEST(Validation, BothErrorsCount) {
 
 TEST(Validation, DisplacementOfFreeFlight) {
   // Speed 2 in a lattice whose only disc is out of reach: |r(t) - r(0)| = 2 t for all.
-  const System system = make_system(R"(
+  const System system = system_of(R"(
 [table]
 shape = "lorentz"
 lattice = "square"
@@ -112,7 +114,7 @@ t_max = 1.5
 times = [0.5, 1.5]
 trajectories = 300
 )");
-  const ValidationCase c = check_displacement(system, {9.0});
+  const Check c = check_displacement(system, {9.0});
   EXPECT_TRUE(c.passed) << c.value;
   EXPECT_NEAR(c.value, 9.0, 1e-12);
   EXPECT_EQ(c.lost, 0u);
@@ -121,7 +123,7 @@ trajectories = 300
 }
 
 TEST(Validation, DistanceOfOneOrbit) {
-  const System system = make_system(R"(
+  const System system = system_of(R"(
 [table]
 shape = "rectangle"
 width = 4
@@ -136,7 +138,7 @@ velocity = [0, 1]
 t_max = 3
 )");
   // One reflection at most: at (3, 4), whose distance is 5.
-  const ValidationCase c = check_distance(system, 5.0, {});
+  const Check c = check_distance(system, 5.0, {});
   EXPECT_TRUE(c.passed) << c.value;
   EXPECT_FALSE(check_distance(system, 5.1, {0.0, 1.0}).passed);
   EXPECT_TRUE(check_distance(system, 5.1, {0.2, 0.0}).passed);
@@ -144,11 +146,11 @@ t_max = 3
 
 TEST(Validation, WhatIsInterruptedHasNeitherPassedNorFailed) {
   const std::atomic<bool> interrupted{true};
-  const ValidationCase c = check_mean_flight(
+  const Check c = check_mean_flight(
       closed_circle("boundary", "collisions = 100\ntrajectories = 2000\n"), 0.0, {2, &interrupted});
   EXPECT_FALSE(c.complete);
   EXPECT_FALSE(c.passed);
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::validation

@@ -1,4 +1,4 @@
-#include "cli/commands/validation_cases.hpp"
+#include "validation/cases/cases.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "carom/io/system_file.hpp"
 
-namespace carom::cli {
+namespace carom::validation {
 
 namespace {
 
@@ -50,7 +50,7 @@ const ClosedTable closed_tables[] = {
      "[table]\nshape = \"ellipse\"\na = 1\nb = 0.75\n[field]\nlarmor_radius = 3\n", 0, true},
 };
 
-// All who enter the stem are gone.
+// Particles that enter the stem escape.
 const char* open_mushroom =
     "[table]\nshape = \"mushroom\"\ncap_radius = 1\nstem_width = 1\nstem_height = 1\n"
     "[[table.hole]]\nwall = \"stem_bottom\"\ncenter = 0.5\nwidth = 1\n"
@@ -78,9 +78,9 @@ class Planner {
  public:
   Planner(bool soak, double scale) : soak_(soak), scale_(scale) {}
 
-  template <class Check>
-  void add(std::string name, std::string source, Allowance allowance, Check check) {
-    cases_.push_back({std::move(name), std::move(source), allowance, std::move(check)});
+  template <class Run>
+  void add(std::string name, std::string source, Allowance allowance, Run run) {
+    cases_.push_back({std::move(name), std::move(source), allowance, std::move(run)});
   }
   double pick(double usual, double in_soak) const { return soak_ ? in_soak : usual; }
   double scaled(double trajectories) const {
@@ -103,12 +103,12 @@ class Planner {
     overrides.trajectories = fmt::format("{:.0f}", scaled(trajectories));
     return load_system(name, overrides).system;
   }
-  std::vector<PlannedCase> take() { return std::move(cases_); }
+  std::vector<Case> take() { return std::move(cases_); }
 
  private:
   bool soak_;
   double scale_;
-  std::vector<PlannedCase> cases_;
+  std::vector<Case> cases_;
 };
 
 void add_closed_tables(Planner& plan) {
@@ -118,26 +118,24 @@ void add_closed_tables(Planner& plan) {
       const System system = plan.closed(name, toml + "[initial]\nkind = \"boundary\"\n",
                                         {plan.pick(1e4, 1e5), 100, seed});
       plan.add(name + ": mean flight", "pi (A - A0)/L (Santalo; Chernov 1997)", {},
-               [system, area = table.no_hit_area](const ValidationOptions& options) {
+               [system, area = table.no_hit_area](const CheckOptions& options) {
                  return check_mean_flight(system, area, options);
                });
     }
     if (!table.soaked) continue;
     const System system =
         plan.closed(name, toml + "[initial]\nkind = \"uniform\"\n", {plan.pick(1e3, 1e5), 1e4});
-    plan.add(
-        name + ": nothing lost", "a closed table", {},
-        [system](const ValidationOptions& options) { return check_nothing_lost(system, options); });
+    plan.add(name + ": nothing lost", "a closed table", {},
+             [system](const CheckOptions& options) { return check_nothing_lost(system, options); });
   }
 }
 
 void add_survivors(Planner& plan, std::string name, std::string source, System system,
                    double factor, Estimate expected, Allowance allowance) {
-  plan.add(
-      std::move(name), std::move(source), allowance,
-      [system = std::move(system), factor, expected, allowance](const ValidationOptions& options) {
-        return check_survivors(system, factor, expected, allowance, options);
-      });
+  plan.add(std::move(name), std::move(source), allowance,
+           [system = std::move(system), factor, expected, allowance](const CheckOptions& options) {
+             return check_survivors(system, factor, expected, allowance, options);
+           });
 }
 
 void add_published(Planner& plan) {
@@ -153,17 +151,17 @@ void add_published(Planner& plan) {
   const System three =
       plan.closed("three-disc", std::string(three_discs) + three_disc_front, {walkers, 4});
   plan.add("three-disc: survival per bounce", "cycle expansion (Gaspard & Rice 1989)", {},
-           [three](const ValidationOptions& options) {
+           [three](const CheckOptions& options) {
              return check_survival_per_hit(three, 0.183029795396354243674, options);
            });
   plan.add("three-disc: escape rate", "cycle expansion (Gaspard & Rice 1989)", {},
-           [three](const ValidationOptions& options) {
+           [three](const CheckOptions& options) {
              return check_escape_rate(three, 0.41033840776934648933846130782, options);
            });
   // R = 6: ln(5 + sqrt(24))/4.
   const System two = plan.closed("two-disc", std::string(two_discs) + two_disc_front, {walkers, 4});
   plan.add("two-disc: escape rate", "ln(R - 1 + sqrt(R (R - 2)))/(R - 2), R = 6", {},
-           [two](const ValidationOptions& options) {
+           [two](const CheckOptions& options) {
              return check_escape_rate(two, 0.57310791771781968, options);
            });
 
@@ -202,7 +200,7 @@ void add_published(Planner& plan) {
                      {{"run.t_max", one.t}, {"run.times", fmt::format("[{}]", one.t)}});
     plan.add(fmt::format("soft-lorentz: MSD({})", one.t),
              "independent simulation of fig. 6 of Solanpaa et al. 2016", {},
-             [system, expected = one.expected](const ValidationOptions& options) {
+             [system, expected = one.expected](const CheckOptions& options) {
                return check_displacement(system, expected, options);
              });
   }
@@ -211,18 +209,18 @@ void add_published(Planner& plan) {
   const Allowance rounding{0.02, 0.02};
   plan.add("siam-photon: distance at t = 10",
            "SIAM 100-Digit Challenge, problem 2; rounding grows to 1e-3", rounding,
-           [photon, rounding](const ValidationOptions&) {
+           [photon, rounding](const CheckOptions&) {
              return check_distance(photon, 0.995262919443354160891, rounding);
            });
 }
 
 }  // namespace
 
-std::vector<PlannedCase> planned_cases(bool soak, double scale) {
+std::vector<Case> all_cases(bool soak, double scale) {
   Planner plan(soak, scale);
   add_closed_tables(plan);
   add_published(plan);
   return plan.take();
 }
 
-}  // namespace carom::cli
+}  // namespace carom::validation

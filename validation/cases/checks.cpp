@@ -1,4 +1,4 @@
-#include "carom/ensemble/validation.hpp"
+#include "validation/cases/checks.hpp"
 
 #include <omp.h>
 
@@ -18,28 +18,28 @@
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/events/world.hpp"
 
-namespace carom {
+namespace carom::validation {
 
 namespace {
 
 constexpr double most_errors = 4.0;
 
 // An integrable orbit may have no scatter at all: then the numbers agree to rounding.
-bool agrees(const ValidationCase& c, double error, Allowance allowance) {
+bool agrees(const Check& c, double error, Allowance allowance) {
   const double rounding = 1e-12 * std::fabs(c.expected);
   const double reach = most_errors * error + rounding;
   return c.value >= c.expected - reach - allowance.below &&
          c.value <= c.expected + reach + allowance.above;
 }
 
-void judge(ValidationCase& c, Allowance allowance) {
+void judge(Check& c, Allowance allowance) {
   const double error = std::sqrt(c.error * c.error + c.expected_error * c.expected_error);
   c.distance = error > 0.0 ? (c.value - c.expected) / error : c.value - c.expected;
   c.passed = c.complete && c.lost == 0 && c.unresolved == 0 && agrees(c, error, allowance);
 }
 
 // Runs the ensemble and fills in everything but the value.
-EscapeResult run(const System& system, const ValidationOptions& options, ValidationCase& c) {
+EscapeResult run(const System& system, const CheckOptions& options, Check& c) {
   EscapeOptions how;
   how.threads = options.threads;
   how.interrupted = options.interrupted;
@@ -72,7 +72,7 @@ double binomial_error(double k, double n) {
 template <class Probe>
 class Follower {
  public:
-  Follower(const System& system, const ValidationOptions& options, ValidationCase& c)
+  Follower(const System& system, const CheckOptions& options, Check& c)
       : system_(system), options_(options), sampler_(system, options.interrupted), case_(c) {
     c.seed = system.run.seed;
     c.threads = options.threads > 0 ? options.threads : std::max(1, omp_get_max_threads());
@@ -124,9 +124,9 @@ class Follower {
 
   const Stopwatch watch_;
   const System& system_;
-  const ValidationOptions& options_;
+  const CheckOptions& options_;
   const Sampler sampler_;
-  ValidationCase& case_;
+  Check& case_;
   std::vector<typename Probe::Kept> kept_;
   std::atomic<std::uint64_t> next_{0};
   std::atomic<bool> failed_{false};
@@ -188,12 +188,11 @@ struct LastHits : Observer {
 
 }  // namespace
 
-ValidationCase check_mean_flight(const System& system, double no_hit_area,
-                                 const ValidationOptions& options) {
+Check check_mean_flight(const System& system, double no_hit_area, const CheckOptions& options) {
   if (system.run.trajectories < 2 || system.run.collisions == 0)
     throw InternalError("a mean flight needs trajectories and a number of hits");
   const TableMeasure size = measure(*system.table);
-  ValidationCase c;
+  Check c;
   c.expected = size.mean_flight * (1.0 - no_hit_area / size.area);
   const Follower<Flights> flights(system, options, c);
   double sum = 0.0, squares = 0.0;
@@ -209,17 +208,16 @@ ValidationCase check_mean_flight(const System& system, double no_hit_area,
   return c;
 }
 
-ValidationCase check_nothing_lost(const System& system, const ValidationOptions& options) {
-  ValidationCase c;
+Check check_nothing_lost(const System& system, const CheckOptions& options) {
+  Check c;
   run(system, options, c);
   c.value = static_cast<double>(c.lost);
   judge(c, {});
   return c;
 }
 
-ValidationCase check_survival_per_hit(const System& system, double expected,
-                                      const ValidationOptions& options) {
-  ValidationCase c;
+Check check_survival_per_hit(const System& system, double expected, const CheckOptions& options) {
+  Check c;
   c.expected = expected;
   const Follower<LastHits> walkers(system, options, c);
   double reached = 0.0;
@@ -231,9 +229,8 @@ ValidationCase check_survival_per_hit(const System& system, double expected,
   return c;
 }
 
-ValidationCase check_escape_rate(const System& system, double expected,
-                                 const ValidationOptions& options) {
-  ValidationCase c;
+Check check_escape_rate(const System& system, double expected, const CheckOptions& options) {
+  Check c;
   c.expected = expected;
   const Follower<LastHits> walkers(system, options, c);
   double rate = 0.0, step = 1.0;
@@ -261,9 +258,9 @@ ValidationCase check_escape_rate(const System& system, double expected,
   return c;
 }
 
-ValidationCase check_survivors(const System& system, double factor, Estimate expected,
-                               Allowance allowance, const ValidationOptions& options) {
-  ValidationCase c;
+Check check_survivors(const System& system, double factor, Estimate expected, Allowance allowance,
+                      const CheckOptions& options) {
+  Check c;
   c.expected = expected.value;
   c.expected_error = expected.error;
   const EscapeResult result = run(system, options, c);
@@ -275,9 +272,8 @@ ValidationCase check_survivors(const System& system, double factor, Estimate exp
   return c;
 }
 
-ValidationCase check_displacement(const System& system, Estimate expected,
-                                  const ValidationOptions& options) {
-  ValidationCase c;
+Check check_displacement(const System& system, Estimate expected, const CheckOptions& options) {
+  Check c;
   c.expected = expected.value;
   c.expected_error = expected.error;
   c.seed = system.run.seed;
@@ -304,8 +300,8 @@ ValidationCase check_displacement(const System& system, Estimate expected,
   return c;
 }
 
-ValidationCase check_distance(const System& system, double expected, Allowance allowance) {
-  ValidationCase c;
+Check check_distance(const System& system, double expected, Allowance allowance) {
+  Check c;
   c.expected = expected;
   c.seed = system.run.seed;
   Observer nothing;
@@ -322,4 +318,4 @@ ValidationCase check_distance(const System& system, double expected, Allowance a
   return c;
 }
 
-}  // namespace carom
+}  // namespace carom::validation

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "carom/ensemble/validation.hpp"
+#include "validation/cases/checks.hpp"
 
-namespace carom::cli {
+namespace carom::validation {
 
-struct PlannedCase {
+struct Case {
   std::string name, source;
   Allowance allowance;  ///< beside four standard errors
-  std::function<ValidationCase(const ValidationOptions&)> run;
+  std::function<Check(const CheckOptions&)> run;
 };
 
 /// `scale` multiplies the number of trajectories of each case.
-std::vector<PlannedCase> planned_cases(bool soak, double scale);
+std::vector<Case> all_cases(bool soak, double scale);
 
-}  // namespace carom::cli
+}  // namespace carom::validation

@@ -8,10 +8,10 @@
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/ensemble/system.hpp"
 
-namespace carom {
+namespace carom::validation {
 
 /// A check that has run: what came out, beside what should.
-struct ValidationCase {
+struct Check {
   std::string name;
   std::string source;  ///< where the expected value comes from
   double value = 0.0;
@@ -30,7 +30,7 @@ struct ValidationCase {
 };
 
 /// How to run, without influence on the result.
-struct ValidationOptions {
+struct CheckOptions {
   int threads = 0;  ///< 0: as many as OpenMP gives
   const std::atomic<bool>* interrupted = nullptr;
 };
@@ -47,29 +47,28 @@ struct Allowance {
 /// map), which is pi (A - A0) / L: `no_hit_area` A0 is the area of the centres of Larmor circles
 /// that meet no wall (Santalo; Chernov 1997). The error is from the scatter over trajectories,
 /// since orbits need not be ergodic. run.collisions and run.trajectories say how much is done.
-ValidationCase check_mean_flight(const System&, double no_hit_area, const ValidationOptions& = {});
+Check check_mean_flight(const System&, double no_hit_area, const CheckOptions& = {});
 
 /// A closed table loses nothing: `value` is the number of lost trajectories.
-ValidationCase check_nothing_lost(const System&, const ValidationOptions& = {});
+Check check_nothing_lost(const System&, const CheckOptions& = {});
 
 /// Of the trajectories with run.collisions - 1 hits, the share that hits once more.
-ValidationCase check_survival_per_hit(const System&, double expected,
-                                      const ValidationOptions& = {});
+Check check_survival_per_hit(const System&, double expected, const CheckOptions& = {});
 
 /// The escape rate g at which the sum of exp(g t) over those with n hits, t the time of the n-th,
 /// is the same for n = run.collisions - 1 and n = run.collisions: without the staircase that the
 /// number of survivors is over time.
-ValidationCase check_escape_rate(const System&, double expected, const ValidationOptions& = {});
+Check check_escape_rate(const System&, double expected, const CheckOptions& = {});
 
 /// Share of trajectories that survive until t_max or their cap on hits, times `factor`.
-ValidationCase check_survivors(const System&, double factor, Estimate expected, Allowance,
-                               const ValidationOptions& = {});
+Check check_survivors(const System&, double factor, Estimate expected, Allowance,
+                      const CheckOptions& = {});
 
 /// Mean square displacement at the last report time.
-ValidationCase check_displacement(const System&, Estimate expected, const ValidationOptions& = {});
+Check check_displacement(const System&, Estimate expected, const CheckOptions& = {});
 
 /// Distance from the origin of the plane at t_max, of trajectory 0. It passes within `allowance`:
 /// rounding grows with every hit, so one orbit in double precision has no standard error.
-ValidationCase check_distance(const System&, double expected, Allowance);
+Check check_distance(const System&, double expected, Allowance);
 
-}  // namespace carom
+}  // namespace carom::validation
