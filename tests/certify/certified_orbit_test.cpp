@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <ranges>
 
 #include "carom/events/world.hpp"
@@ -44,18 +43,14 @@ TEST(CertifiedOrbit, PhotonAmongMirrors) {
   mirrors.spec.words["lattice"] = "square";
   CertifiedTask task = task_of(0, 100);
   task.t_max = exactly("10");
-  const std::clock_t before = std::clock();
   CertifiedOrbit orbit(tests::system_of(mirrors, {1.0, 0.0}), task);
   const CertifiedEnd& end = orbit.finish();
-  const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 14u);
   const Precision precision(500);
   const Ball distance = sqrt(square(ball_of(end.x)) + square(ball_of(end.y)));
   EXPECT_EQ(distance.decimals(30), "0.995262919443354160890311809427");
   EXPECT_LT(distance.radius().log2(), -332.0);  // 100 digits
-  RecordProperty("milliseconds", static_cast<int>(1000.0 * seconds));
-  EXPECT_LT(seconds, 0.1);  // 0.5 ms measured; a loaded machine may take longer
 }
 
 // The walls in balls are the walls of the table, which were rounded.

@@ -15,8 +15,7 @@ using certify::ball_of;
 using tests::exactly;
 using tests::Shaped;
 
-// Most seconds on one core, all attempts together.
-void follow(const Shaped& table, const char* slope, double most_seconds) {
+void follow(const Shaped& table, const char* slope) {
   if (std::getenv("CAROM_SOAK") == nullptr) GTEST_SKIP() << "CAROM_SOAK is not set";
   const ExactSystem system = tests::system_of(table, {exactly("1"), exactly(slope)});
   CertifiedTask task;
@@ -37,25 +36,24 @@ void follow(const Shaped& table, const char* slope, double most_seconds) {
   EXPECT_TRUE(speed2.contains(certify::Ball(1)));
   std::printf("%.1f s, %ld bits, %.0f lost, %d attempts, %ld MB\n", seconds, orbit.effort().bits,
               orbit.effort().tangent_bits, orbit.effort().attempts, usage.ru_maxrss / 1024);
-  EXPECT_LT(seconds, most_seconds);
   EXPECT_LT(usage.ru_maxrss, 100 * 1024);
 }
 
 // 36 s an attempt measured.
 TEST(LongOrbits, AHundredThousandHitsInTheStadium) {
-  follow(tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "1/10", "11/50"), "7/10",
-         100.0);
+  follow(tests::shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "1/10", "11/50"),
+         "7/10");
 }
 
 TEST(LongOrbits, AHundredThousandHitsAroundADisc) {
   Shaped walled = tests::shaped("sinai", {{"side", "1"}, {"radius", "0.4"}}, "0.05", "0.07");
   walled.spec.torus = false;
-  follow(walled, "7/10", 100.0);
+  follow(walled, "7/10");
 }
 
 // 162 s measured: 247 000 bits.
 TEST(LongOrbits, AHundredThousandHitsOnTheTorus) {
-  follow(tests::shaped("sinai", {{"side", "1"}, {"radius", "0.4"}}, "0.05", "0.07"), "7/10", 250.0);
+  follow(tests::shaped("sinai", {{"side", "1"}, {"radius", "0.4"}}, "0.05", "0.07"), "7/10");
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ TEST(Checksums, AChangedSystemOfACheckpointIsRefused) {
       "until_saved a.h5; kill -9 $pid; wait $pid");
   const std::string checkpoint = shell.folder() + "/a.h5.part/checkpoint.h5";
   change_text(checkpoint, "stem_width = 1", "stem_width = 2");
-  expect_changed(shell("timeout 20 $carom escape --resume a.h5"), "a.h5.part/checkpoint.h5",
+  expect_changed(shell("timeout 300 $carom escape --resume a.h5"), "a.h5.part/checkpoint.h5",
                  "/system");
   expect_changed(shell("$carom merge sum.h5 a.h5"), "a.h5.part/checkpoint.h5", "/system");
   EXPECT_TRUE(shell.exists("a.h5.part/checkpoint.h5") && !shell.exists("a.h5") &&
@@ -316,7 +316,7 @@ TEST(Checksums, ABitOfTheRecordsOfACheckpointIsToldOfAtOnce) {
       .read(reinterpret_cast<char*>(&x), sizeof x);
   ASSERT_EQ(shell("cp a.h5.part/records kept").status, 0);
   change_last_bit(shell.folder() + "/a.h5.part/records", x);
-  const Outcome o = shell("timeout 20 $carom escape --resume a.h5");
+  const Outcome o = shell("timeout 300 $carom escape --resume a.h5");
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.out, "");
   EXPECT_NE(o.err.find("a.h5.part/records: the records of the trajectories "), std::string::npos)

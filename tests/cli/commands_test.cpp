@@ -127,7 +127,7 @@ TEST(Escape, PrintsATable) {
 TEST(Escape, PrintsManyTimes) {
   const Shell shell;
   const Outcome o = shell(
-      "timeout 20 $carom escape stadium --trajectories 10 --t-max 100 --times lin:0:100:100000 "
+      "timeout 300 $carom escape stadium --trajectories 10 --t-max 100 --times lin:0:100:100000 "
       "--quiet");
   EXPECT_EQ(o.status, 0);
   std::size_t intervals = 0;
@@ -330,7 +330,7 @@ TEST(Escape, RefusesStartsThatCannotBeWithoutTrying) {
       "--set initial.kind=rectangle --set 'initial.min=[2,0]' --set 'initial.max=[3,1]'"};
   for (const char* start : impossible) {
     const Outcome o =
-        shell("timeout 20 $carom escape magnetic-square --trajectories 10 " + std::string(start));
+        shell("timeout 300 $carom escape magnetic-square --trajectories 10 " + std::string(start));
     EXPECT_EQ(o.status, 1) << start;
     EXPECT_NE(o.err.find("was found inside the table"), std::string::npos) << o.err;
   }

@@ -264,7 +264,7 @@ TEST(Damaged, RecordsOfOthersAreRefused) {
       "until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
   Damage(shell.folder() + "/a.h5.part/checkpoint.h5").resize("records/rows", 0);
-  const Outcome length = shell("timeout 20 $carom escape --resume a.h5");
+  const Outcome length = shell("timeout 300 $carom escape --resume a.h5");
   EXPECT_EQ(length.status, 1);
   EXPECT_NE(length.err.find("a.h5.part/checkpoint.h5: '/records/rows' differs in length"),
             std::string::npos)
@@ -274,7 +274,7 @@ TEST(Damaged, RecordsOfOthersAreRefused) {
     for (const char* column : {"first", "last", "row", "rows"})
       damage.resize((std::string("records/") + column).c_str(), 0);
   }
-  const Outcome others = shell("timeout 20 $carom escape --resume a.h5");
+  const Outcome others = shell("timeout 300 $carom escape --resume a.h5");
   EXPECT_EQ(others.status, 1);
   EXPECT_NE(
       others.err.find(

@@ -39,7 +39,7 @@ void expect_refused(const Shell& shell, const Special& special, const std::strin
   for (const std::string& writer : writers)
     for (const std::string force : {"", " --force"}) {
       const Outcome o =
-          shell("timeout 20 $carom " + writer + "out.svg" + force + "; status=$?; test " +
+          shell("timeout 300 $carom " + writer + "out.svg" + force + "; status=$?; test " +
                 special.is + " out.svg || exit 99; exit $status");
       EXPECT_EQ(o.status, 1) << writer << force;
       EXPECT_EQ(o.out, "") << writer;
@@ -55,7 +55,7 @@ TEST(NoFiles, PipesAndFoldersAreNoOutputs) {
   expect_refused(shell, {"mkfifo out.svg", "-p"}, "the output is a device or a pipe");
   for (const std::string command :
        {"escape --resume out.svg", "run --resume out.svg", "merge sum.h5 out.svg"}) {
-    const Outcome o = shell("timeout 20 $carom " + command);
+    const Outcome o = shell("timeout 300 $carom " + command);
     EXPECT_EQ(o.status, 1) << command;
     EXPECT_EQ(o.err.find("carom: out.svg: "), 0u) << o.err;
   }
@@ -106,7 +106,7 @@ TEST(Links, CheckpointsStandBesideTheFile) {
   EXPECT_EQ(first.out, "a.svg.part\n") << first.err;
   const Outcome again =
       shell("$carom escape --resume out.svg" + go_on +
-            "timeout 20 $carom escape --resume real/a.svg; kill -INT $pid; wait $pid");
+            "timeout 300 $carom escape --resume real/a.svg; kill -INT $pid; wait $pid");
   EXPECT_EQ(again.status, 130) << again.err;
   EXPECT_NE(again.err.find("another process writes it"), std::string::npos) << again.err;
   EXPECT_EQ(shell(link_and_file).status, 0);

@@ -37,7 +37,7 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
         "run siam-photon --precision certified --digits 20 --force -o q.h5",
         "escape stadium --trajectories 10 --force -o q.h5",
         "escape stadium --trajectories 10 -o q.h5", "escape --resume q.h5"}) {
-    const Outcome o = while_it_runs(shell, endless, "timeout 20 $carom " + other);
+    const Outcome o = while_it_runs(shell, endless, "timeout 300 $carom " + other);
     EXPECT_EQ(o.status, 1) << other;
     EXPECT_NE(o.err.find("q.h5: another process writes it"), std::string::npos) << other << "\n"
                                                                                 << o.err;
@@ -70,7 +70,7 @@ TEST(OneWriter, NobodyTakesTheFilesOfALiveRun) {
           "run siam-photon --precision certified --digits 20 -o " + name,
           "escape stadium --trajectories 10 -o " + name,
           "diffusion lorentz-triangular --trajectories 10 --t-max 3 -o " + name})
-      others += "timeout 20 $carom " + command + " --force; echo status $? >&2\n";
+      others += "timeout 300 $carom " + command + " --force; echo status $? >&2\n";
   const Outcome o = while_it_runs(shell, endless, others);
   std::istringstream lines(o.err);
   int refused = 0;

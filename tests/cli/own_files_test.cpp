@@ -105,7 +105,7 @@ TEST(OwnFiles, FilesOfOthersAreRefused) {
     const std::string is = shell(look).out;
     for (const std::string& writer : writers)
       for (const std::string force : {"", " --force"}) {
-        const Outcome o = shell("timeout 20 $carom " + writer + force);
+        const Outcome o = shell("timeout 300 $carom " + writer + force);
         EXPECT_EQ(o.status, 1) << other << "\n" << writer;
         EXPECT_EQ(o.out, "") << writer;
         EXPECT_EQ(

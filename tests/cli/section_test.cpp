@@ -71,7 +71,7 @@ TEST(Section, ComesFromTheFileToo) {
 // Such orbits would look for their first point for ever.
 TEST(Section, NeedsWallsOrASurface) {
   const Shell shell;
-  const Outcome o = shell("timeout 20 $carom section soft-lorentz --orbits 2 --points 3 -o a.h5"),
+  const Outcome o = shell("timeout 300 $carom section soft-lorentz --orbits 2 --points 3 -o a.h5"),
                 line = shell("$carom section soft-lorentz --on vx=0 --orbits 2 --points 3");
   EXPECT_EQ(o.status, 1);
   EXPECT_NE(
@@ -88,13 +88,13 @@ TEST(Section, OnAWallEndsWhereverTheWallIsNamed) {
       " --set initial.kind=point --position 0,0 --velocity 0,1 --set 'table.hole=[]' --points 5 "
       "--json --quiet";
   for (const char* on : {"--on wall:right", "--set section.on=wall:right"}) {
-    const Outcome o = shell("timeout 20 $carom section stadium " + std::string(on) + vertical);
+    const Outcome o = shell("timeout 300 $carom section stadium " + std::string(on) + vertical);
     EXPECT_EQ(o.status, 0) << on << o.err;
     EXPECT_EQ(json_value(o.out, "points"), "0") << on;
     EXPECT_EQ(json_value(o.out, "incomplete"), "1") << on;
   }
   shell("$carom systems stadium > a.toml; printf '[section]\non = \"wall:right\"\n' >> a.toml");
-  const Outcome file = shell("timeout 20 $carom section a.toml" + vertical);
+  const Outcome file = shell("timeout 300 $carom section a.toml" + vertical);
   EXPECT_EQ(file.status, 0) << file.err;
   EXPECT_EQ(json_value(file.out, "points"), "0");
   // All walls: the points come, unless a last time is asked for.

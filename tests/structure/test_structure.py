@@ -28,7 +28,7 @@ class Includes(unittest.TestCase):
     def illegal(self, path, line):
         self.assertEqual(len(faults("includes", {path: "// first\n" + line + "\n"})), 1, line)
 
-    def test_arrows(self):
+    def test_dependencies(self):
         self.legal("src/events/world.cpp", '#include "carom/table/table.hpp"')
         self.legal("src/cli/run.cpp", '#include "io/value.hpp"')
         self.illegal("src/table/build.cpp", '#include "carom/events/world.hpp"')
@@ -41,7 +41,7 @@ class Includes(unittest.TestCase):
         self.illegal("src/io/value.cpp", '#include "validation/cases/cases.hpp"')
         self.illegal("validation/cases/cases.cpp", '#include "carom/table/table.hpp"')
 
-    def test_arrows_are_direct(self):
+    def test_dependencies_are_direct(self):
         self.legal("src/events/world.cpp", '#include "motion/flight.hpp"')
         self.illegal("src/io/value.cpp", '#include "motion/flight.hpp"')
 
@@ -116,15 +116,15 @@ class Format(unittest.TestCase):
 
 
 class Plan(unittest.TestCase):
-    def test_a_circle_in_the_plan_is_found(self):
-        plan = dict(structure.ARROWS)
+    def test_a_cycle_is_found(self):
+        plan = dict(structure.DEPENDENCIES)
         try:
-            structure.ARROWS["base"] = ["cli"]
+            structure.DEPENDENCIES["base"] = ["cli"]
             with self.assertRaises(SystemExit):
                 faults("includes", {})
         finally:
-            structure.ARROWS.clear()
-            structure.ARROWS.update(plan)
+            structure.DEPENDENCIES.clear()
+            structure.DEPENDENCIES.update(plan)
 
 
 if __name__ == "__main__":

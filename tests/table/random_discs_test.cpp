@@ -1,7 +1,6 @@
 // Random discs: apart, the same on every machine, refused where there is no room; and tables of
 // many walls.
 #include <cmath>
-#include <ctime>
 
 #include "spec.hpp"
 
@@ -70,16 +69,9 @@ TEST(RandomDiscs, NeedRoom) {
   EXPECT_HAS(fault(shape("random-discs", {{"side", "32"}, {"radius", "1"}})), "needs 'count'");
 }
 
-// Nothing in the building grows with the square of the walls: ten times as many take less than
-// thirty times as long.
-TEST(RandomDiscs, AreBuiltInTimeProportionalToTheirNumber) {
-  const auto seconds = [](const std::string& count, const std::string& side) {
-    const std::clock_t before = std::clock();
-    build_table(random_discs(count, side));
-    return static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
-  };
-  const double few = seconds("3000", "177"), many = seconds("30000", "560");
-  EXPECT_LT(many, 30.0 * few + 0.05);
+// A step that grew with the square of the number of walls would take hours here.
+TEST(RandomDiscs, AHundredThousandAreBuilt) {
+  EXPECT_EQ(build_table(random_discs("100000", "1022")).walls.size(), 100000u);
 }
 
 }  // namespace
