@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/interrupt.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/report.hpp"
@@ -100,7 +101,10 @@ class Pilots {
       particles.push_back(world.particle(i));
       states.push_back(world.state_at(i, t));
     }
-    return energy_of(particles, states, system_.dynamics, *system_.table);
+    Interrupt interrupt(&stopped_);
+    const Energy sum = energy_of(particles, states, system_.dynamics, *system_.table, &interrupt);
+    if (interrupt.stopped()) throw SamplingStopped();
+    return sum;
   }
 
   System system_;

@@ -28,7 +28,9 @@ class DiffusionListener : public Listener {
       : system_(system), engine_(engine), thread_(thread), hash_(system) {}
 
   void begin(const Trajectory& t) override {
-    if (under_way_.size() <= t.slot) under_way_.resize(t.slot + 1, {{}, EnergyWatch(system_)});
+    if (under_way_.size() <= t.slot)
+      under_way_.resize(t.slot + 1,
+                        {{}, EnergyWatch(system_, [this] { return thread_.stopped(); })});
     UnderWay& mine = under_way_[t.slot];
     mine.squares.resize(t.starts.size());
     for (std::vector<double>& squares : mine.squares) squares.clear();

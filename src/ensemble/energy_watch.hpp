@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "base/interrupt.hpp"
 #include "carom/ensemble/engine.hpp"
+#include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/energy.hpp"
 
@@ -27,10 +31,12 @@ struct EnergiesSeen {
 
 /// Of one trajectory at its start, at its samples and at its end: the energy of each particle, or
 /// of all together where they interact; none where no force acts, or where particles that interact
-/// enter later.
+/// enter later. The sum over all pairs may take seconds: it throws SamplingStopped where `stopped`
+/// says so, and the trajectory does not count.
 class EnergyWatch {
  public:
-  explicit EnergyWatch(const System& system) : system_(&system) {
+  EnergyWatch(const System& system, std::function<bool()> stopped)
+      : system_(&system), stopped_(std::move(stopped)) {
     const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
     const bool shared = forces && system.dynamics.forces->interacts();
     of_each_ = forces && !shared;
@@ -77,7 +83,10 @@ class EnergyWatch {
 
  private:
   Energy energy(std::span<const Particle> particles, std::span<const State> states) const {
-    return energy_of(particles, states, system_->dynamics, *system_->table);
+    Interrupt interrupt(&stopped_);
+    const Energy sum = energy_of(particles, states, system_->dynamics, *system_->table, &interrupt);
+    if (interrupt.stopped()) throw SamplingStopped();
+    return sum;
   }
   Energy now(const Trajectory& t, std::size_t i, std::span<const State> states) const {
     return of_all_ ? energy(t.particles, states) : energy({&t.particles[i], 1}, {&states[i], 1});
@@ -87,6 +96,7 @@ class EnergyWatch {
   }
 
   const System* system_;
+  std::function<bool()> stopped_;
   bool of_each_ = false, of_all_ = false;
   std::vector<double> start_, largest_;
   std::vector<State> together_;  ///< at the sample of that number

@@ -54,7 +54,8 @@ class EscapeListener : public Listener {
 
   void begin(const Trajectory& t) override {
     if (under_way_.size() <= t.slot)
-      under_way_.resize(t.slot + 1, {blocks_.end(), EnergyWatch(system_)});
+      under_way_.resize(
+          t.slot + 1, {blocks_.end(), EnergyWatch(system_, [this] { return thread_.stopped(); })});
     under_way_[t.slot].block = std::prev(blocks_.end());
     under_way_[t.slot].energies.begin(t);
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
 #include "carom/base/twofold.hpp"
 #include "carom/ensemble/injection.hpp"
@@ -248,13 +249,19 @@ SingleRunResult run_single(const System& system, Observer& observer,
   const bool shared = integrated ? field != nullptr && field->interacts() : system.of_discs();
   std::vector<Particle> particles;
   for (const int p : numbers) particles.push_back(all[static_cast<std::size_t>(p)]);
+  const std::function<bool()> interrupted = [&] {
+    result.interrupted = result.interrupted || (options.interrupted && options.interrupted());
+    return result.interrupted;
+  };
+  // The energies of many that interact take seconds: worth nothing where that was interrupted.
+  Interrupt summing(&interrupted);
   const auto energies_now = [&](const auto& state_of) {
     std::vector<Energy> energies;
     std::vector<State> states;
     for (std::size_t i = 0; i < numbers.size(); ++i) states.push_back(state_of(i));
     if (shared)
-      return std::vector<Energy>(numbers.size(),
-                                 energy_of(particles, states, system.dynamics, *system.table));
+      return std::vector<Energy>(
+          numbers.size(), energy_of(particles, states, system.dynamics, *system.table, &summing));
     for (std::size_t i = 0; i < numbers.size(); ++i)
       energies.push_back(
           energy_of({&particles[i], 1}, {&states[i], 1}, system.dynamics, *system.table));
@@ -274,10 +281,6 @@ SingleRunResult run_single(const System& system, Observer& observer,
     world.watch_energy();
   else
     passed_on.watch(&free);
-  const std::function<bool()> interrupted = [&] {
-    result.interrupted = result.interrupted || (options.interrupted && options.interrupted());
-    return result.interrupted;
-  };
   // Pinned particles are known at the start: without a last time nothing more is to come of them,
   // and their samples would have no end.
   const bool without_end = system.run.t_max >= no_last_time;
@@ -330,7 +333,7 @@ SingleRunResult run_single(const System& system, Observer& observer,
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::size_t p = static_cast<std::size_t>(numbers[i]);
     const EnergyBalance& seen = progress[p].energy;
-    if (shared ? everybody : integrated) {
+    if (shared ? everybody && !summing.stopped() : integrated) {
       const double before = options.resume.empty() ? 0.0 : options.resume[p].energy.change;
       errors[p] =
           seen.error_at_end(before + (at_end[i].total() - at_start[i].total()), at_end[i].kinetic);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/interrupt.hpp"
 #include "carom/forces/force_field.hpp"
 #include "forces/formulas.hpp"
 
@@ -178,6 +179,24 @@ TEST(Interactions, AttractionWithoutBoundIsRefused) {
     spec.interaction->strength = -1.0;
     EXPECT_NO_THROW(ForceField::build(spec, p, std::nullopt));
   }
+}
+
+// The energy of two million pairs takes longer than the ten milliseconds between two questions.
+TEST(Interactions, SumsOverAllPairsStopWhereTheyAreAsked) {
+  constexpr std::size_t count = 2000;
+  const std::vector<Particle> particles(count);
+  std::vector<Vector> x(count);
+  for (std::size_t i = 0; i < count; ++i) x[i] = {static_cast<double>(i), 0.0};
+  ForceSpec spec;
+  spec.interaction.emplace();
+  spec.interaction->kind = Kind::yukawa;
+  const auto field = ForceField::build(spec, particles, std::nullopt);
+  const std::function<bool()> stop = [] { return true; };
+  Interrupt interrupt(&stop);
+  const double whole = field->pair_energy(particles, x, nullptr),
+               part = field->pair_energy(particles, x, nullptr, &interrupt);
+  EXPECT_TRUE(interrupt.stopped());
+  EXPECT_LT(part, 0.9 * whole);
 }
 
 }  // namespace
