@@ -1,6 +1,6 @@
 // Where the sides of the joints tell the exit: all flights from one piece with the same joints on
 // their right leave by one piece.
-#include "lanes/exit_by_signs.hpp"
+#include "lanes/free/exit_by_signs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "carom/geometry/curve.hpp"
 #include "carom/lanes/free_lanes.hpp"
 #include "events/flight/next_hit.hpp"
-#include "lanes/make_lane_table.hpp"
+#include "lanes/free/make_lane_table.hpp"
 #include "lanes/one_by_one.hpp"
 #include "random_tables.hpp"
 

@@ -1,7 +1,7 @@
 // fused_product in the lanes of one instruction set: included by one file for each.
 #pragma once
 
-#include "lanes/fused_lanes.hpp"
+#include "lanes/simd/fused_lanes.hpp"
 
 namespace carom::tests {
 

@@ -1,0 +1,500 @@
+#include "carom/lanes/free_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "carom/events/world.hpp"
+#include "events/flight/next_hit.hpp"
+#include "lanes/free/next_disc_table.hpp"
+#include "lanes/free/exit_by_signs.hpp"
+#include "lanes/free/kernels.hpp"
+#include "lanes/free/lane_start.hpp"
+#include "lanes/free/make_lane_table.hpp"
+#include "motion/free_motion.hpp"
+
+namespace carom {
+
+using geometry::Vector;
+using lanes::Call;
+using lanes::LanePack;
+using lanes::LaneTable;
+using lanes::Turn;
+using lanes::turn_of;
+
+namespace {
+
+// Hits are counted in doubles.
+constexpr std::uint64_t most_hits = std::uint64_t{1} << 53;
+// After so many the cells of hits, a signed byte each, are taken out of 32 bits.
+constexpr std::uint64_t most_sweeps = std::uint64_t{1} << 23;
+
+/// Flights along circles get no farther than the diameter; straight ones as far as you like.
+double reach_of(const std::vector<Particle>& particles) {
+  double reach = 0.0;
+  for (const Particle& p : particles)
+    reach = std::max(reach, p.omega == 0.0 ? HUGE_VAL : 2.0 * p.speed / std::fabs(p.omega));
+  return reach;
+}
+
+/// Of one particle: when it ended, and its states at report times.
+class OneEvent : public Observer {
+ public:
+  void end(const EndEvent& event) override { time = event.time; }
+  void sample(int, Time, const State& state) override { states.push_back(state); }
+  Time time;
+  std::vector<State> states;
+};
+
+}  // namespace
+
+class FreeLanes::Implementation {
+ public:
+  Implementation(const Table& the_table, const std::vector<Particle>& particles, InstructionSet set,
+                 DecisionOptions options)
+      : table(the_table),
+        scalar(the_table, options),
+        finder(the_table, options),
+        pieces(lanes::make_lane_table(finder, reach_of(particles))),
+        turn(turn_of(particles.at(0).omega)),
+        in_sight(lanes::discs_in_sight(pieces)),
+        kernels(lanes::kernels_for(set, pieces, turn)) {
+    if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
+    for (Lanes* l : {&main, &entrance}) l->pack.walkers = &walkers;
+    if (!available(set))
+      throw std::invalid_argument("this machine does not have the instruction set");
+  }
+
+  void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
+                 const std::function<void(const LaneEnd&)>& ended,
+                 const std::function<bool()>& interrupted) {
+    source = &next;
+    sink = &ended;
+    stop = &interrupted;
+    stopped = false;
+    for (Lanes* l : {&main, &entrance}) {
+      l->pack.end = t_end;
+      l->pack.limit = static_cast<double>(std::min(limit, most_hits));
+      l->pack.next_cap = HUGE_VAL;
+      l->pack.used = LanePack::lanes;
+      l->clear();
+    }
+    exhausted = false;
+    waiting = 0;
+    for (int lane = 0; lane < LanePack::lanes; ++lane) fill(lane);
+    for (std::uint64_t sweep = 1; main.busy > 0; ++sweep) {
+      if (stopped || (sweep % 64 == 0 && asked_to_stop())) return;
+      if (sweep % most_sweeps == 0) main.add_cells();
+      kernels.on_walls(pieces, main.pack);
+      cap(main);
+      effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
+      effort.idle += static_cast<std::uint64_t>(rounded_up(main.pack.used) - main.busy);
+      const std::vector<int> enough = report_hits(main);
+      for (int i = 0; i < main.pack.calls; ++i)
+        if (!answer(main, i)) fill(main.pack.lane[i]);
+      for (const int lane : enough) {
+        take_out(main, lane);
+        end_after_hit(main, lane);
+        fill(lane);
+      }
+      if (exhausted && main.busy < main.pack.used) close_ranks();
+    }
+  }
+
+  DecisionCounts decisions() const {
+    DecisionCounts sum = scalar.decisions();
+    sum.filter += filter;
+    return sum;
+  }
+
+  const Table& table;
+  World scalar;
+  HitFinder finder;
+  LaneTable pieces;
+  Turn turn;
+  std::vector<std::uint32_t> in_sight;
+  lanes::Kernels kernels;
+  std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
+  std::vector<double> times;  ///< to report at
+  Sampled sampled;
+  Hit hit;
+  std::uint64_t filter = 0;
+  LaneEffort effort;
+
+ private:
+  bool asked_to_stop() {
+    stopped = stopped || (*stop && (*stop)());
+    return stopped;
+  }
+  /// Lanes that a sweep touches.
+  int rounded_up(int used) const {
+    return (used + kernels.width - 1) / kernels.width * kernels.width;
+  }
+
+  /// What a lane's trajectory needs besides its numbers in the pack.
+  struct Trajectory {
+    LaneStart start;               ///< or where the scalar engine left it
+    std::uint64_t first_hits = 0;  ///< when it began
+    std::size_t reported = 0;      ///< times
+    std::uint64_t told = 0;        ///< hits that were reported, if they are
+  };
+  struct Lanes {
+    LanePack pack;
+    Trajectory trajectories[LanePack::lanes];
+    int busy = 0;
+
+    void clear() {
+      busy = 0;
+      for (double& active : pack.active) active = 0.0;
+    }
+    /// To the cells of their homes: those of hits are counted in 32 bits.
+    void add_cells() {
+      for (int lane = 0; lane < LanePack::lanes; ++lane) {
+        pack.home_first[lane] += std::exchange(pack.cells[2 * lane], 0);
+        pack.home_second[lane] += std::exchange(pack.cells[2 * lane + 1], 0);
+      }
+    }
+    void leave(int lane) {
+      if (pack.active[lane] != 0.0) --busy;
+      pack.active[lane] = 0.0;
+    }
+  };
+
+  /// Puts the next trajectory into a lane.
+  void fill(int lane) {
+    if (kernels.on_walls == kernels.anywhere) {
+      begin(main, lane);
+      return;
+    }
+    while (waiting < LanePack::lanes || !exhausted) {
+      if (waiting == LanePack::lanes || entrance.busy == 0) enter_several();
+      for (; waiting < LanePack::lanes; ++waiting) {
+        if (entrance.pack.active[waiting] == 0.0) continue;
+        main.trajectories[lane] = entrance.trajectories[waiting];
+        entrance.leave(waiting++);
+        return resume(main, lane);
+      }
+    }
+  }
+
+  /// The last trajectories side by side, so that packs without any need not be swept.
+  void close_ranks() {
+    LanePack& p = main.pack;
+    int& used = p.used;
+    for (int lane = 0; lane < used; ++lane) {
+      if (p.active[lane] != 0.0) continue;
+      while (used > lane && p.active[used - 1] == 0.0) --used;
+      if (used <= lane) return;
+      const int last = --used;
+      take_out(main, last);
+      main.trajectories[lane] = main.trajectories[last];
+      main.leave(last);
+      resume(main, lane);
+    }
+  }
+
+  /// First flights, which may start anywhere; who has made them waits for a lane.
+  void enter_several() {
+    entrance.clear();
+    for (int lane = 0; lane < LanePack::lanes && begin(entrance, lane);) ++lane;
+    waiting = 0;
+    if (entrance.busy == 0) return;
+    kernels.anywhere(pieces, entrance.pack);
+    cap(entrance);
+    effort.steps += LanePack::lanes;
+    effort.idle += static_cast<std::uint64_t>(LanePack::lanes - entrance.busy);
+    for (int lane = 0; lane < LanePack::lanes; ++lane) {
+      Trajectory& mine = entrance.trajectories[lane];
+      const bool has_hit = entrance.pack.active[lane] != 0.0 &&
+                           entrance.pack.hits(lane) != static_cast<double>(mine.start.hits);
+      if (has_hit)
+        report(mine, mine.start.state, {entrance.pack.high[lane], entrance.pack.low[lane]});
+    }
+    const std::vector<int> enough = report_hits(entrance);
+    const int calls = entrance.pack.calls;
+    for (int i = 0; i < calls; ++i) answer(entrance, i);
+    for (const int lane : enough) {
+      take_out(entrance, lane);
+      end_after_hit(entrance, lane);
+    }
+    for (int lane = 0; lane < LanePack::lanes; ++lane)
+      if (entrance.pack.active[lane] != 0.0) take_out(entrance, lane);
+  }
+
+  /// Begins the next trajectory that lasts; false if there is none.
+  bool begin(Lanes& lanes, int lane) {
+    for (;;) {
+      Trajectory& mine = lanes.trajectories[lane];
+      if (exhausted || stopped || !(*source)(mine.start)) {
+        exhausted = true;
+        return false;
+      }
+      if (turn_of(mine.start.particle.omega) != turn)
+        throw std::invalid_argument("a particle that turns another way");
+      mine.first_hits = mine.start.hits;
+      mine.reported = 0;
+      mine.told = mine.start.hits;
+      while (mine.reported < times.size() && Time(times[mine.reported]) < mine.start.state.time)
+        ++mine.reported;
+      if (!(mine.start.state.time > Time(main.pack.end)) &&
+          lanes::can_start(pieces, finder, mine.start)) {
+        resume(lanes, lane);
+        return true;
+      }
+      if (go_on(lanes, lane)) return true;
+    }
+  }
+
+  /// The numbers of a lane's trajectory.
+  void resume(Lanes& lanes, int lane) {
+    const LaneStart& start = lanes.trajectories[lane].start;
+    lanes::put_into(lanes.pack, lane, pieces, start);
+    lanes.pack.until[lane] = until(lanes, lane);
+    if (lanes.pack.active[lane] == 0.0) ++lanes.busy;
+    lanes.pack.active[lane] = 1.0;
+  }
+
+  /// When a lane is to be looked at. First flights are looked at once they are made.
+  double until(const Lanes& lanes, int lane) const {
+    const std::size_t next = lanes.trajectories[lane].reported;
+    return &lanes == &main && next < times.size() ? std::min(times[next], lanes.pack.end)
+                                                  : lanes.pack.end;
+  }
+  /// Reports a trajectory that flies on from its last event, at times before `t` or, if that
+  /// counts, at it.
+  void report(Trajectory& mine, const State& last, Time t, bool counts = false) {
+    for (; mine.reported < times.size(); ++mine.reported) {
+      const Time next = times[mine.reported];
+      if (counts ? next > t : !(next < t)) return;
+      sampled(mine.start.tag, mine.reported, flown(last, mine.start.particle.omega, next));
+    }
+  }
+  /// Reports the hits of a sweep if asked to; returns the lanes whose hits are enough.
+  std::vector<int> report_hits(Lanes& lanes) {
+    std::vector<int> enough;
+    if (!hit) return enough;
+    for (int lane = 0; lane < lanes.pack.used; ++lane) {
+      if (lanes.pack.active[lane] == 0.0) continue;
+      Trajectory& mine = lanes.trajectories[lane];
+      const auto hits = static_cast<std::uint64_t>(lanes.pack.hits(lane));
+      if (hits == mine.told) continue;
+      mine.told = hits;
+      // Of its last one a call tells.
+      if (!hit(mine.start.tag, state_on_wall(lanes.pack, lane)) && hits < limit)
+        enough.push_back(lane);
+    }
+    return enough;
+  }
+  /// Ends a trajectory at the hit that its state tells.
+  void end_after_hit(Lanes& lanes, int lane) {
+    lanes.leave(lane);
+    const Trajectory& mine = lanes.trajectories[lane];
+    (*sink)({mine.start.tag,
+             Fate::survived,
+             mine.start.state.time,
+             mine.start.state,
+             -1,
+             mine.start.hits,
+             last_wall(mine),
+             {}});
+  }
+  State state_on_wall(const LanePack& pack, int lane) const {
+    State s = last_event(pack, lane);
+    s.wall = static_cast<int>(pieces.wall[static_cast<int>(pack.piece[lane])]);
+    s.u = finder.curve(s.wall).parameter(s.position);
+    return s;
+  }
+  /// A lane's last event, but for its wall.
+  static State last_event(const LanePack& pack, int lane) {
+    State s;
+    s.position = {pack.x[lane], pack.y[lane]};
+    s.velocity = {pack.vx[lane], pack.vy[lane]};
+    s.time = {pack.high[lane], pack.low[lane]};
+    s.cell = {static_cast<std::int64_t>(pack.home_first[lane]) + pack.cells[2 * lane],
+              static_cast<std::int64_t>(pack.home_second[lane]) + pack.cells[2 * lane + 1]};
+    return s;
+  }
+
+  /// Calls for lanes that have made all their hits.
+  static void cap(Lanes& lanes) {
+    LanePack& pack = lanes.pack;
+    if (pack.sweep < pack.next_cap) return;
+    pack.next_cap = HUGE_VAL;
+    for (int lane = 0; lane < pack.used; ++lane) {
+      if (pack.active[lane] == 0.0) continue;
+      const auto before = static_cast<double>(lanes.trajectories[lane].start.hits);
+      if (pack.hits(lane) < pack.limit || pack.hits(lane) == before) {
+        pack.next_cap = std::min(pack.next_cap, pack.born[lane] + pack.limit);
+        continue;
+      }
+      pack.lane[pack.calls] = lane;
+      pack.call[pack.calls++] = Call::capped;
+    }
+  }
+
+  /// The lane's numbers as a state.
+  void take_out(Lanes& lanes, int lane) {
+    const LanePack& pack = lanes.pack;
+    Trajectory& mine = lanes.trajectories[lane];
+    const auto hits = static_cast<std::uint64_t>(pack.hits(lane));
+    effort.hits += hits - mine.start.hits;
+    filter += 2 * (hits - mine.start.hits);  // which wall, and which way the velocity points
+    if (hits == mine.start.hits) return;
+    mine.start.hits = hits;
+    mine.start.state = state_on_wall(pack, lane);
+  }
+
+  /// Does the trajectory go on?
+  bool answer(Lanes& lanes, int number) {
+    const int lane = lanes.pack.lane[number];
+    const Call call = lanes.pack.call[number];
+    const LanePack::Met met = lanes.pack.met[number];
+    const Time there{met.high, met.low}, last(lanes.pack.end);
+    const bool survives = call == Call::over && there > last;
+    Trajectory& mine = lanes.trajectories[lane];
+    if ((call == Call::over || call == Call::escaped) && mine.reported < times.size()) {
+      const std::size_t before = mine.reported;
+      report(mine, last_event(lanes.pack, lane), survives ? last : there, survives);
+      lanes.pack.until[lane] = until(lanes, lane);
+      // A first flight that ends when the run does must not be flown by the kernel of those who
+      // stand on walls.
+      if (&lanes == &main && call == Call::over && !survives && mine.reported > before) {
+        if (lanes.pack.hits(lane) == static_cast<double>(mine.start.hits))
+          resume(lanes,
+                 lane);  // on a lattice, who began off the discs must find the first one again
+        else
+          lanes::look_again(lanes.pack, lane);
+        return true;
+      }
+    }
+    take_out(lanes, lane);
+    // A hit at the very time that was waited for: the scalar engine knows.
+    if (call == Call::undecided || (call == Call::over && !survives)) return go_on(lanes, lane);
+    const State& s = mine.start.state;
+    ++filter;
+    LaneEnd end{mine.start.tag,  Fate::survived,  s.time, s, -1,
+                mine.start.hits, last_wall(mine), {}};
+    if (call == Call::escaped) {
+      end.fate = Fate::escaped;
+      end.time = {met.high, met.low};
+      end.hole = static_cast<int>(pieces.hole[static_cast<int>(met.piece)]);
+    } else if (call != Call::over) {
+      end.fate = call == Call::capped ? Fate::capped : Fate::unbounded;
+    }
+    lanes.leave(lane);
+    (*sink)(end);
+    return false;
+  }
+
+  static int last_wall(const Trajectory& t) {
+    return t.start.hits > t.first_hits ? t.start.state.wall : -1;
+  }
+
+  /// One event by the scalar engine; false if it ends the trajectory.
+  bool go_on(Lanes& lanes, int lane) {
+    Trajectory& mine = lanes.trajectories[lane];
+    ++effort.scalar;
+    const int entry = entry_at(mine.start);
+    OneEvent event;
+    event.time = mine.start.state.time;
+    scalar.sample_at({times.begin() + static_cast<std::ptrdiff_t>(mine.reported), times.end()});
+    scalar.clear();
+    scalar.limit_hits(std::min(limit, mine.start.hits + 1));
+    scalar.add(mine.start.particle, mine.start.state, mine.start.hits);
+    // A flight may be long by itself: it is asked on the way.
+    scalar.run_until(lanes.pack.end, event, [this] { return asked_to_stop(); });
+    if (stopped) {
+      lanes.leave(lane);
+      return false;
+    }
+    for (const State& state : event.states) sampled(mine.start.tag, mine.reported++, state);
+    if (entry >= 0) learn(entry, mine.start.hits);
+    const bool has_hit = scalar.hits(0) > mine.start.hits;
+    mine.start.hits = mine.told = scalar.hits(0);
+    mine.start.state = scalar.state(0);
+    if (has_hit && hit && !hit(mine.start.tag, mine.start.state) && mine.start.hits < limit) {
+      end_after_hit(lanes, lane);
+      return false;
+    }
+    if (scalar.fate(0) == Fate::capped && mine.start.hits < limit) {
+      if (mine.start.state.u > geometry::first_parameter) {
+        resume(lanes, lane);
+        return true;
+      }
+      return go_on(lanes, lane);  // from a joint
+    }
+    lanes.leave(lane);
+    (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? event.time : scalar.state(0).time,
+             mine.start.state, scalar.hole(0), mine.start.hits, last_wall(mine), scalar.report(0)});
+    return false;
+  }
+
+  /// Where the exit of a flight is told by the sides of joints: the entry for it.
+  int entry_at(const LaneStart& start) const {
+    const State& s = start.state;
+    if (!pieces.by_signs || turn != Turn::straight || s.wall < 0) return -1;
+    // The world flies from u where the position is another one.
+    const geometry::PreparedCurve& w = finder.curve(s.wall);
+    if (!(s.u > geometry::first_parameter && s.u < w.last() && w.parameter(s.position) == s.u))
+      return -1;
+    const int piece = lanes::piece_at(pieces, s.wall, s.u);
+    return piece < 0 ? -1
+                     : lanes::entry_of(pieces, piece, s.position, s.velocity,
+                                       lanes::side_margin * pieces.size * start.particle.speed);
+  }
+  /// What the scalar engine has just seen: all flights of this entry leave there.
+  void learn(int entry, std::uint64_t hits_before) {
+    int piece = -1;
+    if (scalar.fate(0) == Fate::escaped)
+      for (int i = 0; i < pieces.pieces; ++i)
+        piece = static_cast<int>(pieces.hole[i]) == scalar.hole(0) ? i : piece;
+    else if (scalar.hits(0) == hits_before + 1 && scalar.state(0).u > geometry::first_parameter)
+      piece = lanes::piece_at(pieces, scalar.state(0).wall, scalar.state(0).u);
+    if (piece >= 0) pieces.exit[entry] = static_cast<unsigned char>(piece);
+  }
+
+  const std::function<bool(LaneStart&)>* source = nullptr;
+  const std::function<void(const LaneEnd&)>* sink = nullptr;
+  const std::function<bool()>* stop = nullptr;
+  bool stopped = false;
+  Lanes main;
+  Lanes entrance;  ///< used where particles are not born on walls and `on_walls` cannot fly them
+  LanePack walkers;
+  int waiting = 0;  ///< the next lane of the entrance that may wait
+  bool exhausted = false;
+};
+
+std::string FreeLanes::hindrance(const Table& table, const std::vector<Particle>& particles) {
+  if (particles.empty()) return "there are no particles";
+  for (const Particle& p : particles) {
+    if (p.radius != 0.0) return "particles are discs";
+    if (turn_of(p.omega) != turn_of(particles[0].omega))
+      return "particles do not all turn the same way";
+    if (!lanes::moderate(p.speed) || (p.omega != 0.0 && !lanes::moderate(std::fabs(p.omega))))
+      return "a speed or cyclotron frequency that is not between 1e-30 and 1e30";
+  }
+  return lanes::misfit(table, reach_of(particles));
+}
+
+FreeLanes::FreeLanes(const Table& table, const std::vector<Particle>& particles, InstructionSet set,
+                     DecisionOptions options)
+    : implementation_(std::make_unique<Implementation>(table, particles, set, options)) {}
+FreeLanes::~FreeLanes() = default;
+
+void FreeLanes::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }
+void FreeLanes::sample_at(std::vector<double> times, Sampled sampled) {
+  implementation_->times = std::move(times);
+  implementation_->sampled = std::move(sampled);
+}
+void FreeLanes::report_hits(Hit hit) { implementation_->hit = std::move(hit); }
+void FreeLanes::run_until(double t_end, const std::function<bool(LaneStart&)>& next,
+                          const std::function<void(const LaneEnd&)>& ended,
+                          const std::function<bool()>& interrupted) {
+  implementation_->run_until(t_end, next, ended, interrupted);
+}
+DecisionCounts FreeLanes::decisions() const { return implementation_->decisions(); }
+const LaneEffort& FreeLanes::effort() const { return implementation_->effort; }
+
+}  // namespace carom

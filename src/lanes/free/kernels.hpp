@@ -1,0 +1,34 @@
+// The kernels of every instruction set that was compiled, as plain functions.
+#pragma once
+
+#include "carom/lanes/instruction_set.hpp"
+#include "lanes/free/lane_pack.hpp"
+
+namespace carom::lanes {
+
+/// How flights bend: all particles the same way.
+enum class Turn : signed char {
+  counter_clockwise = -1,
+  straight = 0,
+  clockwise = 1
+};  // the sign of omega
+
+struct Kernels {
+  Advance on_walls;  ///< for particles that stand on a wall; in straight flights also for others
+  Advance anywhere;
+  int width;  ///< lanes that are flown together
+};
+Kernels baseline_kernels(const LaneTable&, Turn);
+Kernels avx2_kernels(const LaneTable&, Turn);
+Kernels avx512_kernels(const LaneTable&, Turn);
+/// Where products cannot be fused by an instruction: every flight is left to the scalar engine.
+Kernels no_kernels();
+/// Of tables with ellipses.
+Kernels baseline_ellipse_kernels(const LaneTable&, Turn);
+Kernels avx2_ellipse_kernels(const LaneTable&, Turn);
+Kernels avx512_ellipse_kernels(const LaneTable&, Turn);
+
+/// Those of the instruction set for this table.
+Kernels kernels_for(InstructionSet, const LaneTable&, Turn);
+
+}  // namespace carom::lanes
