@@ -1,6 +1,7 @@
 // Sums over many equal bumps: Fermi discs and Gaussians at given centres, or on a lattice.
 #pragma once
 
+#include "base/inline.hpp"
 #include "forces/potential.hpp"
 
 /// Compiled for several widths of vectors, of which the machine chooses one. All give the same
@@ -9,9 +10,6 @@
 #define CAROM_VECTORISED [[gnu::target_clones("avx512f", "avx2", "default")]]
 #else
 #define CAROM_VECTORISED
-#endif
-#ifndef CAROM_INLINE
-#define CAROM_INLINE [[gnu::always_inline]] inline
 #endif
 
 namespace carom {

@@ -12,9 +12,7 @@
 #include <cstring>
 #include <type_traits>
 
-#ifndef CAROM_INLINE
-#define CAROM_INLINE [[gnu::always_inline]] inline
-#endif
+#include "base/inline.hpp"
 
 namespace carom {
 

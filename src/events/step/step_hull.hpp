@@ -4,11 +4,8 @@
 
 #include <type_traits>
 
+#include "base/inline.hpp"
 #include "events/step/barrier.hpp"
-
-#ifndef CAROM_INLINE
-#define CAROM_INLINE [[gnu::always_inline]] inline
-#endif
 
 namespace carom {
 

@@ -61,6 +61,7 @@ class FreeLanes::Implementation {
         turn(turn_of(particles.at(0).omega)),
         in_sight(lanes::discs_in_sight(pieces)),
         kernels(lanes::kernels_for(set, pieces, turn)) {
+    pieces.clockwise = turn == Turn::clockwise;
     if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
     for (Lanes* l : {&main, &entrance}) l->pack.walkers = &walkers;
     if (!available(set))

@@ -18,15 +18,14 @@ struct Kernels {
   Advance anywhere;
   int width;  ///< lanes that are flown together
 };
-Kernels baseline_kernels(const LaneTable&, Turn);
-Kernels avx2_kernels(const LaneTable&, Turn);
-Kernels avx512_kernels(const LaneTable&, Turn);
+/// Of tables without ellipses, and of tables with some: defined for each instruction set that was
+/// compiled (lanes/kernel/).
+template <InstructionSet>
+Kernels free_kernels(const LaneTable&, Turn);
+template <InstructionSet>
+Kernels ellipse_kernels(const LaneTable&, Turn);
 /// Where products cannot be fused by an instruction: every flight is left to the scalar engine.
 Kernels no_kernels();
-/// Of tables with ellipses.
-Kernels baseline_ellipse_kernels(const LaneTable&, Turn);
-Kernels avx2_ellipse_kernels(const LaneTable&, Turn);
-Kernels avx512_ellipse_kernels(const LaneTable&, Turn);
 
 /// Those of the instruction set for this table.
 Kernels kernels_for(InstructionSet, const LaneTable&, Turn);

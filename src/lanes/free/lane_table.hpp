@@ -17,7 +17,8 @@ struct LaneTable {
   int own = 0;  ///< the first of them: without the copies below
   int loops = 0;
   int first[most] = {}, count[most] = {};  ///< loops of pieces; a closed curve is a loop of one
-  bool convex = false;   ///< one loop, bent outwards or straight everywhere, and nothing in it
+  bool clockwise = false;  ///< how Larmor circles turn: along the walls of a loop, or against them
+  bool convex = false;     ///< one loop, bent outwards or straight everywhere, and nothing in it
   bool by_line = false;  ///< the sides of the joints tell the exit of a straight flight from a wall
   bool by_signs =
       false;  ///< not convex: the sides of the joints do, by entries of `exit` (exit_by_signs.hpp)

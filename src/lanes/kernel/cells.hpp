@@ -1,8 +1,14 @@
-// Straight flights among the discs of a lattice, each inside its cell: over edges of cells until a
-// disc is met. Included by kernel.hpp inside the namespace of its instruction set.
+// Straight flights among the discs of a lattice, each inside its cell: over edges of cells until
+// a disc is met.
 //
 // As in the scalar engine a particle does not move at an edge: its start is seen from the next
 // cell. A disc that is met in this cell comes before any edge of it.
+#pragma once
+
+#include "lanes/kernel/straight.hpp"
+
+namespace carom::lanes {
+namespace {
 
 /// The cell of a flight, counted from the one it began in.
 struct CellOf {
@@ -10,21 +16,21 @@ struct CellOf {
 };
 
 /// Where the start lies, seen from there.
-INLINE Vector seen_from(const LaneTable& t, const Vector& start, const CellOf& cell) {
+CAROM_INLINE Vector seen_from(const LaneTable& t, const Vector& start, const CellOf& cell) {
   const Vector first{Real(t.lattice_x[0]), Real(t.lattice_y[0])},
       second{Real(t.lattice_x[1]), Real(t.lattice_y[1])};
   return geometry::less_multiples(start, cell.first, first, cell.second, second);
 }
 
 /// Cells from home; and the factor of what is as uncertain as the square of a distance.
-INLINE Real way_of(const CellOf& cell) { return abs(cell.first) + abs(cell.second); }
-INLINE Real doubts_at(const Real& way) { return fused(way, 0.125 * way, Real(1.0)); }
+CAROM_INLINE Real way_of(const CellOf& cell) { return abs(cell.first) + abs(cell.second); }
+CAROM_INLINE Real doubts_at(const Real& way) { return fused(way, 0.125 * way, Real(1.0)); }
 
 /// As seen from a cell of the lattice. Its only disc was asked for with these doubts already.
-template <class Kind>
-INLINE void look_from(View& f, const CellOf& cell) {
+template <Kind kind>
+CAROM_INLINE void look_from(View& f, const CellOf& cell) {
   f.origin = seen_from(f.table, f.origin, cell);
-  if constexpr (Kind::single) return;
+  if constexpr (kind.single) return;
   const Real doubts = doubts_at(way_of(cell));
   f.roots = doubts * f.roots;
   f.order = doubts * f.order;
@@ -40,7 +46,7 @@ struct Exit {
   Mask certain;
 };
 template <int edges>
-INLINE Exit exit_of_cell(const Real& sides, const auto& side_of_corner) {
+CAROM_INLINE Exit exit_of_cell(const Real& sides, const auto& side_of_corner) {
   Real edge(-1.0);
   const Real first = side_of_corner(0);
   Real least = first;
@@ -58,15 +64,16 @@ INLINE Exit exit_of_cell(const Real& sides, const auto& side_of_corner) {
 }
 
 /// Into the cell beyond that edge.
-INLINE void go_beyond(const LaneTable& t, const Real& edge, const Mask& crosses, CellOf& cell) {
+CAROM_INLINE void go_beyond(const LaneTable& t, const Real& edge, const Mask& crosses,
+                            CellOf& cell) {
   const Real beyond = max(edge, Real(0.0));
   where(crosses, cell.first) = cell.first + look_up<Reach::eight>(t.beyond_first, beyond);
   where(crosses, cell.second) = cell.second + look_up<Reach::eight>(t.beyond_second, beyond);
 }
 /// Follows the flights over a few edges: who meets a disc stays in its cell. The piece is -1 for
 /// those still on their way.
-template <class Kind>
-INLINE Choice first_in_cells(View f, CellOf& cell) {
+template <Kind kind>
+CAROM_INLINE Choice first_in_cells(View f, CellOf& cell) {
   const LaneTable& t = f.table;
   const View start = f;
   Choice found{Real(-1.0), Mask(true), Real(0.0)};
@@ -77,7 +84,7 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
     f.start_piece = start.start_piece;
     f.roots = start.roots;
     f.order = start.order;
-    look_from<Kind>(f, cell);
+    look_from<kind>(f, cell);
     const Choice disc = first_of_all(f);
     where(under_way, found.piece) = disc.piece;
     found.decided = found.decided && (!under_way || disc.decided);
@@ -96,7 +103,8 @@ INLINE Choice first_in_cells(View f, CellOf& cell) {
 
 /// Who meets the disc of the cell a flight begins in, and who passes it: a line from outside meets
 /// it ahead exactly if it cuts it and comes nearer. 1, -1; 0: not certain.
-INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead, const Real& roots) {
+CAROM_INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead,
+                             const Real& roots) {
   const Real discriminant = fused(aside, -aside, f.table.second_number[0] * f.square_speed);
   Real known(0.0);
   where(ahead < -f.sides || discriminant < -roots, known) = Real(-1.0);
@@ -110,7 +118,7 @@ struct ForwardEdges {
   Real edge;
   Mask certain;
 };
-INLINE ForwardEdges forward_edges(const LaneTable& t, const View& f) {
+CAROM_INLINE ForwardEdges forward_edges(const LaneTable& t, const View& f) {
   constexpr int edges = 6, half = 3;
   Mask leaves[half];
   Real least(__builtin_huge_val());
@@ -146,11 +154,11 @@ struct Crossings {
       known[LanePack::lanes];  ///< 1: meets the disc of its first cell; -1: goes on; 0: not certain
 };
 
-INLINE Real next_edge(const Real& edge) {
+CAROM_INLINE Real next_edge(const Real& edge) {
   return choose(edge == Real(counted[Crossings::edges - 1]), Real(0.0), edge + 1.0);
 }
 
-INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int lane) {
+CAROM_INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int lane) {
   constexpr int forward = Crossings::forward;
   const LaneTable& t = f.table;
   const Line line(f);
@@ -186,7 +194,7 @@ INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int
 }
 
 /// Over some edges. The disc of a cell that was entered lies ahead, if the line cuts it.
-INLINE Crossed cross_edges(const View& f, const Crossings& c, CellOf& cell, int lane) {
+CAROM_INLINE Crossed cross_edges(const View& f, const Crossings& c, CellOf& cell, int lane) {
   constexpr int forward = Crossings::forward;
   const LaneTable& t = f.table;
   Real jump[forward], side[forward - 1], crossed[forward], edges_crossed(0.0);
@@ -227,3 +235,6 @@ INLINE Crossed cross_edges(const View& f, const Crossings& c, CellOf& cell, int 
   }
   return {meets, under_way};
 }
+
+}  // namespace
+}  // namespace carom::lanes

@@ -1,8 +1,14 @@
-// Straight flights against ellipses in lanes. Included by kernel.hpp inside the namespace of its
-// instruction set.
+// Straight flights against ellipses in lanes.
 //
-// The form that is 1 on an ellipse, times the square of a length below its smaller semi-axis, has
-// the sizes of a circle's e.e - r^2: so it is chosen with a circle's margins.
+// The form that is 1 on an ellipse, times the square of a length below its smaller semi-axis,
+// has the sizes of a circle's e.e - r^2: so it is chosen with a circle's margins.
+#pragma once
+
+#include "carom/geometry/formulas.hpp"
+#include "lanes/kernel/flight.hpp"
+
+namespace carom::lanes {
+namespace {
 
 /// What is needed of the ellipse that was chosen.
 struct MetEllipse {
@@ -10,9 +16,9 @@ struct MetEllipse {
   Real along, across, shrink, off, at_start, inward;
   Mask is;
 };
-template <class Kind>
-INLINE MetEllipse ellipse_met_by(const LaneTable& t, const Real& piece) {
-  const auto of = [&](const double* numbers) { return number_of<Kind>(numbers, piece); };
+template <Kind kind>
+CAROM_INLINE MetEllipse ellipse_met_by(const LaneTable& t, const Real& piece) {
+  const auto of = [&](const double* numbers) { return number_of<kind>(numbers, piece); };
   const auto& all = t.ellipses;
   MetEllipse met{{of(all.axis_x), of(all.axis_y)},
                  {of(all.first_x), of(all.first_y)},
@@ -24,12 +30,12 @@ INLINE MetEllipse ellipse_met_by(const LaneTable& t, const Real& piece) {
                  of(all.at_start),
                  of(all.inward),
                  Mask(true)};
-  if constexpr (Kind::segments || Kind::circles) met.is = met.shrink > 0.0;
+  if constexpr (kind.segments || kind.circles) met.is = met.shrink > 0.0;
   return met;
 }
 
 /// The same of an ellipse, its form shrunk.
-INLINE Cut cut_of_ellipse(const View& f, int i) {
+CAROM_INLINE Cut cut_of_ellipse(const View& f, int i) {
   const LaneTable& t = f.table;
   const auto& all = t.ellipses;
   const Real shrink(all.shrink[i]);
@@ -41,12 +47,12 @@ INLINE Cut cut_of_ellipse(const View& f, int i) {
 }
 
 /// Time of the flight to an ellipse.
-template <class Kind>
-INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetEllipse& met,
-                                      const Real& orientation, const Mask& stands) {
+template <Kind kind>
+CAROM_INLINE FractionOfTime time_to_ellipse(const View& f, const Vector& e, const MetEllipse& met,
+                                            const Real& orientation, const Mask& stands) {
   auto q = geometry::ellipse_quadratic(e, f.velocity, met.axis, met.along, met.across);
   // On the only wall there is: no root is taken.
-  if constexpr (Kind::alone) return {Real(2.0) * abs(q.b), q.c, Mask(true)};
+  if constexpr (kind.alone) return {Real(2.0) * abs(q.b), q.c, Mask(true)};
   const Real discriminant = geometry::discriminant_of(q);
   Real root = sqrt(max(discriminant, Real(0.0)));
   where(stands, q.a) = Real(0.0);
@@ -63,12 +69,15 @@ struct LandedOnEllipse {
   Real square;
   Mask certain;  ///< on the wall, and not near the start of a closed one
 };
-template <class Kind>
-INLINE LandedOnEllipse land_on_ellipse(const Vector& point, const Vector& d,
-                                       const MetEllipse& met) {
+template <Kind kind>
+CAROM_INLINE LandedOnEllipse land_on_ellipse(const Vector& point, const Vector& d,
+                                             const MetEllipse& met) {
   const auto on = geometry::on_ellipse(d, met.first, met.second);
   const Vector place = geometry::moved(point, on.step, d);
   Mask certain = abs(on.image.y) > met.at_start;
-  if constexpr (!Kind::alone) certain = certain && abs(on.step) < met.off;
+  if constexpr (!kind.alone) certain = certain && abs(on.step) < met.off;
   return {place, on.gradient, dot(on.gradient, on.gradient), certain};
 }
+
+}  // namespace
+}  // namespace carom::lanes

@@ -1,5 +1,11 @@
 // The last stage of a hit of every lane: put back on its wall, reflected and stored; or a call.
-// Included by kernel.hpp inside the namespace of its instruction set.
+#pragma once
+
+#include "carom/base/time.hpp"
+#include "lanes/kernel/next_disc.hpp"
+
+namespace carom::lanes {
+namespace {
 
 /// What a hit makes of a lane.
 struct Landed {
@@ -7,19 +13,19 @@ struct Landed {
   Real high, low, piece;
 };
 
-template <class Kind>
-INLINE void store_all(LanePack& pack, int lane, const Landed& now) {
+template <Kind kind>
+CAROM_INLINE void store_all(LanePack& pack, int lane, const Landed& now) {
   store(now.place.x, pack.x + lane);
   store(now.place.y, pack.y + lane);
   store(now.velocity.x, pack.vx + lane);
   store(now.velocity.y, pack.vy + lane);
   store(now.high, pack.high + lane);
   store(now.low, pack.low + lane);
-  if constexpr (!Kind::sights) store(now.piece, pack.piece + lane);
+  if constexpr (!kind.sights) store(now.piece, pack.piece + lane);
 }
 /// Where it applies. Whole stores: one through a mask takes 30 ns without AVX.
-template <class Kind>
-INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& applies) {
+template <Kind kind>
+CAROM_INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& applies) {
   const auto keep = [&](double* to, const Real& number) {
     store_where(applies, number, to + lane);
   };
@@ -29,32 +35,31 @@ INLINE void store_some(LanePack& pack, int lane, const Landed& now, const Mask& 
   keep(pack.vy, now.velocity.y);
   keep(pack.high, now.high);
   keep(pack.low, now.low);
-  if constexpr (Kind::sights) return;
+  if constexpr (kind.sights) return;
   keep(pack.piece, now.piece);
   const Real born = load(pack.born + lane);
   store(choose(applies, born, born + 1.0), pack.born + lane);
 }
 
-template <class Kind>
-INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
-  constexpr bool larmor = Kind::turn != 0;
-  View f = view_of<Kind>(t, pack, lane);
-  if constexpr (Kind::cells) f.origin = {load(stages.start_x + lane), load(stages.start_y + lane)};
-  const Real piece = chosen<Kind>(stages, lane), duration = load(stages.duration + lane);
+template <Kind kind>
+CAROM_INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
+  View f = view_of<kind>(t, pack, lane);
+  if constexpr (kind.cells) f.origin = {load(stages.start_x + lane), load(stages.start_y + lane)};
+  const Real piece = chosen<kind>(stages, lane), duration = load(stages.duration + lane);
   Vector point, v = f.velocity;
-  if constexpr (larmor) {
+  if constexpr (kind.larmor) {
     const auto factors = geometry::flight_factors(load(stages.kappa + lane), f.omega, Real(0.5));
     point = f.origin + geometry::displacement(factors, f.velocity);
     v = geometry::turned(factors, f.velocity, f.omega);
   } else {
     point = geometry::moved(f.origin, duration, f.velocity);
   }
-  constexpr bool bent_is_known = !larmor && Kind::convex && Kind::segments && Kind::circles;
+  constexpr bool bent_is_known = !kind.larmor && kind.convex && kind.segments && kind.circles;
   Mask bent_there;
   if constexpr (bent_is_known) bent_there = load(stages.bent, lane);
-  const Met met = met_by<Kind>(f, piece, bent_is_known ? &bent_there : nullptr);
+  const Met met = met_by<kind>(f, piece, bent_is_known ? &bent_there : nullptr);
   Mask decided = load(stages.decided, lane);
-  if constexpr (larmor) decided = decided && duration > 0.0;
+  if constexpr (kind.larmor) decided = decided && duration > 0.0;
 
   // As PreparedCurve::arrive, but for the normal's sign, which reflections do not see. The flight
   // of a Larmor circle must be seen to end on the wall.
@@ -62,42 +67,42 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   now.piece = piece;
   Real step(0.0), off(0.0);
   const Vector d = point - met.point;
-  Vector normal = normal_of<Kind>(met, d);
-  if constexpr (Kind::circles) {
+  Vector normal = normal_of<kind>(met, d);
+  if constexpr (kind.circles) {
     // As step_of_length, and step_to_line.
     Vector weighted = normal;
     where(met.bent, weighted.x) = met.first * normal.x;
     where(met.bent, weighted.y) = met.first * normal.y;
     step = geometry::less_dot(choose(met.bent, Real(0.5), Real(0.0)), weighted, d);
-    if constexpr (larmor) off = choose(met.bent, step * (0.5 * t.size), step);
+    if constexpr (kind.larmor) off = choose(met.bent, step * (0.5 * t.size), step);
     now.place = geometry::moved(point, step, normal);
-    if constexpr (Kind::segments)
+    if constexpr (kind.segments)
       where(!met.bent, step) = Real(0.0);  // reflects by strength alone, which is 2
-    const Mask circle = Kind::ellipses ? met.bent && !met.ellipse.is : met.bent;
+    const Mask circle = kind.ellipses ? met.bent && !met.ellipse.is : met.bent;
     if (t.small_circles) decided = decided && (!circle || abs(step) < geometry::longest_step);
-    if constexpr (Kind::sights)
+    if constexpr (kind.sights)
       decided = decided && abs(d.y) > t.start_margin;
     else if (t.closed_circles)
       decided = decided && (!circle || abs(d.y) > t.start_margin);
-  } else if constexpr (Kind::segments) {
+  } else if constexpr (kind.segments) {
     step = geometry::step_to_line(d, normal);
-    if constexpr (larmor) off = step;
+    if constexpr (kind.larmor) off = step;
     now.place = geometry::moved(point, step, normal);
   }
-  if constexpr (larmor && Kind::ellipses)
+  if constexpr (kind.larmor && kind.ellipses)
     where(met.ellipse.is, off) = Real(0.0);  // they have a test of their own
-  if constexpr (larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
-  constexpr bool bent = Kind::circles || Kind::ellipses;
+  if constexpr (kind.larmor) decided = decided && abs(off) < 0x1p-38 * t.size;
+  constexpr bool bent = kind.circles || kind.ellipses;
   Real factor;
-  if constexpr (Kind::circles)
+  if constexpr (kind.circles)
     factor = geometry::reflection_factor_on_circle(v, normal, met.strength, step);
-  else if constexpr (Kind::segments)
+  else if constexpr (kind.segments)
     factor = 2.0 * geometry::fused_dot(v, normal);
-  if constexpr (Kind::ellipses) {
-    const LandedOnEllipse on = land_on_ellipse<Kind>(point, d, met.ellipse);
+  if constexpr (kind.ellipses) {
+    const LandedOnEllipse on = land_on_ellipse<kind>(point, d, met.ellipse);
     const Real own = geometry::reflection_factor(v, on.gradient, on.square, Real(1.0));
     const Mask is = met.ellipse.is;
-    if constexpr (Kind::segments || Kind::circles) {
+    if constexpr (kind.segments || kind.circles) {
       now.place = {choose(is, on.place.x, now.place.x), choose(is, on.place.y, now.place.y)};
       normal = {choose(is, on.gradient.x, normal.x), choose(is, on.gradient.y, normal.y)};
       factor = choose(is, own, factor);
@@ -114,24 +119,24 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   now.velocity = geometry::reflected(v, normal, factor, geometry::step_to_energy_shell(v, shell));
   // The reflection turns the normal component about, to rounding.
   Real outward = met.orientation * geometry::fused_dot(v, normal);
-  if constexpr (Kind::segments) where(bent ? !met.bent : Mask(true), outward) = t.size * outward;
-  const Mask inward = inward_is_known<Kind>
+  if constexpr (kind.segments) where(bent ? !met.bent : Mask(true), outward) = t.size * outward;
+  const Mask inward = inward_is_known<kind>
                           ? Mask(true)
-                          : outward > (Kind::ellipses ? met.ellipse.inward * f.speed : f.sides);
+                          : outward > (kind.ellipses ? met.ellipse.inward * f.speed : f.sides);
   const auto [high, low] = later(load(pack.high + lane), load(pack.low + lane), duration);
   now.high = high;
   now.low = low;
   const Real until = load(pack.until + lane);
   Mask applies = decided && inward && high < until, gone(false);
   Real hole(-1.0);
-  if (!Kind::sights && t.divided) {
-    hole = look_up<Kind::reach>(t.hole, piece);
+  if (!kind.sights && t.divided) {
+    hole = look_up<kind.reach>(t.hole, piece);
     applies = applies && hole < 0.0;
   }
-  if constexpr (Kind::cells) {
-    store_some<Kind>(pack, lane, now, applies);
+  if constexpr (kind.cells) {
+    store_some<kind>(pack, lane, now, applies);
     gone = load(stages.gone, lane);
-    if constexpr (Kind::sights) {
+    if constexpr (kind.sights) {
       add_cells(only_where(applies, load(stages.cell + lane)), pack.cells + 2 * lane);
       const Real short_of = -geometry::fused_cross(now.velocity, normal),
                  aside = fused(step, short_of, short_of);
@@ -148,13 +153,13 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
     }
   } else {
     if (!any_of(!applies)) [[likely]]
-      return store_all<Kind>(pack, lane, now);
-    store_some<Kind>(pack, lane, now, applies);
+      return store_all<kind>(pack, lane, now);
+    store_some<kind>(pack, lane, now, applies);
   }
 
   const Mask over = high >= until, escaped = hole >= 0.0;  // over, or there to the last digit
-  if constexpr (!Kind::convex && !larmor && !Kind::cells) gone = load(stages.gone, lane);
-  unsigned waiting = bits_of(Kind::cells ? !(applies || gone) : !applies);
+  if constexpr (!kind.convex && !kind.larmor && !kind.cells) gone = load(stages.gone, lane);
+  unsigned waiting = bits_of(kind.cells ? !(applies || gone) : !applies);
   if (waiting == 0) return;
   waiting &= bits_of(load(pack.active + lane) > 0.0);
   if (waiting == 0) return;
@@ -166,8 +171,8 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   for (; waiting != 0; waiting &= waiting - 1) {
     const int i = __builtin_ctz(waiting), at = lane + i;
     const unsigned bit = 1u << i;
-    if constexpr (Kind::sights) pack.born[at] += 1.0;
-    pack.met[pack.calls] = {Kind::single ? 0.0 : stages.piece[at], stages.high[at], stages.low[at]};
+    if constexpr (kind.sights) pack.born[at] += 1.0;
+    pack.met[pack.calls] = {kind.single ? 0.0 : stages.piece[at], stages.high[at], stages.low[at]};
     pack.lane[pack.calls] = at;
     pack.call[pack.calls++] = (open & bit) != 0      ? Call::unbounded
                               : (certain & bit) == 0 ? Call::undecided
@@ -175,3 +180,6 @@ INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
                                                      : Call::escaped;
   }
 }
+
+}  // namespace
+}  // namespace carom::lanes

@@ -1,10 +1,17 @@
 // Larmor flights in lanes: which piece comes first, by signs with margins, and the hit there.
-// Included by kernel.hpp inside the namespace of its instruction set. docs/developer/lanes.md
-// derives the margins.
+// docs/developer/lanes.md derives the margins.
 //
-// Signs are taken from the centre Z of the Larmor circle, seen from a joint or from the centre of
-// an arc and times |omega|: c = |omega| (Z - J), which is |omega| (P - J) + Jv for a clockwise
-// flight. J lies inside the circle if |c| is below the speed.
+// Signs are taken from the centre Z of the Larmor circle, seen from a joint or from the centre
+// of an arc and times |omega|: c = |omega| (Z - J), which is |omega| (P - J) + Jv for a
+// clockwise flight. J lies inside the circle if |c| is below the speed.
+#pragma once
+
+#include "base/angle.hpp"
+#include "lanes/kernel/larmor_ellipse.hpp"
+#include "lanes/kernel/met.hpp"
+
+namespace carom::lanes {
+namespace {
 
 struct CircleView {
   Vector centre;    ///< |omega| Z
@@ -14,11 +21,10 @@ struct CircleView {
   Real squares;  ///< ... and of their squares
   Real joints;   ///< of |c|^2 - v^2
 };
-template <int turn>
-INLINE CircleView circle_of(const View& f) {
-  const Real rate = Real(static_cast<double>(turn)) * f.omega;
-  const Vector v = turn > 0 ? f.velocity : -f.velocity;
-  return {{fused(rate, f.origin.x, v.y), fused(rate, f.origin.y, -v.x)},
+CAROM_INLINE CircleView circle_of(const View& f) {
+  const Real rate = abs(f.omega);
+  return {{fused(rate, f.origin.x, turned_by(f.velocity.y, f.omega)),
+           fused(rate, f.origin.y, -turned_by(f.velocity.x, f.omega))},
           rate,
           -rate,
           -f.square_speed,
@@ -32,7 +38,7 @@ struct JointOfCircle {
   Real side;  ///< |c|^2 - v^2: below zero inside
   Mask inside;
 };
-INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Real& least) {
+CAROM_INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Real& least) {
   const LaneTable& t = f.table;
   const Vector c{fused(z.back, Real(t.joint_x[i]), z.centre.x),
                  fused(z.back, Real(t.joint_y[i]), z.centre.y)};
@@ -44,7 +50,8 @@ INLINE JointOfCircle joint_at(const View& f, const CircleView& z, int i, Real& l
 /// Positive if a segment whose ends lie outside the circle is cut twice: if the foot of the centre
 /// lies between them, nearer than the radius. Of its first end: `c` seen from it, `side` = |c|^2 -
 /// v^2.
-INLINE Real cut_of_segment(const View& f, const CircleView& z, int i, const JointOfCircle& end) {
+CAROM_INLINE Real cut_of_segment(const View& f, const CircleView& z, int i,
+                                 const JointOfCircle& end) {
   const LaneTable& t = f.table;
   const Real foot = fused(end.centre.x, Real(t.chord_x[i]), end.centre.y * t.chord_y[i]),
              square = foot * foot;
@@ -52,13 +59,13 @@ INLINE Real cut_of_segment(const View& f, const CircleView& z, int i, const Join
 }
 
 /// Positive if the whole circle of an arc is cut.
-INLINE Real cut_of_circle(const View& f, const CircleView& z, int i, const Real& distance) {
+CAROM_INLINE Real cut_of_circle(const View& f, const CircleView& z, int i, const Real& distance) {
   const Real radius = z.rate * f.table.radius[i];
   return min(f.speed + radius - distance, distance - abs(radius - f.speed));
 }
 /// Positive if an arc whose joints lie on one side of the Larmor circle is cut twice: if its circle
 /// is, and the middle of the part on the other side lies on the arc's side of its chord.
-INLINE Real cut_of_arc(const View& f, const CircleView& z, int i, const Mask& inside) {
+CAROM_INLINE Real cut_of_arc(const View& f, const CircleView& z, int i, const Mask& inside) {
   const LaneTable& t = f.table;
   const Vector c{fused(z.back, Real(t.point_x[i]), z.centre.x),
                  fused(z.back, Real(t.point_y[i]), z.centre.y)};
@@ -70,33 +77,35 @@ INLINE Real cut_of_arc(const View& f, const CircleView& z, int i, const Mask& in
 
 /// A convex loop alone, from one of its walls: the first wall, backwards for a clockwise flight,
 /// whose joint there lies inside the circle or that is cut twice; or the start.
-template <int turn, class Kind>
-INLINE Choice exit_of_loop_by_circle(const View& f) {
+template <Kind kind>
+CAROM_INLINE Choice exit_of_loop_by_circle(const View& f) {
   const LaneTable& t = f.table;
   if (t.pieces == 1) return {Real(0.0), Mask(true), Real(0.0)};
-  const CircleView z = circle_of<turn>(f);
+  const CircleView z = circle_of(f);
   // The start comes last in the flight's order; `behind`: of the walls from it on, `any`: of all.
   Real behind(-1.0), any = f.start_piece;
+  const double order = t.clockwise ? 1.0 : -1.0;
+  const Real start_in_order = order * f.start_piece;
   Real least(__builtin_huge_val()), least_cut = least;
   Mask certain(true);
   JointOfCircle before = joint_at(f, z, 0, least);
   const JointOfCircle first = before;
   for (int k = 0; k < t.pieces; ++k) {
-    const int i = turn > 0 ? k : t.pieces - 1 - k;
-    const int joint = turn > 0 ? i + 1 : i;
+    const int i = t.clockwise ? k : t.pieces - 1 - k;
+    const int joint = t.clockwise ? i + 1 : i;
     const JointOfCircle after = k + 1 == t.pieces ? first : joint_at(f, z, joint, least);
     Real cut;
-    if (Kind::circles && t.bent[i]) {
+    if (kind.circles && t.bent[i]) {
       cut = cut_of_arc(f, z, i, Mask(false));
       certain = certain && (before.inside || after.inside || abs(cut) > z.lengths);
     } else {
-      cut = cut_of_segment(f, z, i, turn > 0 ? before : after);
+      cut = t.clockwise ? cut_of_segment(f, z, i, before) : cut_of_segment(f, z, i, after);
       least_cut = least_size(least_cut, cut);
     }
     const Real piece(counted[i]);
     const Mask leaves = before.inside || (cut > 0.0 && !after.inside && f.start_piece != piece);
     where(leaves, any) = piece;
-    where(leaves && (turn > 0 ? f.start_piece >= piece : f.start_piece <= piece), behind) = piece;
+    where(leaves && start_in_order >= Real(order * counted[i]), behind) = piece;
     before = after;
   }
   certain = certain && least > z.joints && least_cut > z.squares && any >= 0.0;
@@ -110,8 +119,8 @@ struct Fraction {
   Real root;  ///< of the discriminant
 };
 /// The rising root of the quadratic of a segment or circle, whose sizes are powers of two.
-INLINE Fraction rising_root(const View& f, const geometry::Quadratic<Real>& quadratic,
-                            const Mask& stands, const Real& length) {
+CAROM_INLINE Fraction rising_root(const View& f, const geometry::Quadratic<Real>& quadratic,
+                                  const Mask& stands, const Real& length) {
   const auto& [a, b, c] = quadratic;
   const Real discriminant = geometry::discriminant_of(quadratic);
   const Real root = sqrt(max(discriminant, Real(0.0)));
@@ -132,10 +141,10 @@ class EarliestOnCircle {
   explicit EarliestOnCircle(const View& f)
       : f_(f), decided_(true), piece_(-1.0), p_(-1.0), q_(0.0) {}
 
-  INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
+  CAROM_INLINE void doubt(const Mask& where_not) { decided_ = decided_ && !where_not; }
   /// `length`: the size of the quadratic's leading coefficient in sizes.
-  INLINE void add(int i, const Mask& leaves, const geometry::Quadratic<Real>& quadratic,
-                  const Mask& stands, double length) {
+  CAROM_INLINE void add(int i, const Mask& leaves, const geometry::Quadratic<Real>& quadratic,
+                        const Mask& stands, double length) {
     const Fraction r = rising_root(f_, quadratic, stands, Real(length));
     doubt(leaves && !r.decided);
     // Both brought to the sizes pace and size by powers of two, the divisor positive.
@@ -164,7 +173,7 @@ class EarliestOnCircle {
     of_root_ = of_root_ && !better;
   }
   /// A root as it stands, which errs by less than `spread`.
-  INLINE void add_root(int i, const Mask& leaves, const Real& kappa, const Real& spread) {
+  CAROM_INLINE void add_root(int i, const Mask& leaves, const Real& kappa, const Real& spread) {
     const Real size(f_.table.size), far = abs(kappa);
     const Real q = choose(far * size <= f_.pace, size, f_.pace / far), p = kappa * q;
     const Real gap = fused(p, q_, -(p_ * q));
@@ -177,7 +186,7 @@ class EarliestOnCircle {
     where(better, piece_) = Real(counted[i]);
     of_root_ = of_root_ || better;
   }
-  INLINE Choice choice() const {
+  CAROM_INLINE Choice choice() const {
     return {piece_, decided_ && piece_ >= 0.0, choose(of_root_, kappa_, p_ / q_)};
   }
 
@@ -191,28 +200,30 @@ class EarliestOnCircle {
 };
 
 /// The quadratic of a piece for flights from this start.
-INLINE geometry::Quadratic<Real> quadratic_of_segment(const View& f, const Vector& point,
-                                                      const Vector& tangent, const Mask& stands) {
+CAROM_INLINE geometry::Quadratic<Real> quadratic_of_segment(const View& f, const Vector& point,
+                                                            const Vector& tangent,
+                                                            const Mask& stands) {
   Vector e = f.origin - point;
   where(stands, e.x) = Real(0.0);
   where(stands, e.y) = Real(0.0);
   return geometry::line_quadratic(e, tangent, f.velocity, f.omega, Real(0.5));
 }
-INLINE geometry::Quadratic<Real> quadratic_of_circle(const View& f, const Vector& point,
-                                                     const Real& square, const Real& orientation,
-                                                     const Mask& stands) {
+CAROM_INLINE geometry::Quadratic<Real> quadratic_of_circle(const View& f, const Vector& point,
+                                                           const Real& square,
+                                                           const Real& orientation,
+                                                           const Mask& stands) {
   const Vector e = f.origin - point;
   const auto q = geometry::circle_quadratic(e, choose(stands, dot(e, e), square), f.velocity,
                                             f.square_speed, f.omega, Real(0.5));
   return {-orientation * q.a, -orientation * q.b, -orientation * q.c};
 }
 
-template <int turn, class Kind>
-INLINE Choice first_of_all_by_circle(const View& f) {
+template <Kind kind>
+CAROM_INLINE Choice first_of_all_by_circle(const View& f) {
   const LaneTable& t = f.table;
-  const double* const wall = wall_numbers<Kind>(t);
-  const CircleView z = circle_of<turn>(f);
-  EarliestOnCircle<Kind::cells> best(f);
+  const double* const wall = wall_numbers<kind>(t);
+  const CircleView z = circle_of(f);
+  EarliestOnCircle<kind.cells> best(f);
   Real least(__builtin_huge_val());
   ExitThroughEllipse exit;
   for (int loop = 0; loop < t.loops; ++loop) {
@@ -223,7 +234,7 @@ INLINE Choice first_of_all_by_circle(const View& f) {
     for (int i = first; i <= last; ++i) {
       const Real piece(counted[i]);
       const Mask stands = f.start_wall == Real(wall[i]), own = f.start_piece == piece;
-      if constexpr (Kind::ellipses) {
+      if constexpr (kind.ellipses) {
         if (t.ellipses.of[i]) {
           if (i == first || wall[i] != wall[i - 1]) exit.begin(best, f, i, stands);
           exit.add(best, f, i);
@@ -232,7 +243,7 @@ INLINE Choice first_of_all_by_circle(const View& f) {
           continue;
         }
       }
-      const bool bent = Kind::circles && t.bent[i];
+      const bool bent = kind.circles && t.bent[i];
       JointOfCircle b{};
       Mask leaves;
       if (closed) {
@@ -242,12 +253,12 @@ INLINE Choice first_of_all_by_circle(const View& f) {
         leaves = stands || cut > 0.0;
       } else {
         b = i == last ? start : joint_at(f, z, i + 1, least);
-        const Mask from = turn > 0 ? a.inside : !a.inside,
-                   to = turn > 0 ? b.inside : !b.inside;  // on the right?
-        const Mask same = from == to, open = bent ? same && !stands : same && !stands && !a.inside;
+        const Mask out = t.clockwise ? a.inside && !b.inside : b.inside && !a.inside;
+        const Mask same = a.inside == b.inside,
+                   open = bent ? same && !stands : same && !stands && !a.inside;
         const Real cut = bent ? cut_of_arc(f, z, i, a.inside) : cut_of_segment(f, z, i, a);
         best.doubt(open && abs(cut) <= (bent ? z.lengths : z.squares));
-        leaves = (from && !to) || (same && own) || (open && cut > 0.0);
+        leaves = out || (same && own) || (open && cut > 0.0);
         a = b;
       }
       if (!any_of(leaves)) continue;
@@ -273,7 +284,7 @@ INLINE Choice first_of_all_by_circle(const View& f) {
 alignas(64) constexpr double back_x[16] = {1, 2, 1, 1, 0}, back_y[16] = {0, 1, 1, 2, 1};
 
 /// elementary::angle: the same operations in the same order, and products with 0, 1 and 2.
-INLINE Real angle(const Real& x, const Real& y) {
+CAROM_INLINE Real angle(const Real& x, const Real& y) {
   using namespace elementary::detail;
   const Real far = abs(x);
   const Mask back = x < 0.0;
@@ -289,10 +300,16 @@ INLINE Real angle(const Real& x, const Real& y) {
                       q, z, powers(angle_even, square, fourth), powers(angle_odd, square, fourth));
 }
 
+/// Where the flight meets it: kappa, or without field the duration.
+struct Where {
+  Real kappa;
+  Mask decided;
+};
+
 /// Kappa at the piece that was chosen.
-template <class Kind>
-INLINE Where meet_by_circle(const View& f, const Met& met) {
-  if constexpr (Kind::alone) {
+template <Kind kind>
+CAROM_INLINE Where meet_by_circle(const View& f, const Met& met) {
+  if constexpr (kind.alone) {
     const EllipseInField ellipse = ellipse_in_field(f.table, 0);
     const RootOnEllipse root =
         root_from_ellipse(f, quartic_of_ellipse(f, ellipse, Mask(true)), ellipse.stretch);
@@ -300,11 +317,11 @@ INLINE Where meet_by_circle(const View& f, const Met& met) {
   }
   geometry::Quadratic<Real> quadratic;
   Real length(1.0);
-  if constexpr (Kind::segments)
+  if constexpr (kind.segments)
     quadratic = quadratic_of_segment(f, met.point, {-met.second, met.first}, met.stands);
-  if constexpr (Kind::circles) {
+  if constexpr (kind.circles) {
     const auto other = quadratic_of_circle(f, met.point, met.second, met.orientation, met.stands);
-    if constexpr (Kind::segments) {
+    if constexpr (kind.segments) {
       quadratic = {choose(met.bent, other.a, quadratic.a), choose(met.bent, other.b, quadratic.b),
                    choose(met.bent, other.c, quadratic.c)};
       where(met.bent, length) = Real(f.table.size);
@@ -316,3 +333,6 @@ INLINE Where meet_by_circle(const View& f, const Met& met) {
   const Fraction r = rising_root(f, quadratic, met.stands, length);
   return {r.p / r.q, r.decided};
 }
+
+}  // namespace
+}  // namespace carom::lanes

@@ -1,10 +1,17 @@
 // Larmor flights against ellipses in lanes: where they leave first, and whether that is certain.
-// Included by kernel.hpp inside the namespace of its instruction set. docs/developer/lanes.md
-// derives the margins.
+// docs/developer/lanes.md derives the margins.
+#pragma once
+
+#include "carom/geometry/first_root.hpp"
+#include "carom/geometry/formulas.hpp"
+#include "lanes/kernel/flight.hpp"
+
+namespace carom::lanes {
+namespace {
 
 /// geometry::RoughCubeRoot.
 struct CubeRoots {
-  INLINE Real operator()(const Real& x) const {
+  CAROM_INLINE Real operator()(const Real& x) const {
 #if defined(__AVX512DQ__)
     const __m512d bits = _mm512_cvtepi64_pd(_mm512_castpd_si512(static_cast<__m512d>(x)));
     const __m512i part =
@@ -32,8 +39,9 @@ struct EllipseInField {
   Real orientation, stretch;
 };
 
-INLINE geometry::Quartic<Real> quartic_of_ellipse(const View& f, const EllipseInField& ellipse,
-                                                  const Mask& stands) {
+CAROM_INLINE geometry::Quartic<Real> quartic_of_ellipse(const View& f,
+                                                        const EllipseInField& ellipse,
+                                                        const Mask& stands) {
   const auto image = [&](const Vector& x) {
     return Vector{dot(ellipse.first, x), dot(ellipse.second, x)};
   };
@@ -45,8 +53,8 @@ INLINE geometry::Quartic<Real> quartic_of_ellipse(const View& f, const EllipseIn
 }
 
 /// From a point of it: the largest root of a cubic. `q[4]` is not looked at.
-INLINE RootOnEllipse root_from_ellipse(const View& f, const geometry::Quartic<Real>& quartic,
-                                       const Real& stretch) {
+CAROM_INLINE RootOnEllipse root_from_ellipse(const View& f, const geometry::Quartic<Real>& quartic,
+                                             const Real& stretch) {
   const auto& q = quartic.q;
   const Real x = geometry::largest_root(q[3], q[2], q[1], q[0], CubeRoots{});
   const Real third = fused(q[3], x, q[2]), fourth = fused(third, x, q[1]);
@@ -66,8 +74,8 @@ INLINE RootOnEllipse root_from_ellipse(const View& f, const geometry::Quartic<Re
 }
 
 /// From beside it: a quartic.
-INLINE RootOnEllipse root_to_ellipse(const View& f, const geometry::Quartic<Real>& quartic,
-                                     const Real& stretch) {
+CAROM_INLINE RootOnEllipse root_to_ellipse(const View& f, const geometry::Quartic<Real>& quartic,
+                                           const Real& stretch) {
   const auto& q = quartic.q;
   const Real x = geometry::first_rising_root(quartic, CubeRoots{});
   const Real c3 = fused(q[4], x, q[3]), c2 = fused(c3, x, q[2]), c1 = fused(c2, x, q[1]),
@@ -121,8 +129,8 @@ INLINE RootOnEllipse root_to_ellipse(const View& f, const geometry::Quartic<Real
 }
 
 /// From wherever the particles are.
-INLINE RootOnEllipse root_on_ellipse(const View& f, const EllipseInField& ellipse,
-                                     const Mask& stands) {
+CAROM_INLINE RootOnEllipse root_on_ellipse(const View& f, const EllipseInField& ellipse,
+                                           const Mask& stands) {
   const auto q = quartic_of_ellipse(f, ellipse, stands);
   if (!any_of(!stands)) return root_from_ellipse(f, q, ellipse.stretch);
   const RootOnEllipse to = root_to_ellipse(f, q, ellipse.stretch);
@@ -132,7 +140,7 @@ INLINE RootOnEllipse root_on_ellipse(const View& f, const EllipseInField& ellips
           (stands && from.only) || (!stands && to.only), !stands && to.none,
           choose(stands, from.spread, to.spread)};
 }
-INLINE EllipseInField ellipse_in_field(const LaneTable& t, int i) {
+CAROM_INLINE EllipseInField ellipse_in_field(const LaneTable& t, int i) {
   const auto& all = t.ellipses;
   return {{Real(t.point_x[i]), Real(t.point_y[i])},
           {Real(all.first_x[i]), Real(all.first_y[i])},
@@ -145,7 +153,7 @@ INLINE EllipseInField ellipse_in_field(const LaneTable& t, int i) {
 class ExitThroughEllipse {
  public:
   template <class Earliest>
-  INLINE void begin(Earliest& best, const View& f, int i, const Mask& stands) {
+  CAROM_INLINE void begin(Earliest& best, const View& f, int i, const Mask& stands) {
     const LaneTable& t = f.table;
     root_ = root_on_ellipse(f, ellipse_in_field(t, i), stands);
     left_ = root_.certain && !root_.only;
@@ -158,7 +166,7 @@ class ExitThroughEllipse {
     best.doubt(root_.certain && root_.spread * f.speed > (0x1p-31 * t.size) * n);
   }
   template <class Earliest>
-  INLINE void add(Earliest& best, const View& f, int i) {
+  CAROM_INLINE void add(Earliest& best, const View& f, int i) {
     const LaneTable& t = f.table;
     Mask leaves = root_.certain;
     if (!t.closed[i]) {
@@ -174,7 +182,7 @@ class ExitThroughEllipse {
   }
   /// Off all pieces: there may be another exit.
   template <class Earliest>
-  INLINE void end(Earliest& best) const {
+  CAROM_INLINE void end(Earliest& best) const {
     best.doubt(left_);
   }
 
@@ -183,3 +191,6 @@ class ExitThroughEllipse {
   Vector point_{};
   Mask left_{false};
 };
+
+}  // namespace
+}  // namespace carom::lanes

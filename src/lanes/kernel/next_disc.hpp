@@ -1,11 +1,17 @@
-// Straight flights among the discs of a lattice, one in each cell: the disc that each meets, looked
-// up by its direction and offset (next_disc_table.hpp). Included by kernel.hpp inside the namespace
-// of its instruction set.
+// Straight flights among the discs of a lattice, one in each cell: the disc that each meets,
+// looked up by its direction and offset (next_disc_table.hpp).
+#pragma once
+
+#include "lanes/kernel/stages.hpp"
+#include "lanes/simd/words.hpp"
+
+namespace carom::lanes {
+namespace {
 
 /// A number whose lowest sixteen bits are the entry; any bits for a lane that does not begin on a
 /// disc. Each quadrant about an axis has as many directions, by the coordinate along the other
 /// axis.
-INLINE Real entry_of_sights(const LanePack& pack, int lane) {
+CAROM_INLINE Real entry_of_sights(const LanePack& pack, int lane) {
   constexpr double quadrant = LaneTable::sight_directions, offsets = LaneTable::sight_offsets;
   const Vector way{load(pack.vx + lane), load(pack.vy + lane)};
   const Mask steep = abs(way.x) < abs(way.y);
@@ -19,7 +25,7 @@ INLINE Real entry_of_sights(const LanePack& pack, int lane) {
 }
 
 /// Copies what the walk over cells needs of a lane.
-INLINE void copy_walker(const LanePack& from, int lane, LanePack& to, int place) {
+CAROM_INLINE void copy_walker(const LanePack& from, int lane, LanePack& to, int place) {
   const auto copy = [&](auto member) { (to.*member)[place] = (from.*member)[lane]; };
   copy(&LanePack::x);
   copy(&LanePack::y);
@@ -35,7 +41,7 @@ INLINE void copy_walker(const LanePack& from, int lane, LanePack& to, int place)
 }
 
 /// Those who begin off the discs go from cell to cell, side by side, to their first one.
-template <class Kind>
+template <Kind kind>
 [[gnu::noinline]] void walk(const LaneTable& t, LanePack& pack, Stages& stages) {
   LanePack& few = *pack.walkers;
   int lanes[LanePack::lanes];
@@ -52,9 +58,9 @@ template <class Kind>
   for (int place = few.used; place % width != 0; ++place) copy_walker(few, 0, few, place);
   Stages walked;
   if (t.edges == 4)
-    choose_parallelograms<Kind>(t, few, walked);
+    choose_parallelograms<kind>(t, few, walked);
   else
-    choose_hexagons<Kind>(t, few, walked);
+    choose_hexagons<kind>(t, few, walked);
   // Who found a disc, who goes on, and who needs the scalar engine, also because lattice vectors
   // that are not the shortest count cells beyond a byte.
   unsigned long long found = 0, goes_on = 0;
@@ -84,8 +90,8 @@ template <class Kind>
 }
 
 /// What each lane sees: the cells of two discs.
-template <class Kind>
-INLINE void choose_by_sight(const LaneTable& t, LanePack& pack, Stages& stages) {
+template <Kind kind>
+CAROM_INLINE void choose_by_sight(const LaneTable& t, LanePack& pack, Stages& stages) {
   for (int lane = 0; lane < pack.used; lane += width)
     store(entry_of_sights(pack, lane), stages.piece + lane);
   const int end = (pack.used + width - 1) / width * width;
@@ -103,7 +109,7 @@ INLINE void choose_by_sight(const LaneTable& t, LanePack& pack, Stages& stages) 
   // from any disc.
   if (__builtin_popcountll(pack.walking) >= LanePack::fewest_walkers ||
       static_cast<long long>(pack.sweep) % LanePack::longest_wait == 0)
-    walk<Kind>(t, pack, stages);
+    walk<kind>(t, pack, stages);
   for (unsigned long long walking = pack.walking; walking != 0; walking &= walking - 1)
     stages.cell[__builtin_ctzll(walking)] = 0;
 }
@@ -111,17 +117,17 @@ INLINE void choose_by_sight(const LaneTable& t, LanePack& pack, Stages& stages) 
 /// Sides of the lattice's vectors as flights see them.
 struct Across {
   Real first, second;
-  INLINE Across(const LaneTable& t, const Vector& v)
+  CAROM_INLINE Across(const LaneTable& t, const Vector& v)
       : first(fused(v.x, Real(t.lattice_y[0]), -v.y * t.lattice_x[0])),
         second(fused(v.x, Real(t.lattice_y[1]), -v.y * t.lattice_x[1])) {}
-  INLINE Real aside(const CellOf& cell, const Real& home) const {
+  CAROM_INLINE Real aside(const CellOf& cell, const Real& home) const {
     return fused(cell.first, first, fused(cell.second, second, home));
   }
 };
 
 /// Who passes the first disc takes the second one. Without a branch: few do, but a core that
 /// guesses wrong loses all that it has begun.
-INLINE void pass_in_sight(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
+CAROM_INLINE void pass_in_sight(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   const Across across(t, {load(pack.vx + lane), load(pack.vy + lane)});
   const Words seen = sum_of_bytes(load(stages.cell + lane), load(pack.way + lane));
   const Real aside =
@@ -130,8 +136,8 @@ INLINE void pass_in_sight(const LaneTable& t, LanePack& pack, Stages& stages, in
 }
 /// Where each flight begins, seen from the cell of that disc: it meets it, or passes it, too, and
 /// goes on from there in the next sweep.
-template <class Kind>
-INLINE void look_from_sight(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
+template <Kind kind>
+CAROM_INLINE void look_from_sight(const LaneTable& t, LanePack& pack, Stages& stages, int lane) {
   const Vector origin{load(pack.x + lane), load(pack.y + lane)},
       v{load(pack.vx + lane), load(pack.vy + lane)};
   const Across across(t, v);
@@ -151,11 +157,15 @@ INLINE void look_from_sight(const LaneTable& t, LanePack& pack, Stages& stages, 
   store(start.x, stages.start_x + lane);
   store(start.y, stages.start_y + lane);
 }
-template <class Kind>
-INLINE void meet_in_sight(const LaneTable& t, const LanePack& pack, Stages& stages, int lane) {
-  View f = view_of<Kind>(t, pack, lane);
+template <Kind kind>
+CAROM_INLINE void meet_in_sight(const LaneTable& t, const LanePack& pack, Stages& stages,
+                                int lane) {
+  View f = view_of<kind>(t, pack, lane);
   f.origin = {load(stages.start_x + lane), load(stages.start_y + lane)};
-  const FractionOfTime at = meet_by_line<Kind>(f, met_by<Kind>(f, Real(0.0)));
+  const FractionOfTime at = meet_by_line<kind>(f, met_by<kind>(f, Real(0.0)));
   store(at.time, stages.time + lane);
   store(at.unit, stages.unit + lane);
 }
+
+}  // namespace
+}  // namespace carom::lanes

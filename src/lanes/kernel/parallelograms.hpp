@@ -1,10 +1,15 @@
 // Straight flights among the discs of a lattice with four edges to the cell, one disc in each.
-// Included by kernel.hpp inside the namespace of its instruction set.
 //
-// The cell is a parallelogram of two lattice vectors a and b, a x b > 0. A flight leaves it across
-// one edge of each pair, and the corner between those two tells by which. From cell to cell the
-// sides of that corner and of the disc's centre change by v x a or v x b, one of which is positive
-// and the other negative once both point forward. docs/developer/lanes.md.
+// The cell is a parallelogram of two lattice vectors a and b, a x b > 0. A flight leaves it
+// across one edge of each pair, and the corner between those two tells by which. From cell to
+// cell the sides of that corner and of the disc's centre change by v x a or v x b, one of which
+// is positive and the other negative once both point forward. docs/developer/lanes.md.
+#pragma once
+
+#include "lanes/kernel/cells.hpp"
+
+namespace carom::lanes {
+namespace {
 
 /// Flights on their way over cells.
 struct Ways {
@@ -13,16 +18,18 @@ struct Ways {
   double radius[LanePack::lanes], margin[LanePack::lanes];
   double crossed[LanePack::lanes],
       fallen[LanePack::lanes];  ///< edges, and those of them by which sides fall
-  Masks starts, meets, under_way;
+  LaneMasks starts, meets, under_way;
 };
 
 /// How much sides change by an edge towards a or -a, and by one towards b or -b.
 struct Forward {
   Real one, other;
 };
-INLINE Forward forward(const Real& a, const Real& b) { return {turned_by(a, b), turned_by(b, -a)}; }
+CAROM_INLINE Forward forward(const Real& a, const Real& b) {
+  return {turned_by(a, b), turned_by(b, -a)};
+}
 
-INLINE void begin_way(const View& f, const CellOf& cell, Ways& ways, int lane) {
+CAROM_INLINE void begin_way(const View& f, const CellOf& cell, Ways& ways, int lane) {
   const LaneTable& t = f.table;
   const Line line(f);
   const Vector v = f.velocity;
@@ -59,7 +66,7 @@ INLINE void begin_way(const View& f, const CellOf& cell, Ways& ways, int lane) {
 /// A register of them.
 class OnWay {
  public:
-  INLINE OnWay(Ways& ways, int lane)
+  CAROM_INLINE OnWay(Ways& ways, int lane)
       : ways_(ways),
         lane_(lane),
         by_(forward(load(ways.a + lane), load(ways.b + lane))),
@@ -72,7 +79,7 @@ class OnWay {
         fallen_(0.0),
         under_way_(load(ways.starts, lane)) {}
   /// Over an edge. A disc in a cell that was entered lies ahead, if the line cuts it.
-  INLINE void go() {
+  CAROM_INLINE void go() {
     const Mask left = side_ > 0.0;
     const Real by = choose(left, falls_, rises_);
     where(under_way_, crossed_) = crossed_ + 1.0;
@@ -81,7 +88,7 @@ class OnWay {
     side_ = side_ + by;
     under_way_ = under_way_ && abs(aside_) >= near_;
   }
-  INLINE void keep() {
+  CAROM_INLINE void keep() {
     store(aside_, ways_.aside + lane_);
     store(crossed_, ways_.crossed + lane_);
     store(fallen_, ways_.fallen + lane_);
@@ -98,14 +105,14 @@ class OnWay {
 
 /// Over some edges, several registers side by side: each waits for itself at every edge.
 template <class... Registers>
-INLINE void go(int steps, Registers&&... registers) {
+CAROM_INLINE void go(int steps, Registers&&... registers) {
   for (int step = 0; step < steps; ++step) (registers.go(), ...);
   (registers.keep(), ...);
 }
-INLINE int registers_of(int lanes) {
+CAROM_INLINE int registers_of(int lanes) {
   return lanes <= width ? 1 : lanes <= 2 * width ? 2 : together;
 }
-INLINE void go_on_way(const LaneTable& t, Ways& ways, int lane, int registers) {
+CAROM_INLINE void go_on_way(const LaneTable& t, Ways& ways, int lane, int registers) {
   if (registers == 1)
     go(t.steps, OnWay(ways, lane));
   else if (registers == 2)
@@ -115,7 +122,7 @@ INLINE void go_on_way(const LaneTable& t, Ways& ways, int lane, int registers) {
        OnWay(ways, lane + 3 * width));
 }
 
-INLINE Crossed end_way(const LaneTable& t, const Ways& ways, CellOf& cell, int lane) {
+CAROM_INLINE Crossed end_way(const LaneTable& t, const Ways& ways, CellOf& cell, int lane) {
   const Real a = load(ways.a + lane), b = load(ways.b + lane);
   const Forward by = forward(a, b);
   const Real fallen = load(ways.fallen + lane), risen = load(ways.crossed + lane) - fallen;
@@ -131,3 +138,6 @@ INLINE Crossed end_way(const LaneTable& t, const Ways& ways, CellOf& cell, int l
       abs(load(ways.aside + lane)) < load(ways.radius + lane) - load(ways.margin + lane);
   return {load(ways.meets, lane) || (load(ways.starts, lane) && !under_way && cuts), under_way};
 }
+
+}  // namespace
+}  // namespace carom::lanes

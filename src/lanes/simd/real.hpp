@@ -1,6 +1,19 @@
 // The lanes' number: a register, and the few operations that formulas do not name themselves.
-// Included by kernel.hpp inside the namespace of its instruction set.
+#pragma once
 
+#include <bit>
+#include <cstddef>
+#include <experimental/simd>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "base/inline.hpp"
+
+namespace carom::lanes {
+namespace {
+
+namespace simd = std::experimental;
 using Real = simd::native_simd<double>;
 using Mask = Real::mask_type;
 constexpr int width = static_cast<int>(Real::size());
@@ -11,7 +24,7 @@ constexpr int together = 4;
 constexpr int together = 2;
 #endif
 
-INLINE Real choose(const Mask& condition, const Real& yes, const Real& no) {
+CAROM_INLINE Real choose(const Mask& condition, const Real& yes, const Real& no) {
   Real result = no;
   simd::where(condition, result) = yes;
   return result;
@@ -19,7 +32,7 @@ INLINE Real choose(const Mask& condition, const Real& yes, const Real& no) {
 using simd::where;  // where(condition, x) = value: in those lanes alone
 
 /// One bit a lane, the first one's lowest.
-INLINE unsigned bits_of(const Mask& mask) {
+CAROM_INLINE unsigned bits_of(const Mask& mask) {
 #if defined(__AVX512F__)
   return std::bit_cast<unsigned char>(mask);
 #else
@@ -36,7 +49,7 @@ INLINE unsigned bits_of(const Mask& mask) {
 }
 
 /// The nearest whole numbers, below 2^51.
-INLINE Real rounded(const Real& x) { return (x + 0x1.8p52) - 0x1.8p52; }
+CAROM_INLINE Real rounded(const Real& x) { return (x + 0x1.8p52) - 0x1.8p52; }
 
 /// 0, 1, 2 …: numbers of pieces; last a number for none that may be looked up like 0.
 constexpr double no_piece = 0x1p-60;
@@ -45,10 +58,10 @@ alignas(64) constexpr double counted[65] = {
     22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42,      43,
     44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, no_piece};
 
-INLINE Real load(const double* from) { return Real(from, simd::element_aligned); }
-INLINE void store(const Real& x, double* to) { x.copy_to(to, simd::element_aligned); }
+CAROM_INLINE Real load(const double* from) { return Real(from, simd::element_aligned); }
+CAROM_INLINE void store(const Real& x, double* to) { x.copy_to(to, simd::element_aligned); }
 /// In some lanes alone.
-INLINE void store_where(const Mask& mask, const Real& x, double* to) {
+CAROM_INLINE void store_where(const Mask& mask, const Real& x, double* to) {
 #if defined(__AVX512F__)
   _mm512_mask_storeu_pd(to, std::bit_cast<__mmask8>(mask), static_cast<__m512d>(x));
 #else
@@ -57,21 +70,24 @@ INLINE void store_where(const Mask& mask, const Real& x, double* to) {
 }
 /// Masks of all lanes between two stages: a bit a lane, or a number below 0 where it holds. (Not in
 /// bytes, which may alias anything.)
+template <int lanes>
 struct Masks {
 #if defined(__AVX512F__)
-  unsigned short bits[LanePack::lanes / width];
+  unsigned short bits[lanes / width];
 #else
-  alignas(64) double signs[LanePack::lanes];
+  alignas(64) double signs[lanes];
 #endif
 };
-INLINE void store(const Mask& mask, Masks& to, int lane) {
+template <int lanes>
+CAROM_INLINE void store(const Mask& mask, Masks<lanes>& to, int lane) {
 #if defined(__AVX512F__)
   to.bits[lane / width] = std::bit_cast<unsigned char>(mask);
 #else
   store(choose(mask, Real(-1.0), Real(1.0)), to.signs + lane);
 #endif
 }
-INLINE Mask load(const Masks& from, int lane) {
+template <int lanes>
+CAROM_INLINE Mask load(const Masks<lanes>& from, int lane) {
 #if defined(__AVX512F__)
   return std::bit_cast<Mask>(static_cast<unsigned char>(from.bits[lane / width]));
 #else
@@ -81,7 +97,7 @@ INLINE Mask load(const Masks& from, int lane) {
 
 /// a b + c, rounded once where the instruction set can: for choices alone, never for a number that
 /// shows.
-INLINE Real fused(const Real& a, const Real& b, const Real& c) {
+CAROM_INLINE Real fused(const Real& a, const Real& b, const Real& c) {
 #if defined(__AVX512F__)
   return Real(
       _mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
@@ -94,7 +110,7 @@ INLINE Real fused(const Real& a, const Real& b, const Real& c) {
 }
 /// p/q, a share of 2^-26 off or less: for choices alone; |q| far from the ends of the doubles'
 /// range.
-INLINE Real nearly_quotient(const Real& p, const Real& q) {
+CAROM_INLINE Real nearly_quotient(const Real& p, const Real& q) {
 #if defined(__AVX512F__)
   const Real rough(_mm512_rcp14_pd(static_cast<__m512d>(q)));
   return p * fused(rough, fused(-q, rough, Real(1.0)), rough);
@@ -103,7 +119,7 @@ INLINE Real nearly_quotient(const Real& p, const Real& q) {
 #endif
 }
 /// The smaller one of two sizes.
-INLINE Real least_size(const Real& a, const Real& b) {
+CAROM_INLINE Real least_size(const Real& a, const Real& b) {
 #if defined(__AVX512DQ__)
   return Real(_mm512_range_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), 0b1010));
 #else
@@ -112,7 +128,7 @@ INLINE Real least_size(const Real& a, const Real& b) {
 }
 
 /// A size with the sign of another number.
-INLINE Real signed_like(const Real& size, const Real& sign) {
+CAROM_INLINE Real signed_like(const Real& size, const Real& sign) {
 #if defined(__AVX512F__)
   // One instruction of three operands, for any port.
   const __m512i bit = _mm512_set1_epi64(static_cast<long long>(0x8000000000000000ULL));
@@ -125,7 +141,7 @@ INLINE Real signed_like(const Real& size, const Real& sign) {
 }
 
 /// x, or -x where `sign` is negative.
-INLINE Real turned_by(const Real& x, const Real& sign) {
+CAROM_INLINE Real turned_by(const Real& x, const Real& sign) {
 #if defined(__AVX512F__)
   const __m512i bit = _mm512_set1_epi64(static_cast<long long>(0x8000000000000000ULL));
   return Real(_mm512_castsi512_pd(
@@ -138,10 +154,20 @@ INLINE Real turned_by(const Real& x, const Real& sign) {
 
 /// How many numbers a look-up may choose from: 8, 16, or more.
 enum class Reach { eight, few, all };
+/// The widest one whose code is the same here: kernels that differ in nothing else are one.
+constexpr Reach reach_here(Reach reach) {
+#if defined(__AVX512F__)
+  return reach;
+#elif defined(__AVX2__)
+  return reach == Reach::eight ? Reach::eight : Reach::all;
+#else
+  return static_cast<void>(reach), Reach::all;
+#endif
+}
 
 /// table[index], lane by lane; index >= 0.
 template <Reach reach>
-INLINE Real look_up(const double* table, const Real& index) {
+CAROM_INLINE Real look_up(const double* table, const Real& index) {
 #if defined(__AVX512F__)
   const Real bits = index + 0x1p52;  // the lowest bits are the index
   const __m512i i = _mm512_castpd_si512(static_cast<__m512d>(bits));
@@ -170,3 +196,6 @@ INLINE Real look_up(const double* table, const Real& index) {
   return Real([&](auto i) { return table[static_cast<int>(static_cast<double>(index[i]))]; });
 #endif
 }
+
+}  // namespace
+}  // namespace carom::lanes

@@ -25,10 +25,10 @@ SoftKernel kernel_for(InstructionSet set) {
   if (!available(set))
     throw std::invalid_argument("this machine does not have the instruction set");
 #if defined(CAROM_WIDE_LANES)
-  if (set == InstructionSet::avx512) return avx512_soft_kernel();
-  if (set == InstructionSet::avx2) return avx2_soft_kernel();
+  if (set == InstructionSet::avx512) return soft_kernel<InstructionSet::avx512>();
+  if (set == InstructionSet::avx2) return soft_kernel<InstructionSet::avx2>();
 #endif
-  return baseline_soft_kernel();
+  return soft_kernel<InstructionSet::baseline>();
 }
 
 SoftStage::Kind kind_of(Stage<double>::Kind kind) {

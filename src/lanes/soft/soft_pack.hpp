@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "carom/lanes/instruction_set.hpp"
 #include "events/step/barrier.hpp"
 #include "forces/lattice_sum.hpp"
 #include "integrators/larmor_drift.hpp"
@@ -68,8 +69,8 @@ struct SoftKernel {
   int width = 0;
 };
 
-SoftKernel baseline_soft_kernel();
-SoftKernel avx2_soft_kernel();
-SoftKernel avx512_soft_kernel();
+/// Defined for each instruction set that was compiled (lanes/kernel/soft_kernel.cpp).
+template <InstructionSet>
+SoftKernel soft_kernel();
 
 }  // namespace carom::lanes

@@ -1,27 +1,12 @@
-// Steps of particles under forces, for one instruction set: included once by each
-// soft_kernel_*.cpp.
-//
-// No container and no algorithm of the standard library, and nothing outside the unnamed namespace
-// but templates over the lanes' own type: a weak symbol made of wide instructions could be linked
-// into the rest of the program.
-#pragma once
-
-#include <experimental/simd>
-
+// Steps of particles under forces.
 #include "events/step/step_hull.hpp"
+#include "lanes/simd/real.hpp"
 #include "lanes/soft/soft_pack.hpp"
 
 namespace carom::lanes {
 namespace {
 
-namespace simd = std::experimental;
-using Real = simd::native_simd<double>;
-using Mask = Real::mask_type;
 using Vector = geometry::BasicVector<Real>;
-constexpr int width = static_cast<int>(Real::size());
-
-CAROM_INLINE Real load(const double* from) { return Real(from, simd::element_aligned); }
-CAROM_INLINE void store(const Real& a, double* to) { a.copy_to(to, simd::element_aligned); }
 
 /// Lanes that are done together: their numbers stay in the first cache.
 constexpr int most_together = 16;
@@ -215,7 +200,11 @@ void step(const SoftForces& forces, const SoftStage* stage, int stages, SoftPack
   }
 }
 
-SoftKernel soft_kernel() { return {evaluate, step, find_calls, width}; }
-
 }  // namespace
+
+template <>
+SoftKernel soft_kernel<InstructionSet::CAROM_INSTRUCTION_SET>() {
+  return {evaluate, step, find_calls, width};
+}
+
 }  // namespace carom::lanes

@@ -1,7 +1,0 @@
-#include "lanes/kernel/kernel.hpp"
-
-namespace carom::lanes {
-
-Kernels avx512_kernels(const LaneTable& table, Turn turn) { return kernels_of(table, turn); }
-
-}  // namespace carom::lanes
