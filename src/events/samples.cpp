@@ -32,12 +32,12 @@ void Samples::emit(Time until, bool inclusive, Observer& observer) {
     seen_.clear();
     for (int i = 0; i < bodies_.size(); ++i) {
       const Body& b = bodies_[i];
+      if (interrupt_.after(100.0)) return;
       if (b.finished && b.fate != Fate::pinned) continue;
+      if (groups_.fails_before(i, t)) continue;
       any = true;
       if (b.state.time > Time(t)) continue;  // it is still to come
-      if (groups_.fails_before(i, t)) continue;
       seen_.emplace_back(i, groups_.state_at(i, t));
-      if (interrupt_.after(100.0)) return;
     }
     for (const auto& [particle, state] : seen_) observer.sample(particle, t, state);
     if (!any) return;  // no particle is left to be sampled

@@ -49,5 +49,26 @@ TEST(NarrowBumps, AreMetByAdaptiveSchemes) {
   }
 }
 
+// Samples without an end of a particle that is not there any more would take for ever.
+TEST(NarrowBumps, SamplesEndWithTheParticleThatMissedOne) {
+  const LoadedSystem loaded = read_system(
+      "[table]\nshape = \"rectangle\"\nwidth = 2\nheight = 2\n[[potential]]\n"
+      "kind = \"gaussian\"\nheight = 50\nwidth = 0.03\ncenter = [1, 1]\n[particles]\nspeed = 1\n"
+      "[initial]\nkind = \"point\"\nposition = [0.3, 0.4]\nvelocity = [0.6, 0.8]\n"
+      "[integrator]\nscheme = \"velocity-verlet\"\nstep = 0.5\n[run]\nt_max = 20\n",
+      "narrow");
+  const System& system = loaded.system;
+  World world(*system.table, system.dynamics);
+  world.sample_every(0.25);
+  world.add(system.particles[0], Sampler(system).draw(world, 0, 0));
+  struct : Observer {
+    void sample(int, Time time, const State&) override { last = time.value(); }
+    double last = 0.0;
+  } samples;
+  world.run_until(1e300, samples);
+  EXPECT_EQ(world.fate(0), Fate::unresolved);
+  EXPECT_LE(samples.last, world.state(0).time.value() + 0.25);
+}
+
 }  // namespace
 }  // namespace carom
