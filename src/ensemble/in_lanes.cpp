@@ -16,9 +16,9 @@ InLanes::InLanes(const System& system, const EngineOptions& options, std::unique
       listener_->sample(flight(tag).trajectory, static_cast<int>(particle_of(tag)), number, state);
     });
   if (options_.hits)
-    lanes_->report_hits([this](std::uint64_t tag, const State& state) {
+    lanes_->report_hits([this](std::uint64_t tag, const State& state, std::uint64_t hits) {
       const Trajectory& trajectory = flight(tag).trajectory;
-      listener_->hit(trajectory, static_cast<int>(particle_of(tag)), state);
+      listener_->hit(trajectory, static_cast<int>(particle_of(tag)), state, hits);
       return !listener_->enough(trajectory);
     });
 }

@@ -69,7 +69,7 @@ void OneByOne::hit(const HitEvent& event) {
   state.velocity = event.after;
   state.cell = event.cell;
   state.time = event.time;
-  listener_->hit(trajectory_, event.particle, state);
+  listener_->hit(trajectory_, event.particle, state, world_.hits(event.particle));
 }
 
 void OneByOne::sample(int particle, Time, const State& state) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <stdexcept>
 
@@ -14,10 +15,9 @@ namespace carom {
 namespace {
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
-constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 constexpr std::size_t most_reports = 5;
 
-// Streams of random numbers: one a walker and stage; the comb takes the last one.
+// Streams of random numbers: one a member and stage; the comb takes the last one.
 constexpr std::uint64_t comb_stream = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t stages_of_population = std::uint64_t{1} << 24;
 
@@ -41,38 +41,96 @@ const Population::Moment& Population::Memory::ago(std::size_t back) const {
   return ring[(next + ring.size() - 1 - std::min(back, size - 1)) % ring.size()];
 }
 
-// Remembers the hits of the one particle, and when it ended.
-class Population::Recorder : public Observer {
+/// Tells an engine where members start, and each of them what happens to it.
+class Population::Flights : public Starts, public Listener {
  public:
-  Recorder(Memory& memory, std::uint64_t hits) : memory_(memory), hits_(hits) {}
-  void hit(const HitEvent& event) override {
-    State state;
-    state.wall = event.wall;
-    state.u = event.u;
-    state.position = event.position;
-    state.velocity = event.after;
-    state.cell = event.cell;
-    state.time = event.time;
-    hits_ += static_cast<std::uint64_t>(event.reflections);
-    memory_.keep(state, hits_);
+  Flights(Population& population, const Stage& stage, const Next& next, const Done& done)
+      : population_(population), stage_(stage), next_(next), done_(done) {}
+
+  bool next(Trajectory& t, const World& world) override {
+    if (under_way_.size() <= t.slot) under_way_.resize(t.slot + 1);
+    OnItsWay& mine = under_way_[t.slot];
+    while ((mine.member = next_(mine.number, mine.copy, world))) {
+      mine.there = is_there(mine.member->hits, mine.member->state.time);
+      if (!mine.there) {
+        t.number = mine.number;
+        t.particles = population_.system_.particles;
+        t.starts.assign(1, mine.member->state);
+        return true;
+      }
+      mine.member->way = Way::reached;
+      done_(mine.number, *mine.member);
+    }
+    return false;
   }
-  void end(const EndEvent& event) override { time = event.time; }
-  Time time;
+  void hit(const Trajectory& t, int, const State& state, std::uint64_t hits) override {
+    OnItsWay& mine = under_way_[t.slot];
+    hits += mine.member->hits;
+    mine.member->memory.keep(state, hits);
+    mine.there = is_there(hits, state.time);
+  }
+  bool enough(const Trajectory& t) override { return under_way_[t.slot].there; }
+  void end(const Trajectory& t, const TrajectoryEnd& end) override {
+    const ParticleEnd& particle = end.particles.front();
+    OnItsWay& mine = under_way_[t.slot];
+    Member& member = *mine.member;
+    member.state = particle.state;
+    member.hits += particle.hits;
+    member.way = way_of(particle.fate);
+    if (member.way == Way::gone) member.state.time = particle.time;
+    population_.note(particle);
+    done_(mine.number, member);
+  }
 
  private:
-  Memory& memory_;
-  std::uint64_t hits_;
+  struct OnItsWay {
+    std::size_t number = 0;
+    Member* member = nullptr;  ///< its state and hits at the start, its memory at the latest hit
+    Member copy;
+    bool there = false;
+  };
+  /// A corner may have counted several hits, a long flight have passed several times.
+  bool is_there(std::uint64_t hits, Time time) const {
+    if (population_.by_time()) return !stage_.last && time > Time(stage_.level);
+    return hits > static_cast<std::uint64_t>(stage_.level);
+  }
+  static Way way_of(Fate fate) {
+    switch (fate) {
+      case Fate::survived:
+      case Fate::capped:
+        return Way::reached;
+      case Fate::pinned:
+        return Way::for_ever;
+      case Fate::escaped:
+      case Fate::unbounded:
+        return Way::gone;
+      case Fate::singular:
+      case Fate::lost:
+      case Fate::unresolved:
+        return Way::ended;
+    }
+    return Way::ended;
+  }
+
+  Population& population_;
+  const Stage& stage_;
+  const Next& next_;
+  const Done& done_;
+  std::deque<OnItsWay> under_way_;  ///< by slot; stays where it is
 };
 
 Population::Population(const System& system, const Sampler& sampler, const Kick& kick,
                        const SplittingPlan& plan, const std::vector<double>& reports,
-                       DecisionOptions decisions)
-    : system_(system),
-      sampler_(sampler),
-      kick_(kick),
-      plan_(plan),
-      reports_(reports),
-      world_(*system.table, decisions) {
+                       const SplittingOptions& options)
+    : system_(system), sampler_(sampler), kick_(kick), plan_(plan), reports_(reports) {
+  EngineOptions asked{
+      .t_end = no_end, .hits = true, .decisions = options.decisions, .lanes = options.lanes};
+  to_levels_ = make_engine(system, asked);
+  if (by_time()) {
+    asked.t_end = reports.back();
+    asked.hits = false;  // no copy is made of what reaches it
+    to_the_end_ = make_engine(system, asked);
+  }
   // Where the start is fewer hits away than a copy goes back, a kick there has fewer to grow in and
   // is larger. Starts by the cosine law bear a kick of any size; others one as small as is chosen
   // elsewhere.
@@ -88,222 +146,200 @@ Population::Population(const System& system, const Sampler& sampler, const Kick&
   kicks_.push_back(plan.kick);
 }
 
-/// Follows one walker through a stage.
-Population::Way Population::fly(Walker& walker, const Stage& stage,
-                                const std::function<bool()>& stopped) {
-  const Particle& particle = system_.particles.front();
-  Recorder end(walker.memory, walker.hits);
-  const bool by_time = plan_.by == SplittingPlan::Level::time;
-  const auto hits_wanted = by_time ? no_limit : static_cast<std::uint64_t>(stage.level) + 1;
-  // A corner may have counted several hits, a long flight have passed several times.
-  if (walker.hits >= hits_wanted ||
-      (by_time && !stage.last && walker.state.time > Time(stage.level)))
-    return Way::reached;
-  world_.limit_hits(hits_wanted);
-  world_.clear();
-  const int it = world_.add(particle, walker.state, walker.hits);
-  world_.run_until(by_time ? stage.level : no_end, end, stopped);
-  if (by_time && !stage.last && !world_.finished(it)) {
-    world_.limit_hits(world_.hits(it) + 1);
-    world_.run_until(no_end, end, stopped);
-  }
-  walker.state = world_.state(it);
-  walker.hits = world_.hits(it);
-  if (!world_.finished(it)) return Way::reached;
-  switch (world_.fate(it)) {
-    case Fate::capped:
-      return Way::reached;
-    case Fate::survived:
-    case Fate::pinned:
-      return Way::for_ever;
-    case Fate::escaped:
-    case Fate::unbounded:
-      walker.state.time = end.time;
-      return Way::gone;
-    case Fate::singular:
-    case Fate::lost:
-    case Fate::unresolved:
-      return Way::ended;
-  }
-  return Way::ended;
+DecisionCounts Population::decisions() const {
+  DecisionCounts sum = to_levels_->decisions();
+  if (to_the_end_) sum += to_the_end_->decisions();
+  return sum;
 }
 
-/// Of the walker that flew last and ended without a continuation.
-void Population::count_if_lost(PopulationRun& result, std::vector<std::string>& reports) const {
-  if (!is_failure(world_.fate(0))) return;
-  ++(world_.fate(0) == Fate::lost ? result.lost : result.unresolved);
-  if (reports.size() < most_reports) reports.push_back(world_.report(0));
+/// False: it was stopped on the way.
+bool Population::fly(const Stage& stage, const Next& next, const Done& done) {
+  Flights flights(*this, stage, next, done);
+  return (stage.last ? to_the_end_ : to_levels_)->run(flights, flights, stopped_);
 }
 
-/// Parts a copy from its like: a step of a Metropolis walk among the states that lie `lookback`
-/// hits before the level (or at the start). A kick keeps the invariant measure, so every new way
-/// that reaches the level after as many hits is taken, and no other: one with more or fewer would
-/// never be kicked back to where it came from.
-void Population::part(Walker& walker, const Stage& stage, double shrink, RandomStream& random,
-                      const std::function<bool()>& stopped, PopulationRun& result,
-                      std::vector<std::string>& reports) {
-  if (walker.memory.size == 0) return;
-  const double speed = system_.particles.front().speed;
-  Walker other = walker;
-  const auto back =
-      static_cast<std::size_t>(std::min(plan_.lookback, walker.memory.since_start - 1));
-  const Moment& before = walker.memory.ago(back);
-  other.memory.forget(back + 1);
-  other.state = kick_(before.state, speed, shrink * kicks_[back], random);
-  other.hits = before.hits;
-  other.memory.keep(other.state, other.hits);
-  const Way way = fly(other, stage, stopped);
-  result.collisions += other.hits - before.hits;
-  ++result.tried;
-  if (way == Way::ended) count_if_lost(result, reports);
-  if (way != Way::reached || other.memory.since_start != walker.memory.since_start) return;
-  ++result.parted;
-  walker = other;
+void Population::note(const ParticleEnd& end) {
+  result_.collisions += end.hits;
+  if (!is_failure(end.fate)) return;
+  ++(end.fate == Fate::lost ? result_.lost : result_.unresolved);
+  if (failures_.size() < most_reports) failures_.push_back(end.report);
+}
+
+/// Flies all members through a stage; those of the first one are drawn on the way.
+bool Population::fly_members(const Stage& stage, bool first, std::uint64_t repetition) {
+  if (first) members_.assign(plan_.population, {});
+  std::size_t begun = 0;
+  const Next next = [&](std::size_t& index, Member&, const World& world) -> Member* {
+    if (begun == members_.size()) return nullptr;
+    index = begun++;
+    Member& member = members_[index];
+    if (first) {
+      member.state = sampler_.draw(world, repetition * plan_.population + index, 0);
+      if (member.state.wall >= 0) member.memory.keep(member.state, 0);
+    }
+    return &member;
+  };
+  return fly(stage, next, [](std::size_t, const Member&) {});
+}
+
+/// The report at which a member that is gone has gone, or the stage's own by hits.
+std::size_t Population::report_of(std::size_t stage, const Member& member) const {
+  if (!by_time()) return stage;
+  const double time = member.state.time.value();
+  return static_cast<std::size_t>(std::lower_bound(reports_.begin(), reports_.end(), time) -
+                                  reports_.begin());
+}
+
+/// Counts how members went through stage `number`, and collects those that reached its end.
+void Population::count(const Stage& stage, std::size_t number) {
+  CopiesOfStage& copies = result_.copies.emplace_back();
+  survivors_.clear();
+  going_.assign(reports_.size() + 1, 0);
+  std::uint64_t stay = 0, ended = 0;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Member& member = members_[i];
+    result_.digest += trajectory_hash(mix(stage.stream) + i, static_cast<std::uint64_t>(member.way),
+                                      member.state.time.value(), member.hits, member.state.wall);
+    if (member.way != Way::ended) {
+      Staying& like = member.kicked ? copies.kicked : copies.first;
+      ++like.followed;
+      if (member.way != Way::gone) ++like.stayed;
+    }
+    switch (member.way) {
+      case Way::reached:
+        survivors_.push_back(i);
+        break;
+      case Way::for_ever:
+        ++stay;
+        break;
+      case Way::gone:
+        ++going_[report_of(number, member)];
+        first_loss_ = std::min(first_loss_, report_of(number, member));
+        break;
+      case Way::ended:
+        ++ended;
+        break;
+    }
+  }
+  result_.reached.push_back(survivors_.size());
+  result_.singular += share(ended);
+  for_ever_ += share(stay);
+  if (by_time())
+    report_times(stage.level);
+  else
+    result_.survival[number] = share(survivors_.size()) + for_ever_;
+  before_ = stage.level;
+  share_of_stage_ = share(survivors_.size());
 }
 
 /// Fills the population again: as many copies of each survivor as of any other, by a comb with one
 /// random offset, so that the mean number of copies is exact. All copies have the same share.
-void Population::copy_survivors(const Stage& stage, std::uint64_t stream, double shrink,
-                                const std::function<bool()>& stopped, PopulationRun& result,
-                                std::vector<std::string>& reports) {
-  walkers_.clear();
-  if (survivors_.empty()) return;
+void Population::copy_survivors(const Stage& stage) {
+  copies_.clear();
   const double copies =
       static_cast<double>(plan_.population) / static_cast<double>(survivors_.size());
   const double offset =
-      RandomStream(system_.run.seed, Purpose::splitting, stream, comb_stream).uniform();
+      RandomStream(system_.run.seed, Purpose::splitting, stage.stream, comb_stream).uniform();
   for (std::size_t i = 0; i < survivors_.size(); ++i) {
+    Member& member = members_[survivors_[i]];
+    member.kicked = false;
     // Rounding must not change the size of the population.
     const double teeth = i + 1 == survivors_.size() ? static_cast<double>(plan_.population)
                                                     : static_cast<double>(i + 1) * copies - offset;
-    for (int copy = 0;
-         static_cast<double>(walkers_.size()) < teeth && walkers_.size() < plan_.population;
-         ++copy) {
-      Walker walker = survivors_[i];
-      walker.kicked = copy > 0;
-      if (copy > 0) {
-        RandomStream random(system_.run.seed, Purpose::splitting, stream, walkers_.size());
-        part(walker, stage, shrink, random, stopped, result, reports);
-      }
-      walkers_.push_back(walker);
+    while (static_cast<double>(copies_.size()) < teeth && copies_.size() < plan_.population) {
+      copies_.push_back(member);
+      member.kicked = true;
     }
   }
+  std::swap(members_, copies_);
 }
 
-/// Reports from < t <= to: what has gone later is known by now, and so is what is still there.
-void Population::report_times(double from, double to, std::uint64_t still_there, double for_ever,
-                              PopulationRun& result) {
-  std::uint64_t later = still_there + going_.back();
-  double of_others = for_ever + gone_by_.back();
+/// Separates copies from their first ones: a step of a Metropolis walk among the states that lie
+/// `lookback` hits before the level (or at the start). A kick keeps the invariant measure, so every
+/// new way that reaches the level after as many hits is taken, and no other: one with more or fewer
+/// would never be kicked back to where it came from.
+bool Population::separate_copies(const Stage& stage, double shrink) {
+  const double speed = system_.particles.front().speed;
+  std::size_t begun = 0;
+  const Next next = [&](std::size_t& index, Member& copy, const World&) -> Member* {
+    while (begun < members_.size() && !(members_[begun].kicked && members_[begun].memory.size > 0))
+      ++begun;
+    if (begun == members_.size()) return nullptr;
+    index = begun++;
+    copy = members_[index];
+    const auto hits =
+        static_cast<std::size_t>(std::min(plan_.lookback, copy.memory.since_start - 1));
+    const Moment before = copy.memory.ago(hits);
+    RandomStream random(system_.run.seed, Purpose::splitting, stage.stream, index);
+    copy.memory.forget(hits + 1);
+    copy.state = kick_(before.state, speed, shrink * kicks_[hits], random);
+    copy.hits = before.hits;
+    copy.memory.keep(copy.state, copy.hits);
+    ++result_.tried;
+    return &copy;
+  };
+  const Done done = [&](std::size_t index, const Member& copy) {
+    if (copy.way != Way::reached || copy.memory.since_start != members_[index].memory.since_start)
+      return;
+    ++result_.accepted;
+    members_[index] = copy;
+  };
+  return fly(stage, next, done);
+}
+
+/// Reports before_ < t <= to: what has gone later is known by now, and so is what is still there.
+void Population::report_times(double to) {
+  std::uint64_t later = survivors_.size() + going_.back();
+  double of_others = for_ever_ + gone_by_.back();
   for (std::size_t i = reports_.size(); i-- > 0;) {
-    if (reports_[i] <= from) break;
-    if (reports_[i] <= to) result.survival[i] = share(later) + of_others;
+    if (reports_[i] <= before_) break;
+    if (reports_[i] <= to) result_.survival[i] = share(later) + of_others;
     later += going_[i];
     of_others += gone_by_[i];
   }
   for (std::size_t i = 0; i < going_.size(); ++i) gone_by_[i] += share(going_[i]);
 }
 
-/// Shares of those that have a continuation; all of them as long as nobody has gone.
-void Population::finish(std::size_t first_loss, PopulationRun& result) const {
-  const double followed = 1.0 - result.singular;
-  for (std::size_t i = 0; i < result.survival.size(); ++i) {
-    double& p = result.survival[i];
-    p = followed > 0.0 && i < first_loss ? 1.0 : std::min(p / followed, 1.0);
+/// Shares of those that have a continuation; all of them as long as none has gone.
+void Population::finish() {
+  const double followed = 1.0 - result_.singular;
+  for (std::size_t i = 0; i < result_.survival.size(); ++i) {
+    double& p = result_.survival[i];
+    p = followed > 0.0 && i < first_loss_ ? 1.0 : std::min(p / followed, 1.0);
   }
-  for (double& p : result.gone) p /= followed;
-  result.done = true;
-}
-
-void Population::start(std::uint64_t repetition) {
-  walkers_.clear();
-  world_.clear();
-  for (std::uint64_t i = 0; i < plan_.population; ++i) {
-    Walker walker;
-    walker.state = sampler_.draw(world_, repetition * plan_.population + i, 0);
-    if (walker.state.wall >= 0) walker.memory.keep(walker.state, 0);
-    walkers_.push_back(walker);
-  }
+  if (by_time()) result_.gone.assign(gone_by_.begin(), gone_by_.end() - 1);
+  for (double& p : result_.gone) p /= followed;
+  result_.done = true;
 }
 
 PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
-                              const std::function<bool()>& stopped,
-                              std::vector<std::string>& reports) {
+                              const std::function<bool()>& stopped) {
   const double shrink = std::ldexp(1.0, -static_cast<int>(kick_number));
-  const std::uint64_t number = repetition * kick_sizes + kick_number;
-  const bool by_time = plan_.by == SplittingPlan::Level::time;
-  const std::size_t stages = plan_.levels.size() + (by_time ? 1 : 0);
-  PopulationRun result;
-  result.survival.assign(reports_.size(), 0.0);
+  const std::uint64_t first_stream = (repetition * kick_sizes + kick_number) * stages_of_population;
+  const std::size_t stages = plan_.levels.size() + (by_time() ? 1 : 0);
+  stopped_ = stopped;
+  result_ = {};
+  result_.survival.assign(reports_.size(), 0.0);
   gone_by_.assign(reports_.size() + 1, 0.0);
   share_of_stage_ = 1.0;
-
+  for_ever_ = 0.0;
+  before_ = -1.0;
+  first_loss_ = reports_.size();
   try {
-    start(repetition);
+    for (std::size_t k = 0; k < stages; ++k) {
+      const bool last = k == plan_.levels.size();
+      const Stage stage{last ? reports_.back() : plan_.levels[k], last, first_stream + k};
+      if (!fly_members(stage, k == 0, repetition)) return {};
+      count(stage, k);
+      if (k + 1 == stages) break;
+      copy_survivors(stage);
+      if (!separate_copies(stage, shrink)) return {};
+    }
   } catch (const SamplingStopped&) {
     return {};
   }
-  double for_ever = 0.0, before = -1.0;
-  std::size_t first_loss = reports_.size();  // the first report by which somebody has gone
-  for (std::size_t k = 0; k < stages; ++k) {
-    const bool last = by_time && k == plan_.levels.size();
-    const Stage stage{last ? reports_.back() : plan_.levels[k], last};
-    const std::uint64_t stream = number * stages_of_population + k;
-    CopiesOfStage& copies = result.copies.emplace_back();
-    survivors_.clear();
-    going_.assign(reports_.size() + 1, 0);
-    std::uint64_t stay = 0, ended = 0;
-    for (std::size_t i = 0; i < walkers_.size(); ++i) {
-      Walker& walker = walkers_[i];
-      const std::uint64_t hits = walker.hits;
-      const Way way = fly(walker, stage, stopped);
-      if (stopped()) return {};
-      result.collisions += walker.hits - hits;
-      const double time = walker.state.time.value();
-      result.digest += trajectory_hash(mix(stream) + i, static_cast<std::uint64_t>(way), time,
-                                       walker.hits, walker.state.wall);
-      if (way != Way::ended) {
-        Staying& like = walker.kicked ? copies.kicked : copies.first;
-        ++like.followed;
-        if (way != Way::gone) ++like.stayed;
-      }
-      const auto report_of = [&] {
-        return by_time ? static_cast<std::size_t>(
-                             std::lower_bound(reports_.begin(), reports_.end(), time) -
-                             reports_.begin())
-                       : k;
-      };
-      switch (way) {
-        case Way::reached:
-          survivors_.push_back(walker);
-          break;
-        case Way::for_ever:
-          ++stay;
-          break;
-        case Way::gone:
-          ++going_[report_of()];
-          first_loss = std::min(first_loss, report_of());
-          break;
-        case Way::ended:
-          ++ended;
-          count_if_lost(result, reports);
-          break;
-      }
-    }
-    result.reached.push_back(survivors_.size());
-    result.singular += share(ended);
-    for_ever += share(stay);
-    if (by_time)
-      report_times(before, stage.level, survivors_.size(), for_ever, result);
-    else
-      result.survival[k] = share(survivors_.size()) + for_ever;
-    before = stage.level;
-    share_of_stage_ = share(survivors_.size());
-    if (k + 1 < stages) copy_survivors(stage, stream, shrink, stopped, result, reports);
-  }
-  if (by_time) result.gone.assign(gone_by_.begin(), gone_by_.end() - 1);
-  finish(first_loss, result);
-  return result;
+  finish();
+  return std::move(result_);
 }
 
 }  // namespace carom

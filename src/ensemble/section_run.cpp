@@ -111,7 +111,7 @@ class Follower : public Listener {
       recorders_.resize(t.slot + 1, {*system_.table, system_.section, frames_});
     recorders_[t.slot].begin(t.number, t.starts);
   }
-  void hit(const Trajectory& t, int particle, const State& state) override {
+  void hit(const Trajectory& t, int particle, const State& state, std::uint64_t) override {
     recorders_[t.slot].hit(particle, state);
   }
   void crossing(const Trajectory& t, int particle, const State& state, int direction) override {

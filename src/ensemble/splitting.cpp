@@ -54,7 +54,7 @@ void check(const System& system, const SplittingPlan& plan) {
 void check_memory(const SplittingPlan& plan, int threads) {
   const double here =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  const double each = static_cast<double>(Population::bytes_a_walker()) * threads;
+  const double each = static_cast<double>(Population::bytes_each()) * threads;
   if (static_cast<double>(plan.population) * each <= here) return;
   const auto most = static_cast<std::uint64_t>(here / each);
   throw InputError(Place{{}, 0, 0, "population"},
@@ -87,7 +87,7 @@ class Worker {
     for (std::uint64_t i = first; i < end; ++i) {
       // Every kick of a repetition starts from the same states, so neighbours in order share the
       // work fairly.
-      PopulationRun one = population_.run(shared_.first + i / kicks, i % kicks, stopped, reports_);
+      PopulationRun one = population_.run(shared_.first + i / kicks, i % kicks, stopped);
       if (!one.done) return false;
       const std::lock_guard lock(shared_.mutex);
       ++shared_.done;
@@ -101,14 +101,14 @@ class Worker {
 
   void finish() {
     shared_.decisions += population_.decisions();
-    shared_.reports.insert(shared_.reports.end(), reports_.begin(), reports_.end());
+    const std::vector<std::string>& failures = population_.failures();
+    shared_.reports.insert(shared_.reports.end(), failures.begin(), failures.end());
   }
 
  private:
   Population population_;
   const SplittingOptions& options_;
   Shared& shared_;
-  std::vector<std::string> reports_;
 };
 
 // What all populations of a run have in common.
@@ -125,8 +125,8 @@ bool follow(const Setting& s, const SplittingPlan& plan, const BlockPlan& blocks
   return run_blocks(
       blocks, options.interrupted,
       [&] {
-        return Worker(Population(s.system, s.sampler, s.kick, plan, s.at, options.decisions),
-                      options, shared);
+        return Worker(Population(s.system, s.sampler, s.kick, plan, s.at, options), options,
+                      shared);
       },
       [](Worker& worker) { worker.finish(); });
 }
@@ -158,8 +158,8 @@ double chosen_kick(const Setting& setting, SplittingPlan plan, SplittingOptions 
     if (one.empty() || one.front().tried == 0)
       return SplittingPlan::largest_choice;  // nothing is copied, or nearly
     const auto tried = static_cast<double>(one.front().tried),
-               parted = static_cast<double>(one.front().parted);
-    if (tried - parted <= SplittingPlan::most_kept * tried) break;
+               accepted = static_cast<double>(one.front().accepted);
+    if (tried - accepted <= SplittingPlan::most_kept * tried) break;
   }
   for (; plan.kick > least; plan.kick /= 4) {
     const std::vector<PopulationRun> some = follow_some(judges, 4000);

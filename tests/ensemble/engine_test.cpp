@@ -18,7 +18,7 @@ namespace {
 /// The mean of x over all hits: all that an analysis needs to be.
 class MeanPosition : public Listener {
  public:
-  void hit(const Trajectory&, int, const State& state) override {
+  void hit(const Trajectory&, int, const State& state, std::uint64_t) override {
     sum_.add(state.position.x);
     ++hits_;
   }
@@ -95,9 +95,10 @@ TEST(Engines, GiveAListenerTheSameHits) {
 class Log : public Listener {
  public:
   void begin(const Trajectory& t) override { note(t, t.starts.front()); }
-  void hit(const Trajectory& t, int, const State& s) override {
+  void hit(const Trajectory& t, int, const State& s, std::uint64_t hits) override {
     note(t, s);
-    lines[t.number].back() += ' ' + std::to_string(s.wall) + ' ' + std::to_string(s.u);
+    lines[t.number].back() +=
+        ' ' + std::to_string(s.wall) + ' ' + std::to_string(s.u) + ' ' + std::to_string(hits);
     ++hits_[t.number];
   }
   void sample(const Trajectory& t, int, std::size_t number, const State& s) override {

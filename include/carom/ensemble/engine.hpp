@@ -63,8 +63,9 @@ class Listener {
  public:
   virtual ~Listener() = default;
   virtual void begin(const Trajectory&) {}
-  /// The state after a hit (EngineOptions::hits).
-  virtual void hit(const Trajectory&, int /*particle*/, const State&) {}
+  /// The state after a hit, and how many the particle has made by then (EngineOptions::hits). A
+  /// corner may count several.
+  virtual void hit(const Trajectory&, int /*particle*/, const State&, std::uint64_t /*hits*/) {}
   /// The state (not its wall) at the time of that number (EngineOptions::times).
   virtual void sample(const Trajectory&, int /*particle*/, std::size_t /*number*/, const State&) {}
   /// As Observer::crossing (EngineOptions::surface).

@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
+#include "carom/lanes/instruction_set.hpp"
 
 namespace carom {
 
@@ -45,6 +47,7 @@ struct SplittingPlan {
 struct SplittingOptions {
   int threads = 0;  ///< 0: as many as OpenMP gives
   DecisionOptions decisions;
+  std::optional<InstructionSet> lanes = widest_instruction_set();  ///< empty: one after the other
   const std::atomic<bool>* interrupted = nullptr;
   /// Called after each population from one thread at a time.
   std::function<void(std::uint64_t done, std::uint64_t all, std::uint64_t hits)> progress;
@@ -66,12 +69,12 @@ struct PopulationRun {
   bool done = false;
   std::vector<double> survival;        ///< share not gone by then
   std::vector<double> gone;            ///< share gone since the report before; by time only
-  std::vector<std::uint64_t> reached;  ///< walkers that reached each level
+  std::vector<std::uint64_t> reached;  ///< trajectories that reached each level
   std::vector<CopiesOfStage> copies;   ///< of each stage; none are kicked before the first
   double singular = 0.0;  ///< share that ended without a continuation; taken out of the others
   std::uint64_t collisions = 0, unresolved = 0, lost = 0, digest = 0;
   std::uint64_t tried = 0,
-                parted = 0;  ///< copies that were kicked, and those whose new way reached the level
+                accepted = 0;  ///< copies that were kicked, and those whose new way was taken
 };
 
 /// What all populations give; of an interrupted run, whole repetitions.

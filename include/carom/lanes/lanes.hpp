@@ -52,8 +52,9 @@ class Lanes {
   /// Increasing times; `sampled` is told of each trajectory what World's observer would be, in
   /// order and before its end.
   virtual void sample_at(std::vector<double> times, Sampled sampled) = 0;
-  /// A trajectory's state after a hit. False: it ends there, as one that survives.
-  using Hit = std::function<bool(std::uint64_t tag, const State&)>;
+  /// A trajectory's state after a hit, and the hits that it has made by then. False: it ends there,
+  /// as one that survives.
+  using Hit = std::function<bool(std::uint64_t tag, const State&, std::uint64_t hits)>;
   virtual void report_hits(Hit) = 0;
   /// Follows all trajectories that `next` gives (until it returns false) to their end or until
   /// `t_end`; `ended` receives each, in no particular order. `interrupted`, if set, is asked now

@@ -115,12 +115,12 @@ Json json_of(const Extrapolated& value, Json json, bool known = true) {
 }
 
 double share_rejected(const SplittingResult& result) {
-  double tried = 0.0, parted = 0.0;
+  double tried = 0.0, accepted = 0.0;
   for (const PopulationRun& run : result.runs.front()) {
     tried += static_cast<double>(run.tried);
-    parted += static_cast<double>(run.parted);
+    accepted += static_cast<double>(run.accepted);
   }
-  return tried > 0.0 ? 1.0 - parted / tried : 0.0;
+  return tried > 0.0 ? 1.0 - accepted / tried : 0.0;
 }
 
 }  // namespace

@@ -283,7 +283,7 @@ class FreeLanes::Implementation {
       if (hits == mine.told) continue;
       mine.told = hits;
       // Of its last one a call tells.
-      if (!hit(mine.start.tag, state_on_wall(lanes.pack, lane)) && hits < limit)
+      if (!hit(mine.start.tag, state_on_wall(lanes.pack, lane), hits) && hits < limit)
         enough.push_back(lane);
     }
     return enough;
@@ -292,14 +292,8 @@ class FreeLanes::Implementation {
   void end_after_hit(Lanes& lanes, int lane) {
     lanes.leave(lane);
     const Trajectory& mine = lanes.trajectories[lane];
-    (*sink)({mine.start.tag,
-             Fate::survived,
-             mine.start.state.time,
-             mine.start.state,
-             -1,
-             mine.start.hits,
-             last_wall(mine),
-             {}});
+    const auto& [tag, particle, state, hits] = mine.start;
+    (*sink)({tag, Fate::survived, state.time, state, -1, hits, last_wall(mine), {}});
   }
   State state_on_wall(const LanePack& pack, int lane) const {
     State s = last_event(pack, lane);
@@ -415,7 +409,8 @@ class FreeLanes::Implementation {
     const bool has_hit = scalar.hits(0) > mine.start.hits;
     mine.start.hits = mine.told = scalar.hits(0);
     mine.start.state = scalar.state(0);
-    if (has_hit && hit && !hit(mine.start.tag, mine.start.state) && mine.start.hits < limit) {
+    if (has_hit && hit && !hit(mine.start.tag, mine.start.state, mine.start.hits) &&
+        mine.start.hits < limit) {
       end_after_hit(lanes, lane);
       return false;
     }

@@ -74,7 +74,7 @@ class SoftLanes::Implementation {
   }
   void report_hits(Hit hit) {
     engine.report_hits([this, hit = std::move(hit)](const SoftTrack& track) {
-      return hit(starts_[&track - tracks_].tag, track.state);
+      return hit(starts_[&track - tracks_].tag, track.state, track.hits);
     });
   }
 
