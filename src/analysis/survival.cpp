@@ -76,50 +76,20 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole) {
   ++trajectories;
   collisions += hits;
   most_hits = std::max(most_hits, hits);
-  switch (fate) {
-    case Fate::survived:
-      ++survived;
-      return;
-    case Fate::pinned:
-      ++survived, ++pinned;
-      return;
-    case Fate::capped:
-      ++survived, ++capped;
-      return;
-    case Fate::singular:
-      ++singular;
-      return;
-    case Fate::unresolved:
-      ++unresolved;
-      return;
-    case Fate::lost:
-      ++lost;
-      return;
-    case Fate::escaped:
-      ++escaped;
-      break;
-    case Fate::unbounded:
-      ++unbounded;
-      break;
-  }
+  count(fate);
+  if (fate == Fate::capped) ++survived;
+  if (fate != Fate::escaped && fate != Fate::unbounded) return;
   if (fate == Fate::escaped && hole >= 0) ++hole_escapes.at(static_cast<std::size_t>(hole));
   count_in(gone_in, times, time);
   count_in(gone_in_hits, reported_hits(), hits);
 }
 
 void SurvivalCounts::merge(const SurvivalCounts& other) {
+  add_fates(other);
   add_each(gone_in, other.gone_in);
   add_each(gone_in_hits, other.gone_in_hits);
   add_each(hole_escapes, other.hole_escapes);
   trajectories += other.trajectories;
-  escaped += other.escaped;
-  survived += other.survived;
-  pinned += other.pinned;
-  capped += other.capped;
-  singular += other.singular;
-  unbounded += other.unbounded;
-  unresolved += other.unresolved;
-  lost += other.lost;
   collisions += other.collisions;
   contacts += other.contacts;
   most_hits = std::max(most_hits, other.most_hits);

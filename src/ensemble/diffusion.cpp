@@ -57,14 +57,7 @@ bool DiffusionResult::add(const DiffusionResult& other) {
   if (!add_common(other)) return false;
   sums.merge(other.sums);
   trajectories += other.trajectories;
-  survived += other.survived;
-  pinned += other.pinned;
-  escaped += other.escaped;
-  singular += other.singular;
-  unbounded += other.unbounded;
-  capped += other.capped;
-  unresolved += other.unresolved;
-  lost += other.lost;
+  add_fates(other);
   collisions += other.collisions;
   energy_change = std::max(energy_change, other.energy_change);
   return true;

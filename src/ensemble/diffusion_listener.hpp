@@ -95,42 +95,13 @@ class DiffusionListener : public Listener {
       report =
           report_of({}, end.state, fate, "it is so far away that |r - r(0)|^4 is not a number");
     }
-    count(sum, fate);
+    ++sum.trajectories;
+    sum.count(fate);
     for (std::size_t k = 0; k < samples; ++k) sum.sums.add(trajectory, k, squares[k]);
     sum.collisions += end.hits;
     sum.digest += hash_(index, fate, time, end.hits, end.last_wall, end.state,
                         std::span(squares).first(samples));
     if (is_failure(fate)) keep_first(sum.reports, index, report);
-  }
-
-  static void count(DiffusionResult& sum, Fate fate) {
-    ++sum.trajectories;
-    switch (fate) {
-      case Fate::survived:
-        ++sum.survived;
-        break;
-      case Fate::pinned:
-        ++sum.survived, ++sum.pinned;
-        break;
-      case Fate::capped:
-        ++sum.capped;
-        break;
-      case Fate::escaped:
-        ++sum.escaped;
-        break;
-      case Fate::singular:
-        ++sum.singular;
-        break;
-      case Fate::unbounded:
-        ++sum.unbounded;
-        break;
-      case Fate::unresolved:
-        ++sum.unresolved;
-        break;
-      case Fate::lost:
-        ++sum.lost;
-        break;
-    }
   }
 
   const System& system_;

@@ -28,13 +28,7 @@ struct Tally {
     result.points += r.points;
     result.collisions += r.collisions;
     result.incomplete += r.incomplete;
-    result.pinned += r.pinned;
-    result.escaped += r.escaped;
-    result.capped += r.capped;
-    result.singular += r.singular;
-    result.unbounded += r.unbounded;
-    result.unresolved += r.unresolved;
-    result.lost += r.lost;
+    result.add_fates(r);
     result.digest += r.digest;
     result.steps += r.steps;
     result.energy_error += r.energy_error;
@@ -152,31 +146,7 @@ class Follower : public Listener {
       r.digest += hashes[p];
       r.incomplete += counts[p] < system_.section.points;
       r.collisions += particle.hits;
-      switch (particle.fate) {
-        case Fate::survived:
-          break;
-        case Fate::pinned:
-          ++r.pinned;
-          break;
-        case Fate::escaped:
-          ++r.escaped;
-          break;
-        case Fate::capped:
-          ++r.capped;
-          break;
-        case Fate::singular:
-          ++r.singular;
-          break;
-        case Fate::unbounded:
-          ++r.unbounded;
-          break;
-        case Fate::unresolved:
-          ++r.unresolved;
-          break;
-        case Fate::lost:
-          ++r.lost;
-          break;
-      }
+      r.count(particle.fate);
       if (is_failure(particle.fate))
         keep_first(r.reports, orbit * particles + p, particle.report);
       else

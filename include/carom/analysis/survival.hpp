@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "carom/motion/state.hpp"
+#include "carom/analysis/fate_counts.hpp"
 
 namespace carom {
 
@@ -21,13 +21,12 @@ const std::vector<std::uint64_t>& reported_hits();
 /// Counts of an ensemble; merging is addition, so that order cannot matter.
 ///
 /// A trajectory is *gone* when it escaped or is unbounded. The cap on hits ends a trajectory while
-/// it is still there: it counts as a survivor at every time.
-struct SurvivalCounts {
+/// it is still there: it counts as a survivor at every time, and among those that survived.
+struct SurvivalCounts : FateCounts {
   std::vector<double> times;                ///< report times, increasing
   std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
   std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
-  std::uint64_t trajectories = 0, escaped = 0, survived = 0, pinned = 0, capped = 0, singular = 0,
-                unbounded = 0, unresolved = 0, lost = 0, collisions = 0;
+  std::uint64_t trajectories = 0, collisions = 0;
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; counted by whoever follows them
   std::uint64_t most_hits = 0;  ///< of a single trajectory
   double energy_change = 0.0;   ///< the largest of a particle under forces; set by the ensemble

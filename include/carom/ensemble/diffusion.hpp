@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "carom/analysis/fate_counts.hpp"
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/ensemble/parts.hpp"
 #include "carom/ensemble/system.hpp"
@@ -33,11 +34,10 @@ Horizon horizon_of(const System&);
 std::string no_diffusion(const Horizon&);
 
 /// What a diffusion run adds up; of an interrupted one, whole trajectories.
-struct DiffusionResult : EnsembleResult {
+struct DiffusionResult : EnsembleResult, FateCounts {
   DisplacementSums sums;
-  /// Particles of all trajectories by how they ended before the last report time.
-  std::uint64_t trajectories = 0, survived = 0, pinned = 0, escaped = 0, singular = 0,
-                unbounded = 0, capped = 0, unresolved = 0, lost = 0;
+  /// Particles of all trajectories; the fates are those before the last report time.
+  std::uint64_t trajectories = 0;
   std::uint64_t collisions = 0;
   double energy_change =
       0.0;  ///< with forces: the largest of a trajectory from its start to its end

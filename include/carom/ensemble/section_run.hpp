@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "carom/analysis/fate_counts.hpp"
 #include "carom/analysis/section.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
@@ -30,13 +31,11 @@ struct SectionOptions {
 };
 
 /// What a section run counts; the points themselves go to SectionOptions::points.
-struct SectionResult {
+struct SectionResult : FateCounts {
   std::uint64_t orbits = 0;  ///< trajectories that were followed to their end
   std::uint64_t points = 0, collisions = 0;
   std::uint64_t incomplete = 0;  ///< particles that met the section less often than asked for
-  std::uint64_t pinned = 0, escaped = 0, capped = 0, singular = 0, unbounded = 0, unresolved = 0,
-                lost = 0;
-  std::uint64_t digest = 0;  ///< sum of a hash of each particle's points
+  std::uint64_t digest = 0;      ///< sum of a hash of each particle's points
   bool complete = true;
   double seconds = 0, cpu_seconds = 0;
   int threads = 1;

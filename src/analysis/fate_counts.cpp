@@ -1,0 +1,45 @@
+#include "carom/analysis/fate_counts.hpp"
+
+namespace carom {
+
+void FateCounts::count(Fate fate) {
+  switch (fate) {
+    case Fate::pinned:
+      ++pinned;
+      [[fallthrough]];
+    case Fate::survived:
+      ++survived;
+      return;
+    case Fate::capped:
+      ++capped;
+      return;
+    case Fate::escaped:
+      ++escaped;
+      return;
+    case Fate::singular:
+      ++singular;
+      return;
+    case Fate::unbounded:
+      ++unbounded;
+      return;
+    case Fate::unresolved:
+      ++unresolved;
+      return;
+    case Fate::lost:
+      ++lost;
+      return;
+  }
+}
+
+void FateCounts::add_fates(const FateCounts& other) {
+  survived += other.survived;
+  pinned += other.pinned;
+  capped += other.capped;
+  escaped += other.escaped;
+  singular += other.singular;
+  unbounded += other.unbounded;
+  unresolved += other.unresolved;
+  lost += other.lost;
+}
+
+}  // namespace carom
