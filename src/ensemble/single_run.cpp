@@ -188,6 +188,232 @@ State moved_on(const Particle& particle, const ParticleProgress& progress) {
   return state;
 }
 
+/// One run, from its start or from where a stored one ended.
+class SingleRun {
+ public:
+  SingleRun(const System& system, Observer& observer, const SingleRunOptions& options)
+      : system_(system),
+        options_(options),
+        world_(*system.table, system.dynamics, options.decisions),
+        integrated_(system.dynamics.everywhere ||
+                    (system.dynamics.forces && !system.dynamics.forces->empty())),
+        // Energy is shared by particles that interact, by forces or by contacts.
+        shared_(integrated_ ? system.dynamics.forces && system.dynamics.forces->interacts()
+                            : system.of_discs()),
+        goes_on_(!options.resume.empty()),
+        without_end_(system.run.t_max >= no_last_time) {
+    if (goes_on_) refuse_injections(system, "a run that is continued");
+    if (without_end_) refuse_injections(system, "a run without t_max");
+    if (goes_on_ && options.resume.size() != system.particles.size())
+      throw InputError("the stored run has another number of particles");
+    add_particles(observer);
+    if (estimates_trust(system)) follow_trust();
+    begin_energies();
+  }
+  SingleRun(const SingleRun&) = delete;
+  SingleRun& operator=(const SingleRun&) = delete;
+
+  SingleRunResult run() {
+    fly();
+    for (std::size_t body = 0; body < numbers_.size(); ++body) note_end(body);
+    if (shared_ && !numbers_.empty())
+      for (ParticleProgress& one : progress_) one.energy = progress_[number(0)].energy;
+    return result();
+  }
+
+ private:
+  /// The number in the system of a particle of the world.
+  std::size_t number(std::size_t body) const { return static_cast<std::size_t>(numbers_[body]); }
+  const State& state(std::size_t body) const { return world_.state(static_cast<int>(body)); }
+
+  /// Starts and particles that enter later, or those of the stored run that go on.
+  void add_particles(Observer& observer) {
+    if (system_.run.collisions > 0) world_.limit_hits(system_.run.collisions);
+    if (system_.run.sample > 0.0) world_.sample_every(system_.run.sample);
+    if (!goes_on_) add_starts(world_, sampler_, options_.trajectory);
+    std::vector<Time> entries(all_.size());
+    for (const InjectedParticle& late : Injector(system_).add(world_, options_.trajectory)) {
+      all_.push_back(late.particle);
+      entries.push_back(late.state.time);
+    }
+    progress_.resize(all_.size());
+    for (std::size_t p = 0; p < all_.size(); ++p) {
+      if (goes_on_) {
+        const ParticleProgress& before = progress_[p] = options_.resume[p];
+        const bool capped = system_.run.collisions > 0 && before.hits >= system_.run.collisions;
+        if (gone(before.fate) || capped || (before.fate == Fate::pinned && without_end_)) continue;
+        world_.add(all_[p], before.state, before.hits);
+      }
+      numbers_.push_back(static_cast<int>(p));
+      particles_.push_back(all_[p]);
+    }
+    passed_on_.emplace(observer, numbers_, std::move(entries));
+  }
+
+  void follow_trust() {
+    // What is written is the first particle's.
+    const bool first = !numbers_.empty() && numbers_.front() == 0;
+    trust_.emplace(*system_.table, system_.run.trust_tolerance, first ? options_.written : nullptr);
+    for (std::size_t body = 0; body < numbers_.size(); ++body)
+      trust_->follow(world_.particle(static_cast<int>(body)), state(body),
+                     world_.hits(static_cast<int>(body)),
+                     goes_on_ ? &progress_[number(body)].trust : nullptr);
+    passed_on_->estimate(&*trust_);
+  }
+
+  void begin_energies() {
+    at_start_ = energies_of([&](std::size_t body) { return state(body); });
+    free_.emplace(all_, shared_);
+    for (std::size_t body = 0; body < numbers_.size(); ++body) {
+      const EnergyBalance& before = progress_[number(body)].energy;
+      if (integrated_)
+        world_.set_energy_balance(static_cast<int>(body), before);
+      else
+        free_->begin(numbers_[body], before, state(body));
+    }
+    if (integrated_)
+      world_.watch_energy();
+    else
+      passed_on_->watch(&*free_);
+  }
+  /// Of each particle of the world, or of all together.
+  template <class StateOf>
+  std::vector<Energy> energies_of(const StateOf& state_of) {
+    const Dynamics& dynamics = system_.dynamics;
+    const std::size_t count = numbers_.size();
+    std::vector<State> states;
+    for (std::size_t body = 0; body < count; ++body) states.push_back(state_of(body));
+    if (shared_)
+      return std::vector<Energy>(
+          count, energy_of(particles_, states, dynamics, *system_.table, &summing_));
+    std::vector<Energy> energies;
+    for (std::size_t body = 0; body < count; ++body)
+      energies.push_back(
+          energy_of({&particles_[body], 1}, {&states[body], 1}, dynamics, *system_.table));
+    return energies;
+  }
+
+  void fly() {
+    // Pinned particles are known at the start: without a last time nothing more is to come of them,
+    // and their samples would have no end.
+    if (without_end_ && !goes_on_) world_.run_until(0.0, *passed_on_, interrupted_);
+    bool moving = false;
+    for (std::size_t body = 0; body < numbers_.size(); ++body)
+      moving = moving || !world_.finished(static_cast<int>(body));
+    if (moving || !without_end_) world_.run_until(system_.run.t_max, *passed_on_, interrupted_);
+  }
+
+  void note_end(std::size_t body) {
+    const int b = static_cast<int>(body);
+    const std::size_t p = number(body);
+    ParticleProgress& now = progress_[p];
+    now.state = world_.state(b);
+    now.hits = world_.hits(b);
+    now.contacts += passed_on_->contacts_of(p);
+    if (world_.last_wall(b) >= 0) now.last_wall = world_.last_wall(b);
+    now.hole = world_.hole(b);
+    if (trust_) now.trust = trust_->trust(b);
+    now.energy = integrated_ ? world_.energy_balance(b) : free_->of(numbers_[body]);
+    const std::optional<EndEvent>& end = passed_on_->end_of(p);
+    now.fate = end ? end->fate : Fate::survived;
+    const bool until_stop = now.fate == Fate::survived || now.fate == Fate::pinned;
+    // What is pinned without a last time has been followed to its end.
+    const bool endless = without_end_ && now.fate == Fate::pinned;
+    now.end = !until_stop                   ? end->time
+              : was_interrupted_ || endless ? now.state.time
+                                            : Time(system_.run.t_max);
+  }
+
+  /// The states of all particles at their ends.
+  std::vector<State> last_states() const {
+    std::vector<State> last(all_.size());
+    for (std::size_t p = 0; p < all_.size(); ++p) last[p] = moved_on(all_[p], progress_[p]);
+    for (std::size_t body = 0; body < numbers_.size(); ++body)
+      last[number(body)] = world_.state_at(static_cast<int>(body), progress_[number(body)].end);
+    return last;
+  }
+
+  std::vector<EnergyError> energy_errors(const std::vector<State>& last) {
+    // Particles that share their energy are all there until the first of them is gone.
+    const bool all_are_there =
+        numbers_.size() == all_.size() &&
+        std::none_of(progress_.begin(), progress_.end(), [](const ParticleProgress& one) {
+          return gone(one.fate) || one.fate == Fate::capped;
+        });
+    const std::vector<Energy> at_end =
+        energies_of([&](std::size_t body) { return last[number(body)]; });
+    std::vector<EnergyError> errors;
+    for (const ParticleProgress& one : progress_)
+      errors.push_back(one.energy.error_at_end(one.energy.change, 0.0));
+    for (std::size_t body = 0; body < numbers_.size(); ++body) {
+      const std::size_t p = number(body);
+      if (shared_ ? all_are_there && !summing_.stopped() : integrated_) {
+        const double before = goes_on_ ? options_.resume[p].energy.change : 0.0;
+        const double change = at_end[body].total() - at_start_[body].total();
+        errors[p] = progress_[p].energy.error_at_end(before + change, at_end[body].kinetic);
+      } else if (!shared_) {
+        const double error = speed_error(all_[p], last[p]);
+        errors[p] = {error, larger(errors[p].largest, std::fabs(error))};
+      }
+    }
+    return errors;
+  }
+
+  SingleRunResult result() {
+    const std::vector<State> last = last_states();
+    const std::vector<EnergyError> errors = energy_errors(last);
+    SingleRunResult result;
+    for (std::size_t p = 0; p < all_.size(); ++p) {
+      result.particles.push_back(as_seen(system_, progress_[p], last[p], errors[p]));
+      RunEnd& end = result.particles.back();
+      if (!trust_) end.progress.trust.open = false;  // an earlier part of the run may have flown
+      end.trust =
+          trust_ ? trust_->at_end(all_[p], progress_[p].state, progress_[p].trust, progress_[p].end)
+                 : end.progress.trust;
+      result.collisions += progress_[p].hits;
+      result.contacts += progress_[p].contacts;
+    }
+    result.contacts /= 2;
+    for (std::size_t body = 0; body < numbers_.size(); ++body)
+      result.particles[number(body)].report = world_.report(static_cast<int>(body));
+    result.interrupted = was_interrupted_;
+    result.decisions = world_.decisions();
+    result.steps = options_.steps;
+    result.steps += world_.step_counts();
+    result.seconds = watch_.seconds();
+    result.cpu_seconds = watch_.cpu_seconds();
+    if (options_.estimate_state_error && !goes_on_ && !was_interrupted_) {
+      double end = 0.0;
+      for (const ParticleProgress& p : progress_) end = std::max(end, p.end.value());
+      result.state_error = state_error(system_, options_.trajectory, end, options_.interrupted);
+    }
+    return result;
+  }
+
+  const System& system_;
+  const SingleRunOptions& options_;
+  const Stopwatch watch_;
+  World world_;
+  const bool integrated_, shared_, goes_on_, without_end_;
+  const Sampler sampler_{system_, options_.interrupted};
+  bool was_interrupted_ = false;
+  const std::function<bool()> interrupted_ = [this] {
+    was_interrupted_ = was_interrupted_ || (options_.interrupted && options_.interrupted());
+    return was_interrupted_;
+  };
+  /// The energies of many that interact take seconds: worth nothing where that was interrupted.
+  Interrupt summing_{&interrupted_};
+  std::vector<Particle> all_ = system_.particles;  ///< those that enter later, too
+  std::vector<ParticleProgress> progress_;         ///< of each of all
+  // Particles that ended in an earlier part of the run are not in the world.
+  std::vector<int> numbers_;
+  std::vector<Particle> particles_;
+  std::optional<Renumbering> passed_on_;
+  std::optional<TrustRecorder> trust_;
+  std::optional<FreeEnergies> free_;
+  std::vector<Energy> at_start_;
+};
+
 }  // namespace
 
 bool estimates_trust(const System& system) {
@@ -197,175 +423,7 @@ bool estimates_trust(const System& system) {
 
 SingleRunResult run_single(const System& system, Observer& observer,
                            const SingleRunOptions& options) {
-  const Stopwatch watch;
-  World world(*system.table, system.dynamics, options.decisions);
-  std::vector<Particle> all = system.particles;
-  if (!options.resume.empty()) refuse_injections(system, "a run that is continued");
-  if (system.run.t_max >= no_last_time) refuse_injections(system, "a run without t_max");
-  if (!options.resume.empty() && options.resume.size() != all.size())
-    throw InputError("the stored run has another number of particles");
-  if (system.run.collisions > 0) world.limit_hits(system.run.collisions);
-  if (system.run.sample > 0.0) world.sample_every(system.run.sample);
-
-  const Sampler sampler(system, options.interrupted);
-  std::vector<int> numbers;
-  if (options.resume.empty()) add_starts(world, sampler, options.trajectory);
-  std::vector<Time> entries(all.size());
-  for (const InjectedParticle& late : Injector(system).add(world, options.trajectory)) {
-    all.push_back(late.particle);
-    entries.push_back(late.state.time);
-  }
-  const std::size_t count = all.size();
-  std::vector<ParticleProgress> progress(count);
-  for (std::size_t p = 0; p < count; ++p) {
-    if (!options.resume.empty()) {
-      progress[p] = options.resume[p];
-      const bool capped = system.run.collisions > 0 && progress[p].hits >= system.run.collisions;
-      const bool pinned = progress[p].fate == Fate::pinned && system.run.t_max >= no_last_time;
-      if (gone(progress[p].fate) || capped || pinned) continue;
-      world.add(all[p], progress[p].state, progress[p].hits);
-    }
-    numbers.push_back(static_cast<int>(p));
-  }
-
-  Renumbering passed_on(observer, numbers, std::move(entries));
-  std::optional<TrustRecorder> trust;
-  if (estimates_trust(system)) {
-    // What is written is the first particle's.
-    const bool first = !numbers.empty() && numbers.front() == 0;
-    trust.emplace(*system.table, system.run.trust_tolerance, first ? options.written : nullptr);
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      const int body = static_cast<int>(i);
-      const Trust& before = progress[static_cast<std::size_t>(numbers[i])].trust;
-      trust->follow(world.particle(body), world.state(body), world.hits(body),
-                    options.resume.empty() ? nullptr : &before);
-    }
-    passed_on.estimate(&*trust);
-  }
-  SingleRunResult result;
-  const ForceField* field = system.dynamics.forces.get();
-  const bool integrated = system.dynamics.everywhere || (field != nullptr && !field->empty());
-  // Energy is shared by particles that interact, by forces or by contacts.
-  const bool shared = integrated ? field != nullptr && field->interacts() : system.of_discs();
-  std::vector<Particle> particles;
-  for (const int p : numbers) particles.push_back(all[static_cast<std::size_t>(p)]);
-  const std::function<bool()> interrupted = [&] {
-    result.interrupted = result.interrupted || (options.interrupted && options.interrupted());
-    return result.interrupted;
-  };
-  // The energies of many that interact take seconds: worth nothing where that was interrupted.
-  Interrupt summing(&interrupted);
-  const auto energies_now = [&](const auto& state_of) {
-    std::vector<Energy> energies;
-    std::vector<State> states;
-    for (std::size_t i = 0; i < numbers.size(); ++i) states.push_back(state_of(i));
-    if (shared)
-      return std::vector<Energy>(
-          numbers.size(), energy_of(particles, states, system.dynamics, *system.table, &summing));
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      energies.push_back(
-          energy_of({&particles[i], 1}, {&states[i], 1}, system.dynamics, *system.table));
-    return energies;
-  };
-  const auto state_now = [&](std::size_t i) { return world.state(static_cast<int>(i)); };
-  const std::vector<Energy> at_start = energies_now(state_now);
-  FreeEnergies free(all, shared);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const EnergyBalance& before = progress[static_cast<std::size_t>(numbers[i])].energy;
-    if (integrated)
-      world.set_energy_balance(static_cast<int>(i), before);
-    else
-      free.begin(numbers[i], before, state_now(i));
-  }
-  if (integrated)
-    world.watch_energy();
-  else
-    passed_on.watch(&free);
-  // Pinned particles are known at the start: without a last time nothing more is to come of them,
-  // and their samples would have no end.
-  const bool without_end = system.run.t_max >= no_last_time;
-  if (without_end && options.resume.empty()) world.run_until(0.0, passed_on, interrupted);
-  bool moving = false;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    moving = moving || !world.finished(static_cast<int>(i));
-  if (moving || !without_end) world.run_until(system.run.t_max, passed_on, interrupted);
-
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const std::size_t p = static_cast<std::size_t>(numbers[i]);
-    const int body = static_cast<int>(i);
-    ParticleProgress& now = progress[p];
-    now.state = world.state(body);
-    now.hits = world.hits(body);
-    now.contacts += passed_on.contacts_of(p);
-    if (world.last_wall(body) >= 0) now.last_wall = world.last_wall(body);
-    now.hole = world.hole(body);
-    if (trust) now.trust = trust->trust(body);
-    now.energy = integrated ? world.energy_balance(body) : free.of(numbers[i]);
-    const std::optional<EndEvent>& end = passed_on.end_of(p);
-    now.fate = end ? end->fate : Fate::survived;
-    const bool until_stop = now.fate == Fate::survived || now.fate == Fate::pinned;
-    // What is pinned without a last time has been followed to its end.
-    const bool endless = without_end && now.fate == Fate::pinned;
-    now.end = !until_stop                     ? end->time
-              : result.interrupted || endless ? now.state.time
-                                              : Time(system.run.t_max);
-  }
-  if (shared && !numbers.empty())
-    for (ParticleProgress& one : progress)
-      one.energy = progress[static_cast<std::size_t>(numbers.front())].energy;
-  std::vector<State> last(count);
-  for (std::size_t p = 0; p < count; ++p) last[p] = moved_on(all[p], progress[p]);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const std::size_t p = static_cast<std::size_t>(numbers[i]);
-    last[p] = world.state_at(static_cast<int>(i), progress[p].end);
-  }
-  // Particles that share their energy are all there until the first of them is gone.
-  const bool everybody =
-      numbers.size() == count &&
-      std::none_of(progress.begin(), progress.end(), [](const ParticleProgress& one) {
-        return gone(one.fate) || one.fate == Fate::capped;
-      });
-  const std::vector<Energy> at_end =
-      energies_now([&](std::size_t i) { return last[static_cast<std::size_t>(numbers[i])]; });
-  std::vector<EnergyError> errors;
-  for (const ParticleProgress& one : progress)
-    errors.push_back(one.energy.error_at_end(one.energy.change, 0.0));
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const std::size_t p = static_cast<std::size_t>(numbers[i]);
-    const EnergyBalance& seen = progress[p].energy;
-    if (shared ? everybody && !summing.stopped() : integrated) {
-      const double before = options.resume.empty() ? 0.0 : options.resume[p].energy.change;
-      errors[p] =
-          seen.error_at_end(before + (at_end[i].total() - at_start[i].total()), at_end[i].kinetic);
-    } else if (!shared) {
-      const double error = speed_error(all[p], last[p]);
-      errors[p] = {error, larger(errors[p].largest, std::fabs(error))};
-    }
-  }
-  for (std::size_t p = 0; p < count; ++p) {
-    result.particles.push_back(as_seen(system, progress[p], last[p], errors[p]));
-    RunEnd& end = result.particles.back();
-    if (!trust) end.progress.trust.open = false;  // an earlier part of the run may have flown
-    end.trust = trust ? trust->at_end(all[p], progress[p].state, progress[p].trust, progress[p].end)
-                      : end.progress.trust;
-    result.collisions += progress[p].hits;
-    result.contacts += progress[p].contacts;
-  }
-  result.contacts /= 2;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    result.particles[static_cast<std::size_t>(numbers[i])].report =
-        world.report(static_cast<int>(i));
-  result.decisions = world.decisions();
-  result.steps = options.steps;
-  result.steps += world.step_counts();
-  result.seconds = watch.seconds();
-  result.cpu_seconds = watch.cpu_seconds();
-  if (options.estimate_state_error && options.resume.empty() && !result.interrupted) {
-    double end = 0.0;
-    for (const ParticleProgress& p : progress) end = std::max(end, p.end.value());
-    result.state_error = state_error(system, options.trajectory, end, options.interrupted);
-  }
-  return result;
+  return SingleRun(system, observer, options).run();
 }
 
 }  // namespace carom
