@@ -77,39 +77,43 @@ CAROM_INLINE Real cut_of_arc(const View& f, const CircleView& z, int i, const Ma
 
 /// A convex loop alone, from one of its walls: the first wall, backwards for a clockwise flight,
 /// whose joint there lies inside the circle or that is cut twice; or the start.
-template <Kind kind>
+template <bool clockwise, Kind kind>
 CAROM_INLINE Choice exit_of_loop_by_circle(const View& f) {
   const LaneTable& t = f.table;
   if (t.pieces == 1) return {Real(0.0), Mask(true), Real(0.0)};
   const CircleView z = circle_of(f);
   // The start comes last in the flight's order; `behind`: of the walls from it on, `any`: of all.
   Real behind(-1.0), any = f.start_piece;
-  const double order = t.clockwise ? 1.0 : -1.0;
-  const Real start_in_order = order * f.start_piece;
   Real least(__builtin_huge_val()), least_cut = least;
   Mask certain(true);
   JointOfCircle before = joint_at(f, z, 0, least);
   const JointOfCircle first = before;
   for (int k = 0; k < t.pieces; ++k) {
-    const int i = t.clockwise ? k : t.pieces - 1 - k;
-    const int joint = t.clockwise ? i + 1 : i;
+    const int i = clockwise ? k : t.pieces - 1 - k;
+    const int joint = clockwise ? i + 1 : i;
     const JointOfCircle after = k + 1 == t.pieces ? first : joint_at(f, z, joint, least);
     Real cut;
     if (kind.circles && t.bent[i]) {
       cut = cut_of_arc(f, z, i, Mask(false));
       certain = certain && (before.inside || after.inside || abs(cut) > z.lengths);
     } else {
-      cut = t.clockwise ? cut_of_segment(f, z, i, before) : cut_of_segment(f, z, i, after);
+      cut = cut_of_segment(f, z, i, clockwise ? before : after);
       least_cut = least_size(least_cut, cut);
     }
     const Real piece(counted[i]);
     const Mask leaves = before.inside || (cut > 0.0 && !after.inside && f.start_piece != piece);
     where(leaves, any) = piece;
-    where(leaves && start_in_order >= Real(order * counted[i]), behind) = piece;
+    where(leaves && (clockwise ? f.start_piece >= piece : f.start_piece <= piece), behind) = piece;
     before = after;
   }
   certain = certain && least > z.joints && least_cut > z.squares && any >= 0.0;
   return {choose(behind >= 0.0, behind, any), certain, Real(0.0)};
+}
+
+template <Kind kind>
+CAROM_INLINE Choice exit_of_loop_by_circle(const View& f) {
+  return f.table.clockwise ? exit_of_loop_by_circle<true, kind>(f)
+                           : exit_of_loop_by_circle<false, kind>(f);
 }
 
 /// Where a flight leaves through a piece: kappa = p / q.
