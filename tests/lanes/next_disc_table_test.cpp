@@ -35,11 +35,11 @@ std::size_t entry_of(const LaneTable& t, Vector velocity, double aside) {
   const bool steep = std::fabs(velocity.x) < std::fabs(velocity.y);
   const double small = steep ? velocity.x : velocity.y, big = steep ? velocity.y : velocity.x;
   const double quadrant = (steep ? 2.0 : 0.0) + (big < 0.0 ? 1.0 : 0.0);
-  const double direction = std::nearbyint(small * t.directions_per_unit +
-                                          (quadrant + 0.5) * LaneTable::sight_directions);
+  const double direction =
+      std::nearbyint(small * t.directions_per_unit + (quadrant + 0.5) * LaneTable::disc_directions);
   const double offset =
-      std::nearbyint(aside * t.offsets_per_length + 0.5 * LaneTable::sight_offsets);
-  return static_cast<std::size_t>(direction * LaneTable::sight_offsets + offset);
+      std::nearbyint(aside * t.offsets_per_length + 0.5 * LaneTable::disc_offsets);
+  return static_cast<std::size_t>(direction * LaneTable::disc_offsets + offset);
 }
 
 struct Cell {
@@ -90,8 +90,8 @@ ByTable by_table(const LaneTable& t, Vector velocity, double aside) {
   ByTable found;
   double side = aside;
   while (found.asked++ < 200) {
-    const unsigned seen = t.sights[entry_of(t, velocity, side)];
-    if (seen == LaneTable::no_sight ||
+    const unsigned seen = t.next_discs[entry_of(t, velocity, side)];
+    if (seen == LaneTable::no_discs ||
         std::abs(found.cell.first) + std::abs(found.cell.second) > LaneTable::farthest_cell) {
       found.known = false;
       return found;
@@ -108,7 +108,7 @@ ByTable by_table(const LaneTable& t, Vector velocity, double aside) {
   return found;
 }
 
-TEST(DiscsInSight, AreThoseThatFlightsMeet) {
+TEST(NextDiscTable, AreThoseThatFlightsMeet) {
   Dice dice(17);
   long tables = 0, one = 0, two = 0, several = 0, unknown = 0, in_thin = 0;
   for (long k = 0; k < tests::cases(12, 400); ++k) {
@@ -126,10 +126,10 @@ TEST(DiscsInSight, AreThoseThatFlightsMeet) {
     const HitFinder finder(table);
     if (!lanes::misfit(table).empty()) continue;
     LaneTable t = lanes::make_lane_table(finder);
-    const auto entries = lanes::discs_in_sight(t);
+    const auto entries = lanes::make_next_discs(t);
     if (entries.empty()) continue;
     ++tables;
-    ASSERT_EQ(t.sights, entries.data());
+    ASSERT_EQ(t.next_discs, entries.data());
     for (int i = 0; i < 3000; ++i) {
       // Across the rows, too, where one disc after the other is passed.
       Vector velocity = thin && dice.coin()
@@ -165,7 +165,7 @@ TEST(DiscsInSight, AreThoseThatFlightsMeet) {
 
 // Discs of one row are passed one after the other: none may name the disc that the flight began on,
 // nor each other.
-TEST(DiscsInSight, OfARowLieAhead) {
+TEST(NextDiscTable, OfARowLieAhead) {
   struct Case {
     double height, radius, slope, aside;
   };
@@ -206,7 +206,7 @@ TEST(DiscsInSight, OfARowLieAhead) {
 
 // Few flights ask more than once, be the horizon finite or not. Discs too small for the margins
 // have no table.
-TEST(DiscsInSight, AreSeenAtOnce) {
+TEST(NextDiscTable, AreSeenAtOnce) {
   struct Case {
     double height, radius;
     int most;  ///< of 10 000 flights
@@ -218,8 +218,8 @@ TEST(DiscsInSight, AreSeenAtOnce) {
         lattice_of_discs({1, 0}, {c.height < 1.0 ? 0.5 : 0.0, c.height}, c.radius, {0, 0});
     const HitFinder finder(table);
     LaneTable t = lanes::make_lane_table(finder);
-    const auto entries = lanes::discs_in_sight(t);
-    ASSERT_EQ(t.sights, entries.data());
+    const auto entries = lanes::make_next_discs(t);
+    ASSERT_EQ(t.next_discs, entries.data());
     int more = 0;
     for (int i = 0; i < 10000; ++i) {
       const Vector v = dice.direction();
@@ -234,8 +234,8 @@ TEST(DiscsInSight, AreSeenAtOnce) {
   const Table table = lattice_of_discs({1, 0}, {0, 1}, 0.002, {0, 0});
   const HitFinder finder(table);
   LaneTable t = lanes::make_lane_table(finder);
-  EXPECT_TRUE(lanes::discs_in_sight(t).empty());
-  EXPECT_EQ(t.sights, nullptr);
+  EXPECT_TRUE(lanes::make_next_discs(t).empty());
+  EXPECT_EQ(t.next_discs, nullptr);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Checks that the sources keep the rules of the tables below: dependencies, packages, lengths, format.
 
-    structure.py includes | umbrella | libm | length | format  [ROOT]
+    structure.py includes | umbrella | libm | length | format | headers  [ROOT]
 
 Prints one line for each fault; the exit status is then 1.
 """
+import os
 import pathlib
 import re
 import shutil
@@ -205,9 +206,21 @@ def check_format(root):
         yield f"{pathlib.Path(path).relative_to(root).as_posix()}:{line}: clang-format-14 -i FILE writes it otherwise"
 
 
+def check_headers(root):
+    """Every header of lanes compiles alone: kernels are read, and checked by tools, one header at a time."""
+    flags = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-x", "c++", "-"]
+    folders = [f"-I{root / folder}" for folder in ("src", "include", "geometry/include")]
+    for path in sorted((root / "src/lanes").rglob("*.hpp")):
+        name = path.relative_to(root / "src").as_posix()
+        done = subprocess.run([os.environ.get("CXX", "c++"), *folders, *flags], input=f'#include "{name}"\n',
+                              capture_output=True, text=True)
+        if done.returncode or done.stderr:
+            yield f"src/{name} does not compile alone: {(done.stderr.splitlines() or [''])[-1]}"
+
+
 SKIPPED = 77
 CHECKS = {"includes": check_includes, "umbrella": check_umbrella, "libm": check_libm, "length": check_length,
-          "format": check_format}
+          "format": check_format, "headers": check_headers}
 
 
 def main(arguments):

@@ -107,6 +107,14 @@ class Length(unittest.TestCase):
         self.assertEqual(len(faults("length", {"src/io/long.cpp": "\n" * 500})), 0)
 
 
+@unittest.skipUnless(shutil.which("c++"), "no compiler is called c++")
+class Headers(unittest.TestCase):
+    def test_headers_that_need_others_are_found(self):
+        found = faults("headers", {"src/lanes/good.hpp": "#pragma once\nint f(int);\n",
+                                   "src/lanes/bad.hpp": "#pragma once\ninline Real twice(Real x);\n"})
+        self.assertEqual([fault.split(" does")[0] for fault in found], ["src/lanes/bad.hpp"])
+
+
 @unittest.skipUnless(shutil.which("clang-format-14"), "clang-format-14 is not installed")
 class Format(unittest.TestCase):
     def test_other_formats_are_found(self):

@@ -59,11 +59,11 @@ class FreeLanes::Implementation {
         finder(the_table, options),
         pieces(lanes::make_lane_table(finder, reach_of(particles))),
         turn(turn_of(particles.at(0).omega)),
-        in_sight(lanes::discs_in_sight(pieces)),
+        next_discs(lanes::make_next_discs(pieces)),
         kernels(lanes::kernels_for(set, pieces, turn)) {
     pieces.clockwise = turn == Turn::clockwise;
     if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
-    for (Lanes* l : {&main, &entrance}) l->pack.walkers = &walkers;
+    for (Lanes* l : {&main, &entrance}) l->pack.search_pack = &search_pack;
     if (!available(set))
       throw std::invalid_argument("this machine does not have the instruction set");
   }
@@ -115,7 +115,7 @@ class FreeLanes::Implementation {
   HitFinder finder;
   LaneTable pieces;
   Turn turn;
-  std::vector<std::uint32_t> in_sight;
+  std::vector<std::uint32_t> next_discs;
   lanes::Kernels kernels;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   std::vector<double> times;  ///< to report at
@@ -196,7 +196,8 @@ class FreeLanes::Implementation {
     }
   }
 
-  /// First flights, which may start anywhere; who has made them waits for a lane.
+  /// First flights, which may start anywhere. A particle that has made its first one waits for a
+  /// lane.
   void enter_several() {
     entrance.clear();
     for (int lane = 0; lane < LanePack::lanes && begin(entrance, lane);) ++lane;
@@ -282,7 +283,7 @@ class FreeLanes::Implementation {
       const auto hits = static_cast<std::uint64_t>(lanes.pack.hits(lane));
       if (hits == mine.told) continue;
       mine.told = hits;
-      // Of its last one a call tells.
+      // A call reports its last one.
       if (!hit(mine.start.tag, state_on_wall(lanes.pack, lane), hits) && hits < limit)
         enough.push_back(lane);
     }
@@ -341,7 +342,7 @@ class FreeLanes::Implementation {
     mine.start.state = state_on_wall(pack, lane);
   }
 
-  /// Does the trajectory go on?
+  /// Answers a call; false if the trajectory has ended.
   bool answer(Lanes& lanes, int number) {
     const int lane = lanes.pack.lane[number];
     const Call call = lanes.pack.call[number];
@@ -353,19 +354,20 @@ class FreeLanes::Implementation {
       const std::size_t before = mine.reported;
       report(mine, last_event(lanes.pack, lane), survives ? last : there, survives);
       lanes.pack.until[lane] = until(lanes, lane);
-      // A first flight that ends when the run does must not be flown by the kernel of those who
-      // stand on walls.
+      // A first flight that ends when the run does must not be flown by the kernel of particles
+      // that stand on walls.
       if (&lanes == &main && call == Call::over && !survives && mine.reported > before) {
         if (lanes.pack.hits(lane) == static_cast<double>(mine.start.hits))
           resume(lanes,
-                 lane);  // on a lattice, who began off the discs must find the first one again
+                 lane);  // on a lattice, a particle that began off the discs must find its first
+                         // one again
         else
           lanes::look_again(lanes.pack, lane);
         return true;
       }
     }
     take_out(lanes, lane);
-    // A hit at the very time that was waited for: the scalar engine knows.
+    // A hit at exactly the awaited time is decided by the scalar engine.
     if (call == Call::undecided || (call == Call::over && !survives)) return go_on(lanes, lane);
     const State& s = mine.start.state;
     ++filter;
@@ -398,7 +400,7 @@ class FreeLanes::Implementation {
     scalar.clear();
     scalar.limit_hits(std::min(limit, mine.start.hits + 1));
     scalar.add(mine.start.particle, mine.start.state, mine.start.hits);
-    // A flight may be long by itself: it is asked on the way.
+    // A single flight may take long: so this is asked meanwhile.
     scalar.run_until(lanes.pack.end, event, [this] { return asked_to_stop(); });
     if (stopped) {
       lanes.leave(lane);
@@ -457,7 +459,7 @@ class FreeLanes::Implementation {
   bool stopped = false;
   Lanes main;
   Lanes entrance;  ///< used where particles are not born on walls and `on_walls` cannot fly them
-  LanePack walkers;
+  LanePack search_pack;
   int waiting = 0;  ///< the next lane of the entrance that may wait
   bool exhausted = false;
 };

@@ -6,7 +6,7 @@
 
 namespace carom::lanes {
 
-/// How flights bend: all particles the same way.
+/// How all particles of a run turn.
 enum class Turn : signed char {
   counter_clockwise = -1,
   straight = 0,
@@ -27,7 +27,7 @@ Kernels ellipse_kernels(const LaneTable&, Turn);
 /// Where products cannot be fused by an instruction: every flight is left to the scalar engine.
 Kernels no_kernels();
 
-/// Those of the instruction set for this table.
+/// The kernels of an instruction set for this table.
 Kernels kernels_for(InstructionSet, const LaneTable&, Turn);
 
 }  // namespace carom::lanes

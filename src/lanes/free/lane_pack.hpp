@@ -46,7 +46,7 @@ struct LanePack {
   double directions[lanes] = {}, offsets[lanes] = {}, cut[lanes] = {}, cut_far[lanes] = {},
          passed[lanes] = {};
   double aside_home[lanes] = {}, aside[lanes] = {};
-  alignas(64) unsigned way[lanes] = {};
+  alignas(64) unsigned passed_cell[lanes] = {};
   int cells[2 * lanes] = {};  ///< of hits, since home_first and home_second were written
   double omega[lanes] = {};
   double inverse_half[lanes] = {};  ///< 1/|omega/2|
@@ -67,9 +67,9 @@ struct LanePack {
 
   // A bit for each lane that began off the discs and goes from cell to cell to its first one
   // (next_disc.hpp); and where it does.
-  static constexpr int fewest_walkers = 8, longest_wait = 16;
-  unsigned long long walking = 0;
-  LanePack* walkers = nullptr;
+  static constexpr int fewest_searching = 8, longest_wait = 16;
+  unsigned long long searching = 0;
+  LanePack* search_pack = nullptr;
 
   int calls = 0;
   int lane[lanes] = {};  ///< of each call

@@ -87,13 +87,14 @@ void put_into(LanePack& pack, int lane, const LaneTable& t, const LaneStart& sta
   pack.home_first[lane] = static_cast<double>(s.cell.first);
   pack.home_second[lane] = static_cast<double>(s.cell.second);
   pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
-  // Who begins off the discs passes none of them: what the table says for him is not looked at.
+  // A particle that begins off the discs searches its first one; its entry of the table is not
+  // looked at.
   pack.aside_home[lane] =
       s.wall < 0 ? HUGE_VAL : cross(s.velocity, Vector{t.point_x[0], t.point_y[0]} - s.position);
   look_again(pack, lane);
   pack.cells[2 * lane] = pack.cells[2 * lane + 1] = 0;
   const unsigned long long bit = 1ULL << lane;
-  pack.walking = s.wall < 0 ? pack.walking | bit : pack.walking & ~bit;
+  pack.searching = s.wall < 0 ? pack.searching | bit : pack.searching & ~bit;
   put_particle(pack, lane, t, start.particle);
 }
 

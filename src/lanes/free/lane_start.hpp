@@ -23,10 +23,10 @@ inline bool moderate(double x) { return x > 1e-30 && x < 1e30; }
 /// World::add does.
 bool can_start(const LaneTable&, const HitFinder&, LaneStart&);
 
-/// A flight among discs in sight that was left begins anew.
+/// A flight whose next disc is looked up begins anew.
 inline void look_again(LanePack& pack, int lane) {
   pack.aside[lane] = pack.aside_home[lane];
-  pack.way[lane] = 0;
+  pack.passed_cell[lane] = 0;
 }
 
 /// All numbers of a lane but whether it is active.

@@ -17,8 +17,8 @@ struct LaneTable {
   int own = 0;  ///< the first of them: without the copies below
   int loops = 0;
   int first[most] = {}, count[most] = {};  ///< loops of pieces; a closed curve is a loop of one
-  bool clockwise = false;  ///< how Larmor circles turn: along the walls of a loop, or against them
-  bool convex = false;     ///< one loop, bent outwards or straight everywhere, and nothing in it
+  bool clockwise = false;                  ///< how Larmor circles turn
+  bool convex = false;   ///< one loop, bent outwards or straight everywhere, and nothing in it
   bool by_line = false;  ///< the sides of the joints tell the exit of a straight flight from a wall
   bool by_signs =
       false;  ///< not convex: the sides of the joints do, by entries of `exit` (exit_by_signs.hpp)
@@ -53,8 +53,8 @@ struct LaneTable {
 
   LaneEllipses<most> ellipses;
 
-  // Of a lattice: the start and the way of each edge of the cell, the cell beyond it and where that
-  // begins; the two vectors.
+  // Of a lattice: the start and the direction of each edge of the cell, the cell beyond it and
+  // where that begins; the two vectors.
   static constexpr double near_cell = 16.0, farthest_cell = 120.0;  ///< of a flight
   int edges = 0;                                                    ///< 4 or 6
   int steps = 2;                                                    ///< edges that a kernel crosses
@@ -75,22 +75,23 @@ struct LaneTable {
   static constexpr int most_signs = 10;
   static constexpr unsigned char unknown = most;
   double start_step = 1.0, from_start = 0.0;
-  static constexpr int entries = 1 << 16;  ///< of `sights`, too; more than most_signs 2^most_signs:
-                                           ///< as many as there are words of 16 bits
+  static constexpr int entries = 1 << 16;  ///< of `next_discs`, too; more than most_signs
+                                           ///< 2^most_signs: as many as there are words of 16 bits
   unsigned char exit[entries] = {};
 
-  // What a flight of such a direction sees that stands on a disc, or passes it, with its centre so
-  // far aside (next_disc_table.hpp): in four signed bytes, counted from there, the cells of the
-  // disc that it meets if it cuts it, and of the one that it then meets or passes. Null: not known.
-  static constexpr int sight_directions = 128,
-                       sight_offsets = 64;  ///< of a quadrant; of a direction
-  static constexpr unsigned sight_of(int first, int second, int then_first, int then_second) {
+  // Which discs a flight may meet next that stands on a disc, or passes it (next_disc_table.hpp);
+  // by its direction and by the side of that disc's centre. Four signed bytes, counted from that
+  // disc: the cell of the disc that it meets if it cuts it, and else of the one that it then meets
+  // or passes. Null: there is no table.
+  static constexpr int disc_directions = 128,
+                       disc_offsets = 64;  ///< of a quadrant; of a direction
+  static constexpr unsigned two_discs(int first, int second, int then_first, int then_second) {
     return (static_cast<unsigned>(first) & 255u) | (static_cast<unsigned>(second) & 255u) << 8 |
            (static_cast<unsigned>(then_first) & 255u) << 16 |
            (static_cast<unsigned>(then_second) & 255u) << 24;
   }
-  static constexpr unsigned no_sight = 0x7f7f7f7fu;  ///< beyond farthest_cell
-  const unsigned* sights = nullptr;
+  static constexpr unsigned no_discs = 0x7f7f7f7fu;  ///< beyond farthest_cell
+  const unsigned* next_discs = nullptr;
   double directions_per_unit = 0.0,
          offsets_per_length = 0.0;  ///< of a unit vector's smaller coordinate
   // Lines nearer to a centre certainly cut the disc, up to near_cell or beyond it; farther ones

@@ -21,9 +21,9 @@ constexpr double largest_sizes_of_radius = 0x1p10;
 // Discs farther away in one of the lattice's directions are not looked for.
 constexpr int farthest = 16;
 constexpr long most_without =
-    LaneTable::sight_directions * LaneTable::sight_offsets / 16;  // of a half
-// Who goes from cell to cell goes to his first disc.
-constexpr int steps_of_walkers = 4;
+    LaneTable::disc_directions * LaneTable::disc_offsets / 16;  // of a half
+// Cells crossed per sweep by a lane that has not reached its first disc yet.
+constexpr int steps_to_first_disc = 4;
 
 struct Range {
   double low, high;
@@ -39,8 +39,8 @@ struct Disc {
   double distance;
 };
 
-/// The discs that some flights see: they meet the first one if they cut it, or else the other if
-/// they cut that, or else go on from there.
+/// The answer of the table for some flights: they meet the first disc if they cut it, or else the
+/// other one if they cut that, or else pass both and go on from the second.
 struct Seen {
   const Disc* first;
   const Disc* then;
@@ -67,10 +67,10 @@ struct Candidate {
   Range side, ahead;
 };
 
-class Sights {
+class NextDiscTable {
  public:
-  explicit Sights(LaneTable& t)
-      : table_(t), radius_(t.radius[0]), entries_(LaneTable::entries, LaneTable::no_sight) {
+  explicit NextDiscTable(LaneTable& t)
+      : table_(t), radius_(t.radius[0]), entries_(LaneTable::entries, LaneTable::no_discs) {
     // A disc is cut beyond the margin in which its discriminant would not be certain after the
     // flight, of more cells the longer it is; and passed beyond that of a side. What is entered
     // lies twice as far from both, so it need not be asked.
@@ -82,16 +82,16 @@ class Sights {
     t.cut_within_far = radius_ - margin(LaneTable::farthest_cell);
     t.passed_beyond = radius_ + side_margin * t.size;
     find_discs();
-    t.directions_per_unit = (LaneTable::sight_directions / 2 - 0.6) / std::sqrt(0.5);
-    t.offsets_per_length = (LaneTable::sight_offsets / 2 - 0.6) / widest_;
+    t.directions_per_unit = (LaneTable::disc_directions / 2 - 0.6) / std::sqrt(0.5);
+    t.offsets_per_length = (LaneTable::disc_offsets / 2 - 0.6) / widest_;
   }
 
-  /// Opposite quadrants see opposite discs.
+  /// Opposite quadrants have opposite discs.
   std::vector<std::uint32_t> make() {
     std::vector<const Disc*> all;
     for (const Disc& disc : discs_) all.push_back(&disc);
     for (int quadrant : {0, 2})
-      fill(quadrant, 0, LaneTable::sight_directions, 0, LaneTable::sight_offsets, all);
+      fill(quadrant, 0, LaneTable::disc_directions, 0, LaneTable::disc_offsets, all);
     if (without_ > most_without) entries_.clear();
     return std::move(entries_);
   }
@@ -125,7 +125,7 @@ class Sights {
   /// Those of the entries from one direction and offset up to, but without, another.
   Flights flights(int quadrant, int direction, int end_direction, int offset,
                   int end_offset) const {
-    const double half = 0.5 * LaneTable::sight_directions, middle = 0.5 * LaneTable::sight_offsets;
+    const double half = 0.5 * LaneTable::disc_directions, middle = 0.5 * LaneTable::disc_offsets;
     const double largest = std::sqrt(0.5) * (1.0 + slack);
     const auto small = [&](double at) {
       return std::clamp((at - 0.5 - half) / table_.directions_per_unit, -largest, largest);
@@ -209,7 +209,7 @@ class Sights {
     return best;
   }
 
-  /// What all of these flights see.
+  /// The answer that holds for all of these flights.
   std::optional<Seen> seen_by(const Flights& f, const std::vector<const Disc*>& among,
                               std::vector<const Disc*>& near) {
     if (!look(f, among, near)) return {};
@@ -264,18 +264,18 @@ class Sights {
              const Seen& seen) {
     const auto entry = [&](int q, int d, int o) -> std::uint32_t& {
       return entries_[static_cast<std::size_t>(
-          (q * LaneTable::sight_directions + d) * LaneTable::sight_offsets + o)];
+          (q * LaneTable::disc_directions + d) * LaneTable::disc_offsets + o)];
     };
-    const auto sight = [&](int sign) {
-      return LaneTable::sight_of(sign * seen.first->first, sign * seen.first->second,
-                                 sign * seen.then->first, sign * seen.then->second);
+    const auto discs = [&](int sign) {
+      return LaneTable::two_discs(sign * seen.first->first, sign * seen.first->second,
+                                  sign * seen.then->first, sign * seen.then->second);
     };
-    const std::uint32_t number = sight(1), opposite = sight(-1);
+    const std::uint32_t number = discs(1), opposite = discs(-1);
     for (int d = direction; d < end_direction; ++d)
       for (int o = offset; o < end_offset; ++o) {
         entry(quadrant, d, o) = number;
         if (d > 0)
-          entry(quadrant + 1, LaneTable::sight_directions - d, o) =
+          entry(quadrant + 1, LaneTable::disc_directions - d, o) =
               opposite;  // no flight has direction 0
       }
   }
@@ -293,13 +293,13 @@ class Sights {
 
 }  // namespace
 
-std::vector<std::uint32_t> discs_in_sight(LaneTable& t) {
+std::vector<std::uint32_t> make_next_discs(LaneTable& t) {
   if (t.edges == 0 || t.pieces != 1 || t.divided || !(t.sizes_of_radius < largest_sizes_of_radius))
     return {};
-  std::vector<std::uint32_t> entries = Sights(t).make();
+  std::vector<std::uint32_t> entries = NextDiscTable(t).make();
   if (entries.empty()) return {};
-  t.sights = entries.data();
-  t.steps = steps_of_walkers;
+  t.next_discs = entries.data();
+  t.steps = steps_to_first_disc;
   return entries;
 }
 

@@ -3,7 +3,7 @@
 //
 // The table is made by asking, of all flights of an entry at once, which discs they can cut, in
 // order. Most entries have one answer, others two: a disc, and the one behind it for flights that
-// pass it. Who passes both asks again from the second (docs/developer/lanes.md).
+// pass it. A flight that passes both asks again from the second (docs/developer/lanes.md).
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace carom::lanes {
 
-/// The entries, where LaneTable::sights then points to, and all numbers there that lead to them:
-/// for a cell with one disc and nothing else in it. Empty where too many would have no answer, as
-/// among tiny discs.
-std::vector<std::uint32_t> discs_in_sight(LaneTable&);
+/// The entries, where LaneTable::next_discs then points to, and all numbers there that lead to
+/// them: for a cell with one disc and nothing else in it. Empty where too many would have no
+/// answer, as among tiny discs.
+std::vector<std::uint32_t> make_next_discs(LaneTable&);
 
 }  // namespace carom::lanes

@@ -22,18 +22,19 @@ CAROM_INLINE Vector seen_from(const LaneTable& t, const Vector& start, const Cel
   return geometry::less_multiples(start, cell.first, first, cell.second, second);
 }
 
-/// Cells from home; and the factor of what is as uncertain as the square of a distance.
-CAROM_INLINE Real way_of(const CellOf& cell) { return abs(cell.first) + abs(cell.second); }
-CAROM_INLINE Real doubts_at(const Real& way) { return fused(way, 0.125 * way, Real(1.0)); }
+/// Cells from home; and the factor by which the error of a squared distance grows over so many.
+CAROM_INLINE Real cells_from_home(const CellOf& cell) { return abs(cell.first) + abs(cell.second); }
+CAROM_INLINE Real error_growth(const Real& cells) { return fused(cells, 0.125 * cells, Real(1.0)); }
 
-/// As seen from a cell of the lattice. Its only disc was asked for with these doubts already.
+/// The flight as seen from a cell of the lattice. A single disc was chosen with grown margins
+/// already.
 template <Kind kind>
 CAROM_INLINE void look_from(View& f, const CellOf& cell) {
   f.origin = seen_from(f.table, f.origin, cell);
   if constexpr (kind.single) return;
-  const Real doubts = doubts_at(way_of(cell));
-  f.roots = doubts * f.roots;
-  f.order = doubts * f.order;
+  const Real growth = error_growth(cells_from_home(cell));
+  f.roots = growth * f.roots;
+  f.order = growth * f.order;
   const Mask home = cell.first == 0.0 && cell.second == 0.0;
   f.start_wall = choose(home, f.start_wall, Real(-1.0));
   f.start_piece = choose(home, f.start_piece, Real(-1.0));
@@ -70,8 +71,8 @@ CAROM_INLINE void go_beyond(const LaneTable& t, const Real& edge, const Mask& cr
   where(crosses, cell.first) = cell.first + look_up<Reach::eight>(t.beyond_first, beyond);
   where(crosses, cell.second) = cell.second + look_up<Reach::eight>(t.beyond_second, beyond);
 }
-/// Follows the flights over a few edges: who meets a disc stays in its cell. The piece is -1 for
-/// those still on their way.
+/// Follows the flights over a few edges; a flight that meets a disc stays in its cell. The piece is
+/// -1 for flights that have met none yet.
 template <Kind kind>
 CAROM_INLINE Choice first_in_cells(View f, CellOf& cell) {
   const LaneTable& t = f.table;
@@ -97,12 +98,12 @@ CAROM_INLINE Choice first_in_cells(View f, CellOf& cell) {
     found.decided = found.decided && (!under_way || exit.certain);
     under_way = under_way && exit.certain;
     go_beyond(t, exit.edge, under_way, cell);
-    found.decided = found.decided && way_of(cell) <= LaneTable::farthest_cell;
+    found.decided = found.decided && cells_from_home(cell) <= LaneTable::farthest_cell;
   }
 }
 
-/// Who meets the disc of the cell a flight begins in, and who passes it: a line from outside meets
-/// it ahead exactly if it cuts it and comes nearer. 1, -1; 0: not certain.
+/// Does a flight meet the disc of the cell in which it begins? A line from outside meets it ahead
+/// exactly if it cuts it and comes nearer. 1: yes; -1: no; 0: not certain.
 CAROM_INLINE Real meets_disc(const View& f, const Real& aside, const Real& ahead,
                              const Real& roots) {
   const Real discriminant = fused(aside, -aside, f.table.second_number[0] * f.square_speed);
@@ -138,7 +139,7 @@ CAROM_INLINE ForwardEdges forward_edges(const LaneTable& t, const View& f) {
   return {edge, least > f.sides};
 }
 
-/// Whether lines met a disc, or are still under way; else not certain.
+/// `meets`: the line met a disc; `goes_on`: it has met none yet; neither: not certain.
 struct Crossed {
   Mask meets, goes_on;
 };
@@ -146,7 +147,7 @@ struct Crossed {
 /// Flights among hexagons with one disc each, in two stages. The corners between forward edges tell
 /// by which of them a line leaves a cell; from cell to cell their sides, and the centre's, change
 /// by one number for each edge.
-struct Crossings {
+struct HexagonCrossings {
   static constexpr int edges = 6, forward = 3;
   alignas(LanePack::alignment) double edge[LanePack::lanes], aside[LanePack::lanes];
   double jump[forward][LanePack::lanes], side[forward - 1][LanePack::lanes];
@@ -155,11 +156,11 @@ struct Crossings {
 };
 
 CAROM_INLINE Real next_edge(const Real& edge) {
-  return choose(edge == Real(counted[Crossings::edges - 1]), Real(0.0), edge + 1.0);
+  return choose(edge == Real(counted[HexagonCrossings::edges - 1]), Real(0.0), edge + 1.0);
 }
 
-CAROM_INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& c, int lane) {
-  constexpr int forward = Crossings::forward;
+CAROM_INLINE void begin_hexagons(const View& f, const CellOf& cell, HexagonCrossings& c, int lane) {
+  constexpr int forward = HexagonCrossings::forward;
   const LaneTable& t = f.table;
   const Line line(f);
   const Vector v = f.velocity;
@@ -182,8 +183,9 @@ CAROM_INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& 
   }
   const Real aside = line.side(t.point_x[0], t.point_y[0]);
   store(aside + so_far, c.aside + lane);
-  Real known = choose(begin.certain && way_of(cell) + 2.0 * t.steps <= LaneTable::farthest_cell,
-                      Real(-1.0), Real(0.0));
+  Real known =
+      choose(begin.certain && cells_from_home(cell) + 2.0 * t.steps <= LaneTable::farthest_cell,
+             Real(-1.0), Real(0.0));
   // The disc of this cell was asked for, but by those that begin off it.
   const Mask off = f.start_wall < 0.0;
   if (any_of(off)) [[unlikely]] {
@@ -194,8 +196,9 @@ CAROM_INLINE void begin_crossings(const View& f, const CellOf& cell, Crossings& 
 }
 
 /// Over some edges. The disc of a cell that was entered lies ahead, if the line cuts it.
-CAROM_INLINE Crossed cross_edges(const View& f, const Crossings& c, CellOf& cell, int lane) {
-  constexpr int forward = Crossings::forward;
+CAROM_INLINE Crossed end_hexagons(const View& f, const HexagonCrossings& c, CellOf& cell,
+                                  int lane) {
+  constexpr int forward = HexagonCrossings::forward;
   const LaneTable& t = f.table;
   Real jump[forward], side[forward - 1], crossed[forward], edges_crossed(0.0);
   for (int i = 0; i < forward; ++i) {
@@ -203,7 +206,7 @@ CAROM_INLINE Crossed cross_edges(const View& f, const Crossings& c, CellOf& cell
     crossed[i] = Real(0.0);
     if (i + 1 < forward) side[i] = load(c.side[i] + lane);
   }
-  const Real roots = doubts_at(way_of(cell) + 2.0 * t.steps) * f.roots,
+  const Real roots = error_growth(cells_from_home(cell) + 2.0 * t.steps) * f.roots,
              square = t.second_number[0] * f.square_speed;
   Real aside = load(c.aside + lane), known = load(c.known + lane);
   Mask meets = known > 0.0, under_way = known < 0.0;

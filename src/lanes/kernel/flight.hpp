@@ -26,9 +26,9 @@ struct Kind {
   bool convex = false;  ///< or without field a table where the sides of the joints tell
   bool segments = false, circles = false, ellipses = false;  ///< the table may have such pieces
   bool cells = false;                                        ///< on a lattice
-  bool alone = false;   ///< one closed curve about the domain, on which all particles stand
-  bool single = false;  ///< one piece
-  bool sights = false;  ///< of a lattice, looked up (next_disc.hpp)
+  bool alone = false;      ///< one closed curve about the domain, on which all particles stand
+  bool single = false;     ///< one piece
+  bool next_disc = false;  ///< looked up in a table (next_disc.hpp)
   Reach reach = reach_here(Reach::eight);  ///< of look-ups by piece
 };
 constexpr Kind reading(Kind kind, Reach reach) {
@@ -56,12 +56,12 @@ struct Choice {
 /// Where the sides of the joints tell the exit, they tell, too, that it is not met along the wall
 /// (docs/developer/lanes.md).
 template <Kind kind>
-constexpr bool inward_is_known = (!kind.larmor && kind.convex && !kind.ellipses) || kind.sights;
+constexpr bool inward_is_known = (!kind.larmor && kind.convex && !kind.ellipses) || kind.next_disc;
 
 /// Divisions as a stage of their own: of several pieces a flight takes so many sums that a core
 /// sees no two roots and divisions at once.
 template <Kind kind>
-constexpr bool divides_apart = !kind.larmor && (!kind.single || kind.sights);
+constexpr bool divides_apart = !kind.larmor && (!kind.single || kind.next_disc);
 
 /// A number of each lane's piece.
 template <Kind kind>

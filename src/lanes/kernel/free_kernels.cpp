@@ -27,8 +27,8 @@ Advance kernel_of_lattice(const LaneTable& t) {
   if (larmor || t.pieces > LaneTable::eight) return kernel<reading(discs, Reach::all)>;
   if constexpr (!larmor) {
     if (t.pieces > 1) return kernel<discs>;
-    if (t.sights)
-      return kernel<Kind{.circles = true, .cells = true, .single = true, .sights = true}>;
+    if (t.next_discs)
+      return kernel<Kind{.circles = true, .cells = true, .single = true, .next_disc = true}>;
     return kernel<Kind{.circles = true, .cells = true, .single = true}>;
   }
 }

@@ -15,8 +15,8 @@ template <Kind kind>
 void kernel(const LaneTable& __restrict table, LanePack& __restrict pack) {
   pack.calls = 0;
   Stages stages;
-  if constexpr (kind.sights) {
-    choose_by_sight<kind>(table, pack, stages);
+  if constexpr (kind.next_disc) {
+    choose_next_disc<kind>(table, pack, stages);
   } else if constexpr (kind.cells && kind.single) {
     if (table.edges == 4)
       choose_parallelograms<kind>(table, pack, stages);
@@ -28,12 +28,12 @@ void kernel(const LaneTable& __restrict table, LanePack& __restrict pack) {
     if constexpr (!kind.larmor && kind.convex && !kind.single)
       if (table.by_signs) look_up_exits(table, stages.piece, pack.used);
   }
-  if constexpr (kind.sights) {
-    for (int lane = 0; lane < pack.used; lane += width) pass_in_sight(table, pack, stages, lane);
+  if constexpr (kind.next_disc) {
+    for (int lane = 0; lane < pack.used; lane += width) pass_first_disc(table, pack, stages, lane);
     for (int lane = 0; lane < pack.used; lane += width)
-      look_from_sight<kind>(table, pack, stages, lane);
+      look_from_next_disc<kind>(table, pack, stages, lane);
     for (int lane = 0; lane < pack.used; lane += width)
-      meet_in_sight<kind>(table, pack, stages, lane);
+      meet_next_disc<kind>(table, pack, stages, lane);
   } else if constexpr (!kind.larmor || kind.convex || kind.cells) {
     for (int lane = 0; lane < pack.used; lane += width) meet<kind>(table, pack, stages, lane);
   }

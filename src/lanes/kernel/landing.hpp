@@ -21,7 +21,7 @@ CAROM_INLINE void store_all(LanePack& pack, int lane, const Landed& now) {
   store(now.velocity.y, pack.vy + lane);
   store(now.high, pack.high + lane);
   store(now.low, pack.low + lane);
-  if constexpr (!kind.sights) store(now.piece, pack.piece + lane);
+  if constexpr (!kind.next_disc) store(now.piece, pack.piece + lane);
 }
 /// Where it applies. Whole stores: one through a mask takes 30 ns without AVX.
 template <Kind kind>
@@ -35,7 +35,7 @@ CAROM_INLINE void store_some(LanePack& pack, int lane, const Landed& now, const 
   keep(pack.vy, now.velocity.y);
   keep(pack.high, now.high);
   keep(pack.low, now.low);
-  if constexpr (kind.sights) return;
+  if constexpr (kind.next_disc) return;
   keep(pack.piece, now.piece);
   const Real born = load(pack.born + lane);
   store(choose(applies, born, born + 1.0), pack.born + lane);
@@ -89,7 +89,7 @@ CAROM_INLINE OnWall on_circle(const LaneTable& t, const FlightEnd& end, const Me
   // A segment reflects by its strength alone, which is 2.
   if constexpr (kind.segments) where(!met.bent, step) = Real(0.0);
   if (t.small_circles) certain = certain && (!met.bent || abs(step) < geometry::longest_step);
-  if constexpr (kind.sights)
+  if constexpr (kind.next_disc)
     certain = certain && abs(d.y) > t.start_margin;
   else if (t.closed_circles)
     certain = certain && (!met.bent || abs(d.y) > t.start_margin);
@@ -142,7 +142,7 @@ CAROM_INLINE void store_on_lattice(LanePack& pack, const Stages& stages, int lan
                                    const Landed& now, const OnWall& on, const Mask& applies,
                                    const Mask& gone) {
   store_some<kind>(pack, lane, now, applies);
-  if constexpr (kind.sights) {
+  if constexpr (kind.next_disc) {
     add_cells(only_where(applies, load(stages.cell + lane)), pack.cells + 2 * lane);
     const Real short_of = -geometry::fused_cross(now.velocity, on.normal),
                aside = fused(on.step, short_of, short_of);
@@ -167,7 +167,7 @@ CAROM_INLINE void add_calls(LanePack& pack, const Stages& stages, int lane, Wait
   for (; waiting.lanes != 0; waiting.lanes &= waiting.lanes - 1) {
     const int i = __builtin_ctz(waiting.lanes), at = lane + i;
     const unsigned bit = 1u << i;
-    if constexpr (kind.sights) pack.born[at] += 1.0;
+    if constexpr (kind.next_disc) pack.born[at] += 1.0;
     pack.met[pack.calls] = {kind.single ? 0.0 : stages.piece[at], stages.high[at], stages.low[at]};
     pack.lane[pack.calls] = at;
     pack.call[pack.calls++] = (waiting.gone & bit) != 0      ? Call::unbounded
@@ -201,7 +201,7 @@ CAROM_INLINE void land(const LaneTable& t, LanePack& pack, Stages& stages, int l
   const Mask inward = is_inward<kind>(f, met, end.velocity, on.normal);
   const Mask over = high >= load(pack.until + lane);  // or there to the last digit
   Mask applies = decided && inward && !over, gone(false), escaped(false);
-  if (!kind.sights && t.divided) {
+  if (!kind.next_disc && t.divided) {
     escaped = look_up<kind.reach>(t.hole, piece) >= 0.0;
     applies = applies && !escaped;
   }

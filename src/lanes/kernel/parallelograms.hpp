@@ -11,8 +11,8 @@
 namespace carom::lanes {
 namespace {
 
-/// Flights on their way over cells.
-struct Ways {
+/// Flights that cross cells, one array a quantity.
+struct ParallelogramCrossings {
   alignas(LanePack::alignment) double a[LanePack::lanes], b[LanePack::lanes];  ///< v x a, v x b
   double aside[LanePack::lanes], side[LanePack::lanes];  ///< of the disc's centre and of the corner
   double radius[LanePack::lanes], margin[LanePack::lanes];
@@ -29,7 +29,8 @@ CAROM_INLINE Forward forward(const Real& a, const Real& b) {
   return {turned_by(a, b), turned_by(b, -a)};
 }
 
-CAROM_INLINE void begin_way(const View& f, const CellOf& cell, Ways& ways, int lane) {
+CAROM_INLINE void begin_parallelograms(const View& f, const CellOf& cell,
+                                       ParallelogramCrossings& crossings, int lane) {
   const LaneTable& t = f.table;
   const Line line(f);
   const Vector v = f.velocity;
@@ -40,17 +41,17 @@ CAROM_INLINE void begin_way(const View& f, const CellOf& cell, Ways& ways, int l
              home_second = across(t.lattice_x[1], t.lattice_y[1]);
   const Real aside = fused(cell.first, home_first,
                            fused(cell.second, home_second, line.side(t.point_x[0], t.point_y[0])));
-  store(a, ways.a + lane);
-  store(b, ways.b + lane);
-  store(aside, ways.aside + lane);
+  store(a, crossings.a + lane);
+  store(b, crossings.b + lane);
+  store(aside, crossings.aside + lane);
   store(fused(Real(0.5), by.one + by.other, aside + across(t.off_centre_x, t.off_centre_y)),
-        ways.side + lane);
+        crossings.side + lane);
   // A disc is cut, or not, beyond a margin in which its discriminant is as certain as the cells
   // behind ask for.
-  const Real way = way_of(cell) + static_cast<double>(t.steps);
-  store(Real(t.radius[0]) * f.speed, ways.radius + lane);
-  store(doubts_at(way) * (t.sizes_of_radius * f.sides), ways.margin + lane);
-  Mask starts = least_size(a, b) > f.sides && way <= Real(LaneTable::farthest_cell), meets(false);
+  const Real cells = cells_from_home(cell) + static_cast<double>(t.steps);
+  store(Real(t.radius[0]) * f.speed, crossings.radius + lane);
+  store(error_growth(cells) * (t.sizes_of_radius * f.sides), crossings.margin + lane);
+  Mask starts = least_size(a, b) > f.sides && cells <= Real(LaneTable::farthest_cell), meets(false);
   // The disc of this cell was asked for, but by those that begin off it.
   const Mask off = f.start_wall < 0.0;
   if (any_of(off)) [[unlikely]] {
@@ -59,25 +60,25 @@ CAROM_INLINE void begin_way(const View& f, const CellOf& cell, Ways& ways, int l
     meets = begins && starts && known > 0.0;
     starts = starts && (!begins || known < 0.0);
   }
-  store(starts, ways.starts, lane);
-  store(meets, ways.meets, lane);
+  store(starts, crossings.starts, lane);
+  store(meets, crossings.meets, lane);
 }
 
 /// A register of them.
-class OnWay {
+class CrossingLanes {
  public:
-  CAROM_INLINE OnWay(Ways& ways, int lane)
-      : ways_(ways),
+  CAROM_INLINE CrossingLanes(ParallelogramCrossings& crossings, int lane)
+      : crossings_(crossings),
         lane_(lane),
-        by_(forward(load(ways.a + lane), load(ways.b + lane))),
+        by_(forward(load(crossings.a + lane), load(crossings.b + lane))),
         falls_(min(by_.one, by_.other)),
         rises_(max(by_.one, by_.other)),
-        aside_(load(ways.aside + lane)),
-        side_(load(ways.side + lane)),
-        near_(load(ways.radius + lane) + load(ways.margin + lane)),
+        aside_(load(crossings.aside + lane)),
+        side_(load(crossings.side + lane)),
+        near_(load(crossings.radius + lane) + load(crossings.margin + lane)),
         crossed_(0.0),
         fallen_(0.0),
-        under_way_(load(ways.starts, lane)) {}
+        under_way_(load(crossings.starts, lane)) {}
   /// Over an edge. A disc in a cell that was entered lies ahead, if the line cuts it.
   CAROM_INLINE void go() {
     const Mask left = side_ > 0.0;
@@ -89,14 +90,14 @@ class OnWay {
     under_way_ = under_way_ && abs(aside_) >= near_;
   }
   CAROM_INLINE void keep() {
-    store(aside_, ways_.aside + lane_);
-    store(crossed_, ways_.crossed + lane_);
-    store(fallen_, ways_.fallen + lane_);
-    store(under_way_, ways_.under_way, lane_);
+    store(aside_, crossings_.aside + lane_);
+    store(crossed_, crossings_.crossed + lane_);
+    store(fallen_, crossings_.fallen + lane_);
+    store(under_way_, crossings_.under_way, lane_);
   }
 
  private:
-  Ways& ways_;
+  ParallelogramCrossings& crossings_;
   int lane_;
   Forward by_;
   Real falls_, rises_, aside_, side_, near_, crossed_, fallen_;
@@ -112,20 +113,23 @@ CAROM_INLINE void go(int steps, Registers&&... registers) {
 CAROM_INLINE int registers_of(int lanes) {
   return lanes <= width ? 1 : lanes <= 2 * width ? 2 : together;
 }
-CAROM_INLINE void go_on_way(const LaneTable& t, Ways& ways, int lane, int registers) {
+CAROM_INLINE void cross_parallelograms(const LaneTable& t, ParallelogramCrossings& crossings,
+                                       int lane, int registers) {
   if (registers == 1)
-    go(t.steps, OnWay(ways, lane));
+    go(t.steps, CrossingLanes(crossings, lane));
   else if (registers == 2)
-    go(t.steps, OnWay(ways, lane), OnWay(ways, lane + width));
+    go(t.steps, CrossingLanes(crossings, lane), CrossingLanes(crossings, lane + width));
   else
-    go(t.steps, OnWay(ways, lane), OnWay(ways, lane + width), OnWay(ways, lane + 2 * width),
-       OnWay(ways, lane + 3 * width));
+    go(t.steps, CrossingLanes(crossings, lane), CrossingLanes(crossings, lane + width),
+       CrossingLanes(crossings, lane + 2 * width), CrossingLanes(crossings, lane + 3 * width));
 }
 
-CAROM_INLINE Crossed end_way(const LaneTable& t, const Ways& ways, CellOf& cell, int lane) {
-  const Real a = load(ways.a + lane), b = load(ways.b + lane);
+CAROM_INLINE Crossed end_parallelograms(const LaneTable& t, const ParallelogramCrossings& crossings,
+                                        CellOf& cell, int lane) {
+  const Real a = load(crossings.a + lane), b = load(crossings.b + lane);
   const Forward by = forward(a, b);
-  const Real fallen = load(ways.fallen + lane), risen = load(ways.crossed + lane) - fallen;
+  const Real fallen = load(crossings.fallen + lane),
+             risen = load(crossings.crossed + lane) - fallen;
   const Mask is_one = by.one < by.other;
   const Real ones = turned_by(choose(is_one, fallen, risen), b),
              others = turned_by(choose(is_one, risen, fallen), -a);
@@ -133,10 +137,11 @@ CAROM_INLINE Crossed end_way(const LaneTable& t, const Ways& ways, CellOf& cell,
       fused(ones, Real(t.beyond_first[0]), fused(others, Real(t.beyond_first[1]), cell.first));
   cell.second =
       fused(ones, Real(t.beyond_second[0]), fused(others, Real(t.beyond_second[1]), cell.second));
-  const Mask under_way = load(ways.under_way, lane);
-  const Mask cuts =
-      abs(load(ways.aside + lane)) < load(ways.radius + lane) - load(ways.margin + lane);
-  return {load(ways.meets, lane) || (load(ways.starts, lane) && !under_way && cuts), under_way};
+  const Mask under_way = load(crossings.under_way, lane);
+  const Mask cuts = abs(load(crossings.aside + lane)) <
+                    load(crossings.radius + lane) - load(crossings.margin + lane);
+  return {load(crossings.meets, lane) || (load(crossings.starts, lane) && !under_way && cuts),
+          under_way};
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Stages {
   double high[LanePack::lanes],
       low[LanePack::lanes];                    ///< time there, of those that wait for an answer
   alignas(64) unsigned cell[LanePack::lanes];  ///< of flights that are looked up (next_disc.hpp):
-                                               ///< bytes, as in LaneTable::sights
+                                               ///< bytes, as in LaneTable::next_discs
   LaneMasks decided, gone, bent;               ///< gone: certainly no wall follows (in this cell)
 };
 
@@ -109,7 +109,8 @@ CAROM_INLINE void divide(const LanePack& pack, Stages& stages, const Real& time,
   const Real duration = time / unit;
   // A flight along an arc that is long enough ends as steeply as the sign of its reflection asks
   // for.
-  const Real least = inward_is_known<kind> && !kind.sights ? load(pack.shortest + lane) : Real(0.0);
+  const Real least =
+      inward_is_known<kind> && !kind.next_disc ? load(pack.shortest + lane) : Real(0.0);
   store(duration, stages.duration + lane);
   store(decided && duration > least, stages.decided, lane);
 }
@@ -155,32 +156,32 @@ CAROM_INLINE void store_crossed(Stages& stages, const Crossed& crossed, const Ce
 }
 template <Kind kind>
 CAROM_INLINE void choose_parallelograms(const LaneTable& t, const LanePack& pack, Stages& stages) {
-  Ways ways;
+  ParallelogramCrossings crossings;
   const auto cell_of = [&](int lane) {
     return CellOf{load(pack.cell_first + lane), load(pack.cell_second + lane)};
   };
   for (int lane = 0; lane < pack.used; lane += together * width) {
     const int group = lane + registers_of(pack.used - lane) * width;
     for (int each = lane; each < group; each += width)
-      begin_way(view_of<kind>(t, pack, each), cell_of(each), ways, each);
+      begin_parallelograms(view_of<kind>(t, pack, each), cell_of(each), crossings, each);
   }
   for (int lane = 0; lane < pack.used; lane += together * width)
-    go_on_way(t, ways, lane, registers_of(pack.used - lane));
+    cross_parallelograms(t, crossings, lane, registers_of(pack.used - lane));
   for (int lane = 0; lane < pack.used; lane += width) {
     CellOf cell = cell_of(lane);
-    const Crossed crossed = end_way(t, ways, cell, lane);
+    const Crossed crossed = end_parallelograms(t, crossings, cell, lane);
     store_crossed<kind>(stages, crossed, cell, lane);
   }
 }
 template <Kind kind>
 CAROM_INLINE void choose_hexagons(const LaneTable& t, const LanePack& pack, Stages& stages) {
-  Crossings crossings;
+  HexagonCrossings crossings;
   for (int lane = 0; lane < pack.used; lane += width)
-    begin_crossings(view_of<kind>(t, pack, lane),
-                    {load(pack.cell_first + lane), load(pack.cell_second + lane)}, crossings, lane);
+    begin_hexagons(view_of<kind>(t, pack, lane),
+                   {load(pack.cell_first + lane), load(pack.cell_second + lane)}, crossings, lane);
   for (int lane = 0; lane < pack.used; lane += width) {
     CellOf cell{load(pack.cell_first + lane), load(pack.cell_second + lane)};
-    const Crossed crossed = cross_edges(view_of<kind>(t, pack, lane), crossings, cell, lane);
+    const Crossed crossed = end_hexagons(view_of<kind>(t, pack, lane), crossings, cell, lane);
     store_crossed<kind>(stages, crossed, cell, lane);
   }
 }

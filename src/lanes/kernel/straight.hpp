@@ -212,13 +212,13 @@ CAROM_INLINE FractionOfTime meet_by_line(const View& f, const Met& met) {
       const Real discriminant = fused_product(gap, f.square_speed, b * b);
       where(met.stands, gap) = Real(0.0);
       // In a convex table the line between two joints cuts the arc.
-      Real root = sqrt(kind.convex || kind.sights ? discriminant : max(discriminant, Real(0.0)));
+      Real root = sqrt(kind.convex || kind.next_disc ? discriminant : max(discriminant, Real(0.0)));
       where(met.stands, root) = n;
       if constexpr (kind.segments) where(!met.bent, root) = Real(0.0);
       n = n + root;
       away = met.orientation * b >= 0.0;
       // Discs of a lattice that were chosen are cut and lie ahead.
-      if constexpr (kind.sights) return {-gap, n, Mask(true)};
+      if constexpr (kind.next_disc) return {-gap, n, Mask(true)};
       if constexpr (!kind.convex) decided = met.stands || discriminant > f.roots || !met.bent;
     }
     time = choose(away, met.orientation * gap, n);

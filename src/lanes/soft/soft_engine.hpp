@@ -30,7 +30,7 @@ namespace carom::lanes {
 /// What acts there that steps in lanes do not know, as a phrase; "" where they know all.
 std::string unknown_to_steps(const Table&, const Dynamics&);
 
-/// A trajectory on its way, where lanes do not know more than its phase.
+/// What a trajectory under way needs besides its phase in the pack.
 struct SoftTrack {
   State state;  ///< after its last event in the scalar engine; in lanes its cell, and u, are kept
   std::uint64_t hits = 0;
@@ -64,7 +64,7 @@ class SoftEngine {
   void put(State& state, SoftPack& pack, int lane) const;
   /// A step of that length.
   void take_step(double duration, SoftPack& pack);
-  /// Fills in who calls after a step of that length.
+  /// Fills in which lanes call after a step of that length.
   void find_calls(double duration, SoftPack& pack);
   /// Accelerations of these lanes, if the pack's are fresh.
   void refresh(SoftPack& pack, std::span<const int> which);

@@ -87,8 +87,8 @@ class SoftLanes::Implementation {
     source_ = &next;
     sink_ = &ended;
     t_end_ = t_end;
-    // Steps that end in time; the one after them may still meet a wall. Nobody makes as many as are
-    // counted here.
+    // Steps that end in time; the one after them may still meet a wall. The count is capped far
+    // beyond what any run takes.
     whole_ = step_with(Time(t_end));
     step_of_.clear();
     for (const double t : times_) step_of_.push_back(step_with(Time(t)));
@@ -237,7 +237,7 @@ class SoftLanes::Implementation {
     }
   }
 
-  /// Those whose step ends too late, and meets nothing.
+  /// Ends the lanes whose step ends too late and meets nothing.
   void end_in_time() {
     for (int lane = 0; lane < used_; ++lane) {
       if (!active_[lane] || last_step_[lane] >= next_) continue;
