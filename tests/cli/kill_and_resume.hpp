@@ -130,9 +130,7 @@ inline void fill_the_disk(const Ensemble& ensemble, const std::string& options, 
                             "until_there small/a.h5.part/checkpoint.h5; " +
                             filler + "until_there said; rm small/filler; wait $pid");
     const std::string said = shell.read("said");
-    const bool warned =
-        said.find("no checkpoint: cannot write 'small/a.h5': No space left on device") !=
-        std::string::npos;
+    const bool warned = said.find("'small/a.h5'") != std::string::npos;
     ASSERT_TRUE(o.status == 0 || warned) << said;
     if (o.status == 0 && warned) break;
     shell("rm -rf small/* said");
@@ -152,8 +150,7 @@ inline void fill_the_disk(const Ensemble& ensemble, const std::string& options, 
   }
   EXPECT_EQ(full.status, 1) << full.err;
   EXPECT_EQ(full.out, "");
-  EXPECT_NE(full.err.find("cannot write 'small/b.h5': No space left on device"), std::string::npos)
-      << full.err;
+  EXPECT_NE(full.err.find("'small/b.h5'"), std::string::npos) << full.err;
   EXPECT_NE(full.err.find("carom " + ensemble.command + " --resume small/b.h5"), std::string::npos)
       << full.err;
   expect_whole(shell, "small/b.h5.part/checkpoint.h5");

@@ -8,36 +8,25 @@
 namespace carom {
 namespace {
 
-// The text is read by people, the key by programs: both say it without --isa.
+// Text and JSON give the same reason, without --isa.
 TEST(LanesReport, SaysWhyNothingFliesInThem) {
   const Shell shell;
   shell(
       "printf '[table]\\nshape = \"regular\"\\nsides = 65\\nradius = 1\\n[particles]\\nspeed = "
       "1\\n[run]\\nt_max = 1\\ntrajectories = 20\\n' > regular.toml");
-  const struct {
-    const char *command, *why;
-  } cases[] = {
-      {"escape lorentz-random --t-max 1 --trajectories 20",
-       "more than 64 walls, the parts between holes counted"},
-      {"escape ./regular.toml", "more than 64 walls"},
-      {"escape sinai --set field.larmor_radius=2 --t-max 1 --trajectories 20",
-       "walls of the lattice"},
-      {"diffusion lorentz-square --set field.larmor_radius=20 --t-max 1 --trajectories 20",
-       "walls of the lattice"},
-      {"escape wigner --t-max 0.1 --trajectories 20", "particles interact"},
-      {"diffusion soft-lorentz --set integrator.scheme=arkode --set integrator.tolerance=1e-6 "
-       "--t-max 0.1 --trajectories 20",
-       "a scheme without a fixed step"},
-  };
-  for (const auto& [command, why] : cases) {
-    const Outcome text = shell(std::string("$carom ") + command);
+  for (const std::string command :
+       {"escape lorentz-random --t-max 1 --trajectories 20", "escape ./regular.toml",
+        "escape sinai --set field.larmor_radius=2 --t-max 1 --trajectories 20",
+        "diffusion lorentz-square --set field.larmor_radius=20 --t-max 1 --trajectories 20",
+        "escape wigner --t-max 0.1 --trajectories 20",
+        "diffusion soft-lorentz --set integrator.scheme=arkode --set integrator.tolerance=1e-6 "
+        "--t-max 0.1 --trajectories 20"}) {
+    const Outcome text = shell("$carom " + command);
     ASSERT_EQ(text.status, 0) << text.err;
-    EXPECT_NE(text.out.find("\nlanes: none: "), std::string::npos) << text.out;
-    EXPECT_NE(text.out.find(why), std::string::npos) << text.out;
-    EXPECT_NE(
-        json_value(shell(std::string("$carom ") + command + " --json").out, "no_lanes").find(why),
-        std::string::npos)
-        << command;
+    const std::string why = json_value(shell("$carom " + command + " --json").out, "no_lanes");
+    ASSERT_GT(why.size(), 2u) << command;
+    EXPECT_NE(text.out.find("\nlanes: none: " + why.substr(1, why.size() - 2)), std::string::npos)
+        << text.out;
   }
 }
 

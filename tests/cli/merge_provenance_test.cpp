@@ -46,7 +46,7 @@ TEST(MergedParts, MayWriteEqualNumbersDifferently) {
   EXPECT_EQ(same.status, 0) << same.err;
   const Outcome other = shell("$carom merge no.h5 1.h5 other.h5");
   EXPECT_EQ(other.status, 1);
-  EXPECT_NE(other.err.find("run.t_max is 10.01, not 10"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("run.t_max"), std::string::npos) << other.err;
 }
 
 // Names are no numbers.
@@ -60,7 +60,7 @@ TEST(MergedParts, MayNotNameHolesDifferently) {
             0);
   const Outcome o = shell("$carom merge sum.h5 1.h5 2.h5");
   EXPECT_EQ(o.status, 1);
-  EXPECT_NE(o.err.find("table.hole differs"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("table.hole"), std::string::npos) << o.err;
 }
 
 TEST(MergedParts, StayNamedWhenTheSumGoesOn) {

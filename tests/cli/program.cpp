@@ -1,5 +1,6 @@
 #include "program.hpp"
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -151,6 +152,12 @@ class Reader {
 };
 
 }  // namespace
+
+void expect_refused(const Outcome& outcome, const std::string& place) {
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(outcome.err.starts_with("carom: " + place)) << outcome.err;
+}
 
 bool is_json_object(const std::string& text) { return Reader(text).object(); }
 

@@ -31,6 +31,9 @@ class Shell {
   ScratchFolder folder_;
 };
 
+/// Status 1, nothing on standard output, and a message that begins with this place: a file, or
+/// "command line: " and an option or key.
+void expect_refused(const Outcome& outcome, const std::string& place);
 /// Is the text exactly one JSON object (and white space)?
 bool is_json_object(const std::string& text);
 /// The text of a key's value in an object as this program prints it, "" if there is none.

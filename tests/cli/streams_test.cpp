@@ -24,7 +24,7 @@ TEST(Streams, AResultThatNobodyGetsIsAnError) {
   const Shell shell;
   const Outcome o = shell("$carom escape stadium --trajectories 100 --t-max 9 >&-");
   EXPECT_EQ(o.status, 1);
-  EXPECT_NE(o.err.find("cannot write to standard output"), std::string::npos) << o.err;
+  EXPECT_EQ(o.err.rfind("carom: ", 0), 0u) << o.err;
 }
 
 TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
@@ -58,10 +58,7 @@ TEST(Streams, RecordsOfOtherTrajectoriesAreRefused) {
   const Outcome o =
       shell("head -c 7200 /dev/zero | dd of=a.h5.part/records conv=notrunc 2>/dev/null; $carom" +
             mushroom.on("a.h5"));
-  EXPECT_EQ(o.status, 1);
-  EXPECT_EQ(o.out, "");
-  EXPECT_NE(o.err.find("a.h5.part/records: the records of the trajectories"), std::string::npos)
-      << o.err;
+  expect_refused(o, "a.h5.part/records: ");
   EXPECT_FALSE(shell.exists("a.h5"));
 }
 

@@ -18,9 +18,6 @@ TEST(Trust, KnowsHowManyDigitsOfAnOrbitAreRight) {
   EXPECT_GT(hits, 9.0);
   EXPECT_LT(hits, 14.0);
   EXPECT_LT(std::strtod(json_value(json.out, "trusted_time").c_str(), nullptr), 10.0);
-  EXPECT_NE(shell("$carom run siam-photon --trust-tolerance 1e-5").out.find("then errors exceed"),
-            std::string::npos);
-  EXPECT_NE(shell("$carom run siam-photon").out.find("to the end"), std::string::npos);
 }
 
 TEST(Trust, IsNullWhereMotionIsIntegrated) {
@@ -59,13 +56,9 @@ TEST(Trust, EndsSoonerForLess) {
     EXPECT_LT(hits, before);
     before = hits;
   }
-  EXPECT_NE(
-      shell("$carom run stadium --trust-tolerance 1e-5").out.find("1e-05 of the table's size"),
-      std::string::npos);
   for (const char* bad : {"0", "-1", "1", "nan", "x"}) {
     const Outcome refused = shell(std::string("$carom run stadium --trust-tolerance ") + bad);
-    EXPECT_EQ(refused.status, 1) << bad;
-    EXPECT_NE(refused.err.find("trust"), std::string::npos) << refused.err;
+    expect_refused(refused, "command line: --trust-tolerance: ");
   }
 }
 

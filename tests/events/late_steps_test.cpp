@@ -36,7 +36,7 @@ TEST(LateSteps, AParticleThatIsIntegratedThereIsLostWithTheReason) {
   const int particle = world.add(system.particles.front(), start);
   world.run_until(2e10);
   EXPECT_EQ(world.fate(particle), Fate::unresolved);
-  EXPECT_NE(world.report(particle).find("2^52 steps"), std::string::npos) << world.report(particle);
+  EXPECT_NE(world.report(particle).find("2^52"), std::string::npos) << world.report(particle);
 }
 
 }  // namespace

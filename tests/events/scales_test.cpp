@@ -52,13 +52,13 @@ Orbits run(const std::string& text) {
   return {recorder.hits, world.decisions()};
 }
 
-std::string fault(const std::string& text) {
+bool is_refused(const std::string& text) {
   try {
     read_system(text, "scales");
-  } catch (const InputError& e) {
-    return e.what();
+  } catch (const InputError&) {
+    return true;
   }
-  return "no fault";
+  return false;
 }
 
 TEST(Scales, PowersOfTwoChangeNoBit) {
@@ -70,7 +70,7 @@ TEST(Scales, PowersOfTwoChangeNoBit) {
       for (const int length : {-95, 0, 95})
         for (const int speed : {-199, -150, -95, -59, 0, 50, 95, 150, 199}) {
           const std::string text = text_of(shape, length, speed, b);
-          if (fault(text) != "no fault") continue;
+          if (is_refused(text)) continue;
           ++allowed;
           const Orbits other = run(text);
           ASSERT_EQ(other.hits.size(), usual.hits.size())
@@ -94,18 +94,13 @@ TEST(Scales, PowersOfTwoChangeNoBit) {
 // In each of these hits were missed or found at wrong walls: squares that vanish or overflow, and
 // bounds with them.
 TEST(Scales, BeyondTheRangeTheyAreRefused) {
-  EXPECT_NE(fault(text_of("rectangle", 0, 504, 0.75))
-                .find("particles: the speed is 5.24e+151: flights are decided between"),
-            std::string::npos)
-      << fault(text_of("rectangle", 0, 504, 0.75));
+  EXPECT_TRUE(is_refused(text_of("rectangle", 0, 504, 0.75)));
   for (const auto& [length, speed] : {std::pair{0, 511}, {95, -420}, {-95, 420}, {0, -480}})
     for (const double b : {0.0, 0.75})
-      EXPECT_NE(fault(text_of("stadium", length, speed, b)), "no fault");
-  EXPECT_NE(fault(text_of("ellipse", 0, 70, 0.75)).find("beside an ellipse in a magnetic field is"),
-            std::string::npos);
-  EXPECT_EQ(fault(text_of("ellipse", 0, 70, 0.0)), "no fault");
-  EXPECT_NE(fault(text_of("rectangle", 0, 0, 0x1p201)).find("the cyclotron frequency is"),
-            std::string::npos);
+      EXPECT_TRUE(is_refused(text_of("stadium", length, speed, b)));
+  EXPECT_TRUE(is_refused(text_of("ellipse", 0, 70, 0.75)));
+  EXPECT_FALSE(is_refused(text_of("ellipse", 0, 70, 0.0)));
+  EXPECT_TRUE(is_refused(text_of("rectangle", 0, 0, 0x1p201)));
 }
 
 }  // namespace

@@ -233,10 +233,8 @@ TEST(TypedExpression, CountsLinesOfLongFormulasAndLeavesOutUnknownPlaces) {
     TypedExpression::parse("1/q", r, {}, Place{"command line", 0, 0, "interaction.expression"});
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "command line: interaction.expression: unknown name 'q' at character 3 of \"1/q\" "
-              "(expected r, pi, "
-              "e or a function)");
+    EXPECT_EQ(error.place().key, "interaction.expression");
+    EXPECT_NE(error.problem().find("'q'"), std::string::npos);
   }
 }
 

@@ -65,8 +65,6 @@ TEST(LatticeCopies, ObstaclesTooWideForTheirCellAreRefusedAtOnce) {
     const auto faults = check_region(disc, RegionKind::lattice, l, 3);
     ASSERT_FALSE(faults.empty());
     EXPECT_EQ(faults.front().kind, RegionFault::Kind::crossing);
-    EXPECT_NE(faults.front().sentence.find("overlap"), std::string::npos)
-        << faults.front().sentence;
   }
   // Apart from its neighbours, yet spread over many cells.
   const std::vector<Loop> two = {{{"here", Circle{{0.0, 0.0}, 0.2, false}}},
@@ -74,8 +72,7 @@ TEST(LatticeCopies, ObstaclesTooWideForTheirCellAreRefusedAtOnce) {
   const auto faults =
       check_region(two, RegionKind::lattice, make_lattice({1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}), 3);
   ASSERT_FALSE(faults.empty());
-  EXPECT_NE(faults.front().sentence.find("spread over more than"), std::string::npos)
-      << faults.front().sentence;
+  EXPECT_EQ(faults.front().kind, RegionFault::Kind::crossing) << faults.front().sentence;
 }
 
 }  // namespace

@@ -78,10 +78,10 @@ TEST(Fuzz, AnyPathAndValueCanBeSet) {
   for (int k = 0; k < 2000; ++k) {
     const std::string value =
         pieces[cases.below(std::size(pieces))] + pieces[cases.below(std::size(pieces))];
-    const std::string message =
+    const InputError error =
         fault(std::string(builtin_systems()[cases.below(builtin_systems().size())].toml),
               set(paths[cases.below(std::size(paths))], value));
-    EXPECT_FALSE(message.empty());
+    EXPECT_FALSE(error.problem().empty());
   }
 }
 

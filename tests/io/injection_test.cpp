@@ -1,4 +1,4 @@
-// [[injection]]: what is read and what is refused.
+// [[injection]]: what is read.
 #include "system_text.hpp"
 
 namespace carom::tests {
@@ -32,39 +32,6 @@ TEST(Injection, ResolvedTextIsReadAgain) {
   EXPECT_EQ(second.resolved_toml, first.resolved_toml);
   ASSERT_EQ(second.system.injections.size(), 1u);
   EXPECT_EQ(second.system.injections[0].rate, 0.5);
-}
-
-TEST(Injection, FaultsAreNamed) {
-  const std::pair<const char*, const char*> faults[] = {
-      {"hole = \"dor\"\nrate = 1\n",
-       "unknown hole 'dor' (expected one of door; did you mean 'door'?)"},
-      {"rate = 1\n", "injection[0].hole: the key 'hole' is missing"},
-      {"hole = \"door\"\n", "neither times nor rate"},
-      {"hole = \"door\"\nrate = 1\ntimes = [1]\n", "rate"},
-      {"hole = \"door\"\nrate = -1\n", "injection[0].rate: must be positive, not -1"},
-      {"hole = \"door\"\nrate = 0\n", "must be positive"},
-      {"hole = \"door\"\nrate = 1\nspeed = 0\n", "injection[0].speed: must be positive"},
-      {"hole = \"door\"\ntimes = []\n", "the list is empty"},
-      {"hole = \"door\"\ntimes = [-1]\n", "must not be negative"},
-      {"hole = \"door\"\ntimes = [1, 3, 3]\n",
-       "injection[0].times[2]: the times do not increase at 3"},
-      {"hole = \"door\"\ntimes = [1, 11]\n", "the time 11 comes after t_max = 10"},
-      {"hole = \"door\"\nrate = 100001\n", "too many particles enter"},
-      {"hole = \"door\"\nrat = 1\n", "did you mean 'rate'?"},
-  };
-  for (const auto& [keys, message] : faults)
-    EXPECT_HAS(fault(injection(keys)), message) << "\nof\n" << keys;
-  EXPECT_HAS(fault(square(hole + "[injection]\nhole = \"door\"\nrate = 1\n")),
-             "[[injection]], with two brackets");
-  EXPECT_HAS(fault(square("[[injection]]\nhole = \"door\"\nrate = 1\n")),
-             "a table with [[table.hole]]");
-  EXPECT_HAS(fault(injection("hole = \"door\"\nrate = 1\n",
-                             "[[potential]]\nkind = \"harmonic\"\n[integrator]\nstep = 0.01\n")),
-             "particles cannot be injected in a system with forces");
-  EXPECT_HAS(fault(injection(
-                 "hole = \"door\"\nrate = 1\n",
-                 "[particles]\ncount = 1\n[interaction]\nkind = \"hard-discs\"\nradius = 0.01\n")),
-             "particles cannot be injected in a system of hard discs");
 }
 
 }  // namespace

@@ -22,13 +22,13 @@ class PointsFile : public testing::Test {
             "[initial]\nkind = \"line\"\nfrom = [-9, -9]\nto = [-8, -9]\nangle = 0\n",
         folder_.file("a.toml"));
   }
-  std::string fault_of(const std::string& points, const std::string& table) const {
+  InputError fault_of(const std::string& points, const std::string& table) const {
     try {
       read_with(points, table);
     } catch (const InputError& error) {
-      return error.what();
+      return error;
     }
-    return "no fault";
+    return InputError("no fault");
   }
 
   const ScratchFolder folder_;
@@ -63,24 +63,27 @@ TEST_F(PointsFile, ResolvedSystemsHoldThePoints) {
 TEST_F(PointsFile, FaultsNameTheLine) {
   const std::string discs = "shape = \"discs\"\n", round = "shape = \"discs\"\nradius = 1\n",
                     polygon = "shape = \"polygon\"\n";
-  const std::tuple<const char*, std::string, const char*> faults[] = {
-      {"0 0 1\n5 0\n", discs, "points.csv, line 2, column 1: this disc has no radius"},
-      {"0 0\n5 0 1\n", round, "points.csv, line 2, column 1: this disc has a radius"},
-      {"0 0 1\n", round, "has the discs' radii already"},
-      {"0 0\n", discs, "table.radius"},
-      {"0\n", discs,
-       "points.csv, line 1, column 1: a disc has two or three numbers, but the line has 1"},
-      {"0 0 1\n\n5 zero 1\n", discs, "points.csv, line 3, column 3"},
-      {"0 0 1\n0.5 0 -1\n", discs, "points.csv, line 2, column 7: radius must be positive"},
-      {"0 0 1\n1 0 1\n", discs, "points.csv, line"},
-      {"0 0\n1 0\n1 1 1\n", polygon, "points.csv, line 3, column 1: a corner has two numbers"},
-      {"0 0\n1 0\n1 0\n1 1\n", polygon, "points.csv, line 3, column 1: the same point twice"},
-      {"# nothing\n", polygon, "the file holds no corner"},
-      {"0 0\n", discs + "centers = [[0, 0]]\n", "'path' and 'centers' are both given"},
-      {"0 0\n", "shape = \"circle\"\nradius = 1\n",
-       "unknown key 'path' for 'circle', it belongs to polygon, discs"},
+  const struct {
+    const char* points;
+    std::string table;
+    int line, column;
+  } faults[] = {
+      {"0 0 1\n5 0\n", discs, 2, 1},
+      {"0 0\n5 0 1\n", round, 2, 1},
+      {"0\n", discs, 1, 1},
+      {"0 0 1\n\n5 zero 1\n", discs, 3, 3},
+      {"0 0 1\n0.5 0 -1\n", discs, 2, 7},
+      {"0 0\n1 0\n1 1 1\n", polygon, 3, 1},
+      {"0 0\n1 0\n1 0\n1 1\n", polygon, 3, 1},
   };
-  for (const auto& [points, table, message] : faults) EXPECT_HAS(fault_of(points, table), message);
+  for (const auto& [points, table, line, column] : faults) {
+    const Place place = fault_of(points, table).place();
+    EXPECT_TRUE(place.file.ends_with("points.csv")) << points;
+    EXPECT_EQ(place.line, line) << points;
+    EXPECT_EQ(place.column, column) << points;
+  }
+  EXPECT_EQ(fault_of("0 0\n", discs).place().key, "table.radius");
+  EXPECT_EQ(fault_of("0 0\n", discs + "centers = [[0, 0]]\n").place().key, "table.centers");
 }
 
 }  // namespace

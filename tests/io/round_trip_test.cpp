@@ -164,8 +164,8 @@ TEST(RoundTrip, OverridesAreInTheResolvedSystem) {
 TEST(RoundTrip, NumbersStayAsWritten) {
   const std::string resolved =
       read_system(square("[run]\nt_max = 1.50e2\n"), "test.toml").resolved_toml;
-  EXPECT_HAS(resolved, "t_max = 1.50e2\n");
-  EXPECT_HAS(resolved, "from = \"(1.50e2)/1000\", to = 1.50e2");
+  EXPECT_NE(resolved.find("t_max = 1.50e2\n"), std::string::npos);
+  EXPECT_NE(resolved.find("from = \"(1.50e2)/1000\", to = 1.50e2"), std::string::npos);
 }
 
 TEST(KeyTable, IsTheOneInTheGuide) {
@@ -173,7 +173,7 @@ TEST(KeyTable, IsTheOneInTheGuide) {
   ASSERT_TRUE(file);
   std::ostringstream page;
   page << file.rdbuf();
-  EXPECT_HAS(page.str(), key_table_markdown());
+  EXPECT_NE(page.str().find(key_table_markdown()), std::string::npos);
 }
 
 TEST(KeyTable, DescribesEveryKeyOnce) {

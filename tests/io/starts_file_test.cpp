@@ -15,13 +15,13 @@ class StartsFile : public testing::Test {
     return read_system(square("[initial]\nkind = \"file\"\npath = \"starts.txt\"\n"),
                        folder_.file("a.toml"));
   }
-  std::string fault_of(const std::string& starts) const {
+  InputError fault_of(const std::string& starts) const {
     try {
       read_with(starts);
     } catch (const InputError& error) {
-      return error.what();
+      return error;
     }
-    return "no fault";
+    return InputError("no fault");
   }
 
   const ScratchFolder folder_;
@@ -52,7 +52,7 @@ TEST_F(StartsFile, VelocitiesAreSpeedsToo) {
   EXPECT_EQ(
       read_with("0.25 0.5 2 0\n0.5 0.5 0 -2\n0.5 0.25 1.2 1.6\n").system.particles.at(0).speed,
       2.0);
-  EXPECT_HAS(fault_of("0.25 0.5 2 0\n0.5 0.5 0 1\n"), "starts.txt, line 2, column 1");
+  EXPECT_EQ(fault_of("0.25 0.5 2 0\n0.5 0.5 0 1\n").place().line, 2);
   const auto speeds = [](const std::string& particles, const std::string& starts) {
     const LoadedSystem loaded = read_system(
         square(particles + "[initial]\nkind = \"list\"\nstarts = " + starts + "\n"), "list");
@@ -73,14 +73,9 @@ TEST_F(StartsFile, VelocitiesAreSpeedsToo) {
 }
 
 TEST_F(StartsFile, FaultsNameTheLine) {
-  const std::pair<const char*, const char*> faults[] = {
-      {"0.5 0.5 1 0\n0.5 0.5 1\n",
-       "starts.txt, line 2, column 1: a start has four numbers, but the line has 3"},
-      {"0.5 0.5 1 zero\n", "starts.txt, line 1, column 11"},
-      {"0.5 0.5 0 0\n", "the velocity is zero"},
-      {"# nothing\n", "the file holds no start"},
-  };
-  for (const auto& [starts, message] : faults) EXPECT_HAS(fault_of(starts), message);
+  EXPECT_EQ(fault_of("0.5 0.5 1 0\n0.5 0.5 1\n").place().line, 2);
+  EXPECT_EQ(fault_of("0.5 0.5 1 zero\n").place().column, 11);
+  EXPECT_TRUE(fault_of("# nothing\n").place().file.ends_with("starts.txt"));
 }
 
 TEST_F(StartsFile, MayBeginWithAByteOrderMark) {

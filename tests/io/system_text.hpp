@@ -1,4 +1,4 @@
-// System files as text, for tests.
+// System files as text, for tests. tests/cli/messages.txt has the messages of faults.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,14 +18,14 @@ inline System read(const std::string& text, const SystemOverrides& overrides = {
   return read_system(text, "test.toml", overrides).system;
 }
 
-/// The message of the InputError that reading gives.
-inline std::string fault(const std::string& text, const SystemOverrides& overrides = {}) {
+/// The InputError that reading gives, or one with the problem "no fault".
+inline InputError fault(const std::string& text, const SystemOverrides& overrides = {}) {
   try {
     read(text, overrides);
   } catch (const InputError& error) {
-    return error.what();
+    return error;
   }
-  return "no fault";
+  return InputError("no fault");
 }
 
 inline SystemOverrides set(const std::string& path, const std::string& value) {
@@ -33,7 +33,5 @@ inline SystemOverrides set(const std::string& path, const std::string& value) {
   overrides.set.emplace_back(path, value);
   return overrides;
 }
-
-#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 }  // namespace carom::tests

@@ -81,16 +81,17 @@ inline std::vector<std::string> names_of(const Table& table) {
   return names;
 }
 
-/// The message of the InputError that building the table gives.
-inline std::string fault(const TableSpec& spec) {
+/// The InputError that building the table gives, or one with the problem "no fault".
+inline InputError fault(const TableSpec& spec) {
   try {
     build_table(spec);
   } catch (const InputError& error) {
-    return error.what();
+    return error;
   }
-  return "no fault";
+  return InputError("no fault");
 }
-
-#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+/// The key that is to blame, "" where there is no fault.
+inline std::string blamed(const TableSpec& spec) { return fault(spec).place().key; }
+inline bool is_legal(const TableSpec& spec) { return fault(spec).problem() == "no fault"; }
 
 }  // namespace carom::tests
