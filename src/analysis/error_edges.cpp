@@ -24,11 +24,11 @@ bool ErrorEdges::begin(const Particle& particle, const State& start, const Devia
   if (start.wall < 0) {
     flight.start = start.position + d.position;
     flight.velocity = turned(v, dot(left(v), d.velocity) / dot(v, v));
-    finder_.begin(flight);
+    finder_.pieces().begin(flight);
     return true;
   }
   // Where it left the wall, a little earlier or later.
-  const geometry::PreparedCurve& wall = finder_.curve(start.wall);
+  const geometry::PreparedCurve& wall = finder_.pieces().curve(start.wall);
   const Vector normal = wall.frame(start.u).normal;
   const Vector unit = (1.0 / std::sqrt(dot(normal, normal))) * normal;
   const AtWall at = at_wall(unit, v, particle.omega);
@@ -36,14 +36,14 @@ bool ErrorEdges::begin(const Particle& particle, const State& start, const Devia
   if (!wall.closed && !(u > geometry::first_parameter && u < wall.last())) return false;
   const auto [point, normal_there, square, k] = wall.frame(u);
   const Vector velocity = turned(v, dot(at.angle, d));
-  if (finder_.inward(start.wall, u, velocity, normal_there, counts_) != Sign::positive)
+  if (finder_.pieces().inward(start.wall, u, velocity, normal_there, counts_) != Sign::positive)
     return false;
-  finder_.begin_on_wall(flight, start.wall, u, point, velocity);
+  finder_.pieces().begin_on_wall(flight, start.wall, u, point, velocity);
   return true;
 }
 
 bool ErrorEdges::land(const Particle& particle, const State& start, const Deviation& d,
-                      double latest, HitFinder::Landing& landing) {
+                      double latest, PieceTable::Landing& landing) {
   Flight flight;
   if (!begin(particle, start, d, flight)) return false;
   Ahead ahead;
@@ -51,15 +51,15 @@ bool ErrorEdges::land(const Particle& particle, const State& start, const Deviat
   for (finder_.next(flight, ahead, counts_);
        ahead.kind == Ahead::Kind::edge && ahead.duration <= latest;
        finder_.next(flight, ahead, counts_))
-    finder_.cross(flight, ahead);
+    finder_.pieces().cross(flight, ahead);
   if (ahead.kind != Ahead::Kind::wall || !(ahead.duration <= latest)) return false;
-  finder_.land(flight, ahead, landing, counts_);
+  finder_.pieces().land(flight, ahead, landing, counts_);
   return true;
 }
 
 bool ErrorEdges::same_arrival(const Particle& particle, const State& start, const Deviation& d,
                               const Arrival& arrival, double farthest, double latest) {
-  HitFinder::Landing landing;
+  PieceTable::Landing landing;
   if (!land(particle, start, d, latest, landing)) return false;
   const geometry::Cell cell{start.cell.first + landing.cell.first,
                             start.cell.second + landing.cell.second};
@@ -70,7 +70,7 @@ bool ErrorEdges::same_arrival(const Particle& particle, const State& start, cons
 
 bool ErrorEdges::same_hole(const Particle& particle, const State& start, const Deviation& d,
                            int hole, double latest) {
-  HitFinder::Landing landing;
+  PieceTable::Landing landing;
   return land(particle, start, d, latest, landing) && landing.hole == hole;
 }
 

@@ -31,7 +31,7 @@ class ErrorEdges {
  private:
   bool begin(const Particle&, const State& start, const Deviation& d, Flight& flight);
   bool land(const Particle&, const State& start, const Deviation& d, double latest,
-            HitFinder::Landing& landing);
+            PieceTable::Landing& landing);
 
   const Table& table_;
   HitFinder finder_;

@@ -11,7 +11,7 @@
 #include "carom/events/observer.hpp"
 #include "carom/geometry/formulas.hpp"
 #include "carom/motion/state.hpp"
-#include "events/flight/next_hit.hpp"
+#include "events/flight/flight.hpp"
 #include "events/queue.hpp"
 
 namespace carom {

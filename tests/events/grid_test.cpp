@@ -163,8 +163,8 @@ class TwoFinders {
   /// From a wall or a point, through as many cells as it passes.
   void fly(Flight flight) {
     Flight other = flight;
-    grid_.begin(flight);
-    loop_.begin(other);
+    grid_.pieces().begin(flight);
+    loop_.pieces().begin(other);
     ++flown.flights;
     for (int cells = 0; cells < 100; ++cells) {
       DecisionCounts counts, unused;
@@ -183,8 +183,8 @@ class TwoFinders {
         return;
       }
       ++flown.crossings;
-      grid_.cross(flight, a);
-      loop_.cross(other, b);
+      grid_.pieces().cross(flight, a);
+      loop_.pieces().cross(other, b);
     }
   }
 
@@ -199,7 +199,7 @@ class TwoFinders {
   /// From a random point of a random wall, or joint; false: the direction leads into the wall.
   bool from_wall(Dice& dice, double omega, Flight& flight) const {
     const int wall = dice.whole(0, static_cast<int>(table_.walls.size()) - 1);
-    const geometry::PreparedCurve& curve = grid_.curve(wall);
+    const geometry::PreparedCurve& curve = grid_.pieces().curve(wall);
     const double u = dice.whole(0, 15) == 0 ? 0.0 : dice.between(0.0, curve.last());
     const auto frame = curve.frame(u);
     flight = from_point(frame.point, dice.direction(), omega);
@@ -208,7 +208,7 @@ class TwoFinders {
     flight.u = u;
     flight.start_error = curve.point_error;
     DecisionCounts counts;
-    return grid_.inward(wall, u, flight.velocity, frame.normal, counts) == Sign::positive;
+    return grid_.pieces().inward(wall, u, flight.velocity, frame.normal, counts) == Sign::positive;
   }
 
   Flown flown;

@@ -39,13 +39,13 @@ Course follow(World& world, Vector at, Vector velocity, double omega, std::uint6
   return {world.fate(0), r.ended, r.hits};
 }
 
-Ahead::Kind first_kind(const HitFinder& finder, Vector at, Vector velocity, double omega) {
+Ahead::Kind first_kind(HitFinder& finder, Vector at, Vector velocity, double omega) {
   Flight f;
   f.start = at;
   f.velocity = velocity;
   f.omega = omega;
   f.square_speed = dot(velocity, velocity);
-  finder.begin(f);
+  finder.pieces().begin(f);
   DecisionCounts counts;
   return finder.next(f, counts).kind;
 }
@@ -58,7 +58,7 @@ struct Shares {
 Shares aim(const char* name, const Table& table, bool smooth, long rays, std::uint64_t seed) {
   Dice dice(seed);
   World world(table);
-  const HitFinder integers(table, {1e300});  // exact arithmetic alone
+  HitFinder integers(table, {1e300});  // exact arithmetic alone
   std::vector<Vector> joints;
   geometry::Box box{{1e9, 1e9}, {-1e9, -1e9}};
   for (const Wall& w : table.walls) {

@@ -24,8 +24,8 @@ TEST(Locators, AgreeWithTheExactRegion) {
       const Table table = tests::random_table(shape, size, {}, dice);
       geometry::Loop loop;
       for (const Wall& wall : table.walls) loop.push_back({wall.name, wall.curve});
-      const Locator locator(table);
-      const HitFinder finder(table);
+      Locator locator(table);
+      const PieceTable pieces(table);
       for (int i = 0; i < 200; ++i) {
         Vector p{dice.between(-2, 2) * size, dice.between(-2, 2) * size};
         if (dice.coin()) {
@@ -43,7 +43,7 @@ TEST(Locators, AgreeWithTheExactRegion) {
         }
         const bool exactly = geometry::locate(loop, p) > 0;
         EXPECT_EQ(locator.contains(p), exactly) << p.x << " " << p.y;
-        const bool known = finder.surely_inside(p);
+        const bool known = pieces.surely_inside(p);
         EXPECT_TRUE(exactly || !known) << p.x << " " << p.y;
         inside += exactly;
         surely += known;

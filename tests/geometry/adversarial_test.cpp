@@ -38,7 +38,7 @@ double norm(Vector v) { return std::sqrt(dot(v, v)); }
 Vector turned_by(Vector v, double small) { return {v.x - small * v.y, v.y + small * v.x}; }
 
 /// Aims from a wall at a joint that it sees: the nearest doubles to the direction, turned by `off`.
-bool aim_at_joint(const Bench& bench, Dice& dice, double omega_times_size, double size, double off,
+bool aim_at_joint(Bench& bench, Dice& dice, double omega_times_size, double size, double off,
                   Start& s) {
   const auto& walls = bench.table().walls;
   const int wall = dice.whole(0, static_cast<int>(walls.size()) - 1);
@@ -70,11 +70,11 @@ TEST(Adversarial, AimedAtJoints) {
     const auto table = [&](Dice& dice) { return jointed_table(size, dice); };
     for (const double field : {0.0, 1.3, -0.4}) {
       run("at joints, to the last digit", Stage::exact, count(), table,
-          [&](const Bench& b, Dice& dice, Start& s) {
+          [&](Bench& b, Dice& dice, Start& s) {
             return aim_at_joint(b, dice, field, size, 0.0, s);
           });
       run("beside joints, by 1e-9", Stage::filter, count(), table,
-          [&](const Bench& b, Dice& dice, Start& s) {
+          [&](Bench& b, Dice& dice, Start& s) {
             return aim_at_joint(b, dice, field, size, dice.sign() * dice.between(1e-9, 2e-9), s);
           });
     }
@@ -85,9 +85,7 @@ TEST(Adversarial, AimedAtJointsOfEllipticArcs) {
   const auto table = [](Dice& dice) { return sound_table(Shape::elliptic_arcs, 1.0, dice); };
   for (const double field : {0.0, 0.7, -1.1})
     run("at elliptic joints, last digit", Stage::exact, cases(100, 2000), table,
-        [&](const Bench& b, Dice& dice, Start& s) {
-          return aim_at_joint(b, dice, field, 1.0, 0.0, s);
-        });
+        [&](Bench& b, Dice& dice, Start& s) { return aim_at_joint(b, dice, field, 1.0, 0.0, s); });
 }
 
 /// A star polygon with whole coordinates, and aims that meet a joint exactly.
@@ -108,7 +106,7 @@ Table whole_star(Dice& dice) {
 TEST(Adversarial, ExactlyThroughJoints) {
   const Tally t = run(
       "exactly through joints", Stage::exact, count(), whole_star,
-      [](const Bench& b, Dice& dice, Start& s) {
+      [](Bench& b, Dice& dice, Start& s) {
         const auto& walls = b.table().walls;
         s.wall = dice.whole(0, static_cast<int>(walls.size()) - 1);
         s.u = 0.25 * dice.whole(1, 3);
@@ -145,7 +143,7 @@ Table whole_arcs(Dice& dice) {
 
 TEST(Adversarial, ThroughJointsAheadAndBehind) {
   // A joint exactly behind the particle must not count, and its walls' parity must stay whole.
-  const auto start = [](const Bench& b, Dice& dice, double omega, Start& s) {
+  const auto start = [](Bench& b, Dice& dice, double omega, Start& s) {
     const auto& walls = b.table().walls;
     const Vector joint = geometry::start_point(
         walls[static_cast<std::size_t>(dice.whole(0, static_cast<int>(walls.size()) - 1))].curve);
@@ -165,13 +163,13 @@ TEST(Adversarial, ThroughJointsAheadAndBehind) {
   };
   for (const double omega : {0.0, 0.25, -1.0})
     run("through joints of arcs", Stage::exact, count(), whole_arcs,
-        [&](const Bench& b, Dice& dice, Start& s) { return start(b, dice, omega, s); });
+        [&](Bench& b, Dice& dice, Start& s) { return start(b, dice, omega, s); });
 }
 
 TEST(Adversarial, FromJoints) {
   run(
       "from joints", Stage::exact, count(), [](Dice& dice) { return jointed_table(1.0, dice); },
-      [](const Bench& b, Dice& dice, Start& s) {
+      [](Bench& b, Dice& dice, Start& s) {
         s = b.on_wall(dice, 1.0, dice.coin() ? 0.0 : dice.between(-3.0, 3.0));
         s.u = 0.0;
         return !b.curve(s.wall).closed;
@@ -179,7 +177,7 @@ TEST(Adversarial, FromJoints) {
 }
 
 /// Four discs in a square; flights from the square that graze one of them.
-bool graze(const Bench& bench, Dice& dice, double off, Start& s) {
+bool graze(Bench& bench, Dice& dice, double off, Start& s) {
   const auto& walls = bench.table().walls;
   if (walls.size() < 5) return false;
   s = bench.on_wall(dice, 1.0, 0.0);
@@ -200,9 +198,9 @@ TEST(Adversarial, Grazing) {
       return with_disc(with_disc(rectangle(2 * size, 2 * size), {h, h}, r), {3 * h, h}, r);
     };
     run("grazing a disc, to the last digit", Stage::exact, count(), table,
-        [](const Bench& b, Dice& dice, Start& s) { return graze(b, dice, 0.0, s); });
+        [](Bench& b, Dice& dice, Start& s) { return graze(b, dice, 0.0, s); });
     run("grazing a disc within 1e-6", Stage::filter, count(), table,
-        [](const Bench& b, Dice& dice, Start& s) {
+        [](Bench& b, Dice& dice, Start& s) {
           return graze(b, dice, dice.sign() * dice.between(0.5e-6, 1e-6), s);
         });
   }
@@ -214,8 +212,7 @@ TEST(Adversarial, LarmorCirclesGraze) {
   };
   for (const bool exact : {true, false})
     run(exact ? "Larmor circle grazing, last digit" : "Larmor circle grazing within 1e-6",
-        exact ? Stage::exact : Stage::filter, count(), table,
-        [&](const Bench& b, Dice& dice, Start& s) {
+        exact ? Stage::exact : Stage::filter, count(), table, [&](Bench& b, Dice& dice, Start& s) {
           const double r = std::get<Circle>(b.table().walls[4].curve).radius;
           const double rho = dice.between(0.1, 0.5),
                        gap = exact ? 0.0 : dice.sign() * dice.between(0.5e-6, 1e-6);
@@ -237,7 +234,7 @@ TEST(Adversarial, ExactTangencyIsNoHit) {
     return with_disc(rectangle(8, 8), {4, 4}, 0.125 * dice.whole(1, 24));
   };
   const Tally t = run("exactly tangent lines", Stage::exact, count(), table,
-                      [](const Bench& b, Dice& dice, Start& s) {
+                      [](Bench& b, Dice& dice, Start& s) {
                         const double r = std::get<Circle>(b.table().walls[4].curve).radius;
                         const bool up = dice.coin();
                         s.wall = up ? 0 : 3;  // bottom, left (downwards from y = 8)
@@ -247,7 +244,7 @@ TEST(Adversarial, ExactTangencyIsNoHit) {
                       });
   EXPECT_EQ(t.joints + t.none, 0);
   run("exactly tangent Larmor circles", Stage::exact, count(), table,
-      [](const Bench& b, Dice& dice, Start& s) {
+      [](Bench& b, Dice& dice, Start& s) {
         const double r = std::get<Circle>(b.table().walls[4].curve).radius;
         // |(3, 4) k| = 5 k = r + rho.
         const double k = 0.125 * dice.whole(1, 7), rho = 5 * k - r;
@@ -264,7 +261,7 @@ TEST(Adversarial, ExactTangencyIsNoHit) {
     return square;
   };
   run("exactly tangent to ellipses", Stage::exact, cases(100, 2000), ellipse,
-      [](const Bench& b, Dice& dice, Start& s) {
+      [](Bench& b, Dice& dice, Start& s) {
         const double height = 2.0 * std::get<Ellipse>(b.table().walls[4].curve).ratio;
         const bool above = dice.coin();
         const double y = 4.0 + (above ? height : -height);
@@ -289,7 +286,7 @@ TEST(Adversarial, ConcentricLarmorCircles) {
   for (const bool near : {false, true}) {
     const Tally t = run(near ? "concentric, radii alike to 2^-51" : "concentric",
                         near ? Stage::exact : Stage::filter, count(), table,
-                        [&](const Bench& b, Dice& dice, Start& s) {
+                        [&](Bench& b, Dice& dice, Start& s) {
                           const double inner = std::get<Circle>(b.table().walls[1].curve).radius;
                           const double rho = near ? (dice.coin() ? 1.0 - 0x1p-51 : inner + 0x1p-51)
                                                   : dice.between(inner + 1e-3, 1.0 - 1e-3);
@@ -316,7 +313,7 @@ TEST(Adversarial, NearlyEqualTimes) {
                        Segment{{3, 1 + gap}, {3, 1}}, Segment{{3, 1}, {1, 1}}});
           return t;
         },
-        [](const Bench& b, Dice& dice, Start& s) {
+        [](Bench& b, Dice& dice, Start& s) {
           s = b.on_wall(dice, 1.0, dice.coin() ? 0.0 : dice.between(-0.1, 0.1));
           if (s.wall != 0) return false;
           const Vector p = b.place(s);
@@ -332,14 +329,14 @@ TEST(Adversarial, AlongTheAxes) {
   run(
       "vertical and horizontal", Stage::filter, count(),
       [](Dice& dice) { return jointed_table(1.0, dice); },
-      [&](const Bench& b, Dice& dice, Start& s) {
+      [&](Bench& b, Dice& dice, Start& s) {
         s = b.on_wall(dice, 1.0, 0.0);
         s.velocity = axis(dice);
         return true;
       },
       40, 0.95);
   run("along grid lines through joints", Stage::exact, count(), whole_star,
-      [&](const Bench& b, Dice& dice, Start& s) {
+      [&](Bench& b, Dice& dice, Start& s) {
         // From the centre, which sees every corner of the star.
         const auto& walls = b.table().walls;
         const Vector j = geometry::start_point(

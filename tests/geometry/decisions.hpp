@@ -78,8 +78,8 @@ class Bench {
       : table_(std::move(table)), fast_(table_), integers_(table_, {no_filter}) {}
 
   const Table& table() const { return table_; }
-  const HitFinder& finder() const { return fast_; }
-  const geometry::PreparedCurve& curve(int wall) const { return fast_.curve(wall); }
+  HitFinder& finder() { return fast_; }
+  const geometry::PreparedCurve& curve(int wall) const { return fast_.pieces().curve(wall); }
   Vector place(const Start& s) const { return s.wall < 0 ? s.point : curve(s.wall).point(s.u); }
 
   /// A random start on a wall, into the domain, as fast as `speed`.
@@ -92,22 +92,24 @@ class Bench {
     const Vector d = dice.direction();
     s.velocity = speed * d;
     s.omega = omega;
-    if (fast_.exact().inward(s.wall, s.u, s.velocity) == Sign::negative) s.velocity = -s.velocity;
+    if (fast_.pieces().exact->inward(s.wall, s.u, s.velocity) == Sign::negative)
+      s.velocity = -s.velocity;
     return s;
   }
   bool inward(const Start& s) const {
     if (s.wall < 0) return true;
-    if (fast_.exact().inward(s.wall, s.u, s.velocity) != Sign::positive) return false;
+    if (fast_.pieces().exact->inward(s.wall, s.u, s.velocity) != Sign::positive) return false;
     return s.u > 0.0 || curve(s.wall).closed ||
-           fast_.exact().inward_at_end(table_.walls[static_cast<std::size_t>(s.wall)].previous,
-                                       s.velocity) == Sign::positive;
+           fast_.pieces().exact->inward_at_end(
+               table_.walls[static_cast<std::size_t>(s.wall)].previous, s.velocity) ==
+               Sign::positive;
   }
-  Ahead ahead(const Start& s) const {
+  Ahead ahead(const Start& s) {
     DecisionCounts counts;
     return fast_.next(flight(fast_, s), counts);
   }
   /// A free start half way to what lies ahead.
-  Start half_way(const Start& s) const {
+  Start half_way(const Start& s) {
     DecisionCounts counts;
     const Ahead a = fast_.next(flight(fast_, s), counts);
     if (a.kind == Ahead::Kind::none) return s;
@@ -131,11 +133,11 @@ class Bench {
     f.omega = s.omega;
     f.square_speed = dot(s.velocity, s.velocity);
     if (s.wall >= 0) {
-      finder.begin_on_wall(f, s.wall, s.u, place(s), s.velocity);
+      finder.pieces().begin_on_wall(f, s.wall, s.u, place(s), s.velocity);
     } else {
       f.start = s.point;
       f.velocity = s.velocity;
-      finder.begin(f);
+      finder.pieces().begin(f);
     }
     return f;
   }
@@ -158,11 +160,11 @@ class Bench {
     if (same && a.kind == Ahead::Kind::wall &&
         !table_.walls[static_cast<std::size_t>(a.piece)].holes.empty()) {
       DecisionCounts fast, slow;
-      hole = fast_.land(f, a, fast).hole;
-      if (hole != integers_.land(g, b, slow).hole && tally.differ++ < 3)
-        ADD_FAILURE() << "hole " << hole << ", integers " << integers_.land(g, b, slow).hole
-                      << " at u " << fast_.land(f, a, fast).at.u << "; " << text(a) << "; "
-                      << text(s);
+      hole = fast_.pieces().land(f, a, fast).hole;
+      if (hole != integers_.pieces().land(g, b, slow).hole && tally.differ++ < 3)
+        ADD_FAILURE() << "hole " << hole << ", integers "
+                      << integers_.pieces().land(g, b, slow).hole << " at u "
+                      << fast_.pieces().land(f, a, fast).at.u << "; " << text(a) << "; " << text(s);
       ++tally.hole_decisions;
       tally.hole_by_filter += fast.exact == 0;
       tally.holes += hole >= 0;

@@ -38,20 +38,21 @@ struct Met {
   friend bool operator==(const Met&, const Met&) = default;
 };
 
-Met follow(const HitFinder& finder, const Start& s, DecisionCounts& counts) {
+Met follow(HitFinder& finder, const Start& s, DecisionCounts& counts) {
   Flight f;
   f.omega = s.omega;
   f.square_speed = dot(s.velocity, s.velocity);
-  finder.begin_on_wall(f, s.wall, s.u, finder.curve(s.wall).point(s.u), s.velocity);
+  finder.pieces().begin_on_wall(f, s.wall, s.u, finder.pieces().curve(s.wall).point(s.u),
+                                s.velocity);
   Met met;
   for (; met.edges < 100; ++met.edges) {
     const Ahead a = finder.next(f, counts);
     if (a.kind == Ahead::Kind::wall) {
-      const HitFinder::Landing l = finder.land(f, a, counts);
+      const PieceTable::Landing l = finder.pieces().land(f, a, counts);
       return {true, l.wall, met.edges, l.cell, a.kappa};
     }
     if (a.kind != Ahead::Kind::edge) break;
-    finder.cross(f, a);
+    finder.pieces().cross(f, a);
   }
   return met;
 }
@@ -59,7 +60,7 @@ Met follow(const HitFinder& finder, const Start& s, DecisionCounts& counts) {
 TEST(Decisions, LatticesAreDiscsInThePlane) {
   for (const bool square : {false, true}) {
     const Table table = lorentz(square ? 2.6 : 2.25, square), plane = laid_out(table);
-    const HitFinder fast(table), integers(table, {no_filter});
+    HitFinder fast(table), integers(table, {no_filter});
     const Oracle oracle(plane);
     Dice dice(11);
     DecisionCounts counts, unused;
@@ -72,7 +73,8 @@ TEST(Decisions, LatticesAreDiscsInThePlane) {
       s.u = 4.0 * dice.unit() * (1.0 - 0x1p-50) + 0x1p-52;
       s.velocity = dice.direction();
       s.omega = dice.coin() ? 0.0 : dice.between(-2.0, 2.0);
-      if (fast.exact().inward(s.wall, s.u, s.velocity) == Sign::negative) s.velocity = -s.velocity;
+      if (fast.pieces().exact->inward(s.wall, s.u, s.velocity) == Sign::negative)
+        s.velocity = -s.velocity;
       const Met a = follow(fast, s, counts), b = follow(integers, s, unused);
       ASSERT_TRUE(a.found) << i;
       ASSERT_EQ(a, b) << i;

@@ -49,8 +49,8 @@ TEST(ExitBySigns, IsOneForAllFlightsWithTheSameJointsOnTheRight) {
   for (long k = 0; k < tests::cases(60, 3000) && !HasFailure(); ++k) {
     const Shape shape = k % 3 == 0 ? Shape::polygon : k % 3 == 1 ? Shape::mushroom : Shape::arcs;
     const Table table = tests::random_table(shape, 1.0, {}, dice, 2.0);
-    const HitFinder finder(table);
-    const LaneTable t = lanes::make_lane_table(finder);
+    const PieceTable walls(table);
+    const LaneTable t = lanes::make_lane_table(walls);
     if (!t.by_signs) continue;
     ++told;
     World world(table);
@@ -79,7 +79,7 @@ TEST(ExitBySigns, IsNotAskedForWhereAnArcBulgesIntoTheDomain) {
   Dice dice(4);
   for (int k = 0; k < 20; ++k) {
     const Table table = tests::random_table(Shape::discs, 1.0, {}, dice);
-    EXPECT_FALSE(lanes::make_lane_table(HitFinder(table)).by_signs);
+    EXPECT_FALSE(lanes::make_lane_table(PieceTable(table)).by_signs);
   }
 }
 
@@ -92,7 +92,7 @@ TEST(ExitBySigns, IsNotAskedForWhereAJointLiesInACap) {
     const Table table =
         tests::loop({tests::CircularArc{{s, s}, {s, -s}, -s, true},
                      tests::Segment{{s, -s}, {tip, 0}}, tests::Segment{{tip, 0}, {s, s}}});
-    const LaneTable t = lanes::make_lane_table(HitFinder(table));
+    const LaneTable t = lanes::make_lane_table(PieceTable(table));
     EXPECT_FALSE(t.convex);
     EXPECT_EQ(t.by_signs, tip > s);
   }

@@ -11,7 +11,7 @@
 
 #include "carom/events/world.hpp"
 #include "carom/lanes/free_lanes.hpp"
-#include "events/flight/next_hit.hpp"
+#include "events/flight/piece_table.hpp"
 #include "lanes/free/make_lane_table.hpp"
 #include "random_tables.hpp"
 
@@ -123,9 +123,9 @@ TEST(NextDiscTable, AreThoseThatFlightsMeet) {
     const Vector centre = size * Vector{dice.between(-0.03, 0.03), dice.between(-0.03, 0.03)};
     const double radius = thin ? 0.4999 - dice.spread(1e-6, 0.3) : dice.between(0.12, 0.28);
     const Table table = lattice_of_discs(first, longer, size * radius, thin ? Vector{} : centre);
-    const HitFinder finder(table);
+    const PieceTable walls(table);
     if (!lanes::misfit(table).empty()) continue;
-    LaneTable t = lanes::make_lane_table(finder);
+    LaneTable t = lanes::make_lane_table(walls);
     const auto entries = lanes::make_next_discs(t);
     if (entries.empty()) continue;
     ++tables;
@@ -175,8 +175,8 @@ TEST(NextDiscTable, OfARowLieAhead) {
     v = (1.0 / std::sqrt(dot(v, v))) * v;
     LaneStart start;
     start.state.wall = 0;
-    const HitFinder finder(table);
-    const geometry::PreparedCurve& curve = finder.curve(0);
+    const PieceTable walls(table);
+    const geometry::PreparedCurve& curve = walls.curve(0);
     start.state.u = curve.parameter(std::sqrt(c.radius * c.radius - c.aside * c.aside) * v +
                                     c.aside * Vector{v.y, -v.x});
     start.state.position = geometry::point_at(table.walls[0].curve, start.state.u);
@@ -216,8 +216,8 @@ TEST(NextDiscTable, AreSeenAtOnce) {
                        Case{1.0, 0.25, 200}, Case{1.0, 0.1, 1500}}) {
     const Table table =
         lattice_of_discs({1, 0}, {c.height < 1.0 ? 0.5 : 0.0, c.height}, c.radius, {0, 0});
-    const HitFinder finder(table);
-    LaneTable t = lanes::make_lane_table(finder);
+    const PieceTable walls(table);
+    LaneTable t = lanes::make_lane_table(walls);
     const auto entries = lanes::make_next_discs(t);
     ASSERT_EQ(t.next_discs, entries.data());
     int more = 0;
@@ -232,8 +232,8 @@ TEST(NextDiscTable, AreSeenAtOnce) {
     EXPECT_LT(more, c.most) << c.radius;
   }
   const Table table = lattice_of_discs({1, 0}, {0, 1}, 0.002, {0, 0});
-  const HitFinder finder(table);
-  LaneTable t = lanes::make_lane_table(finder);
+  const PieceTable walls(table);
+  LaneTable t = lanes::make_lane_table(walls);
   EXPECT_TRUE(lanes::make_next_discs(t).empty());
   EXPECT_EQ(t.next_discs, nullptr);
 }

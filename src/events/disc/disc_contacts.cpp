@@ -206,7 +206,7 @@ Cell DiscContacts::advance(int index, const Time& now) {
     Flight flight;
     flight.start = b.state.position;
     flight.velocity = b.particle.speed > 0.0 ? b.state.velocity : Vector{1.0, 0.0};
-    flights_.finder().begin(flight);
+    flights_.pieces().begin(flight);
     step = flight.cell;
   }
   b.state.cell.first += by.first;
@@ -285,14 +285,14 @@ void DiscContacts::start(int index, double way, Observer& observer) {
 
 /// The wall that a disc is at within rounding, after a flight of this length.
 std::optional<DiscContacts::Touch> DiscContacts::touched_wall(const State& s, double way) const {
-  const int walls = static_cast<int>(flights_.finder().table().walls.size());
+  const int walls = static_cast<int>(flights_.pieces().table.walls.size());
   const std::int64_t range = table_.lattice && walls > 0 ? 1 : 0;
   for (int w = 0; w < walls; ++w)
     for (std::int64_t m = -range; m <= range; ++m)
       for (std::int64_t n = -range; n <= range; ++n) {
         const Vector x =
             table_.lattice ? s.position - table_.lattice->translation({m, n}) : s.position;
-        const geometry::PreparedCurve& curve = flights_.finder().curve(w);
+        const geometry::PreparedCurve& curve = flights_.pieces().curve(w);
         // Position and time of the flight err by a few units of what they are made of.
         const double bound =
             32.0 * geometry::unit_roundoff * (norm_1(x) + norm_1(s.position) + curve.extent + way);
@@ -317,12 +317,12 @@ bool DiscContacts::settle_on_wall(int index, double way, Observer& observer) {
   b.state.position = frame.point;
   b.state.cell.first += cell.first;
   b.state.cell.second += cell.second;
-  const HitFinder& finder = flights_.finder();
-  Sign inward = finder.inward(w, u, b.state.velocity, frame.normal, flights_.counts());
+  const PieceTable& pieces = flights_.pieces();
+  Sign inward = pieces.inward(w, u, b.state.velocity, frame.normal, flights_.counts());
   if (inward == Sign::positive) return true;
   const Time now = b.state.time;
-  for (const int h : finder.table().walls[at(w)].holes) {
-    const Hole& hole = finder.table().holes[at(h)];
+  for (const int h : pieces.table.walls[at(w)].holes) {
+    const Hole& hole = pieces.table.holes[at(h)];
     if (inward != Sign::negative || !(hole.from <= u && u < hole.to)) continue;
     b.hole = h;
     bodies_.end(index, Fate::escaped, now, observer);
@@ -332,7 +332,7 @@ bool DiscContacts::settle_on_wall(int index, double way, Observer& observer) {
   for (int i = 0; i < 2 && inward == Sign::negative; ++i) {
     b.state.velocity =
         geometry::reflected(b.state.velocity, frame.normal, frame.square, frame.k, 0.0);
-    inward = finder.inward(w, u, b.state.velocity, frame.normal, flights_.counts());
+    inward = pieces.inward(w, u, b.state.velocity, frame.normal, flights_.counts());
   }
   if (inward != Sign::positive) {
     bodies_.end(index, Fate::singular, now, observer);

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/geometry/quartic.hpp"
 #include "events/flight/bounded.hpp"
 #include "events/flight/crossing.hpp"
-#include "events/flight/next_hit.hpp"
+#include "events/flight/piece_table.hpp"
 
 namespace carom {
 
@@ -17,35 +18,30 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void HitFinder::look_at_cells(const Flight& f) const {
-  const double speed_1 = norm_1(f.velocity), omega = std::fabs(f.omega);
-  const Lattice& l = *table_.lattice;
-  for (std::size_t k = 0; k < offsets_.size(); ++k) {
-    const Cell c{f.cell.first + offsets_[k].first, f.cell.second + offsets_[k].second};
-    Origin& o = origins_[k];
-    o.point = l.seen_from(c, f.start);
-    // The start less one multiple, at most |start| + size, and the end; |start| is at most the end
-    // and size.
-    const double m = std::fabs(static_cast<double>(c.first)),
-                 n = std::fabs(static_cast<double>(c.second));
-    const double size = m * norm_1(l.first) + n * norm_1(l.second);
-    const double rounding = unit_roundoff * 2.1 * (size + norm_1(o.point));
-    o.scale.delta = c == Cell{} ? f.start_error : f.start_error + rounding;
-    o.scale.speed_1 = speed_1;
-    o.scale.omega = omega;
-    o.scale.inflation = options_.filter_inflation;
-  }
+Origin PieceTable::origin_of(const Flight& f, int offset) const {
+  Origin o{f.start,
+           {f.start_error, norm_1(f.velocity), std::fabs(f.omega), options.filter_inflation}};
+  if (!cells || !(displaced || (f.cell.first | f.cell.second) != 0)) return o;
+  const Lattice& l = *table.lattice;
+  const Cell c{f.cell.first + offsets[at(offset)].first,
+               f.cell.second + offsets[at(offset)].second};
+  o.point = l.seen_from(c, f.start);
+  if (c == Cell{}) return o;
+  // The start less one multiple, at most |start| + size, and the end; |start| is at most the end
+  // and size.
+  const double m = std::fabs(static_cast<double>(c.first)),
+               n = std::fabs(static_cast<double>(c.second));
+  const double size = m * norm_1(l.first) + n * norm_1(l.second);
+  o.scale.delta += unit_roundoff * 2.1 * (size + norm_1(o.point));
+  return o;
 }
 
-HitFinder::Candidate HitFinder::candidate(const Flight& f, int piece, bool stands) const {
-  const PieceData& p = data_[at(piece)];
-  const PreparedCurve& w = curves_[at(p.curve)];
-  const Origin& origin = origins_[at(p.offset)];
-  Candidate c;
+Crossing PieceTable::crossing_of(const Flight& f, int piece, const Origin& o, bool stands) const {
+  const PreparedCurve& w = *data[at(piece)].shape;
+  Crossing c;
   c.quadratic = f.omega == 0.0
-                    ? quadratic<false>(w, origin.point, f.velocity, f.square_speed, 0.0, stands)
-                    : quadratic<true>(w, origin.point, f.velocity, f.square_speed, f.omega, stands);
-  c.error = quadratic_error(w, origin.point, origin.scale, stands);
+                    ? quadratic<false>(w, o.point, f.velocity, f.square_speed, 0.0, stands)
+                    : quadratic<true>(w, o.point, f.velocity, f.square_speed, f.omega, stands);
   c.root = rising_root(c.quadratic);
   if (stands && f.omega != 0.0) c.root.kappa = -c.quadratic.c / (2.0 * c.quadratic.b);
   return c;
@@ -64,14 +60,23 @@ bool ends_on_ellipse(const PreparedCurve& w, Vector e, Vector v, double omega, d
 
 }  // namespace
 
-Sign HitFinder::quartic_candidate(const Flight& f, int piece, double inflation,
-                                  Candidate& c) const {
+bool PieceTable::stands_on_ellipse(const Flight& f, int piece) const {
+  const PieceData& p = data[at(piece)];
+  const auto begins_on = [&](int start) {
+    if (start < 0) return false;
+    const PieceData& s = data[at(start)];
+    return start == piece || (p.ellipse >= 0 && s.ellipse == p.ellipse && s.offset == p.offset);
+  };
+  return begins_on(f.start_piece) || begins_on(f.start_previous);
+}
+
+Sign PieceTable::first_exit(const Flight& f, int piece, const Origin& seen, double inflation,
+                            Crossing& c) const {
   const bool stands = stands_on_ellipse(f, piece);
-  const PieceData& p = data_[at(piece)];
-  const PreparedCurve& w = curves_[at(p.curve)];
-  FlightScale s = origins_[at(p.offset)].scale;
+  const PreparedCurve& w = *data[at(piece)].shape;
+  FlightScale s = seen.scale;
   s.inflation = inflation;
-  const Vector origin = origins_[at(p.offset)].point;
+  const Vector origin = seen.point;
   const Vector e = origin - w.centre, j = right(f.velocity);
   const Vector em{dot(w.first_axis, e), dot(w.second_axis, e)};
   const Vector vm{dot(w.first_axis, f.velocity), dot(w.second_axis, f.velocity)};
@@ -79,7 +84,7 @@ Sign HitFinder::quartic_candidate(const Flight& f, int piece, double inflation,
   const double row = std::max(norm_1(w.first_axis), norm_1(w.second_axis));
   QuarticError error = quartic_error(s, norm_1(e), w.centre_error, row, stands);
   // An arc's ellipse on which the start lies to rounding: from there, the square of its image
-  // for 1. Who is beyond the arc's chord makes no flight to a larger |kappa| that ends on it.
+  // for 1. From beyond the arc's chord no flight to a larger |kappa| ends on it.
   const double off = std::fabs(dot(em, em) - 1.0);
   const bool beside = !w.closed && !stands && off <= error.q[4];
   Quartic<double> q =
@@ -99,8 +104,8 @@ Sign HitFinder::quartic_candidate(const Flight& f, int piece, double inflation,
                    w.closed ? 1 : 4, beside ? kappa_beyond_chord(w, origin, s) : HUGE_VAL);
   for (int i = 0; i < found.count; ++i) {
     c.root.kappa = found.roots[i].kappa;
-    c.kappa_error = found.roots[i].error;
-    const Sign on = w.closed ? Sign::positive : on_part(f, piece, c, inflation);
+    c.error = found.roots[i].error;
+    const Sign on = w.closed ? Sign::positive : on_part(f, piece, seen, c, inflation);
     if (on == Sign::positive && !ends_on_ellipse(w, e, f.velocity, f.omega, c.root.kappa))
       return Sign::undecided;
     if (on != Sign::negative) return on;
@@ -109,35 +114,39 @@ Sign HitFinder::quartic_candidate(const Flight& f, int piece, double inflation,
 }
 
 /// Is the crossing of a conic, with its error known, on the arc's side of its chord?
-Sign HitFinder::on_part(const Flight& f, int piece, const Candidate& c, double inflation) const {
-  const PieceData& p = data_[at(piece)];
-  const PreparedCurve& w = curves_[at(p.curve)];
-  FlightScale s = origins_[at(p.offset)].scale;
+Sign PieceTable::on_part(const Flight& f, int piece, const Origin& o, const Crossing& c,
+                         double inflation) const {
+  FlightScale s = o.scale;
   s.inflation = inflation;
-  return side_of_chord(w, origins_[at(p.offset)].point, f.velocity, f.omega, c.root.kappa,
-                       c.kappa_error, s)
+  return side_of_chord(*data[at(piece)].shape, o.point, f.velocity, f.omega, c.root.kappa, c.error,
+                       s)
       .sign();
 }
 
-/// Both joints of an arc lie on one side: does the flight leave through it all the same?
-Sign HitFinder::crossed_twice(const Flight& f, int piece) const {
-  if (!cells_) look_from(f);
-  Candidate c = candidate(f, piece, false);
-  const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, c.error));
+Sign PieceTable::crossed_twice(const Flight& f, int piece, const Origin& o) const {
+  Crossing c = crossing_of(f, piece, o, false);
+  const QuadraticError error = quadratic_error(*data[at(piece)].shape, o.point, o.scale, false);
+  const Sign cut = sign_within(c.root.discriminant, discriminant_error(c.quadratic, error));
   if (cut != Sign::positive) return cut;
-  c.kappa_error = kappa_error(c.quadratic, c.error, c.root);
-  return on_part(f, piece, c, options_.filter_inflation);
+  c.error = kappa_error(c.quadratic, error, c.root);
+  return on_part(f, piece, o, c, options.filter_inflation);
 }
 
-double HitFinder::kappa_error_of(const Flight& f, int piece) const {
-  if (!cells_) look_from(f);
-  Candidate c;
-  if (is_quartic(f, piece))
-    return quartic_candidate(f, piece, options_.filter_inflation, c) == Sign::positive
-               ? c.kappa_error
-               : HUGE_VAL;
-  c = candidate(f, piece, stands_on(f, piece));
-  return kappa_error(c.quadratic, c.error, c.root);
+double PieceTable::error_of(const Flight& f, const Ahead& ahead) const {
+  const PieceData& p = data[at(ahead.piece)];
+  const Origin o = origin_of(f, p.offset);
+  if (is_quartic(f, ahead.piece)) {
+    Crossing c;
+    return first_exit(f, ahead.piece, o, options.filter_inflation, c) == Sign::positive ? c.error
+                                                                                        : HUGE_VAL;
+  }
+  const bool stands = stands_on(f, ahead.piece);
+  const Crossing c = crossing_of(f, ahead.piece, o, stands);
+  return kappa_error(c.quadratic, quadratic_error(*p.shape, o.point, o.scale, stands), c.root);
+}
+
+ExactFlight PieceTable::exact_flight(const Flight& f) const {
+  return ExactFlight(*exact, f.wall, f.u, f.start, f.velocity, f.omega);
 }
 
 }  // namespace carom

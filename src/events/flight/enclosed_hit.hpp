@@ -29,18 +29,18 @@ inline constexpr double least_square = 0x1p-900;
   using geometry::Vector;
   const Vector v = f.velocity, origin = f.start;
   int wall = 0;
-  if (enclosure_.size() > 1) {
+  if (t_.enclosure.size() > 1) {
     // Half the error of side_of_flight, for the distance of the farthest joint.
     const double bound =
-        options_.filter_inflation * 1.005 * norm_1(v) * (f.start_error + enclosure_rounding_);
-    wall = enclosure_.exit_of_line(origin, v, bound);
+        t_.options.filter_inflation * 1.005 * norm_1(v) * (f.start_error + t_.enclosure_rounding);
+    wall = t_.enclosure.exit_of_line(origin, v, bound);
     if (wall < 0) return false;
-    if (wall == enclosure_.size()) {  // all joints on one side: through the arc that it stands on
+    if (wall == t_.enclosure.size()) {  // all joints on one side: through the arc that it stands on
       wall = f.start_piece;
-      if (wall < 0 || !enclosure_.bent(wall)) return false;
+      if (wall < 0 || !t_.enclosure.bent(wall)) return false;
     }
   }
-  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
+  const geometry::PreparedCurve& w = t_.curves[static_cast<std::size_t>(wall)];
   Pair found;  // duration and kappa
   if (w.kind == geometry::CurveKind::segment) {
     const Pair p{geometry::fused_cross(w.tangent, origin - w.from),
@@ -76,21 +76,21 @@ inline constexpr double least_square = 0x1p-900;
   const Vector v = f.velocity, origin = f.start;
   int wall = f.start_piece;
   if (wall < 0) return false;
-  if (enclosure_.size() > 1) {
+  if (t_.enclosure.size() > 1) {
     const geometry::CentreError error = geometry::centre_error(
-        {f.start_error, norm_1(v), std::fabs(f.omega), options_.filter_inflation},
-        enclosure_.diameter());
+        {f.start_error, norm_1(v), std::fabs(f.omega), t_.options.filter_inflation},
+        t_.enclosure.diameter());
     const Enclosure::Order order =
-        enclosure_.exits_of_circle(wall, origin, v, f.omega, f.square_speed, error);
+        t_.enclosure.exits_of_circle(wall, origin, v, f.omega, f.square_speed, error);
     if (!order.decided) return false;
     for (std::uint64_t walls = order.walls;;) {
-      const int first = enclosure_.first_of(walls, wall, f.omega);
-      if (first == enclosure_.size()) break;  // comes back to the wall it started on
+      const int first = t_.enclosure.first_of(walls, wall, f.omega);
+      if (first == t_.enclosure.size()) break;  // comes back to the wall it started on
       if ((order.surely >> first & 1) != 0) {
         wall = first;
         break;
       }
-      const Sign leaves = crossed_twice(f, first);
+      const Sign leaves = t_.crossed_twice(f, first, t_.origin_of(f, 0));
       if (leaves == Sign::undecided) return false;
       if (leaves == Sign::positive) {
         wall = first;
@@ -99,7 +99,7 @@ inline constexpr double least_square = 0x1p-900;
       walls &= ~(std::uint64_t{1} << first);
     }
   }
-  const geometry::PreparedCurve& w = curves_[static_cast<std::size_t>(wall)];
+  const geometry::PreparedCurve& w = t_.curves[static_cast<std::size_t>(wall)];
   geometry::Quadratic<double> q;
   if (w.kind == geometry::CurveKind::segment) {
     const Vector d = origin - w.from;
@@ -112,12 +112,12 @@ inline constexpr double least_square = 0x1p-900;
   if (!stands && w.kind == geometry::CurveKind::segment) {
     // Twice the rounding of lengths exceeds 8u of them.
     const double bound =
-        options_.filter_inflation * (1.42 * f.start_error + 2.0 * enclosure_rounding_);
+        t_.options.filter_inflation * (1.42 * f.start_error + 2.0 * t_.enclosure_rounding);
     if (!(std::fabs(q.a) > bound)) [[unlikely]]
       return false;
   } else {
     const geometry::FlightScale scale{f.start_error, norm_1(v), std::fabs(f.omega),
-                                      options_.filter_inflation};
+                                      t_.options.filter_inflation};
     if (stands ? !(q.b > 0.0)
                : !far_root_certain(q, quadratic_error(w, origin, scale, false), false)) [[unlikely]]
       return false;
@@ -135,18 +135,18 @@ inline constexpr double least_square = 0x1p-900;
 }
 
 [[gnu::always_inline]] inline void HitFinder::next(const Flight& flight, Ahead& ahead,
-                                                   DecisionCounts& counts) const {
-  if (enclosure_.size() > 0) {
+                                                   DecisionCounts& counts) {
+  if (t_.enclosure.size() > 0) {
     if (flight.start_previous < 0 &&
         (flight.omega == 0.0 ? line_in_enclosure(flight, ahead)
-                             : without_ellipses_ && circle_in_enclosure(flight, ahead))) {
+                             : t_.without_ellipses && circle_in_enclosure(flight, ahead))) {
       ++counts.filter;
       return;
     }
-  } else if (grid_) {
+  } else if (t_.grid) {
     return next_in_grid(flight, ahead, counts);
-  } else if (flight.omega == 0.0 && enclosure_size_ > 0) {
-    if (cells_) look_from(flight);
+  } else if (flight.omega == 0.0 && t_.enclosure_size > 0) {
+    if (t_.cells) look_from(flight);
     if (filtered_enclosed(flight, ahead)) {
       ++counts.filter;
       return;

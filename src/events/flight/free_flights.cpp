@@ -15,7 +15,7 @@ FreeFlights::FreeFlights(const Table& walls, const Table& inside, const ForceReg
     corners_.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
                        : w.corner > 0
                            ? w.corner
-                           : finder_.exact().corner(w.previous, static_cast<int>(i)).order);
+                           : pieces().exact->corner(w.previous, static_cast<int>(i)).order);
   }
 }
 
@@ -39,18 +39,19 @@ void FreeFlights::begin(Body& b) const {
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;
   if (b.state.wall >= 0) {
-    const auto [point, normal, square, k] = finder_.curve(b.state.wall).frame(b.state.u);
+    const auto [point, normal, square, k] = pieces().curve(b.state.wall).frame(b.state.u);
     // A state that went on from a hit keeps its point; any other starts at the image of u.
-    if (finder_.curve(b.state.wall).parameter(b.state.position) != b.state.u)
+    if (pieces().curve(b.state.wall).parameter(b.state.position) != b.state.u)
       b.state.position = point;
     DecisionCounts unused;
-    if (finder_.inward(b.state.wall, b.state.u, b.state.velocity, normal, unused) != Sign::positive)
+    if (pieces().inward(b.state.wall, b.state.u, b.state.velocity, normal, unused) !=
+        Sign::positive)
       throw std::invalid_argument("the velocity does not point into the domain");
-    finder_.begin_on_wall(b.flight, b.state.wall, b.state.u, b.state.position, b.state.velocity);
+    pieces().begin_on_wall(b.flight, b.state.wall, b.state.u, b.state.position, b.state.velocity);
   } else {
     b.flight.start = b.state.position;
     b.flight.velocity = b.state.velocity;
-    finder_.begin(b.flight);
+    pieces().begin(b.flight);
   }
 }
 
@@ -59,11 +60,11 @@ void FreeFlights::begin_on_wall(Body& b, int wall, double u) const {
   b.shell = energy_shell(b.particle.speed);
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;
-  finder_.begin_on_wall(b.flight, wall, u, b.state.position, b.state.velocity);
+  pieces().begin_on_wall(b.flight, wall, u, b.state.position, b.state.velocity);
 }
 
 /// The flight ends on the edge of a support.
-void FreeFlights::put_on_edge(Body& b, Time now, const HitFinder::Landing& landing) {
+void FreeFlights::put_on_edge(Body& b, Time now, const PieceTable::Landing& landing) {
   b.state.wall = -1;
   b.state.position = landing.at.point;
   b.state.velocity = landing.velocity;
@@ -73,7 +74,7 @@ void FreeFlights::put_on_edge(Body& b, Time now, const HitFinder::Landing& landi
 }
 
 bool FreeFlights::contains(Vector point) {
-  if (finder_.surely_inside(point)) return true;
+  if (pieces().surely_inside(point)) return true;
   if (!locator_) locator_ = std::make_unique<Locator>(inside_);
   return locator_->contains(point);
 }

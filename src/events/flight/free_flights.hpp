@@ -43,15 +43,16 @@ class FreeFlights {
   /// Is the point strictly inside (exact)?
   bool contains(geometry::Vector point);
 
-  const HitFinder& finder() const { return finder_; }
+  const PieceTable& pieces() const { return finder_.pieces(); }
   DecisionCounts& counts() { return counts_; }
   const DecisionCounts& counts() const { return counts_; }
 
  private:
   void predict(int index, Body& b);
   void schedule(int index, const Body& b);
-  static void put_on_edge(Body& b, Time now, const HitFinder::Landing& landing);
-  bool reflect(int index, Body& b, Time now, Observer& observer, const HitFinder::Landing& landing);
+  static void put_on_edge(Body& b, Time now, const PieceTable::Landing& landing);
+  bool reflect(int index, Body& b, Time now, Observer& observer,
+               const PieceTable::Landing& landing);
 
   HitFinder finder_;
   Bodies& bodies_;
@@ -84,7 +85,7 @@ class FreeFlights {
       when = b.state.time;
       if (b.particle.omega != 0.0 && b.state.wall < 0)
         kind = EventKind::pinned;
-      else if (b.particle.omega == 0.0 && finder_.table().extent == Extent::open_plane)
+      else if (b.particle.omega == 0.0 && pieces().table.extent == Extent::open_plane)
         kind = EventKind::unbounded;
       else
         kind = EventKind::lost;
@@ -103,7 +104,7 @@ class FreeFlights {
 
 [[gnu::always_inline]] inline bool FreeFlights::reflect(int index, Body& b, Time now,
                                                         Observer& observer,
-                                                        const HitFinder::Landing& landing) {
+                                                        const PieceTable::Landing& landing) {
   const geometry::Vector before = landing.velocity;
   const geometry::Vector normal = landing.at.normal;
   const double step = step_to_energy_shell(before, b.shell);
@@ -112,17 +113,17 @@ class FreeFlights {
   if (b.ahead.kind == Ahead::Kind::joint) {
     reflections = corners_[static_cast<std::size_t>(landing.wall)];
     if (reflections == 0) return bodies_.end(index, Fate::singular, now, observer), true;
-    const int previous = finder_.table().walls[static_cast<std::size_t>(landing.wall)].previous;
+    const int previous = pieces().table.walls[static_cast<std::size_t>(landing.wall)].previous;
     after = (1.0 + step) *
-            reflected_at_corner(before, finder_.normal_at_end(previous), normal, reflections);
+            reflected_at_corner(before, pieces().normal_at_end(previous), normal, reflections);
   } else {
     after = geometry::reflected(before, normal, landing.at.factor, step);
   }
-  Sign inward = finder_.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
+  Sign inward = pieces().inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
   if (inward == Sign::negative && reflections == 1) {
     // A grazing rounding: reflecting once more turns it back.
     after = geometry::reflected(after, normal, dot(normal, normal), 1.0, 0.0);
-    inward = finder_.inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
+    inward = pieces().inward(landing.wall, *landing.curve, landing.at.u, after, normal, counts_);
   }
   if (inward != Sign::positive) return bodies_.end(index, Fate::singular, now, observer), true;
 
@@ -134,8 +135,8 @@ class FreeFlights {
   b.state.cell.second += landing.cell.second;
   b.state.time.high = now.high;
   b.state.time.low = now.low;
-  finder_.begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
-                        after);
+  pieces().begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
+                         after);
   const HitEvent& hit = bodies_.count_hit(index, b, before, b.ahead.duration, reflections);
   if (bodies_.reaches_limit(b)) {
     observer.hit(hit);
@@ -159,7 +160,7 @@ class FreeFlights {
       case EventKind::unbounded:
         return bodies_.end(index, Fate::unbounded, b.state.time, observer), true;
       case EventKind::cell_edge:
-        finder_.cross(b.flight, b.ahead);
+        pieces().cross(b.flight, b.ahead);
         return predict(index, b), true;
       case EventKind::hit:
       case EventKind::singular:
@@ -171,16 +172,16 @@ class FreeFlights {
     }
   if (b.ahead.kind == Ahead::Kind::cusp)
     return bodies_.end(index, Fate::singular, now, observer), true;
-  HitFinder::Landing landing;
-  finder_.land(b.flight, b.ahead, landing, counts_);
+  PieceTable::Landing landing;
+  pieces().land(b.flight, b.ahead, landing, counts_);
   if (regions_.is_edge(landing.wall)) [[unlikely]] {
-    const HitFinder::Landing there = landing;  // a copy, or the landing would live in memory
+    const PieceTable::Landing there = landing;  // a copy, or the landing would live in memory
     put_on_edge(b, now, there);
     return false;
   }
   if (b.ahead.kind == Ahead::Kind::joint) {
-    for (const int h : finder_.table().walls[static_cast<std::size_t>(landing.wall)].holes)
-      if (finder_.table().holes[static_cast<std::size_t>(h)].from == 0.0) landing.hole = h;
+    for (const int h : pieces().table.walls[static_cast<std::size_t>(landing.wall)].holes)
+      if (pieces().table.holes[static_cast<std::size_t>(h)].from == 0.0) landing.hole = h;
   }
   if (landing.hole >= 0) {
     b.hole = landing.hole;

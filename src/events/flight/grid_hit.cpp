@@ -16,50 +16,12 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-/// With edges nothing matters outside the lattice's cell; else a flight may start anywhere, but
-/// what does not reach a wall ends nowhere.
-void HitFinder::make_grid(bool edges) {
-  if (pieces_.empty()) return;
-  std::vector<Box> boxes;
-  const Vector none{0.0, 0.0};
-  const Vector first = cells_ ? table_.lattice->first : none,
-               second = cells_ ? table_.lattice->second : none;
-  if (cells_ && edges) {
-    for (const CellEdge& e : table_.lattice->edges) boxes.push_back(bounding_box(e.segment));
-  } else {
-    for (const Piece& p : pieces_) {
-      Box box = bounding_box(p.curve);
-      if (!(p.offset == Cell{})) {
-        // Displaced, with the rounding on the safe side.
-        const Vector t = table_.lattice->translation(p.offset);
-        const double m = std::fabs(static_cast<double>(p.offset.first)),
-                     n = std::fabs(static_cast<double>(p.offset.second));
-        const double size = std::max({std::fabs(box.low.x), std::fabs(box.low.y),
-                                      std::fabs(box.high.x), std::fabs(box.high.y)});
-        const double margin = 8.0 * unit_roundoff * (m * norm_1(first) + n * norm_1(second) + size);
-        box = {{box.low.x + t.x - margin, box.low.y + t.y - margin},
-               {box.high.x + t.x + margin, box.high.y + t.y + margin}};
-      }
-      boxes.push_back(box);
-    }
-  }
-  grid_ = std::make_unique<const WallGrid>(pieces_, first, second, geometry::hull_of(boxes));
-  seen_.assign(data_.size(), 0);
-  near_.reserve(grid_->entries().size());
-  for (const int piece : grid_->entries()) {
-    const PieceData& p = data_[at(piece)];
-    const PreparedCurve& w = *p.shape;
-    const bool disc = p.closed && p.kind == CurveKind::circle;
-    near_.push_back({w.centre.x, w.centre.y, w.r2, w.centre_error, piece, p.offset, disc,
-                     disc && w.orientation < 0});
-  }
-}
-
 /// Does a line enter a disc from outside? Negative: it does not, or cannot leave the domain there.
 /// Positive: it does, and `first` has been compared with it. Undecided: this is for the filter to
 /// tell.
 template <bool cells>
-[[gnu::always_inline]] inline Sign HitFinder::meets_disc(const Flight& f, const Near& disc,
+[[gnu::always_inline]] inline Sign HitFinder::meets_disc(const Flight& f,
+                                                         const PieceTable::Near& disc,
                                                          FirstDisc& first) const {
   const bool stands = disc.piece == f.start_piece;
   if (stands)
@@ -88,13 +50,13 @@ template <bool cells>
 
 /// On which side of the flight are the joints of some pieces?
 template <bool larmor, bool cells>
-bool HitFinder::see_joints(const Flight& f, std::span<const int> list) const {
+bool HitFinder::see_joints(const Flight& f, std::span<const int> list) {
   for (const int piece : list) {
-    const PieceData& p = data_[at(piece)];
+    const PieceTable::PieceData& p = t_.data[at(piece)];
     if (p.closed) continue;
     const Origin& origin = origins_[cells ? at(p.offset) : 0];
     for (const int joint : {piece, p.next}) {
-      const Vector d = joints_[at(joint)] - origin.point;
+      const Vector d = t_.joints[at(joint)] - origin.point;
       const double side =
           larmor ? side_of_flight(f.velocity, d, f.omega) : 2.0 * geometry::cross(f.velocity, d);
       left_[at(joint)] = side > 0.0;
@@ -104,30 +66,30 @@ bool HitFinder::see_joints(const Flight& f, std::span<const int> list) const {
   return true;
 }
 
-template bool HitFinder::see_joints<false, false>(const Flight&, std::span<const int>) const;
-template bool HitFinder::see_joints<false, true>(const Flight&, std::span<const int>) const;
-template bool HitFinder::see_joints<true, false>(const Flight&, std::span<const int>) const;
-template bool HitFinder::see_joints<true, true>(const Flight&, std::span<const int>) const;
+template bool HitFinder::see_joints<false, false>(const Flight&, std::span<const int>);
+template bool HitFinder::see_joints<false, true>(const Flight&, std::span<const int>);
+template bool HitFinder::see_joints<true, false>(const Flight&, std::span<const int>);
+template bool HitFinder::see_joints<true, true>(const Flight&, std::span<const int>);
 
 template <class Visit, class Passed>
 void HitFinder::follow(const Flight& f, const Visit& visit, const Passed& passed) const {
   const Origin& own = origins_[0];
-  const double delta = own.scale.delta * options_.filter_inflation;
+  const double delta = own.scale.delta * t_.options.filter_inflation;
   if (f.omega == 0.0)
-    grid_->along_line(own.point, delta, f.velocity, visit, passed);
+    t_.grid->along_line(own.point, delta, f.velocity, visit, passed);
   else
-    grid_->along_circle(own.point, delta, f.velocity, f.omega, std::sqrt(f.square_speed), visit,
-                        passed);
+    t_.grid->along_circle(own.point, delta, f.velocity, f.omega, std::sqrt(f.square_speed), visit,
+                          passed);
 }
 
 /// All pieces that the whole flight may meet, in their order: for the exact stage.
-const std::vector<int>& HitFinder::pieces_on_way(const Flight& f) const {
+const std::vector<int>& HitFinder::pieces_on_way(const Flight& f) {
   ++flights_;
   list_.clear();
   follow(
       f,
       [&](int cell) {
-        for (const int piece : grid_->pieces(cell)) {
+        for (const int piece : t_.grid->pieces(cell)) {
           if (seen_[at(piece)] == flights_) continue;
           seen_[at(piece)] = flights_;
           list_.push_back(piece);
@@ -139,7 +101,7 @@ const std::vector<int>& HitFinder::pieces_on_way(const Flight& f) const {
 }
 
 template <bool larmor, bool cells>
-bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) const {
+bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) {
   if (f.start_previous >= 0) return false;  // from a joint: by algebra
   ++flights_;
   list_.clear();
@@ -148,9 +110,9 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) const {
   FirstDisc disc;
   ahead = Ahead();
   const auto visit = [&](int cell) {
-    const std::size_t end = grid_->first_entry(cell + 1);
-    for (std::size_t i = grid_->first_entry(cell); i < end; ++i) {
-      const Near& near = near_[i];
+    const std::size_t end = t_.grid->first_entry(cell + 1);
+    for (std::size_t i = t_.grid->first_entry(cell); i < end; ++i) {
+      const PieceTable::Near& near = t_.near[i];
       if (!larmor && near.disc && meets_disc<cells>(f, near, disc) != Sign::undecided) continue;
       if (seen_[at(near.piece)] == flights_) continue;
       seen_[at(near.piece)] = flights_;
@@ -187,16 +149,16 @@ bool HitFinder::filtered_in_grid(const Flight& f, Ahead& ahead) const {
   return decided;
 }
 
-void HitFinder::next_in_grid(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
+void HitFinder::next_in_grid(const Flight& f, Ahead& ahead, DecisionCounts& counts) {
   look_from(f);
   if (flights_ > 0xfffffff0u) {  // the counter of flights begins again
     std::fill(seen_.begin(), seen_.end(), 0);
     flights_ = 0;
   }
-  if (f.omega == 0.0 ? (cells_ ? filtered_in_grid<false, true>(f, ahead)
-                               : filtered_in_grid<false, false>(f, ahead))
-                     : (cells_ ? filtered_in_grid<true, true>(f, ahead)
-                               : filtered_in_grid<true, false>(f, ahead))) {
+  if (f.omega == 0.0 ? (t_.cells ? filtered_in_grid<false, true>(f, ahead)
+                                 : filtered_in_grid<false, false>(f, ahead))
+                     : (t_.cells ? filtered_in_grid<true, true>(f, ahead)
+                                 : filtered_in_grid<true, false>(f, ahead))) {
     ++counts.filter;
   } else {
     ++counts.exact;

@@ -16,13 +16,13 @@ Table without_walls(const Table& table) {
 }  // namespace
 
 Locator::Locator(const Table& table, const DecisionOptions& options)
-    : domain_(table, options, false, false),
-      complement_(table, options, false, true),
+    : domain_(PieceTable(table, options, false, false)),
+      complement_(PieceTable(table, options, false, true)),
       bare_(without_walls(table)),
       cell_(bare_, options),
       touch_(table, options.grid_from) {}
 
-bool Locator::contains(Vector point) const {
+bool Locator::contains(Vector point) {
   if (touch_.on_wall(point)) return false;
   Flight flight;
   flight.start = point;
@@ -33,18 +33,19 @@ bool Locator::contains(Vector point) const {
     flight.velocity = direction;
     flight.square_speed = dot(direction, direction);
     // A point on an edge of the cell is in it when one looks inwards.
-    if (domain_.table().lattice && !cell_.in_cell(flight)) continue;
+    if (domain_.pieces().table.lattice && !cell_.in_cell(flight)) continue;
     DecisionCounts counts;
     flight.start_piece = -1;
     const Ahead leave = domain_.next(flight, counts);
     const Ahead enter = complement_.next(flight, counts);
     const bool leaves = leave.kind == Ahead::Kind::wall, enters = enter.kind == Ahead::Kind::wall;
     if (leave.kind == Ahead::Kind::none && enter.kind == Ahead::Kind::none)
-      return domain_.table().extent != Extent::bounded;
+      return domain_.pieces().table.extent != Extent::bounded;
     if (leave.kind != Ahead::Kind::none && enter.kind == Ahead::Kind::none) return true;
     if (enter.kind != Ahead::Kind::none && leave.kind == Ahead::Kind::none) return false;
     if (!leaves || !enters) continue;
-    const double margin = domain_.error_of(flight, leave) + complement_.error_of(flight, enter);
+    const double margin =
+        domain_.pieces().error_of(flight, leave) + complement_.pieces().error_of(flight, enter);
     const Sign order = sign_within(leave.kappa - enter.kappa, margin);
     if (order == Sign::positive) return true;
     if (order == Sign::negative) return false;

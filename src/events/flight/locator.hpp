@@ -13,12 +13,12 @@ namespace carom {
 class Locator {
  public:
   explicit Locator(const Table& table, const DecisionOptions& options = {});
-  bool contains(geometry::Vector point) const;
+  bool contains(geometry::Vector point);
 
  private:
   HitFinder domain_, complement_;
   Table bare_;  // the lattice alone
-  HitFinder cell_;
+  PieceTable cell_;
   WallTouch touch_;
 };
 

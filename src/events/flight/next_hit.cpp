@@ -10,17 +10,39 @@ namespace carom {
 
 using namespace geometry;
 
+HitFinder::HitFinder(const PieceTable& pieces)
+    : t_(pieces), origins_(t_.offsets.size()), left_(t_.data.size()) {
+  if (t_.grid) seen_.resize(t_.data.size());
+}
+
+void HitFinder::look_at_cells(const Flight& f) {
+  for (std::size_t k = 0; k < origins_.size(); ++k)
+    origins_[k] = t_.origin_of(f, static_cast<int>(k));
+}
+
 namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-}  // namespace
+/// A flight and a piece that it may leave the domain through.
+struct Meeting {
+  const PieceTable& table;
+  const Flight& flight;
+  const Origin& origin;
+  const PreparedCurve& curve;
+  int piece;
+  bool stands;     ///< the particle stands on it
+  bool same_side;  ///< both its joints lie on one side of the flight; not of closed curves …
+  bool left;       ///< … on the left
 
-ExactFlight HitFinder::exact_flight(const Flight& f) const {
-  return ExactFlight(*exact_, f.wall, f.u, f.start, f.velocity, f.omega);
-}
-
-namespace {
+  QuadraticError error() const {
+    return quadratic_error(curve, origin.point, origin.scale, stands);
+  }
+  /// Does the flight meet the whole line or conic at all?
+  Sign is_cut(const Crossing& c) const {
+    return sign_within(c.root.discriminant, discriminant_error(c.quadratic, error()));
+  }
+};
 
 /// Without field: certain that no flight from here leaves through the arc when both its joints lie
 /// on one side. The foot of the centre on the line is the middle of its chord in the circle: if
@@ -41,7 +63,8 @@ namespace {
 }
 
 /// Without field: is the rising crossing ahead (kappa > 0)?
-Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
+[[gnu::always_inline]] inline Sign ahead_of_start(const Quadratic<double>& q,
+                                                  const QuadraticError& e) {
   // A line's constant coefficient is exactly zero: its other crossing, at kappa = 0, is never
   // reached.
   if (q.b > e.b) return q.c == 0.0 && e.c == 0.0 ? Sign::negative : -sign_within(q.c, e.c);
@@ -51,213 +74,235 @@ Sign ahead_of_start(const Quadratic<double>& q, const QuadraticError& e) {
   return Sign::undecided;
 }
 
+// Does a flight leave the domain through a piece, and where? One function for each kind of flight
+// and piece, at most one of them for each piece of a table. Positive: it does, at `c`. Negative: it
+// does not. Undecided: the bounds do not tell.
+
+[[gnu::always_inline]] inline Sign line_through_segment(const Meeting& m, Crossing& c) {
+  if (m.same_side) return Sign::negative;
+  const Vector e = m.origin.point - m.curve.from;
+  c.time = geometry::fused_cross(m.curve.tangent, e);
+  c.unit = -geometry::fused_cross(m.curve.tangent, m.flight.velocity);
+  return sign_within(c.time, line_error(m.origin.scale, norm_1(e)).a);  // else it lies behind
+}
+
+[[gnu::always_inline]] inline Sign line_through_conic(const Meeting& m, Crossing& c) {
+  const PreparedCurve& w = m.curve;
+  const Flight& f = m.flight;
+  if (m.same_side && !m.stands) {
+    if (w.kind == CurveKind::circle && foot_off_arc(w, m.origin.point, f.velocity, m.origin.scale))
+      return Sign::negative;
+    const Sign leaves = m.table.crossed_twice(f, m.piece, m.origin);
+    if (leaves != Sign::positive) return leaves;
+  }
+  // Standing on the wall: the other crossing of the conic lies ahead exactly when the particle is
+  // inside it.
+  if (m.stands && w.orientation < 0) return Sign::negative;
+  Quadratic<double>& q = c.quadratic;
+  q = quadratic<false>(w, m.origin.point, f.velocity, f.square_speed, 0.0, m.stands);
+  c.root = m.stands ? Root{q.b * q.b, std::fabs(q.b), 0.0} : rising_root(q);
+  const Quotient quotient = straight_time(q, c.root.root);
+  c.time = quotient.time;
+  c.unit = quotient.unit;
+  if (m.stands) return Sign::positive;
+  if (w.closed) {
+    const Sign cut = m.is_cut(c);
+    if (cut != Sign::positive) return cut;
+  }
+  const QuadraticError e = m.error();
+  return w.orientation > 0 && q.a > e.a ? Sign::positive  // from inside a conic: always
+                                        : ahead_of_start(q, e);
+}
+
+/// The crossing of a Larmor circle with a line or a circle, if there is one.
+[[gnu::always_inline]] inline void cross_larmor(const Meeting& m, Crossing& c) {
+  const Flight& f = m.flight;
+  Quadratic<double>& q = c.quadratic;
+  q = quadratic<true>(m.curve, m.origin.point, f.velocity, f.square_speed, f.omega, m.stands);
+  c.root = m.stands ? Root{q.b * q.b, std::fabs(q.b), -q.c / (2.0 * q.b)} : rising_root(q);
+}
+
+[[gnu::always_inline]] inline Sign larmor_through_segment(const Meeting& m, Crossing& c) {
+  const bool twice = m.same_side && !m.stands;
+  if (twice) {
+    const double omega = m.flight.omega;
+    if (m.left == (omega < 0.0)) return Sign::negative;  // inside the Larmor circle: it is convex
+    const Sign between =
+        foot_between(m.curve, m.origin.point, m.flight.velocity, omega, m.origin.scale);
+    if (between != Sign::positive) return between;
+  }
+  cross_larmor(m, c);
+  return twice ? m.is_cut(c) : Sign::positive;
+}
+
+[[gnu::always_inline]] inline Sign larmor_through_circle(const Meeting& m, Crossing& c) {
+  if (m.same_side && !m.stands) {
+    const Sign leaves = m.table.crossed_twice(m.flight, m.piece, m.origin);
+    if (leaves != Sign::positive) return leaves;
+  }
+  cross_larmor(m, c);
+  return m.curve.closed && !m.stands ? m.is_cut(c) : Sign::positive;
+}
+
+inline Sign larmor_through_ellipse(const Meeting& m, Crossing& c) {
+  return m.table.first_exit(m.flight, m.piece, m.origin, m.origin.scale.inflation, c);
+}
+
+template <bool larmor>
+[[gnu::always_inline]] inline Sign leaves_through(const Meeting& m, Crossing& c) {
+  const bool segment = m.curve.kind == CurveKind::segment;
+  if constexpr (larmor)
+    return segment                              ? larmor_through_segment(m, c)
+           : m.curve.kind == CurveKind::ellipse ? larmor_through_ellipse(m, c)
+                                                : larmor_through_circle(m, c);
+  else
+    return segment ? line_through_segment(m, c) : line_through_conic(m, c);
+}
+
+/// Fills in what two crossings are compared by: kappa, which is kept as a quotient without field,
+/// and its error.
+template <bool larmor>
+[[gnu::always_inline]] inline void complete(const Meeting& m, Crossing& c) {
+  if (!larmor) c.root.kappa = c.unit / c.time;
+  if (c.error >= 0) return;
+  c.error = !larmor && m.curve.kind == CurveKind::segment
+                ? straight_line_error(m.curve, m.origin.point, m.origin.scale, c.root.kappa, c.time)
+                : kappa_error(c.quadratic, m.error(), c.root);
+}
+
 }  // namespace
+
+/// On which side of the flight are the joints of all pieces? False: the bounds do not tell.
+template <bool larmor, bool cells>
+bool HitFinder::see_all_joints(const Flight& f, const Origin& single) {
+  const auto side_of = [&](Vector d) {
+    return larmor ? side_of_flight(f.velocity, d, f.omega) : 2.0 * geometry::cross(f.velocity, d);
+  };
+  const double farthest = cells ? 0.0 : side_error(single.scale, t_.reach + norm_1(single.point));
+  bool decided = true;
+  for (const int piece : t_.open) {
+    const Origin& origin = cells ? origins_[at(t_.data[at(piece)].offset)] : single;
+    const Vector d = t_.joints[at(piece)] - origin.point;
+    const double side = side_of(d);
+    const double bound = cells ? side_error(origin.scale, norm_1(d)) : farthest;
+    left_[at(piece)] = side > 0.0;
+    decided &= std::fabs(side) > bound;
+  }
+  if (decided || cells) return decided;
+  for (const int piece : t_.open) {  // once more with a bound for each joint
+    const Vector d = t_.joints[at(piece)] - single.point;
+    if (!(std::fabs(side_of(d)) > side_error(single.scale, norm_1(d)))) return false;
+  }
+  return true;
+}
 
 template <bool larmor, bool cells, bool listed>
 bool HitFinder::filtered_of(const Flight& f, Ahead& ahead, std::span<const int> list,
-                            double& found_error) const {
+                            double& found_error) {
   if (f.start_previous >= 0) return false;  // from a joint: by algebra
-  const Vector v = f.velocity;
-  const double omega = larmor ? f.omega : 0.0;
-  const int start = f.start_piece;
   // Without a lattice there is one origin: kept in registers.
   const Origin single{f.start,
-                      {f.start_error, norm_1(v), std::fabs(omega), options_.filter_inflation}};
-  const auto origin_of = [&](const PieceData& p) -> const Origin& {
-    return cells ? origins_[at(p.offset)] : single;
+                      {f.start_error, norm_1(f.velocity), larmor ? std::fabs(f.omega) : 0.0,
+                       t_.options.filter_inflation}};
+  if (!(listed ? see_joints<larmor, cells>(f, list) : see_all_joints<larmor, cells>(f, single)))
+    return false;
+  const auto meeting = [&](int piece) {
+    const PieceTable::PieceData& p = t_.data[at(piece)];
+    const bool from = left_[at(piece)] != 0, to = left_[at(p.next)] != 0;
+    return Meeting{t_,
+                   f,
+                   cells ? origins_[at(p.offset)] : single,
+                   *p.shape,
+                   piece,
+                   piece == f.start_piece,
+                   !p.closed && from == to,
+                   from};
   };
 
-  if constexpr (listed) {
-    if (!see_joints<larmor, cells>(f, list)) return false;
-  } else {
-    const double farthest = cells ? 0.0 : side_error(single.scale, reach_ + norm_1(single.point));
-    bool decided = true;
-    for (const int piece : open_) {
-      const Origin& origin = origin_of(data_[at(piece)]);
-      const Vector d = joints_[at(piece)] - origin.point;
-      const double side = larmor ? side_of_flight(v, d, omega) : 2.0 * geometry::cross(v, d);
-      const double bound = cells ? side_error(origin.scale, norm_1(d)) : farthest;
-      left_[at(piece)] = side > 0.0;
-      decided &= std::fabs(side) > bound;
-    }
-    if (!decided && cells) return false;
-    if (!decided) {  // once more with a bound for each joint
-      for (const int piece : open_) {
-        const Vector d = joints_[at(piece)] - single.point;
-        const double side = larmor ? side_of_flight(v, d, omega) : 2.0 * geometry::cross(v, d);
-        if (!(std::fabs(side) > side_error(single.scale, norm_1(d)))) return false;
-      }
-    }
+  // On a cell's edges nothing counts before the flight came in.
+  const bool entered = larmor && cells && f.entry >= 0;
+  double since = 0.0, since_error = 0.0;
+  if (entered) {
+    const Origin& origin = origins_[0];
+    const Crossing entry = t_.crossing_of(f, f.entry, origin, false);
+    const PreparedCurve& edge = *t_.data[at(f.entry)].shape;
+    const Root root = falling_root(entry.quadratic);
+    since = root.kappa;
+    since_error = kappa_error(-entry.quadratic,
+                              quadratic_error(edge, origin.point, origin.scale, false), root);
   }
 
   int best = -1;
-  double best_kappa = 0.0, best_error = -1.0;  // negative: not computed yet
-  Quadratic<double> best_q;
-  Root best_root;
-  const auto error_of = [&](int piece, const Quadratic<double>& f2, const Root& r, double kappa,
-                            double time) {
-    const PieceData& p = data_[at(piece)];
-    const Origin& origin = origin_of(p);
-    if (!larmor && p.kind == CurveKind::segment)
-      return straight_line_error(*p.shape, origin.point, origin.scale, kappa, time);
-    return kappa_error(f2, quadratic_error(*p.shape, origin.point, origin.scale, piece == start),
-                       {r.discriminant, r.root, kappa});
-  };
-  double best_time = 0.0,
-         best_unit = 1.0;  // without field: kappa = unit / time, divided only if needed
-  double entered = std::numeric_limits<double>::infinity(), entered_error = 0.0;
-  if (larmor && cells && f.entry >= 0) {
-    const Candidate entry = candidate(f, f.entry, false);
-    const Root root = falling_root(entry.quadratic);
-    entered = root.kappa;
-    entered_error = kappa_error(-entry.quadratic, entry.error, root);
-  }
-  const int pieces = static_cast<int>(listed ? list.size() : data_.size());
+  Crossing first;
+  const int pieces = static_cast<int>(listed ? list.size() : t_.data.size());
   for (int k = 0; k < pieces; ++k) {
     const int piece = listed ? list[at(k)] : k;
-    const PieceData& p = data_[at(piece)];
-    const bool stands = piece == start;
-    bool twice = false;
-    // At most two crossings: the joints' sides tell. (A Larmor circle may cross an ellipse four
-    // times.)
-    if (!p.closed && !(larmor && p.kind == CurveKind::ellipse)) {
-      const bool from = left_[at(piece)] != 0, to = left_[at(p.next)] != 0;
-      if (from && !to) continue;
-      if (from == to && !larmor && p.kind == CurveKind::segment) continue;
-      twice = from == to && !stands;
-      if (larmor && twice && p.kind == CurveKind::segment) {
-        if (from == (omega < 0.0)) continue;  // both inside the Larmor circle: never, by convexity
-        const Origin& origin = origin_of(p);
-        const Sign between = foot_between(*p.shape, origin.point, v, omega, origin.scale);
-        if (between == Sign::undecided) return false;
-        if (between == Sign::negative) continue;
-      } else if (twice) {
-        const PreparedCurve& w = *p.shape;
-        const Origin& origin = origin_of(p);
-        if (!larmor && p.kind == CurveKind::circle &&
-            foot_off_arc(w, origin.point, v, origin.scale))
-          continue;
-        const Sign leaves = crossed_twice(f, piece);
-        if (leaves == Sign::undecided) return false;
-        if (leaves != Sign::positive) continue;
-      }
-    }
-    const PreparedCurve& w = *p.shape;
-    const Origin& origin = origin_of(p);
-    double kappa = 0.0, error = -1.0, time = 0.0, unit = 1.0;
-    Quadratic<double> q;
-    Root root;
-    if (larmor && w.kind == CurveKind::ellipse) {
-      if (!cells) look_from(f);
-      Candidate c;
-      const Sign leaves = quartic_candidate(f, piece, options_.filter_inflation, c);
-      if (leaves == Sign::undecided) return false;
-      if (leaves != Sign::positive) continue;
-      kappa = c.root.kappa;
-      error = c.kappa_error;
-    } else if (!larmor && w.kind == CurveKind::segment) {
-      const Vector e = origin.point - w.from;
-      const double a = geometry::fused_cross(w.tangent, e);
-      const double bound = line_error(origin.scale, norm_1(e)).a;
-      if (a < -bound) continue;  // behind
-      if (!(a > bound)) return false;
-      time = a;
-      unit = -geometry::fused_cross(w.tangent, v);
-    } else {
-      // Standing on the wall, without field: the other crossing of the circle lies ahead exactly
-      // when the particle is inside it.
-      if (!larmor && stands && w.orientation < 0) continue;
-      q = quadratic<larmor>(w, origin.point, v, f.square_speed, omega, stands);
-      root = stands ? Root{q.b * q.b, std::fabs(q.b), larmor ? -q.c / (2.0 * q.b) : 0.0}
-                    : rising_root(q);
-      kappa = root.kappa;
-      if (!larmor) {
-        const Quotient quotient = straight_time(q, root.root);
-        time = quotient.time;
-        unit = quotient.unit;
-      }
-      const bool may_miss = w.closed || (larmor && twice && w.kind == CurveKind::segment);
-      if (!stands && (!larmor || may_miss)) {
-        const QuadraticError e = quadratic_error(w, origin.point, origin.scale, stands);
-        if (may_miss) {
-          const Sign cut = sign_within(root.discriminant, discriminant_error(q, e));
-          if (cut == Sign::undecided) return false;
-          if (cut != Sign::positive) continue;
-        }
-        if (!larmor && !(w.orientation > 0 && q.a > e.a)) {  // from inside a circle: always
-          const Sign forward = ahead_of_start(q, e);
-          if (forward == Sign::undecided) return false;
-          if (forward == Sign::negative) continue;
-        }
-      }
-    }
-    if (larmor && cells && p.edge && f.entry >= 0) {
-      error = kappa_error_of(f, piece);
-      const Sign after = sign_within(entered - kappa, entered_error + error);
+    const PieceTable::PieceData& p = t_.data[at(piece)];
+    // At most two crossings, so the sides of its joints tell, but for a Larmor circle that may
+    // cross an ellipse four times.
+    const bool told = !p.closed && !(larmor && p.kind == CurveKind::ellipse);
+    if (told && left_[at(piece)] != 0 && left_[at(p.next)] == 0) continue;  // it enters
+    const Meeting m = meeting(piece);
+    Crossing c;
+    const Sign leaves = leaves_through<larmor>(m, c);
+    if (leaves == Sign::undecided) return false;
+    if (leaves != Sign::positive) continue;
+    if (entered && p.edge) {
+      complete<larmor>(m, c);
+      const Sign after = sign_within(since - c.root.kappa, since_error + c.error);
       if (after == Sign::undecided) return false;
       if (after == Sign::negative) continue;
     }
     if (best >= 0) {
-      if (!larmor) {
-        kappa = unit / time;
-        best_kappa = best_unit / best_time;
-      }
-      if (best_error < 0) best_error = error_of(best, best_q, best_root, best_kappa, best_time);
-      if (error < 0) error = error_of(piece, q, root, kappa, time);
+      complete<larmor>(meeting(best), first);
+      complete<larmor>(m, c);
       // Two questions, so that the processor need not wait for the errors to go on with the first
       // wall.
-      const double gap = kappa - best_kappa;
-      if (!(std::fabs(gap) > error + best_error)) return false;
+      const double gap = c.root.kappa - first.root.kappa;
+      if (!(std::fabs(gap) > c.error + first.error)) return false;
       if (gap < 0.0) continue;
     }
     best = piece;
-    best_kappa = kappa;
-    best_error = error;
-    best_time = time;
-    best_unit = unit;
-    best_q = q;
-    best_root = root;
+    first = c;
   }
-  if (larmor && best >= 0 && !is_quartic(f, best)) {
-    const PieceData& p = data_[at(best)];
-    const Origin& origin = origin_of(p);
-    const QuadraticError e = quadratic_error(*p.shape, origin.point, origin.scale, best == start);
-    if (!far_root_certain(best_q, e, best == start)) return false;
+
+  if (larmor && best >= 0) {
+    const Meeting m = meeting(best);
+    if (!t_.is_quartic(f, best)) {
+      if (!far_root_certain(first.quadratic, m.error(), m.stands)) return false;
+    } else if (t_.options.filter_inflation != 1.0) {
+      // Bounds are allowed to change where a quartic's root is looked for, not the number that is
+      // found.
+      Crossing c;
+      if (t_.first_exit(f, best, m.origin, 1.0, c) != Sign::positive) return false;
+      first.root.kappa = c.root.kappa;
+    }
   }
-  // Bounds are allowed to change where a quartic's root is looked for, not the number that is
-  // found.
-  if (larmor && best >= 0 && options_.filter_inflation != 1.0 && is_quartic(f, best)) {
-    Candidate c;
-    if (quartic_candidate(f, best, 1.0, c) != Sign::positive) return false;
-    best_kappa = c.root.kappa;
+  if constexpr (listed) {
+    if (best >= 0) complete<larmor>(meeting(best), first);
+    found_error = first.error;
   }
   ahead.piece = best;
   ahead.root = 0;
-  ahead.kappa = larmor ? best_kappa : best_unit / best_time;
-  ahead.duration = larmor ? duration_at(best_kappa, f.omega) : best_time / best_unit;
-  ahead.kind = best < 0               ? Ahead::Kind::none
-               : data_[at(best)].edge ? Ahead::Kind::edge
-                                      : Ahead::Kind::wall;
-  if constexpr (listed) {
-    if (best >= 0 && best_error < 0)
-      best_error = error_of(best, best_q, best_root, ahead.kappa, best_time);
-    found_error = best_error;
-  }
+  ahead.kappa = larmor ? first.root.kappa : first.unit / first.time;
+  ahead.duration = larmor ? duration_at(first.root.kappa, f.omega) : first.time / first.unit;
+  ahead.kind = best < 0                 ? Ahead::Kind::none
+               : t_.data[at(best)].edge ? Ahead::Kind::edge
+                                        : Ahead::Kind::wall;
   return true;
 }
 template bool HitFinder::filtered_of<false, false, true>(const Flight&, Ahead&,
-                                                         std::span<const int>, double&) const;
+                                                         std::span<const int>, double&);
 template bool HitFinder::filtered_of<false, true, true>(const Flight&, Ahead&, std::span<const int>,
-                                                        double&) const;
+                                                        double&);
 template bool HitFinder::filtered_of<true, false, true>(const Flight&, Ahead&, std::span<const int>,
-                                                        double&) const;
+                                                        double&);
 template bool HitFinder::filtered_of<true, true, true>(const Flight&, Ahead&, std::span<const int>,
-                                                       double&) const;
+                                                       double&);
 
 Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) const {
-  look_from(f);
   const ExactFlight::First first =
-      exact_flight(f).first(pieces, f.cell, f.entry, f.start_piece, f.start_previous);
+      t_.exact_flight(f).first(pieces, f.cell, f.entry, f.start_piece, f.start_previous);
   Ahead ahead;
   ahead.piece = first.piece;
   ahead.root = first.root;
@@ -271,19 +316,20 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
       ahead.kind = Ahead::Kind::cusp;
       break;
     case ExactFlight::First::Kind::exit:
-      ahead.kind = data_[at(first.piece)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
+      ahead.kind = t_.data[at(first.piece)].edge ? Ahead::Kind::edge : Ahead::Kind::wall;
       break;
   }
+  const Origin origin = t_.origin_of(f, t_.data[at(ahead.piece)].offset);
   if (ahead.kind == Ahead::Kind::joint) {
-    const PieceData& p = data_[at(ahead.piece)];
-    const Vector d = joints_[at(ahead.piece)] - origins_[at(p.offset)].point;
+    const Vector d = t_.joints[at(ahead.piece)] - origin.point;
     ahead.kappa = dot(d, f.velocity) / dot(d, d);
-  } else if (is_quartic(f, ahead.piece)) {
-    Candidate c;
-    const bool same = quartic_candidate(f, ahead.piece, 1.0, c) == Sign::positive;
+  } else if (t_.is_quartic(f, ahead.piece)) {
+    Crossing c;
+    const bool same = t_.first_exit(f, ahead.piece, origin, 1.0, c) == Sign::positive;
     ahead.kappa = same ? c.root.kappa : first.kappa;
   } else {
-    const Candidate c = candidate(f, ahead.piece, stands_on(f, ahead.piece));
+    const bool stands = PieceTable::stands_on(f, ahead.piece);
+    const Crossing c = t_.crossing_of(f, ahead.piece, origin, stands);
     ahead.kappa = c.root.kappa;
     if (f.omega == 0.0) {
       const Quotient quotient = straight_time(c.quadratic, c.root.root);
@@ -294,12 +340,10 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
     // cancelled: a root that errs much belongs to a graze or to a start beside the wall, and the
     // place of the hit to few ulps either way, as tables have no flat arcs. It must be the filter's
     // number, as results do not depend on the stage; so this question does not on the inflation.
-    const PieceData& p = data_[at(ahead.piece)];
-    FlightScale scale = origins_[at(p.offset)].scale;
+    FlightScale scale = origin.scale;
     scale.inflation = 1.0;
-    const bool stands = stands_on(f, ahead.piece);
     const QuadraticError error =
-        quadratic_error(*p.shape, origins_[at(p.offset)].point, scale, stands);
+        quadratic_error(*t_.data[at(ahead.piece)].shape, origin.point, scale, stands);
     const bool lost = f.omega == 0.0 ? !(ahead.duration > 0.0) || !std::isfinite(ahead.duration)
                                      : !std::isfinite(ahead.kappa) ||
                                            !far_root_certain(c.quadratic, error, stands);
@@ -310,15 +354,15 @@ Ahead HitFinder::exact_next(const Flight& f, const std::vector<int>& pieces) con
   return ahead;
 }
 
-void HitFinder::next_of_all(const Flight& f, Ahead& ahead, DecisionCounts& counts) const {
-  const bool cells = cells_;
+void HitFinder::next_of_all(const Flight& f, Ahead& ahead, DecisionCounts& counts) {
+  const bool cells = t_.cells;
   if (cells) look_from(f);
   if (f.omega == 0.0 ? (cells ? filtered<false, true>(f, ahead) : filtered<false, false>(f, ahead))
                      : (cells ? filtered<true, true>(f, ahead) : filtered<true, false>(f, ahead))) {
     ++counts.filter;
   } else {
     ++counts.exact;
-    ahead = exact_next(f, all_);
+    ahead = exact_next(f, t_.all());
   }
   if (ahead.kind == Ahead::Kind::none) ahead.duration = 0.0;
 }

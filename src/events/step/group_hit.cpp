@@ -11,23 +11,23 @@ namespace {
 
 /// The corner that begins a wall: one of pi/n leaves a unique direction, which the hits on both
 /// walls come to.
-bool is_regular(const HitFinder& finder, int wall) {
-  const Wall& w = finder.table().walls[static_cast<std::size_t>(wall)];
+bool is_regular(const PieceTable& pieces, int wall) {
+  const Wall& w = pieces.table.walls[static_cast<std::size_t>(wall)];
   if (w.next == wall) return true;
-  return w.corner > 0 || finder.exact().corner(w.previous, wall).order > 0;
+  return w.corner > 0 || pieces.exact->corner(w.previous, wall).order > 0;
 }
 
 }  // namespace
 
-GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group, std::size_t member,
-                const Barrier<double>& barrier, DecisionCounts& counts) {
+GroupHit hit_of(const PieceTable& pieces, const Table& table, const Group& group,
+                std::size_t member, const Barrier<double>& barrier, DecisionCounts& counts) {
   GroupHit hit;
   geometry::Cell cell = group.cells()[member];
   cell.first += barrier.cell.first;
   cell.second += barrier.cell.second;
   Vector x = group.phase().position[member];
   if (table.lattice) x = x - table.lattice->translation(barrier.cell);
-  const geometry::PreparedCurve& curve = finder.curve(barrier.wall);
+  const geometry::PreparedCurve& curve = pieces.curve(barrier.wall);
   geometry::PreparedCurve::Frame frame = curve.settle(x);
   const double u = curve.parameter(frame.point);
   if (u == curve.last() || u == geometry::first_parameter) frame = curve.frame(u);
@@ -40,18 +40,18 @@ GroupHit hit_of(const HitFinder& finder, const Table& table, const Group& group,
     return hit;
   }
   Vector after = geometry::reflected(hit.before, frame.normal, frame.square, frame.k, 0.0);
-  Sign inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
+  Sign inward = pieces.inward(barrier.wall, u, after, frame.normal, counts);
   if (inward == Sign::negative) {  // a grazing rounding: reflecting once more turns it back
     after = geometry::reflected(after, frame.normal, frame.square, frame.k, 0.0);
-    inward = finder.inward(barrier.wall, u, after, frame.normal, counts);
+    inward = pieces.inward(barrier.wall, u, after, frame.normal, counts);
   }
   hit.state.velocity = after;
   const Vector& there = group.phase().position[member];
   using End = Barrier<double>::End;
   const bool regular =
-      (!barrier.is_at(End::from, there) || is_regular(finder, barrier.wall)) &&
+      (!barrier.is_at(End::from, there) || is_regular(pieces, barrier.wall)) &&
       (!barrier.is_at(End::to, there) ||
-       is_regular(finder, finder.table().walls[static_cast<std::size_t>(barrier.wall)].next));
+       is_regular(pieces, pieces.table.walls[static_cast<std::size_t>(barrier.wall)].next));
   hit.inward =
       inward == Sign::positive && regular && !barrier.is_thin(there) && !group.next().slides;
   return hit;

@@ -8,7 +8,7 @@
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
 #include "events/step/group.hpp"
-#include "events/flight/next_hit.hpp"
+#include "events/flight/piece_table.hpp"
 
 namespace carom {
 
@@ -19,7 +19,7 @@ struct GroupHit {
   bool inward = true;  ///< else the reflected velocity does not point into the domain
 };
 /// A member has come to a barrier, which is a wall. `finder` finds that table's walls.
-GroupHit hit_of(const HitFinder& finder, const Table&, const Group&, std::size_t member,
+GroupHit hit_of(const PieceTable& pieces, const Table&, const Group&, std::size_t member,
                 const Barrier<double>&, DecisionCounts&);
 
 /// Is the point on one of the first `walls` walls, to rounding?

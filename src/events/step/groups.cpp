@@ -27,7 +27,7 @@ Groups::Groups(const Table& table, const Dynamics& dynamics, const ForceRegions&
     surroundings_.lattice = &*table.lattice;
     surroundings_.centre = centre_of_cell(*table.lattice);
   }
-  if (!flights.finder().table().walls.empty()) surroundings_.longest_way = longest_way(table);
+  if (!flights.pieces().table.walls.empty()) surroundings_.longest_way = longest_way(table);
   surroundings_.barriers = barriers_of(table);
   surroundings_.supports = regions.edges();
   surroundings_.barriers.insert(surroundings_.barriers.end(), regions.edges().begin(),

@@ -222,7 +222,7 @@ void Integration::hit(Group& group, std::size_t member, const Barrier<double>& b
                       Observer& observer) {
   const int index = group.bodies()[member];
   Body& b = bodies_[index];
-  const GroupHit hit = hit_of(flights_.finder(), table_, group, member, barrier, flights_.counts());
+  const GroupHit hit = hit_of(flights_.pieces(), table_, group, member, barrier, flights_.counts());
   b.state = hit.state;
   if (hit.hole >= 0) {
     b.last_wall = barrier.wall;
@@ -243,7 +243,7 @@ void Integration::hit(Group& group, std::size_t member, const Barrier<double>& b
 bool Integration::leave_support(Group& group, const Barrier<double>& barrier) {
   const int index = group.bodies().front();
   const Vector x = group.phase().position.front(), velocity = group.phase().velocity.front();
-  const geometry::PreparedCurve& curve = flights_.finder().curve(barrier.wall);
+  const geometry::PreparedCurve& curve = flights_.pieces().curve(barrier.wall);
   Cell cell = group.cells().front();
   cell.first += barrier.cell.first;
   cell.second += barrier.cell.second;
@@ -256,7 +256,7 @@ bool Integration::leave_support(Group& group, const Barrier<double>& barrier) {
       meets_some_wall(groups_.barriers(), regions_.wall_count(), x, settled))
     return false;
   const double u = curve.parameter(frame.point);
-  if (flights_.finder().inward(barrier.wall, u, velocity, frame.normal, flights_.counts()) !=
+  if (flights_.pieces().inward(barrier.wall, u, velocity, frame.normal, flights_.counts()) !=
       Sign::positive)
     return false;
   Body& b = bodies_[index];

@@ -56,8 +56,8 @@ class FreeLanes::Implementation {
                  DecisionOptions options)
       : table(the_table),
         scalar(the_table, options),
-        finder(the_table, options),
-        pieces(lanes::make_lane_table(finder, reach_of(particles))),
+        walls(the_table, options),
+        pieces(lanes::make_lane_table(walls, reach_of(particles))),
         turn(turn_of(particles.at(0).omega)),
         next_discs(lanes::make_next_discs(pieces)),
         kernels(lanes::kernels_for(set, pieces, turn)) {
@@ -112,7 +112,7 @@ class FreeLanes::Implementation {
 
   const Table& table;
   World scalar;
-  HitFinder finder;
+  PieceTable walls;
   LaneTable pieces;
   Turn turn;
   std::vector<std::uint32_t> next_discs;
@@ -241,7 +241,7 @@ class FreeLanes::Implementation {
       while (mine.reported < times.size() && Time(times[mine.reported]) < mine.start.state.time)
         ++mine.reported;
       if (!(mine.start.state.time > Time(main.pack.end)) &&
-          lanes::can_start(pieces, finder, mine.start)) {
+          lanes::can_start(pieces, walls, mine.start)) {
         resume(lanes, lane);
         return true;
       }
@@ -299,7 +299,7 @@ class FreeLanes::Implementation {
   State state_on_wall(const LanePack& pack, int lane) const {
     State s = last_event(pack, lane);
     s.wall = static_cast<int>(pieces.wall[static_cast<int>(pack.piece[lane])]);
-    s.u = finder.curve(s.wall).parameter(s.position);
+    s.u = walls.curve(s.wall).parameter(s.position);
     return s;
   }
   /// A lane's last event, but for its wall.
@@ -434,7 +434,7 @@ class FreeLanes::Implementation {
     const State& s = start.state;
     if (!pieces.by_signs || turn != Turn::straight || s.wall < 0) return -1;
     // The world flies from u where the position is another one.
-    const geometry::PreparedCurve& w = finder.curve(s.wall);
+    const geometry::PreparedCurve& w = walls.curve(s.wall);
     if (!(s.u > geometry::first_parameter && s.u < w.last() && w.parameter(s.position) == s.u))
       return -1;
     const int piece = lanes::piece_at(pieces, s.wall, s.u);

@@ -61,10 +61,10 @@ void put_particle(LanePack& pack, int lane, const LaneTable& t, const Particle& 
 
 }  // namespace
 
-bool can_start(const LaneTable& t, const HitFinder& finder, LaneStart& start) {
+bool can_start(const LaneTable& t, const PieceTable& walls, LaneStart& start) {
   State& s = start.state;
   if (s.wall < 0) return within(t, s.position) && in_cell(t, s.position);
-  const geometry::PreparedCurve& w = finder.curve(s.wall);
+  const geometry::PreparedCurve& w = walls.curve(s.wall);
   if (!(s.u > geometry::first_parameter && s.u < w.last())) return false;
   const auto frame = w.frame(s.u);
   if (w.parameter(s.position) != s.u) s.position = frame.point;

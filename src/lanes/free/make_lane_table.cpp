@@ -111,7 +111,7 @@ double part(std::int64_t n, Vector v) {
   return std::fabs(static_cast<double>(n)) * (std::fabs(v.x) + std::fabs(v.y));
 }
 
-/// Are all walls discs that do not reach an edge of the cell? As HitFinder::find_enclosure.
+/// Are all walls discs that do not reach an edge of the cell? As PieceTable::find_enclosure.
 bool discs_within_cell(const Table& table) {
   if (table.lattice->edges.size() != 4 && table.lattice->edges.size() != 6) return false;
   double size = 0.0;
@@ -274,17 +274,17 @@ std::size_t pieces_of(const Table& table) {
 }
 
 /// One loop of walls that turns to the left everywhere, and nothing in it: as
-/// HitFinder::find_enclosure.
-bool is_convex(const HitFinder& finder) {
-  const Table& table = finder.table();
+/// PieceTable::find_enclosure.
+bool is_convex(const PieceTable& walls) {
+  const Table& table = walls.table;
   const int n = static_cast<int>(table.walls.size());
   if (table.crossing || table.lattice) return false;
   for (int i = 0; i < n; ++i) {
-    const PreparedCurve& w = finder.curve(i);
+    const PreparedCurve& w = walls.curve(i);
     if (w.kind != CurveKind::segment && !(w.orientation > 0)) return false;
     if (n == 1) return true;
     if (w.closed || table.walls[at(i)].next != (i + 1) % n) return false;
-    if (finder.exact().corner(i, (i + 1) % n).turn < 0) return false;
+    if (walls.exact->corner(i, (i + 1) % n).turn < 0) return false;
   }
   return true;
 }
@@ -306,8 +306,8 @@ std::string misfit(const Table& table, double reach) {
              : "Larmor circles that may come to more than 64 walls of the lattice";
 }
 
-LaneTable make_lane_table(const HitFinder& finder, double reach) {
-  const Table& table = finder.table();
+LaneTable make_lane_table(const PieceTable& walls, double reach) {
+  const Table& table = walls.table;
   LaneTable t;
   std::vector<bool> done(table.walls.size(), false);
   for (std::size_t start = 0; start < table.walls.size(); ++start) {
@@ -318,11 +318,11 @@ LaneTable make_lane_table(const HitFinder& finder, double reach) {
       done[at(wall)] = true;
       const std::vector<Part> parts = parts_of(table, wall);
       t.divided |= parts.size() > 1 || parts[0].hole >= 0;
-      const int ellipse = finder.ellipse_of(wall), curve = ellipse < 0 ? wall : ellipse;
+      const int ellipse = walls.ellipse_of(wall), curve = ellipse < 0 ? wall : ellipse;
       t.divided |= curve != wall;
       for (const Part& part : parts) {
         t.ellipses.curve[t.pieces] = curve;
-        add_piece(t, finder.curve(wall), wall, part, parts.size() == 1);
+        add_piece(t, walls.curve(wall), wall, part, parts.size() == 1);
       }
     }
     t.count[loop] = t.pieces - t.first[loop];
@@ -356,7 +356,7 @@ LaneTable make_lane_table(const HitFinder& finder, double reach) {
     wide_arcs &= t.pieces == 1 || t.radius[i] == 0.0 || t.radius[i] > 0x1p-7 * t.size;
   t.start_margin = 0x1p-36 * t.size;
   t.open = table.extent == Extent::open_plane;
-  t.convex = is_convex(finder);
+  t.convex = is_convex(walls);
   if (wide_arcs) prepare_exits(t);
   t.by_line = wide_arcs && (t.convex || t.by_signs);
   t.start_step = t.by_signs ? std::ldexp(1.0, t.pieces) : 1.0;

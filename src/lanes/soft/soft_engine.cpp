@@ -102,7 +102,7 @@ SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, Instruction
       sample_cost_(evaluations(stages_, is_kick(stages_.front()))),
       surroundings_(surroundings_of(table, dynamics)),
       kernel_(kernel_for(set)),
-      finder_(table, options),
+      walls_(table, options),
       group_(surroundings_) {
   if (table_.extent == Extent::bounded)
     surroundings_.inside = [this](Vector x) { return inside(x); };
@@ -303,13 +303,13 @@ void SoftEngine::count_lane(SoftTrack& track, std::uint64_t steps, bool tried,
 
 bool SoftEngine::inside(Vector x) {
   if (on_some_wall(surroundings_.barriers, static_cast<int>(table_.walls.size()), x)) return true;
-  if (!locator_) locator_ = std::make_unique<const Locator>(table_);
+  if (!locator_) locator_ = std::make_unique<Locator>(table_);
   return locator_->contains(x);
 }
 
 /// Does it end there?
 bool SoftEngine::hit(SoftTrack& track, const Barrier<double>& barrier) {
-  const GroupHit hit = hit_of(finder_, table_, group_, 0, barrier, counts_);
+  const GroupHit hit = hit_of(walls_, table_, group_, 0, barrier, counts_);
   track.state = hit.state;
   track.last_wall = barrier.wall;
   track.hole = hit.hole;

@@ -122,9 +122,9 @@ class SoftEngine {
   double made_for_ = 0.0, made_with_ = 0.0;
 
   // Of the scalar engine.
-  HitFinder finder_;
+  PieceTable walls_;
   Group group_;
-  std::unique_ptr<const Locator> locator_;
+  std::unique_ptr<Locator> locator_;
   std::uint64_t limit_ = std::numeric_limits<std::uint64_t>::max();
   std::function<bool(const SoftTrack&)> reported_hit_;
   DecisionCounts counts_;

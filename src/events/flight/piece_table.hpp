@@ -1,0 +1,257 @@
+// A table made ready for flights, once: the pieces of its walls, prepared for double and for exact
+// arithmetic.
+//
+// It is never changed after it is made, so the worlds of all threads share what is large: copies
+// are cheap. HitFinder (next_hit.hpp) has what is written during a flight.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "carom/events/decisions.hpp"
+#include "carom/geometry/exact_flight.hpp"
+#include "carom/table/table.hpp"
+#include "events/flight/enclosure.hpp"
+#include "events/flight/flight.hpp"
+#include "events/flight/wall_grid.hpp"
+
+namespace carom {
+
+struct PieceTable {
+  /// `edges`: with the edges of the lattice cell, and flights start in the domain (else anywhere).
+  /// `complement`: every wall turned round, so that the domain becomes the obstacle. Refers to the
+  /// table.
+  explicit PieceTable(const Table& table, DecisionOptions options = {}, bool edges = true,
+                      bool complement = false);
+
+  // Starts of flights.
+  /// Makes a flight ready whose start, velocity and omega are set: for lattices it is put into the
+  /// cell that contains its start, by exact decisions.
+  void begin(Flight& flight) const;
+  /// A flight from the exact point (wall, u), whose rounded image is `point`; omega and speed are
+  /// kept.
+  void begin_on_wall(Flight& flight, int wall, double u, geometry::Vector point,
+                     geometry::Vector velocity) const {
+    begin_on_wall(flight, wall, curve(wall), u, point, velocity);
+  }
+  /// The same where the caller has the wall's curve.
+  void begin_on_wall(Flight& flight, int wall, const geometry::PreparedCurve& curve, double u,
+                     geometry::Vector point, geometry::Vector velocity) const;
+  /// Is the start strictly inside the cell (or on its edge, see locate)?
+  bool in_cell(const Flight& flight) const;
+  /// Follows the flight over the edge that `ahead` names.
+  void cross(Flight& flight, const Ahead& ahead) const;
+
+  // Ends of flights.
+  /// Parameter on the wall where the flight meets it, and the wall's own cell.
+  struct Landing {
+    int wall = -1;
+    int hole = -1;
+    geometry::Cell cell;
+    geometry::Vector velocity;  ///< on arrival
+    geometry::PreparedCurve::Arrival at;
+    const geometry::PreparedCurve* curve = nullptr;
+  };
+  void land(const Flight& flight, const Ahead& ahead, Landing& landing,
+            DecisionCounts& counts) const;
+  Landing land(const Flight& flight, const Ahead& ahead, DecisionCounts& counts) const {
+    Landing landing;
+    land(flight, ahead, landing, counts);
+    return landing;
+  }
+  /// Does v at (wall, u) point into the domain? At u = 0 this is asked of both walls of the joint.
+  /// `normal`: a rounded normal there.
+  Sign inward(int wall, double u, geometry::Vector v, geometry::Vector normal,
+              DecisionCounts& counts) const {
+    return inward(wall, curve(wall), u, v, normal, counts);
+  }
+  Sign inward(int wall, const geometry::PreparedCurve& curve, double u, geometry::Vector v,
+              geometry::Vector normal, DecisionCounts& counts) const;
+  /// Error of kappa of what lies ahead.
+  double error_of(const Flight& flight, const Ahead& ahead) const;
+
+  // Crossings of one flight with one piece (candidates.cpp).
+  /// The start as pieces see it that are displaced by the offset of that number.
+  Origin origin_of(const Flight& flight, int offset) const;
+  /// The crossing that leaves through the piece's curve, without its error. Not for Larmor circles
+  /// against ellipses.
+  Crossing crossing_of(const Flight& flight, int piece, const Origin& origin, bool stands) const;
+  /// Larmor circle against an ellipse: its first exit through the piece, if any, with its error.
+  Sign first_exit(const Flight& flight, int piece, const Origin& origin, double inflation,
+                  Crossing& crossing) const;
+  /// Both joints of an arc lie on one side: does the flight leave through it all the same?
+  Sign crossed_twice(const Flight& flight, int piece, const Origin& origin) const;
+  geometry::ExactFlight exact_flight(const Flight& flight) const;
+
+  /// Certainly inside: in a convex table on the left of the chords of all walls, beyond rounding.
+  /// False: not known.
+  bool surely_inside(geometry::Vector point) const;
+
+  const geometry::PreparedCurve& curve(int wall) const {
+    return curves[static_cast<std::size_t>(wall)];
+  }
+  /// The first of the walls that are arcs of one ellipse with this one, or -1: the wall is no such
+  /// arc.
+  int ellipse_of(int wall) const { return piece(wall).ellipse; }
+  int wall_of(int number) const { return piece(number).wall; }
+  /// Unit normal at the end of a wall.
+  geometry::Vector normal_at_end(int wall) const {
+    return shared_->end_normals[static_cast<std::size_t>(wall)];
+  }
+  bool is_quartic(const Flight& flight, int number) const {
+    return flight.omega != 0.0 && piece(number).kind == geometry::CurveKind::ellipse;
+  }
+  static bool stands_on(const Flight& flight, int piece) {
+    return piece == flight.start_piece || piece == flight.start_previous;
+  }
+
+  struct PieceData {
+    const geometry::PreparedCurve* shape = nullptr;
+    int curve = 0;   ///< index into curves
+    int wall = -1;   ///< -1: edge of the cell
+    int offset = 0;  ///< index into offsets
+    int next = 0, previous = 0;
+    bool edge = false;
+    bool closed = false;
+    geometry::CurveKind kind = geometry::CurveKind::segment;
+    int ellipse = -1;  ///< arcs of one: the first of its walls
+  };
+  /// An entry of a grid cell's list, with all that a line asks of a disc: one place in memory for
+  /// what is seldom hit.
+  struct Near {
+    double x, y, r2, centre_error;
+    int piece, offset;
+    bool disc, domain_outside;
+  };
+  const PieceData& piece(int number) const { return data[static_cast<std::size_t>(number)]; }
+
+  const Table& table;
+  const DecisionOptions options;
+  const bool cells;                                 ///< on a lattice
+  bool displaced = false;                           ///< walls of other cells reach into this one
+  int first_edge = 0;                               ///< of the cell, among the pieces
+  double reach = 0.0;                               ///< bounds the l1 norm of every joint
+  std::span<const geometry::PreparedCurve> curves;  ///< walls, then edges
+  std::span<const PieceData> data;                  ///< the walls in their own cell come first
+  std::span<const geometry::Vector> joints;         ///< start of each piece in its own cell
+  std::span<const int> open;                        ///< pieces that have joints
+  std::span<const geometry::Cell> offsets;          ///< distinct displacements; the first is zero
+  std::span<const signed char> holed;               ///< a wall: has it holes?
+  const geometry::ExactBoundary* exact = nullptr;   ///< the pieces for the exact stage
+
+  // Convex tables.
+  int enclosure_first = 0, enclosure_size = 0;  ///< pieces of a loop around `discs`; size 0: none
+  std::span<const int> discs;
+  Enclosure enclosure;              ///< the walls of a convex table with nothing in it, else empty
+  double enclosure_rounding = 0.0;  ///< error of a joint's distance in it
+  bool without_ellipses = false;
+  bool discs_within = false;  ///< no disc touches an edge: a particle on a disc is in its cell
+
+  const WallGrid* grid = nullptr;  ///< of tables with many walls, else null
+  std::span<const Near> near;      ///< its lists
+  const std::vector<int>& all() const { return shared_->all; }  ///< numbers of all pieces
+
+ private:
+  struct Shared {
+    std::vector<geometry::PreparedCurve> curves;
+    std::vector<PieceData> data;
+    std::vector<geometry::Vector> joints;
+    std::vector<int> open;
+    std::vector<geometry::Cell> offsets;
+    std::vector<signed char> holed;
+    std::vector<int> all, discs;
+    std::vector<Near> near;
+    std::vector<geometry::Vector> end_normals;  ///< a wall
+    std::vector<int> opposite;                  ///< an edge: the one that a flight comes in by
+    std::unordered_multimap<int, int> images;   ///< by wall: its pieces in other cells
+    std::unique_ptr<const geometry::ExactBoundary> exact;
+    std::unique_ptr<const WallGrid> grid;
+  };
+  class Preparation;
+
+  int edge_crossed_at_start(const Flight& flight) const;
+  void find_start(Flight& flight) const;
+  bool stands_on_ellipse(const Flight& flight, int piece) const;
+  Sign on_part(const Flight& flight, int piece, const Origin& origin, const Crossing& crossing,
+               double inflation) const;
+  Sign exactly_inward(int wall, double u, geometry::Vector v, DecisionCounts& counts) const;
+  int hole_at(const Flight& flight, const Ahead& ahead, double u, DecisionCounts& counts) const;
+
+  std::shared_ptr<const Shared> shared_;
+};
+
+[[gnu::always_inline]] inline void PieceTable::begin_on_wall(Flight& f, int wall,
+                                                             const geometry::PreparedCurve& w,
+                                                             double u, geometry::Vector point,
+                                                             geometry::Vector velocity) const {
+  f.wall = wall;
+  f.u = u;
+  f.start = point;
+  f.start_error = w.point_error;
+  f.velocity = velocity;
+  f.cell.first = f.cell.second = 0;
+  f.entry = -1;
+  if (!discs_within && (cells || !(u > 0.0))) return begin(f);
+  f.start_piece = wall;
+  f.start_previous = -1;
+}
+
+[[gnu::always_inline]] inline void PieceTable::land(const Flight& f, const Ahead& ahead,
+                                                    Landing& landing,
+                                                    DecisionCounts& counts) const {
+  geometry::Vector origin = f.start;
+  landing.wall = ahead.piece;  // the pieces begin with the walls in their own cell
+  landing.cell.first = landing.cell.second = 0;
+  if (cells) {
+    const PieceData& p = piece(ahead.piece);
+    landing.wall = p.wall;
+    const geometry::Cell o = offsets[static_cast<std::size_t>(p.offset)];
+    landing.cell = {f.cell.first + o.first, f.cell.second + o.second};
+    if (displaced || (f.cell.first | f.cell.second) != 0)
+      origin = table.lattice->seen_from(landing.cell, f.start);
+  }
+  const geometry::PreparedCurve& w = curves[static_cast<std::size_t>(landing.wall)];
+  landing.curve = &w;
+  landing.hole = -1;
+  const bool larmor = f.omega != 0.0;
+  geometry::Vector end;
+  if (larmor) {
+    const auto factors = geometry::flight_factors(ahead.kappa, f.omega, 0.5);
+    end = origin + geometry::displacement(factors, f.velocity);
+    landing.velocity = geometry::turned(factors, f.velocity, f.omega);
+  } else {
+    end = geometry::moved(origin, ahead.duration, f.velocity);
+    landing.velocity = f.velocity;
+  }
+  if (ahead.kind == Ahead::Kind::joint) {
+    const geometry::PreparedCurve::Frame at = w.frame(0.0);
+    landing.at.point = at.point;
+    landing.at.normal = at.normal;
+    landing.at.u = 0.0;
+    return;
+  }
+  w.arrive(end, landing.velocity, landing.at);
+  if (holed[static_cast<std::size_t>(landing.wall)] != 0)
+    landing.hole = hole_at(f, ahead, landing.at.u, counts);
+}
+
+[[gnu::always_inline]] inline Sign PieceTable::inward(int wall, const geometry::PreparedCurve& w,
+                                                      double u, geometry::Vector v,
+                                                      geometry::Vector normal,
+                                                      DecisionCounts& counts) const {
+  if (u > 0.0) {
+    const double bound =
+        options.filter_inflation * w.normal_bound * (std::fabs(v.x) + std::fabs(v.y));
+    const Sign sign = sign_within(dot(normal, v), bound);
+    if (sign != Sign::undecided) {
+      ++counts.filter;
+      return sign;
+    }
+  }
+  return exactly_inward(wall, u, v, counts);
+}
+
+}  // namespace carom
