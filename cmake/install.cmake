@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 set(carom_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
 
-# Two export sets, so that who asks for geometry alone needs none of the other packages.
+# Two export sets, so that a project that uses geometry alone needs none of the other packages.
 set_target_properties(carom_program PROPERTIES EXPORT_NAME program)
 install(TARGETS carom_geometry EXPORT carom-geometry-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

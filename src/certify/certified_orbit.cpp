@@ -292,7 +292,7 @@ class CertifiedOrbit::Implementation {
   void restart(long bits) {
     if (bits > task_.most_bits) {
       finish_as_given(CertifiedFate::undecided,
-                      "the digits asked for need " + std::to_string(bits) + " bits");
+                      "the requested digits need " + std::to_string(bits) + " bits");
       return;
     }
     effort_.bits = bits;

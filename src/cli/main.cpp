@@ -19,7 +19,7 @@
 namespace {
 
 // Where a standard stream is closed, the next file that is opened gets its number, and messages go
-// into it. Standard output is opened for reading: results that nobody gets are an error.
+// into it. Standard output is opened for reading, so that writing results to it is an error.
 void reserve_standard_streams() {
   for (const int stream : {0, 1, 2})
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF &&
@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
     if (silent &&
         (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)))
       return bad_input;
-    std::signal(SIGPIPE, SIG_IGN);  // whoever does not read on is told of as an error of the write
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of the write
     carom::prepare_archives();
     Parsed parsed = parse(argc, argv);
     if (parsed.exit) return *parsed.exit;

@@ -17,11 +17,9 @@ namespace carom::cli {
 namespace {
 
 constexpr const char* introduction =
-    "carom: classical particles in two dimensions. Between walls they fly freely, with or without "
-    "a\n"
-    "magnetic field: every wall is met exactly, nothing is stepped over. Where potentials or "
-    "other\n"
-    "particles act, motion is integrated.";
+    "carom: classical particles in two dimensions. Between walls particles fly freely, with or\n"
+    "without a magnetic field, and hits are found exactly. Where potentials or other particles\n"
+    "act, the motion is integrated.";
 
 constexpr const char* examples =
     "Examples:\n"
@@ -94,9 +92,9 @@ class Command {
     text("--collisions", o.collisions, "N", "Most collisions of a trajectory");
     text("--times", o.times, "TIMES", times_help);
     text("--trajectories", o.trajectories, "N", "Size of the ensemble (1e6 is a number)");
-    text("--position", o.position, "X,Y", "Start; exact: 1/10,-1/5");
+    text("--position", o.position, "X,Y", "Start, in exact numbers: 1/10,-1/5");
     text("--velocity", o.velocity, "U,V",
-         "Velocity of the start; its direction where a speed is set");
+         "Velocity of the start; only its direction counts where a speed is set");
     text("--engine", options_.engine, "NAME", "auto, events or steps");
     text("--isa", options_.isa, "NAME", "Instruction set of lanes: auto, baseline, avx2 or avx512");
     return *this;
@@ -134,7 +132,8 @@ void define(CLI::App& app, Options& o) {
           "  carom escape mushroom --trajectories 1e6 --times log:1:1000:31 --json\n"
           "  carom escape stadium --trajectories 1e5 --per-trajectory -o basins.h5\n"
           "\n"
-          "What -o writes is kept every ten seconds: carom escape --resume FILE.h5 goes on after "
+          "With -o a checkpoint is written every ten seconds: carom escape --resume FILE.h5 goes "
+          "on after "
           "Ctrl-C, a kill\n"
           "or a full disk, and ends with the same bits.\n"
           "A closed table is legal: nothing escapes. Exit status 3 if a trajectory could not be "
@@ -158,7 +157,7 @@ void define(CLI::App& app, Options& o) {
             "With --splitting: the largest kick (default: chosen by a first population)")
       .text("--lookback", o.lookback, "N",
             "With --splitting: hits that a copy goes back (default 6)");
-  Command(app, o, "run", "One trajectory, followed closely",
+  Command(app, o, "run", "Follow one trajectory and store every hit",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
           "  carom run circle --set 'table.hole=[]' --position 1/10,0 --velocity 1,2 --collisions "
@@ -172,7 +171,7 @@ void define(CLI::App& app, Options& o) {
             "Write an archive: every hit, and samples if run.sample is set")
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
       .text("--trust-tolerance", o.overrides.trust_tolerance, "X",
-            "Largest error of a trusted collision, by the table's size (default 1e-3)")
+            "Largest error of a trusted collision, in units of the table's size (default 1e-3)")
       .text("--precision", o.precision, "NAME", "double, or certified: every digit guaranteed")
       .text("--digits", o.digits, "D", "Guaranteed decimals of a certified run (default 20)")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
@@ -189,7 +188,8 @@ void define(CLI::App& app, Options& o) {
       .common()
       .text("-o,--output", o.output, "FILE.h5", "Write an archive")
       .parts()
-      .text("--window", o.window, "FROM,TO", "Report times that D and the exponent are taken from");
+      .text("--window", o.window, "FROM,TO",
+            "Range of report times from which D and the exponent are computed");
   Command(app, o, "section",
           "Boundary map, or section by a line, a circle or a velocity, of many orbits",
           "Examples:\n"
@@ -209,7 +209,7 @@ void define(CLI::App& app, Options& o) {
       .text("--orbits", o.orbits, "N",
             "Number of orbits (default: the listed starts, else at most 50)");
   Command(
-      app, o, "merge", "Parts of an ensemble become one archive",
+      app, o, "merge", "Merges the parts of an ensemble into one archive",
       "Examples:\n"
       "  carom escape stadium --shard 1/2 -o a.h5\n"
       "  carom escape stadium --shard 2/2 -o b.h5\n"

@@ -13,8 +13,11 @@
 namespace carom::cli {
 
 TemporaryFolder::TemporaryFolder() {
-  const char* const folder = ::getenv("TMPDIR");
-  path_ = fmt::format("{}/carom-XXXXXX", folder ? folder : "/tmp");
+  std::error_code failed;
+  path_ = (std::filesystem::temp_directory_path(failed) / "carom-XXXXXX").string();
+  if (failed)
+    throw InputError(Place{}, "no folder for temporary files: " + failed.message(),
+                     "a folder in TMPDIR");
   if (!::mkdtemp(path_.data()))
     throw InputError(fmt::format("cannot make the folder '{}': {}", path_, std::strerror(errno)));
 }

@@ -73,7 +73,7 @@ std::string no_diffusion(const Horizon& horizon) {
       return "infinite horizon: particles fly freely along corridors and the MSD grows faster than "
              "t";
     case Horizon::Kind::bounded:
-      return "the table is bounded: the MSD ends at a constant";
+      return "the table is bounded: the MSD tends to a constant";
     case Horizon::Kind::open_plane:
       return "open plane: particles leave for good and the MSD ends as t^2";
     case Horizon::Kind::finite:

@@ -178,8 +178,7 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
   const Stopwatch watch;
   refuse_injections(system, "sections");
   if (system.section.boundary && system.table->walls.empty())
-    throw InputError(Place{{}, 0, 0, "section.on"},
-                     "there are no walls where the section could be taken",
+    throw InputError(Place{{}, 0, 0, "section.on"}, "the table has no walls for this section",
                      "line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, x=c, y=c, vx=c or vy=c");
   check_start(system, options.interrupted);
   const Sampler sampler(system, options.interrupted);

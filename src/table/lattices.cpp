@@ -139,7 +139,7 @@ void repeat(const LatticeSpec& lattice, Table& table) {
   }
   if (table.extent == Extent::bounded) {
     throw InputError(
-        lattice.place, "the table is closed by its walls, nothing leads to another cell",
+        lattice.place, "the table is closed by its walls, so no particle reaches another cell",
         "[lattice] with obstacles in the open plane: discs, or a path of clockwise loops");
   }
   if (table.walls.empty()) return set_lattice(table, lattice, {0, 0});

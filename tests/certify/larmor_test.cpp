@@ -77,7 +77,7 @@ TEST(CertifiedLarmor, ContainsItselfAtMoreBits) {
     ASSERT_EQ(few.end.fate, many.end.fate);
     ASSERT_EQ(few.hits.size(), many.hits.size());
     if (few.end.fate == CertifiedFate::pinned) {
-      EXPECT_TRUE(few.hits.empty());  // who has hit a wall comes back to it
+      EXPECT_TRUE(few.hits.empty());  // an orbit that hits a wall comes back to it
       ++pinned;
     } else {
       ASSERT_EQ(few.hits.size(), collisions);

@@ -159,7 +159,7 @@ TEST(TrustAgainstCertified, TheWallsAreTrue) {
   RecordProperty("largest", std::to_string(sample.ratios.back()));
 }
 
-// Who is trusted to have escaped has escaped: through that hole, after as many hits, then.
+// A trusted escape is a true one: through that hole, after as many hits, at that time.
 TEST(TrustAgainstCertified, EscapesAreTrue) {
   const LoadedSystem loaded = read_system(
       "[table]\nshape = \"stadium\"\nhalf_length = \"2/3\"\nradius = 1.1\n"
@@ -174,8 +174,8 @@ TEST(TrustAgainstCertified, EscapesAreTrue) {
     SingleRunOptions options;
     options.trajectory = static_cast<std::uint64_t>(k);
     options.written = written;
-    Observer nobody;
-    const RunEnd run = run_single(loaded.system, nobody, options).particles.front();
+    Observer silent;
+    const RunEnd run = run_single(loaded.system, silent, options).particles.front();
     if (run.progress.fate != Fate::escaped || !run.trust.open ||
         !(run.trust.time == run.progress.end)) {
       ++untrusted;

@@ -251,7 +251,7 @@ std::vector<std::string> names_of(const std::string& path, const char* dataset) 
   return names;
 }
 
-// Across the parameter 0 of a circle a hole is stored in two pieces; nobody need know.
+// Across the parameter 0 of a circle a hole is stored in two pieces, which do not show.
 TEST(EscapeArchive, AHoleInTwoPiecesIsOne) {
   const Shell shell;
   const std::string run = "$carom escape one.toml --per-trajectory --json --quiet ";
@@ -320,7 +320,7 @@ TEST(EscapeArchive, RowsAreTheTrajectoriesThatWereCounted) {
     EXPECT_NEAR(std::stod(json_value(one.out, "x")), x[i] + 0.001 * vx[i], 1e-12);
     EXPECT_NEAR(std::stod(json_value(one.out, "y")), y[i] + 0.001 * vy[i], 1e-12);
   }
-  // By hits: those who were not gone within n.
+  // By hits: the particles that had not escaped within n.
   const auto n = numbers<std::uint64_t>(a, "survival_hits/n");
   const auto p = numbers<double>(a, "survival_hits/p");
   for (std::size_t k = 0; k < n.size(); ++k) {

@@ -193,8 +193,8 @@ void read_archive(const std::string& name, const std::string& path) {
 }
 
 using Counts = std::map<std::string, int>;
-void print(const char* who, const char* name, const Counts& counts) {
-  std::cout << name << ", " << who << ":";
+void print(const char* reader, const char* name, const Counts& counts) {
+  std::cout << name << ", " << reader << ":";
   for (const auto& [outcome, count] : counts) std::cout << " " << count << " " << outcome;
   std::cout << std::endl;
 }

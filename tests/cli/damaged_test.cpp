@@ -87,7 +87,7 @@ struct Case {
   const char* message;
 };
 
-// Each damage to a copy of a.h5 is told of by whoever reads it.
+// Every command that reads a damaged copy of a.h5 reports the damage.
 void expect_told(const Shell& shell, const std::string& command, const std::vector<Case>& cases) {
   for (const Case& one : cases) {
     ASSERT_EQ(shell("cp a.h5 b.h5").status, 0);

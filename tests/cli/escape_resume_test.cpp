@@ -31,7 +31,7 @@ void leave_a_checkpoint(const Shell& shell) {
   ASSERT_TRUE(shell.exists("a.h5.part/checkpoint.h5"));
 }
 
-// Who goes on with an archive copies its records before the first checkpoint of his own.
+// A run that goes on with an archive copies its records before its first checkpoint.
 TEST(EscapeResume, AfterAKillWithinTheCopyOfRecords) {
   const Shell shell;
   // An archive of the first trajectories, and records as such a run leaves them.

@@ -44,7 +44,7 @@ struct Undisturbed {
   std::map<std::string, std::string> contents;
 };
 
-// A checkpoint, where there is one, is an archive that anybody can read.
+// A checkpoint, where there is one, is an archive that other programs can read.
 inline void expect_whole(const Shell& shell, const std::string& file) {
   if (!shell.exists(file)) return;
   const Contents c = open_archive(shell.folder() + "/" + file);

@@ -194,7 +194,7 @@ TEST(Ranks, AllEndWhenOneHasNoTemporaryFolder) {
   }
 }
 
-// Where the memory ends depends on the machine, so there may even be enough; but nobody waits for
+// Where the memory ends depends on the machine, so there may even be enough; but no rank waits for
 // ever.
 TEST(Ranks, AllEndWhenOneHasNoMemory) {
   if (!has_mpi()) GTEST_SKIP() << "no mpirun";

@@ -8,7 +8,7 @@
 namespace carom {
 namespace {
 
-// Once, by every command that writes one: nobody is refused, and nobody is kept away.
+// Every command that writes an archive says so once, and refuses nothing.
 TEST(NoLocks, AreToldOf) {
   const Shell shell;
   // HDF5 asks for locks of its own.

@@ -1,4 +1,4 @@
-// Who writes an archive is alone with it, and what is over leaves nothing behind.
+// One process at a time writes an archive, and leaves nothing behind when it ends.
 #include <gtest/gtest.h>
 
 #include <sstream>

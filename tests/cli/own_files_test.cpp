@@ -75,7 +75,7 @@ TEST(OwnFiles, ACheckpointIsFoundByItsOwnName) {
   EXPECT_NE(again.err.find("run.seed"), std::string::npos) << again.err;
 }
 
-// With --force, too. One question, whoever writes: is FILE.part a folder of Carom's?
+// Also with --force. Every command that writes asks: is FILE.part a folder of Carom's?
 TEST(OwnFiles, FilesOfOthersAreRefused) {
   const Shell shell;
   ASSERT_EQ(shell(mushroom + "--shard 1/2 -o 1.h5 && " + mushroom +

@@ -17,7 +17,7 @@ const char* const and_save = "--checkpoint blocks:1 ";
 
 TEST(Signals, AClosedTerminalInterrupts) {
   const Shell shell;
-  // Whoever runs this test may ignore hangups.
+  // The shell that runs this test may ignore hangups.
   const Outcome o = shell("carom=\"env --default-signal=HUP $carom\"; " + std::string(endless) +
                           and_save + "& pid=$!; until_saved run.h5; kill -HUP $pid; wait $pid");
   EXPECT_EQ(o.status, 130) << o.err;

@@ -1,4 +1,4 @@
-// Steps that fail: whoever takes one is lost where it begins, and there are no states within it.
+// A particle whose step fails is lost at the start of the step, and has no states within it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -114,7 +114,7 @@ TEST(FailingSteps, AreNotAveraged) {
     for (const MomentPoint& point : points) {
       std::uint64_t there = 0;
       for (const auto& when : lost) there += !when || !(*when < Time(point.t));
-      // Whoever runs away is far away before its step fails.
+      // A particle that runs away is far away before its step fails.
       ASSERT_LE(point.count, there) << point.t;
       ASSERT_GE(point.count + (system.table->walls.empty() ? one.unresolved : 0), there) << point.t;
       ASSERT_EQ(std::isnan(point.square.value), point.count == 0) << point.t;

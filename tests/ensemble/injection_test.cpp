@@ -148,10 +148,10 @@ TEST(Injection, EntriesDoNotDisturbEachOther) {
     EXPECT_EQ(few[i].state.velocity, many[i].state.velocity);
   }
   // Those of the start stay what they are.
-  const System nobody = with("", "t_max = 10\n");
+  const System empty = with("", "t_max = 10\n");
   Observer observer;
   const SingleRunResult with_others = run_single(both, observer),
-                        without = run_single(nobody, observer);
+                        without = run_single(empty, observer);
   for (std::size_t p = 0; p < 2; ++p) {
     EXPECT_EQ(with_others.particles[p].x, without.particles[p].x);
     EXPECT_EQ(with_others.particles[p].progress.hits, without.particles[p].progress.hits);
@@ -237,13 +237,13 @@ TEST(Injection, AHoleAcrossTheStartOfACircleIsWhole) {
 TEST(Injection, IsRefusedWhereItIsNotKnown) {
   const System system =
       with("[[injection]]\nhole = \"door\"\ntimes = [1]\n", "t_max = 2\ntimes = [1, 2]\n");
-  Observer nobody;
+  Observer silent;
   SingleRunOptions resumed;
   resumed.resume.resize(3);
-  EXPECT_THROW(run_single(system, nobody, resumed), InputError);
+  EXPECT_THROW(run_single(system, silent, resumed), InputError);
   System endless = system;
   endless.run.t_max = no_last_time;
-  EXPECT_THROW(run_single(endless, nobody), InputError);
+  EXPECT_THROW(run_single(endless, silent), InputError);
   EXPECT_THROW(run_diffusion(system, {}), InputError);
   EXPECT_THROW(run_section(system, {}), InputError);
 }

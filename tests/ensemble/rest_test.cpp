@@ -20,8 +20,8 @@ std::string integrator(const std::string& lines) {
 }
 
 SingleRunResult run(const System& system) {
-  Observer nobody;
-  return run_single(system, nobody);
+  Observer silent;
+  return run_single(system, silent);
 }
 
 TEST(Rest, AReleaseInAHarmonicWellIsACosine) {
@@ -137,8 +137,8 @@ TEST(Rest, OutsideTheReachOfAllForcesIsRefused) {
       "[table]\nshape = \"circle\"\nradius = 3\n[[potential]]\nkind = \"gaussian\"\nheight = "
       "1\nwidth = 0.01\n" +
       at + integrator("step = 0.001"));
-  Observer nobody;
-  EXPECT_THROW(run_single(system, nobody), InputError);
+  Observer silent;
+  EXPECT_THROW(run_single(system, silent), InputError);
 }
 
 }  // namespace

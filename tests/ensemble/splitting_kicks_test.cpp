@@ -11,8 +11,8 @@
 namespace carom {
 namespace {
 
-// Nothing stretches: who is still there moves nearly at right angles to the walls with the hole, by
-// some 1/t.
+// Nothing stretches: a particle that is still there moves nearly at right angles to the walls with
+// the hole, by some 1/t.
 System rectangle() {
   return make_system(R"([table]
 shape = "rectangle"

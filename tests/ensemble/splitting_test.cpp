@@ -241,8 +241,8 @@ TEST(Splitting, NobodyGoneIsExactlyOne) {
         for (const double p : run.survival) EXPECT_EQ(p, 1.0);
 }
 
-// Around the discs of a table that is said to be closed, who leaves is lost. None goes without
-// being counted: walkers that did not reach their level, and kicked copies that did not.
+// Around the discs of a table that is said to be closed, a particle that leaves is lost. None goes
+// without being counted: walkers that did not reach their level, and kicked copies that did not.
 TEST(Splitting, CountsWhatItLosesAmongKickedCopies) {
   System leaky = three_disc();
   Table table = *leaky.table;

@@ -172,7 +172,7 @@ TEST(EventBounds, ParameterOfALanding) {
           const QuadVector exact =
               s.exact_start + displacement(c.exact, quad(s.velocity), Quad(s.omega), Quad(0.5));
           const Quad u = parameter(scene.exact, exact);
-          // Crossings of the piece itself; those near its ends are clamped, and nobody lands
+          // Crossings of the piece itself; those near its ends are clamped, and no flight lands
           // beyond.
           if (!(double(u) > 1e-3 && double(u) < w.last() - 1e-3)) return;
           const Vector way = s.omega == 0.0 ? (1.0 / c.kappa) * s.velocity

@@ -85,12 +85,12 @@ TEST(CopiesInSteps, FlightsEndAtAllCopiesOfSupports) {
         ASSERT_FALSE(system.dynamics.forces->everywhere());
         World free(*system.table, system.dynamics), stepped(*system.table, all_in_steps(system));
         const State begin = Sampler(system).draw(free, 1, 0);
-        Observer nobody;
+        Observer silent;
         Vector end[2];
         int k = 0;
         for (World* world : {&free, &stepped}) {
           world->add(system.particles[0], begin);
-          world->run_until(0.7, nobody);
+          world->run_until(0.7, silent);
           const State s = world->state_at(0, 0.7);
           end[k++] = in_plane(system, s.position, s.cell);
           EXPECT_EQ(world->fate(0), Fate::survived) << world->report(0);

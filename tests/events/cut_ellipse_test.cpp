@@ -1,4 +1,4 @@
-// An ellipse that was cut into arcs is the ellipse: whoever stands on one arc stands, nearly, on
+// An ellipse that was cut into arcs is the ellipse: a particle on one arc is, nearly, on
 // the ellipses of all others.
 #include <gtest/gtest.h>
 

@@ -33,9 +33,9 @@ double energy(const State& s, const Dynamics& d, const Table& table) {
 
 // Does the run come to its end, within so many times 256 events?
 bool ends(World& world, double until, long most = 400) {
-  Observer nobody;
+  Observer silent;
   long asked = 0;
-  world.run_until(until, nobody, [&] { return ++asked > 16 * most; });
+  world.run_until(until, silent, [&] { return ++asked > 16 * most; });
   return asked <= 16 * most;
 }
 
@@ -105,8 +105,8 @@ TEST(EdgesInSteps, WhereTwoEdgesCrossNoBumpIsMissed) {
     const double time = dice.spread(0.003, 0.5);
     World back(plane, everywhere), world(plane, dynamics), stepped(plane, everywhere);
     back.add(particle(), start(crossing, dice.direction()));
-    Observer nobody;
-    back.run_until(time, nobody);
+    Observer silent;
+    back.run_until(time, silent);
     const State there = back.state_at(0, time);
     const State at = start(there.position, -there.velocity);
     State end[2];
@@ -158,9 +158,9 @@ TEST(EdgesInSteps, WhereAnEdgeMeetsAWallTheWallComesFirst) {
     World back(plane, everywhere), world(table, dynamics), stepped(table, everywhere);
     const double turn = dice.between(-1.4, 1.4);
     back.add(particle(), start(meeting, std::cos(turn) * up + std::sin(turn) * left(up)));
-    Observer nobody;
+    Observer silent;
     const double time = dice.spread(0.003, 0.3);
-    back.run_until(time, nobody);
+    back.run_until(time, silent);
     const State there = back.state_at(0, time);
     State at = start(there.position, -there.velocity);
     for (int k = dice.whole(0, 4); k > 0; --k) {
@@ -176,7 +176,7 @@ TEST(EdgesInSteps, WhereAnEdgeMeetsAWallTheWallComesFirst) {
     ASSERT_NE(world.fate(0), Fate::lost) << n << world.report(0);
     const bool goes_on = world.fate(0) == Fate::survived;
     EXPECT_TRUE(!goes_on || world.contains(world.state_at(0, 2.0 * time).position)) << n;
-    if (kind == 2) continue;  // an exact flight tells who just passes the corner
+    if (kind == 2) continue;  // an exact flight tells which particle just passes the corner
     ASSERT_EQ(world.fate(0), stepped.fate(0)) << n << world.report(0) << stepped.report(0);
     ASSERT_EQ(seen[0].hits.size(), seen[1].hits.size()) << n;
     hits += static_cast<long>(seen[0].hits.size());
@@ -188,8 +188,8 @@ TEST(EdgesInSteps, WhereAnEdgeMeetsAWallTheWallComesFirst) {
   EXPECT_GT(hits, 1000);
 }
 
-// Random bumps, some of them over walls, with and without field: every run ends, nobody is lost,
-// and the energy changes as it does where everything is integrated.
+// Random bumps, some of them over walls, with and without field: every run ends, no particle is
+// lost, and the energy changes as it does where everything is integrated.
 TEST(EdgesInSteps, OrbitsAmongOverlappingBumps) {
   Dice dice(5);
   const Table table = square();

@@ -75,9 +75,9 @@ TEST(EnergyBalance, IsThatOfEveryStep) {
       }
       world.watch_energy();
       world.sample_every(step);
-      Observer nobody;
+      Observer silent;
       world.run_until(20.0, samples);
-      plain.run_until(20.0, nobody);
+      plain.run_until(20.0, silent);
       for (int i = 0; i < 2; ++i) {
         const EnergyBalance& seen = world.energy_balance(i);
         const auto k = static_cast<std::size_t>(pairs ? 0 : i);
@@ -105,8 +105,8 @@ TEST(StepCounts, AreThoseOfTheScheme) {
   const Dynamics d = dynamics("velocity-verlet", 0.125, false);
   World world(plane, d);
   world.add(particle(), start({0.5, 0.25}, {0.75, -0.5}));
-  Observer nobody;
-  world.run_until(10.0, nobody);
+  Observer silent;
+  world.run_until(10.0, silent);
   EXPECT_EQ(world.step_counts().steps, 80u);
   EXPECT_EQ(world.step_counts().force_evaluations, 82u)
       << "one at the start, and the step after the last one";

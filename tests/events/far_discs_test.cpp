@@ -67,13 +67,13 @@ TEST(FarDiscs, PointsAreInsideAndHitTheSameDiscs) {
 TEST(FarDiscs, AreTrustedAsFarAsNearOnes) {
   const std::string rest =
       "[initial]\nkind = \"point\"\nposition = [0.5, 0]\nvelocity = [0.125, 1]\n";
-  Observer nobody;
+  Observer silent;
   const auto trust = [&](Vector away) {
     LoadedSystem loaded = discs(away, "[[1, 0], [0, 1]]", rest);
     loaded.system.run.t_max = 30.0;
     SingleRunOptions options;
     options.written = written_system(loaded);
-    return run_single(loaded.system, nobody, options).particles.front().trust;
+    return run_single(loaded.system, silent, options).particles.front().trust;
   };
   const Trust near = trust({0, 0});
   ASSERT_GT(near.hits, 15u);

@@ -216,19 +216,19 @@ t_max = 30
   World there(*system.table, system.dynamics);
   const State start = Sampler(system).draw(there, 2, 0);
   there.add(system.particles[0], start);
-  Observer nobody;
-  there.run_until(4.0, nobody);
+  Observer silent;
+  there.run_until(4.0, silent);
   State turned = there.state_at(0, 4.0);
   turned.velocity = -turned.velocity;
   turned.time = Time();
   World back(*system.table, system.dynamics);
   back.add(system.particles[0], turned);
-  back.run_until(4.0, nobody);
+  back.run_until(4.0, silent);
   const Vector d = back.state_at(0, 4.0).position - start.position;
   EXPECT_LT(std::sqrt(dot(d, d)), 1e-8);
 }
 
-// Walls with corners of every kind, small steps and large: nobody slips through.
+// Walls with corners of every kind, small steps and large: no particle slips through.
 TEST(HandOver, NobodyIsLostAtJoints) {
   const char* const tables[] = {
       "shape = \"polygon\"\npoints = [[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [0, 2]]\n",

@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-/// Runs the system and expects nobody to be lost; returns the hits of all.
+/// Runs the system and expects that no particle is lost; returns the hits of all.
 std::uint64_t hits_of(const std::string& text, bool everywhere = false) {
   const LoadedSystem loaded = read_system(text, "hits");
   Dynamics dynamics = loaded.system.dynamics;
@@ -20,9 +20,9 @@ std::uint64_t hits_of(const std::string& text, bool everywhere = false) {
   World world(*loaded.system.table, dynamics);
   const std::vector<State> starts = Sampler(loaded.system).draw_all(world, 0);
   for (std::size_t i = 0; i < starts.size(); ++i) world.add(loaded.system.particles[i], starts[i]);
-  Observer nobody;
+  Observer silent;
   const double until = loaded.system.run.t_max;
-  world.run_until(until, nobody);
+  world.run_until(until, silent);
   std::uint64_t hits = 0;
   for (int i = 0; i < world.size(); ++i) {
     EXPECT_EQ(world.fate(i), Fate::survived) << world.report(i) << "\n" << text;
@@ -91,8 +91,8 @@ Fate fate_of(const std::string& text, std::uint64_t& hits) {
   dynamics.everywhere = true;
   World world(*loaded.system.table, dynamics);
   world.add(loaded.system.particles[0], Sampler(loaded.system).draw_all(world, 0)[0]);
-  Observer nobody;
-  world.run_until(loaded.system.run.t_max, nobody);
+  Observer silent;
+  world.run_until(loaded.system.run.t_max, silent);
   hits = world.hits(0);
   EXPECT_NE(world.fate(0), Fate::lost) << world.report(0) << text;
   return world.fate(0);

@@ -165,7 +165,7 @@ TEST(JointsInSteps, AreWatertightFarAway) {
   }
 }
 
-// Near its tip a needle is so thin that who stands on one side stands on the other, too: it went
+// Near its tip a needle is so thin that a particle on one side is on the other, too: it went
 // through, or to and fro.
 TEST(JointsInSteps, OfNeedlesAreSingular) {
   for (const double width : {1e-4, 1e-6}) {

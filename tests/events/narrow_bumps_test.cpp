@@ -17,8 +17,8 @@ State end_of(const System& system, bool everywhere) {
   dynamics.everywhere = everywhere;
   World world(*system.table, dynamics);
   world.add(system.particles[0], Sampler(system).draw(world, 1, 0));
-  Observer nobody;
-  world.run_until(12.0, nobody);
+  Observer silent;
+  world.run_until(12.0, silent);
   EXPECT_EQ(world.fate(0), Fate::survived) << world.report(0);
   const State end = world.state_at(0, 12.0);
   const double energy =

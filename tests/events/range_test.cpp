@@ -27,9 +27,9 @@ Result run(const System& system, bool everywhere, double until) {
   World world(*system.table, dynamics);
   const std::vector<State> starts = Sampler(system).draw_all(world, 0);
   for (std::size_t i = 0; i < starts.size(); ++i) world.add(system.particles[i], starts[i]);
-  Observer nobody;
+  Observer silent;
   Result r;
-  r.events = world.run_until(until, nobody);
+  r.events = world.run_until(until, silent);
   std::vector<State> after;
   for (int i = 0; i < world.size(); ++i) {
     EXPECT_EQ(world.fate(i), Fate::survived) << world.report(i);
@@ -163,8 +163,8 @@ TEST(Range, LateParticlesInteractAtOnce) {
         starts[i].velocity = {i == 0 ? 1.0 : 0.0, i == 0 ? 0.0 : 1.0};
         world.add(loaded.system.particles[i], starts[i]);
       }
-      Observer nobody;
-      world.run_until(1.0, nobody);
+      Observer silent;
+      world.run_until(1.0, silent);
       for (int i = 0; i < 3; ++i) end.push_back(world.state_at(i, Time(1.0)).position);
     }
     for (std::size_t i = 0; i < 3; ++i) {
@@ -207,15 +207,15 @@ TEST(Range, LateParticlesJoin) {
   starts[2].time = Time(1.00025);
   for (State& s : starts) s.velocity = {0.6, 0.8};
   for (std::size_t i = 0; i < 3; ++i) world.add(system.particles[i], starts[i]);
-  Observer nobody;
-  world.run_until(1.00025, nobody);
+  Observer silent;
+  world.run_until(1.00025, silent);
   const auto energy = [&](double t) {
     std::vector<State> now;
     for (int i = 0; i < 3; ++i) now.push_back(world.state_at(i, Time(t)));
     return energy_of(system.particles, now, system.dynamics, *system.table).total();
   };
   const double before = energy(1.00025);
-  world.run_until(3.0, nobody);
+  world.run_until(3.0, silent);
   EXPECT_NEAR(energy(3.0), before, 1e-9);
   EXPECT_NE(world.state(2).position, starts[2].position);
 }

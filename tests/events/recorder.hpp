@@ -1,4 +1,4 @@
-// Particles for the tests of the event loop, and who watches them.
+// Particles for the tests of the event loop, and an observer that records their events.
 #pragma once
 
 #include <utility>

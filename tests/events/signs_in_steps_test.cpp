@@ -1,5 +1,5 @@
 // Paths whose velocities say one thing about a wall and whose positions another: a scheme's
-// velocity is not quite the derivative of its positions. Nobody is lost.
+// velocity is not quite the derivative of its positions. No particle is lost.
 #include <gtest/gtest.h>
 
 #include <cmath>

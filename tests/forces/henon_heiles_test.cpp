@@ -46,8 +46,8 @@ State at_origin(double energy) {
 State end_of(const System& system, const Dynamics& dynamics, const State& start, double time) {
   World world(*system.table, dynamics);
   world.add(system.particles[0], start);
-  Observer nobody;
-  world.run_until(time, nobody);
+  Observer silent;
+  world.run_until(time, silent);
   EXPECT_EQ(world.fate(0), Fate::survived) << world.report(0);
   return world.state_at(0, Time(time));
 }

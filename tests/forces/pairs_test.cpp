@@ -148,9 +148,9 @@ angle = 0
       const State start = state_of({-20.0, offset}, {speed, 0.0});
       World world(*system.table, system.dynamics);
       world.add(system.particles[0], start);
-      Observer nobody;
+      Observer silent;
       const double time = 60.0 / speed;
-      world.run_until(time, nobody);
+      world.run_until(time, silent);
       const State end = states_of(world, time).front();
       const Hyperbola before(2.0, k, start.position, start.velocity),
           after(2.0, k, end.position, end.velocity);
@@ -184,8 +184,8 @@ starts = [[1, 0, 1, 0]]
   const State one = state_of({-10.0, 0.4}, {2.0, 0.1}), two = state_of({1.0, 0.0}, {-0.3, 0.2});
   world.add(system.particles[0], one);
   world.add(system.particles[1], two);
-  Observer nobody;
-  world.run_until(20.0, nobody);
+  Observer silent;
+  world.run_until(20.0, silent);
   const std::vector<State> end = states_of(world, 20.0);
   const Hyperbola before(mass, k, one.position - two.position, one.velocity - two.velocity);
   const Hyperbola after(mass, k, end[0].position - end[1].position,
@@ -233,8 +233,8 @@ TEST(ThirdLaw, KeepsMomenta) {
                                  {std::cos(angle), std::sin(angle)}));
         world.add(system.particles[static_cast<std::size_t>(i)], start.back());
       }
-      Observer nobody;
-      world.run_until(4.0, nobody);
+      Observer silent;
+      world.run_until(4.0, silent);
       const std::vector<State> end = states_of(world, 4.0);
       const Vector drift =
           canonical_momentum(system.particles, end) - canonical_momentum(system.particles, start);

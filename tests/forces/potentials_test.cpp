@@ -305,7 +305,7 @@ TEST(LatticeSums, HaveTheSymmetryOfTheLattice) {
     EXPECT_NEAR(field.add_external(p, {x.x, -x.y}, g), v, 2e-15);
     EXPECT_NEAR(g.y, -f.y, 2e-14);
   }
-  // Who leaves the cell at an edge comes in at the opposite one.
+  // A particle that leaves the cell at an edge comes in at the opposite one.
   for (const geometry::CellEdge& edge : lattice.edges)
     for (double u = 0.0; u < 1.0; u += 0.125) {
       const Vector x = edge.segment.from + u * (edge.segment.to - edge.segment.from);

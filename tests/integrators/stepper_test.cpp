@@ -131,7 +131,7 @@ TEST(Steps, DependOnTheirStartAlone) {
     Phase<double> phase = problem.start, next, part, fresh;
     for (int k = 0; k < 20; ++k) {
       kept->step(phase, 0.05, next);
-      kept->step(phase, 0.013, part);  // somebody looks inside
+      kept->step(phase, 0.013, part);  // a look into the step
       kept->step(phase, 0.031, part);
       stepper_of<double>(scheme, problem, problem.omega)->step(phase, 0.031, fresh);
       ASSERT_TRUE(same(part, fresh)) << scheme.name;

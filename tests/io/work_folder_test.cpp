@@ -52,7 +52,7 @@ TEST(WorkFolder, StaysWithACheckpoint) {
   EXPECT_FALSE(exists(folder_of(file)));
 }
 
-// Whoever may only read the lock's file, as that of another user, is refused like anybody.
+// A process that may only read the lock's file, as that of another user, is refused, too.
 TEST(WorkFolder, OfAnotherUserCounts) {
   const ScratchFolder folder;
   const std::string file = folder.file("a");
@@ -60,7 +60,7 @@ TEST(WorkFolder, OfAnotherUserCounts) {
   const ArchiveLock first = lock_archive(file);
   ASSERT_EQ(::chmod((folder_of(file) + "/carom.lock").c_str(), 0444), 0);
   std::filesystem::permissions(folder_of(file), std::filesystem::perms::all);
-  const bool root = ::geteuid() == 0;  // to whom everything is open
+  const bool root = ::geteuid() == 0;  // root may open everything
   if (root && ::seteuid(65534) != 0) GTEST_SKIP() << "no right to be another user";
   const bool reached = ::faccessat(AT_FDCWD, folder.path().c_str(), W_OK | X_OK, AT_EACCESS) == 0;
   if (reached) {

@@ -37,8 +37,8 @@ int exit_of(World& world, const Table& table, const LaneTable& t, int wall, doub
   state.position = geometry::point_at(table.walls[static_cast<std::size_t>(wall)].curve, u);
   state.velocity = velocity;
   world.add(particle, state);
-  Observer nobody;
-  world.run_until(1e300, nobody);
+  Observer silent;
+  world.run_until(1e300, silent);
   if (world.fate(0) != Fate::capped || !(world.state(0).u > geometry::first_parameter)) return -1;
   return lanes::piece_at(t, world.state(0).wall, world.state(0).u);
 }
@@ -121,8 +121,8 @@ TEST(ExitBySigns, IsNotLearntFromAStartBesideItsPlace) {
     World world(table);
     world.limit_hits(40);
     world.add(starts[end.tag].particle, starts[end.tag].state);
-    Observer nobody;
-    world.run_until(1e300, nobody);
+    Observer silent;
+    world.run_until(1e300, silent);
     EXPECT_EQ(world.state(0).position, end.state.position) << end.tag;
   });
 }

@@ -1,5 +1,4 @@
-// Lanes round a b + c once, like the C library's fma, on every instruction set; and no orbit tells
-// who did it.
+// Lanes round a b + c once, like the C library's fma, on every instruction set.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -211,8 +211,8 @@ void add_holes(Table& table, Dice& dice) {
 
 class Lanes : public testing::TestWithParam<Shape> {};
 
-/// Random tables of the shape and trajectories there: how they ended, and who decided. `turn`: the
-/// sign of omega.
+/// Random tables of the shape and trajectories there: how they ended, and which engine decided.
+/// `turn`: the sign of omega.
 Totals compare_on_tables(Shape shape, int turn, long tables) {
   Dice dice(17 + static_cast<std::uint64_t>(shape) + static_cast<std::uint64_t>(1000 * (turn + 1)));
   Totals totals;
@@ -250,7 +250,7 @@ TEST_P(Lanes, FlyTheOrbitsOfTheWorld) {
 TEST_P(Lanes, FlyLarmorCirclesBothWays) {
   for (const int turn : {-1, 1}) {
     Totals totals = compare_on_tables(GetParam(), turn, tests::cases(30, 3000));
-    // Who meets no wall is told so by the scalar engine.
+    // The scalar engine finds that a flight meets no wall.
     const int pinned = totals.fates[Fate::pinned];
     EXPECT_GT(pinned, 0);
     // Flat arcs and fields that bend a flight within a hundredth of their radius are of very

@@ -252,7 +252,7 @@ TEST(SoftLanes, HasTheEndsOfTheScalarEngine) {
   }
 }
 
-// Who starts on a wall, and how few or many there are, changes nothing.
+// Starts on walls and the number of particles change nothing.
 TEST(SoftLanes, StartsOnWallsToo) {
   for (const std::uint64_t count : {1u, 63u, 65u})
     compare(system_of(cases[0], 3.0, "kind = \"boundary\""), count, "from the boundary");
@@ -264,7 +264,7 @@ TEST(SoftLanes, EndsWhereItShould) {
     compare(system_of(cases[0], t_max), 130, "early end");
   const std::vector<int> fates = compare(system_of(cases[1], 40.0), 80, "capped", 5);
   EXPECT_GT(fates[static_cast<std::size_t>(Fate::capped)], 40);
-  // More steps than anybody counts.
+  // More steps than are counted.
   compare(system_of(cases[0], 1e14), 70, "capped in endless time", 3);
 }
 

@@ -263,7 +263,7 @@ TEST(SoftDiffusion, IsTheSameInEveryWay) {
   }
 }
 
-// Those who are lost run one by one, and count as there.
+// Lost particles run one by one, and count as present.
 TEST(SoftDiffusion, CountsTheLost) {
   const System system = system_of(
       "henon-heiles", {{"particles.energy", "3"}, {"run.t_max", "20"}, {"run.trajectories", "40"}});

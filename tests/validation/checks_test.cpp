@@ -76,7 +76,7 @@ trajectories = 200000
 }
 
 TEST(Validation, SurvivorsWithinAnAllowance) {
-  // Nobody leaves a closed disc.
+  // No particle leaves a closed disc.
   const System system = closed_circle("uniform", "collisions = 10\ntrajectories = 1000\n");
   EXPECT_TRUE(check_survivors(system, 2.0, {2.0}, {}).passed);
   EXPECT_FALSE(check_survivors(system, 2.0, {1.8}, {}).passed);

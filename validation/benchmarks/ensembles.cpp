@@ -125,8 +125,7 @@ void magnetic_square(Report& report) {
   measure_row(report, "escape magnetic-square, a hit", 5, run, events, [](const EscapeResult& r) {
     const double busy =
         1.0 - static_cast<double>(r.effort.idle) / static_cast<double>(r.effort.steps);
-    return Checked{fmt::format("nobody lost, lanes {:.1f} % busy", 100.0 * busy),
-                   r.counts.lost == 0};
+    return Checked{fmt::format("none lost, lanes {:.1f} % busy", 100.0 * busy), r.counts.lost == 0};
   });
 }
 

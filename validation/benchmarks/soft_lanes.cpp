@@ -85,12 +85,12 @@ void measure_row(Report& report, const Row& row) {
   Best scalar;
   std::uint64_t hits = 0;
   scalar.repeat(2, [&] {
-    Observer nobody;
+    Observer silent;
     hits = 0;
     for (std::size_t i = 0; i < trajectories; ++i) {
       world.clear();
       world.add(system.particles[0], starts[i]);
-      world.run_until(t_end, nobody);
+      world.run_until(t_end, silent);
       ends[i] = world.state(0);
       hits += world.hits(0);
     }

@@ -12,7 +12,7 @@ namespace carom::bench {
 
 struct Line {
   std::string what;     ///< a system, and what is counted
-  std::string path;     ///< who did it
+  std::string path;     ///< the code that was measured
   double each = 0.0;    ///< nanoseconds of CPU time
   double links = 0.0;   ///< the same in links of a chain of roots and divisions
   std::string against;  ///< the second path; "": none

@@ -4,7 +4,7 @@
 //   scheme_costs            a Markdown table of costs; the last column is the mean (of logarithms)
 //   of
 //                           what a scheme needs against the one that needs least
-//   scheme_costs errors     error against cost, for one who wants to draw it
+//   scheme_costs errors     error against cost, for a figure
 //   scheme_costs tables     the same for Runge–Kutta tables with error control; built-in ones of
 //   ARKODE beside its own
 #include <cstdio>  // for the headers of ARKODE, which use FILE

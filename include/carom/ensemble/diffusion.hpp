@@ -19,7 +19,7 @@ struct Horizon {
   enum class Kind {
     finite,      ///< no straight flight is free for ever, or flights are bent
     infinite,    ///< free corridors: the MSD grows faster than t, D does not exist
-    bounded,     ///< the table is closed: the MSD ends at a constant
+    bounded,     ///< the table is closed: the MSD tends to a constant
     open_plane,  ///< particles leave for good: the MSD ends as t^2
     unknown      ///< not decided for these walls, or forces act, or hard discs meet each other
   } kind = Kind::unknown;

@@ -45,7 +45,8 @@ using ArchiveLock = std::shared_ptr<WorkFolder>;
 /// something else. Archives take their lock themselves, unless they are given one that was taken
 /// before something was read.
 ArchiveLock lock_archive(const std::string& file);
-/// Why it keeps nobody away ("No locks available"): the file system gives none. "" where it does.
+/// Why the file system gives no lock ("No locks available"), so that other processes are not kept
+/// away; "" if it does.
 std::string weakness_of(const ArchiveLock&);
 
 /// What made a part of a result.

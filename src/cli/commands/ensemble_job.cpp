@@ -31,7 +31,7 @@ SystemOverrides overrides_of(const Options& options) {
 LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(Place{stored.file, 0, 0, ""},
-                     "what is asked for is not what is stored: " + what,
+                     "this is another ensemble than the stored one: " + what,
                      "the same system and options, or none");
   };
   LoadedSystem loaded =

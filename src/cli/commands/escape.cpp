@@ -19,11 +19,11 @@ Place place_of(const char* option) { return {"command line", 0, 0, option}; }
 void refuse_options_without_a_use(const Options& options) {
   const auto refuse = [](const std::string& given, const char* option, const char* other) {
     if (!given.empty())
-      throw InputError(place_of(option), fmt::format("it means nothing without {}", other), other);
+      throw InputError(place_of(option), fmt::format("it has no effect without {}", other), other);
   };
   const auto refuse_beside = [](const std::string& given, const char* option, const char* other) {
     if (!given.empty())
-      throw InputError(place_of(option), fmt::format("it means nothing beside {}", other),
+      throw InputError(place_of(option), fmt::format("it cannot be combined with {}", other),
                        "one of the two");
   };
   if (!options.certify_sample.empty()) {

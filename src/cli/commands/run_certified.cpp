@@ -31,7 +31,7 @@ void check_options(const Options& options) {
   if (options.precision == "certified") return;
   const bool bits = options.precision.find_first_not_of("0123456789.e+") == std::string::npos;
   throw InputError(
-      place_of("--precision"), "'" + options.precision + "' is no precision",
+      place_of("--precision"), "'" + options.precision + "' is not a precision",
       bits ? "certified with --digits D: the program chooses the bits that D decimals need"
            : "double or certified",
       nearest_name(options.precision, {"double", "certified"}));

@@ -61,7 +61,7 @@ SplittingPlan plan_of(const Options& options) {
     levels = levels.substr(5);
   }
   plan.levels = numbers_of(levels, "--splitting");
-  // A grid is spaced as evenly as whole hits allow; levels that somebody wrote are whole or
+  // A grid is spaced as evenly as whole hits allow; levels that were written are whole or
   // refused.
   const bool grid = levels.find(':') != std::string::npos;
   if (grid && plan.by == SplittingPlan::Level::hits)
@@ -88,7 +88,7 @@ std::optional<Decay> decay_of(const SplittingResult& result) {
   return decay;
 }
 
-// Nobody was left in any population: how rare that is, they do not say.
+// No particle was left in any population. How rare survival is, the populations do not say.
 bool died_out(const Extrapolated& p) {
   return std::all_of(p.at_kick.begin(), p.at_kick.end(),
                      [](const Mean& mean) { return mean.value == 0.0; });
@@ -155,7 +155,7 @@ int splitting(const Options& options) {
       last == points_of_p.end() ? std::numeric_limits<double>::infinity() : last->at;
   for (const std::string& report : result.reports) warn(std::string(shown(report)));
   if (result.plan.population < Extrapolated::least_population)
-    warn(fmt::format("populations of {} trajectories: errors and intervals hold from {} on",
+    warn(fmt::format("populations of {} trajectories: errors and intervals are valid from {} on",
                      result.plan.population, Extrapolated::least_population));
   const std::size_t repetitions = result.runs.back().size();
   const Mean cost = cost_of_kicks(result, result.at.size() - 1);

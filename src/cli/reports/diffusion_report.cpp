@@ -260,7 +260,7 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
         result.trajectories == 0 ? "no trajectory was followed"
         : times < 2
             ? "fewer than two report times > 0 in the window"
-            : "nobody was there, nobody had moved, or squares of displacements are too small for "
+            : "no particle was there or had moved, or squares of displacements are too small for "
               "doubles, at the times of the window";
   }
   return summary;

@@ -55,7 +55,7 @@ class Columns {
 
  private:
   // Rows written at a time, and rows stored together: short runs make small files. A batch fills
-  // its chunks, so that those who read while rows are written never meet one that is written again.
+  // its chunks, so that a reader never meets a chunk that is being written again.
   static constexpr std::size_t batch = 4096, chunk = 1024;
   static_assert(batch % chunk == 0);
   struct Column {

@@ -30,7 +30,7 @@ void check_common(const StoredEnsemble& stored, const EnsembleResult& result,
             fmt::format("'{}' is not the number of particles that '/done' counts", where));
 }
 
-// Those who are sampled are there; nobody comes back.
+// Sampled particles are in the table, and a particle that has left does not come back.
 void check_samples(const StoredEnsemble& stored, const DiffusionResult& result) {
   const std::size_t times = result.sums.times().size();
   std::vector<std::uint64_t> there(times, 0);

@@ -16,8 +16,8 @@ bool are_one_ensemble(const StoredEnsemble&, const StoredEnsemble&);
 /// Opens an archive of this schema; throws InputError for anything else.
 hdf5::Handle open_ensemble(const std::string& name);
 
-/// /provenance of an ensemble, besides what every archive has; what is counted. `arithmetic`: of
-/// those who computed it, or "".
+/// /provenance of an ensemble, besides what every archive has; what is counted. `arithmetic`: the
+/// fingerprint of the build that computed it, or "".
 void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere,
                  const std::string& arithmetic);
 inline constexpr const char* arithmetic_key = "arithmetic";

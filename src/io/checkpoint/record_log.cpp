@@ -143,7 +143,7 @@ void RecordLog::mark() {
 }
 
 std::vector<RecordLog::Piece> RecordLog::sync() {
-  // An error is told once; after it nobody knows what is on the disk.
+  // An error is reported once; after it the state of the disk is unknown.
   if (!broken_ && ::fdatasync(descriptor_) != 0) broken_ = errno;
   if (broken_) {
     errno = broken_;

@@ -82,8 +82,8 @@ WorkFolder::WorkFolder(const std::string& file) : file_(file), lock_(lock_of(fil
     const bool held = error == EWOULDBLOCK, there = is_there(descriptor_, lock_);
     if (there && !held) {
       if (error != 0)
-        weakness_ = std::strerror(
-            error);  // ENOLCK, EOPNOTSUPP, ENOSYS …: it cannot be known who else writes
+        weakness_ =
+            std::strerror(error);  // ENOLCK, EOPNOTSUPP, ENOSYS …: another process may write
       return;
     }
     ::close(descriptor_);

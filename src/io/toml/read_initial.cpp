@@ -88,8 +88,7 @@ void read_birkhoff(TomlSection& section, const Table& table, const std::vector<P
   for (const Particle& p : particles) speed = std::min(speed, p.speed);
   for (const double value : v_axis.values) {
     if (std::fabs(value) < speed) continue;
-    throw InputError(v.place,
-                     "v_parallel " + shown(value) + " leaves nothing of the speed for the flight",
+    throw InputError(v.place, "v_parallel " + shown(value) + " leaves no speed normal to the wall",
                      "|v_parallel| < " + shown(speed) + ", the speed");
   }
   combine(s_axis, v_axis, v.place, initial);

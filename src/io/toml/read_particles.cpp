@@ -181,7 +181,7 @@ class Reader {
       if (equal) continue;
       throw InputError(
           place,
-          "the particles differ in speed, mass or charge, so that one radius cannot be theirs",
+          "the particles differ in speed, mass or charge, so they have no common Larmor radius",
           "B instead of larmor_radius");
     }
   }

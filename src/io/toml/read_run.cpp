@@ -151,8 +151,7 @@ RunPlan read_run(Value& root, std::uint64_t starts) {
   const Value& tolerance = section.get("trust_tolerance");
   plan.trust_tolerance = as_positive(tolerance);
   if (!(plan.trust_tolerance < 1.0))
-    throw InputError(tolerance.place, "errors as large as the table are no tolerance",
-                     "a number below 1");
+    throw InputError(tolerance.place, "the tolerance is as large as the table", "a number below 1");
   plan.times = read_times(section, plan.t_max);
   if (const Value* window = section.find("window")) {
     if (window->kind != Value::Kind::list || window->items.size() != 2)

@@ -39,7 +39,7 @@ Surface line_of(Surface::Kind kind, const std::string& text, const Place& place)
   surface.from = point_of(text.substr(0, colon), place);
   surface.to = point_of(text.substr(colon + 1), place);
   if (surface.from == surface.to)
-    throw InputError(place, "the two points of the line are one", "two points");
+    throw InputError(place, "the two points of the line are the same", "two points");
   return surface;
 }
 
@@ -95,7 +95,7 @@ SectionPlan read_section(Value& root, const Table& table) {
                      "both, positive or negative",
                      nearest_name(name, {"both", "positive", "negative"}));
   if (name != "both" && plan.boundary)
-    throw InputError(direction.place, "at the walls there is one direction only", "both");
+    throw InputError(direction.place, "a section at the walls has one direction only", "both");
   plan.direction = name == "both" ? 0 : name == "positive" ? 1 : -1;
   plan.points = as_count(section.get("points"), 1);
   if (const Value* orbits = section.find("orbits")) plan.orbits = as_count(*orbits, 1);

@@ -129,7 +129,7 @@ void read_lattice(Value& value, TableSpec& spec) {
 TableSpec read_table(Value& root) {
   Value* table = root.find("table");
   if (table == nullptr) {
-    // Forces may hold the particles; without them somebody has forgotten the table.
+    // Forces may hold the particles; without forces the table was forgotten.
     if (root.find("potential") == nullptr && root.find("interaction") == nullptr)
       throw InputError({root.place.file, 0, 0, "table"}, "the section [table] is missing",
                        "[table] with a shape");

@@ -66,10 +66,11 @@ void take_speeds_from_starts(Value& root) {
     const double first = lengths[i % apart].rounded;
     if (std::fabs(length.rounded - first) <= 0x1p-40 * first)
       continue;  // directions are rounded when written
-    throw InputError(starts->items[i].place,
-                     "another speed than that of the start before: a particle keeps one",
-                     "velocities of one length; or a speed or energy in [particles]: velocities "
-                     "then give directions");
+    throw InputError(
+        starts->items[i].place,
+        "the speed differs from that of the start before, and a particle keeps its speed",
+        "velocities of one length; or a speed or energy in [particles]: velocities "
+        "then give directions");
   }
   const bool equal = std::all_of(lengths.begin(), lengths.end(), [&](const Length& l) {
     return l.rounded == lengths.front().rounded;
