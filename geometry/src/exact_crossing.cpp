@@ -47,7 +47,7 @@ std::optional<Crossing> quadratic_crossing(const Quadratic<Dyadic>& f, int risin
     return rational_crossing(-f.c, Dyadic(2) * f.b);
   }
   Crossing crossing;
-  crossing.d = f.b * f.b - f.a * f.c;
+  crossing.d = discriminant_of(f);
   if (crossing.d.sign() <= 0) return std::nullopt;
   crossing.p = -f.b;
   crossing.q = Dyadic(rising);
@@ -56,10 +56,13 @@ std::optional<Crossing> quadratic_crossing(const Quadratic<Dyadic>& f, int risin
   return crossing;
 }
 
-int sign_at_crossing(const Dyadic& s2, const Dyadic& s1, const Dyadic& s0, const Crossing& k) {
-  if (k.root) return sign_at({s0, s1, s2}, *k.root);
-  return sign_with_root(s2 * (k.p * k.p + k.q * k.q * k.d) + s1 * k.p * k.r + s0 * k.r * k.r,
-                        Dyadic(2) * s2 * k.p * k.q + s1 * k.q * k.r, k.d);
+int sign_at_crossing(const Quadratic<Dyadic>& f, const Crossing& k) {
+  if (k.root) return sign_at({f.c, Dyadic(2) * f.b, f.a}, *k.root);
+  // f r^2 = g + h sqrt(d), where kappa r = p + q sqrt(d).
+  const Dyadic half_slope = f.a * k.p + f.b * k.r;
+  return sign_with_root(
+      f.a * (k.p * k.p + k.q * k.q * k.d) + Dyadic(2) * f.b * k.p * k.r + f.c * k.r * k.r,
+      Dyadic(2) * half_slope * k.q, k.d);
 }
 
 }  // namespace carom::geometry

@@ -26,8 +26,8 @@ std::optional<Crossing> quadratic_crossing(const Quadratic<Dyadic>& f, int risin
 /// Order of two crossings along kappa: -1 when a < b.
 int compare(const Crossing& a, const Crossing& b);
 int sign_of_kappa(const Crossing& a);
-/// Sign of s2 kappa^2 + s1 kappa + s0 at a crossing.
-int sign_at_crossing(const Dyadic& s2, const Dyadic& s1, const Dyadic& s0, const Crossing& k);
+/// Sign of the quadratic at a crossing.
+int sign_at_crossing(const Quadratic<Dyadic>& f, const Crossing& k);
 double approximate(const Crossing& k);
 
 }  // namespace carom::geometry

@@ -45,7 +45,7 @@ struct ExactFlight::Data {
   }
   int side(const View& s, const ExactPoint& at) const {
     const auto [d, f] = offset(s, at);
-    return (Dyadic(2) * f * cross(v, d) + omega * dot(d, d)).sign();
+    return side_of_flight(f * v, d, omega).sign();
   }
   /// kappa of a point that lies on the flight.
   Crossing through(const View& s, const ExactPoint& at) const {
@@ -57,18 +57,14 @@ struct ExactFlight::Data {
   Quadratic<Dyadic> quadratic(const ExactCurve& c, const View& s) const {
     const DyadicVector e{s.x - s.w * (c.segment ? c.from.x : c.centre.x),
                          s.y - s.w * (c.segment ? c.from.y : c.centre.y)};
-    const Dyadic h = one_half() * omega;
-    if (c.segment) {
-      const Dyadic a = cross(c.direction, e);
-      return {a, one_half() * s.w * cross(c.direction, v),
-              a * h * h - h * s.w * dot(c.direction, v)};
-    }
-    const Dyadic a = c.metric(e, e) - s.w * s.w * c.r2;
+    const DyadicVector wv = s.w * v;
+    if (c.segment) return line_quadratic(e, c.direction, wv, omega, one_half());
+    const Dyadic r2 = s.w * s.w * c.r2;
     Quadratic<Dyadic> f;
     if (c.metric.euclidean)
-      f = {a, s.w * dot(e, v), a * h * h + omega * s.w * cross(e, v) + s.w * s.w * dot(v, v)};
+      f = circle_quadratic(e, r2, wv, dot(wv, wv), omega, one_half());
     else  // without field only
-      f = {a, s.w * c.metric(e, v), s.w * s.w * c.metric(v, v)};
+      f = {c.metric(e, e) - r2, c.metric(e, wv), c.metric(wv, wv)};
     return c.orientation > 0 ? -f : f;
   }
   Polynomial quartic(const ExactCurve& c, const View& s) const {
@@ -94,9 +90,7 @@ struct ExactFlight::Data {
                     const Crossing& k) const {
     const DyadicVector chord{b.x * a.w - a.x * b.w, b.y * a.w - a.y * b.w};
     const DyadicVector e{s.x * a.w - a.x * s.w, s.y * a.w - a.y * s.w};  // (P - a) s.w a.w
-    const Dyadic f = s.w * a.w, h = one_half() * omega;
-    const Dyadic s2 = cross(chord, e);
-    return sign_at_crossing(s2, f * cross(chord, v), s2 * h * h - h * f * dot(chord, v), k);
+    return sign_at_crossing(line_quadratic(e, chord, s.w * a.w * v, omega, one_half()), k);
   }
   /// Is the crossing, a point of the conic, on its part from a to b?
   bool on_part(const ExactCurve& c, const View& s, const ExactPoint& a, const ExactPoint& b,
@@ -143,7 +137,7 @@ bool ExactFlight::Data::segment_crossed_twice(const ExactCurve& c, const View& s
                                               const Quadratic<Dyadic>& f) const {
   // Both ends outside the Larmor circle, the foot of its centre between them, the line cut.
   if (omega.sign() == 0 || side_of_joints * omega.sign() < 0) return false;
-  return (f.b * f.b - f.a * f.c).sign() > 0 && foot_between_ends(c, s);
+  return discriminant_of(f).sign() > 0 && foot_between_ends(c, s);
 }
 
 bool ExactFlight::Data::foot_between_ends(const ExactCurve& c, const View& s) const {
@@ -227,7 +221,7 @@ std::vector<Crossing> ExactFlight::Data::touches(int piece, Cell cell) const {
   }
   if (c.segment && !foot_between_ends(c, s)) return found;
   const Quadratic<Dyadic> f = quadratic(c, s);
-  if (f.a.sign() == 0 || (f.b * f.b - f.a * f.c).sign() != 0) return found;
+  if (f.a.sign() == 0 || discriminant_of(f).sign() != 0) return found;
   Crossing k = rational_crossing(-f.b, f.a);
   if (omega.sign() == 0 && k.p.sign() <= 0) return found;
   if (c.segment || c.closed || on_part(c, s, a, c.end_point(), k)) found.push_back(std::move(k));
@@ -370,10 +364,9 @@ bool ExactFlight::exit_within(int piece, int root, Cell cell, double from, doubl
     // before(x): is the crossing at or beyond x along the wall? dot(direction, x - a) >= 0.
     const auto beyond = [&](const ExactPoint& at) {
       const DyadicVector e{s.x * at.w - at.x * s.w, s.y * at.w - at.y * s.w};
-      const Dyadic f = s.w * at.w, h = one_half() * d.omega;
-      const Dyadic s2 = dot(c.direction, e);
-      return sign_at_crossing(s2, f * dot(c.direction, d.v),
-                              s2 * h * h + h * f * cross(c.direction, d.v), *k) >= 0;
+      return sign_at_crossing(
+                 line_quadratic(e, right(c.direction), s.w * at.w * d.v, d.omega, one_half()),
+                 *k) >= 0;
     };
     return beyond(a) && !beyond(b);
   }

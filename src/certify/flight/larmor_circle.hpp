@@ -7,15 +7,10 @@
 // polynomials.
 #pragma once
 
+#include "carom/geometry/formulas.hpp"
 #include "certify/flight/flight.hpp"
 
 namespace carom::certify {
-
-/// J v: a velocity v has the acceleration omega J v.
-template <class N>
-VectorOf<N> right_of(const VectorOf<N>& v) {
-  return {v.y, -v.x};
-}
 
 /// The place p/q on a Larmor circle, up to a common sign.
 template <class N>
@@ -32,19 +27,23 @@ double middle_of(const Dual<N>& x) {
   return middle_of(x.value);
 }
 
+/// The velocity v turned clockwise by an angle: its sine, and 1 less its cosine.
+template <class N>
+VectorOf<N> turned_by(const N& sine, const N& less, const VectorOf<N>& v) {
+  return {v.x + (sine * v.y - less * v.x), v.y - (sine * v.x + less * v.y)};
+}
+
 /// Where a flight is at kappa, and its velocity there.
 template <class N, class C>
 LandingOf<N> larmor_state(const Kappa<N>& k, const VectorOf<N>& P, const VectorOf<N>& v,
                           const C& h) {
   const N hq = h * k.q;
   const N share = k.q / (square(k.p) + square(hq));
-  const N ahead = k.p * share, aside = hq * share;
-  const VectorOf<N> Jv = right_of(v);
-  const C omega = h + h;
-  const N less = omega * aside, turned = omega * ahead;
+  const geometry::FlightFactors<N> f{k.p * share, hq * share};
   LandingOf<N> r;
-  r.position = {P.x + (ahead * v.x + aside * Jv.x), P.y + (ahead * v.y + aside * Jv.y)};
-  r.velocity = {v.x + (turned * Jv.x - less * v.x), v.y + (turned * Jv.y - less * v.y)};
+  r.position = P + displacement(f, v);
+  const C omega = h + h;
+  r.velocity = turned_by(omega * f.along, omega * f.across, v);
   return r;
 }
 
@@ -68,14 +67,11 @@ LandingOf<N> larmor_state_after(const N& time, const VectorOf<N>& P, const Vecto
                                 const N& h) {
   N sin, cos;
   sin_cos(sin, cos, h * time);
-  const N ahead = cos * sin / h, aside = square(sin) / h, product = cos * sin,
-          squared = square(sin);
-  const N turned = product + product, less = squared + squared;
-  const VectorOf<N> Jv = right_of(v);
+  const geometry::FlightFactors<N> times_h{cos * sin, square(sin)};
   LandingOf<N> r;
   r.time = time;
-  r.position = {P.x + (ahead * v.x + aside * Jv.x), P.y + (ahead * v.y + aside * Jv.y)};
-  r.velocity = {v.x + (turned * Jv.x - less * v.x), v.y + (turned * Jv.y - less * v.y)};
+  r.position = P + displacement<N>({times_h.along / h, times_h.across / h}, v);
+  r.velocity = turned_by(times_h.along + times_h.along, times_h.across + times_h.across, v);
   return r;
 }
 

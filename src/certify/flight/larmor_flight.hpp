@@ -5,20 +5,18 @@
 
 namespace carom::certify {
 
-/// a kappa^2 + b kappa + c, which has the sign of the distance on the domain's side.
-template <class N>
-struct LarmorQuadratic {
-  N a{}, b{}, c{};
-};
+using geometry::Quadratic;
 
-/// Of a segment or circle. `standing`: P lies on it, so that a is zero.
+/// The quadratic in kappa of a segment or circle, which has the sign of the distance on the
+/// domain's side. `standing`: P lies on it, so that a is zero.
 template <class N, class C>
-LarmorQuadratic<N> larmor_quadratic(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
-                                    const MotionOf<C>& motion, bool standing) {
+Quadratic<N> larmor_quadratic(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
+                              const MotionOf<C>& motion, bool standing) {
   const C& h = motion.half_omega;
-  LarmorQuadratic<N> f;
+  const C half(0.5);
+  Quadratic<N> f;
   if (w.form == Form::segment) {
-    f.b = dot2(v, w.normal);
+    f.b = half * dot2(v, w.normal);
     f.c = -(h * dot2(v, w.chord));
     if (standing) return f;
     f.a = dot2(minus(P, w.from), w.normal);
@@ -26,35 +24,34 @@ LarmorQuadratic<N> larmor_quadratic(const WallOf<C>& w, const VectorOf<N>& P, co
     return f;
   }
   const VectorOf<N> e = minus(P, w.centre);
-  const N ev = dot2(e, v);
-  f.b = ev + ev;
+  f.b = dot2(e, v);
   f.c = (h + h) * (e.x * v.y - e.y * v.x) + (square(v.x) + square(v.y));
   if (!standing) {
     f.a = (square(e.x) + square(e.y)) - w.radius2;
     f.c = f.c + f.a * square(h);
   }
-  return w.turn > 0 ? LarmorQuadratic<N>{-f.a, -f.b, -f.c} : f;
+  return w.turn > 0 ? -f : f;
 }
 
+/// As discriminant_of, with the square of an enclosure.
 template <class N>
-N discriminant_of(const LarmorQuadratic<N>& f) {
-  const N product = f.a * f.c, twice = product + product;
-  return square(f.b) - (twice + twice);
+N discriminant(const Quadratic<N>& f) {
+  return square(f.b) - f.a * f.c;
 }
 
 /// Where the flight leaves the domain: the root at which the quadratic rises with kappa. Of the two
 /// formulas the one in which nothing cancels is taken.
 template <class N>
-Kappa<N> rising_root(const LarmorQuadratic<N>& f, const N& discriminant) {
+Kappa<N> rising_root(const Quadratic<N>& f, const N& squared_root) {
   using std::sqrt;
-  const N root = sqrt(discriminant);
-  if (middle_of(f.b) < 0.0) return {root - f.b, f.a + f.a};
-  return {-(f.c + f.c), f.b + root};
+  const N root = sqrt(squared_root);
+  if (middle_of(f.b) < 0.0) return {root - f.b, f.a};
+  return {-f.c, f.b + root};
 }
 /// On the wall that the flight comes from one root is known, and the other is rational.
 template <class N>
-Kappa<N> second_root(const LarmorQuadratic<N>& f) {
-  return {-f.c, f.b};
+Kappa<N> second_root(const Quadratic<N>& f) {
+  return {-f.c, f.b + f.b};
 }
 
 /// Where a flight in a field from P with velocity v meets the wall `w`.
@@ -62,8 +59,8 @@ template <class N, class C>
 Kappa<N> larmor_place(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
                       const MotionOf<C>& motion, bool standing) {
   if (w.form == Form::ellipse) return ellipse_exit(w, P, v, motion, standing);
-  const LarmorQuadratic<N> f = larmor_quadratic<N, C>(w, P, v, motion, standing);
-  return standing ? second_root(f) : rising_root(f, discriminant_of(f));
+  const Quadratic<N> f = larmor_quadratic<N, C>(w, P, v, motion, standing);
+  return standing ? second_root(f) : rising_root(f, discriminant(f));
 }
 
 /// The flight in a field from P with velocity v to the wall `w` and the reflection there.

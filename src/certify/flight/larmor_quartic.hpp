@@ -25,7 +25,7 @@ LarmorForm<N> larmor_form(const WallOf<C>& w, const VectorOf<N>& P, const Vector
   const auto image = [&w](const VectorOf<N>& d) {
     return VectorOf<N>{dot2(d, w.along), dot2(d, w.across)};
   };
-  const VectorOf<N> e = image(minus(P, w.centre)), u = image(v), turned = image(right_of(v));
+  const VectorOf<N> e = image(minus(P, w.centre)), u = image(v), turned = image(right(v));
   const C& h = motion.half_omega;
   const C n = square(h), omega = h + h;
   const N eu = e.x * u.x + e.y * u.y, e_turned = omega * (e.x * turned.x + e.y * turned.y);

@@ -43,18 +43,18 @@ Meeting<N> meeting_at(Kappa<N> k, Verdict verdict, const WallOf<N>& w, const Vec
 template <class N>
 Meeting<N> meets_larmor(const WallOf<N>& w, const VectorOf<N>& P, const VectorOf<N>& v,
                         const MotionOf<N>& motion, bool standing) {
-  const LarmorQuadratic<N> f = larmor_quadratic<N, N>(w, P, v, motion, standing);
+  const Quadratic<N> f = larmor_quadratic<N, N>(w, P, v, motion, standing);
   if (standing) {
     const Sign inwards = sign_or_tie(f.b);
     if (inwards == Sign::negative || inwards == Sign::zero) return {};
     const Verdict verdict = inwards == Sign::positive ? Verdict::yes : Verdict::undecided;
     return meeting_at(second_root(f), verdict, w, P, v, motion);
   }
-  const N discriminant = discriminant_of(f);
-  const Sign crosses = sign_or_tie(discriminant);  // a tangent flight does not hit
+  const N squared_root = discriminant(f);
+  const Sign crosses = sign_or_tie(squared_root);  // a tangent flight does not hit
   if (crosses == Sign::negative || crosses == Sign::zero) return {};
   const Verdict verdict = crosses == Sign::positive ? Verdict::yes : Verdict::undecided;
-  return meeting_at(rising_root(f, discriminant), verdict, w, P, v, motion);
+  return meeting_at(rising_root(f, squared_root), verdict, w, P, v, motion);
 }
 
 /// An ellipse or an arc of one.
@@ -96,7 +96,7 @@ class LarmorPieces {
     if (angle_to(k) < hardly_turned) return from_ + ((k + 0.5) * time_) * velocity_;
     const elementary::SinCos a = elementary::sincos(h_ * (k + 0.5) * time_);
     const double ahead = a.sin * a.cos / h_, aside = a.sin * a.sin / h_;
-    return from_ + ahead * velocity_ + aside * right_of(velocity_);
+    return from_ + ahead * velocity_ + aside * right(velocity_);
   }
   /// All of the turn lies before the end of piece k.
   bool last(double k) const { return angle_to(k) > above_pi; }
