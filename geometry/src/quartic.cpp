@@ -109,7 +109,7 @@ struct Part {
   bool outer;  // kappa = sigma K / t, else sigma K t
   double sigma;
   double scale;
-  double passed;  // nobody asks for t below
+  double passed;  // roots below this t are not asked for
   double kappa(double t) const { return outer ? sigma * (scale / t) : sigma * (scale * t); }
 };
 
@@ -118,7 +118,7 @@ struct Part {
 bool isolate(const Bernstein& p, int degree, double from, double to, const Part& part,
              bool ascending, int depth, RisingRoots& out, int most) {
   if (out.count >= most || to <= part.passed) return true;
-  // An end among what nobody asks for need not be certain: until it is cut off.
+  // The sign at an end below `passed` need not be certain: bisection cuts that part off.
   const bool cut = from < part.passed && sign_of(p.b[0], p.e[0]) == 2;
   int low = 0, high = 0, last = 2;
   bool open = false;
@@ -270,7 +270,7 @@ RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, in
     return out;
   }
   out = isolated_roots(f, error, degree, scale, most, farthest);
-  // Of roots that err much more than one may lie about it.
+  // Where errors are large several roots may lie about the likely one: the nearest is meant.
   const auto away = [&](int i) { return std::fabs(likely - out.roots[i].kappa); };
   int nearest = 0;
   for (int i = 1; i < out.count; ++i)

@@ -27,7 +27,7 @@ bool ErrorEdges::begin(const Particle& particle, const State& start, const Devia
     finder_.pieces().begin(flight);
     return true;
   }
-  // Where it left the wall, a little earlier or later.
+  // The displaced orbit left the wall a little earlier or later.
   const geometry::PreparedCurve& wall = finder_.pieces().curve(start.wall);
   const Vector normal = wall.frame(start.u).normal;
   const Vector unit = (1.0 / std::sqrt(dot(normal, normal))) * normal;

@@ -44,7 +44,7 @@ void PairedSurvival::add(const PairedEnd& first, const PairedEnd& second) {
     ++other_hits_;
   else if (both && std::fabs(first.time - second.time) > tolerance_)
     ++other_time_;
-  // Who is gone exactly at t is gone.
+  // A trajectory that ends exactly at t has gone by t.
   const auto index = [&](double t) {
     return static_cast<std::uint32_t>(std::lower_bound(times_.begin(), times_.end(), t) -
                                       times_.begin());

@@ -47,7 +47,7 @@ void SectionRecorder::crossing(int particle, const State& state, int direction) 
 }
 
 void SectionRecorder::end(int particle, Fate fate) {
-  // What is pinned or has left all walls behind may still cross a surface.
+  // A particle that is pinned or has left all walls behind may still cross a surface.
   const bool flies_on = fate == Fate::pinned || fate == Fate::unbounded;
   if (plan_->boundary || !flies_on) orbits_[static_cast<std::size_t>(particle)].moving = false;
 }

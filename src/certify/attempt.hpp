@@ -14,7 +14,7 @@
 
 namespace carom::certify {
 
-/// What a step of an attempt came to.
+/// The result of a step of an attempt.
 struct Outcome {
   enum Kind : unsigned char {
     hit,
@@ -60,7 +60,7 @@ class Attempt {
   /// The walls met so far, each copy seen from the last one; of long orbits only the beginning is
   /// kept.
   const std::vector<Copy>& path() const { return path_; }
-  /// What cannot be told at the next event.
+  /// The doubt in words.
   std::string description(const Doubt&) const;
 
   const SceneOf<Ball>& scene() const { return arena_.scene; }

@@ -1,10 +1,10 @@
-// What an attempt meets next: a wall, a joint that is known, or the last time.
+// The next event of an attempt: a wall, a joint that is known, or the last time.
 #include "certify/attempt.hpp"
 
 namespace carom::certify {
 
-// What is in doubt after the last time is of no interest. On a lattice, lines are followed no
-// longer than to there.
+// A doubt about an event after the last time does not matter. On a lattice, straight flights are
+// followed to the last time only.
 Choice Attempt::choose() const {
   const bool bounded = t_max_ && arena_.scene.lattice && !arena_.scene.motion.turns;
   const Choice choice = choose(bounded ? last_time() : std::nullopt);
@@ -56,7 +56,8 @@ BallVector Attempt::seen(const Copy& copy, const BallVector& P) const {
   return copy.cell == geometry::Cell{} ? P : P - arena_.scene.translation(copy.cell);
 }
 
-// As times of meetings are: in a field -kappa, where the last time lies within the flight's turn.
+// The last time in the form in which meetings are compared: since the start of the flight, or in a
+// field -kappa; nothing beyond the flight's turn.
 std::optional<Ball> Attempt::last_time() const {
   if (!t_max_) return std::nullopt;
   const Precision precision(bits_);
@@ -93,7 +94,7 @@ Ball Attempt::passing_time(const WallEnd& end) const {
          dot(s.velocity, s.velocity);
 }
 
-// Which of the walls that the flight touches come after its end?
+// Remembers which of the walls that the flight touches come after `end`.
 void Attempt::look_behind(const std::vector<Copy>& touched, const Ball& end) {
   const Precision precision(bits_);
   const BallState s = now_.state->state(bits_);

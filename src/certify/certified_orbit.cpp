@@ -173,19 +173,19 @@ class CertifiedOrbit::Implementation {
                           std::to_string(attempt_->hits()));
   }
 
-  // What is added to the bits that will be lost as far as a forecast knows. An attempt with too few
-  // bits is repeated, one with too many has more than the tangent map asks for: 1.03 times its
-  // norm's logarithm and 30 + log2 n bits.
+  // Bits beyond those that a forecast expects to be lost. Too few mean that the attempt is
+  // repeated, too many make it slow. The limit asked for is 1.03 times the logarithm of the tangent
+  // map's norm and 30 + log2 n bits.
   double margin(double lost, double spread) const {
     const double all = std::sqrt(16.0 + spread * spread);
     const double room = 0.03 * lost + 28.0 + std::log2(hits_ + 1.0) - rounding_loss_;
-    // Another attempt has been paid for already: it has more than the forecast says.
+    // An earlier attempt had too few: this one gets more than the forecast says.
     return std::clamp(room - 1.65 * all, effort_.attempts > 0 ? 0.5 * all : -0.5 * all,
                       3.0 * all + 4.0);
   }
 
-  // An attempt whose bits will hardly last is given up as soon as this is more likely to save time
-  // than not: what is flown already must be flown again.
+  // Will the bits of this attempt probably not last? Giving it up must be likely to save time: its
+  // hits must be flown again.
   bool hopeless() const {
     const auto flown = static_cast<double>(attempt_->hits());
     const double rest = hits_ - flown;
@@ -194,8 +194,8 @@ class CertifiedOrbit::Implementation {
     return attempt_->spare_bits() < expected - spread * hopeless_spreads;
   }
 
-  // What this attempt lacks now, and what the rest of the orbit will lose: seen from here, for the
-  // first look ahead may have left through a hole that the orbit misses.
+  // The bits that this attempt lacks now, and those that the rest of the orbit will lose. The
+  // forecast starts here: the first one may have left through a hole that the orbit misses.
   long still_needed(const Outcome& outcome) const {
     const double lacks = std::isfinite(outcome.missing_bits) ? outcome.missing_bits : 64.0;
     const certify::Forecast forecast = attempt_->look_ahead(interrupted_);
@@ -300,7 +300,8 @@ class CertifiedOrbit::Implementation {
     attempt_.emplace(system_, task_, ties_, bits, reading_bits_ + lacked_);
   }
 
-  // What is given out is accurate as it is: translated by its cell and rounded.
+  // Asks for more bits where the numbers that are given out, translated by their cell and rounded,
+  // would not be accurate.
   Outcome checked(Outcome outcome) {
     const bool ends = outcome.kind == Outcome::stopped || outcome.kind == Outcome::escaped;
     if (!ends && (outcome.kind != Outcome::hit || attempt_->hits() <= given_)) return outcome;

@@ -15,7 +15,7 @@
 
 namespace carom::certify {
 
-/// What balls could not tell at an event.
+/// A question that balls could not decide at an event.
 struct Doubt {
   enum Kind : unsigned char {
     choice,    ///< which of `first` and `second` is met first; without a second, whether `first` is

@@ -54,8 +54,8 @@ System with_forces() {
   return system;
 }
 
-// What moves particles in another way: lines and Larmor circles among segments, arcs, ellipses and
-// copies on a lattice; steps. Each of the free ones makes some twenty hits.
+// Systems that between them use every kind of motion: lines and Larmor circles among segments,
+// arcs, ellipses and copies on a lattice, and steps. Each free particle makes some twenty hits.
 std::vector<System> systems() {
   std::vector<System> all;
   all.push_back(in_table("stadium", {{"half_length", 2.0}, {"radius", 1.0}}, 0.0, 40.0));
@@ -73,7 +73,6 @@ std::vector<System> systems() {
 std::uint64_t computed() {
   constexpr std::uint64_t trajectories = 2;
   std::uint64_t sum = 0;
-  Observer nobody;
   for (const System& system : systems()) {
     const ParticleHash share(system);
     const Sampler sampler(system);
@@ -81,12 +80,12 @@ std::uint64_t computed() {
     for (std::uint64_t trajectory = 0; trajectory < trajectories; ++trajectory) {
       world.clear();
       add_starts(world, sampler, trajectory);
-      world.run_until(system.run.t_max, nobody);
+      world.run_until(system.run.t_max);
       for (int particle = 0; particle < world.size(); ++particle) {
         const State& end = world.state(particle);
         sum = mix(mix(sum ^ static_cast<std::uint64_t>(std::int64_t{end.wall}), end.u), end);
-        // As an ensemble's digest would hold it, with a sample: builds that make these in another
-        // way do not add up, either.
+        // The share of an ensemble's digest, with a sample: builds that compute digests in another
+        // way must not be merged either.
         sum = mix(sum ^ share(trajectory, world.fate(particle), system.run.t_max,
                               world.hits(particle), world.last_wall(particle), end,
                               std::span(&end.position.x, 1)));

@@ -27,8 +27,8 @@ bool overlap(const System& system, const State& a, const State& b, double reach)
 
 }  // namespace
 
-/// Where the discs are that are drawn until none overlap, every allowed arrangement is as likely as
-/// any other. Where so many are so large that this finds none, they are placed one after the other.
+/// Draws all discs again until none overlap, so that every allowed arrangement is as likely as any
+/// other. If they are too many or too large for that, places one after the other.
 std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t trajectory) const {
   const std::size_t count = system_.particles.size();
   Interrupt interrupt(&stopped_);

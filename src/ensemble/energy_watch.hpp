@@ -29,10 +29,10 @@ struct EnergiesSeen {
   }
 };
 
-/// Of one trajectory at its start, at its samples and at its end: the energy of each particle, or
-/// of all together where they interact; none where no force acts, or where particles that interact
-/// enter later. The sum over all pairs may take seconds: it throws SamplingStopped where `stopped`
-/// says so, and the trajectory does not count.
+/// Follows the energy of a trajectory at its start, its samples and its end: of each particle, or
+/// of all together where they interact. It follows nothing where no force acts, or where particles
+/// that interact enter later. The sum over all pairs may take seconds: it throws SamplingStopped
+/// where `stopped` says so, and the trajectory does not count.
 class EnergyWatch {
  public:
   EnergyWatch(const System& system, std::function<bool()> stopped)
@@ -57,8 +57,8 @@ class EnergyWatch {
     together_.push_back(state);
     if (together_.size() == t.particles.size()) see(0, energy(t.particles, together_).total());
   }
-  /// Of a particle that failed nothing is known; of particles that share their energy, all must be
-  /// left.
+  /// Particles that failed do not count; where particles share their energy, all must have
+  /// survived.
   EnergiesSeen end(const Trajectory& t, const TrajectoryEnd& end) {
     EnergiesSeen seen;
     if (start_.empty()) return seen;

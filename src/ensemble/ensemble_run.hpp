@@ -101,7 +101,7 @@ class EnsembleRun {
   }
 
  private:
-  // What is left of the part beside these trajectories and those done elsewhere.
+  // The trajectories of the part that are neither in `done` nor done elsewhere.
   std::vector<TrajectoryRange> missing_beside(TrajectoryRanges done) const {
     if (!done.add(options_.elsewhere)) throw InternalError("what was done was done elsewhere, too");
     return done.missing_from(part_);
@@ -167,7 +167,7 @@ class EnsembleRun {
     result.complete = missing_beside(result.done).empty();
     return result;
   }
-  // Checkpoints that are so many trajectories apart are written by whoever brings the last of them.
+  // Checkpoints so many trajectories apart: the thread that delivers the last of these writes one.
   std::uint64_t trajectories_between_saves() const {
     const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / blocks_.block();
     return options_.journal ? blocks_.block() * std::min(options_.save_every_blocks, most) : 0;

@@ -1,4 +1,4 @@
-// Which of the particles that were lost or unresolved are told of.
+// Reports of the particles that were lost or unresolved: the first few are kept.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,7 @@
 
 namespace carom {
 
-/// Keeps the reports of the lowest indices, sorted: in whichever order they come, the same are
-/// kept.
+/// Keeps the reports of the lowest indices, sorted. Their order of arrival does not matter.
 inline void keep_first(std::vector<std::pair<std::uint64_t, std::string>>& reports,
                        std::uint64_t index, const std::string& report) {
   constexpr std::size_t most = EnsembleResult::most_reports;

@@ -122,7 +122,7 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
       },
       [](const Reporting&) {});
 
-  // In the order of trajectories, whoever flew them.
+  // In the order of trajectories: the sum does not depend on the threads that flew them.
   PairedSurvival survival(system.run.times, options.tolerance * size_of(*system.table) /
                                                 system.particles.front().speed);
   for (const Pair& pair : pairs) {

@@ -20,14 +20,15 @@ inline std::uint64_t mix(std::uint64_t so_far, const State& state) {
   return so_far;
 }
 
-/// Its end and its hits tell free flights apart. Who is integrated, or touches others, may never
-/// hit a wall: there the state after its last event belongs to it, and what is sampled of it.
+/// The hash of a free particle contains its end and its number of hits. A particle under forces, or
+/// a disc among others, may never hit a wall: its hash also contains the state after its last event
+/// and its samples.
 class ParticleHash {
  public:
   explicit ParticleHash(const System& system) : of_states_(has_states(system)) {}
 
-  /// `end_time`: t_max of survivors; `state`: after the last event; `samples`: at report times, of
-  /// those who were there.
+  /// `end_time`: t_max of survivors; `state`: after the last event; `samples`: at the report times
+  /// before the end.
   std::uint64_t operator()(std::uint64_t index, Fate fate, double end_time, std::uint64_t hits,
                            int last_wall, const State& state,
                            std::span<const double> samples = {}) const {

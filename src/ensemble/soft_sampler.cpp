@@ -19,9 +19,9 @@ using Kind = InitialCondition::Kind;
 
 namespace {
 
-/// If so few of the draws lie below the energy, it is below all that matters.
+/// Draws until a start below the energy is found: rarer ones are reported as impossible.
 constexpr std::int64_t most_draws = 100'000;
-/// Of particles that interact: they are all drawn again, and each pair costs some nanoseconds.
+/// Pairs of interacting particles whose energy is computed in all draws, some nanoseconds each.
 constexpr double most_pairs = 1e8;
 std::int64_t most_draws_of_all(std::size_t particles) {
   const double n = static_cast<double>(particles), pairs = 0.5 * n * (n - 1.0);

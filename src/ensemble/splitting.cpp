@@ -111,7 +111,7 @@ class Worker {
   Shared& shared_;
 };
 
-// What all populations of a run have in common.
+// The same for all populations of a run.
 struct Setting {
   const System& system;
   const Sampler& sampler;

@@ -49,8 +49,8 @@ Extrapolated extrapolated(const SplittingResult& result,
   return out;
 }
 
-// That none of so many has gone does not say that none does. Populations at the three kicks share
-// their starts.
+// Upper limit of the share that goes, where none of the trajectories has gone. Populations at the
+// three kicks share their starts, which count once.
 double unseen_share(const SplittingResult& result) {
   const auto starts =
       static_cast<std::uint64_t>(result.runs.front().size()) * result.plan.population;
@@ -124,9 +124,8 @@ bool is_certain(const Mean& cost, std::size_t repetitions) {
 
 namespace {
 
-// What is certain of the difference between the kicks' cost by two reports; the first may be the
-// start. The copies of a stage tell of those alone that are gone before the next one: of half,
-// where that was measured.
+// The error that kicks certainly make between two reports; `from` == `to`: since the start. Copies
+// show only the error of trajectories that go before the next level, measured to be half of all.
 double kick_error(const SplittingResult& result, std::size_t from, std::size_t to) {
   const Mean cost = cost_of_kicks(result, to);
   if (!is_certain(cost, result.runs.back().size())) return 0.0;

@@ -17,9 +17,9 @@ using geometry::Vector;
 namespace {
 
 constexpr int looks = 64;
-/// Runs have parted where they are further from each other than this share of the way that they
-/// have gone.
-constexpr double parted = 0.1;
+/// Two runs have separated where they are further from each other than this share of the way that
+/// they have gone.
+constexpr double separated = 0.1;
 /// The distance leaves out a quarter of the error at order 2, and more where the steps are too long
 /// for their order. With a tolerance the error falls less regularly.
 constexpr double margin = 2.0, margin_of_adaptive = 3.0;
@@ -137,7 +137,7 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
       way = std::max(way, length(plane(a) - starts[static_cast<std::size_t>(i)]));
     }
     const double steps = static_cast<double>(as_run.step_counts().steps), compared = steps * n * n;
-    // What is rounded later grows by less.
+    // A rounding grows only from the time at which it is made.
     const double evaluations = static_cast<double>(as_run.step_counts().force_evaluations);
     rounded += (evaluations - evaluated) / (growth * growth);
     evaluated = evaluations;
@@ -158,7 +158,7 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
         is_adaptive(system.dynamics.integrator.scheme) ? margin_of_adaptive : margin;
     error.position += times * most.position;
     error.velocity += times * most.velocity;
-    if (error.position > parted * way || compared > most_compared) break;
+    if (error.position > separated * way || compared > most_compared) break;
   }
   return error;
 }

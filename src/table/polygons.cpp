@@ -92,7 +92,7 @@ Shape regular(const TableSpec& spec) {
   for (int k = 0; k < n; ++k)
     corners.emplace_back(
         RegularCorner{number(spec, "radius"), number_or(spec, "angle", "0"), k, n});
-  // Of the interior angles pi (n - 2)/n only those of n = 3 and 4 are pi/3 and pi/2.
+  // The interior angle pi (n - 2)/n is pi over a whole number only for n = 3 and 4.
   const int corner = n == 3 ? 3 : n == 4 ? 2 : 0;
   Shape shape;
   add_polygon(shape, numbered("side", corners.size()), corners, corner);

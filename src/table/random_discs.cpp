@@ -21,15 +21,14 @@ constexpr std::uint64_t most_draws_of_all = 100'000'000;  // some seconds
 
 // u is the rounding of one operation.
 constexpr double u = 0x1p-53;
-// Of lengths in a square, in units of its side. A difference of two coordinates errs by u, and by u
-// more when the side is taken off it: their distance by 2 sqrt(2) u, the sum of both. A coordinate
-// that is drawn errs by u for the range, for the product and for the sum. The double of what is
-// needed, and more.
+// Bound of the errors of lengths in a square, in units of its side. A difference of two coordinates
+// errs by u, and by another u when the side is subtracted from it: their distance by 2 sqrt(2) u. A
+// drawn coordinate errs by u for the range, the product and the sum each. More than twice the sum.
 constexpr double rounding = 8.0 * u;
-// Of squared distances, in units of themselves: two squares, their sum and the square of the reach,
-// 4 u; eight times.
+// The same for squared distances, relative: two squares, their sum and the square of the reach make
+// 4 u, times eight.
 constexpr double rounding_of_squares = 32.0 * u;
-// So that a square is not taken to be too narrow for a reach by what its width was rounded.
+// Keeps the rounding of a square's width from making it too narrow for a reach.
 constexpr double narrower = 0.999;
 
 std::uint64_t whole_number_from(const ExactNumber& value, std::uint64_t least, std::uint64_t most) {

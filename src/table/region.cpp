@@ -66,7 +66,7 @@ void check_region(const TableSpec& spec, const Table& table) {
   for (const geometry::RegionFault& fault : faults) {
     problem.append(problem.empty() ? "" : "; ").append(fault.sentence);
   }
-  // Of two walls that cross the later one is named: it is the obstacle's.
+  // If two walls cross, the later one is named: it belongs to the obstacle.
   const int wall =
       std::max(table.wall_index(faults.front().first), table.wall_index(faults.front().second));
   throw InputError(

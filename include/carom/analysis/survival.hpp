@@ -27,7 +27,7 @@ struct SurvivalCounts : FateCounts {
   std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
   std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
   std::uint64_t trajectories = 0, collisions = 0;
-  std::uint64_t contacts = 0;   ///< of hard discs, each pair once; counted by whoever follows them
+  std::uint64_t contacts = 0;   ///< of hard discs, each pair once; set by the ensemble
   std::uint64_t most_hits = 0;  ///< of a single trajectory
   double energy_change = 0.0;   ///< the largest of a particle under forces; set by the ensemble
   std::vector<std::uint64_t> hole_escapes;  ///< by hole_names()

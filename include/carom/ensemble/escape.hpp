@@ -24,7 +24,7 @@ struct EscapeResult : EnsembleResult {
 
 using EscapeJournal = EnsembleJournal<EscapeResult>;
 
-/// How to run, without influence on the result, and who is given each trajectory.
+/// How to run, and where records of trajectories go; no influence on the result.
 struct EscapeOptions : EnsembleOptions<EscapeResult> {
   /// If set, receives each block's records in increasing order of index (one thread at a time).
   std::function<void(const std::vector<TrajectoryRecord>&)> records;

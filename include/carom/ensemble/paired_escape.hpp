@@ -16,7 +16,7 @@ struct OtherEnd {
   enum Kind : unsigned char { known, singular, unknown } kind = unknown;
   PairedEnd end{};
 };
-/// Of one that starts there.
+/// Flies a trajectory from that start in the other way.
 using OtherFlight = std::function<OtherEnd(const State& start)>;
 
 /// Which trajectories, and when two ends are the same.

@@ -62,7 +62,7 @@ class EnsembleJournal {
   virtual bool wants_records() const { return false; }
   /// Trajectories that are done, in any order, if records are wanted; one call at a time.
   virtual void block(TrajectoryRange, std::vector<TrajectoryRecord>&&) {}
-  /// What came until now belongs to the next save(). Never during block().
+  /// All blocks so far belong to the next save(). Not called during block().
   virtual void mark() {}
   /// Keeps `so_far`: all up to the last mark(), and what was there before. From a thread of its
   /// own, or from one that brings blocks (save_every_blocks), while others come in; one call at a
@@ -80,7 +80,7 @@ struct EnsembleOptions {
   std::optional<InstructionSet> lanes = widest_instruction_set();
   /// The part of the trajectories 0 … System::run.trajectories - 1 that is asked for.
   TrajectoryRange part{0, std::numeric_limits<std::uint64_t>::max()};
-  /// What was done before, and is not done again: the result holds it too.
+  /// A part that is done already: it is not done again, and is added to the result.
   const Result* before = nullptr;
   EnsembleJournal<Result>* journal =
       nullptr;             ///< is asked to save first of all, and then now and then

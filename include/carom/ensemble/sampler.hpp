@@ -27,16 +27,17 @@ class SamplingStopped : public std::exception {
 ///   uniform    position uniform in the table or cell, direction uniform
 ///   rectangle  the same in the part of a rectangle that lies in the domain
 ///   line       position uniform in the part of a line that lies in the domain, direction given
-///   boundary   cosine law: uniform in arc length and in the tangential velocity, from one wall or
-///   all hole       cosine law over the opening of one hole or all birkhoff   given arc length and
-///   tangential velocity, one pair of a list for each particle of each trajectory point      given
-///   position and velocity list       the same, one of a list for each particle of each trajectory
+///   boundary   cosine law: uniform in arc length and tangential velocity, from one wall or all
+///   hole       cosine law over the opening of one hole or all
+///   birkhoff   given arc length and tangential velocity, one pair for each particle
+///   point      given position and velocity
+///   list       the same, one of a list for each particle of each trajectory
 ///
-/// Where forces act and energies are given, they are total energies: positions are drawn again
-/// where the potential is above, and the speed follows from what is left of it. Interacting
-/// particles share the sum of their energies: what their potential leaves is kinetic energy, in
-/// equal parts (Bill2d, section 4.1), and all of them are drawn again if it leaves nothing. Hard
-/// discs are drawn again until none overlap; they cannot start on a wall.
+/// Under forces a given energy is the total energy. A position where the potential exceeds it is
+/// drawn again; elsewhere the speed follows from the difference. Interacting particles share the
+/// sum of their energies: the sum less their potential energy is divided equally among them as
+/// kinetic energy (Bill2d, section 4.1). If it is negative all are drawn again. Hard discs are
+/// drawn again until none overlap; they cannot start on a wall.
 class Sampler {
  public:
   /// Refers to the system. `stopped` is asked every few hundred draws, from any thread: starts may

@@ -16,15 +16,15 @@ namespace carom {
 /// grown to: docs/physics/integrators.md.
 struct StateError {
   double position = 0.0, velocity = 0.0;
-  double until = 0.0;  ///< the time they are of: that asked for; earlier where the runs part, or
-                       ///< after most_compared steps
+  double until = 0.0;  ///< the time they are of: that asked for; earlier where the runs separate,
+                       ///< or after most_compared steps
 };
 
 /// Steps, times the square of the number of particles, that are compared at most.
 inline constexpr double most_compared = 4e6;
 
-/// Of the first start, at the time t_end or before. Nothing where no force acts, for hard discs, or
-/// if it was stopped.
+/// The error of a run of that trajectory at the time t_end or before. Nothing where no force acts,
+/// for hard discs, or if it was stopped.
 std::optional<StateError> state_error(const System&, std::uint64_t trajectory, double t_end,
                                       const std::function<bool()>& stopped = {});
 

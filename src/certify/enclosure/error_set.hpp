@@ -1,5 +1,5 @@
-// What is not known of a state in a point and its velocity: how far the true state may be from the
-// one that is computed with many bits.
+// Error bounds of a state: how far the true point and velocity may be from those that are computed
+// with many bits.
 #pragma once
 
 #include <array>

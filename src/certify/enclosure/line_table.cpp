@@ -7,7 +7,7 @@ namespace {
 
 bool is_zero(const Ball& x) { return arb_is_zero(x.raw()) != 0; }
 
-// Of any length: axes are short numbers.
+// A vector along the segment, of any length: (1, 0) and (0, 1) have short products.
 BallVector direction_of(const WallOf<Ball>& segment) {
   if (is_zero(segment.chord.y)) return {Ball(1), Ball(0)};
   if (is_zero(segment.chord.x)) return {Ball(0), Ball(1)};

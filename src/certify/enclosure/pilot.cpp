@@ -21,7 +21,7 @@ class SumOfBlocks {
     ends_.resize(most / 2);
     length_ *= 2;
   }
-  /// Of the sum over `terms` terms.
+  /// The variance of a sum over `terms` terms.
   double variance(double terms) const {
     if (ends_.size() < 4) return 0.0;
     const auto blocks = static_cast<double>(ends_.size());

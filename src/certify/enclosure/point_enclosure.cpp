@@ -73,7 +73,7 @@ void PointEnclosure::fly(const Copy& copy, bool same, long bits) {
                                Bound(1.000001 / std::sqrt(dot(normal, normal))));
   }
   if (settles && same && wall.form != Form::segment) {
-    // Likewise it is on the curve: a point near it, a along its tangent, is at most a^2/r off it
+    // It is on the curve, too: a point near it, a along its tangent, is at most a^2/r off it
     // (for a < r/2), where r is the least radius of curvature.
     const double radius_below = least_radius(wall) * 0.999999 / unit;
     const Bound moved = errors_.size(along);

@@ -1,4 +1,4 @@
-// What is known of a state: numbers of many bits, and how far off they may be.
+// A set of states: numbers of many bits, and bounds of their errors.
 #pragma once
 
 #include <memory>

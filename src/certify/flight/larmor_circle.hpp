@@ -50,7 +50,7 @@ LandingOf<N> larmor_state(const Kappa<N>& k, const VectorOf<N>& P, const VectorO
 /// The time from the start of the flight, within its turn.
 Ball time_at(const Kappa<Ball>&, const MotionOf<Ball>&);
 double time_at(const Kappa<double>&, const MotionOf<double>&);
-/// Of a tangent map only the slopes are asked for: dt = -dkappa/(kappa^2 + omega^2/4).
+/// For tangent maps, which need only the slopes: dt = -dkappa/(kappa^2 + omega^2/4).
 template <class N>
 Dual<N> time_at(const Kappa<Dual<N>>& k, const MotionOf<N>& motion) {
   const N size = square(k.p.value) + square(motion.half_omega * k.q.value);

@@ -48,7 +48,7 @@ LarmorForm<N> larmor_form(const WallOf<C>& w, const VectorOf<N>& P, const Vector
   return f;
 }
 
-// What isolation asks of an arithmetic besides + - * /.
+// Isolation needs one operation besides + - * /: a number that contains two others.
 template <class N>
 N union_of(const N& a, const N& b) {
   return N(0.5) * (a + b);

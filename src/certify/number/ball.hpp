@@ -147,7 +147,8 @@ class Ball {
   arb_t x_;
 };
 
-/// Of a number that is known not to be negative: the part of its ball below zero is left out.
+/// The root of a number that is known not to be negative: the part of its ball below zero is
+/// ignored.
 inline Ball sqrt(const Ball& a) {
   Ball r;
   arb_sqrtpos(r.raw(), a.raw(), Precision::bits());

@@ -1,4 +1,4 @@
-// What certified orbits give out: numbers with their balls, how many digits, and the names of
+// The output of certified orbits: numbers with their balls, how many digits, and the names of
 // fates.
 #include <algorithm>
 #include <memory>

@@ -19,8 +19,8 @@ Sign sign_of(const ExactNumber&);
 struct CosSin {
   Ball cos, sin;
 };
-/// Of an angle in radians plus `part` of `whole` turns; rational parts of a turn are taken as such,
-/// so that quarters come out exact.
+/// Cosine and sine of an angle in radians plus `part` of `whole` turns. Rational parts of a turn
+/// are kept as such, so that those of quarters are exact.
 CosSin direction_of(const ExactNumber& angle, long part = 0, long whole = 1);
 
 }  // namespace carom::certify

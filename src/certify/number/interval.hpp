@@ -43,8 +43,8 @@ struct Interval {
   double size() const { return std::max(std::fabs(low), std::fabs(high)); }
 
  private:
-  /// Where ends are infinite a product may be no number (0 times infinity), which min and max would
-  /// drop: then nothing is known. Infinities of both signs say no more.
+  /// A product of infinite ends may be NaN (0 times infinity), which min and max would ignore: the
+  /// result is then the whole line.
   static Interval around(double p, double q, double r, double s) {
     if (std::isnan(p + q + r + s)) return {-HUGE_VAL, HUGE_VAL};
     return outwards(std::min(std::min(p, q), std::min(r, s)),
@@ -52,7 +52,7 @@ struct Interval {
   }
 };
 
-/// Of a number that is known not to be negative.
+/// The root of a number that is known not to be negative.
 inline Interval sqrt(const Interval& a) {
   const Interval r =
       Interval::outwards(std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0)));

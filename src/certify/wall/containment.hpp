@@ -25,13 +25,13 @@ struct LoopCopy {
 /// The loops of a table that a point may lie in or on.
 class Containment {
  public:
-  /// Of numbers to the present precision.
+  /// Walls and point are balls of the present precision.
   Containment(const std::vector<WallLoop>&, const BallTable&, const BallVector& point);
   /// Are there more than could be looked for?
   bool too_far() const { return too_far_; }
   /// Does the point lie on the domain's side of all of them?
   Verdict verdict() const { return verdict_; }
-  /// Those of which that is not known.
+  /// The loops for which this is undecided.
   const std::vector<LoopCopy>& in_doubt() const { return in_doubt_; }
 
  private:

@@ -19,7 +19,7 @@ BallVector turned(const BallVector& v, const Ball& angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-// But for whole turns; a vector along the negative axis has an angle like any other.
+// The angle up to whole turns, narrow also for vectors near the negative axis.
 Ball angle_of(const BallVector& v) {
   Ball angle;
   if (sign(v.x) != Sign::negative) {
@@ -109,8 +109,8 @@ Sign past_length(const ExactSystem& system, const HoleSpec& spec, const ExactNum
   return Sign::undecided;
 }
 
-// Of a closed wall a hole is all if it is as wide, wherever it begins. `w`: the wall to the present
-// precision.
+// Does the hole cover its whole wall? On a closed wall its width decides, wherever it begins. `w`:
+// the wall to the present precision.
 bool is_all_of_its_wall(const ExactSystem& system, const HoleSpec& spec, const WallOf<Ball>& w) {
   if (sign(value_of(spec.width) - arc_length(w)) == Sign::negative) return false;
   const auto at_least = [](Sign s) { return s == Sign::zero || s == Sign::positive; };

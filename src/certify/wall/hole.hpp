@@ -69,7 +69,7 @@ Verdict in_hole(const HoleOf<N>& hole, const WallOf<N>& w, const VectorOf<N>& P)
   return within(hole.first, hole.last) == wide ? wide : Verdict::undecided;
 }
 
-/// Of a wall, from its start to its end, to the present precision.
+/// The length of a wall to the present precision.
 Ball arc_length(const WallOf<Ball>&);
 
 /// Signs of numbers as written, undecided where neither balls of 2^14 bits nor rational numbers
