@@ -3,11 +3,9 @@
 namespace carom::geometry {
 
 ExactBoundary::ExactBoundary(const std::vector<Piece>& pieces, Vector first, Vector second)
-    : data_(std::make_unique<Data>()) {
-  data_->pieces = pieces;
+    : data_(std::make_unique<Data>(pieces)) {
   data_->first = exact(first);
   data_->second = exact(second);
-  data_->curves.resize(pieces.size());
   data_->previous.assign(pieces.size(), -1);
   for (std::size_t i = 0; i < pieces.size(); ++i)
     if (const int next = pieces[i].next; next >= 0 && next != static_cast<int>(i))

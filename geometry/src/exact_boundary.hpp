@@ -1,6 +1,7 @@
 // The inside of ExactBoundary.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -12,14 +13,24 @@ namespace carom::geometry {
 struct ExactBoundary::Data {
   std::vector<Piece> pieces;
   std::vector<int> previous;  // the piece that ends where each begins, or -1
-  mutable std::vector<std::unique_ptr<const ExactCurve>> curves;  // made when first asked for
+  // Made when first asked for, by any thread.
+  mutable std::vector<std::atomic<const ExactCurve*>> curves;
   DyadicVector first, second;
+
+  explicit Data(const std::vector<Piece>& of) : pieces(of), curves(of.size()) {}
+  Data(const Data&) = delete;
+  Data& operator=(const Data&) = delete;
+  ~Data() {
+    for (const auto& made : curves) delete made.load();
+  }
 
   const ExactCurve& curve(int piece) const {
     auto& made = curves[static_cast<std::size_t>(piece)];
-    if (!made)
-      made = std::make_unique<const ExactCurve>(pieces[static_cast<std::size_t>(piece)].curve);
-    return *made;
+    if (const ExactCurve* found = made.load(std::memory_order_acquire)) return *found;
+    auto mine = std::make_unique<const ExactCurve>(pieces[static_cast<std::size_t>(piece)].curve);
+    const ExactCurve* other = nullptr;  // another thread may have been faster
+    if (made.compare_exchange_strong(other, mine.get())) return *mine.release();
+    return *other;
   }
 
   DyadicVector translation(Cell c) const {

@@ -5,6 +5,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/trajectories.hpp"
 #include "ensemble/diffusion_listener.hpp"
 
 namespace carom {
@@ -22,11 +23,11 @@ DiffusionResult nothing(const System& system) {
 
 // What one thread does.
 void work(const System& system, const Sampler& sampler, const DiffusionOptions& options,
-          DiffusionListener::Thread& thread) {
+          const World& world, DiffusionListener::Thread& thread) {
   const auto engine = make_engine(system, {.t_end = system.run.times.back(),
                                            .times = system.run.times,
-                                           .decisions = options.decisions,
-                                           .lanes = options.lanes});
+                                           .lanes = options.lanes,
+                                           .like = &world});
   DiffusionListener listener(system, *engine, thread);
   const std::function<bool()> stopped = [&] { return thread.stopped(); };
   DrawnStarts starts(sampler, [&](TrajectoryRange& block) {
@@ -67,10 +68,11 @@ DiffusionResult run_diffusion(const System& system, const DiffusionOptions& opti
   refuse_impossible(system);
   check_start(system, options.interrupted);
   const Sampler sampler(system, options.interrupted);
+  const World world = make_world(system, options.decisions);  // threads share its table
   EnsembleRun<DiffusionResult> run(system, options, nothing(system));
   if (why_one_by_one(system).empty()) run.lanes = options.lanes;
   return run.run(
-      [&](DiffusionListener::Thread& thread) { work(system, sampler, options, thread); });
+      [&](DiffusionListener::Thread& thread) { work(system, sampler, options, world, thread); });
 }
 
 }  // namespace carom

@@ -17,6 +17,11 @@ bool is_free(const System& system) {
   return !d.everywhere && (!d.forces || d.forces->empty()) && !system.of_discs();
 }
 
+World world_like(const System& system, const EngineOptions& options) {
+  return options.like ? options.like->empty_copy()
+                      : World(*system.table, system.dynamics, options.decisions);
+}
+
 }  // namespace
 
 DrawnStarts::DrawnStarts(const Sampler& sampler, Blocks blocks)
@@ -56,15 +61,15 @@ std::string why_one_by_one(const System& system, const EngineOptions& options) {
 
 std::unique_ptr<Engine> make_engine(const System& system, const EngineOptions& options) {
   if (!options.lanes || !why_one_by_one(system, options).empty())
-    return std::make_unique<OneByOne>(system, options);
+    return std::make_unique<OneByOne>(system, options, world_like(system, options));
+  const World world = world_like(system, options);
   std::unique_ptr<Lanes> lanes;
   if (is_free(system))
-    lanes = std::make_unique<FreeLanes>(*system.table, system.particles, *options.lanes,
-                                        options.decisions);
+    lanes = std::make_unique<FreeLanes>(world, system.particles, *options.lanes);
   else
     lanes = std::make_unique<SoftLanes>(*system.table, system.dynamics, system.particles.at(0),
                                         *options.lanes, options.decisions);
-  return std::make_unique<InLanes>(system, options, std::move(lanes));
+  return std::make_unique<InLanes>(system, options, world, std::move(lanes));
 }
 
 }  // namespace carom

@@ -1,5 +1,6 @@
 #include "carom/ensemble/escape.hpp"
 
+#include "carom/ensemble/trajectories.hpp"
 #include "carom/table/hole_names.hpp"
 #include "ensemble/escape_listener.hpp"
 
@@ -15,9 +16,9 @@ EscapeResult nothing(const System& system) {
 
 // What one thread does.
 void work(const System& system, const Sampler& sampler, const EscapeOptions& options,
-          EscapeListener::Thread& thread, BlockOrder* order) {
-  const auto engine = make_engine(
-      system, {.t_end = system.run.t_max, .decisions = options.decisions, .lanes = options.lanes});
+          const World& world, EscapeListener::Thread& thread, BlockOrder* order) {
+  const auto engine =
+      make_engine(system, {.t_end = system.run.t_max, .lanes = options.lanes, .like = &world});
   EscapeListener listener(system, *engine, thread, order);
   DrawnStarts starts(sampler, [&](TrajectoryRange& block) { return listener.claim(block); });
   while (engine->run(starts, listener, [&] { return thread.stopped(); }) && listener.go_on()) {
@@ -36,12 +37,13 @@ bool EscapeResult::add(const EscapeResult& other) {
 EscapeResult run_escape(const System& system, const EscapeOptions& options) {
   check_start(system, options.interrupted);
   const Sampler sampler(system, options.interrupted);
+  const World world = make_world(system, options.decisions);  // threads share its table
   EnsembleRun<EscapeResult> run(system, options, nothing(system));
   if (why_one_by_one(system).empty()) run.lanes = options.lanes;
   BlockOrder order(options.records, 16 * static_cast<std::uint64_t>(run.threads()));
   const EscapeResult result = run.run([&](EscapeListener::Thread& thread) {
     try {
-      work(system, sampler, options, thread, options.records ? &order : nullptr);
+      work(system, sampler, options, world, thread, options.records ? &order : nullptr);
     } catch (...) {
       order.close();  // no thread may wait for a block that will not come
       throw;

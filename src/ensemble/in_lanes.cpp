@@ -4,11 +4,9 @@
 
 namespace carom {
 
-InLanes::InLanes(const System& system, const EngineOptions& options, std::unique_ptr<Lanes> lanes)
-    : system_(system),
-      options_(options),
-      world_(*system.table, options.decisions),
-      lanes_(std::move(lanes)) {
+InLanes::InLanes(const System& system, const EngineOptions& options, const World& like,
+                 std::unique_ptr<Lanes> lanes)
+    : system_(system), options_(options), world_(like.empty_copy()), lanes_(std::move(lanes)) {
   if (system.run.collisions > 0) lanes_->limit_hits(system.run.collisions);
   if (!options_.times.empty())
     lanes_->sample_at(options_.times, [this](std::uint64_t tag, std::size_t number,

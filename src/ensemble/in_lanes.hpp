@@ -14,7 +14,8 @@ namespace carom {
 /// trajectories.
 class InLanes : public Engine {
  public:
-  InLanes(const System&, const EngineOptions&, std::unique_ptr<Lanes>);
+  /// `like`: a world of the system.
+  InLanes(const System&, const EngineOptions&, const World& like, std::unique_ptr<Lanes>);
   InLanes(const InLanes&) = delete;
   InLanes& operator=(const InLanes&) = delete;
 

@@ -1,7 +1,9 @@
 #include "ensemble/one_by_one.hpp"
 
+#include <utility>
+
 #include "carom/ensemble/injection.hpp"
-#include "carom/ensemble/trajectories.hpp"
+#include "carom/ensemble/sampler.hpp"
 
 namespace carom {
 
@@ -11,8 +13,9 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-OneByOne::OneByOne(const System& system, const EngineOptions& options)
-    : system_(system), options_(options), world_(make_world(system, options.decisions)) {
+OneByOne::OneByOne(const System& system, const EngineOptions& options, World world)
+    : system_(system), options_(options), world_(std::move(world)) {
+  if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
   if (!options_.times.empty()) world_.sample_at(options_.times);
   if (options_.energy) world_.watch_energy();
   if (options_.surface) world_.watch(options_.surface, options_.most_crossings);

@@ -9,7 +9,7 @@ namespace carom {
 
 class OneByOne : public Engine, private Observer {
  public:
-  OneByOne(const System&, const EngineOptions&);
+  OneByOne(const System&, const EngineOptions&, World);
   OneByOne(const OneByOne&) = delete;
   OneByOne& operator=(const OneByOne&) = delete;
 

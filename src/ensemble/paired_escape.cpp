@@ -10,6 +10,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/stopwatch.hpp"
+#include "carom/ensemble/trajectories.hpp"
 #include "carom/table/hole_names.hpp"
 #include "ensemble/parallel_blocks.hpp"
 
@@ -33,10 +34,11 @@ struct Pair {
 /// One thread's: flies the trajectories of a block, and each one in the other way as it ends.
 class Worker : public Listener {
  public:
-  Worker(const System& system, const Sampler& sampler, OtherFlight other, std::vector<Pair>& pairs)
+  Worker(const System& system, const Sampler& sampler, const World& world, OtherFlight other,
+         std::vector<Pair>& pairs)
       : sampler_(sampler),
         holes_(hole_numbers(*system.table)),
-        engine_(make_engine(system, {.t_end = system.run.t_max})),
+        engine_(make_engine(system, {.t_end = system.run.t_max, .like = &world})),
         other_(std::move(other)),
         pairs_(pairs) {}
   Worker(const Worker&) = delete;
@@ -94,6 +96,7 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
     throw InputError("pairs are of single particles");
   const Stopwatch watch;
   const Sampler sampler(system, options.interrupted);
+  const World world = make_world(system);  // threads share its table
   std::vector<Pair> pairs(static_cast<std::size_t>(options.sample));
   std::uint64_t done = 0;
   // Small blocks: a long orbit takes many times as long as a short one.
@@ -118,7 +121,8 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
   result.complete = run_blocks(
       plan, options.interrupted,
       [&] {
-        return Reporting{Worker(system, sampler, make(), pairs), options.progress, done, mutex};
+        return Reporting{Worker(system, sampler, world, make(), pairs), options.progress, done,
+                         mutex};
       },
       [](const Reporting&) {});
 

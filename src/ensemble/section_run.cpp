@@ -8,6 +8,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/stopwatch.hpp"
+#include "carom/ensemble/trajectories.hpp"
 #include "ensemble/block_order.hpp"
 #include "ensemble/first_reports.hpp"
 #include "ensemble/parallel_blocks.hpp"
@@ -42,11 +43,9 @@ std::uint64_t hash_of(std::uint64_t so_far, const SectionPoint& p) {
   return mix(so_far ^ static_cast<std::uint64_t>(std::int64_t{p.wall} * 4 + p.direction));
 }
 
-EngineOptions asked_for(const System& system, const SectionOptions& options) {
-  EngineOptions asked{.t_end = system.run.t_max,
-                      .energy = true,
-                      .decisions = options.decisions,
-                      .lanes = options.lanes};
+EngineOptions asked_for(const System& system, const SectionOptions& options, const World& world) {
+  EngineOptions asked{
+      .t_end = system.run.t_max, .energy = true, .lanes = options.lanes, .like = &world};
   if (system.section.boundary) {
     asked.hits = true;
   } else {
@@ -65,12 +64,12 @@ EngineOptions asked_for(const System& system, const SectionOptions& options) {
 class Follower : public Listener {
  public:
   Follower(const System& system, const Sampler& sampler, const SectionOptions& options,
-           Order& order, const std::function<void(std::uint64_t)>& done)
+           const World& world, Order& order, const std::function<void(std::uint64_t)>& done)
       : system_(system),
         sampler_(sampler),
         options_(options),
         frames_(frames_of(*system.table)),
-        engine_(make_engine(system, asked_for(system, options))),
+        engine_(make_engine(system, asked_for(system, options, world))),
         order_(order),
         done_(done) {}
   Follower(const Follower&) = delete;
@@ -182,6 +181,7 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
                      "line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r, x=c, y=c, vx=c or vy=c");
   check_start(system, options.interrupted);
   const Sampler sampler(system, options.interrupted);
+  const World world = make_world(system, options.decisions);  // threads share its table
   // Blocks wait for their turn in memory.
   const std::uint64_t each = system.section.points;
   const BlockPlan plan(section_orbits(system), options.threads, each == 0 ? 1 : 50000 / each + 1);
@@ -197,7 +197,8 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
   };
   Tally total;
   const bool complete = run_blocks(
-      plan, options.interrupted, [&] { return Follower(system, sampler, options, order, report); },
+      plan, options.interrupted,
+      [&] { return Follower(system, sampler, options, world, order, report); },
       [&](Follower& follower) {
         total.merge(follower.tally);
         total.result.decisions += follower.decisions();

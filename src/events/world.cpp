@@ -48,12 +48,22 @@ class World::Implementation {
       : table(with_bent_arcs(the_table)),
         scales(the_table),
         dynamics(how),
-        own_walls(walls_of_flights(table, dynamics)),
-        flights(walls(), has_discs(dynamics) ? walls() : table, regions, bodies, options) {
+        own_walls(std::make_shared<const Table>(walls_of_flights(table, dynamics))),
+        flights(PieceTable(walls(), options), inside(), regions, bodies) {
+    if (has_discs(dynamics)) discs.emplace(table, dynamics, bodies, flights, watch, interrupt);
+  }
+  /// Of the same table and forces; what was prepared is shared.
+  explicit Implementation(const Implementation& like)
+      : table(like.table),
+        scales(like.scales),
+        dynamics(like.dynamics),
+        own_walls(like.own_walls),
+        flights(like.flights.pieces(), inside(), regions, bodies) {
     if (has_discs(dynamics)) discs.emplace(table, dynamics, bodies, flights, watch, interrupt);
   }
 
-  const Table& walls() const { return own_walls.walls.empty() ? table : own_walls; }
+  const Table& walls() const { return own_walls->walls.empty() ? table : *own_walls; }
+  const Table& inside() const { return has_discs(dynamics) ? walls() : table; }
 
   bool begin_run() {
     if (watch.active()) watch.begin_run();
@@ -66,7 +76,7 @@ class World::Implementation {
   const Table& table;          ///< the user's
   const DecisionRange scales;  ///< of it
   const Dynamics dynamics;
-  const Table own_walls;
+  const std::shared_ptr<const Table> own_walls;
   Interrupt interrupt;           ///< of the run under way
   std::function<bool()> enough;  ///< ends a run, or is empty
   Bodies bodies;
@@ -129,8 +139,12 @@ World::World(const Table& table, DecisionOptions options)
     : implementation_(std::make_unique<Implementation>(table, Dynamics{}, options)) {}
 World::World(const Table& table, const Dynamics& dynamics, DecisionOptions options)
     : implementation_(std::make_unique<Implementation>(table, dynamics, options)) {}
+World::World(std::unique_ptr<Implementation> made) : implementation_(std::move(made)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
+World World::empty_copy() const {
+  return World(std::make_unique<Implementation>(*implementation_));
+}
 
 int World::add(const Particle& particle, const State& state, std::uint64_t hits) {
   Implementation& w = *implementation_;
@@ -212,5 +226,6 @@ void World::set_energy_balance(int p, const EnergyBalance& before) {
 }
 
 bool World::contains(Vector point) const { return implementation_->flights.contains(point); }
+const PieceTable& World::pieces() const { return implementation_->flights.pieces(); }
 
 }  // namespace carom

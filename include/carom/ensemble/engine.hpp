@@ -115,6 +115,9 @@ struct EngineOptions {
   bool energy = false;                    ///< as World::watch_energy
   DecisionOptions decisions = {};
   std::optional<InstructionSet> lanes = widest_instruction_set();  ///< empty: one after the other
+  /// A world of the system, which the engines of all threads share what is prepared with; null:
+  /// the engine prepares the table itself. Only looked at while the engine is made.
+  const World* like = nullptr;
 };
 
 class Engine {

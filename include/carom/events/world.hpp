@@ -20,6 +20,8 @@
 
 namespace carom {
 
+struct PieceTable;
+
 /// Particles on one table. Where nothing acts they fly exactly (straight or Larmor flights). Where
 /// a force acts they are integrated, from the edge of its support on and back
 /// (docs/physics/walls-in-steps.md).
@@ -33,6 +35,9 @@ class World {
   explicit World(Table&&, DecisionOptions = {}) = delete;
   ~World();
   World(World&&) noexcept;
+  /// A world of the same table, forces and decisions, without particles and with nothing set. It
+  /// shares what was prepared of the table, so it is cheap; it may belong to another thread.
+  World empty_copy() const;
 
   /// Adds a particle; returns its index. A state off the walls must lie in the domain, else
   /// std::invalid_argument. Its velocity is kept as it is. Without forces its length must be
@@ -97,8 +102,12 @@ class World {
   /// Is the point strictly inside the domain (exact)? For lattices: in the free part of its cell.
   bool contains(geometry::Vector point) const;
 
+  /// For engines: the walls as flights see them.
+  const PieceTable& pieces() const;
+
  private:
   class Implementation;
+  explicit World(std::unique_ptr<Implementation>);
   std::unique_ptr<Implementation> implementation_;
 };
 

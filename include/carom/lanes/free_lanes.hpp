@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/events/world.hpp"
 #include "carom/lanes/lanes.hpp"
 #include "carom/table/table.hpp"
 
@@ -25,6 +26,8 @@ class FreeLanes : public Lanes {
   /// live as long.
   FreeLanes(const Table& table, const std::vector<Particle>& particles, InstructionSet set,
             DecisionOptions options = {});
+  /// The same in the table of a world of free particles, sharing what was prepared of it.
+  FreeLanes(const World& like, const std::vector<Particle>& particles, InstructionSet set);
   FreeLanes(Table&&, const std::vector<Particle>&, InstructionSet, DecisionOptions = {}) = delete;
   ~FreeLanes() override;
 

@@ -7,11 +7,12 @@ namespace carom {
 
 using geometry::Vector;
 
-FreeFlights::FreeFlights(const Table& walls, const Table& inside, const ForceRegions& regions,
-                         Bodies& bodies, DecisionOptions options)
-    : finder_(walls, options), bodies_(bodies), regions_(regions), inside_(inside) {
-  for (std::size_t i = 0; i < walls.walls.size(); ++i) {
-    const Wall& w = walls.walls[i];
+FreeFlights::FreeFlights(const PieceTable& seen, const Table& inside, const ForceRegions& regions,
+                         Bodies& bodies)
+    : finder_(seen), bodies_(bodies), regions_(regions), inside_(inside) {
+  const std::vector<Wall>& walls = seen.table.walls;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Wall& w = walls[i];
     corners_.push_back(w.next == static_cast<int>(i) && geometry::is_closed(w.curve) ? 0
                        : w.corner > 0
                            ? w.corner

@@ -17,10 +17,10 @@ namespace carom {
 
 class FreeFlights {
  public:
-  /// `walls`: what flights meet. `inside`: the table, without edges of supports, that points are
-  /// inside of.
-  FreeFlights(const Table& walls, const Table& inside, const ForceRegions& regions, Bodies& bodies,
-              DecisionOptions options);
+  /// `pieces`: of the walls that flights meet. `inside`: the table, without edges of supports, that
+  /// points are inside of.
+  FreeFlights(const PieceTable& pieces, const Table& inside, const ForceRegions& regions,
+              Bodies& bodies);
 
   /// Applies what comes first for a free body. False if a flight does not go on by itself: the body
   /// is where forces act from now on, or is to be looked after because another body may be near.

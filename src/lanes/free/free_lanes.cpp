@@ -52,11 +52,10 @@ class OneEvent : public Observer {
 
 class FreeLanes::Implementation {
  public:
-  Implementation(const Table& the_table, const std::vector<Particle>& particles, InstructionSet set,
-                 DecisionOptions options)
-      : table(the_table),
-        scalar(the_table, options),
-        walls(the_table, options),
+  Implementation(World world, const std::vector<Particle>& particles, InstructionSet set)
+      : scalar(std::move(world)),
+        walls(scalar.pieces()),
+        table(walls.table),
         pieces(lanes::make_lane_table(walls, reach_of(particles))),
         turn(turn_of(particles.at(0).omega)),
         next_discs(lanes::make_next_discs(pieces)),
@@ -110,9 +109,9 @@ class FreeLanes::Implementation {
     return sum;
   }
 
-  const Table& table;
   World scalar;
-  PieceTable walls;
+  const PieceTable& walls;
+  const Table& table;
   LaneTable pieces;
   Turn turn;
   std::vector<std::uint32_t> next_discs;
@@ -478,7 +477,9 @@ std::string FreeLanes::hindrance(const Table& table, const std::vector<Particle>
 
 FreeLanes::FreeLanes(const Table& table, const std::vector<Particle>& particles, InstructionSet set,
                      DecisionOptions options)
-    : implementation_(std::make_unique<Implementation>(table, particles, set, options)) {}
+    : implementation_(std::make_unique<Implementation>(World(table, options), particles, set)) {}
+FreeLanes::FreeLanes(const World& like, const std::vector<Particle>& particles, InstructionSet set)
+    : implementation_(std::make_unique<Implementation>(like.empty_copy(), particles, set)) {}
 FreeLanes::~FreeLanes() = default;
 
 void FreeLanes::limit_hits(std::uint64_t hits) { implementation_->limit = hits; }

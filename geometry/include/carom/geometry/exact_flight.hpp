@@ -29,7 +29,7 @@ struct Piece {
 };
 
 /// The pieces of a table in integers, for decisions that are always right. Each piece is made when
-/// it is first asked about: a boundary belongs to one thread.
+/// it is first asked about; threads may share a boundary.
 class ExactBoundary {
  public:
   ExactBoundary(const std::vector<Piece>& pieces, Vector first, Vector second);
