@@ -19,7 +19,7 @@ DisplacementMoments moments_of(F f, std::uint64_t trajectories = 300) {
   return DisplacementMoments(sums);
 }
 
-TEST(Moments, OfALineGiveItsSlope) {
+TEST(Moments, ALineGivesItsSlope) {
   const auto fit =
       moments_of([](double t) { return t == 0 ? 0.0 : 4 * 0.25 * t - 0.5; }).fit({1, 64});
   ASSERT_TRUE(fit);
@@ -111,7 +111,7 @@ TEST(Moments, ErrorsAreTheScatterOfBrownianPaths) {
   EXPECT_NEAR(sum_D / ensembles, 0.5, 0.01);
 }
 
-TEST(Moments, OfOneTrajectoryHaveNoError) {
+TEST(Moments, OneTrajectoryGivesNoError) {
   const auto moments = moments_of([](double t) { return t; }, 1);
   EXPECT_TRUE(std::isnan(moments.points().back().square.error));
   EXPECT_TRUE(std::isnan(moments.fit({1, 64})->D.error));

@@ -12,7 +12,7 @@ namespace {
 
 PairedEnd gone(double time, int hole = 0, std::uint64_t hits = 1) { return {time, hole, hits}; }
 
-TEST(PairedSurvival, CountsWhatDiffers) {
+TEST(PairedSurvival, CountsDifferences) {
   PairedSurvival pairs({1.0, 2.0, 4.0}, 1e-3);
   pairs.add(gone(1.0), gone(1.0005));     // the same, on two sides of a report time
   pairs.add(gone(1.5), gone(3.0, 0, 2));  // other hits
@@ -36,7 +36,7 @@ TEST(PairedSurvival, CountsWhatDiffers) {
   EXPECT_DOUBLE_EQ(r.points[2].error, std::sqrt(1.0 - 1.0 / 6.0) / 6.0);
 }
 
-TEST(PairedSurvival, WithoutDifferencesNothingDiffers) {
+TEST(PairedSurvival, EqualPairsGiveNoDifference) {
   PairedSurvival pairs({1.0, 2.0}, 0.0);
   for (int i = 0; i < 100; ++i) pairs.add(gone(0.03 * i), gone(0.03 * i));
   const PairedResult r = pairs.result(1, 100);

@@ -115,7 +115,7 @@ TEST(Survival, MergesInAnyOrder) {
   EXPECT_THROW(forwards.merge(SurvivalCounts({1.0}, 2)), InternalError);
 }
 
-TEST(EscapeRate, SumsToWhatIsGone) {
+TEST(EscapeRate, RatesSumToTheEscapedShare) {
   const SurvivalCounts counts = random_counts(1, 5000);
   double gone = 0.0, last = 0.0;
   for (const RatePoint& r : escape_rate(counts)) {

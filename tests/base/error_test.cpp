@@ -33,7 +33,7 @@ TEST(InputError, SaysPlaceProblemExpectedAndNearest) {
   EXPECT_EQ(error.nearest(), "width");
 }
 
-TEST(NearestName, FindsSlipsOfThePen) {
+TEST(NearestName, FindsTypingErrors) {
   const std::vector<std::string> keys = {"width",         "height", "radius",
                                          "larmor_radius", "t_max",  "B"};
   EXPECT_EQ(nearest_name("widht", keys), "width");   // two letters swapped

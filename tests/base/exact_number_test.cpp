@@ -132,7 +132,7 @@ TEST(ExactNumber, RationalArithmeticIsThatOfGmp) {
   }
 }
 
-TEST(ExactNumber, OfADoubleIsThatDouble) {
+TEST(ExactNumber, ADoubleIsTakenExactly) {
   const ExactNumber tenth(0.1);
   EXPECT_EQ(tenth.text(), "0.1");
   EXPECT_EQ(tenth.to_rational()->numerator, "3602879701896397");
@@ -162,7 +162,7 @@ TEST(ExactNumber, RefusesWhatIsNoNumberAtItsPlace) {
   EXPECT_EQ(error_of("Sqrt(2)").nearest(), "sqrt");
 }
 
-TEST(ExactNumber, RefusesWhatWouldEatTimeOrMemory) {
+TEST(ExactNumber, NumbersThatCostTooMuchTimeOrMemoryAreRefused) {
   EXPECT_TRUE(is_refused("1e999999999"));
   EXPECT_TRUE(is_refused("1e99999999999999999999"));
   EXPECT_TRUE(is_refused("9^9^9^9"));

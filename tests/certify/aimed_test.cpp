@@ -193,7 +193,7 @@ Shaped row_of_discs(const std::vector<int>& order, const std::vector<bool>& met)
 
 // The Larmor circle passes beside the upper half of the ellipse, which is no wall, and meets the
 // bowl later: what may leave through the one must not hide the other.
-TEST(Aimed, BesideAnEllipseOffItsArc) {
+TEST(Aimed, AnEllipseIsMissedOffItsArc) {
   for (const bool mirrored : {false, true}) {
     for (const char* beside : {"0.2-1/10^20", "0.2+1/10^20", "0.2-1/10^12", "0.2-1/10^6"}) {
       ExactSystem system = tests::system_of(
@@ -209,7 +209,7 @@ TEST(Aimed, BesideAnEllipseOffItsArc) {
 }
 
 // However many walls a first look leaves open, the first of them that is met is found.
-TEST(Aimed, ManyWallsThatMayBeMet) {
+TEST(Aimed, TheFirstOfManyWallsIsMet) {
   Dice dice(91);
   for (const int count : {16, 17, 18, 19, 40, 100}) {
     for (int k = 0; k < 12; ++k) {
@@ -233,7 +233,7 @@ TEST(Aimed, ManyWallsThatMayBeMet) {
   }
 }
 
-TEST(Aimed, FirstHits) {
+TEST(Aimed, FirstHitsAreThoseOfTheAim) {
   Dice dice(92);
   const std::vector<Shaped> shapes = tests::all_shapes();
   const char* sizes[] = {"1", "10^8", "1/10^8"};

@@ -38,7 +38,7 @@ ExactPoint random_direction(tests::Dice& dice) {
 }
 
 // Bornemann, Laurie, Wagon, Waldvogel: The SIAM 100-Digit Challenge (2004), problem 2.
-TEST(CertifiedOrbit, PhotonAmongMirrors) {
+TEST(CertifiedOrbit, PhotonAmongMirrorsHasItsHundredDigits) {
   Shaped mirrors = tests::shaped("lorentz", {{"spacing", "1"}, {"radius", "1/3"}}, "1/2", "1/10");
   mirrors.spec.words["lattice"] = "square";
   CertifiedTask task = task_of(0, 100);
@@ -54,7 +54,7 @@ TEST(CertifiedOrbit, PhotonAmongMirrors) {
 }
 
 // The walls in balls are the walls of the table, which were rounded.
-TEST(CertifiedOrbit, TablesAsWritten) {
+TEST(CertifiedOrbit, TablesAreThoseWritten) {
   const Precision precision(100);
   for (const Shaped& s : tests::all_shapes()) {
     SCOPED_TRACE(s.spec.shape);

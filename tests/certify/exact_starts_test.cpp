@@ -71,7 +71,7 @@ void expect_same_from_beside(const Shaped& s, const Ray& ray, std::size_t ties) 
   }
 }
 
-TEST(ExactStarts, IntoCorners) {
+TEST(ExactStarts, FlightsIntoCornersAgreeWithTheEngine) {
   expect_same_from_beside(rectangle(), {"5/8", "1/2", "3", "4"}, 2);
   expect_same_from_beside(rectangle(), {"1/2", "1/2", "1", "1"}, 6);
   expect_same_from_beside(rectangle(), {"1/2", "1/2", "-1", "1"}, 6);
@@ -84,7 +84,7 @@ TEST(ExactStarts, IntoCorners) {
   expect_same_from_beside(mushroom, {"1/4", "1/2", "1", "-2"}, 0);
 }
 
-TEST(ExactStarts, IntoJoints) {
+TEST(ExactStarts, FlightsIntoJointsAgreeWithTheEngine) {
   expect_same_from_beside(stadium(), {"1", "1/4", "0", "1"}, 12);
   expect_same_from_beside(stadium(), {"1", "-1/4", "0", "1"}, 12);
   expect_same_from_beside(stadium(), {"-1", "1/4", "0", "1"}, 12);
@@ -92,12 +92,12 @@ TEST(ExactStarts, IntoJoints) {
   expect_same_from_beside(stadium(), {"0", "0", "1", "1"}, 8);
 }
 
-TEST(ExactStarts, TouchingDiscs) {
+TEST(ExactStarts, FlightsThatTouchDiscsAgreeWithTheEngine) {
   expect_same_from_beside(sinai(false), {"1/8", "1/4", "1", "0"}, 12);
   expect_same_from_beside(sinai(false), {"3/4", "7/8", "0", "-1"}, 12);
 }
 
-TEST(ExactStarts, AlongTheEdgeOfACorridor) {
+TEST(ExactStarts, FlightsAlongTheEdgeOfACorridorAgreeWithTheEngine) {
   const CertifiedEnd corridor = end_of(along(sinai(true), {"1/8", "1/4", "1", "0"}, "1"), 10);
   EXPECT_EQ(corridor.fate, CertifiedFate::singular);
   EXPECT_EQ(corridor.reason, "event 1: exactly tangent to 'disc', which is no hit");
@@ -113,7 +113,7 @@ Shaped bent() {  // an L: a reflex corner, and sides in line with others
 
 // From points of a grid along short vectors: many run into corners and joints, touch, or move along
 // walls.
-TEST(ExactStarts, OnAGrid) {
+TEST(ExactStarts, StartsOnAGridAgreeWithTheEngine) {
   tests::Dice dice(11);
   const std::vector<Shaped> tables{
       rectangle(),

@@ -16,7 +16,7 @@ using tests::Shaped;
 using tests::task_of;
 
 // Whether it is more than half a turn is not known, but of most points both answers say the same.
-TEST(CertifiedExtremes, HolesOfHalfATurn) {
+TEST(CertifiedExtremes, AHoleOfHalfATurnLetsOrbitsOut) {
   certify::WallOf<Ball> circle;
   circle.form = certify::Form::circle;
   circle.closed = true;
@@ -38,7 +38,7 @@ TEST(CertifiedExtremes, HolesOfHalfATurn) {
 }
 
 // Half an ellipse, whose arc starts on the negative major axis.
-TEST(CertifiedExtremes, ArcsFromTheNegativeAxis) {
+TEST(CertifiedExtremes, ArcsMayStartOnTheNegativeAxis) {
   Shaped s = tests::shaped("path", {}, "0.1", "-0.15");
   LoopSpec loop;
   loop.start = {exactly("-sqrt(2)/2"), exactly("-sqrt(2)/2")};
@@ -65,7 +65,7 @@ TEST(CertifiedExtremes, ArcsFromTheNegativeAxis) {
 }
 
 // In a field that is zero in doubles the flight is straight to all digits that are asked for.
-TEST(CertifiedExtremes, FieldsBelowDoubles) {
+TEST(CertifiedExtremes, FieldsMayBeSmallerThanDoubles) {
   const Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "0.1", "0.2");
   ExactSystem system = tests::system_of(s, {exactly("0.6"), exactly("0.7")});
   CertifiedOrbit straight(system, task_of(5, 20));
@@ -78,14 +78,14 @@ TEST(CertifiedExtremes, FieldsBelowDoubles) {
   }
 }
 
-TEST(CertifiedExtremes, TooFarFromHome) {
+TEST(CertifiedExtremes, AStartTooFarFromItsCellIsUndecided) {
   const Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "10^20+1/10", "1/5");
   CertifiedOrbit orbit(tests::system_of(s, {exactly("3"), exactly("4")}), task_of(5, 20));
   EXPECT_EQ(orbit.finish().fate, CertifiedFate::undecided);
   EXPECT_EQ(orbit.end_state().reason.find("'disc'"), std::string::npos) << orbit.end_state().reason;
 }
 
-TEST(CertifiedExtremes, SpeedsWithoutSquares) {
+TEST(CertifiedExtremes, SpeedsWithoutASquareAreRefused) {
   ExactSystem system =
       tests::system_of(tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "0.2", "0.3"),
                        {exactly("0.6"), exactly("0.7")});

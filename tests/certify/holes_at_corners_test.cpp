@@ -52,7 +52,7 @@ Tilted tilted(int p, int q) {
 }
 
 // The side of the square is rational, or (as for 1, 2) the root of no square: then it is not told.
-TEST(HolesAtCorners, EndExactlyThere) {
+TEST(HolesAtCorners, HolesMayEndExactlyAtCorners) {
   for (const auto& [p, q] : {std::pair{3, 4}, {4, 3}, {8, 6}, {5, 12}, {8, 15}}) {
     Tilted t = tilted(p, q);
     SCOPED_TRACE(t.side);
@@ -71,7 +71,7 @@ TEST(HolesAtCorners, EndExactlyThere) {
   EXPECT_EQ(end_of(t.square, t.to_corner()).fate, CertifiedFate::undecided);
 }
 
-TEST(HolesAtCorners, EndsShortOfThem) {
+TEST(HolesAtCorners, HolesMayEndShortOfCorners) {
   for (const auto& [p, q] : {std::pair{1, 2}, {3, 4}, {2, 7}}) {
     Tilted t = tilted(p, q);
     SCOPED_TRACE(t.side);
@@ -93,7 +93,7 @@ TEST(HolesAtCorners, EndsShortOfThem) {
 
 // Where an arc ends is known by its length, which contains pi: a hole that ends there is not told
 // from one beside.
-TEST(HolesAtCorners, AtJointsOfArcs) {
+TEST(HolesAtCorners, HolesMayEndAtJointsOfArcs) {
   for (const char* r : {"1", "1.1", "1/3"}) {
     SCOPED_TRACE(r);
     const std::string radius = std::string("(") + r + ")";
@@ -128,7 +128,7 @@ TEST(HolesAtCorners, AllOfAWall) {
   EXPECT_EQ(piece.fate, CertifiedFate::completed);
 }
 
-TEST(HolesAtCorners, Reaches) {
+TEST(HolesAtCorners, TheReachOfAHoleIsCertified) {
   Shaped s = tests::shaped("stadium", {{"half_length", "1"}, {"radius", "2"}}, "0", "0");
   const ExactSystem system = tests::system_of(s, {1.0, 0.0});
   const auto start = [](const char* center, const char* width) {

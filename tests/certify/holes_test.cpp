@@ -63,7 +63,7 @@ struct Ending : Observer {
 };
 
 // The ends of holes in balls are those of the table, which were rounded.
-TEST(CertifiedHoles, EndsAsWritten) {
+TEST(CertifiedHoles, HolesEndAsWritten) {
   tests::Dice dice(11);
   const Precision precision(200);
   for (int round = 0; round < 20; ++round) {
@@ -102,7 +102,7 @@ TEST(CertifiedHoles, EndsAsWritten) {
 }
 
 // On an ellipse the enclosed end has the arc length that was written, by the sum of many chords.
-TEST(CertifiedHoles, ArcLengthOfAnEllipse) {
+TEST(CertifiedHoles, ArcLengthOfAnEllipseIsCertified) {
   const Precision precision(200);
   for (const char* b : {"0.3", "1", "1.7"}) {
     Shaped s = tests::shaped("ellipse", {{"a", "1"}, {"b", b}}, "0.1", "0.1");

@@ -41,7 +41,7 @@ Interval around(const Ball& x) { return certify::interval_of(x); }
 // An arc that ends within 2^-100 of where the Larmor circle leaves the ellipse for the first time,
 // and holds where it leaves it for the second time. Intervals cannot know which of the two is on
 // the wall, and must not say the other.
-TEST(LarmorExits, NextToAnArcsEnd) {
+TEST(LarmorExits, ExitsNextToAnArcsEndAreDecided) {
   tests::Dice dice(61);
   const Precision precision(400);
   long cases = 0, known = 0;
@@ -101,7 +101,7 @@ TEST(LarmorExits, NextToAnArcsEnd) {
 }
 
 // Circles that pass a joint of elliptic arcs by 10^-30: balls tell on which side.
-TEST(LarmorExits, BesideAJoint) {
+TEST(LarmorExits, ExitsBesideAJointAreDecided) {
   Shaped s = tests::all_shapes().back();
   ASSERT_EQ(s.spec.loops.at(0).pieces.at(1).kind, PieceSpec::Kind::ellipse);
   long both_sides = 0;

@@ -191,7 +191,7 @@ TEST(CertifiedLarmor, TurnsEquallyInTheDisc) {
 
 // From the middle of a square against the right wall: where the circle about (1/2, 1/2 - 1/omega)
 // crosses it.
-TEST(CertifiedLarmor, FirstHitByHand) {
+TEST(CertifiedLarmor, FirstHitIsThatByHand) {
   const Shaped square = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1/2", "1/2");
   const Precision precision(1000);
   for (const char* omega : {"1", "-1", "1/1000000000000", "-1e-40"}) {

@@ -28,7 +28,7 @@ void expect_stop(const CertifiedEnd& end, const char* x, const char* y) {
   EXPECT_EQ(end.y.text(15), y);
 }
 
-TEST(LastTime, BeforeACorner) {
+TEST(LastTime, TheLastTimeMayComeBeforeACorner) {
   Shaped triangle = tests::shaped("triangle", {}, "0", "0");
   triangle.spec.points["points"] = {
       {exactly("1"), exactly("0")}, {exactly("-1"), exactly("2")}, {exactly("-1"), exactly("-3")}};
@@ -43,7 +43,7 @@ TEST(LastTime, BeforeACorner) {
   EXPECT_EQ(until(system, "1+1/10^40").fate, CertifiedFate::singular);
 }
 
-TEST(LastTime, BeforeACornerWithALimit) {
+TEST(LastTime, TheLastTimeMayComeBeforeACornerWithALimit) {
   const Shaped square = tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1/5", "1/5");
   const ExactSystem straight = tests::system_of(square, {exactly("3/5"), exactly("3/5")});
   expect_stop(until(straight, "sqrt(2)/100"), "0.210000000000000", "0.210000000000000");
@@ -53,7 +53,7 @@ TEST(LastTime, BeforeACornerWithALimit) {
   EXPECT_EQ(until(straight, "sqrt(2)*4/5+1/10^40").collisions, 2u);
 }
 
-TEST(LastTime, AlongACorridor) {
+TEST(LastTime, TheLastTimeMayComeAlongACorridor) {
   Shaped torus = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "1/10", "1/10");
   expect_stop(until(tests::system_of(torus, {exactly("1"), exactly("0")}), "5"),
               "5.100000000000000", "0.100000000000000");
@@ -70,7 +70,7 @@ TEST(LastTime, AlongACorridor) {
 }
 
 // A disc is touched at the time 10.
-TEST(LastTime, BeforeATangency) {
+TEST(LastTime, TheLastTimeMayComeBeforeATangency) {
   Shaped discs = tests::shaped("discs", {{"radius", "1"}}, "0", "0");
   discs.spec.points["centers"] = {{exactly("10"), exactly("1")}, {exactly("20"), exactly("0")}};
   const ExactSystem system = tests::system_of(discs, {exactly("1"), exactly("0")});

@@ -82,7 +82,7 @@ TEST(CertifiedLimits, AnAttemptThatEndsOnItsWay) {
   EXPECT_GT(ended, 0);
 }
 
-TEST(CertifiedLimits, SlowFastLargeAndSmall) {
+TEST(CertifiedLimits, SlowFastLargeAndSmallSystemsAreCertified) {
   for (const char* omega : {"0", "1"}) {
     for (const char* speed : {"1/10^30", "1/10^12", "1", "10^12", "10^30"}) {
       for (const char* size : {"1/10^12", "1", "10^30"}) {
@@ -121,7 +121,7 @@ TEST(CertifiedLimits, ErrorsStaySmallParts) {
 
 // Nearly along the edge of the corridor between the discs, a little to its inside or outside:
 // intervals do not know whether discs are met, balls do. Along y = 1/4 + 10^-25.
-TEST(CertifiedLimits, BesideTheEdgeOfACorridor) {
+TEST(CertifiedLimits, AFlightBesideTheEdgeOfACorridorIsCertified) {
   Shaped s = tests::shaped("sinai", {{"side", "1"}, {"radius", "1/5"}}, "1/10", "3/10+1/10^25");
   const ExactSystem system = tests::system_of(s, {exactly("1"), exactly("0")});
   CertifiedOrbit meets(system, task_of(1, 20));
@@ -135,7 +135,7 @@ TEST(CertifiedLimits, BesideTheEdgeOfACorridor) {
   EXPECT_EQ(misses.finish().reason, "no wall within 10^5 lattice vectors");
 }
 
-TEST(CertifiedLimits, Digits) {
+TEST(CertifiedLimits, TooManyOrNoDigitsAreRefused) {
   const ExactSystem system = flying(stadium("1"), "1");
   for (const int digits : {0, -1, -1'000'000, 1'000'001, 1'000'000'000}) {
     try {
@@ -162,7 +162,7 @@ TEST(CertifiedLimits, Digits) {
 }
 
 // From inside a bounded table nothing is unbounded.
-TEST(CertifiedLimits, StartsOutside) {
+TEST(CertifiedLimits, StartsOutsideAreRefused) {
   const Shaped s =
       tests::shaped("rectangle", {{"width", "1"}, {"height", "1"}}, "1+1/10^40", "1/2");
   for (const char* speed : {"1", "7/3"}) {

@@ -39,7 +39,7 @@ Shaped disc_in_square() {
   return s;
 }
 
-TEST(CertifiedStarts, OutsideOrOnAWall) {
+TEST(CertifiedStarts, StartsOutsideOrOnAWallAreRefused) {
   const auto expect = [](const std::string& message, const std::string& part) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
   };
@@ -76,7 +76,7 @@ TEST(CertifiedStarts, OutsideOrOnAWall) {
   }
 }
 
-TEST(CertifiedStarts, WithoutAVelocity) {
+TEST(CertifiedStarts, StartsWithoutAVelocityAreRefused) {
   ExactSystem system = tests::system_of(shaped("circle", {{"radius", "1"}}, "0", "0"), {0.0, 0.0});
   EXPECT_NE(refusal(system), "");
   system.start.direction.y = exactly("sqrt(8)-2*sqrt(2)");
@@ -87,7 +87,7 @@ TEST(CertifiedStarts, WithoutAVelocity) {
   EXPECT_NE(refusal(system), "") << "equal to zero, which no precision proves";
 }
 
-TEST(CertifiedStarts, OnTheirWall) {
+TEST(CertifiedStarts, StartsOnTheirWallMustPointInwards) {
   for (const Shaped& s : tests::all_shapes()) {
     SCOPED_TRACE(s.spec.shape);
     ExactSystem system = tests::system_of(s, {1.0, 0.0});
@@ -131,7 +131,7 @@ Shaped blocks() {
 
 // In agreement with the engine, which decides by the table's doubles, wherever these are not next
 // to a wall.
-TEST(CertifiedStarts, InsideAsTheEngineSays) {
+TEST(CertifiedStarts, StartsAreInsideWhereTheEngineSaysSo) {
   tests::Dice dice(31);
   std::vector<Shaped> shapes = tests::all_shapes();
   shapes.push_back(blocks());
@@ -163,7 +163,7 @@ TEST(CertifiedStarts, InsideAsTheEngineSays) {
   EXPECT_LT(inside, 9 * all / 10);
 }
 
-TEST(CertifiedStarts, OfAnyCell) {
+TEST(CertifiedStarts, StartsMayLieInAnyCell) {
   Shaped torus = shaped("sinai", {{"side", "1"}, {"radius", "0.4"}}, "0", "0");
   EXPECT_EQ(refusal(torus, "10^6+0.05", "-10^6+0.07"), "");
   EXPECT_NE(refusal(torus, "10^6+0.5", "-10^6+0.7"), "");
@@ -172,7 +172,7 @@ TEST(CertifiedStarts, OfAnyCell) {
 }
 
 // Where the doubles of a table have other walls than its numbers, it is refused.
-TEST(CertifiedStarts, OtherWallsInDoubles) {
+TEST(CertifiedStarts, TablesWithOtherWallsInDoublesAreRefused) {
   const auto mushroom = [](const char* stem) {
     return shaped("mushroom", {{"cap_radius", "1"}, {"stem_width", stem}, {"stem_height", "1"}},
                   "1/5", "1/5");

@@ -101,7 +101,7 @@ TEST(CurvedHoles, EndsAreNamed) {
 
 // A segment in the line of flight, but behind a wall, is not met. Turned by 3-4-5, so that balls
 // cannot tell.
-TEST(CertifiedTies, InLineWithASegmentBehindAWall) {
+TEST(CertifiedTies, ASegmentBehindAWallMayLieInLine) {
   Shaped s = tests::shaped("polygon", {}, "0", "0");
   const auto turned = [](const char* a, const char* b) {
     const std::string x = std::string("(3*(") + a + ")-4*(" + b + "))/5",

@@ -37,7 +37,7 @@ TEST(Rational, KnowsRationalNumbersOnly) {
 }
 
 // It turns back, by two reflections.
-TEST(CertifiedTies, CornersOfTheSquare) {
+TEST(CertifiedTies, CornersOfTheSquareTurnOrbitsBack) {
   const CertifiedEnd back = end_of(square("1/2", "1/4"), {exactly("2"), exactly("3")}, 2);
   EXPECT_EQ(back.fate, CertifiedFate::completed);
   ASSERT_EQ(back.ties.size(), 1u);
@@ -56,7 +56,7 @@ TEST(CertifiedTies, CornersOfTheSquare) {
 }
 
 // From (1/10, 1/10) to the lattice point (301, 200) and all the way back.
-TEST(CertifiedTies, CornerAfterManyHits) {
+TEST(CertifiedTies, ACornerIsMetAfterManyHits) {
   CertifiedTask task;
   task.t_max = exactly("2*sqrt((301-1/10)^2+(200-1/10)^2)");
   CertifiedOrbit orbit(tests::system_of(square("1/10", "1/10"), {exactly("3009"), exactly("1999")}),
@@ -72,7 +72,7 @@ TEST(CertifiedTies, CornerAfterManyHits) {
 }
 
 // Of pi/2 and pi/4; other corners have no limit.
-TEST(CertifiedTies, CornersInOtherShapes) {
+TEST(CertifiedTies, CornersInOtherShapesReflectByTheirAngle) {
   const Shaped tall = tests::shaped("rectangle", {{"width", "1"}, {"height", "3/2"}}, "1/2", "3/4");
   const CertifiedEnd diagonal = end_of(tall, {exactly("2"), exactly("3")}, 8);
   ASSERT_EQ(diagonal.ties.size(), 4u);  // to and fro between two corners
@@ -164,7 +164,7 @@ HoleSpec door(const char* center, const char* width) {
 }
 
 // The orbit along (2, 1) is periodic and meets the right side at heights 1/2 and … exactly.
-TEST(CertifiedTies, EndsOfAHole) {
+TEST(CertifiedTies, EndsOfAHoleAreDecided) {
   Shaped s = square("0.1", "0.3");
   // Straight across: (1, 3/10) again and again.
   s.spec.holes = {door("4/10", "2/10")};
@@ -191,7 +191,7 @@ TEST(CertifiedTies, EndsOfAHole) {
 
 // The point where one hole ends and the next one starts belongs to the next, in whatever order they
 // are written.
-TEST(CertifiedTies, BetweenTwoHoles) {
+TEST(CertifiedTies, AnOrbitMayPassBetweenTwoHoles) {
   for (const bool swapped : {false, true}) {
     Shaped s = square("0.1", "0.3");
     s.spec.holes = {door("2/10", "2/10"), door("4/10", "2/10")};
@@ -210,7 +210,7 @@ TEST(CertifiedTies, BetweenTwoHoles) {
 }
 
 // Into a corner at which a hole ends there is no limit of orbits beside.
-TEST(CertifiedTies, CornersWithAHole) {
+TEST(CertifiedTies, CornersWithAHoleAreDecided) {
   Shaped s = square("1/2", "1/4");
   s.spec.holes = {door("9/10", "2/10")};
   const CertifiedEnd end = end_of(s, {exactly("2"), exactly("3")}, 2);
@@ -220,7 +220,7 @@ TEST(CertifiedTies, CornersWithAHole) {
   EXPECT_EQ(end_of(s, {exactly("2"), exactly("3")}, 2).fate, CertifiedFate::completed);
 }
 
-TEST(CertifiedTies, HitsAtTheLastTime) {
+TEST(CertifiedTies, HitsAtTheLastTimeCount) {
   const CertifiedEnd end = end_of(square("1/2", "1/4"), {exactly("3/5"), exactly("4/5")}, 0, "5/6");
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 1u);
@@ -230,7 +230,7 @@ TEST(CertifiedTies, HitsAtTheLastTime) {
 }
 
 // Ties of other numbers, and in fields, end at a stated precision, with what was not told.
-TEST(CertifiedTies, UndecidedWithoutRationalNumbers) {
+TEST(CertifiedTies, TiesWithoutRationalNumbersAreUndecided) {
   const Shaped s = tests::shaped("rectangle", {{"width", "pi"}, {"height", "pi"}}, "pi/2", "pi/2");
   const CertifiedEnd end = end_of(s, {exactly("1"), exactly("1")}, 10);
   EXPECT_EQ(end.fate, CertifiedFate::undecided);

@@ -22,7 +22,7 @@ std::int64_t provenance_number(const std::string& path, const char* name) {
   return value;
 }
 
-TEST(Archives, HoldTheSharesOfDecisions) {
+TEST(Archives, TheyHoldTheSharesOfDecisions) {
   const Shell shell;
   // The run meets corners exactly: double precision cannot decide that.
   const std::string commands[] = {"escape magnetic-square --trajectories 100 --t-max 50",
@@ -346,7 +346,7 @@ TEST(EscapeArchive, SurvivesCtrlC) {
   EXPECT_EQ(shell.files().size(), 1u);
 }
 
-TEST(Output, ThatExistsIsRefusedAndKept) {
+TEST(Output, AnExistingOutputIsKept) {
   const Shell shell;
   for (const char* command :
        {"$carom escape sinai --trajectories 10 -o a.h5", "$carom run sinai --t-max 5 -o a.h5"}) {

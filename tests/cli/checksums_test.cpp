@@ -189,7 +189,7 @@ TEST(Checksums, ABitOfASectionOrCertifiedOrbitIsToldOf) {
 }
 
 // Fletcher-32 takes words of ones for words of zeros.
-TEST(Checksums, ZerosThatBecameOnesAreToldOf) {
+TEST(Checksums, ZerosThatBecameOnesAreReported) {
   const Shell shell;
   ASSERT_EQ(shell("$carom run stadium --set 'table.hole=[]' --t-max 30 -o a.h5 --quiet").status, 0);
   const std::string path = shell.folder() + "/a.h5",
@@ -212,7 +212,7 @@ TEST(Checksums, ZerosThatBecameOnesAreToldOf) {
 }
 
 // Each dataset and attribute has its place in the list.
-TEST(Checksums, WhatIsSwappedRemovedOrChangedIsToldOf) {
+TEST(Checksums, SwappedRemovedOrChangedDataAreReported) {
   const Shell shell;
   ASSERT_EQ(shell("$carom escape stadium --trajectories 200 --t-max 20 -o a.h5 --quiet").status, 0);
   const auto outcome = [&](const std::function<void(hid_t)>& change) {
@@ -248,7 +248,7 @@ TEST(Checksums, WhatIsSwappedRemovedOrChangedIsToldOf) {
 }
 
 // Notes that a user has added are ignored, whatever their type.
-TEST(Checksums, WhatOthersAddedIsNotLookedAt) {
+TEST(Checksums, DataOfOtherProgramsAreIgnored) {
   const Shell shell;
   ASSERT_EQ(shell("$carom run sinai --t-max 30 -o a.h5 --quiet").status, 0);
   with_file(shell.folder() + "/a.h5", [](hid_t file) {

@@ -18,7 +18,7 @@ void expect_keys(const std::string& json, const std::vector<std::string>& keys) 
   for (const std::string& key : keys) EXPECT_NE(json_value(json, key), "") << key;
 }
 
-TEST(Program, AloneTeaches) {
+TEST(Program, PrintsHelpWithoutArguments) {
   const Shell shell;
   for (const char* command : {"$carom", "$carom --help", "$carom -h"}) {
     const Outcome o = shell(command);
@@ -187,7 +187,7 @@ TEST(Validate, PassesItsCases) {
     EXPECT_NE(o.out.find(part), std::string::npos) << part;
 }
 
-TEST(StandardOutput, ThatIsFullIsAnError) {
+TEST(StandardOutput, AFullStandardOutputIsAnError) {
   const Shell shell;
   const Outcome o = shell("$carom escape sinai --trajectories 10 --json > /dev/full");
   EXPECT_EQ(o.status, 1);

@@ -15,9 +15,11 @@ const Ensemble soft{"diffusion", "soft-lorentz --trajectories 700 --t-max 10"};
 // Five kills; fifty with CAROM_SOAK.
 int kills(int few) { return std::getenv("CAROM_SOAK") ? 25 : few; }
 
-TEST(DiffusionResume, AfterKillsIsTheUndisturbedRun) { kill_and_resume(lorentz, "", kills(3), 3); }
+TEST(DiffusionResume, AKilledRunEndsAsTheUndisturbedOne) {
+  kill_and_resume(lorentz, "", kills(3), 3);
+}
 
-TEST(DiffusionResume, AfterKillsInLanesUnderForces) {
+TEST(DiffusionResume, AKilledRunInLanesEndsAsTheUndisturbedOne) {
   kill_and_resume(soft, " --block 16", kills(2), 4);
 }
 

@@ -193,7 +193,7 @@ TEST(DiscsTyped, AllowedArrangementsAreEquallyLikely) {
   EXPECT_NEAR(near / 20000, p, 4.0 * std::sqrt(p * (1 - p) / 20000));
 }
 
-TEST(DiscsTyped, ThroughAHoleTheyLeaveAtTheRateOfTheirCentres) {
+TEST(DiscsTyped, DiscsLeaveAHoleAtTheRateOfTheirCentres) {
   // The centres have the square of side 4 - 2 r and leave through an opening of its width: e v /
   // (pi A).
   const Shell shell;

@@ -16,9 +16,9 @@ const Ensemble mushroom{"escape", "mushroom --trajectories 1.5e5 --t-max 4000"};
 // Five kills; fifty with CAROM_SOAK.
 int kills() { return std::getenv("CAROM_SOAK") ? 25 : 3; }
 
-TEST(EscapeResume, AfterKillsIsTheUndisturbedRun) { kill_and_resume(mushroom, "", kills(), 1); }
+TEST(EscapeResume, AKilledRunEndsAsTheUndisturbedOne) { kill_and_resume(mushroom, "", kills(), 1); }
 
-TEST(EscapeResume, AfterKillsHoldsEveryRecord) {
+TEST(EscapeResume, AKilledRunKeepsEveryRecord) {
   kill_and_resume(mushroom, " --per-trajectory --block 100", std::getenv("CAROM_SOAK") ? 25 : 2, 2);
 }
 
@@ -32,7 +32,7 @@ void leave_a_checkpoint(const Shell& shell) {
 }
 
 // A run that goes on with an archive copies its records before its first checkpoint.
-TEST(EscapeResume, AfterAKillWithinTheCopyOfRecords) {
+TEST(EscapeResume, AKillWithinTheCopyOfRecordsLosesNothing) {
   const Shell shell;
   // An archive of the first trajectories, and records as such a run leaves them.
   shell(
@@ -55,7 +55,7 @@ TEST(EscapeResume, AfterAKillWithinTheCopyOfRecords) {
   EXPECT_FALSE(shell.exists("a.h5.part"));
 }
 
-TEST(EscapeResume, OtherwiseRefusesAndSaysWhatDiffers) {
+TEST(EscapeResume, ADifferentEnsembleIsRefusedWithWhatDiffers) {
   const Shell shell;
   leave_a_checkpoint(shell);
   const std::string before = shell.read("a.h5.part/checkpoint.h5");
@@ -189,7 +189,7 @@ TEST(EscapeResume, RefusesAnotherVersion) {
 
 // With --force over anything: until it is replaced, what is there says nothing about the
 // checkpoint.
-TEST(EscapeResume, OverAFileOfAnotherKind) {
+TEST(EscapeResume, AFileOfAnotherKindIsReplacedAtTheEnd) {
   const std::string files[] = {
       "$carom run stadium --t-max 3 -o a.h5", "echo none > a.h5",
       "$carom diffusion lorentz-triangular --trajectories 10 --t-max 5 -o a.h5"};
@@ -206,7 +206,7 @@ TEST(EscapeResume, OverAFileOfAnotherKind) {
   }
 }
 
-TEST(EscapeResume, AfterAFullDisk) {
+TEST(EscapeResume, ARunGoesOnAfterAFullDisk) {
   const Shell shell;
   const Undisturbed whole(shell, mushroom, " --per-trajectory");
   const Outcome o = shell(until_records_are_full(mushroom));

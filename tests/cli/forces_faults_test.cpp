@@ -31,7 +31,7 @@ t_max = 1
 END
 )";
 
-TEST(ForceFaults, ParticlesPlacedOnEachOther) {
+TEST(ForceFaults, ParticlesPlacedOnEachOtherAreRefused) {
   const Shell shell;
   shell(pair);
   for (const char* interaction : {"", "kind=yukawa --set interaction.range=1",
@@ -45,7 +45,7 @@ TEST(ForceFaults, ParticlesPlacedOnEachOther) {
   }
 }
 
-TEST(ForceFaults, Attraction) {
+TEST(ForceFaults, AttractionWithoutBoundIsRefused) {
   const Shell shell;
   shell(std::string(pair) +
         "sed -i '1,2d; s/count = 2/count = 1/' pair.toml; printf '[[potential]]\\nkind = "
@@ -60,7 +60,7 @@ TEST(ForceFaults, Attraction) {
                    "./pair.toml, line 1, column 1: interaction: ");
 }
 
-TEST(ForceFaults, Steps) {
+TEST(ForceFaults, StepsThatAreNotPositiveAreRefused) {
   const Shell shell;
   for (const char* step : {"0", "-0.1", "nan", "inf", "1e-400"})
     expect_refused(shell(std::string("$carom run henon-heiles --set integrator.step=") + step),
@@ -108,7 +108,7 @@ trajectories = 200
 END
 )";
 
-TEST(ForceFaults, EnergyThatAStepLosesIsTold) {
+TEST(ForceFaults, EnergyThatStepsLoseIsReported) {
   const Shell shell;
   shell(rough);
   const std::string run = "$carom run ./rough.toml --trajectory ";
@@ -157,7 +157,7 @@ TEST(ForceFaults, AStepThatFailsIsNoInternalError) {
 
 // Poles and ends of a formula's domain that orbits come to: the right answer, or the particle is
 // unresolved and the reason said; never a number that is none, never a run without end.
-TEST(ForceFaults, PolesInTheRegion) {
+TEST(ForceFaults, PolesEndARunWithAReason) {
   const Shell shell;
   for (const char* expression :
        {"0.1/(x - 1)", "-0.1/abs(x - 1)", "-1/((x - 1)^2 + (y - 0.6)^2)", "0.1*sqrt(1 - x)",
@@ -179,7 +179,7 @@ TEST(ForceFaults, PolesInTheRegion) {
 
 // An adaptive scheme that shrinks its steps towards a singular point stops, and says at which
 // limit.
-TEST(ForceFaults, AdaptiveStepsThatLeadNowhere) {
+TEST(ForceFaults, AdaptiveStepsStopAtASingularPoint) {
   const Shell shell;
   for (const char* expression : {"0.1/(x - 1)", "0.1*sqrt(1 - x)", "0.1*log(1 - x)"}) {
     write_box(shell, expression);
@@ -191,7 +191,7 @@ TEST(ForceFaults, AdaptiveStepsThatLeadNowhere) {
 }
 
 // Steps so long that walls could not be found on their way.
-TEST(ForceFaults, StepsOverTheTable) {
+TEST(ForceFaults, StepsLongerThanTheTableEndTheRun) {
   const Shell shell;
   write_box(shell, "0.001*x");
   const Outcome o = shell("$carom run ./box.toml --set integrator.step=5000 --t-max 20000");

@@ -77,7 +77,7 @@ TEST(MergedParts, StayNamedWhenTheSumGoesOn) {
 }
 
 // As with threads, the sum has the most of any part.
-TEST(MergedParts, OfTwoInstructionSetsHaveTheWider) {
+TEST(MergedParts, PartsOfTwoInstructionSetsHaveTheWider) {
   const Shell shell;
   if (shell(stadium + "--t-max 9 --shard 2/2 --isa avx2 -o 2.h5").status != 0)
     GTEST_SKIP() << "no AVX2";

@@ -20,7 +20,7 @@ std::map<std::string, std::string> datasets(const Shell& shell, const std::strin
 const std::string ensemble =
     "$carom escape stadium --set run.trajectories=6000 --t-max 60 --quiet --json ";
 
-TEST(Merge, InAnyOrderIsTheWhole) {
+TEST(Merge, PartsInAnyOrderGiveTheWhole) {
   for (const std::string records : {"", " --per-trajectory"}) {
     const Shell shell;
     const Outcome o = shell(ensemble + records + " -o whole.h5 && for k in 1 2 3; do " + ensemble +

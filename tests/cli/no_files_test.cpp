@@ -111,7 +111,7 @@ TEST(Links, CheckpointsStandBesideTheFile) {
   EXPECT_EQ(shell.files(), (Names{"link", "out.svg", "real"}));
 }
 
-TEST(Links, ThatLeadRoundAreRefused) {
+TEST(Links, LinksInACircleAreRefused) {
   const Shell shell;
   const Outcome o = shell("ln -s b.h5 a.h5; ln -s a.h5 b.h5; $carom run stadium --t-max 3 -o a.h5");
   expect_refused(o, "a.h5: ");

@@ -76,20 +76,20 @@ void expect_one_result(const std::string& command, const std::string& options, s
   testing::Test::RecordProperty("interrupted", interrupted);
 }
 
-TEST(OneResult, OfEscapes) {
+TEST(OneResult, EscapesHaveOneResult) {
   expect_one_result("escape", "magnetic-square --trajectories 2000 --t-max 1e5 --per-trajectory",
                     7);
 }
 
-TEST(OneResult, OfEscapesUnderForces) {
+TEST(OneResult, EscapesUnderForcesHaveOneResult) {
   expect_one_result("escape", "soft-lorentz --trajectories 200 --t-max 50 --per-trajectory", 13);
 }
 
-TEST(OneResult, OfDiffusion) {
+TEST(OneResult, DiffusionHasOneResult) {
   expect_one_result("diffusion", "lorentz-triangular --trajectories 600 --t-max 4e4", 13);
 }
 
-TEST(OneResult, OfDiffusionUnderForces) {
+TEST(OneResult, DiffusionUnderForcesHasOneResult) {
   expect_one_result("diffusion", "soft-lorentz --trajectories 200 --t-max 50", 13);
 }
 

@@ -24,7 +24,7 @@ const std::string endless =
     "escape mushroom --trajectories 1e9 --t-max 400 --per-trajectory --block 4 --checkpoint "
     "blocks:2000";
 
-TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
+TEST(OneWriter, TheCheckpointOfALiveRunIsKept) {
   const Shell shell;
   ASSERT_EQ(shell("for k in 2 3; do $carom escape stadium --trajectories 100 --t-max 9 --shard "
                   "$k/3 -o s$k.h5 --quiet || exit 9; done")
@@ -53,7 +53,7 @@ TEST(OneWriter, NobodyTakesTheCheckpointOfALiveRun) {
 }
 
 // What is made in the folder of the archive is the live run's, by its own name, too.
-TEST(OneWriter, NobodyTakesTheFilesOfALiveRun) {
+TEST(OneWriter, TheFilesOfALiveRunAreKept) {
   const Shell shell;
   ASSERT_EQ(shell("for k in 2 3; do $carom escape stadium --trajectories 100 --t-max 9 --shard "
                   "$k/3 -o s$k.h5 --quiet || exit 9; done")
@@ -87,7 +87,7 @@ TEST(OneWriter, NobodyTakesTheFilesOfALiveRun) {
   EXPECT_EQ(shell.files(), (std::vector<std::string>{"q.h5", "s2.h5", "s3.h5"}));
 }
 
-TEST(OneWriter, OfTwoRunsTheSecondIsRefused) {
+TEST(OneWriter, TheSecondOfTwoRunsIsRefused) {
   const Shell shell;
   const Outcome o = shell(
       "$carom run stadium --set 'table.hole=[]' --collisions 1e9 -o r.h5 --quiet & pid=$!; "
@@ -137,7 +137,7 @@ TEST(OneWriter, AClosedPipeLeavesTheArchiveAlone) {
   EXPECT_EQ(open_archive(shell.folder() + "/g.h5").complete, 1);
 }
 
-TEST(OneWriter, WhatIsCompleteIsCleanedUp) {
+TEST(OneWriter, CompleteRunsAreCleanedUp) {
   const Shell shell;
   shell(until_records_are_full({"escape", "mushroom --trajectories 1e6 --t-max 400"}, "q.h5"));
   // As if it had been killed between its last steps.
@@ -150,7 +150,7 @@ TEST(OneWriter, WhatIsCompleteIsCleanedUp) {
   EXPECT_EQ(shell.files(), std::vector<std::string>{"q.h5"});
 }
 
-TEST(OneWriter, ForceWithoutRecordsLeavesNoOldOnes) {
+TEST(OneWriter, ForceWithoutRecordsRemovesOldOnes) {
   const Shell shell;
   while_it_runs(shell, endless, "true");
   ASSERT_TRUE(shell.exists("q.h5.part/records"));

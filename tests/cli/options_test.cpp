@@ -8,7 +8,7 @@
 namespace carom {
 namespace {
 
-TEST(OptionNames, ACheckpointIsATimeOrSoManyBlocks) {
+TEST(OptionNames, ACheckpointIsATimeOrANumberOfBlocks) {
   const Shell shell;
   for (const char* command : {"escape", "diffusion"})
     EXPECT_NE(shell(std::string("$carom ") + command + " --help")
@@ -37,7 +37,7 @@ TEST(OptionNames, EveryCommandMayBeQuiet) {
 }
 
 // Where it has no effect, that is told; the names are checked even so.
-TEST(OptionNames, InstructionSetsOfCommandsWithoutLanes) {
+TEST(OptionNames, InstructionSetsAreCheckedWithoutLanes) {
   const Shell shell;
   const char* const commands[] = {"run stadium --t-max 3",
                                   "run stadium --t-max 3 --precision certified", "table stadium",

@@ -117,7 +117,7 @@ TEST(OwnFiles, FilesOfOthersAreRefused) {
 }
 
 // What a kill leaves in the folder is replaced, whatever it is, and goes with it.
-TEST(OwnFiles, WhatAKillLeftIsReplaced) {
+TEST(OwnFiles, FilesOfAKilledRunAreReplaced) {
   const Shell shell;
   for (const std::string left :
        {"true", ": > a.h5.part/carom.lock; head -c 700 /dev/urandom > a.h5.part/new",
@@ -176,7 +176,7 @@ TEST(OwnFiles, ADamagedCheckpointGivesWayToForce) {
 }
 
 // What stands beside a good archive neither hides nor stops it.
-TEST(OwnFiles, OthersBesideAnArchiveAreLeft) {
+TEST(OwnFiles, OtherFilesBesideAnArchiveAreKept) {
   const Shell shell;
   ASSERT_EQ(shell(mushroom + "--shard 1/2 -o a.h5 && " + mushroom +
                   "--shard 2/2 -o b.h5 && echo notes > a.h5.part")

@@ -19,7 +19,7 @@ std::string ensemble(const std::string& system) {
          " --json --quiet";
 }
 
-TEST(SameBits, WithoutFusedMultiplyAdd) {
+TEST(SameBits, MachinesWithoutFusedMultiplyAddGiveTheSameBits) {
   const Shell shell;
   for (const char* system : systems) {
     const Outcome usual = shell("$carom" + ensemble(system) + " --threads 2");
@@ -43,7 +43,7 @@ TEST(SameBits, AnotherSeedIsAnotherDigest) {
 }
 
 // CAROM_OTHER_PROGRAM: the program built by another compiler (tests/other_compiler.sh makes one).
-TEST(SameBits, ByAnotherCompiler) {
+TEST(SameBits, AnotherCompilerGivesTheSameBits) {
   const char* other = std::getenv("CAROM_OTHER_PROGRAM");
   if (!other) GTEST_SKIP() << "CAROM_OTHER_PROGRAM is not set";
   const Shell shell;

@@ -27,7 +27,7 @@ TEST(Signals, AClosedTerminalInterrupts) {
 }
 
 // nohup starts it so. A run that ends may still save what was under way, and has its archive soon.
-TEST(Signals, WhoIgnoresHangupsGoesOn) {
+TEST(Signals, IgnoredHangupsStayIgnored) {
   const Shell shell;
   const Outcome o =
       shell(std::string("trap '' HUP; ") + endless + and_save +

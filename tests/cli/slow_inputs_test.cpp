@@ -91,7 +91,7 @@ TEST(SlowInputs, EndByASignalInTheMiddleOfAStepAndBetweenSamples) {
 }
 
 // A pinned particle without a last time is where it starts.
-TEST(SlowInputs, WhatIsPinnedHasNumbers) {
+TEST(SlowInputs, PinnedOrbitsHaveNumbers) {
   const Shell shell;
   const Outcome o = shell("$carom run lorentz-square --set field.B=1e59 --collisions 5 --json");
   EXPECT_EQ(json_value(o.out, "status"), "\"pinned\"");

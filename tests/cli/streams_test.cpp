@@ -9,7 +9,7 @@ namespace {
 const Ensemble mushroom{"escape", "mushroom --trajectories 1.5e5 --t-max 4000"};
 
 // Without a standard error, the records would be the file that messages go into.
-TEST(Streams, ThatAreClosedAreNoFilesOfTheRun) {
+TEST(Streams, ClosedStreamsAreNotTakenForFiles) {
   const Shell shell;
   const Undisturbed whole(shell, mushroom, " --per-trajectory");
   const Outcome o = shell(until_records_are_full(mushroom) + " >&- 2>&-");

@@ -32,7 +32,7 @@ TEST(Trust, IsNullWhereMotionIsIntegrated) {
 }
 
 // A particle that is alone flies freely, whatever interaction there would be.
-TEST(Trust, OfOneParticleIsThatWithoutInteraction) {
+TEST(Trust, OneParticleIsTrustedAsWithoutInteraction) {
   const Shell shell;
   const std::string plain = shell("$carom run siam-photon --json").out;
   const Outcome alone =

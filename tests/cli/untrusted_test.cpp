@@ -110,7 +110,7 @@ TEST(Untrusted, AreKeptByArchivesAndMerges) {
   }
 }
 
-TEST(Untrusted, EnergiesBeyondTheirTolerance) {
+TEST(Untrusted, EnergiesBeyondTheirToleranceComeFirst) {
   const Shell shell;
   for (const char* command :
        {"run soft-lorentz --t-max 20", "escape soft-lorentz --t-max 20 --trajectories 20",

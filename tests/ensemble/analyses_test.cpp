@@ -21,7 +21,7 @@ MadeTable table() {
       .obstacle(disc({1, 0.5}, "0.2"_exact));
 }
 
-TEST(Analyses, OfATableMadeInCodeAreThoseOfItsFile) {
+TEST(Analyses, ATableMadeInCodeGivesTheResultsOfItsFile) {
   const System made = make_system(table(), {.t_max = 50, .trajectories = 300, .seed = 7});
   const System read = read_system(text, "test.toml").system;
   EXPECT_EQ(made.run.times, read.run.times);

@@ -32,7 +32,7 @@ TEST(BlockOrder, PutsBlocksInOrder) {
   EXPECT_EQ(seen, (std::vector<std::uint64_t>{0, 1, 2, 3, 5, 6}));
 }
 
-TEST(BlockOrder, HoldsBackWhoIsTooFarAhead) {
+TEST(BlockOrder, HoldsBackBlocksThatAreTooFarAhead) {
   const BlockOrder::Sink sink = [](const auto&) {};
   BlockOrder order(sink, 2);
   std::atomic<bool> passed{false};

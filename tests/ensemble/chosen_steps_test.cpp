@@ -116,7 +116,7 @@ TEST(StateErrors, HoldWhatRoundingHasGrownTo) {
   }
 }
 
-TEST(StateErrors, EndWhereChaosPartsTheRuns) {
+TEST(StateErrors, ErrorsEndWhereChaosSeparatesTheRuns) {
   const System system = load_system("soft-lorentz", {}).system;
   const auto error = state_error(system, 0, 500.0);
   ASSERT_TRUE(error);

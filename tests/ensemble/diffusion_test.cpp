@@ -90,7 +90,7 @@ TEST(Diffusion, StartsBallistic) {
 
 // An independent simulation: D = .1699(3) for gap .2 in units of the disc's radius; Machta and
 // Zwanzig only as w -> 0.
-TEST(Diffusion, OfTheTriangularGas) {
+TEST(Diffusion, TriangularGasHasItsCoefficient) {
   const System system = lorentz("triangular", 2.2, 1, 100, 30000);
   const DiffusionResult result = run_diffusion(system);
   EXPECT_EQ(result.lost, 0u);
@@ -148,7 +148,7 @@ TEST(Horizon, CorridorsAreTheTailOfFreeFlights) {
 }
 
 // Corridors of points are too narrow for discs: a disc among discs is a point among larger ones.
-TEST(Horizon, OfADiscIsThatOfItsCentre) {
+TEST(Horizon, ADiscHasTheHorizonOfItsCentre) {
   const char* disc = "[interaction]\nkind = \"hard-discs\"\nradius = 0.05\n";
   ASSERT_EQ(horizon_of(lorentz("triangular", 2.4, 1, 1, 1)).kind, Horizon::Kind::infinite);
   const Horizon point = horizon_of(lorentz("triangular", 2.4, 1.05, 1, 1));
@@ -181,7 +181,7 @@ TEST(Horizon, FieldsAndWallsDecide) {
   EXPECT_FALSE(horizon_of(lorentz("square", 1, 0.5, 1, 1)).machta_zwanzig);
 }
 
-TEST(Diffusion, InTheFieldIsTheSameForBothSigns) {
+TEST(Diffusion, TheSignOfTheFieldDoesNotMatter) {
   DisplacementMoments forward(
       run_diffusion(lorentz("triangular", 2.4, 1, 50, 6000, "[field]\nB = 0.5\n")).sums);
   DisplacementMoments backward(

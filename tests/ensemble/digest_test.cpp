@@ -152,7 +152,7 @@ TEST(Digest, TellsIntegratedMotionApart) {
 }
 
 // The same on all threads, in blocks of any size and in lanes.
-TEST(Digest, OfIntegratedMotionIsTheSameInEveryWay) {
+TEST(Digest, IntegratedMotionHasOneDigestInEveryWay) {
   std::vector<System> systems{make_system(gas_of_discs), make_system(pair_in_range),
                               make_system(far_bumps)};
   const auto add = [&](const std::string& name, const char* t_max, const char* trajectories,
@@ -191,7 +191,7 @@ TEST(Digest, OfIntegratedMotionIsTheSameInEveryWay) {
 }
 
 // Archives and papers quote them.
-TEST(Digest, OfFreeFlightsStays) {
+TEST(Digest, FreeFlightsKeepTheirDigest) {
   const Settings few{{"run.trajectories", "500"}, {"run.t_max", "20"}};
   EXPECT_EQ(escape(built_in("stadium", few)).digest, 0x8626ef175405a0fbu);
   EXPECT_EQ(escape(built_in("magnetic-square", few)).digest, 0x06b64168cc2535f5u);

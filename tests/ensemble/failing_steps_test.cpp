@@ -135,7 +135,7 @@ TEST(FailingSteps, AreNotAveraged) {
 }
 
 // A run that ends within a step that fails.
-TEST(FailingSteps, FailInTheLastStep) {
+TEST(FailingSteps, TheLastStepMayFail) {
   for (const System& system : {running_away(), over_an_edge(), slipping_through()}) {
     const Sampler sampler(system);
     const auto lost = losses(system, 60);

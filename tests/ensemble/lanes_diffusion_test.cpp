@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, DiffusionInLanes,
                                          "ellipse-magnetic"));
 
 // Of particles that meet no wall, and of several in each trajectory, some of them born on walls.
-TEST(LaneDiffusion, OfSeveralParticlesAndPinnedOnes) {
+TEST(LaneDiffusion, SeveralParticlesAndPinnedOnesAgreeWithTheWorld) {
   const System several = read_system(R"(
 [table]
 shape = "rectangle"

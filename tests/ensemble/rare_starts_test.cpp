@@ -26,7 +26,7 @@ void draw_many(const std::string& toml, std::uint64_t trajectories) {
 }
 
 // With the limit of the first, one in twenty of the others would fail.
-TEST(RareStarts, InASmallWell) {
+TEST(RareStarts, StartsInASmallWellAreFound) {
   draw_many(R"(
 [table]
 shape = "rectangle"
@@ -46,7 +46,7 @@ step = 0.01
             200);
 }
 
-TEST(RareStarts, OnALineThatMostlyLiesOutside) {
+TEST(RareStarts, StartsOnALineMostlyOutsideAreFound) {
   draw_many(R"(
 [table]
 shape = "rectangle"
@@ -109,7 +109,7 @@ t_max = 5
 trajectories = 100
 )";
 
-TEST(RareStarts, LetGoWhereTheyAreInterrupted) {
+TEST(RareStarts, TheSearchCanBeInterrupted) {
   const System system = make_system(hardly_any);
   const System free = make_system(
       "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[initial]\nkind = \"rectangle\"\n"
@@ -149,7 +149,7 @@ TEST(RareStarts, LetGoWhereTheyAreInterrupted) {
     });
 }
 
-TEST(RareStarts, StopAmongThreadsAfterTheFirst) {
+TEST(RareStarts, TheSearchStopsOnEveryThread) {
   std::atomic<bool> stop{false};
   SplittingPlan plan;
   plan.levels = {1, 2};

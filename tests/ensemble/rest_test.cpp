@@ -80,7 +80,7 @@ TEST(Rest, TwoChargesRepelEachOther) {
   EXPECT_NEAR(0.5 * (std::sqrt(r * (r - 1.0)) + std::acosh(std::sqrt(r))), 3.0, 1e-8);
 }
 
-TEST(Rest, OneThatRestsIsMetWithinTheRangeOfAnInteraction) {
+TEST(Rest, AParticleAtRestIsMetWithinTheRangeOfAnInteraction) {
   const System system = make_system(plane +
                                     "[interaction]\nkind = \"yukawa\"\nstrength = 1\nrange = "
                                     "0.01\n[particles]\ncount = 2\nspeed = [0, 1]\n[initial]\n"
@@ -115,7 +115,7 @@ std::string place_of_fault(const std::string& toml) {
   return "none";
 }
 
-TEST(Rest, WithoutAForceIsRefused) {
+TEST(Rest, RestWithoutAForceIsRefused) {
   const std::string end = integrator("step = 0.01");
   EXPECT_EQ(place_of_fault(plane + at + end), "initial.velocity");
   EXPECT_EQ(place_of_fault(plane + "[particles]\nspeed = 0\n" + at + end), "particles.speed");
@@ -132,7 +132,7 @@ TEST(Rest, WithoutAForceIsRefused) {
             "initial.kind");
 }
 
-TEST(Rest, OutsideTheReachOfAllForcesIsRefused) {
+TEST(Rest, RestBeyondAllForcesIsRefused) {
   const System system = make_system(
       "[table]\nshape = \"circle\"\nradius = 3\n[[potential]]\nkind = \"gaussian\"\nheight = "
       "1\nwidth = 0.01\n" +

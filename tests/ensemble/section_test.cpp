@@ -65,7 +65,7 @@ class Hits : public Observer {
   std::vector<HitEvent> events;
 };
 
-TEST(Section, OfTheBoundaryIsTheStartAndEveryHit) {
+TEST(Section, BoundarySectionIsTheStartAndEveryHit) {
   System system = with_section(std::string(ellipse) +
                                    "[initial]\nkind = \"birkhoff\"\nwall = \"ellipse\"\ns = [0.5, "
                                    "1, 2]\nv_parallel = [0.1, -0.3, 0.9]\n",
@@ -107,7 +107,7 @@ TEST(Section, TakesAListOfStarts) {
   }
 }
 
-TEST(Section, OfOneWallSkipsTheOthers) {
+TEST(Section, SectionOfOneWallSkipsTheOthers) {
   const char* square = "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n";
   const auto all = points_of(with_section(square, "points = 200"));
   const auto top = points_of(with_section(square, "on = \"wall:top\"\npoints = 200"));
@@ -156,7 +156,7 @@ class Samples : public Observer {
   bool side_ = false, seen_ = false;
 };
 
-TEST(Section, CountsWhatDenseSamplesSee) {
+TEST(Section, CrossingsAreThoseOfDenseSamples) {
   for (const char* field : {"", "[field]\nlarmor_radius = 0.3\n", "[field]\nB = -1\n"}) {
     for (const char* on :
          {"on = \"x=1/5\"", "on = \"circle:0.1,0,0.3\"", "on = \"line:-1,-1:1,0.5\""}) {
@@ -243,7 +243,7 @@ TEST(Section, GoesOnBehindTheLastWall) {
 
 // The same orbits flown and integrated: a splitting scheme with the exact drift is exact but for
 // rounding.
-TEST(Section, OfIntegratedMotionIsThatOfFlights) {
+TEST(Section, IntegratedMotionHasTheSectionOfFlights) {
   for (const char* field : {"", "[field]\nB = 1.2\n"}) {
     for (const char* on : {"on = \"x=0.1\"", "on = \"circle:0.1,0,0.3\"",
                            "on = \"segment:-0.5,-0.2:0.5,0.4\"", "on = \"vy=0.1\""}) {
@@ -266,7 +266,7 @@ TEST(Section, OfIntegratedMotionIsThatOfFlights) {
   }
 }
 
-TEST(Section, OfALatticeIsTakenInThePlane) {
+TEST(Section, ALatticeHasItsSectionInThePlane) {
   System system = with_section("[table]\nshape = \"lorentz\"\nspacing = 2.2\nradius = 1\n",
                                "on = \"x=1.5\"", 8);
   system.section.orbits = 300;
@@ -286,7 +286,7 @@ TEST(Section, OfALatticeIsTakenInThePlane) {
 }
 
 // Henon and Heiles: every point of the section lies on it, and on the energy shell of its orbit.
-TEST(Section, OfASoftSystemKeepsTheEnergy) {
+TEST(Section, ASoftSystemKeepsItsEnergy) {
   const System system = with_section(R"(
 [table]
 shape = "plane"

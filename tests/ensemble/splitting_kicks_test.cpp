@@ -56,7 +56,7 @@ TEST(SplittingKicks, AreChosenSmallWhereNothingStretches) {
   }
 }
 
-TEST(SplittingKicks, ThatAreTooLargeAreToldOf) {
+TEST(SplittingKicks, KicksThatAreTooLargeAreReported) {
   const SplittingResult result = run_splitting(rectangle(), plan_of(0x1p-7));
   const Mean cost = cost_of_kicks(result, 2);
   EXPECT_TRUE(is_certain(cost, 16)) << cost.value << " " << cost.error;
@@ -75,7 +75,7 @@ TEST(SplittingKicks, ThatAreTooLargeAreToldOf) {
 }
 
 // Where orbits stretch, kicked copies forget where they come from, and cost nothing that is seen.
-TEST(SplittingKicks, CostNothingAmongThreeDiscs) {
+TEST(SplittingKicks, KicksCostNothingAmongThreeDiscs) {
   SplittingPlan plan;
   plan.by = SplittingPlan::Level::hits;
   for (int n = 0; n < 16; ++n) plan.levels.push_back(n);

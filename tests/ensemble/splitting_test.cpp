@@ -102,7 +102,7 @@ TEST(Splitting, ThreeDiscAgreesWithIndependentTrajectories) {
 }
 
 // Gaspard & Rice 1989; the digits are those of cycle expansions.
-TEST(Splitting, ThreeDiscSurvivalPerBounce) {
+TEST(Splitting, ThreeDiscSurvivalPerBounceIsThePublishedOne) {
   const SplittingResult result = run_splitting(three_disc(), by_hits(31, 4000, 16));
   const auto points = survival(result);
   EXPECT_LT(points.back().p.limit.value, 1e-20);
@@ -117,7 +117,7 @@ TEST(Splitting, ThreeDiscSurvivalPerBounce) {
 
 // To a thousandth: the three runs of docs/physics/rare-events.md together. Minutes, so with
 // CAROM_SOAK alone.
-TEST(Splitting, ThreeDiscSurvivalToAThousandth) {
+TEST(Splitting, ThreeDiscSurvivalIsKnownToAThousandth) {
   if (!std::getenv("CAROM_SOAK")) GTEST_SKIP() << "long";
   double sum = 0.0, weights = 0.0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
@@ -231,7 +231,7 @@ TEST(Splitting, ClosedTablesKeepEverything) {
 }
 
 // Orbits that never hit, and those of a table without holes beside them: all are still there.
-TEST(Splitting, NobodyGoneIsExactlyOne) {
+TEST(Splitting, SurvivalOfAllIsExactlyOne) {
   const System system = make_system(
       "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = "
       "0.1\n[run]\nt_max = 30\n");
@@ -243,7 +243,7 @@ TEST(Splitting, NobodyGoneIsExactlyOne) {
 
 // Around the discs of a table that is said to be closed, a particle that leaves is lost. None goes
 // without being counted: walkers that did not reach their level, and kicked copies that did not.
-TEST(Splitting, CountsWhatItLosesAmongKickedCopies) {
+TEST(Splitting, LostKickedCopiesAreCounted) {
   System leaky = three_disc();
   Table table = *leaky.table;
   table.extent = Extent::bounded;

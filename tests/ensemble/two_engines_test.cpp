@@ -24,7 +24,7 @@ SurvivalCounts survivors(System system, bool steps, std::uint64_t trajectories,
 
 // Different seeds, so that the numbers gone between report times are independent: chi^2 of two
 // samples.
-TEST(TwoEngines, SameSurvivalCurve) {
+TEST(TwoEngines, TheyGiveTheSameSurvivalCurve) {
   const std::uint64_t many = 20000, few = 4000;
   for (const auto& [name, t_max] :
        {std::pair{"magnetic-square", "20"}, std::pair{"stadium", "60"}}) {

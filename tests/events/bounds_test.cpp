@@ -62,7 +62,7 @@ Crossing crossing(const Sample& s, const Scene& scene) {
   return rising(exact, rounded, quadratic_error(w, s.start, s.scale, false));
 }
 
-TEST(EventBounds, SideOfTheChord) {
+TEST(EventBounds, SideOfTheChordHasItsBound) {
   const auto arc = [](double size, Dice& dice) {
     return dice.coin() ? random_arc(size, dice) : random_elliptic_arc(size, dice);
   };
@@ -82,7 +82,7 @@ TEST(EventBounds, SideOfTheChord) {
   });
 }
 
-TEST(EventBounds, StartBeyondTheChord) {
+TEST(EventBounds, StartBeyondTheChordHasItsBound) {
   sweep("side of the chord at the start (kappa_beyond_chord)", random_elliptic_arc,
         [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
           const QuadCurve& q = scene.exact;
@@ -93,7 +93,7 @@ TEST(EventBounds, StartBeyondTheChord) {
         });
 }
 
-TEST(EventBounds, FootBeyondTheChord) {
+TEST(EventBounds, FootBeyondTheChordHasItsBound) {
   sweep("foot of an arc's centre (foot_off_arc)", random_arc,
         [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
           const QuadCurve& q = scene.exact;
@@ -107,7 +107,7 @@ TEST(EventBounds, FootBeyondTheChord) {
         });
 }
 
-TEST(EventBounds, FeetOfALarmorCircle) {
+TEST(EventBounds, FeetOfALarmorCircleHaveTheirBounds) {
   sweep("foot of a Larmor circle's centre (foot_between)", random_segment,
         [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
           if (s.omega == 0.0) return;
@@ -123,7 +123,7 @@ TEST(EventBounds, FeetOfALarmorCircle) {
         });
 }
 
-TEST(EventBounds, TimeOfAStraightFlightToASegment) {
+TEST(EventBounds, TimeOfAStraightFlightToASegmentHasItsBound) {
   sweep("straight_line_error", random_segment, [](Sample s, const Scene& scene, Dice&, Ratios& r) {
     s.omega = s.scale.omega = 0.0;
     const PreparedCurve& w = scene.rounded;
@@ -155,7 +155,7 @@ Quad parameter(const QuadCurve& q, const QuadVector& x) {
   return Quad(quarter) + s / (Quad(1) + c);
 }
 
-TEST(EventBounds, ParameterOfALanding) {
+TEST(EventBounds, ParameterOfALandingHasItsBound) {
   const auto any = [](double size, Dice& dice) {
     const int kind = dice.whole(0, 3);
     return kind == 0   ? random_segment(size, dice)

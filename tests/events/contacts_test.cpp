@@ -78,7 +78,7 @@ TEST(Contacts, AHeavyDiscDrivesARowAsTheClosedFormSays) {
   EXPECT_NEAR(gas.world.state(0).velocity.x, 1.0 / 3, 1e-14);
 }
 
-TEST(Contacts, SimultaneousOnesComeInTheOrderOfTheirDiscs) {
+TEST(Contacts, SimultaneousContactsComeInTheOrderOfTheirDiscs) {
   const Table table = plane();
   // Three pairs that meet at the same time, listed in disorder.
   Gas gas(table, {disc_at({-2, 10}, {1, 0}, 0.5), disc_at({-2, 0}, {1, 0}, 0.5),
@@ -104,7 +104,7 @@ TEST(Contacts, DiscsTouchTheWallsAtTheirRim) {
   EXPECT_EQ(seen.hits[0].u, 0.5);  // of the user's wall
 }
 
-TEST(Contacts, InAStadiumAnnulusAndPolygonDiscsStayInside) {
+TEST(Contacts, DiscsStayInsideStadiumAnnulusAndPolygon) {
   const Table round = loop({Circle{{0, 0}, 2.0, true}});
   Table annulus = round;
   add_loop(annulus, {Circle{{0.2, 0}, 0.5, false}});
@@ -132,7 +132,7 @@ TEST(Contacts, InAStadiumAnnulusAndPolygonDiscsStayInside) {
   }
 }
 
-TEST(Contacts, AgainstSmallStepsInABox) {
+TEST(Contacts, ContactsAgreeWithSmallStepsInABox) {
   // The witness moves all discs in small steps and looks for the first overlap.
   const Table table = square();
   RandomStream random(9, Purpose::initial_state, 0);
@@ -174,7 +174,7 @@ TEST(Contacts, AgainstSmallStepsInABox) {
   }
 }
 
-TEST(Contacts, NobodyOverlapsOnATorus) {
+TEST(Contacts, NoDiscsOverlapOnATorus) {
   for (const bool oblique : {false, true}) {
     const Table table = oblique ? torus({1, 0}, {0.5, 0.9}) : torus({1, 0}, {0, 1});
     for (const int across : {2, 3, 8}) {
@@ -210,7 +210,7 @@ TEST(Contacts, NobodyOverlapsOnATorus) {
 }
 
 // However many turns lie between the contacts, no disc passes through another.
-TEST(Contacts, OfDiscsThatTurnDifferentlyInAStrongField) {
+TEST(Contacts, DiscsThatTurnDifferentlyInAStrongFieldMeet) {
   const Table box = square(), sheet = plane(), periodic = torus({1, 0}, {0, 1});
   for (const Table* table : {&box, &sheet, &periodic}) {
     for (const double field : {30.0, 1e4, 1e6}) {

@@ -190,7 +190,7 @@ TEST(EdgesInSteps, WhereAnEdgeMeetsAWallTheWallComesFirst) {
 
 // Random bumps, some of them over walls, with and without field: every run ends, no particle is
 // lost, and the energy changes as it does where everything is integrated.
-TEST(EdgesInSteps, OrbitsAmongOverlappingBumps) {
+TEST(EdgesInSteps, OrbitsAmongOverlappingBumpsRunBack) {
   Dice dice(5);
   const Table table = square();
   long flown = 0;

@@ -27,7 +27,7 @@ TEST(Fold, ComesBackFromAnyDistance) {
     }
 }
 
-TEST(Fold, EndsWhereNoDigitTellsTheCell) {
+TEST(Fold, FarPositionsStayFinite) {
   const geometry::Lattice lattice = geometry::make_lattice({1, 0}, {0, 1}, {0, 0});
   for (const double far : {1e16, 1e29, 1e150}) {
     Vector x{far, -far};

@@ -250,37 +250,37 @@ void fly_everywhere(const Table& table, Vector low, Vector high, long count) {
   EXPECT_LT(finders.flown.exact, finders.flown.flights / 5);
 }
 
-TEST(Grid, TellsOfDiscsOnASquareLatticeWhatTheLoopTells) {
+TEST(Grid, DiscsOnASquareLatticeAreThoseOfTheLoop) {
   fly_everywhere(random_lorentz({1, 0}, {0, 1}, 150, 0.05), {0, 0}, {1, 1}, cases(8000, 400000));
 }
-TEST(Grid, TellsOfDiscsOnAnObliqueLatticeWhatTheLoopTells) {
+TEST(Grid, DiscsOnAnObliqueLatticeAreThoseOfTheLoop) {
   fly_everywhere(random_lorentz({1, 0}, {0.5, 0.8660254037844386}, 60, 0.05), {0, 0}, {1, 1},
                  cases(6000, 400000));
 }
-TEST(Grid, TellsOfAThinGasWhatTheLoopTells) {
+TEST(Grid, AThinGasIsThatOfTheLoop) {
   fly_everywhere(random_lorentz({1, 0}, {0.25, 1}, 40, 0.004), {0, 0}, {1, 1}, cases(3000, 100000));
 }
-TEST(Grid, TellsOfDiscsInThePlaneWhatTheLoopTells) {
+TEST(Grid, DiscsInThePlaneAreThoseOfTheLoop) {
   Dice dice(5);
   fly_everywhere(obstacles(random_discs(150, 0.05, {1, 0}, {0, 1}, false, dice)), {-0.2, -0.2},
                  {1.2, 1.2}, cases(6000, 400000));
 }
-TEST(Grid, TellsOfPolygonsWhatTheLoopTells) {
+TEST(Grid, PolygonsAreThoseOfTheLoop) {
   fly_everywhere(star(300, 0.95), {-1, -1}, {1, 1}, cases(6000, 400000));
   fly_everywhere(star(200, 0.05), {-1, -1}, {1, 1}, cases(6000, 400000));
 }
 // Most of these is empty: flights leap over it.
-TEST(Grid, TellsOfPolygonsOfManySidesWhatTheLoopTells) {
+TEST(Grid, PolygonsOfManySidesAreThoseOfTheLoop) {
   fly_everywhere(regular(150), {-1, -1}, {1, 1}, cases(4000, 200000));
   fly_everywhere(regular(3000), {-1, -1}, {1, 1}, cases(2000, 100000));
   fly_everywhere(star(3000, 0.9), {-1, -1}, {1, 1}, cases(2000, 100000));
   fly_everywhere(star(1000, 0.2), {-1, -1}, {1, 1}, cases(2000, 100000));
   fly_everywhere(regular_on_lattice(500), {0, 0}, {1, 1}, cases(2000, 100000));
 }
-TEST(Grid, TellsOfAThinCombWhatTheLoopTells) {
+TEST(Grid, AThinCombIsThatOfTheLoop) {
   fly_everywhere(comb(100), {0, 0}, {1, 1}, cases(4000, 200000));
 }
-TEST(Grid, TellsOfDiscsInALargeBoxWhatTheLoopTells) {
+TEST(Grid, DiscsInALargeBoxAreThoseOfTheLoop) {
   for (const double side : {4.0, 20.0, 100.0})
     fly_everywhere(discs_in_a_box(150, 0.04, side), {0, 0}, {side, side}, cases(3000, 150000));
 }
@@ -357,7 +357,7 @@ TEST(Grid, VisitsTheCellsOfAllPointsNearAFlight) {
   }
 }
 
-TEST(Grid, TellsOfEveryKindOfWallWhatTheLoopTells) {
+TEST(Grid, EveryKindOfWallIsThatOfTheLoop) {
   fly_everywhere(many_kinds(7, true), {0, 0}, {7, 7}, cases(4000, 200000));
   fly_everywhere(many_kinds(6, false), {0, 0}, {6, 6}, cases(4000, 200000));
   const Table cell = on_lattice(many_kinds(5, false), {5.25, 0}, {1.5, 5.25});
@@ -366,7 +366,7 @@ TEST(Grid, TellsOfEveryKindOfWallWhatTheLoopTells) {
 
 // Along the rows and columns of an array whose pitch is a power of two, through corners and tangent
 // to discs: the exact stage has the same pieces to choose from.
-TEST(Grid, TellsAlongItsLinesWhatTheLoopTells) {
+TEST(Grid, FlightsAlongItsLinesAreThoseOfTheLoop) {
   for (const bool box : {true, false}) {
     const Table table = many_kinds(4, box);
     TwoFinders finders(table);

@@ -183,7 +183,7 @@ TEST(HandOver, SamplesChangeNothing) {
 
 // A bump that reaches over a wall, a hole behind it, and a stretch of free flight: the energy is
 // the same at the end, nothing is lost, and reversed the particle comes back.
-TEST(HandOver, BumpsAtWalls) {
+TEST(HandOver, BumpsMayReachOverWalls) {
   const char* const text = R"(
 [table]
 shape = "rectangle"
@@ -229,7 +229,7 @@ t_max = 30
 }
 
 // Walls with corners of every kind, small steps and large: no particle slips through.
-TEST(HandOver, NobodyIsLostAtJoints) {
+TEST(HandOver, NoParticleIsLostAtJoints) {
   const char* const tables[] = {
       "shape = \"polygon\"\npoints = [[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [0, 2]]\n",
       "shape = \"polygon\"\npoints = [[0, 0], [2, 0.25], [4, 0], [2.5, 1], [4, 3], [2, 1.5], [0, "

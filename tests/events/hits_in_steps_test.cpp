@@ -38,7 +38,7 @@ const char* const charges =
     "1.25\n";
 
 // Charges that fly symmetrically come to their walls at the same time, but for rounding.
-TEST(HitsInSteps, OfTwoAtTheSameTimeBothCount) {
+TEST(HitsInSteps, TwoHitsAtTheSameTimeBothCount) {
   for (int k = 0; k < 40; ++k) {
     const std::string y = std::to_string(0.01 * k), x = std::to_string(0.5 + 0.003 * k);
     const std::string starts =
@@ -60,7 +60,7 @@ std::string square(const std::string& position, const std::string& velocity,
 
 // Half a period is a whole number of steps: what is left of a step after a hit, or before it, is
 // rounding.
-TEST(HitsInSteps, AtTheEndOfAStep) {
+TEST(HitsInSteps, AHitAtTheEndOfAStepCountsOnce) {
   for (const char* step : {"0.01", "0.02", "0.05", "0.125"})
     EXPECT_EQ(hits_of(square("[0.5, 0.5]", "[1, 0]", "", step), true), 20u) << step;
   // A ball that is thrown up from the floor, under force 1: many hits of both kinds.
@@ -75,7 +75,7 @@ TEST(HitsInSteps, AtTheEndOfAStep) {
 }
 
 // Orbits that touch a circle nearly along it, and come off it by little more than rounding.
-TEST(HitsInSteps, OfOrbitsThatTouch) {
+TEST(HitsInSteps, TouchingOrbitHitsOnce) {
   for (const char* start :
        {"[0.999999999999, 0]\nvelocity = [0, 1.000001]", "[0.9999999, 0]\nvelocity = [0, 1]"})
     hits_of(std::string("[table]\nshape = \"circle\"\nradius = 1\n[[potential]]\nkind = "
@@ -100,7 +100,7 @@ Fate fate_of(const std::string& text, std::uint64_t& hits) {
 
 // No path slips between two walls: right corners turn it back, others that have no unique limit are
 // singular.
-TEST(HitsInSteps, InCorners) {
+TEST(HitsInSteps, CornersTurnOrbitsBack) {
   std::uint64_t hits = 0;
   for (const char* step : {"0.01", "0.02", "0.03", "0.05"}) {
     EXPECT_EQ(fate_of(square("[0.5, 0.5]", "[1, 1]", "", step), hits), Fate::survived) << step;

@@ -41,7 +41,7 @@ double angular_momentum(const HitEvent& e, Vector about = {0.0, 0.0}) {
   return cross(e.position - about, e.after);
 }
 
-TEST(Invariants, ProductOfAngularMomentaAboutTheFociOfAnEllipse) {
+TEST(Invariants, ProductOfAngularMomentaAboutTheFociIsKept) {
   const Table table = loop({Ellipse{{0, 0}, {1, 0}, 0.75, true}});
   const double focus = std::sqrt(1 - 0.5625);
   int signs = 0;
@@ -77,7 +77,7 @@ TEST(Invariants, AnOrbitInTheMushroomsCapStaysThere) {
   }
 }
 
-TEST(Invariants, CanonicalAngularMomentumInADiscWithField) {
+TEST(Invariants, CanonicalAngularMomentumIsKeptInADiscWithField) {
   for (const double radius : {1.0, 1.5})
     for (const double omega : {0.3, -0.7, 1e-6, 5.0}) {
       const auto seen = follow(

@@ -167,7 +167,7 @@ TEST(JointsInSteps, AreWatertightFarAway) {
 
 // Near its tip a needle is so thin that a particle on one side is on the other, too: it went
 // through, or to and fro.
-TEST(JointsInSteps, OfNeedlesAreSingular) {
+TEST(JointsInSteps, TipsOfNeedlesAreSingular) {
   for (const double width : {1e-4, 1e-6}) {
     Table table = tests::polygon({{-4, -4}, {4, -4}, {4, 4}, {-4, 4}});
     tests::add_loop(table, {geometry::Segment{{0.3, 0.2}, {1.3, 0.2}},

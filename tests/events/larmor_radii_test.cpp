@@ -209,7 +209,7 @@ void compare(const Table& table, double size, int decade, Dice& dice, Errors& er
   ++errors.hits;
 }
 
-TEST(LarmorRadii, OverEighteenDecadesAgainstSixtyDigits) {
+TEST(LarmorRadii, EighteenDecadesOfRadiiAgreeWithSixtyDigits) {
   struct Case {
     const char* name;
     Table table;

@@ -76,7 +76,7 @@ TEST(Range, EnergyIsKeptThroughManyMeetings) {
   }
 }
 
-TEST(Range, OnALatticeTheNearestCopyCounts) {
+TEST(Range, TheNearestCopyOnALatticeCounts) {
   const LoadedSystem loaded = yukawa("[lattice]\nvectors = [[1, 0], [0, 1]]\n", 4, "0.002", "0");
   const Result apart = run(loaded.system, false, 2.0), together = run(loaded.system, true, 2.0);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -105,7 +105,7 @@ std::string list_of(const std::string& interaction, const std::string& starts, i
 
 // Where a potential acts everywhere, particles that start within their range interact from the
 // first step on.
-TEST(Range, ThoseThatStartUnderAForceInteractAtOnce) {
+TEST(Range, ParticlesThatStartUnderAForceInteractAtOnce) {
   const char* const starts = "[[-0.1, 0, 0, 1], [0.1, 0, 1, 0]]";
   for (const char* kind : {"kind = \"yukawa\"\nstrength = 1\nrange = 0.5",
                            "kind = \"soft-sphere\"\ndiameter = 0.2\nexponent = 12\nstrength = 1",

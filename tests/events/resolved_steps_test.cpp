@@ -54,7 +54,7 @@ TEST(ResolvedSteps, EverySchemeStopsBeforeABumpThatItsStepLeadsOver) {
       }
 }
 
-TEST(ResolvedSteps, ShortOnesReflectHeadOn) {
+TEST(ResolvedSteps, ShortStepsReflectHeadOn) {
   for (const char* scheme : {"velocity-verlet", "blanes-moan-srkn11b", "spreiter-walter", "he-4"}) {
     const Outcome o = end_of(in_a_box(typed + "{H = 1000, w = 0.022}", head_on,
                                       "scheme = \"" + std::string(scheme) + "\"\nstep = 0.0005"),

@@ -93,7 +93,7 @@ TEST(Scales, PowersOfTwoChangeNoBit) {
 
 // In each of these hits were missed or found at wrong walls: squares that vanish or overflow, and
 // bounds with them.
-TEST(Scales, BeyondTheRangeTheyAreRefused) {
+TEST(Scales, ScalesBeyondTheRangeAreRefused) {
   EXPECT_TRUE(is_refused(text_of("rectangle", 0, 504, 0.75)));
   for (const auto& [length, speed] : {std::pair{0, 511}, {95, -420}, {-95, 420}, {0, -480}})
     for (const double b : {0.0, 0.75})

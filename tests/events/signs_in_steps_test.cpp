@@ -39,7 +39,7 @@ std::size_t hits_of(World& world, Vector position, Vector velocity, double until
 
 // A force turns the path back at the wall. Where it ends a step beyond the wall with a velocity
 // that points inwards already, it has crossed.
-TEST(SignsInSteps, OfPositionsDecideWherePathsGraze) {
+TEST(SignsInSteps, PositionsDecideWherePathsGraze) {
   const Table table = tests::polygon({{-0.7, -0.5}, {0.6, -0.5}, {0.6, 0.8}, {-0.7, 0.8}});
   {
     World world(table, stepped("velocity-verlet", 0.1, PotentialSpec::Kind::henon_heiles));
@@ -63,7 +63,7 @@ TEST(SignsInSteps, OfPositionsDecideWherePathsGraze) {
 
 // Nearly along a wall, parts of a path stay unclear however short they are: then the positions at
 // their ends decide.
-TEST(SignsInSteps, OfPositionsDecideNearlyAlongAWall) {
+TEST(SignsInSteps, PositionsDecideNearlyAlongAWall) {
   const Table table = tests::polygon({{-0.7, 0}, {0.6, 0}, {0.6, 0.8}, {-0.7, 0.8}});
   {
     World world(table, stepped("velocity-verlet", 0.01, PotentialSpec::Kind::harmonic));

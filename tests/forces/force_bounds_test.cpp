@@ -292,7 +292,7 @@ TEST(ForceMap, ANarrowBumpIsSeenHoweverWeakItIs) {
 // Named potentials and typed ones ask meshes in another order.
 class ForceMapOf : public testing::TestWithParam<Kind> {};
 
-TEST_P(ForceMapOf, AnswersDependOnNothingThatWasAskedBefore) {
+TEST_P(ForceMapOf, AnswersDoNotDependOnEarlierQuestions) {
   ForceSpec spec;
   PotentialSpec bump;
   bump.kind = GetParam();

@@ -17,7 +17,7 @@ double relative(double computed, const Real& truth) {
   return static_cast<double>(abs((Real(computed) - truth) / truth));
 }
 
-TEST(FormulaDerivatives, HenonHeiles) {
+TEST(FormulaDerivatives, HenonHeilesHasItsDerivatives) {
   const TypedExpression v = formula("(x^2+y^2)/2 + x^2*y - y^3/3");
   std::mt19937_64 generator(2);
   std::uniform_real_distribution<double> uniform(0.05, 0.45);
@@ -32,7 +32,7 @@ TEST(FormulaDerivatives, HenonHeiles) {
   }
 }
 
-TEST(FormulaDerivatives, Gaussian) {
+TEST(FormulaDerivatives, GaussianHasItsDerivatives) {
   const TypedExpression v = formula("h*exp(-(x^2+y^2)/(2*w^2))", {{"h", 1.3}, {"w", 0.7}});
   for (double a = -2.05; a < 2.0; a += 0.1) {
     const double b = 0.3 + 0.2 * a * a;
@@ -45,7 +45,7 @@ TEST(FormulaDerivatives, Gaussian) {
   }
 }
 
-TEST(FormulaDerivatives, Yukawa) {
+TEST(FormulaDerivatives, YukawaHasItsDerivatives) {
   const std::vector<std::string> variables = {"r"};
   const TypedExpression w =
       TypedExpression::parse("g*exp(-r/l)/r", variables, {{"g", 2.5}, {"l", 0.8}}, {});
@@ -59,7 +59,7 @@ TEST(FormulaDerivatives, Yukawa) {
   }
 }
 
-TEST(FormulaDerivatives, LennardJonesAndPowers) {
+TEST(FormulaDerivatives, LennardJonesAndPowersHaveTheirDerivatives) {
   const TypedExpression v =
       formula("4*((x^2+y^2)^-6 - (x^2+y^2)^-3) + (x^2+y^2)^-0.5 + x^2.3*y^-1.5");
   for (double a = 0.6; a < 2.0; a += 0.037) {

@@ -53,7 +53,7 @@ State end_of(const System& system, const Dynamics& dynamics, const State& start,
 }
 
 // Crossings of y = 0 and of v_y = 0 come back after the period, with fixed steps and adaptive ones.
-TEST(HenonHeiles, PeriodOfTheLineOrbit) {
+TEST(HenonHeiles, LineOrbitHasItsPeriod) {
   const LoadedSystem loaded = load_system("henon-heiles");
   const System& system = loaded.system;
   for (const LineOrbit& orbit : line_orbits) {
@@ -88,7 +88,7 @@ TEST(HenonHeiles, PeriodOfTheLineOrbit) {
 // Trace of the transverse part of the monodromy matrix: orbits at x = d and v_x = d followed for
 // one period. Their mirror images are orbits, too, so that x(T)/d is a central difference; its
 // errors of d^2 and d^4 are taken away with d, d/2 and d/4 (Richardson).
-TEST(HenonHeiles, TraceOfTheLineOrbit) {
+TEST(HenonHeiles, LineOrbitHasItsTrace) {
   const LoadedSystem loaded = load_system("henon-heiles");
   const System& system = loaded.system;
   for (const LineOrbit& orbit : line_orbits) {

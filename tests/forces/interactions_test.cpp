@@ -67,7 +67,7 @@ std::shared_ptr<const ForceField> field_of(const InteractionSpec& s) {
   return ForceField::build(spec, pair_of_particles(), std::nullopt);
 }
 
-TEST(Interactions, EnergiesAndForcesOfEveryKind) {
+TEST(Interactions, EveryKindHasItsEnergiesAndForces) {
   const std::vector<Particle> p = pair_of_particles();
   for (const Case& c : cases()) {
     const auto field = field_of(c.spec);

@@ -36,7 +36,7 @@ std::vector<State> states_of(const World& world, double time) {
   return states;
 }
 
-TEST(Ring, CoulombEnergy) {
+TEST(Ring, HasItsCoulombEnergy) {
   for (int count = 2; count <= 20; ++count) {
     ForceSpec spec;
     spec.interaction.emplace();
@@ -123,7 +123,7 @@ double scattering_angle(const Hyperbola& before, const Hyperbola& after) {
 
 // Rutherford's formula. Start and end are at finite distances: the rest of the way is Kepler's
 // hyperbola.
-TEST(Rutherford, ScatteringOffACentre) {
+TEST(Rutherford, ACentreScattersByRutherfordsFormula) {
   const LoadedSystem loaded = read_system(R"(
 [[potential]]
 kind = "coulomb"
@@ -162,7 +162,7 @@ angle = 0
 }
 
 // Two bodies: the same formula for the relative motion, with the reduced mass.
-TEST(Rutherford, ScatteringOffAnother) {
+TEST(Rutherford, AnotherParticleScattersByRutherfordsFormula) {
   const LoadedSystem loaded = read_system(R"(
 [interaction]
 kind = "coulomb"

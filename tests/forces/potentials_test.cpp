@@ -119,7 +119,7 @@ void expect_exact(const PotentialSpec& s, Vector at, double tolerance) {
   EXPECT_LT(static_cast<double>(abs(force.y - fy) / force_size), tolerance) << where;
 }
 
-TEST(Potentials, ValuesAndForcesOfEveryKind) {
+TEST(Potentials, EveryKindHasItsValuesAndForces) {
   std::mt19937_64 generator(11);
   std::uniform_real_distribution<double> uniform(-2.5, 2.5);
   for (const Kind kind : {Kind::fermi, Kind::harmonic, Kind::gaussian, Kind::quartic, Kind::power,
@@ -132,7 +132,7 @@ TEST(Potentials, ValuesAndForcesOfEveryKind) {
   }
 }
 
-TEST(Potentials, PowersOfEverySort) {
+TEST(Potentials, EveryPowerHasItsForce) {
   PotentialSpec s = spec_of(Kind::power);
   for (const double exponent : {2.0, 4.0, 12.0, 1.0, 2.5, -1.0, -2.0}) {
     s.exponent = exponent;
@@ -141,7 +141,7 @@ TEST(Potentials, PowersOfEverySort) {
   }
 }
 
-TEST(Potentials, ForcesAddToWhatIsThere) {
+TEST(Potentials, ForcesAddUp) {
   Vector force{3.0, -4.0}, alone{};
   const auto field = field_of(spec_of(Kind::fermi));
   field->add_external(heavy(), {0.3, 0.2}, alone);
@@ -329,7 +329,7 @@ Real soft_lorentz(const Real& x, const Real& y, double within) {
   return sum;
 }
 
-TEST(LatticeSums, SoftLorentzGas) {
+TEST(LatticeSums, SoftLorentzGasHasItsSums) {
   const System system = load_system("soft-lorentz").system;
   const Real low = sqrt(Real(3)) / 6;
   // Centre, saddle, hollow. Sums over neighbours nearer than 1.8 are the numbers known for this

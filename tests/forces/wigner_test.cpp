@@ -96,7 +96,7 @@ Positions ground_state(const System& system, double& lowest) {
   return best;
 }
 
-TEST(Wigner, GroundStates) {
+TEST(Wigner, GroundStatesHaveTheirEnergies) {
   const std::pair<int, double> known[] = {
       {2, 0.75}, {3, 1.3103706971}, {4, 1.8354456111}, {5, 2.3384453805}};
   for (const auto& [count, each] : known) {
@@ -108,7 +108,7 @@ TEST(Wigner, GroundStates) {
 }
 
 // In a minimum every W of degree -1 and V of degree 2 obey W = 2 V (virial theorem).
-TEST(Wigner, VirialTheorem) {
+TEST(Wigner, VirialTheoremHolds) {
   for (int count = 2; count <= 12; ++count) {
     const LoadedSystem loaded = molecule(count);
     double energy = 0.0;

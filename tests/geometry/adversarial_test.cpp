@@ -65,7 +65,7 @@ Table jointed_table(double size, Dice& dice) {
   return sound_table(jointed[dice.whole(0, 4)], size, dice);
 }
 
-TEST(Adversarial, AimedAtJoints) {
+TEST(Adversarial, FlightsAimedAtJointsAgreeWithExactDecisions) {
   for (const double size : {1.0, 1e-6, 1e6}) {
     const auto table = [&](Dice& dice) { return jointed_table(size, dice); };
     for (const double field : {0.0, 1.3, -0.4}) {
@@ -81,7 +81,7 @@ TEST(Adversarial, AimedAtJoints) {
   }
 }
 
-TEST(Adversarial, AimedAtJointsOfEllipticArcs) {
+TEST(Adversarial, FlightsAimedAtJointsOfEllipticArcsAgree) {
   const auto table = [](Dice& dice) { return sound_table(Shape::elliptic_arcs, 1.0, dice); };
   for (const double field : {0.0, 0.7, -1.1})
     run("at elliptic joints, last digit", Stage::exact, cases(100, 2000), table,
@@ -103,7 +103,7 @@ Table whole_star(Dice& dice) {
   }
 }
 
-TEST(Adversarial, ExactlyThroughJoints) {
+TEST(Adversarial, FlightsExactlyThroughJointsAgree) {
   const Tally t = run(
       "exactly through joints", Stage::exact, count(), whole_star,
       [](Bench& b, Dice& dice, Start& s) {
@@ -141,7 +141,7 @@ Table whole_arcs(Dice& dice) {
   }
 }
 
-TEST(Adversarial, ThroughJointsAheadAndBehind) {
+TEST(Adversarial, JointsAheadAndBehindAreToldApart) {
   // A joint exactly behind the particle must not count, and its walls' parity must stay whole.
   const auto start = [](Bench& b, Dice& dice, double omega, Start& s) {
     const auto& walls = b.table().walls;
@@ -166,7 +166,7 @@ TEST(Adversarial, ThroughJointsAheadAndBehind) {
         [&](Bench& b, Dice& dice, Start& s) { return start(b, dice, omega, s); });
 }
 
-TEST(Adversarial, FromJoints) {
+TEST(Adversarial, FlightsFromJointsAgree) {
   run(
       "from joints", Stage::exact, count(), [](Dice& dice) { return jointed_table(1.0, dice); },
       [](Bench& b, Dice& dice, Start& s) {
@@ -190,7 +190,7 @@ bool graze(Bench& bench, Dice& dice, double off, Start& s) {
   s.velocity = (1.0 / square) * (along * e + side * left(e));
   return true;
 }
-TEST(Adversarial, Grazing) {
+TEST(Adversarial, GrazingFlightsAgree) {
   for (const double size : {1.0, 1e-6, 1e6}) {
     const auto table = [&](Dice& dice) {
       const double r = size * dice.between(0.1, 0.45);
@@ -300,7 +300,7 @@ TEST(Adversarial, ConcentricLarmorCircles) {
   }
 }
 
-TEST(Adversarial, NearlyEqualTimes) {
+TEST(Adversarial, NearlyEqualTimesAreOrdered) {
   // A flat obstacle just below the top: its near side and the wall behind it are met at nearly one
   // time.
   for (const bool near : {true, false})
@@ -322,7 +322,7 @@ TEST(Adversarial, NearlyEqualTimes) {
         });
 }
 
-TEST(Adversarial, AlongTheAxes) {
+TEST(Adversarial, FlightsAlongTheAxesAgree) {
   const auto axis = [](Dice& dice) {
     return dice.coin() ? Vector{dice.sign(), 0} : Vector{0, dice.sign()};
   };

@@ -12,7 +12,7 @@ namespace {
 using namespace bounds;
 using namespace geometry;
 
-TEST(Bounds, SideOfAJoint) {
+TEST(Bounds, SideOfAJointHasItsBound) {
   sweep("side", random_segment, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
     const Vector joint = start_point(scene.curve), d = joint - s.start;
     const Quad side = side_of_flight(quad(s.velocity), quad(joint) - s.exact_start, Quad(s.omega));
@@ -20,7 +20,7 @@ TEST(Bounds, SideOfAJoint) {
   });
 }
 
-TEST(Bounds, CentreOfALarmorCircle) {
+TEST(Bounds, CentreOfALarmorCircleHasItsBound) {
   sweep("centre", random_segment, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
     if (s.omega == 0.0) return;
     const PreparedCurve& w = scene.rounded;
@@ -43,7 +43,7 @@ TEST(Bounds, CentreOfALarmorCircle) {
   });
 }
 
-TEST(Bounds, Line) {
+TEST(Bounds, LineHasItsBound) {
   sweep("line", random_segment, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
     const PreparedCurve& w = scene.rounded;
     const QuadCurve& q = scene.exact;
@@ -60,7 +60,7 @@ TEST(Bounds, Line) {
   });
 }
 
-TEST(Bounds, CircleAndDerivedNumbers) {
+TEST(Bounds, CircleAndDerivedNumbersHaveTheirBounds) {
   sweep("circle", random_circle, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
     const PreparedCurve& w = scene.rounded;
     const QuadCurve& q = scene.exact;
@@ -81,7 +81,7 @@ TEST(Bounds, CircleAndDerivedNumbers) {
 }
 
 // Near the centre of a circle nothing but the roundings of r^2 is left, and all of them count.
-TEST(Bounds, CircleSeenFromNearItsCentre) {
+TEST(Bounds, CircleSeenFromNearItsCentreHasItsBound) {
   Ratios r;
   Dice dice(11);
   for (long i = cases(200000, 20000000); i > 0; --i) {
@@ -96,7 +96,7 @@ TEST(Bounds, CircleSeenFromNearItsCentre) {
   r.expect();
 }
 
-TEST(Bounds, DiscriminantAndKappa) {
+TEST(Bounds, DiscriminantAndKappaHaveTheirBounds) {
   // Coefficients at the edge of their errors.
   Ratios r;
   Dice dice(5);
@@ -134,7 +134,7 @@ TEST(Bounds, DiscriminantAndKappa) {
   r.expect();
 }
 
-TEST(Bounds, EllipseWithoutField) {
+TEST(Bounds, EllipseWithoutFieldHasItsBounds) {
   sweep("ellipse", random_ellipse, [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
     const PreparedCurve& w = scene.rounded;
     const QuadCurve& q = scene.exact;
@@ -151,7 +151,7 @@ TEST(Bounds, EllipseWithoutField) {
   });
 }
 
-TEST(Bounds, EllipseInAField) {
+TEST(Bounds, EllipseInAFieldHasItsBounds) {
   sweep("quartic", random_ellipse, [](Sample s, const Scene& scene, Dice&, Ratios& r) {
     if (s.omega == 0.0) s.omega = s.scale.omega = 1.0 / s.size;
     const PreparedCurve& w = scene.rounded;
@@ -189,7 +189,7 @@ Curve displaced(Curve curve, Vector by) {
   return curve;
 }
 
-TEST(Bounds, PointsAndNormals) {
+TEST(Bounds, PointsAndNormalsHaveTheirBounds) {
   Dice dice(6);
   Ratios r;
   constexpr int points = 25;

@@ -25,7 +25,7 @@ double width(const Corridors& corridors, const Cell& cell) {
   return 0.0;
 }
 
-TEST(Corridors, OfTheSquareLattice) {
+TEST(Corridors, SquareLatticeHasItsCorridors) {
   // 1/sqrt(8) < R < 1/2: along the axes alone.
   const Corridors axes = free_corridors(square(), {disc(0.4)});
   ASSERT_EQ(axes.list.size(), 2u);
@@ -53,7 +53,7 @@ TEST(Corridors, OfTheSquareLattice) {
   }
 }
 
-TEST(Corridors, OfTheTriangularLattice) {
+TEST(Corridors, TriangularLatticeHasItsCorridors) {
   // Finite horizon for R > sqrt(3)/4 of the spacing.
   EXPECT_TRUE(free_corridors(triangular(2.2), {disc(1)}).list.empty());
   EXPECT_TRUE(free_corridors(triangular(2.3), {disc(1)}).list.empty());
@@ -134,7 +134,7 @@ TEST(Corridors, AgreeWithBruteForce) {
   EXPECT_GT(found, 50u);
 }
 
-TEST(Corridors, OfPolygonsAndRoundedOnes) {
+TEST(Corridors, PolygonsAndRoundedOnesLeaveCorridors) {
   // A diamond of half diagonal 0.3 and a half disc on a straight base.
   const std::vector<Curve> diamond{Segment{{0.3, 0}, {0, -0.3}}, Segment{{0, -0.3}, {-0.3, 0}},
                                    Segment{{-0.3, 0}, {0, 0.3}}, Segment{{0, 0.3}, {0.3, 0}}};
@@ -154,7 +154,7 @@ TEST(Corridors, OfPolygonsAndRoundedOnes) {
   EXPECT_NEAR(width(c, {1, 1}), std::sqrt(0.5) - 2 * std::sqrt(0.5 * (0.16 + 0.04)), 1e-15);
 }
 
-TEST(Corridors, OfTinyDiscsAreTheWidestFound) {
+TEST(Corridors, TinyDiscsLeaveTheWidestCorridors) {
   const Corridors corridors = free_corridors(square(), {disc(1e-6)});
   EXPECT_FALSE(corridors.complete);
   EXPECT_NEAR(corridors.list.front().width, 1 - 2e-6, 1e-15);

@@ -287,7 +287,7 @@ TEST_P(Curves, BoxesContainTheCurveTightly) {
   }
 }
 
-TEST_P(Curves, AreaIntegral) {
+TEST_P(Curves, AreaIsTheIntegralAlongTheCurve) {
   for (const Curve& c : curves) {
     const Reference exact(c);
     const double end = end_parameter(c);
@@ -306,7 +306,7 @@ TEST_P(Curves, AreaIntegral) {
   }
 }
 
-TEST_P(Curves, ArcsThroughThreePoints) {
+TEST_P(Curves, ArcsLeadThroughThreePoints) {
   std::uniform_real_distribution<double> box(-size, size), ratio(0.2, 3.0);
   const auto point = [&] { return Vector{box(random), box(random)}; };
   for (int i = 0; i < 200; ++i) {
@@ -370,7 +370,7 @@ TEST(Curve, HalfTurnsAreHalfTurns) {
   EXPECT_EQ(end_parameter(three_quarters), 3.0);
 }
 
-TEST(Curve, EllipseKnownValues) {
+TEST(Curve, EllipsesHaveKnownLengths) {
   const Curve e = Ellipse{{0.0, 0.0}, {1.0, 0.0}, 0.75, true};
   EXPECT_NEAR(length(e), 5.525873040177376, 2e-15);  // 4 E(7/16), sixty digits rounded
   EXPECT_NEAR(area_integral(e), 0.75 * std::acos(-1.0), 1e-15);
@@ -381,7 +381,7 @@ TEST(Curve, EllipseKnownValues) {
   EXPECT_NEAR(length(round), 4.0 * std::acos(-1.0), 4e-15);
 }
 
-TEST(Curve, ThinEllipses) {
+TEST(Curve, ThinEllipsesHaveTheirLengths) {
   for (const double ratio : {0.01, 0.1, 10.0, 100.0}) {
     const Curve thin = Ellipse{{0.5, 0.25}, {0.6, 0.8}, ratio, true};
     const Reference exact(thin);
@@ -409,7 +409,7 @@ TEST(Curve, ThinEllipses) {
   }
 }
 
-TEST(Curve, LengthsOfEllipsesAtTheEndsOfQuarters) {
+TEST(Curve, QuartersOfEllipsesEndAtTheirLengths) {
   // Starts near the ends of the axes, so that rounding may show either quarter of the ellipse.
   for (int i = -20; i <= 20; ++i)
     for (const double angle : {0.0, 0.5, 1.0, 1.5}) {
@@ -439,7 +439,7 @@ TEST(Curve, RefusesWhatHasNoExtent) {
   EXPECT_THROW(frame_of(CircularArc{{1, 1}, {1, 1}, 1.0, true}), std::invalid_argument);
 }
 
-TEST(Rational, NearestDouble) {
+TEST(Rational, RoundsToTheNearestDouble) {
   EXPECT_EQ(nearest(mpq_class(1, 3)), 1.0 / 3.0);
   EXPECT_EQ(nearest(mpq_class(2, 3)), 2.0 / 3.0);
   EXPECT_EQ(nearest(mpq_class(-2, 3)), -2.0 / 3.0);

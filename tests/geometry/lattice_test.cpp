@@ -50,7 +50,7 @@ void expect_cell(const Lattice& l, Vector centre, std::size_t edges) {
   EXPECT_EQ(twice_area, mpq_class(2 * abs(cross(a, b))));
 }
 
-TEST(Lattice, SquareAndTriangular) {
+TEST(Lattice, SquareAndTriangularLatticesAreReduced) {
   const Lattice square = make_lattice({1.0, 0.0}, {0.0, 1.0}, {0.5, 0.5});
   expect_cell(square, {0.5, 0.5}, 4);
   for (const CellEdge& edge : square.edges)
@@ -93,7 +93,7 @@ TEST(Lattice, SkewedBasisOfASquareLatticeIsSquare) {
   EXPECT_TRUE(up);
 }
 
-TEST(Lattice, NearlyRectangular) {
+TEST(Lattice, NearlyRectangularLatticesAreReduced) {
   // Two of the six edges would be shorter than the grid.
   for (const double tilt : {0x1p-52, -0x1p-52, 0x1p-50, 3 * 0x1p-50, 1e-13})
     for (const double length : {1.0, 1.25, 0.7}) {
@@ -103,7 +103,7 @@ TEST(Lattice, NearlyRectangular) {
     }
 }
 
-TEST(Lattice, Refused) {
+TEST(Lattice, BadVectorsAreRefused) {
   EXPECT_THROW(make_lattice({1, 0}, {2, 0}, {0, 0}), std::invalid_argument);
   EXPECT_THROW(make_lattice({0, 0}, {0, 1}, {0, 0}), std::invalid_argument);
   EXPECT_THROW(make_lattice({1, 0}, {NAN, 1}, {0, 0}), std::invalid_argument);

@@ -79,7 +79,7 @@ void expect_fault(const Faults& faults, Kind kind, const std::string& first,
   EXPECT_NEAR(faults.front().place.y, place.y, 1e-4);
 }
 
-TEST(Region, SoundTables) {
+TEST(Region, SoundTablesHaveNoFault) {
   expect_sound({rectangle({0, 0}, {1, 1})});
   expect_sound({circle(1)});
   expect_sound({stadium(1, 1)});
@@ -133,7 +133,7 @@ TEST(Region, NoExtent) {
   EXPECT_FALSE(bounded({{{"a", CircularArc{{INFINITY, 0}, {1, 0}, 1.0, true}}}}).empty());
 }
 
-TEST(Region, Open) {
+TEST(Region, OpenLoopsAreFaults) {
   Loop open = rectangle({0, 0}, {1, 1});
   open[2].curve = Segment{{1, 1}, {0, 0.75}};
   expect_fault(bounded({open}), Kind::open_loop, "top", "left");
@@ -151,7 +151,7 @@ TEST(Region, Open) {
             "wall 'ring' is closed by itself and cannot be a part of a loop");
 }
 
-TEST(Region, SelfCrossing) {
+TEST(Region, SelfCrossingLoopsAreFaults) {
   expect_fault(bounded({polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}})}), Kind::crossing, "side_1",
                "side_3", {0.5, 0.5});
   // A cap that bulges into the opposite side.
@@ -174,7 +174,7 @@ TEST(Region, SelfCrossing) {
             Kind::crossing);
 }
 
-TEST(Region, LoopsThatCross) {
+TEST(Region, LoopsThatCrossAreFaults) {
   const Faults faults = bounded({rectangle({0, 0}, {1, 1}), disc({0.0, 0.5}, 0.25)});
   EXPECT_EQ(faults.size(), 2u);
   expect_fault(faults, Kind::crossing, "left", "disc");
@@ -215,7 +215,7 @@ TEST(Region, CuspsAreLegal) {
                    .empty());
 }
 
-TEST(Region, Nesting) {
+TEST(Region, ObstaclesOutsideOrWithinOthersAreFaults) {
   expect_fault(bounded({circle(1), disc({3, 0}, 0.5)}), Kind::nesting, "disc", "circle");
   expect_fault(bounded({stadium(1, 1), reversed_loop(rectangle({1.8, 0.8}, {1.9, 0.9}))}),
                Kind::nesting, "left", "bottom");
@@ -227,7 +227,7 @@ TEST(Region, Nesting) {
   expect_sound({circle(8), reversed_loop(rectangle({-2, -2}, {2, 2})), disc({4, 0}, 1, "b")});
 }
 
-TEST(Region, Lattices) {
+TEST(Region, CellsOfLatticesAreChecked) {
   const Lattice square = make_lattice({1, 0}, {0, 1}, {0, 0});
   expect_sound({disc({0, 0}, 0.25)}, RegionKind::lattice, square);
   expect_sound({disc({0, 0}, 0.5)}, RegionKind::lattice, square);  // touches its copies
@@ -258,7 +258,7 @@ TEST(Region, Lattices) {
             Kind::nesting);
 }
 
-TEST(Region, SizesAndPlaces) {
+TEST(Region, SizesAndPlacesDoNotMatter) {
   for (const double size : {1e-6, 1.0, 1e6})
     for (const Vector at : {Vector{0, 0}, Vector{3 * size, -size}}) {
       const Loop square = rectangle(at, at + Vector{size, size});
@@ -273,7 +273,7 @@ TEST(Region, SizesAndPlaces) {
     }
 }
 
-TEST(Region, AreaAndPerimeter) {
+TEST(Region, AreaAndPerimeterAreThoseOfTheShape) {
   EXPECT_NEAR(area({stadium(1, 1)}), 4 + pi, 1e-14);
   EXPECT_NEAR(perimeter({stadium(1, 1)}), 4 + 2 * pi, 1e-14);
   EXPECT_NEAR(area({mushroom(1, 1, 1)}), 1 + pi / 2, 1e-14);
@@ -281,7 +281,7 @@ TEST(Region, AreaAndPerimeter) {
   EXPECT_NEAR(perimeter({circle(2), disc({0, 0}, 1)}), 6 * pi, 1e-14);
 }
 
-TEST(Region, PointLocationAgainstFormulas) {
+TEST(Region, PointLocationAgreesWithFormulas) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> box(-2.5, 2.5);
   const Loop table = stadium(1, 1), oval{{"e", Ellipse{{0, 0}, {2, 0}, 0.5, true}}};
@@ -302,7 +302,7 @@ TEST(Region, PointLocationAgainstFormulas) {
   EXPECT_EQ(locate(mushroom(1, 1, 1), {-2.0, 0.0}), -1);
 }
 
-TEST(Region, RaysThroughJointsAndTangents) {
+TEST(Region, RaysMayPassThroughJointsAndTangents) {
   // Point location sends its first ray along this direction: through a joint, and along a tangent.
   const Vector d{1.0, 0.1123046875};
   const auto ring = [](Vector joint) {
@@ -317,7 +317,7 @@ TEST(Region, RaysThroughJointsAndTangents) {
   EXPECT_EQ(locate(polygon({{4, -4}, 4.0 * d, {-4, 4}}), 0.5 * d), 1);
 }
 
-TEST(Region, ManyWalls) {
+TEST(Region, ManyWallsAreChecked) {
   std::vector<Vector> corners;
   const int n = 10000;
   for (int i = 0; i < n; ++i)
@@ -332,7 +332,7 @@ TEST(Region, ManyWalls) {
 
 // Thin rays, whose boxes overlap far more often than they come near each other; one of them too
 // long.
-TEST(Region, ManyRays) {
+TEST(Region, ManyRaysAgree) {
   std::vector<Vector> corners;
   const int n = 1500;
   for (int i = 0; i < n; ++i) {
@@ -346,7 +346,7 @@ TEST(Region, ManyRays) {
   EXPECT_EQ(faults.front().kind, Kind::crossing);
 }
 
-TEST(Region, ManyDiscs) {
+TEST(Region, ManyDiscsAreChecked) {
   std::vector<Loop> loops{rectangle({-1, -1}, {316, 316})};
   for (int i = 0; i < 316; ++i)
     for (int j = 0; j < 316; ++j)

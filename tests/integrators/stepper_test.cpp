@@ -106,7 +106,7 @@ TEST(SpreiterWalter, IsExactInAUniformForce) {
   }
 }
 
-TEST(SpreiterWalter, WithoutFieldIsVelocityVerlet) {
+TEST(SpreiterWalter, IsVelocityVerletWithoutAField) {
   const HenonHeiles<HighPrecision> problem("0");
   const HighPrecision step = HighPrecision(1) / 20;
   const auto ours =

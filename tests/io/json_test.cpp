@@ -48,7 +48,7 @@ TEST(Json, KeepsTheOrderOfKeys) {
   EXPECT_EQ(Json::object().text(), "{}");
 }
 
-TEST(Progress, ShortNumbersAndTimes) {
+TEST(Progress, NumbersAndTimesAreShort) {
   EXPECT_EQ(with_prefix(7), "7 ");
   EXPECT_EQ(with_prefix(999.4), "999 ");
   EXPECT_EQ(with_prefix(999.6), "1.00 k");

@@ -47,7 +47,7 @@ TEST(Overrides, FaultsAreOnTheCommandLine) {
     expect_blamed(set(path, "1"), "--set");
 }
 
-TEST(Overrides, OptionsOfTheRun) {
+TEST(Overrides, OptionsOfTheRunAreRead) {
   SystemOverrides o;
   o.seed = "18446744073709551615";
   o.trajectories = "1e9";
@@ -61,7 +61,7 @@ TEST(Overrides, OptionsOfTheRun) {
   EXPECT_EQ(run.times.back(), run.t_max);  // the default times follow
 }
 
-TEST(Overrides, TimesInTheirOwnNotation) {
+TEST(Overrides, TimesHaveTheirOwnNotation) {
   const auto times = [](const std::string& text) {
     SystemOverrides o;
     o.times = text;
@@ -172,7 +172,7 @@ TEST(Overrides, DefaultTimesOfAStoredSystemFollowItsLastTime) {
   EXPECT_EQ(read(stored).run.times.back(), 100);
 }
 
-TEST(Overrides, TrajectoriesAreThoseThatAreListed) {
+TEST(Overrides, ListedStartsGiveTheNumberOfTrajectories) {
   const std::string list =
       square("[initial]\nkind = \"list\"\nstarts = [[0.5,0.5,1,0],[0.4,0.5,1,0],[0.3,0.5,1,0]]\n");
   EXPECT_EQ(read(list).run.trajectories, 3u);
@@ -190,7 +190,7 @@ TEST(Overrides, TrajectoriesAreThoseThatAreListed) {
       << "what enters is drawn";
 }
 
-TEST(Overrides, TimesOfAGridThatDoublesCannotTellApartAreRefused) {
+TEST(Overrides, TimesTooCloseForDoublesAreRefused) {
   SystemOverrides o;
   o.times = "log:100:100.0000000000001:31";
   expect_blamed(o, "--times");

@@ -14,7 +14,7 @@
 namespace carom {
 namespace {
 
-TEST(Progress, TellsTheRestByWhatThisProcessHasDone) {
+TEST(Progress, EstimatesTheRestFromThisProcessAlone) {
   EXPECT_DOUBLE_EQ(seconds_left(10.0, 0.0, 0.25), 30.0);
   // Nine tenths were there before: half of the last tenth took ten seconds.
   EXPECT_NEAR(seconds_left(10.0, 0.9, 0.95), 10.0, 1e-9);

@@ -78,7 +78,7 @@ void expect_round_trip(const LoadedSystem& loaded) {
   EXPECT_EQ(loaded.resolved_toml, again.resolved_toml);
 }
 
-TEST(RoundTrip, BuiltInSystems) {
+TEST(RoundTrip, BuiltInSystemsReadBackTheSame) {
   const std::vector<std::string> contract{"magnetic-square",
                                           "mushroom",
                                           "stadium",

@@ -9,7 +9,7 @@ namespace {
 
 using Kind = InitialCondition::Kind;
 
-TEST(System, DefaultsOfTheContract) {
+TEST(System, DefaultsAreThoseOfTheGuide) {
   const System s = read(square());
   EXPECT_EQ(s.name, "test.toml");
   ASSERT_EQ(s.particles.size(), 1u);
@@ -29,7 +29,7 @@ TEST(System, DefaultsOfTheContract) {
   EXPECT_NEAR(s.run.times[10], 10.0, 1e-14);
 }
 
-TEST(System, CyclotronFrequency) {
+TEST(System, FieldGivesTheCyclotronFrequency) {
   const auto omega = [](const std::string& text) { return read(square(text)).particles[0].omega; };
   EXPECT_EQ(omega("[field]\nB = 0.1\n"), 0.1);
   EXPECT_EQ(omega("[field]\nB = 0.3\n[particles]\nmass = 0.1\ncharge = -2\n"),
@@ -40,7 +40,7 @@ TEST(System, CyclotronFrequency) {
   EXPECT_EQ(omega("[field]\nlarmor_radius = 2\n[particles]\nspeed = [1, 1]\n"), 0.5);
 }
 
-TEST(System, SpeedFromEnergyOrVelocity) {
+TEST(System, SpeedFollowsFromEnergyOrVelocity) {
   EXPECT_EQ(read(square("[particles]\nenergy = 2\n")).particles[0].speed, 2.0);
   EXPECT_EQ(read(square("[particles]\nenergy = 0.1\nmass = 0.2\n")).particles[0].speed, 1.0);
   const std::string start =
@@ -64,7 +64,7 @@ TEST(System, ListsMakeParticles) {
   EXPECT_EQ(read(square("[particles]\ncount = 4\n")).particles.size(), 4u);
 }
 
-TEST(System, Starts) {
+TEST(System, EveryKindOfStartIsRead) {
   const auto initial = [](const std::string& text) {
     return read(square("[[table.hole]]\nwall = \"left\"\ncenter = 0.5\nwidth = 0.1\nname = "
                        "\"door\"\n[initial]\n" +
@@ -107,7 +107,7 @@ TEST(System, BirkhoffStartsPairListsAndCrossGrids) {
   EXPECT_EQ(grid.v_parallel, (std::vector<double>{-0.5, -0.5, -0.5, 0.5, 0.5, 0.5}));
 }
 
-TEST(System, Times) {
+TEST(System, TimesAreRead) {
   const auto times = [](const std::string& text) {
     return read(square("[run]\nt_max = 100\n" + text)).run.times;
   };
@@ -131,7 +131,7 @@ TEST(System, SpacedValuesIncreaseAndKeepTheirEnds) {
   }
 }
 
-TEST(System, PathsFromTheFile) {
+TEST(System, PathsAreRelativeToTheFile) {
   const System s = read(
       "[table]\nshape = \"path\"\n"
       "[[table.loop]]\nstart = [-1, 0]\n"

@@ -53,7 +53,7 @@ TEST(WorkFolder, StaysWithACheckpoint) {
 }
 
 // A process that may only read the lock's file, as that of another user, is refused, too.
-TEST(WorkFolder, OfAnotherUserCounts) {
+TEST(WorkFolder, TheFolderOfAnotherUserCounts) {
   const ScratchFolder folder;
   const std::string file = folder.file("a");
   std::filesystem::permissions(folder.path(), std::filesystem::perms::all);

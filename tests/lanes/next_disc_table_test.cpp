@@ -165,7 +165,7 @@ TEST(NextDiscTable, AreThoseThatFlightsMeet) {
 
 // Discs of one row are passed one after the other: none may name the disc that the flight began on,
 // nor each other.
-TEST(NextDiscTable, OfARowLieAhead) {
+TEST(NextDiscTable, DiscsOfARowLieAhead) {
   struct Case {
     double height, radius, slope, aside;
   };

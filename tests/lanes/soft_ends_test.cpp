@@ -253,7 +253,7 @@ TEST(SoftLanes, HasTheEndsOfTheScalarEngine) {
 }
 
 // Starts on walls and the number of particles change nothing.
-TEST(SoftLanes, StartsOnWallsToo) {
+TEST(SoftLanes, ParticlesMayStartOnWalls) {
   for (const std::uint64_t count : {1u, 63u, 65u})
     compare(system_of(cases[0], 3.0, "kind = \"boundary\""), count, "from the boundary");
 }

@@ -190,7 +190,7 @@ TEST(SoftLanes, RefuseWhatTheyCannotDo) {
 }
 
 // A particle that runs away to infinity is reported, and the others do not notice.
-TEST(SoftLanes, TellWhoIsLost) {
+TEST(SoftLanes, LostParticlesAreReported) {
   const System system = running_away();
   const World world(*system.table, system.dynamics);
   const Sampler sampler(system);
@@ -264,7 +264,7 @@ TEST(SoftDiffusion, IsTheSameInEveryWay) {
 }
 
 // Lost particles run one by one, and count as present.
-TEST(SoftDiffusion, CountsTheLost) {
+TEST(SoftDiffusion, LostParticlesAreCounted) {
   const System system = system_of(
       "henon-heiles", {{"particles.energy", "3"}, {"run.t_max", "20"}, {"run.trajectories", "40"}});
   DiffusionOptions options;

@@ -49,7 +49,7 @@ PairFlight random_pair(RandomStream& random, double first_omega, double second_o
   return p;
 }
 
-TEST(Contact, OfStraightFlightsHeadOnAndOblique) {
+TEST(Contact, StraightFlightsMeetHeadOnAndObliquely) {
   EXPECT_EQ(time_to_contact({-3, 0}, {1, 0}, 0.0, 1.0), 2.0);
   EXPECT_EQ(time_to_contact({-3, 0}, {-1, 0}, 0.0, 1.0), no_contact);
   // Impact parameter 3/5 of the reach: the centres are 4/5 along the flight at contact.
@@ -73,7 +73,7 @@ TEST(Contact, TouchingDiscsMeetNowOrHaveMet) {
   }
 }
 
-TEST(Contact, OfEqualLarmorFlightsAgainstDenseSampling) {
+TEST(Contact, EqualLarmorFlightsAgreeWithDenseSampling) {
   RandomStream random(3, Purpose::initial_state, 0);
   int contacts = 0;
   for (int i = 0; i < 300; ++i) {
@@ -99,7 +99,7 @@ TEST(Contact, OfEqualLarmorFlightsAgainstDenseSampling) {
   EXPECT_GT(contacts, 50);
 }
 
-TEST(Contact, OfUnequalLarmorFlightsAgainstDenseSampling) {
+TEST(Contact, UnequalLarmorFlightsAgreeWithDenseSampling) {
   RandomStream random(4, Purpose::initial_state, 0);
   int contacts = 0;
   for (int i = 0; i < 300; ++i) {

@@ -44,7 +44,7 @@ TEST(Make, EveryShape) {
       0.5);
 }
 
-TEST(Make, HolesAndObstacles) {
+TEST(Make, HolesAndObstaclesAreAdded) {
   const MadeTable table =
       polygon({{0, 0}, {2, 0}, {2, 1}, {0, 1}})
           .hole("side_1", {.center = 1, .width = 0.25})

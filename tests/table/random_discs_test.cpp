@@ -50,7 +50,7 @@ TEST(RandomDiscs, AreAFunctionOfTheSeed) {
   EXPECT_EQ(centre(build_table(random_discs("101", "32")), 99), centre(one, 99));
 }
 
-TEST(RandomDiscs, StayWithinWalls) {
+TEST(RandomDiscs, DiscsStayWithinWalls) {
   TableSpec spec = random_discs("30", "16");
   spec.torus = false;
   const Table table = build_table(spec);
@@ -59,7 +59,7 @@ TEST(RandomDiscs, StayWithinWalls) {
   EXPECT_EQ(table.walls[30].name, "bottom");
 }
 
-TEST(RandomDiscs, NeedRoom) {
+TEST(RandomDiscs, DiscsNeedRoom) {
   EXPECT_TRUE(is_legal(random_discs("150", "32")));
   EXPECT_EQ(blamed(random_discs("300", "32")), "table.count");
   EXPECT_EQ(blamed(random_discs("2", "4")), "table.radius");

@@ -22,7 +22,7 @@ TableSpec discs(const std::vector<std::pair<std::string, std::string>>& centers,
   return spec;
 }
 
-TEST(Region, SelfCrossingPolygon) {
+TEST(Region, ASelfCrossingPolygonIsRefused) {
   const InputError error = fault(polygon({{"0", "0"}, {"1", "1"}, {"1", "0"}, {"0", "1"}}));
   EXPECT_EQ(error.place().line, 3);
   EXPECT_TRUE(error.place().key.starts_with("table.points["));
@@ -30,12 +30,12 @@ TEST(Region, SelfCrossingPolygon) {
     EXPECT_NE(error.problem().find(part), std::string::npos) << error.what();
 }
 
-TEST(Region, PolygonTheWrongWayRound) {
+TEST(Region, AClockwisePolygonIsRefused) {
   EXPECT_FALSE(is_legal(polygon({{"0", "0"}, {"0", "1"}, {"1", "0"}})));
   EXPECT_TRUE(is_legal(polygon({{"0", "0"}, {"1", "0"}, {"0", "1"}})));
 }
 
-TEST(Region, PolygonWithASpike) {
+TEST(Region, APolygonWithASpikeIsRefused) {
   EXPECT_FALSE(is_legal(polygon({{"0", "0"}, {"1", "0"}, {"1", "1"}, {"1", "0.5"}})));
 }
 

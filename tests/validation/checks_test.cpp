@@ -19,7 +19,7 @@ System closed_circle(const char* initial, const char* run) {
                    initial + "\"\n[run]\nt_max = 1e12\n" + run);
 }
 
-TEST(Validation, MeanFlightOfADisc) {
+TEST(Validation, ADiscHasItsMeanFlight) {
   const System system = closed_circle("boundary", "collisions = 100\ntrajectories = 2000\n");
   const Check c = check_mean_flight(system, 0.0);
   EXPECT_TRUE(c.passed);
@@ -75,7 +75,7 @@ trajectories = 200000
   EXPECT_FALSE(check_escape_rate(system, std::log(multiplier) / 3.7).passed);
 }
 
-TEST(Validation, SurvivorsWithinAnAllowance) {
+TEST(Validation, SurvivorsPassWithinTheirAllowance) {
   // No particle leaves a closed disc.
   const System system = closed_circle("uniform", "collisions = 10\ntrajectories = 1000\n");
   EXPECT_TRUE(check_survivors(system, 2.0, {2.0}, {}).passed);
@@ -95,7 +95,7 @@ TEST(Validation, BothErrorsCount) {
   EXPECT_NEAR(c.distance, 2.0, 1e-3);
 }
 
-TEST(Validation, DisplacementOfFreeFlight) {
+TEST(Validation, FreeFlightHasItsDisplacement) {
   // Speed 2 in a lattice whose only disc is out of reach: |r(t) - r(0)| = 2 t for all.
   const System system = system_of(R"(
 [table]
@@ -122,7 +122,7 @@ trajectories = 300
   EXPECT_TRUE(check_displacement(system, {9.01, 0.005}).passed);
 }
 
-TEST(Validation, DistanceOfOneOrbit) {
+TEST(Validation, OneOrbitEndsAtItsDistance) {
   const System system = system_of(R"(
 [table]
 shape = "rectangle"
@@ -144,7 +144,7 @@ t_max = 3
   EXPECT_TRUE(check_distance(system, 5.1, {0.2, 0.0}).passed);
 }
 
-TEST(Validation, WhatIsInterruptedHasNeitherPassedNorFailed) {
+TEST(Validation, AnInterruptedCheckHasNeitherPassedNorFailed) {
   const std::atomic<bool> interrupted{true};
   const Check c = check_mean_flight(
       closed_circle("boundary", "collisions = 100\ntrajectories = 2000\n"), 0.0, {2, &interrupted});
