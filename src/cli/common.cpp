@@ -27,7 +27,7 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-// Of CLOCK_MONOTONIC, when the first signal came; 0: none came.
+// Nanoseconds of CLOCK_MONOTONIC at the first signal; 0: none came.
 std::atomic<std::int64_t> first_signal{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
@@ -43,11 +43,11 @@ extern "C" void on_interrupt(int) {
   interrupted = true;
 }
 
-// The soft limit of CPU time is told of again every second until the hard one: none of these is
-// meant to be the second signal.
+// The system sends SIGXCPU every second from the soft limit of CPU time to the hard one, so a
+// repetition is not a second signal.
 extern "C" void on_limit(int) { interrupted = true; }
 
-// In one piece, so that lines of several processes do not mix. A closed stderr is no error.
+// Writes in one piece, so that lines of several processes do not mix. A closed stderr is no error.
 void write_message(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
 
 Place option_place(const char* option) { return Place{"command line", 0, 0, option}; }
@@ -89,7 +89,7 @@ void check_instruction_set(const Options& options) {
   if (std::find(here.begin(), here.end(), options.isa) == here.end())
     refuse_name("--isa", options.isa, "is not an instruction set of this machine",
                 fmt::format("{}", fmt::join(here, ", ")), nearest_name(options.isa, here));
-  // Of plain ensembles some fly in lanes: they say so when they have flown.
+  // Whether a plain ensemble flies in lanes is known, and said, at its end.
   if (is_plain_ensemble(options)) return;
   warn(fmt::format("--isa changed nothing: carom {}{} uses no lanes", options.command,
                    options.certify_sample.empty() ? "" : " --certify-sample"));

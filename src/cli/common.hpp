@@ -23,7 +23,7 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
 int threads_of(const Options&);
 /// Throws InputError for engines and instruction sets that this version does not have.
 void check_engine(const Options&);
-/// Of these --isa alone; a command that uses no lanes says so.
+/// Checks --isa alone; a command without lanes says that it changed nothing.
 void check_instruction_set(const Options&);
 /// What --isa asks for: the widest of this machine, or the one named.
 InstructionSet instruction_set_of(const Options&);
@@ -37,7 +37,7 @@ inline constexpr const char* why_lost = "an internal error: please report it";
 /// A doubt about an ensemble's errors: "" unless its trajectories repeat the starts that are
 /// listed.
 std::string repeated_starts(const System&);
-/// From here on archives and drawings have the names of the files, whatever links lead to them.
+/// Replaces links by the names of the files that they lead to.
 void follow_links(Options&);
 /// lock_archive; where others are not kept away, a warning says so.
 ArchiveLock lock_output(const std::string& file);

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   using namespace carom::cli;
   reserve_standard_streams();
   try {
-    // Of processes that were started together, the first one speaks.
+    // Only the first of the processes that mpirun starts prints.
     const bool silent = rank_by_environment() > 0;
     if (silent &&
         (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)))

@@ -21,8 +21,7 @@ namespace carom::cli {
 
 namespace {
 
-// As Open MPI, PMIx (srun) and MPICH with its kin say it; null where none of them started this
-// process.
+// The rank that Open MPI, PMIx (srun) or MPICH gave this process; null if none of them started it.
 const char* rank_in_environment() {
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
     if (const char* text = std::getenv(name)) return text;
@@ -59,7 +58,7 @@ class MpiRanks : public Ranks {
   ~MpiRanks() override { MPI_Finalize(); }
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  // Where memory ends in one of these the process ends, and mpirun ends the others.
+  // If memory runs out here the process ends, and mpirun ends the others.
   Vote vote(Vote mine) noexcept override {
     constexpr int not_done = 1, stop = 2;
     const int own = (mine.done ? 0 : not_done) | (mine.stop ? stop : 0);

@@ -12,7 +12,7 @@ namespace carom::cli {
 /// call waits, asleep, until all have made it; where one of them dies, mpirun ends the others.
 class Ranks {
  public:
-  /// Of one process, or of all together.
+  /// The state of one process, or of all together.
   struct Vote {
     bool done = false;  ///< all are done
     bool stop = false;  ///< one of them wants all to stop

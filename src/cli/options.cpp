@@ -99,7 +99,7 @@ class Command {
     text("--isa", options_.isa, "NAME", "Instruction set of lanes: auto, baseline, avx2 or avx512");
     return *this;
   }
-  /// Of ensembles that can be continued, parted and shared.
+  /// Options of ensembles that can be continued, divided and shared between processes.
   Command& parts() {
     text("--resume", options_.resume, "FILE.h5",
          "Go on with a stored ensemble; SYSTEM may be left out");

@@ -1,4 +1,4 @@
-// A folder that goes with its owner.
+// A folder for temporary files that its owner removes.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace carom::cli {
 
 class TemporaryFolder {
  public:
-  /// Below TMPDIR. Throws InputError where it cannot be made.
+  /// In TMPDIR, or where the system keeps temporary files. Throws InputError if it cannot be made.
   TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   ~TemporaryFolder();

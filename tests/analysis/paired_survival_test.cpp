@@ -26,7 +26,7 @@ TEST(PairedSurvival, CountsDifferences) {
   EXPECT_EQ(r.other_hits, 1u);
   EXPECT_EQ(r.other_time, 1u);
   ASSERT_EQ(r.points.size(), 3u);
-  EXPECT_DOUBLE_EQ(r.points[0].first, 4.0 / 6.0);  // gone exactly at t is gone
+  EXPECT_DOUBLE_EQ(r.points[0].first, 4.0 / 6.0);  // an escape exactly at t counts at t
   EXPECT_DOUBLE_EQ(r.points[0].second, 5.0 / 6.0);
   EXPECT_EQ(r.points[0].only_second, 1u);
   EXPECT_EQ(r.points[1].only_second, 1u);

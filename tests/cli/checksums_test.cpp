@@ -1,4 +1,4 @@
-// A changed bit in what an archive or the records of a checkpoint hold is told of, where no other
+// A changed bit in what an archive or the records of a checkpoint hold is reported, where no other
 // number would show it.
 #include <gtest/gtest.h>
 #include <hdf5.h>

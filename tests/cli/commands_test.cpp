@@ -194,7 +194,7 @@ TEST(StandardOutput, AFullStandardOutputIsAnError) {
   EXPECT_EQ(o.err.rfind("carom: ", 0), 0u) << o.err;
 }
 
-// Starts that are listed are flown once, and repetitions are told of.
+// Starts that are listed are flown once, and repetitions are reported.
 TEST(Escape, FliesListedStartsOnce) {
   const Shell shell;
   const Outcome point = shell("$carom escape siam-photon --t-max 10 --json");

@@ -1,4 +1,4 @@
-// Archives of ensembles that were damaged or changed: refused, and told of by file and dataset.
+// Damaged or changed archives of ensembles are refused, with file and dataset.
 #include <gtest/gtest.h>
 #include <hdf5.h>
 

@@ -1,4 +1,4 @@
-// Which lost particles are told of: those of the lowest indices, in every way to run the ensemble.
+// Which lost particles are reported: those of the lowest indices, in every way to run the ensemble.
 #include <gtest/gtest.h>
 
 #include <optional>

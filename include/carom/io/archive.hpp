@@ -49,7 +49,7 @@ ArchiveLock lock_archive(const std::string& file);
 /// away; "" if it does.
 std::string weakness_of(const ArchiveLock&);
 
-/// What made a part of a result.
+/// The run that made a part of a result.
 struct Origin {
   std::string command, version, date;
 };
@@ -128,7 +128,7 @@ struct StoredEnsemble {
 };
 /// Its system.
 LoadedSystem system_of(const StoredEnsemble&);
-/// With what it has added up.
+/// An ensemble in an archive, with its counts and sums.
 template <class Result>
 struct Stored : StoredEnsemble {
   Result result;
@@ -137,8 +137,8 @@ struct Stored : StoredEnsemble {
 bool is_complete(const std::string& file);
 /// The kind of ensemble that FILE.h5 or its checkpoint holds. Throws InputError for anything else.
 std::string kind_of_ensemble(const std::string& file);
-/// Of FILE.h5 and its checkpoint, what holds more of the same ensemble; where FILE.h5 is anything
-/// else, the checkpoint. Throws InputError where there is no ensemble.
+/// Reads FILE.h5 or its checkpoint, whichever has more trajectories of the same ensemble; only the
+/// checkpoint if FILE.h5 is anything else. Throws InputError where there is no ensemble.
 template <class Result>
 Stored<Result> read_ensemble(const std::string& file);
 /// Throws InputError where it cannot be what this system gave: it was damaged or changed.
@@ -152,7 +152,7 @@ void refuse_other_version(const StoredEnsemble&);
 std::string difference(const std::string& toml, const std::string& other_toml,
                        const std::string& but = {});
 
-/// Where a sum comes from.
+/// A part of a sum.
 struct EnsemblePart {
   std::string file;
   TrajectoryRanges done;
@@ -178,7 +178,7 @@ void write_sum(const std::string& file, const LoadedSystem&, const Provenance&,
 template <class Result>
 class EnsembleArchive : public EnsembleJournal<Result> {
  public:
-  /// What is written, and over what: `force` replaces an archive that exists.
+  /// What is written; `force` replaces an archive that exists.
   struct Plan {
     bool force = false, per_trajectory = false;
     Shard shard;

@@ -50,8 +50,8 @@ LoadedSystem load_system(const std::string& name, const SystemOverrides& = {});
 /// The same from text; `file` is used in messages.
 LoadedSystem read_system(std::string_view toml, const std::string& file,
                          const SystemOverrides& = {});
-/// What the doubles of a system were rounded from (SingleRunOptions::written); null where that is
-/// not known.
+/// The written numbers from which the doubles of a system were rounded (SingleRunOptions::written);
+/// null if they are not known.
 std::shared_ptr<const WrittenSystem> written_system(const LoadedSystem&);
 
 }  // namespace carom

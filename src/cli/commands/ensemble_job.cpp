@@ -66,7 +66,7 @@ template <class Result>
 EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   EnsembleJob<Result> job;
   job.output = archive_named(options.resume);
-  // What is complete is only shown.
+  // A complete archive is only shown.
   if (sharing != Sharing::other && !(is_complete(job.output) && !has_work_folder(job.output))) {
     job.lock = lock_output(job.output);
     gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);

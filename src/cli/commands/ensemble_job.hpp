@@ -18,13 +18,13 @@ struct EnsembleJob {
   Shard shard;
   std::optional<Stored<Result>> stored;  ///< what it goes on with
 };
-/// Of processes that share a run the first one writes the archive; the others only read.
+/// The first of the processes that share a run writes the archive; the others only read.
 enum class Sharing { alone, first, other };
-/// Throws InputError where what is stored is not what is asked for, and says what differs.
+/// Throws InputError if the stored ensemble is another one, and says what differs.
 template <class Result>
 EnsembleJob<Result> job_of(const Options&, Sharing = Sharing::alone);
 
-/// Only adds up trajectories: such ensembles can be parted, continued and shared between processes.
+/// Does the command only add up trajectories? Then it can be divided, continued and shared.
 bool is_plain_ensemble(const Options&);
 void refuse_parts_of_others(const Options&);
 /// Checkpoints are so many seconds apart, or so many blocks.

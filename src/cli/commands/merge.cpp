@@ -14,7 +14,7 @@ namespace carom::cli {
 
 namespace {
 
-// What a part lacks is lacking in the sum.
+// Trajectories that all parts lack are missing in the sum.
 void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
   const auto gaps = done.missing_from({0, system.run.trajectories});
   std::uint64_t missing = 0;

@@ -18,7 +18,7 @@
 
 namespace carom::cli {
 
-/// What is particular to an ensemble.
+/// How one kind of ensemble is run and printed.
 template <class Result>
 struct EnsembleKind {
   std::function<Result(const System&, const EnsembleOptions<Result>&)> run;
@@ -85,7 +85,7 @@ void say_what_became_of_it(const Options& options, const EnsembleJob<Result>& jo
   if (!result.complete) say_how_to_go_on(options, job, result.done.size());
 }
 
-// What `how` asks for, with the progress of this process.
+// Runs the ensemble and shows the progress of this process.
 template <class Result>
 Result fly(const Options& options, const EnsembleKind<Result>& kind, const System& system,
            EnsembleOptions<Result> how) {

@@ -51,7 +51,7 @@ void throw_first_error(const std::vector<ShareEnd>& ends) {
     if (end.stopped) throw SamplingStopped();
 }
 
-// What a rank could not read or write, the first one does not find.
+// The first rank does not find a part that a rank could not read or write.
 void send_parts(Ranks& ranks, const std::string& part, const std::string& first_file) {
   std::ifstream in(part, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});

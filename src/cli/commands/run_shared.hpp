@@ -23,7 +23,7 @@
 
 namespace carom::cli {
 
-/// What became of one rank's share.
+/// The end of one rank's share.
 struct ShareEnd {
   std::uint64_t kept = 0;             ///< trajectories on the disk
   bool stopped = false;               ///< by a signal, before a start was found

@@ -242,7 +242,7 @@ DiffusionSummary summary_of(const System& system, const DiffusionResult& result)
     if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
       add(summary.note, "the MSD does not grow as t in the window: D depends on it");
   }
-  // Those that hit often are the first to be ended by a cap.
+  // A cap first ends the particles that hit most often.
   if (result.capped > 0 && summary.fit && summary.no_D.empty()) {
     const auto last =
         std::find_if(summary.points.rbegin(), summary.points.rend(),

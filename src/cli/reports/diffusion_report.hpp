@@ -21,7 +21,7 @@ struct DiffusionSummary {
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 
-/// As JSON or as text, to standard output.
+/// Prints JSON or text to standard output.
 void print_diffusion(const Options&, const System&, const DiffusionResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

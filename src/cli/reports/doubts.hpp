@@ -23,7 +23,7 @@ struct Doubts {
   std::vector<std::string> lines;
   bool any() const { return !lines.empty(); }
   std::string text() const;
-  /// Of the command; `complete`: it was not interrupted.
+  /// The exit status of the command; `complete`: it was not interrupted.
   int status(bool complete) const;
 };
 Doubts doubts_of(const System&, const EscapeResult&);
@@ -39,10 +39,10 @@ Json energy_json(const EnergyError&);
 void add_reports(Json&, const Reports&);
 /// `reason` and `state` of a report.
 void add_report(Json&, const std::string& report);
-/// On standard error: what those that failed died of, for people.
+/// Prints to standard error why trajectories failed.
 void warn_of(const Reports&);
 
-/// Where motion is integrated: `steps`, `force_evaluations`, and with unresolved = "count"
+/// Keys of integrated motion: `steps`, `force_evaluations`, and with unresolved = "count"
 /// `unresolved_steps` and `first_unresolved`.
 void add_steps(Json&, const System&, const StepCounts&);
 /// The same as a text that goes on a sentence: "1 200 steps, 13 200 force evaluations"; "" where

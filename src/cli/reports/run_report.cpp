@@ -94,7 +94,7 @@ std::string state_error_text(const System& system, const StateError& error, doub
   return text;
 }
 
-/// What cannot be trusted of the energy: "" where it is kept.
+/// Why the energy cannot be trusted; "" if it is kept.
 std::string energy_note(const System& system, const SingleRunResult& result) {
   EnergyError all;
   for (const RunEnd& particle : result.particles) all += particle.energy_error;

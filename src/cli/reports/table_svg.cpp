@@ -19,7 +19,7 @@ using geometry::Vector;
 
 constexpr double drawing_size = 720.0, margin = 70.0;
 
-// From the plane (y upwards) to the drawing (y downwards).
+// Maps the plane (y upwards) to the drawing (y downwards).
 struct View {
   geometry::Box box;
   double scale = 1.0;

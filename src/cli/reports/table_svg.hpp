@@ -7,7 +7,7 @@
 
 namespace carom::cli {
 
-/// Of a lattice without walls, its cell. Throws InputError for a plane without walls.
+/// A lattice without walls is drawn as its cell. Throws InputError for a plane without walls.
 std::string table_svg(const Table&, const std::string& title);
 
 }  // namespace carom::cli

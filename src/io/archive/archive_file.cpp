@@ -58,7 +58,7 @@ Handle latest_format(const std::string& name) {
   return access;
 }
 
-// Of the second part on: command_2, command_3, …
+// Names from the second part on: command_2, command_3, …
 std::string numbered(const char* what, std::size_t part) {
   return part == 1 ? what : fmt::format("{}_{}", what, part);
 }

@@ -32,7 +32,7 @@ class ArchiveFile {
   static std::vector<Origin> read_origins(hid_t provenance, const std::string& name);
   void start_swmr() const;
   void set_status(const std::string& status, bool complete) const;
-  /// Where decisions were taken: to what /provenance holds of earlier parts of the run.
+  /// Adds the counts of decisions to those of earlier parts of the run in /provenance.
   void add_decisions(const DecisionCounts&) const;
 
   /// Writes the checksums of all it holds, closes, syncs and renames to `target` (may be the path

@@ -72,7 +72,7 @@ bool is_plain(hid_t type, hid_t space) {
   return (text || number) && H5Sget_simple_extent_ndims(space) <= 1;
 }
 
-// Nor does Carom compress. What others added may need a filter that is not there.
+// Carom does not compress. Data that another program added may need a filter that is missing.
 bool is_filtered(hid_t dataset) {
   const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
   unsigned flags = 0;

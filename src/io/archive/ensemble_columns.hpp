@@ -22,7 +22,7 @@ void check_stored(const StoredEnsemble&, const DiffusionResult&, const System&);
 void write_done(const ArchiveFile&, const EnsembleResult&);
 void read_done(hid_t file, const std::string& name, EnsembleResult&);
 
-/// What is added up, and the digest.
+/// The counts and the digest.
 void write_counts(const ArchiveFile&, const EscapeResult&, const System&);
 void read_counts(hid_t file, const std::string& name, EscapeResult&);
 void write_counts(const ArchiveFile&, const DiffusionResult&, const System&);
@@ -57,7 +57,7 @@ void append_records(hdf5::Columns&, const std::vector<TrajectoryRecord>&);
 class RecordReader {
  public:
   explicit RecordReader(const std::string& file);
-  /// Those that have not been read.
+  /// Rows that have not been read.
   std::size_t rows() const { return left_; }
   /// False, and no records, at the end. Throws InputError where they are not in order of index.
   bool next(std::vector<TrajectoryRecord>&);

@@ -65,7 +65,7 @@ void change_attribute(hid_t object, const char* name, std::string_view value,
                       const std::string& file);
 void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
 std::string read_string_attribute(hid_t object, const char* name, const std::string& file);
-/// None where there is no such attribute.
+/// Empty if there is no such attribute.
 std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
                                                     const std::string& file);
 std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file);

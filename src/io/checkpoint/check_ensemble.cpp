@@ -1,4 +1,4 @@
-// Archives of ensembles that were changed or damaged are refused, and told of by their dataset.
+// Refuses archives of ensembles that were changed or damaged, and names the dataset.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -24,7 +24,7 @@ void check_common(const StoredEnsemble& stored, const EnsembleResult& result,
                                      part.first, part.last - 1));
   if (result.complete && !result.done.missing_from(part).empty())
     damaged(stored.file, "it says that it is complete, and '/done' has gaps");
-  // Of those that are injected, each trajectory may have another number.
+  // Trajectories with injections may differ in their number of particles.
   if (system.injections.empty() && trajectories != result.done.size() * system.particles.size())
     damaged(stored.file,
             fmt::format("'{}' is not the number of particles that '/done' counts", where));

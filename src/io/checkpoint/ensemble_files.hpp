@@ -21,7 +21,7 @@ hdf5::Handle open_ensemble(const std::string& name);
 void write_parts(const ArchiveFile&, const EnsembleResult&, const Shard&, bool everywhere,
                  const std::string& arithmetic);
 inline constexpr const char* arithmetic_key = "arithmetic";
-/// Where the records of a checkpoint stand.
+/// The places of a checkpoint's records in the file of records.
 void write_pieces(const ArchiveFile&, const std::vector<RecordLog::Piece>&);
 /// Throws InputError where they are not those of the trajectories that it counts.
 std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint,

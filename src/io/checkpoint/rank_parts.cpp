@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 std::string begin_of_parts(const std::string& file) { return folder_of(file) + "/rank-"; }
 
-// The origin of what is stored, as that of an archive which it goes into.
+// The origin of a stored part, for the archive to which the part is added.
 Provenance origin_of(const StoredEnsemble& stored, const EnsembleResult& result) {
   Provenance origin;
   origin.command = stored.origins.back().command;

@@ -10,7 +10,7 @@ namespace carom {
 
 /// The archive of a rank's share of FILE; ranks count from 0.
 std::string part_of_rank(const std::string& file, int rank);
-/// Those that are there, finished or as checkpoints.
+/// The parts that exist, finished or as checkpoints.
 std::vector<std::string> parts_of_ranks(const std::string& file);
 
 /// The sum of the shares, and of FILE where it is one of the files. `seconds` is the time that
@@ -19,8 +19,8 @@ template <class Result>
 SumOfParts<Result> sum_of_ranks(const std::string& file, const std::vector<std::string>& files,
                                 const Shard&);
 
-/// For the process that holds the lock of FILE: what ranks have left goes into FILE, and so does
-/// the checkpoint of FILE where there are such parts, or where `whole` asks for it.
+/// Called by the process that holds the lock of FILE: adds the parts that ranks have left to FILE,
+/// together with the checkpoint of FILE if there are such parts or `whole` is set.
 template <class Result>
 void gather_parts(const std::string& file, bool whole, ArchiveLock);
 

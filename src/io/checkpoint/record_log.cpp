@@ -98,7 +98,7 @@ void RecordLog::add(TrajectoryRange range, std::vector<TrajectoryRecord>&& recor
   next_write_ = waiting_records_ + enough_waiting;
 }
 
-// In order of trajectories, so that neighbours make one piece.
+// Writes in the order of trajectories, so that neighbours make one piece.
 void RecordLog::write_out() {
   std::sort(waiting_.begin(), waiting_.end(),
             [](const Block& a, const Block& b) { return a.range.first < b.range.first; });

@@ -30,8 +30,7 @@ class RecordLog {
   RecordLog(const RecordLog&) = delete;
   ~RecordLog();
 
-  /// From any thread, by turns. What a full disk does not take waits in memory, up to 256 MB: then
-  /// it throws.
+  /// Any thread may call it. While the disk is full, up to 256 MB wait in memory; then it throws.
   void add(TrajectoryRange, std::vector<TrajectoryRecord>&&);
   /// Remembers what has come until now. Throws InputError, and remembers nothing, where it cannot
   /// be written; it may be asked again.

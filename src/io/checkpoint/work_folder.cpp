@@ -164,7 +164,7 @@ bool has_checkpoint(const std::string& file) {
   return has_work_folder(file) && exists(checkpoint_of(file));
 }
 
-// Without a checkpoint records mean nothing.
+// Removes the records, too: without a checkpoint they mean nothing.
 void remove_checkpoint(const std::string& file) {
   std::remove(checkpoint_of(file).c_str());
   std::remove(records_of(file).c_str());

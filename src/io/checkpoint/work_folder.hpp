@@ -11,9 +11,9 @@ inline std::string folder_of(const std::string& file) { return file + ".part"; }
 inline std::string checkpoint_of(const std::string& file) {
   return folder_of(file) + "/checkpoint.h5";
 }
-/// Of the trajectories that the checkpoint counts.
+/// The records of the trajectories that the checkpoint counts.
 inline std::string records_of(const std::string& file) { return folder_of(file) + "/records"; }
-/// What is written first, and renamed when it is whole.
+/// A new checkpoint or archive, which is renamed when it is whole.
 inline std::string aside_of(const std::string& file) { return folder_of(file) + "/new"; }
 
 /// Claims FILE.part as long as it lives, and makes it where it is not there. A killed process
@@ -39,7 +39,8 @@ class WorkFolder {
 /// Is FILE.part such a folder? It holds a lock, or nothing.
 bool has_work_folder(const std::string& file);
 
-/// For the process that holds the lock of FILE: removes its checkpoint, and the shares of ranks.
+/// Called by the process that holds the lock of FILE: removes its checkpoint, and the shares of
+/// ranks.
 void give_up_checkpoint(const std::string& file);
 
 bool exists(const std::string& file);

@@ -49,7 +49,7 @@ Value empty(Value::Kind kind, const Place& place) {
   return value;
 }
 
-// What is written instead of what the file says: one of two keys that exclude each other.
+// Removes the key of the file that the new key excludes.
 void drop_rival(Value& section, const std::string& key) {
   static const std::pair<const char*, const char*> rivals[] = {
       {"B", "larmor_radius"}, {"speed", "energy"}, {"radius", "radii"}, {"velocity", "angle"}};
@@ -79,7 +79,7 @@ void place_start(const SystemOverrides& overrides, Value& root) {
   const Value* kind = old == nullptr ? nullptr : old->find("kind");
   Value initial =
       kind != nullptr && kind->text == "point" ? *old : empty(Value::Kind::table, place);
-  // What --set says of the start counts whatever kind the file has.
+  // Keys of the start that --set gives count, whatever kind of start the file has.
   for (const char* key : {"position", "velocity", "angle"}) {
     const Value* typed = old == nullptr ? nullptr : old->find(key);
     if (typed != nullptr && typed->place.file == command_line_file) initial.set(key, *typed);

@@ -100,7 +100,7 @@ void check_not_zero(const geometry::Vector& velocity, const Place& place, bool r
     throw InputError(place, "the velocity is zero", "a velocity that is not zero");
 }
 
-/// Without another speed, a start of zero velocity has given its particle the speed 0.
+/// A start of zero velocity gives its particle the speed 0, unless another speed is set.
 bool rests(const Particle& p) { return p.speed == 0.0; }
 
 void read_point(TomlSection& section, const std::vector<Particle>& particles,

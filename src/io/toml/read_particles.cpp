@@ -114,7 +114,7 @@ class Reader {
     }
   }
 
-  // Where forces act, energies are total, and a well holds particles of less than none.
+  // With forces an energy is total, so a particle in a well may have a negative one.
   bool energy_is_total() const {
     if (root_.find("potential") != nullptr) return true;
     return root_.find("interaction") != nullptr && count_ > 1 && !hard_discs();

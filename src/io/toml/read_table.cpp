@@ -6,7 +6,7 @@
 namespace carom::io {
 namespace {
 
-// In the order of the guide.
+// The order is that of the guide.
 const std::vector<std::string>& shapes() {
   static const std::vector<std::string> names{
       "rectangle", "polygon", "triangle", "regular", "circle", "ellipse",      "annulus", "stadium",

@@ -58,7 +58,7 @@ void take_speeds_from_starts(Value& root) {
   for (std::size_t i = 0; i < starts->items.size(); ++i) {
     const Length length = length_of(starts->items[i]);
     if (!(length.rounded > 0.0) && !(length.rounded == 0.0 && may_rest))
-      return;  // a fault that is told of where starts are read
+      return;  // read_initial reports this fault
     if (i < apart) {
       lengths.push_back(length);
       continue;

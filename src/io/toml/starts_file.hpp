@@ -9,8 +9,7 @@ namespace carom::io {
 /// can be run again without it. Anything else is left alone.
 void take_starts_from_file(Value& initial);
 
-/// Where starts are listed, and neither speed nor energy is given, the velocities' lengths are the
-/// speeds.
+/// Sets the speeds to the lengths of the listed velocities if neither speed nor energy is given.
 void take_speeds_from_starts(Value& root);
 
 }  // namespace carom::io
