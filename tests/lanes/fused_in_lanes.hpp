@@ -1,7 +1,7 @@
 // fused_product in the lanes of one instruction set: included by one file for each.
 #pragma once
 
-#include "lanes/simd/fused_lanes.hpp"
+#include "lanes/simd/real.hpp"
 
 namespace carom::tests {
 
@@ -15,13 +15,9 @@ namespace {
 
 [[maybe_unused]] void fuse_all(const double* a, const double* b, const double* c, double* sums,
                                int count) {
-  using Real = std::experimental::native_simd<double>;
-  const auto load = [](const double* from) {
-    return Real(from, std::experimental::element_aligned);
-  };
-  for (int i = 0; i < count; i += static_cast<int>(Real::size()))
-    fused_product(load(a + i), load(b + i), load(c + i))
-        .copy_to(sums + i, std::experimental::element_aligned);
+  using namespace lanes;
+  for (int i = 0; i < count; i += width)
+    store(fused_product(load(a + i), load(b + i), load(c + i)), sums + i);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include "carom/geometry/formulas.hpp"
 #include "lanes/free/lane_pack.hpp"
-#include "lanes/simd/fused_lanes.hpp"
 #include "lanes/simd/real.hpp"
 
 namespace carom::lanes {

@@ -12,15 +12,17 @@ namespace {
 /// geometry::RoughCubeRoot.
 struct CubeRoots {
   CAROM_INLINE Real operator()(const Real& x) const {
-#if defined(__AVX512DQ__)
-    const __m512d bits = _mm512_cvtepi64_pd(_mm512_castpd_si512(static_cast<__m512d>(x)));
-    const __m512i part =
-        _mm512_cvttpd_epi64(_mm512_mul_pd(_mm512_set1_pd(geometry::RoughCubeRoot::third), bits));
-    return Real(_mm512_castsi512_pd(
-        _mm512_add_epi64(part, _mm512_set1_epi64(geometry::RoughCubeRoot::offset))));
-#else
-    return Real([&](auto i) { return geometry::RoughCubeRoot{}(static_cast<double>(x[i])); });
-#endif
+    if constexpr (avx512) {
+      const hn::RebindToSigned<Doubles> words;
+      const Real bits = hn::ConvertTo(doubles, hn::BitCast(words, x.lanes));
+      const auto part = hn::ConvertTo(words, (geometry::RoughCubeRoot::third * bits).lanes);
+      return hn::BitCast(doubles, hn::Add(part, hn::Set(words, geometry::RoughCubeRoot::offset)));
+    } else {
+      alignas(64) double roots[width];
+      store(x, roots);
+      for (double& each : roots) each = geometry::RoughCubeRoot{}(each);
+      return load(roots);
+    }
   }
 };
 

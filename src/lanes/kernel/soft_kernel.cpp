@@ -153,11 +153,10 @@ void find_calls(const SoftForces& forces, double third, SoftPack& pack) {
   for (int lane = 0; lane < pack.count; lane += width) {
     const Mask undecided = !is_clear(forces, Real(third), pack, lane);
     const Mask calls = undecided || has_left(forces, pack, lane);
-    for (int k = 0; k < width; ++k)
-      pack.undecided[lane + k] = undecided[static_cast<std::size_t>(k)];
+    for (int k = 0; k < width; ++k) pack.undecided[lane + k] = (bits_of(undecided) >> k & 1U) != 0;
     if (!any_of(calls)) continue;
     for (int k = 0; k < width; ++k)
-      if (calls[static_cast<std::size_t>(k)]) pack.lane[pack.calls++] = lane + k;
+      if ((bits_of(calls) >> k & 1U) != 0) pack.lane[pack.calls++] = lane + k;
   }
 }
 
@@ -169,7 +168,7 @@ void step(const SoftForces& forces, const SoftStage* stage, int stages, SoftPack
     store(load(pack.vx + lane), pack.from_vx + lane);
     store(load(pack.vy + lane), pack.from_vy + lane);
     const Vector v{load(pack.vx + lane), load(pack.vy + lane)};
-    store(simd::max(load(pack.fastest + lane), dot(v, v)), pack.fastest + lane);
+    store(max(load(pack.fastest + lane), dot(v, v)), pack.fastest + lane);
   }
   for (; stages > 0; --stages, ++stage) {
     if (stage->kind == Kind::kick && !pack.fresh) evaluate(forces, pack);

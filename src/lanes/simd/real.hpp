@@ -1,52 +1,137 @@
-// The lanes' number: a register, and the few operations that formulas do not name themselves.
+// The lanes' number: a register, by Highway's operations, with the names that formulas use. Where
+// an instruction of AVX-512 does more at once, it is named.
 #pragma once
 
-#include <bit>
-#include <cstddef>
-#include <experimental/simd>
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
+// The only checks are of indices whose upper bits the instructions ignore; they would need the
+// library.
+#define HWY_IS_DEBUG_BUILD 0
+// Instructions that no kernel uses, and that a processor need not have.
+#define HWY_DISABLE_PCLMUL_AES
+#define HWY_DISABLE_F16C
+#include <hwy/highway.h>
 
 #include "base/inline.hpp"
+#include "carom/base/fused_product.hpp"
 
 namespace carom::lanes {
 namespace {
 
-namespace simd = std::experimental;
-using Real = simd::native_simd<double>;
-using Mask = Real::mask_type;
-constexpr int width = static_cast<int>(Real::size());
+namespace hn = hwy::HWY_NAMESPACE;
+using Doubles = hn::ScalableTag<double>;
+constexpr Doubles doubles;
+constexpr int width = static_cast<int>(hn::MaxLanes(doubles));
+#if HWY_TARGET == HWY_AVX3
+constexpr bool avx512 = true;
+#else
+constexpr bool avx512 = false;
+#endif
 /// Registers side by side where one would wait for itself: as many as there is room for.
-#if defined(__AVX512F__)
-constexpr int together = 4;
+constexpr int together = avx512 ? 4 : 2;
+
+struct Mask {
+  hn::Mask<Doubles> lanes;
+
+  Mask() = default;
+  CAROM_INLINE Mask(const hn::Mask<Doubles>& m) : lanes(m) {}
+  CAROM_INLINE explicit Mask(bool all) {
+#if HWY_TARGET == HWY_AVX3
+    lanes.raw = all ? 0xff : 0;
 #else
-constexpr int together = 2;
+    lanes = hn::MaskFromVec(
+        hn::BitCast(doubles, hn::Set(hn::RebindToUnsigned<Doubles>(), all ? ~0ULL : 0ULL)));
 #endif
-
-CAROM_INLINE Real choose(const Mask& condition, const Real& yes, const Real& no) {
-  Real result = no;
-  simd::where(condition, result) = yes;
-  return result;
-}
-using simd::where;  // where(condition, x) = value: in those lanes alone
-
+  }
+#if HWY_TARGET == HWY_AVX3
+  // As numbers, which the compiler merges with comparisons; instructions for masks it does not.
+  CAROM_INLINE static Mask of(int bits) { return hn::Mask<Doubles>{static_cast<__mmask8>(bits)}; }
+  CAROM_INLINE friend Mask operator&&(const Mask& a, const Mask& b) {
+    return of(a.lanes.raw & b.lanes.raw);
+  }
+  CAROM_INLINE friend Mask operator||(const Mask& a, const Mask& b) {
+    return of(a.lanes.raw | b.lanes.raw);
+  }
+  CAROM_INLINE friend Mask operator!(const Mask& a) { return of(~a.lanes.raw); }
+#else
+  CAROM_INLINE friend Mask operator&&(const Mask& a, const Mask& b) {
+    return hn::And(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Mask operator||(const Mask& a, const Mask& b) {
+    return hn::Or(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Mask operator!(const Mask& a) { return hn::Not(a.lanes); }
+#endif
+  CAROM_INLINE friend Mask operator==(const Mask& a, const Mask& b) {
+    return (a && b) || !(a || b);
+  }
+};
+CAROM_INLINE bool any_of(const Mask& a) { return !hn::AllFalse(doubles, a.lanes); }
+CAROM_INLINE bool all_of(const Mask& a) { return hn::AllTrue(doubles, a.lanes); }
 /// One bit a lane, the first one's lowest.
-CAROM_INLINE unsigned bits_of(const Mask& mask) {
-#if defined(__AVX512F__)
-  return std::bit_cast<unsigned char>(mask);
-#else
-  const Real signs = choose(mask, Real(-1.0), Real(1.0));
-#if defined(__AVX2__)
-  return static_cast<unsigned>(_mm256_movemask_pd(static_cast<__m256d>(signs)));
-#else
-  unsigned bits = 0;
-  for (int lane = 0; lane < width; ++lane)
-    bits |= static_cast<unsigned>(signs[static_cast<std::size_t>(lane)] < 0.0) << lane;
-  return bits;
-#endif
-#endif
+CAROM_INLINE unsigned bits_of(const Mask& a) {
+  unsigned char bits[8];
+  hn::StoreMaskBits(doubles, a.lanes, bits);
+  return bits[0];
 }
+
+struct Real {
+  hn::Vec<Doubles> lanes;
+
+  Real() = default;
+  CAROM_INLINE Real(const hn::Vec<Doubles>& x) : lanes(x) {}
+  CAROM_INLINE Real(double x) : lanes(hn::Set(doubles, x)) {}
+  CAROM_INLINE friend Real operator+(const Real& a, const Real& b) {
+    return hn::Add(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Real operator-(const Real& a, const Real& b) {
+    return hn::Sub(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Real operator*(const Real& a, const Real& b) {
+    return hn::Mul(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Real operator/(const Real& a, const Real& b) {
+    return hn::Div(a.lanes, b.lanes);
+  }
+  // As a compiler's operation, which products take in.
+  CAROM_INLINE friend Real operator-(const Real& a) {
+#if HWY_ARCH_X86
+    return hn::Vec<Doubles>{-a.lanes.raw};
+#else
+    return hn::Neg(a.lanes);
+#endif
+  }
+  CAROM_INLINE friend Mask operator<(const Real& a, const Real& b) {
+    return hn::Lt(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Mask operator>(const Real& a, const Real& b) {
+    return hn::Gt(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Mask operator<=(const Real& a, const Real& b) {
+    return hn::Le(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Mask operator>=(const Real& a, const Real& b) {
+    return hn::Ge(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Mask operator==(const Real& a, const Real& b) {
+    return hn::Eq(a.lanes, b.lanes);
+  }
+  CAROM_INLINE friend Mask operator!=(const Real& a, const Real& b) {
+    return hn::Ne(a.lanes, b.lanes);
+  }
+};
+CAROM_INLINE Real sqrt(const Real& a) { return hn::Sqrt(a.lanes); }
+CAROM_INLINE Real abs(const Real& a) { return hn::Abs(a.lanes); }
+CAROM_INLINE Real min(const Real& a, const Real& b) { return hn::Min(a.lanes, b.lanes); }
+CAROM_INLINE Real max(const Real& a, const Real& b) { return hn::Max(a.lanes, b.lanes); }
+CAROM_INLINE Real choose(const Mask& condition, const Real& yes, const Real& no) {
+  return hn::IfThenElse(condition.lanes, yes.lanes, no.lanes);
+}
+/// where(condition, x) = value: in those lanes alone.
+struct ChosenLanes {
+  Mask condition;
+  Real& x;
+  CAROM_INLINE void operator=(const Real& value) { x = choose(condition, value, x); }
+};
+CAROM_INLINE ChosenLanes where(const Mask& condition, Real& x) { return {condition, x}; }
 
 /// The nearest whole numbers, below 2^51.
 CAROM_INLINE Real rounded(const Real& x) { return (x + 0x1.8p52) - 0x1.8p52; }
@@ -58,61 +143,52 @@ alignas(64) constexpr double counted[65] = {
     22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42,      43,
     44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, no_piece};
 
-CAROM_INLINE Real load(const double* from) { return Real(from, simd::element_aligned); }
-CAROM_INLINE void store(const Real& x, double* to) { x.copy_to(to, simd::element_aligned); }
+CAROM_INLINE Real load(const double* from) { return hn::LoadU(doubles, from); }
+CAROM_INLINE void store(const Real& x, double* to) { hn::StoreU(x.lanes, doubles, to); }
 /// In some lanes alone.
 CAROM_INLINE void store_where(const Mask& mask, const Real& x, double* to) {
-#if defined(__AVX512F__)
-  _mm512_mask_storeu_pd(to, std::bit_cast<__mmask8>(mask), static_cast<__m512d>(x));
-#else
-  store(choose(mask, x, load(to)), to);  // a masked store takes 30 ns without AVX
-#endif
+  if constexpr (avx512)
+    hn::BlendedStore(x.lanes, mask.lanes, doubles, to);
+  else
+    store(choose(mask, x, load(to)), to);  // a masked store takes 30 ns without AVX
 }
-/// Masks of all lanes between two stages: a bit a lane, or a number below 0 where it holds. (Not in
-/// bytes, which may alias anything.)
+/// Masks of many lanes between two stages: a bit a lane, or all bits of a number. (Not in bytes,
+/// which may alias anything.)
 template <int lanes>
 struct Masks {
-#if defined(__AVX512F__)
+#if HWY_TARGET == HWY_AVX3
   unsigned short bits[lanes / width];
 #else
-  alignas(64) double signs[lanes];
+  alignas(64) double numbers[lanes];
 #endif
 };
 template <int lanes>
 CAROM_INLINE void store(const Mask& mask, Masks<lanes>& to, int lane) {
-#if defined(__AVX512F__)
-  to.bits[lane / width] = std::bit_cast<unsigned char>(mask);
+#if HWY_TARGET == HWY_AVX3
+  to.bits[lane / width] = mask.lanes.raw;
 #else
-  store(choose(mask, Real(-1.0), Real(1.0)), to.signs + lane);
+  store(hn::VecFromMask(doubles, mask.lanes), to.numbers + lane);
 #endif
 }
 template <int lanes>
 CAROM_INLINE Mask load(const Masks<lanes>& from, int lane) {
-#if defined(__AVX512F__)
-  return std::bit_cast<Mask>(static_cast<unsigned char>(from.bits[lane / width]));
+#if HWY_TARGET == HWY_AVX3
+  return hn::Mask<Doubles>{static_cast<__mmask8>(from.bits[lane / width])};
 #else
-  return load(from.signs + lane) < 0.0;
+  return hn::MaskFromVec(load(from.numbers + lane).lanes);
 #endif
 }
 
 /// a b + c, rounded once where the instruction set can: for choices alone, never for a number that
 /// shows.
 CAROM_INLINE Real fused(const Real& a, const Real& b, const Real& c) {
-#if defined(__AVX512F__)
-  return Real(
-      _mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
-#elif defined(__FMA__)
-  return Real(
-      _mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
-#else
-  return a * b + c;
-#endif
+  return hn::MulAdd(a.lanes, b.lanes, c.lanes);
 }
 /// p/q, a share of 2^-26 off or less: for choices alone; |q| far from the ends of the doubles'
 /// range.
 CAROM_INLINE Real nearly_quotient(const Real& p, const Real& q) {
-#if defined(__AVX512F__)
-  const Real rough(_mm512_rcp14_pd(static_cast<__m512d>(q)));
+#if HWY_TARGET == HWY_AVX3
+  const Real rough(hn::Vec<Doubles>{_mm512_rcp14_pd(q.lanes.raw)});
   return p * fused(rough, fused(-q, rough, Real(1.0)), rough);
 #else
   return p / q;
@@ -120,45 +196,28 @@ CAROM_INLINE Real nearly_quotient(const Real& p, const Real& q) {
 }
 /// The smaller one of two sizes.
 CAROM_INLINE Real least_size(const Real& a, const Real& b) {
-#if defined(__AVX512DQ__)
-  return Real(_mm512_range_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), 0b1010));
+#if HWY_TARGET == HWY_AVX3
+  return hn::Vec<Doubles>{_mm512_range_pd(a.lanes.raw, b.lanes.raw, 0b1010)};
 #else
   return min(abs(a), abs(b));
 #endif
 }
-
 /// A size with the sign of another number.
 CAROM_INLINE Real signed_like(const Real& size, const Real& sign) {
-#if defined(__AVX512F__)
-  // One instruction of three operands, for any port.
-  const __m512i bit = _mm512_set1_epi64(static_cast<long long>(0x8000000000000000ULL));
-  return Real(_mm512_castsi512_pd(
-      _mm512_ternarylogic_epi64(bit, _mm512_castpd_si512(static_cast<__m512d>(sign)),
-                                _mm512_castpd_si512(static_cast<__m512d>(size)), 0xca)));
-#else
-  return copysign(size, sign);
-#endif
+  return hn::CopySign(size.lanes, sign.lanes);
 }
-
 /// x, or -x where `sign` is negative.
 CAROM_INLINE Real turned_by(const Real& x, const Real& sign) {
-#if defined(__AVX512F__)
-  const __m512i bit = _mm512_set1_epi64(static_cast<long long>(0x8000000000000000ULL));
-  return Real(_mm512_castsi512_pd(
-      _mm512_ternarylogic_epi64(_mm512_castpd_si512(static_cast<__m512d>(x)),
-                                _mm512_castpd_si512(static_cast<__m512d>(sign)), bit, 0x78)));
-#else
-  return x * copysign(Real(1.0), sign);
-#endif
+  return hn::Xor(x.lanes, hn::And(sign.lanes, hn::SignBit(doubles)));
 }
 
 /// How many numbers a look-up may choose from: 8, 16, or more.
 enum class Reach { eight, few, all };
 /// The widest one whose code is the same here: kernels that differ in nothing else are one.
 constexpr Reach reach_here(Reach reach) {
-#if defined(__AVX512F__)
+#if HWY_TARGET == HWY_AVX3
   return reach;
-#elif defined(__AVX2__)
+#elif HWY_TARGET == HWY_AVX2
   return reach == Reach::eight ? Reach::eight : Reach::all;
 #else
   return static_cast<void>(reach), Reach::all;
@@ -168,34 +227,53 @@ constexpr Reach reach_here(Reach reach) {
 /// table[index], lane by lane; index >= 0.
 template <Reach reach>
 CAROM_INLINE Real look_up(const double* table, const Real& index) {
-#if defined(__AVX512F__)
-  const Real bits = index + 0x1p52;  // the lowest bits are the index
-  const __m512i i = _mm512_castpd_si512(static_cast<__m512d>(bits));
+  const hn::RebindToUnsigned<Doubles> words;
+  const auto bits = hn::BitCast(words, (index + 0x1p52).lanes);  // the lowest ones are the index
+#if HWY_TARGET == HWY_AVX3
   if constexpr (reach == Reach::eight)
-    return Real(_mm512_permutexvar_pd(i, _mm512_loadu_pd(table)));
+    return hn::TableLookupLanes(load(table).lanes, hn::IndicesFromVec(doubles, bits));
   else if constexpr (reach == Reach::few)
-    return Real(_mm512_permutex2var_pd(_mm512_loadu_pd(table), i, _mm512_loadu_pd(table + 8)));
+    return hn::Vec<Doubles>{
+        _mm512_permutex2var_pd(load(table).lanes.raw, bits.raw, load(table + 8).lanes.raw)};
   else
-    return Real(_mm512_i64gather_pd(_mm512_and_si512(i, _mm512_set1_epi64(0xffff)), table, 8));
+    return hn::GatherIndex(
+        doubles, table,
+        hn::BitCast(hn::RebindToSigned<Doubles>(), hn::And(bits, hn::Set(words, 0xffff))));
 #else
-#if defined(__AVX2__)
-  if constexpr (reach == Reach::eight) {
-    // Four numbers are eight words: those of number i are 2i and 2i + 1.
-    const __m256i twice =
-        _mm256_slli_epi64(_mm256_castpd_si256(static_cast<__m256d>(index + 0x1p52)), 1);
-    const __m256i words =
-        _mm256_or_si256(_mm256_and_si256(twice, _mm256_set1_epi64x(0xff)),
-                        _mm256_slli_epi64(_mm256_add_epi64(twice, _mm256_set1_epi64x(1)), 32));
-    const auto among = [&](const double* four) {
-      return Real(_mm256_castps_pd(
-          _mm256_permutevar8x32_ps(_mm256_castpd_ps(_mm256_loadu_pd(four)), words)));
+  if constexpr (reach_here(reach) == Reach::eight) {
+    const auto indices = hn::IndicesFromVec(doubles, bits);
+    const auto among = [&](const double* four) -> Real {
+      return hn::TableLookupLanes(load(four).lanes, indices);
     };
     return choose(index < 4.0, among(table), among(table + 4));
+  } else {
+    alignas(64) double of[width];
+    store(index, of);
+    for (double& x : of) x = table[static_cast<int>(x)];
+    return load(of);
   }
-#endif
-  return Real([&](auto i) { return table[static_cast<int>(static_cast<double>(index[i]))]; });
 #endif
 }
 
 }  // namespace
 }  // namespace carom::lanes
+
+namespace carom {
+
+/// On every instruction set the number of fused_product of doubles. On x86-64 processors without
+/// the instruction lanes have no kernels (free/kernels.cpp).
+template <>
+struct FusedProduct<lanes::Real> {
+  CAROM_INLINE static lanes::Real of(const lanes::Real& a, const lanes::Real& b,
+                                     const lanes::Real& c) {
+#if defined(__x86_64__) && !defined(__FMA__)
+    auto sum = c.lanes;
+    asm("vfmadd231pd %2, %1, %0" : "+x"(sum.raw) : "x"(a.lanes.raw), "xm"(b.lanes.raw));
+    return sum;
+#else
+    return lanes::fused(a, b, c);
+#endif
+  }
+};
+
+}  // namespace carom
