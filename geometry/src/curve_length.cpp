@@ -16,8 +16,9 @@ using Kind = CurveFrame::Kind;
 constexpr double right_angle = std::numbers::pi / 2.0;
 constexpr double right_angle_rest = 6.123233995736766e-17;  // pi/2 - right_angle
 
-// Each duplication quarters the spread of the arguments about their mean. The series cut off after
-// the fifth order leaves spread^6: 1e-18 at this spread.
+// Each duplication quarters the spread s of the arguments about their mean. The series cut off
+// after the fifth order leave a relative s^6/(4(1 - s)) and 3 s^6/(1 - s)^(3/2) (Carlson 1979):
+// less than 2^-53 / 30 at this spread.
 constexpr double spread_limit = 1e-3;
 
 /// (1/2) integral from 0 to infinity of dt/sqrt((t + x)(t + y)(t + z)).

@@ -270,7 +270,8 @@ RisingRoots rising_roots(const Quartic<double>& f, const QuarticError& error, in
     return out;
   }
   out = isolated_roots(f, error, degree, scale, most, farthest);
-  // Where errors are large several roots may lie about the likely one: the nearest is meant.
+  // Where errors are large several roots may lie about the likely one: the nearest is meant. It may
+  // be replaced at any distance, which is added to its error: 2^24 errors only keep that small.
   const auto away = [&](int i) { return std::fabs(likely - out.roots[i].kappa); };
   int nearest = 0;
   for (int i = 1; i < out.count; ++i)

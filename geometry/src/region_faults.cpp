@@ -61,7 +61,7 @@ void check_closed(const Loop& loop, RegionFaults& faults) {
       faults.add(Kind::open_loop, c.name, "", end,
                  "wall '" + c.name + "' is closed by itself and cannot be a part of a loop");
     } else if (!is_closed(next.curve) && end != start) {
-      // As many digits as it takes to see the difference.
+      // With as many digits as it takes to see the difference.
       const int digits = place_text(end) != place_text(start) ? 4 : 17;
       faults.add(Kind::open_loop, c.name, next.name, end,
                  "the loop is open: wall '" + c.name + "' ends at " + place_text(end, digits) +

@@ -157,9 +157,9 @@ int World::add(const Particle& particle, const State& state, std::uint64_t hits)
     throw std::invalid_argument("the point does not lie inside the table");
   const bool rests = state.velocity == Vector{};
   const bool forces = w.regions.any(), by_range = w.regions.by_range();
-  // Where particles meet within a range, one that rests may be met.
+  // A particle that rests may be met by one that comes within its range.
   const bool integrated = forces && (w.regions.hold(state.position) || (by_range && rests));
-  // Where forces act, the speed is not a constant: it is that of the start.
+  // Under forces the speed is not a constant: this is that of the start.
   if (forces) b.particle.speed = std::sqrt(dot(state.velocity, state.velocity));
   if (w.discs) w.discs->check(b);
   if (!forces)

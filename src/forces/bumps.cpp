@@ -107,7 +107,7 @@ class FermiBumps final : public Potential {
     const double radius = radius_, inverse = inverse_;
     for (std::size_t i = 0; i < n; ++i) {
       r[i] = std::sqrt(r[i]);
-      // Where a bump is 1e-130 its exponential stays finite, lest 0 times infinity be no number.
+      // The exponential of a bump of 1e-130 stays finite, lest 0 times infinity be no number.
       const double t = (r[i] - radius) * inverse;
       e[i] = t < 300.0 ? t : 300.0;
     }

@@ -81,7 +81,7 @@ inline Box operator*(const Box& a, const Box& b) {
 }
 inline Box hull(const Box& a, const Box& b) { return {hull(a.re, b.re), hull(a.im, b.im)}; }
 inline bool has_zero(const Box& a) { return has_zero(a.re) && has_zero(a.im); }
-/// Of the modulus squared.
+/// The range of the modulus squared.
 inline Range modulus_squared(const Box& a) { return square(a.re) + square(a.im); }
 /// The largest modulus.
 inline double size(const Box& a) { return std::sqrt(modulus_squared(a).high); }

@@ -7,9 +7,9 @@
 
 namespace carom {
 
-/// Of -grad V, V a formula of x and y.
+/// A bound of -grad V, V a formula of x and y.
 ForceBound bound_of(const TypedExpression&, const Neighbourhood&);
-/// Of the force of a pair, W a formula of the distance r.
+/// A bound of the force of a pair, W a formula of the distance r.
 ForceBound bound_of(const TypedExpression&, double distance, double rho);
 
 }  // namespace carom

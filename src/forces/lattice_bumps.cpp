@@ -23,8 +23,8 @@ struct Eight {
   alignas(64) std::array<double, 8> dx, dy, r, e;
 };
 
-/// Of the first n, whose number the compiler must not know: it would unroll the loop and forget
-/// about vectors.
+/// The exponents of the first n copies. The compiler must not know n: it would unroll the loop and
+/// make no vectors.
 CAROM_INLINE void find_exponents(const LatticeSum& t, const GridPoint<double>& p, const double* x,
                                  std::size_t n, Eight& to) {
   const double* y = x + t.padded_near;

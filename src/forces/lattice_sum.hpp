@@ -37,8 +37,8 @@ struct LatticeSum {
   int padded_near = 0;     ///< the same up to a multiple of eight
   int degree = -1;         ///< of the polynomial; -1: there is none
   std::size_t stride = 0;  ///< numbers of a node: see `nodes`
-  /// Of each node: x, then y, of the node seen from each near copy; then the polynomial's rows. Row
-  /// j holds the coefficients of X^i Y^j, i = 0 ... 7; after all of these the rows with i = 8
+  /// For each node: x, then y, of the node seen from each near copy; then the polynomial's rows.
+  /// Row j holds the coefficients of X^i Y^j, i = 0 ... 7; after all of these the rows with i = 8
   /// ... 15.
   const double* nodes = nullptr;
   bool fermi = false;
@@ -52,7 +52,7 @@ struct LatticeField {
   double height = 0, steepness = 0;  ///< steepness: what slopes of a bump are multiplied with
 };
 
-/// Where a point lies on the grid, or where many do.
+/// The place of a point on the grid, or of many.
 template <class Number>
 struct GridPoint {
   Number i, j;    ///< of the node, in the lowest bits
@@ -160,7 +160,7 @@ CAROM_INLINE void fermi_exponent(const LatticeSum& t, const Number& dx, const Nu
   using std::sqrt;
   // The smallest normal number keeps 1/r finite at a centre, where the force has no direction.
   r = sqrt(dx * dx + dy * dy + 0x1p-1022);
-  // Where a bump is 1e-130 its exponential stays finite, lest 0 times infinity be no number.
+  // The exponential of a bump of 1e-130 stays finite, lest 0 times infinity be no number.
   e = at_most((r - t.radius) * t.inverse_softness, 300.0);
 }
 

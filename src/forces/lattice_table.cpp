@@ -67,7 +67,7 @@ std::vector<Copy> copies_about(Vector node, const std::vector<Vector>& centers, 
 }
 
 Vector node_at(const Basis& basis, int grid, int i, int j) {
-  // As the lowest bits of whole numbers count: the upper half of the indices is below zero.
+  // The upper half of the indices is below zero, as in two's complement.
   const double p = static_cast<double>(2 * i < grid ? i : i - grid) / grid;
   const double q = static_cast<double>(2 * j < grid ? j : j - grid) / grid;
   return {p * basis.first.x + q * basis.second.x, p * basis.first.y + q * basis.second.y};

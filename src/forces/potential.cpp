@@ -240,7 +240,7 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
             const double at[] = {d.x, d.y};
             double gradient[2];
             const double value = v->value_and_gradient(at, gradient);
-            // Where there is no value there is no force, even where its formula has one, as 1/x for
+            // A point without a value has no force, even where its formula has one, as 1/x for
             // log(x) has.
             const double none = value - value;
             force.x -= gradient[0] + none;

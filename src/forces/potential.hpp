@@ -37,8 +37,8 @@ class Potential {
   /// Distance from a centre beyond which |V| is below `tail`; infinity if there is none.
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
-  /// The table that add_force sums, for those who sum it for many points at once; null if there is
-  /// none.
+  /// The table that add_force sums, for callers that sum it for many points at once; null if there
+  /// is none.
   virtual const LatticeField* lattice_field() const { return nullptr; }
 };
 
@@ -67,7 +67,7 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec&,
                                                 const std::optional<geometry::Lattice>&);
 std::unique_ptr<const Interaction> make_interaction(const InteractionSpec&);
 
-/// Where exp(-t) = tail_share, rounded up.
+/// The t at which exp(-t) = tail_share, rounded up.
 inline constexpr double tail_exponent = 36.85;
 
 }  // namespace carom

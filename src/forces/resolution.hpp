@@ -109,7 +109,7 @@ class ForceMap {
       return true;
     return resolves_closely(x, square_speed, coarsest, span);
   }
-  /// As resolves() for many motions at once, by the bounds that are kept now: true is its answer,
+  /// resolves() for many motions at once, by the bounds that are kept now: true is its answer,
   /// false is none. Loops without branches take half the time.
   static constexpr int most_at_once = 64;
   struct Motions {
@@ -136,7 +136,7 @@ class ForceMap {
 
  private:
   static constexpr int no_exponent = std::numeric_limits<int>::min();
-  /// Of an acceleration, over the mesh that the key tells.
+  /// The bound of an acceleration over the mesh that the key names.
   struct Entry {
     std::uint64_t key = 0;  ///< 0: none
     float force = 0.0f, jump = 0.0f;
@@ -169,7 +169,8 @@ class ForceMap {
                         resolution::kick_share;
     return square_speed >= kick * kick;
   }
-  /// Of the mesh from the whole numbers below i and j on; a whole one may belong to either mesh.
+  /// The entry of the mesh whose corner is i and j rounded down; a whole number may be of either
+  /// mesh.
   const Entry& entry(int exponent, double i, double j) {
     if (!has_key(i, j)) return compute(beyond_, 0, exponent, std::floor(i), std::floor(j));
     const Place place = place_of(exponent, i, j);
@@ -178,7 +179,7 @@ class ForceMap {
                ? kept
                : compute(kept, place.key, exponent, place.i - whole, place.j - whole);
   }
-  /// Where an entry is kept. i, j: whole numbers, in the lowest bits.
+  /// The place where an entry is kept. i, j: whole numbers, in the lowest bits.
   struct Place {
     double i, j;
     std::uint64_t key;
@@ -208,8 +209,8 @@ class ForceMap {
   static constexpr std::size_t kept_entries = 65536;
   const ForceField& forces_;
   Particle kind_;
-  /// Of the meshes that may answer, those that mostly do come first: of half the coarsest size, or,
-  /// where bounds take long, the coarsest, of which there are fewer. The order changes no answer.
+  /// The meshes that mostly answer are asked first: those of half the coarsest size, or, if bounds
+  /// take long, the coarsest, of which there are fewer. The order changes no answer.
   const int first_finer_;
   std::vector<Entry> entries_;
   Entry beyond_;  ///< of a mesh whose key does not fit

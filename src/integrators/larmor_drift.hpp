@@ -27,7 +27,7 @@ class ShearTurn {
     half_tangent_ = turn.sine / (Real(1) + turn.cosine);
   }
 
-  /// Of one velocity, or of the velocities of many particles.
+  /// The drift of one velocity, or of the velocities of many particles.
   template <class Number>
   [[gnu::always_inline]] geometry::BasicVector<Number> operator()(
       geometry::BasicVector<Number> v) const {

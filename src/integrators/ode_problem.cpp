@@ -126,7 +126,7 @@ int OdeProblem::derivative(double, N_Vector y, N_Vector dy, void* self) {
     problem.thrown_ = std::current_exception();
     return -1;
   }
-  // Where a force is not a number a smaller step may still do.
+  // A force that is not a number may be one after a smaller step.
   return std::all_of(out, out + 4 * problem.omega_.size(),
                      [](double a) { return std::isfinite(a); })
              ? 0

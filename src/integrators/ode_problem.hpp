@@ -40,9 +40,9 @@ class OdeProblem {
     /// A step that leads a few units in the last place on cannot be cut.
     bool is_least(double duration) const { return duration < 0x1p-48 * time(); }
   };
-  /// Those at the beginning of a chain of steps; along it weights() lets them grow with the motion,
-  /// and they never shrink, so that a particle that passes the origin or turns round asks for no
-  /// more than others.
+  /// The sizes at the beginning of a chain of steps; along it weights() lets them grow with the
+  /// motion, and they never shrink, so that a particle that passes the origin or turns round asks
+  /// for no more than others.
   Scale first_scale(const Phase<double>& from);
   void set_scale(const Scale& scale) { scale_ = scale; }
   const Scale& scale() const { return scale_; }

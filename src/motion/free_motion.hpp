@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// Of particles of this speed.
+/// The energy shell of particles of this speed.
 geometry::EnergyShell<double> energy_shell(double speed);
 
 /// Velocity after the n reflections at a corner of angle pi/n between the wall that ends there,

@@ -1,4 +1,4 @@
-// Where and how the signs behind every event are decided.
+// How the signs behind every event are decided, and by which stage.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ struct Energy {
 struct EnergyError {
   double end = 0.0;      ///< at the end
   double largest = 0.0;  ///< the largest seen, without its sign
-  /// Of several trajectories: the largest of each, without a sign.
+  /// Adds other trajectories: keeps the largest of each error, without a sign.
   EnergyError& operator+=(const EnergyError&);
 };
 

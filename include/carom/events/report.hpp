@@ -8,9 +8,9 @@
 
 namespace carom {
 
-/// Of a particle that ended as lost, unresolved or singular: the reason and its state in decimals,
-/// then a tab and the bits of that state. `reason` may be empty: then it is what the fate says by
-/// itself.
+/// The text for a particle that ended as lost, unresolved or singular: the reason and its state in
+/// decimals, then a tab and the bits of that state. If `reason` is empty, the fate is all that is
+/// said.
 std::string report_of(const Particle&, const State&, Fate, std::string_view reason);
 
 /// The part of a report for people.

@@ -91,7 +91,7 @@ class World {
   /// From the next step on, energies are looked at after each one and at each hit. Else
   /// energy_balance knows nothing but kinetic ones.
   void watch_energy();
-  /// Of a particle under forces; of all together where they interact.
+  /// The balance of a particle under forces; particles that interact have one together.
   const EnergyBalance& energy_balance(int particle) const;
   /// What was seen before, when a stored trajectory goes on.
   void set_energy_balance(int particle, const EnergyBalance& before);

@@ -30,7 +30,7 @@ struct PairStart {
 
 namespace {
 
-/// Where a disc is after a duration; the same numbers as of moved.
+/// The place of a disc after a duration; the same numbers as those of moved.
 struct Moved {
   Vector position, velocity;
 };
@@ -84,7 +84,7 @@ void Contacts::first_contact(int i, int j, const Time& now, const Time& until) {
     if (straight && !(dot(start.flight.separation, v) < 0.0)) return;  // moving apart
     return try_copy(i, j, start, {}, end);
   }
-  // Where they are now says which copies are near.
+  // Their places at this time tell which copies are near.
   const Time from = std::max(now, start.time);
   Vector d = start.flight.separation;
   const double since = from - start.time;

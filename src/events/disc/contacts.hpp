@@ -1,4 +1,4 @@
-// Which discs touch next: predictions of contacts among free flights, and who is near whom.
+// Which discs touch next: predictions of contacts among free flights, and which discs are near.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +62,7 @@ class Contacts {
   /// partner's: then the partner looks again.
   void predict(int i, const Time& now);
   /// Makes the contact of i its partner's, if it is the partner's first. Then both stand in the
-  /// queue, and the order of simultaneous contacts does not depend on who found them.
+  /// queue, and the order of simultaneous contacts does not depend on which disc found them.
   bool tell_partner(int i);
   /// All whose first contact is with i.
   void partners_of(int i, std::vector<int>& found) const;
@@ -88,7 +88,7 @@ class Contacts {
 
   const geometry::Lattice* lattice_;
   std::vector<Disc> discs_;
-  std::vector<int> partners_;  ///< apart, for those who look for theirs
+  std::vector<int> partners_;  ///< apart: searches for the partners of a disc read these alone
   bool binned_ = false;
   double slack_ = 0.0;
   /// Unbinned: how far ahead one looks, in time, and in a disc's own way if that takes longer.

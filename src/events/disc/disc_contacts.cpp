@@ -146,7 +146,7 @@ void DiscContacts::look_ahead(int index, const Time& now) {
   }
 }
 
-/// Those that were to touch a disc that has changed its course.
+/// Predicts anew for the discs that were to touch one that has changed its course.
 void DiscContacts::look_again(int index, int partner, const Time& now) {
   contacts_.partners_of(index, partners_);
   for (const int other : partners_)

@@ -67,9 +67,9 @@ inline double kappa_beyond_chord(const geometry::PreparedCurve& w, geometry::Vec
                                     (2.1 * eta + 8.1 * unit_roundoff * (e1 + c1))};
 }
 
-/// Where is the foot of the Larmor circle's centre on a segment's line, times |omega|: beyond its
+/// The foot of the Larmor circle's centre on a segment's line, times |omega|: is it beyond the
 /// start
-/// (`first` positive), before its end (`last` positive)?
+/// (`first` positive), is it before the end (`last` positive)?
 struct Feet {
   double first, last, bound;
 };

@@ -108,8 +108,8 @@ class Enclosure {
     order.walls = order.surely | (outside & bent_);
     return order;
   }
-  /// Of the walls in question, the first met on the way from `start`: backwards for omega > 0;
-  /// size(): none.
+  /// The first of the walls in question on the way from `start`: backwards for omega > 0; size():
+  /// there is none.
   [[gnu::always_inline]] int first_of(std::uint64_t walls, int start, double omega) const {
     if (walls == 0) return size_;
     if (omega > 0.0) {

@@ -274,7 +274,7 @@ void PieceTable::Preparation::find_enclosure(bool complement) {
     for (const int edge : loop) {
       const PreparedCurve& w = *data[at(disc)].shape;
       const PreparedCurve& e = *data[at(edge)].shape;
-      // As for the images of walls: with the rounding of this comparison on the safe side.
+      // The rounding of this comparison is on the safe side, as for the images of walls.
       const double gap = geometry::cross(e.tangent, w.centre - e.from) - std::sqrt(w.r2);
       made_.discs_within &= gap > 32.0 * unit_roundoff * (2.0 * w.extent + 2.0 * norm_1(e.from));
     }

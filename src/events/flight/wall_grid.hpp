@@ -99,7 +99,7 @@ class WallGrid {
     const int cell = place(columns_.part(x.x), rows_.part(x.y));
     return cell < 0 ? std::span<const int>() : pieces(cell);
   }
-  /// Where the list of a cell stands among those of all cells, one after the other.
+  /// The index of a cell's first entry among those of all cells, one after the other.
   std::size_t first_entry(int cell) const { return starts_[static_cast<std::size_t>(cell)]; }
   const std::vector<int>& entries() const { return list_; }
   int columns() const { return columns_.parts(); }
@@ -257,7 +257,7 @@ class WallGrid {
   static int within_block(int column, int row) {
     return (column & block_mask) | (row & block_mask) << block_bits;
   }
-  /// Where the cell is kept; negative: in a block without pieces.
+  /// The index of a cell; negative: it is in a block without pieces.
   int place(int column, int row) const {
     const int block = blocks_[block_of(column, row)];
     return block < 0 ? -1 : block + within_block(column, row);

@@ -63,9 +63,9 @@ class CrossingSearch {
     if (hits_at_once(barrier, i, from)) return &from;
     return crossing(barrier, i, from, to);
   }
-  /// Likewise of a barrier that is no wall: who starts beyond it has left it. If the particle is on
-  /// it at `from` and goes on (`passes`), it has, too: it crosses again once it was inside by more
-  /// than rounding.
+  /// The same for a barrier that is no wall: a particle that starts beyond it has left it. If it is
+  /// on it at `from` and goes on (`passes`), it has, too: it crosses again once it was inside by
+  /// more than rounding.
   Knot* first_exit(const Barrier<Real>& edge, std::size_t i, Knot& from, Knot& to, bool passes) {
     begin(false, passes ? &from : nullptr);
     return crossing(edge, i, from, to);
@@ -295,7 +295,7 @@ class CrossingSearch {
     return nullptr;
   }
 
-  // Where the gap's rate changes sign: regula falsi with halved weights (Illinois).
+  // Finds where the gap's rate changes sign: regula falsi with halved weights (Illinois).
   Knot& extremum(const Barrier<Real>& b, std::size_t i, Knot& from, Knot& to) {
     Knot *low = &from, *high = &to;
     Real at_low = rate(b, i, from), at_high = rate(b, i, to);

@@ -1,4 +1,4 @@
-// Where particles are integrated, and whom they are integrated with.
+// The parts of the plane where particles are integrated, and which particles are so together.
 #pragma once
 
 #include <vector>

@@ -127,7 +127,7 @@ double Group::energy_jumps() const {
                     : 0.0;
 }
 
-/// Where the step that begins now ends.
+/// The time at which the step that begins now ends.
 Time Group::step_end(const Time& limit) const {
   return in_.plan.step > 0.0 ? std::min(limit, next_multiple(time_, in_.plan.step)) : limit;
 }
@@ -195,13 +195,13 @@ void Group::find_next(const Time& limit) {
         "potential has a pole";
   else if (next_.member >= 0)
     next_.fault = fault_at(last->phase);
-  // Near a wall the search had to decide: nobody may have slipped through.
+  // Near a wall the search had to decide: no particle may have slipped through.
   if (near_wall && next_.fault.empty()) watch(last->phase);
 }
 
-/// Where the lone member flies on freely from the edge. Nothing happens at an edge while others or
-/// another support hold it: a step that were cut there would be cut on the way out and not on the
-/// way back.
+/// The place from which the lone member flies on freely, on the edge. Nothing happens at an edge
+/// while others or another support hold it: a step that were cut there would be cut on the way out
+/// and not on the way back.
 StepPath<double>::Knot* Group::first_exit(CrossingSearch<double>& search,
                                           const Barrier<double>& edge, StepPath<double>::Knot& to) {
   if (bodies_.size() > 1) return nullptr;
@@ -309,7 +309,7 @@ void Group::forget() {
 void Group::remove(std::size_t member) {
   last_energy_.reset();
   external_.position.clear();
-  if (bodies_.size() == 1) return bodies_.clear();  // the rest is kept for whoever comes next
+  if (bodies_.size() == 1) return bodies_.clear();  // the next member uses the rest again
   const auto i = static_cast<std::ptrdiff_t>(member);
   bodies_.erase(bodies_.begin() + i);
   particles_.erase(particles_.begin() + i);

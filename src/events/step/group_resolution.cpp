@@ -48,7 +48,7 @@ bool Group::resolves(const Phase<double>& from, const Phase<double>* to,
   return true;
 }
 
-/// Where particles interact, every one is displaced while the others are.
+/// Of particles that interact, each one is displaced while the others are.
 bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& span,
                            bool ahead) const {
   const ForceField& forces = *in_.forces;

@@ -43,7 +43,7 @@ void Integration::apply(int index, Time now, Observer& observer) {
   settle(observer);
 }
 
-/// Where all particles are one group: a particle comes, with all others that wait for this time.
+/// All particles are one group: one comes, with all others that wait for this time.
 void Integration::start(int index, Observer& observer) {
   const Time now = bodies_[index].state.time;
   std::vector<int> members;
@@ -251,7 +251,7 @@ bool Integration::leave_support(Group& group, const Barrier<double>& barrier) {
   const geometry::PreparedCurve::Frame frame = curve.settle(own);
   const Vector settled =
       table_.lattice ? frame.point + table_.lattice->translation(barrier.cell) : frame.point;
-  // Where a wall meets the edge it comes first: beyond it, or on it, there is no flight.
+  // A wall that meets the edge comes first there: beyond it, or on it, there is no flight.
   if (group.supported(settled, &barrier) ||
       meets_some_wall(groups_.barriers(), regions_.wall_count(), x, settled))
     return false;

@@ -1,4 +1,4 @@
-// Where a step's path can be, from positions and velocities at its ends alone, and whether that
+// What contains a step's path, from positions and velocities at its ends alone, and whether that
 // keeps it off a barrier: for one particle, or for those in the lanes of a register.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace carom {
 
 namespace step_hull {
 
-/// Of lanes a comparison is a mask, which nothing can branch on.
+/// Numbers whose comparison is a bool. A comparison of lanes is a mask: no code can branch on it.
 template <class Number>
 concept Plain = requires(const Number& a) {
   a < a ? a : a;

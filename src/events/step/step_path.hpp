@@ -112,7 +112,7 @@ class StepPath {
   std::size_t used_ = 0;
 };
 
-/// Where one particle's path between two knots can be.
+/// What contains one particle's path between two knots.
 template <class Real>
 struct PathHull : StepHull<Real> {
   using Vector = geometry::BasicVector<Real>;

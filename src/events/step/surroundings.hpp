@@ -14,7 +14,7 @@ namespace carom {
 /// them. On the table's lattice: all copies that a particle may meet within a step that leads no
 /// farther than longest_way(table). Throws InputError if there are too many.
 std::vector<Barrier<double>> barriers_of(std::span<const geometry::Curve>, const Table&);
-/// Those of the table's walls.
+/// The barriers of the table's walls.
 std::vector<Barrier<double>> barriers_of(const Table&);
 
 /// Is the point inside one of the supports, or on its edge to rounding, where a flight would not

@@ -78,9 +78,9 @@ template <class Number, class CubeRoot>
   return x;
 }
 
-/// Of the roots of a quartic at which it rises: the largest one if it has a positive leading
-/// coefficient, else, of two real roots, the smaller one. By the two quadratics whose product it
-/// is, which the largest root of a cubic gives.
+/// A root of a quartic at which it rises: the largest one if the leading coefficient is positive,
+/// else, of two real roots, the smaller one. The quartic is taken as a product of two quadratics,
+/// which the largest root of a cubic gives.
 template <class Number, class CubeRoot>
 [[gnu::always_inline]] inline Number first_rising_root(const Quartic<Number>& f,
                                                        const CubeRoot& cube_root) {
