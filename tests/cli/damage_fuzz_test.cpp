@@ -18,6 +18,7 @@
 #include "carom/io/archive.hpp"
 #include "io/archive/checksums.hpp"
 #include "program.hpp"
+#include "systems.hpp"
 
 namespace carom {
 namespace {
@@ -79,23 +80,10 @@ struct Archive {
 
 void PrintTo(const Archive& archive, std::ostream* out) { *out << archive.name; }
 
-const std::string discs = R"(cat > discs.toml <<END
-[lattice]
-vectors = [[4, 0], [0, 4]]
-[interaction]
-kind = "hard-discs"
-radii = [0.5, 0.3, 0.4, 0.6]
-[particles]
-mass = [1, 2, 3, "1/3"]
-speed = [1, 0.5, 0, 2]
-[initial]
-kind = "uniform"
-[run]
-t_max = 40
-sample = 0.5
-END
-)";
-// Killed or interrupted after its second checkpoint, when some of the trajectories are in it.
+const std::string discs =
+    "cat > discs.toml <<END\n" + discs_on_a_torus +
+    "t_max = 40\nEND\n";  // Killed or interrupted after its second checkpoint, when some of the
+                          // trajectories are in it.
 std::string unfinished(const std::string& command, const char* signal) {
   return "for i in 1 2 3 4 5 6 7 8 9; do rm -rf a.h5*; $carom " + command +
          " -o a.h5 --quiet --threads 1 --checkpoint blocks:10 & pid=$!; until_saved a.h5; kill -" +

@@ -78,13 +78,7 @@ Json section_json(const System& system, const SectionResult& result, const std::
   json.set("points", result.points);
   json.set("orbits", result.orbits);
   json.set("incomplete", result.incomplete);
-  json.set("pinned", result.pinned);
-  json.set("escaped", result.escaped);
-  json.set("capped", result.capped);
-  json.set("singular", result.singular);
-  json.set("unbounded", result.unbounded);
-  json.set("unresolved", result.unresolved);
-  json.set("lost", result.lost);
+  add_fates(json, result);
   json.set("collisions", result.collisions);
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
@@ -107,17 +101,7 @@ std::string section_text(const System& system, const SectionResult& result,
     text += fmt::format("{:>8}  {:>11}  {:>12.6g}   {:+.4f} .. {:+.4f}\n", line.orbit,
                         grouped(line.points), line.last_time, line.from, line.to);
   if (result.orbits > lines.size() && !lines.empty()) text += "     ...\n";
-  std::string ends;
-  const auto end = [&](std::uint64_t number, const char* what) {
-    if (number > 0) ends += fmt::format("{}{} {}", ends.empty() ? "" : ", ", grouped(number), what);
-  };
-  end(result.pinned, "pinned");
-  end(result.escaped, "escaped");
-  end(result.capped, "ended by the cap on hits");
-  end(result.unbounded, "left all walls behind");
-  end(result.singular, "singular");
-  end(result.unresolved, fmt::format("unresolved: {}", why_unresolved).c_str());
-  end(result.lost, fmt::format("lost: {}", why_lost).c_str());
+  const std::string ends = fates_text(result);
   if (result.incomplete > 0)
     text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n",
                         grouped(result.incomplete), grouped(system.section.points),

@@ -106,38 +106,12 @@ std::string fit_text(const DiffusionSummary& summary) {
   return text;
 }
 
-std::string ends_text(const DiffusionResult& result) {
-  std::string text;
-  const auto add = [&](std::uint64_t number, const char* what) {
-    if (number > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(number), what);
-  };
-  add(result.pinned, "pinned on cyclotron orbits that never hit");
-  add(result.escaped, "escaped");
-  add(result.capped, "ended by the cap on hits");
-  add(result.unbounded, "left all walls behind");
-  add(result.singular, "singular");
-  add(result.unresolved, fmt::format("unresolved: {}", why_unresolved).c_str());
-  add(result.lost, fmt::format("lost: {}", why_lost).c_str());
-  return text.empty() ? text : "\nof the particles: " + text + "\n";
-}
-
 Json diffusion_json(const System& system, const DiffusionResult& result,
                     const DiffusionSummary& summary, const EnsembleContext& context) {
-  Json json = Json::object();
-  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
-                  result.lanes ? carom::name_of(*result.lanes) : "baseline");
-  json.set("ranks", result.ranks);
-  json.set("status", context.status);
-  if (context.shard.of > 1) json.set("shard", text_of(context.shard));
+  Json json = ensemble_json(system, result, context);
   json.set("trajectories", result.trajectories);
   json.set("survived", result.survived);
-  json.set("pinned", result.pinned);
-  json.set("escaped", result.escaped);
-  json.set("capped", result.capped);
-  json.set("unbounded", result.unbounded);
-  json.set("singular", result.singular);
-  json.set("unresolved", result.unresolved);
-  json.set("lost", result.lost);
+  add_fates(json, result);
   json.set("collisions", result.collisions);
   if (engine_of(system) != "events")
     json.set("energy_change", result.energy_change)
@@ -206,7 +180,8 @@ std::string diffusion_text(const System& system, const DiffusionResult& result,
   text += moments_table(summary.points);
   text += fit_text(summary);
   text += horizon_text(summary.horizon);
-  text += ends_text(result);
+  if (const std::string ends = fates_text(result); !ends.empty())
+    text += "\nof the particles: " + ends + "\n";
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   const std::string steps = steps_text(system, result.steps);
   text += fmt::format("\n{} collisions{} in {:.3g} s on {}{} thread{}: {}\n{}   digest {:016x}\n",

@@ -84,6 +84,31 @@ Doubts doubts_of(const System& system, const SingleRunResult& r) {
   return doubts(system, r.particles.size(), "particle", unresolved, lost, reports, energy);
 }
 
+void add_fates(Json& json, const FateCounts& counts) {
+  json.set("pinned", counts.pinned);
+  json.set("escaped", counts.escaped);
+  json.set("capped", counts.capped);
+  json.set("singular", counts.singular);
+  json.set("unbounded", counts.unbounded);
+  json.set("unresolved", counts.unresolved);
+  json.set("lost", counts.lost);
+}
+
+std::string fates_text(const FateCounts& counts) {
+  std::string text;
+  const auto add = [&](std::uint64_t number, const std::string& what) {
+    if (number > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(number), what);
+  };
+  add(counts.pinned, "pinned on cyclotron orbits that never hit");
+  add(counts.escaped, "escaped");
+  add(counts.capped, "ended by the cap on hits");
+  add(counts.unbounded, "left all walls behind");
+  add(counts.singular, "singular");
+  add(counts.unresolved, fmt::format("unresolved: {}", why_unresolved));
+  add(counts.lost, fmt::format("lost: {}", why_lost));
+  return text;
+}
+
 Json energy_json(const EnergyError& error) {
   return Json::object().set("end", error.end).set("largest", error.largest);
 }

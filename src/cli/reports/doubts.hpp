@@ -33,6 +33,10 @@ Doubts doubts_of(const System&, const SingleRunResult&);
 /// "" or what is said of the energy.
 std::string energy_doubt(const System&, const EnergyError&);
 
+/// The keys `pinned`, `escaped`, `capped`, `singular`, `unbounded`, `unresolved`, `lost`.
+void add_fates(Json&, const FateCounts&);
+/// The same as text, "3 escaped, 1 lost: …"; "" if no particle ended so.
+std::string fates_text(const FateCounts&);
 Json energy_json(const EnergyError&);
 /// `reports` of those that failed, if there are any: index, reason, and state in hexadecimal
 /// numbers.

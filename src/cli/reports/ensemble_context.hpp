@@ -3,7 +3,10 @@
 
 #include <string>
 
+#include "carom/ensemble/parts.hpp"
+#include "carom/ensemble/system.hpp"
 #include "carom/io/archive.hpp"
+#include "io/json.hpp"
 
 namespace carom::cli {
 
@@ -12,5 +15,8 @@ struct EnsembleContext {
   std::string output;  ///< archive, or ""
   Shard shard;
 };
+
+/// The keys with which the report of every ensemble begins.
+Json ensemble_json(const System&, const EnsembleResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

@@ -60,21 +60,10 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
 
 Json escape_json(const System& system, const EscapeResult& result, const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
-  Json json = Json::object();
-  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds,
-                  result.lanes ? name_of(*result.lanes) : "baseline");
-  json.set("ranks", result.ranks);
-  json.set("status", context.status);
-  if (context.shard.of > 1) json.set("shard", text_of(context.shard));
+  Json json = ensemble_json(system, result, context);
   json.set("trajectories", counts.trajectories);
-  json.set("escaped", counts.escaped);
   json.set("survived", counts.survived);
-  json.set("pinned", counts.pinned);
-  json.set("capped", counts.capped);
-  json.set("singular", counts.singular);
-  json.set("unbounded", counts.unbounded);
-  json.set("unresolved", counts.unresolved);
-  json.set("lost", counts.lost);
+  add_fates(json, counts);
   json.set("collisions", counts.collisions);
   if (system.of_discs()) json.set("contacts", counts.contacts);
   if (engine_of(system) != "events")

@@ -229,4 +229,18 @@ void ArchiveFile::keep_as(const std::string& target) {
   sync(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY, name_);
 }
 
+hdf5::Handle open_archive(const std::string& name, const std::string& problem,
+                          const std::string& expected) {
+  const Place place{name, 0, 0, ""};
+  if (!exists(name)) throw InputError(place, "there is no such file");
+  Handle file;  // HDF5 would wait for a pipe
+  if (!is_no_file(name))
+    file = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file) throw InputError(place, problem, expected);
+  if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
+    throw InputError(place, "the archive has another schema",
+                     "one written by this version of carom");
+  return file;
+}
+
 }  // namespace carom

@@ -47,6 +47,10 @@ class ArchiveFile {
 };
 
 inline constexpr int archive_schema = 1;
+/// Opens an archive for reading. Throws InputError where there is no file, where HDF5 cannot read
+/// it (with this problem and what was expected), or where its schema is another one.
+hdf5::Handle open_archive(const std::string& name, const std::string& problem,
+                          const std::string& expected);
 inline constexpr const char* run_archive_kind = "run";
 
 }  // namespace carom

@@ -13,20 +13,12 @@ using hdf5::Handle;
 
 StoredRun read_run(const std::string& name) {
   const Place place{name, 0, 0, ""};
-  if (!exists(name)) throw InputError(place, "there is no such file");
-  Handle file;  // a pipe would be waited for
-  if (!is_no_file(name))
-    file = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file)
-    throw InputError(place,
-                     "the file is not an archive, or its run was killed or is still going on",
-                     "the archive of a finished or interrupted run");
+  const Handle file =
+      open_archive(name, "the file is not an archive, or its run was killed or is still going on",
+                   "the archive of a finished or interrupted run");
   if (hdf5::read_string_attribute(file.get(), "kind", name) != run_archive_kind)
     throw InputError(place, "the archive holds no run in double precision",
                      "an archive written by carom run");
-  if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
-    throw InputError(place, "the archive has another schema",
-                     "one written by this version of carom");
   StoredRun run;
   run.status = hdf5::read_string_attribute(file.get(), "status", name);
   if (run.status == "running")

@@ -23,16 +23,7 @@ namespace carom {
 using hdf5::Handle;
 
 Handle open_ensemble(const std::string& name) {
-  const Place place{name, 0, 0, ""};
-  if (!exists(name)) throw InputError(place, "there is no such file");
-  Handle file;  // a pipe would be waited for
-  if (!is_no_file(name))
-    file = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file) throw InputError(place, "the file is not an archive", "an archive written by carom");
-  if (hdf5::read_integer_attribute(file.get(), "schema", name) != archive_schema)
-    throw InputError(place, "the archive has another schema",
-                     "one written by this version of carom");
-  return file;
+  return open_archive(name, "the file is not an archive", "an archive written by carom");
 }
 
 namespace {
