@@ -12,8 +12,8 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/io/archive.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/common.hpp"
 #include "cli/commands/ensemble_job.hpp"
+#include "cli/common.hpp"
 #include "cli/mpi_ranks.hpp"
 
 namespace {

@@ -10,12 +10,12 @@
 #include "carom/events/decision_range.hpp"
 #include "events/bodies.hpp"
 #include "events/disc/disc_contacts.hpp"
-#include "events/step/force_regions.hpp"
 #include "events/flight/free_flights.hpp"
-#include "events/step/groups.hpp"
-#include "events/step/integration.hpp"
 #include "events/samples.hpp"
 #include "events/section_watch.hpp"
+#include "events/step/force_regions.hpp"
+#include "events/step/groups.hpp"
+#include "events/step/integration.hpp"
 #include "table/flat_arcs.hpp"
 
 namespace carom {

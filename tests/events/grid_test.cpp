@@ -11,8 +11,8 @@
 #include "events/flight/locator.hpp"
 #include "events/flight/next_hit.hpp"
 #include "events/flight/wall_grid.hpp"
-#include "random_tables.hpp"
 #include "events/recorder.hpp"
+#include "random_tables.hpp"
 
 namespace carom::tests {
 namespace {

@@ -1,8 +1,8 @@
 // One writer at a time, also while others let go.
 #include "io/checkpoint/work_folder.hpp"
 
-#include <gtest/gtest.h>
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

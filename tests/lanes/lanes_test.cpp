@@ -9,8 +9,8 @@
 #include <map>
 #include <utility>
 
-#include "carom/geometry/curve.hpp"
 #include "carom/events/world.hpp"
+#include "carom/geometry/curve.hpp"
 #include "carom/lanes/free_lanes.hpp"
 #include "random_tables.hpp"
 

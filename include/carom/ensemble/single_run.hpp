@@ -11,8 +11,8 @@
 #include "carom/analysis/trust.hpp"
 #include "carom/ensemble/state_error.hpp"
 #include "carom/ensemble/system.hpp"
-#include "carom/events/energy.hpp"
 #include "carom/events/decisions.hpp"
+#include "carom/events/energy.hpp"
 #include "carom/events/observer.hpp"
 #include "carom/events/step_counts.hpp"
 

@@ -10,8 +10,8 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
-#include "cli/common.hpp"
 #include "cli/commands/run_certified.hpp"
+#include "cli/common.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {

@@ -2,8 +2,8 @@
 #include "carom/ensemble/diffusion.hpp"
 
 #include "cli/commands/commands.hpp"
-#include "cli/reports/diffusion_report.hpp"
 #include "cli/commands/run_shared.hpp"
+#include "cli/reports/diffusion_report.hpp"
 
 namespace carom::cli {
 

@@ -3,8 +3,8 @@
 
 #include "cli/commands/certified_sample.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/reports/escape_report.hpp"
 #include "cli/commands/run_shared.hpp"
+#include "cli/reports/escape_report.hpp"
 
 namespace carom::cli {
 

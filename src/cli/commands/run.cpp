@@ -12,9 +12,9 @@
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/run_certified.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
-#include "cli/commands/run_certified.hpp"
 #include "cli/reports/run_report.hpp"
 #include "io/progress.hpp"
 

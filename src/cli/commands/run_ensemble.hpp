@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "carom/base/error.hpp"
-#include "cli/common.hpp"
-#include "cli/reports/doubts.hpp"
 #include "cli/commands/ensemble_job.hpp"
+#include "cli/common.hpp"
 #include "cli/mpi_ranks.hpp"
+#include "cli/reports/doubts.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {

@@ -13,8 +13,8 @@
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/table_svg.hpp"
-#include "io/progress.hpp"
 #include "io/checkpoint/work_folder.hpp"
+#include "io/progress.hpp"
 
 namespace carom::cli {
 

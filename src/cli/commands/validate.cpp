@@ -9,8 +9,8 @@
 #include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
-#include "validation/cases/cases.hpp"
 #include "io/progress.hpp"
+#include "validation/cases/cases.hpp"
 
 namespace carom::cli {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "carom/ensemble/diffusion.hpp"
-#include "cli/reports/ensemble_context.hpp"
 #include "cli/options.hpp"
+#include "cli/reports/ensemble_context.hpp"
 
 namespace carom::cli {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "carom/geometry/filter.hpp"
 #include "base/pair.hpp"
+#include "carom/geometry/filter.hpp"
 
 namespace carom {
 

@@ -1,9 +1,9 @@
 // A flight under way, and what lies first ahead of it.
 #pragma once
 
+#include "base/angle.hpp"
 #include "carom/geometry/filter.hpp"
 #include "carom/geometry/lattice.hpp"
-#include "base/angle.hpp"
 
 namespace carom {
 

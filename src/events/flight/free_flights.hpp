@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "events/bodies.hpp"
-#include "events/step/force_regions.hpp"
 #include "events/flight/locator.hpp"
 #include "events/flight/next_hit.hpp"
+#include "events/step/force_regions.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {

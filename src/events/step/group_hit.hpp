@@ -7,8 +7,8 @@
 #include "carom/events/decisions.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
-#include "events/step/group.hpp"
 #include "events/flight/piece_table.hpp"
+#include "events/step/group.hpp"
 
 namespace carom {
 

@@ -8,9 +8,9 @@
 #include "carom/events/dynamics.hpp"
 #include "carom/events/step_counts.hpp"
 #include "events/bodies.hpp"
+#include "events/flight/free_flights.hpp"
 #include "events/step/energy_watch.hpp"
 #include "events/step/force_regions.hpp"
-#include "events/flight/free_flights.hpp"
 #include "events/step/group.hpp"
 
 namespace carom {

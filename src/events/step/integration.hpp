@@ -6,11 +6,11 @@
 
 #include "carom/events/dynamics.hpp"
 #include "events/bodies.hpp"
-#include "events/step/force_regions.hpp"
 #include "events/flight/free_flights.hpp"
+#include "events/section_watch.hpp"
+#include "events/step/force_regions.hpp"
 #include "events/step/groups.hpp"
 #include "events/step/neighbours.hpp"
-#include "events/section_watch.hpp"
 
 namespace carom {
 

@@ -12,9 +12,9 @@
 #include "io/archive/columns.hpp"
 #include "io/archive/contact_columns.hpp"
 #include "io/archive/ensemble_columns.hpp"
-#include "io/checkpoint/ensemble_files.hpp"
 #include "io/archive/step_numbers.hpp"
 #include "io/archive/trust_columns.hpp"
+#include "io/checkpoint/ensemble_files.hpp"
 
 namespace carom {
 

@@ -3,9 +3,9 @@
 #include "io/archive/archive_file.hpp"
 #include "io/archive/checksums.hpp"
 #include "io/archive/columns.hpp"
-#include "io/checkpoint/ensemble_files.hpp"
 #include "io/archive/step_numbers.hpp"
 #include "io/archive/trust_columns.hpp"
+#include "io/checkpoint/ensemble_files.hpp"
 
 namespace carom {
 

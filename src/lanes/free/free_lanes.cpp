@@ -8,11 +8,11 @@
 
 #include "carom/events/world.hpp"
 #include "events/flight/next_hit.hpp"
-#include "lanes/free/next_disc_table.hpp"
 #include "lanes/free/exit_by_signs.hpp"
 #include "lanes/free/kernels.hpp"
 #include "lanes/free/lane_start.hpp"
 #include "lanes/free/make_lane_table.hpp"
+#include "lanes/free/next_disc_table.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {
