@@ -91,8 +91,8 @@ void check_instruction_set(const Options& options) {
                 fmt::format("{}", fmt::join(here, ", ")), nearest_name(options.isa, here));
   // Whether a plain ensemble flies in lanes is known, and said, at its end.
   if (is_plain_ensemble(options)) return;
-  warn(fmt::format("--isa changed nothing: carom {}{} uses no lanes", options.command,
-                   options.certify_sample.empty() ? "" : " --certify-sample"));
+  warn(fmt::format("--isa changed nothing: carom {}{} takes the widest lanes, or none",
+                   options.command, options.certify_sample.empty() ? "" : " --certify-sample"));
 }
 
 void check_engine(const Options& options) {

@@ -23,7 +23,7 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
 int threads_of(const Options&);
 /// Throws InputError for engines and instruction sets that this version does not have.
 void check_engine(const Options&);
-/// Checks --isa alone; a command without lanes says that it changed nothing.
+/// Checks --isa alone; a command that chooses its lanes itself says that it changed nothing.
 void check_instruction_set(const Options&);
 /// What --isa asks for: the widest of this machine, or the one named.
 InstructionSet instruction_set_of(const Options&);

@@ -35,12 +35,13 @@ struct Pair {
 class Worker : public Listener {
  public:
   Worker(const System& system, const Sampler& sampler, const World& world, OtherFlight other,
-         std::vector<Pair>& pairs)
+         std::vector<Pair>& pairs, const std::function<void(std::uint64_t)>& report)
       : sampler_(sampler),
         holes_(hole_numbers(*system.table)),
         engine_(make_engine(system, {.t_end = system.run.t_max, .like = &world})),
         other_(std::move(other)),
-        pairs_(pairs) {}
+        pairs_(pairs),
+        report_(report) {}
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
@@ -48,10 +49,11 @@ class Worker : public Listener {
            const std::function<bool()>& stopped) {
     stopped_ = &stopped;
     DrawnStarts starts(sampler_, TrajectoryRange{first, end});
-    return engine_->run(starts, *this, stopped) &&
-           std::none_of(pairs_.begin() + static_cast<std::ptrdiff_t>(first),
-                        pairs_.begin() + static_cast<std::ptrdiff_t>(end),
-                        [](const Pair& pair) { return pair.state == Pair::State::open; });
+    if (!engine_->run(starts, *this, stopped)) return false;
+    for (std::uint64_t i = first; i < end; ++i)
+      if (pairs_[i].state == Pair::State::open) return false;
+    report_(end - first);
+    return true;
   }
 
   // A pair that is stopped on the way stays open.
@@ -85,6 +87,7 @@ class Worker : public Listener {
   const std::unique_ptr<Engine> engine_;
   const OtherFlight other_;
   std::vector<Pair>& pairs_;
+  const std::function<void(std::uint64_t)>& report_;
   const std::function<bool()>* stopped_ = nullptr;
 };
 
@@ -102,29 +105,16 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
   // Small blocks: a long orbit takes many times as long as a short one.
   const BlockPlan plan(options.sample, options.threads, 16);
   std::mutex mutex;
-  struct Reporting {
-    Worker worker;
-    const std::function<void(std::uint64_t)>& progress;
-    std::uint64_t& done;
-    std::mutex& mutex;
-    bool run(std::uint64_t block, std::uint64_t first, std::uint64_t end,
-             const std::function<bool()>& stopped) {
-      if (!worker.run(block, first, end, stopped)) return false;
-      const std::lock_guard lock(mutex);
-      done += end - first;
-      if (progress) progress(done);
-      return true;
-    }
+  const std::function<void(std::uint64_t)> report = [&](std::uint64_t more) {
+    const std::lock_guard lock(mutex);
+    done += more;
+    if (options.progress) options.progress(done);
   };
   PairedEscapeResult result;
   result.threads = plan.threads;
   result.complete = run_blocks(
       plan, options.interrupted,
-      [&] {
-        return Reporting{Worker(system, sampler, world, make(), pairs), options.progress, done,
-                         mutex};
-      },
-      [](const Reporting&) {});
+      [&] { return Worker(system, sampler, world, make(), pairs, report); }, [](const Worker&) {});
 
   // In the order of trajectories: the sum does not depend on the threads that flew them.
   PairedSurvival survival(system.run.times, options.tolerance * size_of(*system.table) /

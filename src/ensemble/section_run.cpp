@@ -22,21 +22,18 @@ constexpr std::uint64_t default_orbits = 50;
 
 using Order = OrderedBlocks<SectionPoint>;
 
-struct Tally {
-  void merge(const Tally& other) {
-    const SectionResult& r = other.result;
-    result.orbits += r.orbits;
-    result.points += r.points;
-    result.collisions += r.collisions;
-    result.incomplete += r.incomplete;
-    result.add_fates(r);
-    result.digest += r.digest;
-    result.steps += r.steps;
-    result.energy_error += r.energy_error;
-    for (const auto& [index, report] : r.reports) keep_first(result.reports, index, report);
-  }
-  SectionResult result;  // its counts and reports alone
-};
+/// Adds counts and reports.
+void add(SectionResult& sum, const SectionResult& r) {
+  sum.orbits += r.orbits;
+  sum.points += r.points;
+  sum.collisions += r.collisions;
+  sum.incomplete += r.incomplete;
+  sum.add_fates(r);
+  sum.digest += r.digest;
+  sum.steps += r.steps;
+  sum.energy_error += r.energy_error;
+  for (const auto& [index, report] : r.reports) keep_first(sum.reports, index, report);
+}
 
 std::uint64_t hash_of(std::uint64_t so_far, const SectionPoint& p) {
   for (const double x : {p.t, p.s, p.v_parallel, p.x, p.y, p.vx, p.vy}) so_far = mix(so_far, x);
@@ -123,12 +120,12 @@ class Follower : public Listener {
 
   DecisionCounts decisions() const { return engine_->decisions(); }
 
-  Tally tally;
+  SectionResult sum;  ///< counts and reports alone
 
  private:
   void count(std::uint64_t orbit, const std::vector<SectionPoint>& points,
              const TrajectoryEnd& end) {
-    SectionResult& r = tally.result;
+    SectionResult& r = sum;
     ++r.orbits;
     r.steps += end.steps;
     r.points += points.size();
@@ -195,17 +192,15 @@ SectionResult run_section(const System& system, const SectionOptions& options) {
     const std::unique_lock lock(progress_mutex, std::try_to_lock);
     if (lock) options.progress(all, all_points);
   };
-  Tally total;
-  const bool complete = run_blocks(
+  SectionResult result;
+  result.complete = run_blocks(
       plan, options.interrupted,
       [&] { return Follower(system, sampler, options, world, order, report); },
       [&](Follower& follower) {
-        total.merge(follower.tally);
-        total.result.decisions += follower.decisions();
+        add(result, follower.sum);
+        result.decisions += follower.decisions();
       });
   if (options.points) order.flush();
-  SectionResult result = std::move(total.result);
-  result.complete = complete;
   result.seconds = watch.seconds();
   result.cpu_seconds = watch.cpu_seconds();
   result.threads = plan.threads;

@@ -242,7 +242,8 @@ TEST(Splitting, SurvivalOfAllIsExactlyOne) {
 }
 
 // Around the discs of a table that is said to be closed, a particle that leaves is lost. None goes
-// without being counted: walkers that did not reach their level, and kicked copies that did not.
+// without being counted: trajectories that did not reach their level, and kicked copies that did
+// not.
 TEST(Splitting, LostKickedCopiesAreCounted) {
   System leaky = three_disc();
   Table table = *leaky.table;
@@ -256,10 +257,10 @@ TEST(Splitting, LostKickedCopiesAreCounted) {
   std::uint64_t left = 0, kept = 0;
   for (const auto& runs : result.runs)
     for (const PopulationRun& run : runs) {
-      std::uint64_t walkers = plan.population;
+      std::uint64_t flown = plan.population;
       for (const std::uint64_t reached : run.reached) {
-        left += walkers - reached;
-        walkers = reached > 0 ? plan.population : 0;
+        left += flown - reached;
+        flown = reached > 0 ? plan.population : 0;
       }
       kept += run.tried - run.accepted;
     }

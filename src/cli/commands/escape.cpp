@@ -44,7 +44,7 @@ void refuse_options_without_a_use(const Options& options) {
     refuse_beside(options.overrides.trajectories, "--trajectories",
                   "--splitting, which has --population");
     refuse_beside(options.isa == "auto" ? "" : options.isa, "--isa",
-                  "--splitting, which uses no lanes");
+                  "--splitting, which takes the widest lanes");
     if (options.splitting.starts_with("hits:"))
       refuse_beside(options.overrides.times, "--times", "levels of hits");
   }
