@@ -119,12 +119,15 @@ class Population::Flights : public Starts, public Listener {
   std::deque<OnItsWay> under_way_;  ///< by slot; stays where it is
 };
 
-Population::Population(const System& system, const Sampler& sampler, const Kick& kick,
-                       const SplittingPlan& plan, const std::vector<double>& reports,
-                       const SplittingOptions& options)
+Population::Population(const System& system, const Sampler& sampler, const World& world,
+                       const Kick& kick, const SplittingPlan& plan,
+                       const std::vector<double>& reports, const SplittingOptions& options)
     : system_(system), sampler_(sampler), kick_(kick), plan_(plan), reports_(reports) {
-  EngineOptions asked{
-      .t_end = no_end, .hits = true, .decisions = options.decisions, .lanes = options.lanes};
+  EngineOptions asked{.t_end = no_end,
+                      .hits = true,
+                      .decisions = options.decisions,
+                      .lanes = options.lanes,
+                      .like = &world};
   to_levels_ = make_engine(system, asked);
   if (by_time()) {
     asked.t_end = reports.back();

@@ -19,7 +19,8 @@ namespace carom {
 /// (seed, repetition, number of the kick) alone.
 class Population {
  public:
-  Population(const System&, const Sampler&, const Kick&, const SplittingPlan&,
+  /// `world`: one for the system, which shares what it prepared of the table.
+  Population(const System&, const Sampler&, const World& world, const Kick&, const SplittingPlan&,
              const std::vector<double>& reports, const SplittingOptions&);
 
   /// `kick_number` 0, 1, 2: delta, delta / 2, delta / 4. Not `done` if it was stopped on the way.

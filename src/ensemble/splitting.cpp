@@ -9,6 +9,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/stopwatch.hpp"
+#include "carom/ensemble/trajectories.hpp"
 #include "parallel_blocks.hpp"
 #include "population.hpp"
 
@@ -115,6 +116,7 @@ class Worker {
 struct Setting {
   const System& system;
   const Sampler& sampler;
+  const World& world;
   const Kick& kick;
   const std::vector<double>& at;
 };
@@ -125,8 +127,8 @@ bool follow(const Setting& s, const SplittingPlan& plan, const BlockPlan& blocks
   return run_blocks(
       blocks, options.interrupted,
       [&] {
-        return Worker(Population(s.system, s.sampler, s.kick, plan, s.at, options), options,
-                      shared);
+        return Worker(Population(s.system, s.sampler, s.world, s.kick, plan, s.at, options),
+                      options, shared);
       },
       [](Worker& worker) { worker.finish(); });
 }
@@ -181,9 +183,10 @@ SplittingResult run_splitting(const System& system, const SplittingPlan& plan,
   const BlockPlan blocks(plan.repetitions * kick_sizes, options.threads, 1);
   check_memory(plan, blocks.threads);
   const Sampler sampler(system, options.interrupted);
+  const World world = make_world(system, options.decisions);
   const Kick kick(*system.table);
   const Stopwatch watch;
-  const Setting setting{system, sampler, kick, result.at};
+  const Setting setting{system, sampler, world, kick, result.at};
   if (plan.kick == 0.0) result.plan.kick = chosen_kick(setting, plan, options, result);
   Shared shared(plan.repetitions, kick_sizes);
   shared.reports = std::move(result.reports);
