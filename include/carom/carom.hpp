@@ -29,6 +29,7 @@
 #include "carom/ensemble/paired_escape.hpp"
 #include "carom/ensemble/parts.hpp"
 #include "carom/ensemble/report_times.hpp"
+#include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"

@@ -56,6 +56,10 @@ std::string lanes_text(const std::string& none, std::optional<InstructionSet> la
                        const LaneEffort& effort = {});
 /// Writes to standard output; an output that cannot be written is an InputError.
 void print(const std::string& text);
+/// The archive that a report names: none where it goes when its picture is drawn.
+inline std::string named_archive(const Options& options, const std::string& output) {
+  return options.hidden_archive ? std::string() : output;
+}
 /// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing
 /// else.
 void warn(const std::string& text);

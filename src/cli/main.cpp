@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/sampler.hpp"
@@ -15,6 +17,7 @@
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
 #include "cli/mpi_ranks.hpp"
+#include "cli/picture.hpp"
 
 namespace {
 
@@ -25,6 +28,18 @@ void reserve_standard_streams() {
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF &&
         ::open("/dev/null", stream == 2 ? O_WRONLY : O_RDONLY) < 0)
       return;
+}
+
+using carom::cli::Options;
+
+int (*command_of(const std::string& name))(const Options&) {
+  using namespace carom::cli;
+  static const std::pair<const char*, int (*)(const Options&)> commands[] = {
+      {"escape", escape}, {"run", run},     {"diffusion", diffusion}, {"section", section},
+      {"merge", merge},   {"table", table}, {"validate", validate},   {"plot", plot}};
+  for (const auto& [known, command] : commands)
+    if (name == known) return command;
+  return systems;
 }
 
 }  // namespace
@@ -45,14 +60,10 @@ int main(int argc, char** argv) {
     const Options& options = parsed.options;
     follow_links(parsed.options);
     if (silent && !is_plain_ensemble(options)) return done;
-    if (options.command == "escape") return escape(options);
-    if (options.command == "merge") return merge(options);
-    if (options.command == "diffusion") return diffusion(options);
-    if (options.command == "section") return section(options);
-    if (options.command == "run") return run(options);
-    if (options.command == "table") return table(options);
-    if (options.command == "validate") return validate(options);
-    return systems(options);
+    const PictureOfResult picture(parsed.options);
+    const int status = command_of(options.command)(options);
+    picture.finish(status);
+    return status;
   } catch (const carom::SamplingStopped&) {
     std::fputs("carom: interrupted before a start was found\n", stderr);
     return stopped;

@@ -140,7 +140,8 @@ void define(CLI::App& app, Options& o) {
           "followed.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
-      .text("-o,--output", o.output, "FILE.h5", "Write an archive")
+      .text("-o,--output", o.output, "FILE",
+            "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .flag("--per-trajectory", o.per_trajectory,
             "Store start, fate, hole, time and hits of each trajectory in the archive")
       .parts()
@@ -167,8 +168,9 @@ void define(CLI::App& app, Options& o) {
           "With --collisions and without --t-max the run has no last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
-      .text("-o,--output", o.output, "FILE.h5",
-            "Write an archive: every hit, and samples if run.sample is set")
+      .text("-o,--output", o.output, "FILE",
+            "Write an archive (.h5): every hit, and samples if run.sample is set; or draw a "
+            "picture (.png, .svg, .pdf)")
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
       .text("--trust-tolerance", o.overrides.trust_tolerance, "X",
             "Largest error of a trusted collision, in units of the table's size (default 1e-3)")
@@ -186,7 +188,8 @@ void define(CLI::App& app, Options& o) {
           "Checkpoints, --resume, --shard and mpirun as with carom escape.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
-      .text("-o,--output", o.output, "FILE.h5", "Write an archive")
+      .text("-o,--output", o.output, "FILE",
+            "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .parts()
       .text("--window", o.window, "FROM,TO",
             "Range of report times from which D and the exponent are computed");
@@ -202,7 +205,8 @@ void define(CLI::App& app, Options& o) {
           "last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
-      .text("-o,--output", o.output, "FILE.h5", "Write an archive")
+      .text("-o,--output", o.output, "FILE",
+            "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .text("--on", o.on, "WHERE", "Where the section is taken (default: boundary)")
       .text("--direction", o.direction, "NAME", "Crossings that count: both, positive or negative")
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
@@ -227,6 +231,16 @@ void define(CLI::App& app, Options& o) {
       .system("SYSTEM", "Built-in name or TOML file")
       .common()
       .text("-o,--output", o.output, "FILE.svg", "Draw the table");
+  Command(app, o, "plot", "The picture of an archive or a system",
+          "Examples:\n"
+          "  carom plot orbit.h5 -o orbit.pdf\n"
+          "  carom plot mushroom -o mushroom.png\n"
+          "  carom run stadium --collisions 100 -o orbit.png     computes and draws\n"
+          "\n"
+          "Without -o the picture is NAME.png in this folder. It needs Python with matplotlib.")
+      .system("SOURCE", "Archive, TOML file or built-in name")
+      .text("-o,--output", o.output, "PICTURE", "A name ending in .png, .svg or .pdf")
+      .flag("--force", o.force, "Replace a picture that exists");
   Command(app, o, "systems", "Lists the built-in systems; prints one as TOML",
           "Examples:\n"
           "  carom systems\n"
@@ -249,8 +263,8 @@ void define(CLI::App& app, Options& o) {
 std::string unknown_word(const std::vector<std::string>& remaining) {
   for (const std::string& word : remaining) {
     if (word.empty() || word[0] == '-') continue;
-    const std::string near = nearest_name(
-        word, {"escape", "run", "diffusion", "section", "merge", "table", "systems", "validate"});
+    const std::string near = nearest_name(word, {"escape", "run", "diffusion", "section", "merge",
+                                                 "table", "plot", "systems", "validate"});
     return "there is no command '" + word + "'" +
            (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   }

@@ -30,6 +30,7 @@ DEPENDENCIES = {
     "io": ["analysis", "certify", "ensemble", "events", "forces", "geometry", "integrators", "table"],
     "validation": ["analysis", "ensemble", "events", "io"],
     "cli": ["certify", "ensemble", "events", "geometry", "integrators", "io", "lanes", "table", "validation"],
+    "python": ["analysis", "cli", "ensemble", "events", "forces", "geometry", "io", "motion", "table"],
 }
 # The closed-form maps check the engine, so they share nothing with it.
 MAPS_MAY_INCLUDE = {"carom/maps/maps.hpp", "carom/base/error.hpp"}
@@ -48,6 +49,7 @@ PACKAGES = {
     r"toml\+\+/|hdf5": r"src/io/",
     r"CLI/": r"src/cli/options\.cpp",
     r"hwy/": r"src/lanes/simd/",
+    r"pybind11|Python\.h": r"python/src/",
     r"omp\.h": r"src/ensemble/|validation/cases/",
     r"mpi\.h": r"src/cli/mpi_ranks\.cpp",
     r"sundials|arkode/|cvode/|nvector/|sunlinsol/|sunnonlinsol/": r"src/integrators/",
@@ -82,7 +84,7 @@ def without_comments(text, strings=True):
 
 def sources(root):
     """(path relative to root, text) of every C++ file of the library and the program."""
-    for folder in ("include", "geometry", "src", "validation/cases"):
+    for folder in ("include", "geometry", "src", "validation/cases", "python/src"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in (".cpp", ".hpp"):
                 yield path.relative_to(root).as_posix(), path.read_text(encoding="utf-8")
@@ -91,7 +93,7 @@ def sources(root):
 def module_of(path):
     if path.startswith("geometry/"):
         return "geometry"
-    match = re.match(r"(?:src/|include/carom/|(?=validation/))(\w+)/", path)
+    match = re.match(r"(?:src/|include/carom/|(?=validation/|python/))(\w+)/", path)
     return match.group(1) if match else None
 
 
@@ -183,7 +185,7 @@ def check_libm(root):
 
 
 def check_length(root):
-    paths = [path for folder in ("include", "geometry", "src", "tests", "examples", "validation", "docs")
+    paths = [path for folder in ("include", "geometry", "src", "python", "tests", "examples", "validation", "docs")
              for path in (root / folder).rglob("*") if path.suffix in (".cpp", ".hpp", ".py")]
     for path in sorted(paths):
         lines = len(path.read_text(encoding="utf-8").splitlines())
@@ -200,7 +202,7 @@ def check_format(root):
     if not program:
         print("clang-format-14 is not installed; ./dev test installs it")
         raise SystemExit(SKIPPED)
-    files = [path for folder in ("include", "geometry", "src", "tests", "examples", "validation")
+    files = [path for folder in ("include", "geometry", "src", "python", "tests", "examples", "validation")
              for path in sorted((root / folder).rglob("*.?pp"))]
     found = subprocess.run([program, "--dry-run", "--ferror-limit=1", *map(str, files)], capture_output=True, text=True,
                            check=True).stderr

@@ -9,6 +9,7 @@
 
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/ensemble/trajectory_ranges.hpp"
@@ -78,6 +79,8 @@ class RunArchive : public Observer {
   ~RunArchive() override;
 
   void hit(const HitEvent&) override;
+  /// The same of a hit that was kept as a row.
+  void append(const HitRow&);
   void contact(const ContactEvent&) override;
   void sample(int particle, Time, const State&) override;
   void sampled(Time) override;
@@ -98,6 +101,23 @@ struct StoredRun {
 };
 /// Throws InputError for anything but the archive of a finished or interrupted run.
 StoredRun read_run(const std::string& file);
+
+/// The rows of a run's archive. Throw InputError for anything else.
+std::vector<HitRow> read_hits(const std::string& file);
+std::vector<SampleRow> read_samples(const std::string& file);
+
+/// A section as its archive holds it; times, decisions and steps are not among it.
+struct StoredSection {
+  std::string system_name, system_toml, engine;
+  SectionResult result;
+  std::vector<SectionPoint> points;
+};
+/// Throws InputError for anything but the archive of a section.
+StoredSection read_section(const std::string& file);
+
+/// What an archive holds: "run", "escape", "diffusion", "section", … Throws InputError for anything
+/// else.
+std::string kind_of_archive(const std::string& file);
 
 /// Part `k` of `of`, from 1 on.
 struct Shard {

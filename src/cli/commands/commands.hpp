@@ -14,5 +14,6 @@ int merge(const Options&);
 int diffusion(const Options&);
 int section(const Options&);
 int validate(const Options&);
+int plot(const Options&);
 
 }  // namespace carom::cli

@@ -8,13 +8,7 @@
 namespace carom::cli {
 
 int diffusion(const Options& options) {
-  EnsembleKind<DiffusionResult> kind;
-  kind.run = run_diffusion;
-  kind.print = [&](const EnsembleJob<DiffusionResult>& job, const DiffusionResult& result,
-                   const std::string& status) {
-    print_diffusion(options, job.loaded.system, result, {status, job.output, job.shard});
-  };
-  return run_ensemble(options, kind);
+  return run_ensemble<DiffusionResult>(options, run_diffusion);
 }
 
 }  // namespace carom::cli

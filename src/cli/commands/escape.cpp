@@ -63,18 +63,9 @@ int escape(const Options& options) {
   refuse_options_without_a_use(options);
   if (!options.splitting.empty()) return splitting(options);
   if (!options.certify_sample.empty()) return certified_sample(options);
-  EnsembleKind<EscapeResult> kind;
-  kind.run = [](const System& system, const EnsembleOptions<EscapeResult>& how) {
+  return run_ensemble<EscapeResult>(options, [](const System& system, const auto& how) {
     return run_escape(system, {how, {}});
-  };
-  kind.print = [&](const EnsembleJob<EscapeResult>& job, const EscapeResult& result,
-                   const std::string& status) {
-    const System& system = job.loaded.system;
-    const EnsembleContext context{status, job.output, job.shard};
-    print(options.json ? escape_json(system, result, context).text() + "\n"
-                       : escape_text(system, result, context));
-  };
-  return run_ensemble(options, kind);
+  });
 }
 
 }  // namespace carom::cli

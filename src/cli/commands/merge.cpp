@@ -5,10 +5,8 @@
 
 #include "carom/base/error.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/run_ensemble.hpp"
 #include "cli/common.hpp"
-#include "cli/reports/diffusion_report.hpp"
-#include "cli/reports/doubts.hpp"
-#include "cli/reports/escape_report.hpp"
 
 namespace carom::cli {
 
@@ -24,18 +22,6 @@ void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
                      grouped(system.run.trajectories), gaps.front().first));
 }
 
-int print_sum(const Options& options, const System& system, const EscapeResult& result,
-              const EnsembleContext& context) {
-  print(options.json ? escape_json(system, result, context).text() + "\n"
-                     : escape_text(system, result, context));
-  return doubts_of(system, result).status(true);
-}
-int print_sum(const Options& options, const System& system, const DiffusionResult& result,
-              const EnsembleContext& context) {
-  print_diffusion(options, system, result, context);
-  return doubts_of(system, result).status(true);
-}
-
 template <class Result>
 int merge_parts(const Options& options, const std::string& output,
                 const std::vector<std::string>& files, ArchiveLock lock) {
@@ -48,8 +34,7 @@ int merge_parts(const Options& options, const std::string& output,
   write_sum(output, loaded, origin, sum, lock);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
-  warn_of(sum.result.reports);
-  return print_sum(options, loaded.system, sum.result, {sum.status, output, sum.shard});
+  return report(options, loaded.system, sum.result, {sum.status, output, sum.shard}, true);
 }
 
 }  // namespace

@@ -173,8 +173,9 @@ int run(const Options& options) {
   for (const RunEnd& particle : result.particles)
     if (is_failure(particle.progress.fate) && !particle.report.empty())
       warn(std::string(shown(particle.report)));
-  print(options.json ? run_json(system, result, status, output).text() + "\n"
-                     : run_text(system, result, status, output));
+  const std::string archive_name = named_archive(options, output);
+  print(options.json ? run_json(system, result, status, archive_name).text() + "\n"
+                     : run_text(system, result, status, archive_name));
   return doubts_of(system, result).status(!result.interrupted);
 }
 

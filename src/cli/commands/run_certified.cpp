@@ -70,9 +70,11 @@ bool says_rescaled(const System& system, const CertifiedEffort& effort) {
   return effort.rescaled && system.initial.kind == InitialCondition::Kind::point;
 }
 
-Json end_json(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
-              const CertifiedEffort& effort, const std::string& output, double seconds,
-              double cpu_seconds) {
+}  // namespace
+
+Json certified_json(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
+                    const CertifiedEffort& effort, const std::string& output, double seconds,
+                    double cpu_seconds) {
   Json json = Json::object();
   add_common_keys(json, system, 1, seconds, cpu_seconds);
   json.set("status", name_of(end.fate));
@@ -97,8 +99,9 @@ Json end_json(const System& system, const CertifiedEnd& end, const CertifiedTask
   return json;
 }
 
-std::string end_text(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
-                     const CertifiedEffort& effort, const std::string& output, double seconds) {
+std::string certified_text(const System& system, const CertifiedEnd& end, const CertifiedTask& task,
+                           const CertifiedEffort& effort, const std::string& output,
+                           double seconds) {
   const int digits = task.digits;
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("  status        {}", name_of(end.fate));
@@ -124,6 +127,8 @@ std::string end_text(const System& system, const CertifiedEnd& end, const Certif
   text += fmt::format("  computed in   {:.3g} s\n", seconds);
   return output.empty() ? text : text + fmt::format("  archive       {}\n", output);
 }
+
+namespace {
 
 void follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& task,
             CertifiedArchive* archive) {
@@ -166,12 +171,16 @@ ExactStart exact_start(const State& state) {
   return start;
 }
 
-int run_certified(const Options& options) {
+CertifiedTask certified_task(const Options& options, LoadedSystem& loaded) {
   check_options(options);
-  LoadedSystem loaded = load_system(options.system, run_overrides(options));
   check_form(loaded.system, "--precision");
   draw_start(options, loaded);
-  const CertifiedTask task = task_of(options, loaded);
+  return task_of(options, loaded);
+}
+
+int run_certified(const Options& options) {
+  LoadedSystem loaded = load_system(options.system, run_overrides(options));
+  const CertifiedTask task = certified_task(options, loaded);
   const Stopwatch watch;
   const std::atomic<bool>& signal = catch_interrupts();
   CertifiedOrbit orbit(loaded.exact, task,
@@ -188,10 +197,10 @@ int run_certified(const Options& options) {
   if (archive) archive->finish(end, orbit.effort(), name_of(end.fate), !interrupted);
   const CertifiedEffort& effort = orbit.effort();
   print(options.json
-            ? end_json(loaded.system, end, task, effort, options.output, seconds, cpu_seconds)
+            ? certified_json(loaded.system, end, task, effort, options.output, seconds, cpu_seconds)
                       .text() +
                   "\n"
-            : end_text(loaded.system, end, task, effort, options.output, seconds));
+            : certified_text(loaded.system, end, task, effort, options.output, seconds));
   return interrupted ? stopped : done;
 }
 

@@ -1,6 +1,7 @@
 // carom run --precision certified.
 #pragma once
 
+#include "carom/certify/certified_orbit.hpp"
 #include "cli/common.hpp"
 
 namespace carom::cli {
@@ -12,6 +13,15 @@ SystemOverrides run_overrides(const Options&);
 void check_form(const System&, const char* option);
 /// A start that was drawn: its doubles, taken exactly.
 ExactStart exact_start(const State&);
+
+/// What the options ask for; draws the start into the system. Throws InputError where a system or
+/// an option has no certified form.
+CertifiedTask certified_task(const Options&, LoadedSystem&);
+Json certified_json(const System&, const CertifiedEnd&, const CertifiedTask&,
+                    const CertifiedEffort&, const std::string& output, double seconds,
+                    double cpu_seconds);
+std::string certified_text(const System&, const CertifiedEnd&, const CertifiedTask&,
+                           const CertifiedEffort&, const std::string& output, double seconds);
 
 int run_certified(const Options&);
 

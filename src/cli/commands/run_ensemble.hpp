@@ -13,17 +13,16 @@
 #include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
 #include "cli/mpi_ranks.hpp"
+#include "cli/reports/diffusion_report.hpp"
 #include "cli/reports/doubts.hpp"
+#include "cli/reports/escape_report.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
 
-/// How one kind of ensemble is run and printed.
+/// Flies an ensemble.
 template <class Result>
-struct EnsembleKind {
-  std::function<Result(const System&, const EnsembleOptions<Result>&)> run;
-  std::function<void(const EnsembleJob<Result>&, const Result&, const std::string& status)> print;
-};
+using Fly = std::function<Result(const System&, const EnsembleOptions<Result>&)>;
 
 template <class Result>
 EnsembleOptions<Result> how_to_run(const Options& options) {
@@ -62,17 +61,26 @@ std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options,
 
 inline const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
 
+/// Prints a result; the exit status. `complete`: it was not interrupted.
 template <class Result>
-int report(const EnsembleKind<Result>& kind, const EnsembleJob<Result>& job, const Result& result,
-           const std::string& status) {
+int report(const Options& options, const System& system, const Result& result,
+           const EnsembleContext& context, bool complete) {
   warn_of(result.reports);
-  kind.print(job, result, status);
-  return doubts_of(job.loaded.system, result).status(result.complete);
+  print(options.json ? result_json(system, result, context).text() + "\n"
+                     : result_text(system, result, context));
+  return doubts_of(system, result).status(complete);
+}
+
+template <class Result>
+int report(const Options& options, const EnsembleJob<Result>& job, const Result& result,
+           const std::string& status) {
+  return report(options, job.loaded.system, result,
+                {status, named_archive(options, job.output), job.shard}, result.complete);
 }
 
 template <class Result>
 void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, std::uint64_t kept) {
-  if (job.output.empty() || kept == 0) return;
+  if (named_archive(options, job.output).empty() || kept == 0) return;
   warn(fmt::format("{} trajectories are kept; this goes on with them: carom {} --resume {}",
                    grouped(kept), options.command, job.output));
 }
@@ -87,7 +95,7 @@ void say_what_became_of_it(const Options& options, const EnsembleJob<Result>& jo
 
 // Runs the ensemble and shows the progress of this process.
 template <class Result>
-Result fly(const Options& options, const EnsembleKind<Result>& kind, const System& system,
+Result fly(const Options& options, const Fly<Result>& run, const System& system,
            EnsembleOptions<Result> how) {
   const double all = static_cast<double>(how.part.last - how.part.first);
   const std::uint64_t before = how.before ? how.before->done.size() : 0;
@@ -101,11 +109,11 @@ Result fly(const Options& options, const EnsembleKind<Result>& kind, const Syste
                           : with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
                                 "trajectories/s");
     };
-  return kind.run(system, how);
+  return run(system, how);
 }
 
 template <class Result>
-int run_alone(const Options& options, const EnsembleKind<Result>& kind) {
+int run_alone(const Options& options, const Fly<Result>& run) {
   check_engine(options);
   EnsembleOptions<Result> how = how_to_run<Result>(options);
   std::optional<Progress> preparing(std::in_place, !options.quiet);
@@ -117,7 +125,7 @@ int run_alone(const Options& options, const EnsembleKind<Result>& kind) {
     if (job.lock)
       remove_checkpoint(job.output);  // left by a process that was killed at its last step
     job.lock.reset();
-    return report(kind, job, job.stored->result, job.stored->status);
+    return report(options, job, job.stored->result, job.stored->status);
   }
   how.part = job.shard.range(job.loaded.system.run.trajectories);
   if (job.stored) how.before = &job.stored->result;
@@ -125,7 +133,7 @@ int run_alone(const Options& options, const EnsembleKind<Result>& kind) {
   how.journal = archive.get();
   Result result;
   try {
-    result = fly(options, kind, job.loaded.system, how);
+    result = fly(options, run, job.loaded.system, how);
     if (archive) archive->finish(result, status_of(result.complete));
   } catch (...) {
     if (archive) say_how_to_go_on(options, job, archive->kept());
@@ -134,7 +142,7 @@ int run_alone(const Options& options, const EnsembleKind<Result>& kind) {
   archive.reset();  // whatever becomes of the report
   job.lock.reset();
   say_what_became_of_it(options, job, result);
-  return report(kind, job, result, status_of(result.complete));
+  return report(options, job, result, status_of(result.complete));
 }
 
 }  // namespace carom::cli

@@ -42,7 +42,7 @@ void send_parts(Ranks&, const std::string& part, const std::string& first_file);
 
 // Flies this rank's share into the archive `part`.
 template <class Result>
-void fly_share(const Options& options, const EnsembleKind<Result>& kind, EnsembleJob<Result>& job,
+void fly_share(const Options& options, const Fly<Result>& run, EnsembleJob<Result>& job,
                const Ranks& ranks, const std::string& part, const std::atomic<bool>& stopped,
                ShareEnd& end) {
   const System& system = job.loaded.system;
@@ -63,7 +63,7 @@ void fly_share(const Options& options, const EnsembleKind<Result>& kind, Ensembl
                                   provenance_of(options, system, threads_of(options)), plan);
   how.journal = &archive;
   try {
-    Result result = fly(options, kind, system, how);
+    Result result = fly(options, run, system, how);
     const char* const status = status_of(result.complete);
     result.complete = false;  // it is a part of the ensemble
     archive.finish(result, status);
@@ -76,8 +76,8 @@ void fly_share(const Options& options, const EnsembleKind<Result>& kind, Ensembl
 
 // The first rank adds up what there is.
 template <class Result>
-int add_up(const Options& options, const EnsembleKind<Result>& kind, EnsembleJob<Result>& job,
-           const Ranks& ranks, const std::string& file, const std::vector<ShareEnd>& ends) {
+int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
+           const std::string& file, const std::vector<ShareEnd>& ends) {
   std::uint64_t kept = job.stored ? job.stored->result.done.size() : 0;
   for (const ShareEnd& end : ends) kept += end.kept;
   std::optional<SumOfParts<Result>> sum;
@@ -99,11 +99,11 @@ int add_up(const Options& options, const EnsembleKind<Result>& kind, EnsembleJob
   }
   job.lock.reset();
   say_what_became_of_it(options, job, sum->result);
-  return report(kind, job, sum->result, sum->status);
+  return report(options, job, sum->result, sum->status);
 }
 
 template <class Result>
-int run_shared(const Options& options, const EnsembleKind<Result>& kind, Ranks& ranks) {
+int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
   const bool first = ranks.rank() == 0;
   constexpr const char *go = "go", *nothing = "nothing";
   // The first rank reads everything, and claims the archive.
@@ -121,7 +121,7 @@ int run_shared(const Options& options, const EnsembleKind<Result>& kind, Ranks& 
   if (ready.exception) std::rethrow_exception(ready.exception);
   if (first && complete) {
     job.lock.reset();
-    return report(kind, job, job.stored->result, job.stored->status);
+    return report(options, job, job.stored->result, job.stored->status);
   }
   if (word != go) return word == nothing ? done : bad_input;
 
@@ -137,8 +137,7 @@ int run_shared(const Options& options, const EnsembleKind<Result>& kind, Ranks& 
       if (job.output.empty()) temporary.emplace();
       file = temporary ? temporary->file("sum") : job.output;
       if (temporary) std::filesystem::create_directory(folder_of(file));
-      fly_share(options, kind, job, ranks, part_of_rank(file, ranks.rank()), meeting.stopped(),
-                end);
+      fly_share(options, run, job, ranks, part_of_rank(file, ranks.rank()), meeting.stopped(), end);
     });
     meeting.end(mine.exception != nullptr);
   }
@@ -150,7 +149,7 @@ int run_shared(const Options& options, const EnsembleKind<Result>& kind, Ranks& 
 
   int status = bad_input;
   const ShareEnd last = share_end_of([&](ShareEnd&) {
-    if (first) status = add_up(options, kind, job, ranks, file, ends);
+    if (first) status = add_up(options, job, ranks, file, ends);
   });
   if (last.stopped) status = stopped;
   status = std::stoi(ranks.tell(fmt::format("{}", status)));
@@ -159,9 +158,9 @@ int run_shared(const Options& options, const EnsembleKind<Result>& kind, Ranks& 
 }
 
 template <class Result>
-int run_ensemble(const Options& options, const EnsembleKind<Result>& kind) {
-  if (Ranks* const ranks = start_ranks()) return run_shared(options, kind, *ranks);
-  return run_alone(options, kind);
+int run_ensemble(const Options& options, const Fly<Result>& run) {
+  if (Ranks* const ranks = start_ranks()) return run_shared(options, run, *ranks);
+  return run_alone(options, run);
 }
 
 }  // namespace carom::cli

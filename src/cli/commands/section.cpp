@@ -10,8 +10,10 @@
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/section.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/doubts.hpp"
+#include "cli/reports/section_report.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -54,41 +56,6 @@ SystemOverrides section_overrides(const Options& options) {
   return overrides;
 }
 
-// Every hit is a point: orbits that are asked for a number of points have no last time. On one
-// wall, on a line or at a velocity they may never have so many. Where the section is taken the
-// command line or the file says.
-LoadedSystem load_section(const Options& options) {
-  SystemOverrides overrides = section_overrides(options);
-  const bool last_time = !overrides.t_max.empty() ||
-                         std::any_of(overrides.set.begin(), overrides.set.end(),
-                                     [](const auto& one) { return one.first == "run.t_max"; });
-  if (options.points.empty() || last_time) return load_system(options.system, overrides);
-  LoadedSystem loaded = load_system(options.system, overrides);
-  const SectionPlan& plan = loaded.system.section;
-  if (!plan.boundary || plan.wall >= 0) return loaded;
-  overrides.t_max = fmt::format("{}", no_last_time);
-  return load_system(options.system, overrides);
-}
-
-Json section_json(const System& system, const SectionResult& result, const std::string& status,
-                  const std::string& output) {
-  Json json = Json::object();
-  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
-  json.set("status", status);
-  json.set("points", result.points);
-  json.set("orbits", result.orbits);
-  json.set("incomplete", result.incomplete);
-  add_fates(json, result);
-  json.set("collisions", result.collisions);
-  json.set("digest", fmt::format("{:016x}", result.digest));
-  json.set("decisions", decisions_json(result.decisions));
-  if (engine_of(system) != "events") json.set("energy_error", energy_json(result.energy_error));
-  add_steps(json, system, result.steps);
-  add_reports(json, result.reports);
-  if (!output.empty()) json.set("archive", output);
-  return json;
-}
-
 std::string section_text(const System& system, const SectionResult& result,
                          const std::vector<OrbitLine>& lines, const std::string& output) {
   std::string text = doubts_of(system, result).text() +
@@ -118,12 +85,30 @@ std::string section_text(const System& system, const SectionResult& result,
 
 }  // namespace
 
+// Every hit is a point: orbits that are asked for a number of points have no last time. On one
+// wall, on a line or at a velocity they may never have so many. Where the section is taken the
+// command line or the file says.
+LoadedSystem load_section(const Options& options, const Load& load) {
+  SystemOverrides overrides = section_overrides(options);
+  const bool last_time = !overrides.t_max.empty() ||
+                         std::any_of(overrides.set.begin(), overrides.set.end(),
+                                     [](const auto& one) { return one.first == "run.t_max"; });
+  if (options.points.empty() || last_time) return load(overrides);
+  LoadedSystem loaded = load(overrides);
+  const SectionPlan& plan = loaded.system.section;
+  if (!plan.boundary || plan.wall >= 0) return loaded;
+  overrides.t_max = fmt::format("{}", no_last_time);
+  return load(overrides);
+}
+
 int section(const Options& options) {
   check_engine(options);
   SectionOptions how;
   how.threads = threads_of(options);
   std::optional<Progress> preparing(std::in_place, !options.quiet);
-  LoadedSystem loaded = load_section(options);
+  LoadedSystem loaded = load_section(options, [&](const SystemOverrides& overrides) {
+    return load_system(options.system, overrides);
+  });
   preparing.reset();
   choose_engine(options.engine, loaded.system);
   const System& system = loaded.system;
@@ -154,8 +139,9 @@ int section(const Options& options) {
   const std::string status = result.complete ? "completed" : "interrupted";
   if (archive) archive->finish(result, status);
   warn_of(result.reports);
-  print(options.json ? section_json(system, result, status, options.output).text() + "\n"
-                     : section_text(system, result, lines, options.output));
+  const std::string archive_name = named_archive(options, options.output);
+  print(options.json ? section_json(system, result, status, archive_name).text() + "\n"
+                     : section_text(system, result, lines, archive_name));
   return doubts_of(system, result).status(result.complete);
 }
 

@@ -106,8 +106,55 @@ std::string fit_text(const DiffusionSummary& summary) {
   return text;
 }
 
-Json diffusion_json(const System& system, const DiffusionResult& result,
-                    const DiffusionSummary& summary, const EnsembleContext& context) {
+}  // namespace
+
+DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
+  const auto add = [](std::string& note, const std::string& more) {
+    if (!more.empty()) note += (note.empty() ? "" : "; ") + more;
+  };
+  DiffusionSummary summary;
+  summary.horizon = horizon_of(system);
+  summary.no_D = no_diffusion(summary.horizon);
+  const DisplacementMoments moments(result.sums, system.particles.size());
+  summary.points = moments.points();
+  const auto& window = system.run.window;
+  const TimeWindow asked =
+      window ? TimeWindow{window->first, window->second} : moments.default_window();
+  summary.fit = moments.fit(asked);
+  if (summary.fit && summary.no_D.empty()) {
+    // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
+    const bool enough = std::isfinite(summary.fit->exponent.value);
+    const Estimate& a = enough ? summary.fit->exponent : summary.fit->local_exponent;
+    if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
+      add(summary.note, "the MSD does not grow as t in the window: D depends on it");
+  }
+  // A cap first ends the particles that hit most often.
+  if (result.capped > 0 && summary.fit && summary.no_D.empty()) {
+    const auto last =
+        std::find_if(summary.points.rbegin(), summary.points.rend(),
+                     [&](const MomentPoint& p) { return p.t <= summary.fit->window.to; });
+    if (last != summary.points.rend() && last->count < result.trajectories)
+      add(summary.note,
+          "the cap on hits ended particles before the window's end: those that hit least are left");
+  }
+  add(summary.note, repeated_starts(system));
+  if (!summary.fit && summary.no_D.empty()) {
+    summary.estimable = false;
+    const auto times = std::count_if(summary.points.begin(), summary.points.end(),
+                                     [&](const MomentPoint& p) { return asked.holds(p.t); });
+    summary.no_D =
+        result.trajectories == 0 ? "no trajectory was followed"
+        : times < 2
+            ? "fewer than two report times > 0 in the window"
+            : "no particle was there or had moved, or squares of displacements are too small for "
+              "doubles, at the times of the window";
+  }
+  return summary;
+}
+
+Json result_json(const System& system, const DiffusionResult& result,
+                 const EnsembleContext& context) {
+  const DiffusionSummary summary = summary_of(system, result);
   Json json = ensemble_json(system, result, context);
   json.set("trajectories", result.trajectories);
   json.set("survived", result.survived);
@@ -168,8 +215,9 @@ Json diffusion_json(const System& system, const DiffusionResult& result,
   return json;
 }
 
-std::string diffusion_text(const System& system, const DiffusionResult& result,
-                           const DiffusionSummary& summary, const EnsembleContext& context) {
+std::string result_text(const System& system, const DiffusionResult& result,
+                        const EnsembleContext& context) {
+  const DiffusionSummary summary = summary_of(system, result);
   std::string text = doubts_of(system, result).text() +
                      fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text +=
@@ -193,59 +241,6 @@ std::string diffusion_text(const System& system, const DiffusionResult& result,
   text += lanes_text(why_one_by_one(system), result.lanes);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
-}
-
-}  // namespace
-
-DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
-  const auto add = [](std::string& note, const std::string& more) {
-    if (!more.empty()) note += (note.empty() ? "" : "; ") + more;
-  };
-  DiffusionSummary summary;
-  summary.horizon = horizon_of(system);
-  summary.no_D = no_diffusion(summary.horizon);
-  const DisplacementMoments moments(result.sums, system.particles.size());
-  summary.points = moments.points();
-  const auto& window = system.run.window;
-  const TimeWindow asked =
-      window ? TimeWindow{window->first, window->second} : moments.default_window();
-  summary.fit = moments.fit(asked);
-  if (summary.fit && summary.no_D.empty()) {
-    // Few times leave no room for the offset c: what grows otherwise shows in the plain slope, too.
-    const bool enough = std::isfinite(summary.fit->exponent.value);
-    const Estimate& a = enough ? summary.fit->exponent : summary.fit->local_exponent;
-    if (std::abs(a.value - 1) > 0.05 && std::abs(a.value - 1) > 5 * a.error)
-      add(summary.note, "the MSD does not grow as t in the window: D depends on it");
-  }
-  // A cap first ends the particles that hit most often.
-  if (result.capped > 0 && summary.fit && summary.no_D.empty()) {
-    const auto last =
-        std::find_if(summary.points.rbegin(), summary.points.rend(),
-                     [&](const MomentPoint& p) { return p.t <= summary.fit->window.to; });
-    if (last != summary.points.rend() && last->count < result.trajectories)
-      add(summary.note,
-          "the cap on hits ended particles before the window's end: those that hit least are left");
-  }
-  add(summary.note, repeated_starts(system));
-  if (!summary.fit && summary.no_D.empty()) {
-    summary.estimable = false;
-    const auto times = std::count_if(summary.points.begin(), summary.points.end(),
-                                     [&](const MomentPoint& p) { return asked.holds(p.t); });
-    summary.no_D =
-        result.trajectories == 0 ? "no trajectory was followed"
-        : times < 2
-            ? "fewer than two report times > 0 in the window"
-            : "no particle was there or had moved, or squares of displacements are too small for "
-              "doubles, at the times of the window";
-  }
-  return summary;
-}
-
-void print_diffusion(const Options& options, const System& system, const DiffusionResult& result,
-                     const EnsembleContext& context) {
-  const DiffusionSummary summary = summary_of(system, result);
-  print(options.json ? diffusion_json(system, result, summary, context).text() + "\n"
-                     : diffusion_text(system, result, summary, context));
 }
 
 }  // namespace carom::cli

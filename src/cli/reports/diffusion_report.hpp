@@ -5,8 +5,8 @@
 #include <string>
 
 #include "carom/ensemble/diffusion.hpp"
-#include "cli/options.hpp"
 #include "cli/reports/ensemble_context.hpp"
+#include "io/json.hpp"
 
 namespace carom::cli {
 
@@ -21,7 +21,7 @@ struct DiffusionSummary {
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 
-/// Prints JSON or text to standard output.
-void print_diffusion(const Options&, const System&, const DiffusionResult&, const EnsembleContext&);
+Json result_json(const System&, const DiffusionResult&, const EnsembleContext&);
+std::string result_text(const System&, const DiffusionResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

@@ -58,7 +58,7 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
 
 }  // namespace
 
-Json escape_json(const System& system, const EscapeResult& result, const EnsembleContext& context) {
+Json result_json(const System& system, const EscapeResult& result, const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
   Json json = ensemble_json(system, result, context);
   json.set("trajectories", counts.trajectories);
@@ -106,7 +106,7 @@ Json escape_json(const System& system, const EscapeResult& result, const Ensembl
   return json;
 }
 
-std::string escape_text(const System& system, const EscapeResult& result,
+std::string result_text(const System& system, const EscapeResult& result,
                         const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
   std::string text = doubts_of(system, result).text() +

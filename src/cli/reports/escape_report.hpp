@@ -9,7 +9,7 @@
 
 namespace carom::cli {
 
-Json escape_json(const System&, const EscapeResult&, const EnsembleContext&);
-std::string escape_text(const System&, const EscapeResult&, const EnsembleContext&);
+Json result_json(const System&, const EscapeResult&, const EnsembleContext&);
+std::string result_text(const System&, const EscapeResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

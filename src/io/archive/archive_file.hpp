@@ -51,6 +51,6 @@ inline constexpr int archive_schema = 1;
 /// it (with this problem and what was expected), or where its schema is another one.
 hdf5::Handle open_archive(const std::string& name, const std::string& problem,
                           const std::string& expected);
-inline constexpr const char* run_archive_kind = "run";
+inline constexpr const char *run_archive_kind = "run", *section_archive_kind = "section";
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "io/archive/archive_file.hpp"
@@ -23,11 +24,6 @@ using hdf5::Description;
 using hdf5::Handle;
 
 namespace {
-
-// Position in the plane from the position in a cell.
-Vector unwrapped(const Table& table, Vector position, const geometry::Cell& cell) {
-  return table.lattice ? position + table.lattice->translation(cell) : position;
-}
 
 // One value a particle.
 template <class T, class Get>
@@ -171,7 +167,7 @@ class RunArchive::Implementation {
         contacts(file.name()),
         of_discs(loaded.system.of_discs()),
         energies(file.name()) {
-    for (const Wall& wall : table->walls) frames.push_back(geometry::frame_of(wall.curve));
+    frames = frames_of(*table);
   }
 
   void create(const LoadedSystem& loaded, const Provenance& origin, std::uint64_t trajectory);
@@ -380,14 +376,14 @@ std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const 
 }
 
 void RunArchive::hit(const HitEvent& event) {
-  Implementation& a = *implementation_;
-  const geometry::CurveFrame& frame = a.frames[static_cast<std::size_t>(event.wall)];
-  const Vector position = unwrapped(*a.table, event.position, event.cell);
-  a.hits.row(std::int32_t{event.particle}, std::int32_t{event.wall}, event.u,
-             geometry::arc_length_at(frame, event.u),
-             dot(event.after, geometry::tangent_at(frame, event.u)), event.time.value(), position.x,
-             position.y, event.after.x, event.after.y, event.cell.first, event.cell.second,
-             std::int32_t{event.reflections});
+  const Implementation& a = *implementation_;
+  append(hit_row(event, *a.table, a.frames));
+}
+
+void RunArchive::append(const HitRow& row) {
+  implementation_->hits.row(row.particle, row.wall, row.u, row.s, row.v_parallel, row.t, row.x,
+                            row.y, row.vx, row.vy, row.cell_first, row.cell_second,
+                            row.reflections);
 }
 
 void RunArchive::contact(const ContactEvent& event) {
@@ -398,12 +394,8 @@ void RunArchive::sample(int particle, Time time, const State& state) {
   Implementation& a = *implementation_;
   // A run that goes on is asked for its samples from the beginning.
   if (!(time.value() > a.sampled_until)) return;
-  const Vector position = unwrapped(*a.table, state.position, state.cell);
-  Vector folded = state.position;
-  geometry::Cell cell = state.cell;
-  fold_into_cell(*a.table, folded, cell);
-  a.samples.row(std::int32_t{particle}, time.value(), position.x, position.y, state.velocity.x,
-                state.velocity.y, cell.first, cell.second);
+  const SampleRow row = sample_row(particle, time, state, *a.table);
+  a.samples.row(row.particle, row.t, row.x, row.y, row.vx, row.vy, row.cell_first, row.cell_second);
   if (!a.with_energies()) return;
   a.particles_now.push_back(a.all_particles.at(static_cast<std::size_t>(particle)));
   a.states_now.push_back(state);

@@ -3,6 +3,7 @@
 
 #include "io/archive/archive_file.hpp"
 #include "io/archive/columns.hpp"
+#include "io/archive/section_numbers.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 
 namespace carom {
@@ -13,7 +14,7 @@ class SectionArchive::Implementation {
  public:
   Implementation(const std::string& path, const LoadedSystem& loaded, const Provenance& origin)
       : target(path), file(ArchiveFile::create(aside_of(path), path)), rows(path) {
-    file.write_head("section", loaded, origin);
+    file.write_head(section_archive_kind, loaded, origin);
     const System& system = loaded.system;
     const Handle group =
         file.group("section", "Points of the section, orbit after orbit, in order of time");
@@ -67,23 +68,10 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
   a.rows.close();
   {
     const Handle group = a.file.group("fates", "Numbers of orbits");
-    const auto number = [&](const char* name, std::uint64_t value, const char* text) {
-      hdf5::write_column(group.get(), name, std::span<const std::uint64_t>(&value, 1), {"1", text},
-                         a.target);
-    };
-    number("orbits", result.orbits, "Trajectories followed to their end");
-    number("points", result.points, "Points of all orbits");
-    number("collisions", result.collisions, "Reflections of all orbits");
-    number("incomplete", result.incomplete, "Particles with fewer points than asked for");
-    number("pinned", result.pinned, "On a cyclotron orbit that never hits");
-    number("escaped", result.escaped, "Left through a hole");
-    number("capped", result.capped, "Ended by the cap on hits");
-    number("singular", result.singular, "Ended where no continuation is defined");
-    number("unbounded", result.unbounded, "No wall follows any more");
-    number("unresolved", result.unresolved, "Ended where integration could not follow");
-    number("lost", result.lost, "Internal errors: always 0");
-    number("digest", result.digest,
-           "Sum of a hash of each orbit's points: equal digests, equal bits");
+    for (const SectionNumber& number : section_numbers)
+      hdf5::write_column(group.get(), number.name,
+                         std::span<const std::uint64_t>(&(result.*number.value), 1),
+                         {"1", number.text}, a.target);
     const Handle provenance = a.file.open_group("provenance");
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   }

@@ -1,0 +1,5 @@
+# A particle among the discs of a triangular lattice.
+import carom
+
+run = carom.run("lorentz-triangular", collisions=300)
+run.plot().figure.savefig("lorentz.png")

@@ -1,0 +1,38 @@
+"""Classical particles in two dimensions: exact billiards, fields, potentials, ensembles.
+
+    import carom
+    table = carom.stadium(half_length=1, radius=1).hole("bottom", center=1, width=0.2)
+    result = carom.escape(table, t_max=100, trajectories=10**5)
+    print(result)
+    result.plot()
+
+Every number is made by the same C++ as the program's `carom`, with the same digest.
+"""
+
+from . import _carom
+from .commands import diffusion, escape, open, run, section
+from .errors import InputError, Place
+from .results import Certified, Diffusion, Escape, Exact, Result, Run, Section
+from .system import (
+    System,
+    annulus,
+    circle,
+    discs,
+    ellipse,
+    lemon,
+    load,
+    lorentz,
+    mushroom,
+    path,
+    polygon,
+    rectangle,
+    regular,
+    sinai,
+    stadium,
+    system,
+    systems,
+    triangle,
+)
+
+__version__ = _carom.version
+fates = list(_carom.fates)

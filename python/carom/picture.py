@@ -1,0 +1,50 @@
+"""`carom plot`: the picture of an archive or a system. python3 -m carom.picture FILE -o PICTURE"""
+
+import argparse
+import os
+import sys
+
+import carom
+
+ENDINGS = (".png", ".svg", ".pdf")
+
+
+def draw(source):
+    """The figure of an archive, a system file or a built-in system."""
+    is_system = source.endswith(".toml") or ("." not in source and "/" not in source)
+    if is_system:
+        thing = carom.load(source) if "/" in source or source.endswith(".toml") else carom.system(source)
+    else:
+        thing = carom.open(source)
+    axes = thing.plot()
+    return (axes[0] if hasattr(axes, "__len__") else axes).figure
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="carom plot", description=__doc__)
+    parser.add_argument("source", help="an archive, a system file or the name of a built-in system")
+    parser.add_argument("-o", "--output", required=True, help="PICTURE.png, .svg or .pdf")
+    parser.add_argument("--force", action="store_true", help="replaces a picture that is there")
+    parser.add_argument("--dpi", type=float, default=200, help="dots per inch of a .png")
+    given = parser.parse_args()
+    if not given.output.endswith(ENDINGS):
+        raise carom.InputError(
+            f"-o {given.output}: not the name of a picture", ("command line", 0, 0, "-o"), "a name ending in .png, .svg or .pdf"
+        )
+    if os.path.exists(given.output) and not given.force:
+        raise carom.InputError(f"{given.output}: the file exists already", (given.output, 0, 0, ""))
+    import matplotlib
+
+    matplotlib.use("Agg")
+    figure = draw(given.source)
+    stem, ending = os.path.splitext(given.output)
+    part = f"{stem}.part{ending}"
+    figure.savefig(part, dpi=given.dpi)
+    os.replace(part, given.output)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (carom.InputError, ImportError) as error:
+        sys.exit(f"carom: {error}")

@@ -1,0 +1,281 @@
+"""Systems: a table with its field, particles, forces and run, as a system file describes them."""
+
+import json
+import pathlib
+
+from . import _carom, toml
+from .errors import InputError
+
+# What the program has options for; the other keywords are keys of the system file.
+_PAIRS = ("position", "velocity", "window")
+_OPTIONS = (
+    "engine", "isa", "threads", "trajectory", "seed", "trajectories", "t_max", "collisions",
+    "trust_tolerance", "on", "direction", "points", "orbits", "precision", "digits",
+)  # fmt: skip
+_PLAIN_SECTIONS = ("field", "particles", "integrator", "run", "section")
+_KEYS = _carom.keys()
+_SECTIONS = {section.split(".")[0] for section, *_ in _KEYS} | {"initial", "table"}
+_SECTION_OF = {}
+for _section, _kind, _key, *_rest in _KEYS:
+    if _section in _PLAIN_SECTIONS:
+        _SECTION_OF.setdefault(_key, _section)
+
+
+def _changes(keywords):
+    """Keywords as what --set and the options of the program say: two lists of (name, text)."""
+    changes, options = [], []
+    for key, given in keywords.items():
+        if given is None:
+            continue
+        if key in _PAIRS:
+            options.append((key, ",".join(toml.bare(one) for one in given)))
+        elif key == "times":
+            text = given if isinstance(given, str) else ",".join(toml.bare(t) for t in given)
+            options.append((key, text))
+        elif key in _OPTIONS:
+            options.append((key, toml.bare(given)))
+        elif key == "angle":
+            changes.append(("initial.angle", toml.value(given)))
+        elif key in _SECTIONS:
+            if key == "initial" and isinstance(given, str):
+                given = {"kind": given}
+            if key in ("potential", "injection") and isinstance(given, dict):
+                given = [given]
+            changes.append((key, toml.value(given)))
+        elif key in _SECTION_OF:
+            changes.append((f"{_SECTION_OF[key]}.{key}", toml.value(given)))
+        else:
+            names = sorted({*_PAIRS, *_OPTIONS, *_SECTION_OF, *_SECTIONS, "times", "angle"})
+            nearest = _carom.nearest_name(key, names)
+            hint = f", did you mean '{nearest}'?" if nearest else ""
+            raise InputError(
+                f"unknown keyword '{key}'{hint}", ("", 0, 0, key), "a key of a system file", nearest
+            )
+    return changes, options
+
+
+class System:
+    """A system: what a system file says, and what was changed since. It does not change itself.
+
+    Made by `carom.load`, `carom.system`, `carom.stadium` and the other shapes.
+    """
+
+    def __init__(self, text, name, changes=(), options=()):
+        self._text = text
+        self._name = name
+        self._changes = tuple(changes)
+        self._options = tuple(options)
+        self._tables = {}
+
+    # What it is made of.
+
+    def with_(self, **keywords):
+        """The same system with other values: `system.with_(B=0.5, t_max=100)`."""
+        changes, options = _changes(keywords)
+        return System(self._text, self._name, (*self._changes, *changes), (*self._options, *options))
+
+    def _append(self, text):
+        if not self._text:
+            return System(self.to_toml() + text, self._name)._checked()
+        made = System(self._text + text, self._name, self._changes, self._options)
+        return made._checked()
+
+    def _checked(self):
+        self._loaded("table")
+        return self
+
+    def hole(self, wall, center=None, width=None, name=None, **keys):
+        """An opening of that width in a wall, its middle at the arc length `center`."""
+        return self._append(
+            toml.section(
+                "table.hole", {"wall": wall, "center": center, "width": width, "name": name, **keys}, True
+            )
+        )
+
+    def obstacle(self, shape, name=None, **keys):
+        """A hard obstacle: "circle" {center, radius}, "ellipse" {center, a, b, angle} or
+        "polygon" {points}."""
+        return self._append(
+            toml.section("table.obstacle", {"shape": shape, "name": name, **keys}, True)
+        )
+
+    def closed(self):
+        """The same without holes."""
+        return System(
+            self._text, self._name, (*self._changes, ("table.hole", "[]")), self._options
+        )
+
+    def to_toml(self):
+        """The complete system file, which the program takes too."""
+        return self._loaded("table").toml
+
+    def _loaded(self, command, **keywords):
+        changes, options = _changes(keywords)
+        return _carom.load(
+            self._text, self._name, command, [*self._changes, *changes], [*self._options, *options]
+        )
+
+    def __reduce__(self):
+        return System, (self._text, self._name, self._changes, self._options)
+
+    # What it looks like.
+
+    def _table(self):
+        if not self._tables:
+            self._tables.update(json.loads(self._loaded("table").table_json()))
+        return self._tables
+
+    @property
+    def name(self):
+        return self._name
+
+    @property
+    def title(self):
+        return self._loaded("table").title
+
+    @property
+    def area(self):
+        """Of the table, or of one cell of its lattice; infinite in the open plane."""
+        return float(self._table()["area"])
+
+    @property
+    def perimeter(self):
+        """The length of all walls."""
+        return float(self._table()["perimeter"])
+
+    @property
+    def mean_flight(self):
+        """π·area/perimeter: the mean way from hit to hit without a field."""
+        return float(self._table()["mean_flight"])
+
+    @property
+    def walls(self):
+        """Names of the walls, in the order of their numbers."""
+        return [wall["name"] for wall in self._table()["walls"]]
+
+    @property
+    def holes(self):
+        return [hole["name"] for hole in self._table()["holes"]]
+
+    def __repr__(self):
+        table = self._table()
+        holes = f", holes {', '.join(self.holes)}" if table["holes"] else ""
+        return f"<carom.System {self._name}: {table['shape']}, walls {', '.join(self.walls[:8])}" + (
+            ", …" if len(self.walls) > 8 else ""
+        ) + f"{holes}>"
+
+    def _repr_svg_(self):
+        return self._loaded("table").svg()
+
+    def plot(self, ax=None, **keywords):
+        """Draws the table, its holes and level lines of its potentials."""
+        from . import plot
+
+        return plot.table(self, ax=ax, **keywords)
+
+
+def load(path):
+    """A system file."""
+    path = pathlib.Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"cannot read '{path}': {error.strerror}", (str(path), 0, 0, "")) from None
+    return System(text, str(path))._checked()
+
+
+def system(name):
+    """A system that Carom carries with it, by its name: see `carom.systems()`."""
+    texts = dict(_carom.systems())
+    if name not in texts:
+        nearest = _carom.nearest_name(name, list(texts))
+        hint = f", did you mean '{nearest}'?" if nearest else ""
+        raise InputError(
+            f"there is no system '{name}'{hint}", ("", 0, 0, name), ", ".join(texts), nearest
+        )
+    return System(texts[name], name)
+
+
+def systems():
+    """Names of the systems that Carom carries with it."""
+    return [name for name, _ in _carom.systems()]
+
+
+def _shape(shape, **keys):
+    return System(toml.section("table", {"shape": shape, **keys}), shape)._checked()
+
+
+def rectangle(width=1, height=1):
+    """[0, width] × [0, height], with walls bottom, right, top, left."""
+    return _shape("rectangle", width=width, height=height)
+
+
+def polygon(points):
+    """A polygon through the points, with walls side_1, side_2, …"""
+    return _shape("polygon", points=points)
+
+
+def triangle(points):
+    """A triangle, with walls side_1, side_2, side_3."""
+    return _shape("triangle", points=points)
+
+
+def regular(sides, radius=1, angle=None):
+    """A regular polygon about the origin; `radius` is that of its corners."""
+    return _shape("regular", sides=sides, radius=radius, angle=angle)
+
+
+def circle(radius=1):
+    """A disc about the origin, with the wall circle."""
+    return _shape("circle", radius=radius)
+
+
+def ellipse(a, b):
+    """An ellipse about the origin with semi-axis a along x, with the wall ellipse."""
+    return _shape("ellipse", a=a, b=b)
+
+
+def annulus(outer, inner, offset=None):
+    """Between two circles, the inner one shifted along x; walls outer, inner."""
+    return _shape("annulus", outer=outer, inner=inner, offset=offset)
+
+
+def stadium(half_length=1, radius=1):
+    """Bunimovich's stadium about the origin; walls bottom, right, top, left."""
+    return _shape("stadium", half_length=half_length, radius=radius)
+
+
+def mushroom(cap_radius, stem_width, stem_height):
+    """Bunimovich's mushroom: cap above y = 0, stem below."""
+    return _shape("mushroom", cap_radius=cap_radius, stem_width=stem_width, stem_height=stem_height)
+
+
+def lemon(radius, separation):
+    """The lens between two circles whose centres are `separation` apart."""
+    return _shape("lemon", radius=radius, separation=separation)
+
+
+def sinai(side=1, radius=0.25, torus=None):
+    """A disc at the centre of a square [0, side]², with walls or (torus=True) periodic."""
+    return _shape("sinai", side=side, radius=radius, torus=torus)
+
+
+def lorentz(lattice="triangular", spacing=2.2, radius=1):
+    """The periodic Lorentz gas: one disc a cell of a triangular or square lattice."""
+    return _shape("lorentz", lattice=lattice, spacing=spacing, radius=radius)
+
+
+def discs(centers, radius=None, radii=None):
+    """Hard discs in the open plane; walls disc_1, disc_2, … Starts are on the first of them by the
+    cosine law, unless `initial` says another."""
+    text = toml.section("table", {"shape": "discs", "centers": centers, "radius": radius, "radii": radii})
+    text += toml.section("initial", {"kind": "boundary", "wall": "disc_1"})
+    return System(text, "discs")._checked()
+
+
+def path(*loops):
+    """Own loops of pieces, as [[table.loop]] of a system file describes them."""
+    text = toml.section("table", {"shape": "path"})
+    for loop in loops:
+        text += toml.section("table.loop", loop, True)
+    return System(text, "path")._checked()

@@ -1,0 +1,172 @@
+// Escape and diffusion.
+#include <pybind11/stl.h>
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "beside.hpp"
+#include "carom/ensemble/diffusion.hpp"
+#include "carom/ensemble/escape.hpp"
+#include "carom/io/archive.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/diffusion_report.hpp"
+#include "cli/reports/doubts.hpp"
+#include "cli/reports/escape_report.hpp"
+#include "loaded.hpp"
+
+namespace py = pybind11;
+
+namespace carom::python {
+
+namespace {
+
+// A particle of a trajectory, with its fate as a number: their names are `fates`.
+struct ParticleRow {
+  std::uint64_t index;
+  double x, y, vx, vy;
+  std::int8_t fate;
+  std::int32_t hole;
+  double time;
+  std::uint64_t hits;
+};
+
+template <class Result>
+struct EnsembleOutcome {
+  LoadedPointer system;
+  Result result;
+  std::string status;
+  std::shared_ptr<std::vector<TrajectoryRecord>> records;  ///< null: not asked for
+};
+
+const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
+
+// Keeps the records of blocks as they come.
+template <class Result>
+class Records : public EnsembleJournal<Result> {
+ public:
+  explicit Records(std::vector<TrajectoryRecord>& all) : all_(all) {}
+  bool wants_records() const override { return true; }
+  void block(TrajectoryRange, std::vector<TrajectoryRecord>&& records) override {
+    all_.insert(all_.end(), records.begin(), records.end());
+  }
+  void save(const Result&) override {}
+
+ private:
+  std::vector<TrajectoryRecord>& all_;
+};
+
+EscapeResult run(const System& system, const EnsembleOptions<EscapeResult>& how) {
+  return run_escape(system, {how, {}});
+}
+DiffusionResult run(const System& system, const EnsembleOptions<DiffusionResult>& how) {
+  return run_diffusion(system, how);
+}
+
+// The outcome, and what ended it early or None.
+template <class Result>
+py::tuple fly(const std::shared_ptr<Loaded>& loaded, bool per_trajectory,
+              const py::object& progress) {
+  EnsembleOutcome<Result> outcome{loaded, {}, {}, nullptr};
+  const System& system = loaded->system();
+  EnsembleOptions<Result> how;
+  how.threads = cli::threads_of(loaded->options);
+  cli::check_engine(loaded->options);
+  how.lanes = cli::instruction_set_of(loaded->options);
+  std::optional<Records<Result>> records;
+  if (per_trajectory) {
+    outcome.records = std::make_shared<std::vector<TrajectoryRecord>>();
+    how.journal = &records.emplace(*outcome.records);
+  }
+  Course course;
+  how.interrupted = &course.stop;
+  how.progress = [&](std::uint64_t trajectories, std::uint64_t) {
+    course.done = trajectories;
+    course.share = static_cast<double>(trajectories) / static_cast<double>(system.run.trajectories);
+  };
+  const std::exception_ptr interruption =
+      run_beside(course, progress, [&] { outcome.result = run(system, how); });
+  outcome.status = status_of(outcome.result.complete);
+  if (outcome.records)
+    std::sort(outcome.records->begin(), outcome.records->end(),
+              [](const auto& a, const auto& b) { return a.index < b.index; });
+  return py::make_tuple(std::move(outcome), error_of(interruption));
+}
+
+template <class Result>
+void save(const EnsembleOutcome<Result>& self, const std::string& file, bool force) {
+  const auto& [loaded, options] = *self.system;
+  typename EnsembleArchive<Result>::Plan plan;
+  plan.force = force;
+  plan.per_trajectory = self.records != nullptr;
+  Provenance origin = cli::provenance_of(options, loaded.system, self.result.threads);
+  refuse_existing(file, force);
+  EnsembleArchive<Result> archive(followed(file), loaded, origin, plan);
+  if (self.records)
+    archive.block({0, loaded.system.run.trajectories},
+                  std::vector<TrajectoryRecord>(*self.records));
+  archive.mark();
+  archive.finish(self.result, self.status);
+}
+
+template <class Result>
+EnsembleOutcome<Result> open(const std::string& file) {
+  Stored<Result> stored = read_ensemble<Result>(file);
+  auto loaded = std::make_shared<Loaded>();
+  loaded->loaded = system_of(stored);
+  loaded->options.command = kind_of(stored.result);
+  cli::choose_engine(stored.everywhere ? "steps" : "auto", loaded->loaded.system);
+  check_stored(stored, loaded->system());
+  return {loaded, std::move(stored.result), stored.status, nullptr};
+}
+
+template <class Result>
+void add(py::module_& module, const char* name, const char* function) {
+  using Outcome = EnsembleOutcome<Result>;
+  py::class_<Outcome>(module, name)
+      .def_property_readonly(
+          "system",
+          [](const Outcome& self) { return std::const_pointer_cast<Loaded>(self.system); })
+      .def("json",
+           [](const Outcome& self) {
+             return cli::result_json(self.system->system(), self.result, {self.status, "", {}})
+                 .text();
+           })
+      .def("text",
+           [](const Outcome& self) {
+             return cli::result_text(self.system->system(), self.result, {self.status, "", {}});
+           })
+      .def("doubts",
+           [](const Outcome& self) {
+             return cli::doubts_of(self.system->system(), self.result).lines;
+           })
+      .def("trajectories",
+           [](const Outcome& self) -> py::object {
+             if (!self.records) return py::none();
+             std::vector<ParticleRow> rows;
+             for (const TrajectoryRecord& r : *self.records)
+               rows.push_back({r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int8_t>(r.fate),
+                               r.hole, r.time, r.hits});
+             return array_of(std::move(rows));
+           })
+      .def("save", &save<Result>, py::call_guard<py::gil_scoped_release>());
+  module.def(function, &fly<Result>, py::arg("system"), py::arg("per_trajectory"),
+             py::arg("progress"));
+  module.def((std::string("open_") + function).c_str(), &open<Result>,
+             py::call_guard<py::gil_scoped_release>());
+}
+
+}  // namespace
+
+void add_ensembles(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(ParticleRow, index, x, y, vx, vy, fate, hole, time, hits);
+  py::list fates;
+  for (int i = 0; i <= static_cast<int>(last_fate); ++i)
+    fates.append(name_of(static_cast<Fate>(i)));
+  module.attr("fates") = fates;
+  add<EscapeResult>(module, "EscapeOutcome", "escape");
+  add<DiffusionResult>(module, "DiffusionOutcome", "diffusion");
+}
+
+}  // namespace carom::python

@@ -1,0 +1,28 @@
+// A system that is loaded for a command, with the options of that command as text.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+
+#include "carom/io/system_file.hpp"
+#include "cli/options.hpp"
+
+namespace carom::python {
+
+struct Loaded {
+  LoadedSystem loaded;
+  cli::Options options;
+  const System& system() const { return loaded.system; }
+};
+using LoadedPointer = std::shared_ptr<const Loaded>;
+
+/// Classes and functions of each part of the module.
+void add_loading(pybind11::module_&);
+void add_ensembles(pybind11::module_&);
+void add_runs(pybind11::module_&);
+void add_certified(pybind11::module_&);
+void add_pictures(pybind11::module_&);
+
+}  // namespace carom::python

@@ -1,0 +1,43 @@
+// The Python module: what C++ computes, as Python objects. The package carom gives them names.
+#include <pybind11/pybind11.h>
+
+#include "carom/base/error.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/io/archive.hpp"
+#include "carom_version.hpp"
+#include "loaded.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+// carom.InputError, with what the message is made of.
+void raise_input_error(const carom::InputError& error) {
+  const py::object type = py::module_::import("carom.errors").attr("InputError");
+  const carom::Place& place = error.place();
+  const py::object made =
+      type(error.what(), py::make_tuple(place.file, place.line, place.column, place.key),
+           error.expected(), error.nearest());
+  PyErr_SetObject(type.ptr(), made.ptr());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_carom, module) {
+  carom::prepare_archives();
+  module.attr("version") = carom::version;
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const carom::InputError& error) {
+      raise_input_error(error);
+    } catch (const carom::SamplingStopped&) {
+      PyErr_SetString(PyExc_KeyboardInterrupt, "");
+    }
+  });
+  carom::python::add_loading(module);
+  carom::python::add_ensembles(module);
+  carom::python::add_runs(module);
+  carom::python::add_certified(module);
+  carom::python::add_pictures(module);
+}

@@ -1,0 +1,156 @@
+// Points that pictures draw through: walls, flights, potentials.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "carom/forces/force_field.hpp"
+#include "carom/geometry/curve_frame.hpp"
+#include "carom/table/table.hpp"
+#include "loaded.hpp"
+#include "motion/free_motion.hpp"
+
+namespace py = pybind11;
+
+namespace carom::python {
+
+namespace {
+
+using geometry::Vector;
+
+constexpr int points_a_quarter = 48;
+
+struct PathPoint {
+  double t, x, y;
+};
+
+py::array_t<double> pairs(const std::vector<Vector>& points) {
+  py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
+  auto view = array.mutable_unchecked<2>();
+  for (py::ssize_t i = 0; i < view.shape(0); ++i) {
+    view(i, 0) = points[static_cast<std::size_t>(i)].x;
+    view(i, 1) = points[static_cast<std::size_t>(i)].y;
+  }
+  return array;
+}
+
+// A piece of a wall from the parameter u to v.
+std::vector<Vector> piece(const geometry::Curve& curve, double u, double v) {
+  const geometry::CurveFrame frame = geometry::frame_of(curve);
+  if (frame.kind == geometry::CurveFrame::Kind::segment)
+    return {geometry::point_at(frame, u), geometry::point_at(frame, v)};
+  const int count = 1 + static_cast<int>(std::ceil((v - u) * points_a_quarter));
+  std::vector<Vector> points;
+  for (int i = 0; i <= count; ++i) {
+    const double w = i == count ? v : u + (v - u) * i / count;
+    const bool end = w >= geometry::end_parameter(curve);
+    points.push_back(end ? geometry::end_point(curve) : geometry::point_at(frame, w));
+  }
+  return points;
+}
+
+// Of every wall: its name, its pieces, and its holes with their names.
+py::list walls(const Loaded& loaded) {
+  const Table& table = *loaded.system().table;
+  py::list all;
+  for (const Wall& wall : table.walls) {
+    py::list pieces, holes;
+    const double last = geometry::end_parameter(wall.curve);
+    double from = 0.0;
+    for (const int index : wall.holes) {
+      const Hole& hole = table.holes[static_cast<std::size_t>(index)];
+      if (hole.from > from) pieces.append(pairs(piece(wall.curve, from, hole.from)));
+      holes.append(py::make_tuple(hole.name, pairs(piece(wall.curve, hole.from, hole.to))));
+      from = hole.to;
+    }
+    if (from < last) pieces.append(pairs(piece(wall.curve, from, last)));
+    all.append(py::make_tuple(wall.name, pieces, holes));
+  }
+  return all;
+}
+
+py::list cell(const Loaded& loaded) {
+  py::list all;
+  const Table& table = *loaded.system().table;
+  if (table.lattice)
+    for (const auto& edge : table.lattice->edges)
+      all.append(pairs({edge.segment.from, edge.segment.to}));
+  return all;
+}
+
+// Where cells of a lattice lie; without one, cells are where they are.
+py::list translations(const Loaded& loaded,
+                      const std::vector<std::pair<std::int64_t, std::int64_t>>& cells) {
+  py::list all;
+  const Table& table = *loaded.system().table;
+  for (const auto& [first, second] : cells)
+    all.append(pairs({table.lattice ? table.lattice->translation({first, second}) : Vector{}}));
+  return all;
+}
+
+// The flight of a free particle from one event to the next; its end is left to the next one.
+void fly(std::vector<PathPoint>& path, Vector x, Vector v, double omega, double from, double to) {
+  const double quarter = 1.5707963267948966;
+  const double turn = std::fabs(omega) * (to - from);
+  const int count =
+      turn > 0.0 ? 1 + static_cast<int>(std::min(1e6, turn / quarter * points_a_quarter)) : 1;
+  for (int i = 0; i < count; ++i) {
+    const double duration = (to - from) * i / count;
+    const Vector y = i == 0 ? x : moved(x, v, omega, duration).first;
+    path.push_back({from + duration, y.x, y.y});
+  }
+}
+
+// The flights through rows of (t, x, y, vx, vy), the last of which ends the path.
+py::array_t<PathPoint> path(const py::array_t<double, py::array::c_style>& rows, double omega) {
+  const auto row = rows.unchecked<2>();
+  std::vector<PathPoint> points;
+  for (py::ssize_t i = 0; i + 1 < row.shape(0); ++i)
+    fly(points, {row(i, 1), row(i, 2)}, {row(i, 3), row(i, 4)}, omega, row(i, 0), row(i + 1, 0));
+  if (row.shape(0) > 0) {
+    const py::ssize_t last = row.shape(0) - 1;
+    points.push_back({row(last, 0), row(last, 1), row(last, 2)});
+  }
+  return array_of(std::move(points));
+}
+
+std::vector<double> omegas(const Loaded& loaded) {
+  std::vector<double> all;
+  for (const Particle& p : loaded.system().particles) all.push_back(p.omega);
+  return all;
+}
+
+// The potential energy of the first particle on a grid; None where there is no potential.
+py::object potential(const Loaded& loaded, const std::vector<double>& xs,
+                     const std::vector<double>& ys) {
+  const System& system = loaded.system();
+  if (!system.dynamics.forces || !system.dynamics.forces->external()) return py::none();
+  py::array_t<double> array({ys.size(), xs.size()});
+  auto view = array.mutable_unchecked<2>();
+  for (std::size_t j = 0; j < ys.size(); ++j)
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+      Vector unused{};
+      view(static_cast<py::ssize_t>(j), static_cast<py::ssize_t>(i)) =
+          system.dynamics.forces->add_external(system.particles.front(), {xs[i], ys[j]}, unused);
+    }
+  return array;
+}
+
+}  // namespace
+
+void add_pictures(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(PathPoint, t, x, y);
+  module.def("walls", &walls);
+  module.def("cell", &cell);
+  module.def("translations", &translations);
+  module.def("path", &path);
+  module.def("omegas", &omegas);
+  module.def("potential", &potential);
+}
+
+}  // namespace carom::python

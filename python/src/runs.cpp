@@ -1,0 +1,269 @@
+// One trajectory, followed closely; sections of many orbits.
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "beside.hpp"
+#include "carom/analysis/section.hpp"
+#include "carom/ensemble/run_rows.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/section_run.hpp"
+#include "carom/ensemble/single_run.hpp"
+#include "carom/events/world.hpp"
+#include "carom/io/archive.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/doubts.hpp"
+#include "cli/reports/run_report.hpp"
+#include "cli/reports/section_report.hpp"
+#include "loaded.hpp"
+
+namespace py = pybind11;
+
+namespace carom::python {
+
+namespace {
+
+// What a run tells, kept: rows for arrays, events for an archive.
+class Recording : public Observer {
+ public:
+  Recording(const System& system, Course& course)
+      : system_(system), frames_(frames_of(*system.table)), course_(course) {}
+
+  void hit(const HitEvent& event) override {
+    hits->push_back(hit_row(event, *system_.table, frames_));
+    course_.done.store(hits->size(), std::memory_order_relaxed);
+    const double by_hits =
+        system_.run.collisions == 0
+            ? 0.0
+            : static_cast<double>(hits->size()) /
+                  static_cast<double>(system_.run.collisions * system_.particles.size());
+    course_.share.store(std::max(by_hits, event.time.value() / system_.run.t_max),
+                        std::memory_order_relaxed);
+  }
+  void contact(const ContactEvent& event) override { contacts.push_back(event); }
+  void sample(int particle, Time time, const State& state) override {
+    samples.push_back({particle, time, state});
+  }
+
+  struct Sample {
+    int particle;
+    Time time;
+    State state;
+  };
+  std::shared_ptr<std::vector<HitRow>> hits = std::make_shared<std::vector<HitRow>>();
+  std::vector<Sample> samples;
+  std::vector<ContactEvent> contacts;
+
+ private:
+  const System& system_;
+  std::vector<geometry::CurveFrame> frames_;
+  Course& course_;
+};
+
+struct RunOutcome {
+  LoadedPointer system;
+  SingleRunResult result;
+  std::string status;
+  std::uint64_t trajectory = 0;
+  std::shared_ptr<const std::vector<HitRow>> hits;
+  std::vector<Recording::Sample> samples;
+  std::vector<ContactEvent> contacts;
+  std::vector<SampleRow> starts;
+  std::vector<SampleRow> stored_samples;  ///< of an archive, instead of `samples`
+};
+
+std::vector<SampleRow> starts_of(const System& system, std::uint64_t trajectory,
+                                 const std::function<bool()>& stopped = {}) {
+  World world(*system.table, system.dynamics);
+  add_starts(world, Sampler(system, stopped), trajectory);
+  std::vector<SampleRow> rows;
+  for (int i = 0; i < world.size(); ++i)
+    rows.push_back(sample_row(i, Time(0.0), world.state(i), *system.table));
+  return rows;
+}
+
+py::tuple run(const std::shared_ptr<Loaded>& loaded, bool state_error, const py::object& progress) {
+  const System& system = loaded->system();
+  const cli::Options& options = loaded->options;
+  RunOutcome outcome;
+  outcome.system = loaded;
+  if (!options.trajectory.empty())
+    outcome.trajectory = cli::whole_number(options.trajectory, "--trajectory", 0);
+  Course course;
+  Recording recording(system, course);
+  SingleRunOptions how;
+  how.trajectory = outcome.trajectory;
+  how.estimate_state_error = state_error;
+  how.interrupted = [&] { return course.stop.load(std::memory_order_relaxed); };
+  const std::exception_ptr interruption = run_beside(course, progress, [&] {
+    if (estimates_trust(system)) how.written = written_system(loaded->loaded);
+    outcome.starts = starts_of(system, outcome.trajectory, how.interrupted);
+    outcome.result = run_single(system, recording, how);
+  });
+  if (interruption && outcome.result.particles.empty()) std::rethrow_exception(interruption);
+  outcome.status = cli::run_status(outcome.result);
+  outcome.hits = recording.hits;
+  outcome.samples = std::move(recording.samples);
+  outcome.contacts = std::move(recording.contacts);
+  return py::make_tuple(std::move(outcome), error_of(interruption));
+}
+
+void save(const RunOutcome& self, const std::string& file, bool force) {
+  const LoadedSystem& loaded = self.system->loaded;
+  const auto archive = RunArchive::create(
+      followed(file), loaded, cli::provenance_of(self.system->options, loaded.system, 1), force,
+      self.trajectory);
+  for (const HitRow& row : *self.hits) archive->append(row);
+  for (const ContactEvent& event : self.contacts) archive->contact(event);
+  for (std::size_t i = 0; i < self.samples.size(); ++i) {
+    const Recording::Sample& one = self.samples[i];
+    archive->sample(one.particle, one.time, one.state);
+    if (i + 1 == self.samples.size() || one.time != self.samples[i + 1].time)
+      archive->sampled(one.time);
+  }
+  archive->finish(self.result, self.status);
+}
+
+// A stored run is asked to go on where it has ended: no event comes, and the end is told again.
+RunOutcome open_run(const std::string& file) {
+  const StoredRun stored = read_run(file);
+  auto loaded = std::make_shared<Loaded>();
+  loaded->loaded = read_system(stored.system_toml, file + ": /system");
+  System& system = loaded->loaded.system;
+  system.name = stored.system_name;
+  loaded->options.command = "run";
+  cli::choose_engine(stored.engine == "steps" ? "steps" : "auto", system);
+  Observer nobody;
+  SingleRunOptions how;
+  how.resume = stored.particles;
+  how.steps = stored.steps;
+  double end = 0.0;
+  for (const ParticleProgress& p : stored.particles) end = std::max(end, p.end.value());
+  system.run.t_max = end;
+  RunOutcome outcome;
+  outcome.result = run_single(system, nobody, how);
+  outcome.starts = starts_of(system, 0);
+  outcome.status = stored.status;
+  outcome.hits = std::make_shared<const std::vector<HitRow>>(read_hits(file));
+  outcome.stored_samples = read_samples(file);
+  outcome.system = std::move(loaded);
+  return outcome;
+}
+
+struct SectionOutcome {
+  LoadedPointer system;
+  SectionResult result;
+  std::shared_ptr<std::vector<SectionPoint>> points = std::make_shared<std::vector<SectionPoint>>();
+  const char* status() const { return result.complete ? "completed" : "interrupted"; }
+};
+
+py::tuple section(const std::shared_ptr<Loaded>& loaded, const py::object& progress) {
+  const System& system = loaded->system();
+  SectionOutcome outcome;
+  outcome.system = loaded;
+  SectionOptions how;
+  how.threads = cli::threads_of(loaded->options);
+  Course course;
+  how.interrupted = &course.stop;
+  how.points = [&](const std::vector<SectionPoint>& points) {
+    outcome.points->insert(outcome.points->end(), points.begin(), points.end());
+  };
+  const double all = static_cast<double>(section_orbits(system));
+  how.progress = [&](std::uint64_t orbits, std::uint64_t) {
+    course.done = orbits;
+    course.share = static_cast<double>(orbits) / all;
+  };
+  const std::exception_ptr interruption =
+      run_beside(course, progress, [&] { outcome.result = run_section(system, how); });
+  return py::make_tuple(std::move(outcome), error_of(interruption));
+}
+
+SectionOutcome open_section(const std::string& file) {
+  StoredSection stored = read_section(file);
+  auto loaded = std::make_shared<Loaded>();
+  loaded->loaded = read_system(stored.system_toml, file + ": /system");
+  loaded->loaded.system.name = stored.system_name;
+  loaded->options.command = "section";
+  cli::choose_engine(stored.engine == "steps" ? "steps" : "auto", loaded->loaded.system);
+  SectionOutcome outcome;
+  outcome.system = std::move(loaded);
+  outcome.result = stored.result;
+  *outcome.points = std::move(stored.points);
+  return outcome;
+}
+
+void save_section(const SectionOutcome& self, const std::string& file, bool force) {
+  const LoadedSystem& loaded = self.system->loaded;
+  SectionArchive archive(
+      followed(file), loaded,
+      cli::provenance_of(self.system->options, loaded.system, self.result.threads), force);
+  archive.append(*self.points);
+  archive.finish(self.result, self.status());
+}
+
+std::shared_ptr<Loaded> system_of(const LoadedPointer& system) {
+  return std::const_pointer_cast<Loaded>(system);
+}
+
+}  // namespace
+
+void add_runs(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(HitRow, particle, wall, u, s, v_parallel, t, x, y, vx, vy, cell_first,
+                       cell_second, reflections);
+  PYBIND11_NUMPY_DTYPE(SampleRow, particle, t, x, y, vx, vy, cell_first, cell_second);
+  PYBIND11_NUMPY_DTYPE(SectionPoint, orbit, index, particle, wall, direction, t, s, v_parallel, x,
+                       y, vx, vy);
+  py::class_<RunOutcome>(module, "RunOutcome")
+      .def_property_readonly("system",
+                             [](const RunOutcome& self) { return system_of(self.system); })
+      .def("json",
+           [](const RunOutcome& self) {
+             return cli::run_json(self.system->system(), self.result, self.status, "").text();
+           })
+      .def("text",
+           [](const RunOutcome& self) {
+             return cli::run_text(self.system->system(), self.result, self.status, "");
+           })
+      .def("doubts",
+           [](const RunOutcome& self) {
+             return cli::doubts_of(self.system->system(), self.result).lines;
+           })
+      .def("hits", [](const RunOutcome& self) { return array_of<HitRow>(self.hits); })
+      .def("samples",
+           [](const RunOutcome& self) {
+             std::vector<SampleRow> rows = self.stored_samples;
+             for (const auto& one : self.samples)
+               rows.push_back(
+                   sample_row(one.particle, one.time, one.state, *self.system->system().table));
+             return array_of(std::move(rows));
+           })
+      .def("starts",
+           [](const RunOutcome& self) { return array_of(std::vector<SampleRow>(self.starts)); })
+      .def("save", &save, py::call_guard<py::gil_scoped_release>());
+  module.def("run", &run, py::arg("system"), py::arg("state_error"), py::arg("progress"));
+  py::class_<SectionOutcome>(module, "SectionOutcome")
+      .def_property_readonly("system",
+                             [](const SectionOutcome& self) { return system_of(self.system); })
+      .def("json",
+           [](const SectionOutcome& self) {
+             return cli::section_json(self.system->system(), self.result, self.status(), "").text();
+           })
+      .def("doubts",
+           [](const SectionOutcome& self) {
+             return cli::doubts_of(self.system->system(), self.result).lines;
+           })
+      .def("points", [](const SectionOutcome& self) { return array_of<SectionPoint>(self.points); })
+      .def("save", &save_section, py::call_guard<py::gil_scoped_release>());
+  module.def("open_run", &open_run, py::call_guard<py::gil_scoped_release>());
+  module.def("open_section", &open_section, py::call_guard<py::gil_scoped_release>());
+  module.def("kind_of_archive", &kind_of_archive, py::call_guard<py::gil_scoped_release>());
+  module.def("section", &section, py::arg("system"), py::arg("progress"));
+}
+
+}  // namespace carom::python

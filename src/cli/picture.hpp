@@ -1,0 +1,34 @@
+// Pictures are drawn by the Python module, which reads what the program has written.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/options.hpp"
+#include "cli/temporary_folder.hpp"
+
+namespace carom::cli {
+
+/// Does the name end in .png, .svg or .pdf?
+bool is_picture(const std::string& file);
+
+/// The picture of an archive or a system. Throws InputError where Python, the module or matplotlib
+/// is not there, and says which package it is in.
+void draw(const std::string& source, const std::string& picture, bool force);
+
+/// A command that is asked for a picture writes an archive aside, which is drawn when it is done.
+class PictureOfResult {
+ public:
+  /// Takes the picture's name out of `options`. Throws InputError for other endings than those of
+  /// archives and pictures.
+  explicit PictureOfResult(Options& options);
+  /// Draws, if there is something to draw: not after bad input.
+  void finish(int status) const;
+
+ private:
+  std::string picture_;
+  bool force_ = false;
+  std::optional<TemporaryFolder> folder_;
+};
+
+}  // namespace carom::cli

@@ -1,0 +1,101 @@
+#include "cli/reports/table_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cli/common.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+const char* kind_of(const geometry::Curve& curve) {
+  static constexpr const char* names[] = {"segment", "circular arc", "circle", "elliptic arc",
+                                          "ellipse"};
+  return names[curve.index()];
+}
+
+Json pair(geometry::Vector v) { return Json::array().push(v.x).push(v.y); }
+
+Json walls_json(const Table& table) {
+  Json walls = Json::array();
+  for (const Wall& wall : table.walls)
+    walls.push(Json::object()
+                   .set("name", wall.name)
+                   .set("kind", kind_of(wall.curve))
+                   .set("length", geometry::length(wall.curve))
+                   .set("from", pair(geometry::start_point(wall.curve)))
+                   .set("to", pair(geometry::end_point(wall.curve))));
+  return walls;
+}
+
+struct HoleMeasure {
+  double from, to;
+};
+HoleMeasure measure_hole(const Table& table, const Hole& hole) {
+  const geometry::Curve& curve = table.walls[static_cast<std::size_t>(hole.wall)].curve;
+  const double from = geometry::arc_length_at(curve, hole.from);
+  const bool to_end = !(hole.to < geometry::end_parameter(curve));
+  return {from, to_end ? geometry::length(curve) : geometry::arc_length_at(curve, hole.to)};
+}
+
+Json holes_json(const Table& table) {
+  Json holes = Json::array();
+  for (const Hole& hole : table.holes) {
+    const auto [from, to] = measure_hole(table, hole);
+    holes.push(Json::object()
+                   .set("name", hole.name)
+                   .set("wall", table.walls[static_cast<std::size_t>(hole.wall)].name)
+                   .set("center", (from + to) / 2)
+                   .set("width", to - from));
+  }
+  return holes;
+}
+
+std::string number(double value) {
+  return std::isinf(value) ? "infinite" : fmt::format("{:.12g}", value);
+}
+
+}  // namespace
+
+std::string table_text(const System& system, const TableMeasure& measured,
+                       const std::string& output) {
+  const Table& table = *system.table;
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text += fmt::format(
+      "  shape        {}\n  area         {}\n  perimeter    {}\n  mean flight  {}\n\n", table.shape,
+      number(measured.area), number(measured.perimeter), number(measured.mean_flight));
+  text += "  wall                  kind                 length   from -> to\n";
+  for (const Wall& wall : table.walls) {
+    const geometry::Vector a = geometry::start_point(wall.curve),
+                           b = geometry::end_point(wall.curve);
+    text += fmt::format("  {:<20}  {:<12} {:>14.9g}   ({:.6g}, {:.6g}) -> ({:.6g}, {:.6g})\n",
+                        wall.name, kind_of(wall.curve), geometry::length(wall.curve), a.x, a.y, b.x,
+                        b.y);
+  }
+  for (const Hole& hole : table.holes) {
+    const auto [from, to] = measure_hole(table, hole);
+    text += fmt::format("  hole '{}' in '{}': arc length {:.9g} to {:.9g}\n", hole.name,
+                        table.walls[static_cast<std::size_t>(hole.wall)].name, from, to);
+  }
+  if (!output.empty()) text += fmt::format("  drawing: {}\n", output);
+  return text;
+}
+
+Json table_json(const System& system, const TableMeasure& measured, const std::string& output,
+                const Stopwatch& watch) {
+  Json json = Json::object();
+  add_common_keys(json, system, 1, watch.seconds(), watch.cpu_seconds());
+  json.set("shape", system.table->shape);
+  json.set("area", measured.area);
+  json.set("perimeter", measured.perimeter);
+  json.set("mean_flight", measured.mean_flight);
+  json.set("walls", walls_json(*system.table));
+  json.set("holes", holes_json(*system.table));
+  if (!output.empty()) json.set("drawing", output);
+  return json;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,114 @@
+// Reads back the rows of archives: hits and samples of a run, points of a section.
+#include "carom/base/error.hpp"
+#include "carom/io/archive.hpp"
+#include "io/archive/archive_file.hpp"
+#include "io/archive/checksums.hpp"
+#include "io/archive/hdf5.hpp"
+#include "io/archive/section_numbers.hpp"
+#include "io/checkpoint/ensemble_files.hpp"
+
+namespace carom {
+
+namespace {
+
+using hdf5::Handle;
+
+Handle opened(const std::string& name) {
+  hdf5::silence();
+  return open_archive(name, "the file is not an archive, or it is still being written",
+                      "an archive of carom");
+}
+
+// A group of columns of equal length.
+class Group {
+ public:
+  Group(const std::string& name, const char* kind, const char* group)
+      : name_(name), file_(opened(name)) {
+    if (hdf5::read_string_attribute(file_.get(), "kind", name) != kind)
+      throw InputError(Place{name, 0, 0, ""}, std::string("the archive holds no ") + kind,
+                       std::string("an archive written by carom ") + kind);
+    hdf5::verify(file_.get(), name);
+    group_ = Handle(H5Gopen2(file_.get(), group, H5P_DEFAULT), H5Gclose);
+    if (!group_) throw InputError(Place{name, 0, 0, group}, "the archive is damaged");
+  }
+  hid_t file() const { return file_.get(); }
+
+  template <class Row, class T>
+  void read(std::vector<Row>& rows, const char* column, T Row::*member) const {
+    const std::vector<T> values = hdf5::read_column<T>(group_.get(), column, name_);
+    rows.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) rows[i].*member = values[i];
+  }
+  template <class Row>
+  void read_motion(std::vector<Row>& rows) const {
+    read(rows, "particle", &Row::particle);
+    read(rows, "t", &Row::t);
+    read(rows, "x", &Row::x);
+    read(rows, "y", &Row::y);
+    read(rows, "vx", &Row::vx);
+    read(rows, "vy", &Row::vy);
+  }
+  template <class Row>
+  void read_cells(std::vector<Row>& rows) const {
+    read(rows, "cell_first", &Row::cell_first);
+    read(rows, "cell_second", &Row::cell_second);
+  }
+
+ private:
+  std::string name_;
+  Handle file_, group_;
+};
+
+}  // namespace
+
+std::vector<HitRow> read_hits(const std::string& file) {
+  const Group group(file, run_archive_kind, "collisions");
+  std::vector<HitRow> rows;
+  group.read_motion(rows);
+  group.read_cells(rows);
+  group.read(rows, "wall", &HitRow::wall);
+  group.read(rows, "u", &HitRow::u);
+  group.read(rows, "s", &HitRow::s);
+  group.read(rows, "v_parallel", &HitRow::v_parallel);
+  group.read(rows, "reflections", &HitRow::reflections);
+  return rows;
+}
+
+std::vector<SampleRow> read_samples(const std::string& file) {
+  const Group group(file, run_archive_kind, "trajectory");
+  std::vector<SampleRow> rows;
+  group.read_motion(rows);
+  group.read_cells(rows);
+  return rows;
+}
+
+StoredSection read_section(const std::string& file) {
+  const Group group(file, section_archive_kind, "section");
+  StoredSection stored;
+  std::vector<SectionPoint>& rows = stored.points;
+  group.read_motion(rows);
+  group.read(rows, "orbit", &SectionPoint::orbit);
+  group.read(rows, "index", &SectionPoint::index);
+  group.read(rows, "wall", &SectionPoint::wall);
+  group.read(rows, "direction", &SectionPoint::direction);
+  group.read(rows, "s", &SectionPoint::s);
+  group.read(rows, "v_parallel", &SectionPoint::v_parallel);
+  const Handle fates(H5Gopen2(group.file(), "fates", H5P_DEFAULT), H5Gclose);
+  for (const SectionNumber& number : section_numbers)
+    stored.result.*number.value =
+        hdf5::read_column<std::uint64_t>(fates.get(), number.name, file).at(0);
+  stored.result.complete = hdf5::read_integer_attribute(group.file(), "complete", file) != 0;
+  stored.system_toml = hdf5::read_text(group.file(), "system", file);
+  const Handle provenance(H5Gopen2(group.file(), "provenance", H5P_DEFAULT), H5Gclose);
+  stored.system_name = hdf5::read_string_attribute(provenance.get(), "system", file);
+  stored.engine = hdf5::read_string_attribute(provenance.get(), "engine", file);
+  stored.result.threads =
+      static_cast<int>(hdf5::read_integer_attribute(provenance.get(), "threads", file));
+  return stored;
+}
+
+std::string kind_of_archive(const std::string& file) {
+  return hdf5::read_string_attribute(opened(file).get(), "kind", file);
+}
+
+}  // namespace carom

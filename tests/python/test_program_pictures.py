@@ -1,0 +1,63 @@
+"""carom plot, and -o PICTURE of every command."""
+
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+
+@pytest.fixture
+def carom(tmp_path):
+    def run(*arguments, status=0):
+        done = subprocess.run(
+            [os.environ["CAROM_PROGRAM"], *map(str, arguments)],
+            capture_output=True, text=True, check=False, cwd=tmp_path,
+        )
+        assert done.returncode == status, done.stderr
+        return done
+
+    return run
+
+
+BEGINNINGS = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}
+
+
+def is_picture(path):
+    return pathlib.Path(path).read_bytes().startswith(BEGINNINGS[pathlib.Path(path).suffix])
+
+
+@pytest.mark.parametrize("ending", BEGINNINGS)
+def test_a_system_is_drawn(carom, tmp_path, ending):
+    carom("plot", "mushroom", "-o", f"mushroom{ending}")
+    assert is_picture(tmp_path / f"mushroom{ending}")
+
+
+def test_an_archive_is_drawn(carom, tmp_path):
+    carom("run", "ellipse-magnetic", "--collisions", 20, "-o", "orbit.h5", "--quiet")
+    carom("plot", "orbit.h5")
+    assert is_picture(tmp_path / "orbit.png")
+    carom("plot", "orbit.h5", status=1)  # it is there already
+    carom("plot", "orbit.h5", "--force")
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("run", "ellipse-magnetic", "--collisions", 20),
+        ("escape", "three-disc", "--trajectories", 1000),
+        ("diffusion", "sinai", "--trajectories", 200, "--t-max", 20),
+        ("section", "ellipse-magnetic", "--points", 20, "--orbits", 5),
+    ],
+)
+def test_a_command_draws_its_result(carom, tmp_path, command):
+    report = carom(*command, "-o", "result.png", "--quiet").stdout
+    assert is_picture(tmp_path / "result.png")
+    assert "archive" not in report
+    assert list(tmp_path.iterdir()) == [tmp_path / "result.png"]
+
+
+def test_other_endings_are_refused(carom, tmp_path):
+    done = carom("run", "stadium", "--collisions", 5, "-o", "orbit.gif", status=1)
+    assert "orbit.gif" in done.stderr and ".png" in done.stderr
+    assert not list(tmp_path.iterdir())

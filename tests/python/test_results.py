@@ -1,0 +1,106 @@
+"""Results as Python objects."""
+
+import os
+import signal
+import threading
+
+import numpy
+import pytest
+
+import carom
+
+
+@pytest.fixture(scope="module")
+def escape():
+    return carom.escape("magnetic-square", trajectories=1000, t_max=50, per_trajectory=True)
+
+
+def test_keys_are_attributes(escape):
+    assert escape.trajectories == 1000
+    assert escape.escaped + escape.survived == 1000
+    assert set(escape.survival.dtype.names) == {"t", "p", "low", "high"}
+    assert "digest" in dir(escape)
+    with pytest.raises(AttributeError, match="survival"):
+        escape.survivl
+
+
+def test_reports_can_be_read(escape):
+    assert "trajectories" in str(escape)
+    assert repr(escape).startswith("<carom.Escape of magnetic-square")
+    assert escape._repr_html_().startswith("<pre>")
+    assert escape.doubts == []
+
+
+def test_each_trajectory_has_its_fate(escape):
+    rows = escape.per_trajectory
+    assert numpy.array_equal(rows["index"], numpy.arange(1000))
+    escaped = carom.fates.index("escaped")
+    assert (rows["fate"] == escaped).sum() == escape.escaped
+
+
+def test_rows_are_not_copied_and_not_changed():
+    run = carom.run(carom.stadium(), collisions=1000)
+    assert len(run.hits) == 1000
+    assert run._outcome.hits().ctypes.data == run.hits.ctypes.data
+    with pytest.raises(ValueError):
+        run.hits["t"][0] = 0.0
+    del run
+
+
+def test_a_path_meets_its_hits():
+    for name in ("stadium", "ellipse-magnetic"):
+        run = carom.run(name, collisions=20)
+        path = run.path()
+        for hit in run.hits:
+            assert (path["t"] == hit["t"]).any()
+        assert path["t"][-1] == run.t
+
+
+def test_several_particles_are_a_table():
+    run = carom.run("wigner", t_max=1)
+    assert len(run.particles) > 1
+    assert set(run.starts["particle"]) == set(range(len(run.particles)))
+
+
+def test_ctrl_c_gives_what_is_done():
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        carom.escape("sinai", trajectories=10**9, t_max=1000)
+    timer.join()
+    result = stopped.value.result
+    assert result.status == "interrupted"
+    assert 0 <= result.trajectories < 10**9
+
+
+def test_progress_is_told():
+    seen = []
+    carom.escape("sinai", trajectories=20000, progress=lambda share, done: seen.append(share))
+    assert seen == sorted(seen)
+
+
+def test_an_error_of_progress_stops_the_run():
+    def fail(share, done):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        carom.escape("sinai", trajectories=10**9, progress=fail)
+
+
+def test_certified_digits_are_decimals(program):
+    table = carom.system("stadium").closed()
+    start = {"position": ("1/10", "1/5"), "velocity": ("3/5", "4/5")}
+    exact = carom.run(table, **start, collisions=100, precision="certified", digits=30)
+    printed = program(
+        "run", "stadium", "--set", "table.hole=[]", "--position", "1/10,1/5", "--velocity", "3/5,4/5",
+        "--collisions", 100, "--precision", "certified", "--digits", 30,
+    )  # fmt: skip
+    assert str(exact.x) == printed["x"]
+    low, high = exact.x.interval
+    assert low < exact.x < high
+    assert high - low < carom.Exact("1e-29", 30)
+    assert len(exact.hits) == 100
+    assert exact.hits[-1].x == exact.x
+    double = carom.run(table, **start, collisions=20)
+    for row, hit in zip(double.hits, exact.hits):
+        assert row["x"] == pytest.approx(float(hit.x), abs=1e-6)

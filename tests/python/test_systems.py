@@ -1,0 +1,84 @@
+"""Tables and systems from Python, and what is said of bad ones."""
+
+import decimal
+import fractions
+import pickle
+
+import pytest
+
+import carom
+
+
+def test_a_table_is_built_with_holes_and_obstacles():
+    table = (
+        carom.stadium(half_length=1, radius=1)
+        .hole("bottom", center=0.5, width=0.2, name="exit")
+        .obstacle("circle", center=[0, 0], radius="1/5")
+    )
+    assert table.walls == ["bottom", "right", "top", "left", "obstacle_1"]
+    assert table.holes == ["exit"]
+    assert "1/5" in table.to_toml()
+    assert table._repr_svg_().startswith("<svg")
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        carom.rectangle,
+        carom.circle,
+        carom.stadium,
+        carom.sinai,
+        carom.lorentz,
+        lambda: carom.polygon([(0, 0), (2, 0), (2, 1), (0, 1)]),
+        lambda: carom.triangle([(0, 0), (1, 0), (0, 1)]),
+        lambda: carom.regular(5),
+        lambda: carom.ellipse(2, 1),
+        lambda: carom.annulus(2, 1, offset=0.5),
+        lambda: carom.mushroom(1, 0.5, 1),
+        lambda: carom.lemon(1, 1),
+        lambda: carom.discs([(0, 0), (6, 0)], radius=1),
+    ],
+)
+def test_every_shape_has_a_length(make):
+    assert make().perimeter > 0
+
+
+def test_numbers_are_those_that_are_written():
+    third = carom.rectangle(width=fractions.Fraction(1, 3), height=decimal.Decimal("0.1"))
+    assert '"1/3"' in third.to_toml()
+    assert third.area == pytest.approx(1 / 30, rel=1e-15)
+
+
+def test_a_changed_system_is_another_one():
+    square = carom.system("magnetic-square")
+    assert "B" in square.with_(B=0.5).to_toml()
+    assert square.to_toml() == carom.system("magnetic-square").to_toml()
+
+
+def test_the_file_of_a_system_gives_the_system(tmp_path):
+    file = tmp_path / "my.toml"
+    table = carom.mushroom(1, 0.5, 1).hole("cap", center=1, width=0.1).with_(t_max=10)
+    file.write_text(table.to_toml(), encoding="utf-8")
+    assert carom.load(file).to_toml() == table.to_toml()
+
+
+def test_errors_say_where_and_what():
+    with pytest.raises(carom.InputError) as error:
+        carom.escape("magnetic-square", trajectoriess=10)
+    assert error.value.nearest == "trajectories"
+    with pytest.raises(carom.InputError) as error:
+        carom.system("stadum")
+    assert error.value.nearest == "stadium"
+    with pytest.raises(carom.InputError) as error:
+        carom.rectangle(width=-1)
+    assert error.value.place.key == "table.width"
+    assert error.value.place.line == 3
+    with pytest.raises(carom.InputError) as error:
+        carom.stadium().hole("botom", center=0, width=0.1)
+    assert error.value.nearest == "bottom"
+    assert pickle.loads(pickle.dumps(error.value)).nearest == "bottom"
+
+
+def test_systems_are_pickled():
+    table = carom.stadium().hole("top", center=1, width=0.1)
+    assert pickle.loads(pickle.dumps(table)).to_toml() == table.to_toml()
