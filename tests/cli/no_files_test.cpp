@@ -19,8 +19,7 @@ const Names writers = {"escape stadium --trajectories 10 --quiet -o ",
                        "section stadium --orbits 2 --points 3 --quiet -o ",
                        "run stadium --t-max 3 --quiet -o ",
                        "run --resume run.h5 --t-max 5 --quiet -o ",
-                       "run stadium --precision certified --collisions 5 -o ",
-                       "table stadium -o "};
+                       "run stadium --precision certified --collisions 5 -o "};
 
 void make_inputs(const Shell& shell) {
   ASSERT_EQ(shell("for k in 1 2; do $carom escape stadium --trajectories 10 --shard $k/2 --quiet "
@@ -39,76 +38,93 @@ void expect_refused(const Shell& shell, const Special& special, const std::strin
   for (const std::string& writer : writers)
     for (const std::string force : {"", " --force"}) {
       const Outcome o =
-          shell("timeout 300 $carom " + writer + "out.svg" + force + "; status=$?; test " +
-                special.is + " out.svg || exit 99; exit $status");
+          shell("timeout 300 $carom " + writer + "out.h5" + force + "; status=$?; test " +
+                special.is + " out.h5 || exit 99; exit $status");
       EXPECT_EQ(o.status, 1) << writer << force;
       EXPECT_EQ(o.out, "") << writer;
-      EXPECT_EQ(o.err.find("carom: out.svg: " + message), 0u) << writer << force << "\n" << o.err;
-      EXPECT_EQ(shell.files(), (Names{"1.h5", "2.h5", "out.svg", "run.h5"})) << writer;
+      EXPECT_EQ(o.err.find("carom: out.h5: " + message), 0u) << writer << force << "\n" << o.err;
+      EXPECT_EQ(shell.files(), (Names{"1.h5", "2.h5", "out.h5", "run.h5"})) << writer;
     }
 }
 
 TEST(NoFiles, PipesAndFoldersAreNoOutputs) {
   const Shell shell;
   make_inputs(shell);
-  ASSERT_EQ(shell("mkfifo out.svg").status, 0);
-  expect_refused(shell, {"mkfifo out.svg", "-p"}, "the output is a device or a pipe");
+  ASSERT_EQ(shell("mkfifo out.h5").status, 0);
+  expect_refused(shell, {"mkfifo out.h5", "-p"}, "the output is a device or a pipe");
   for (const std::string command :
-       {"escape --resume out.svg", "run --resume out.svg", "merge sum.h5 out.svg"}) {
+       {"escape --resume out.h5", "run --resume out.h5", "merge sum.h5 out.h5"}) {
     const Outcome o = shell("timeout 300 $carom " + command);
     EXPECT_EQ(o.status, 1) << command;
-    EXPECT_EQ(o.err.find("carom: out.svg: "), 0u) << o.err;
+    EXPECT_EQ(o.err.find("carom: out.h5: "), 0u) << o.err;
   }
-  ASSERT_EQ(shell("rm out.svg && mkdir out.svg").status, 0);
-  expect_refused(shell, {"mkdir out.svg", "-d"}, "the output is a directory");
+  ASSERT_EQ(shell("rm out.h5 && mkdir out.h5").status, 0);
+  expect_refused(shell, {"mkdir out.h5", "-d"}, "the output is a directory");
 }
 
 TEST(NoFiles, DevicesAreNoOutputs) {
   const Shell shell;
   make_inputs(shell);
-  if (shell("mknod out.svg c 1 3").status != 0) GTEST_SKIP() << "no right to make a device";
+  if (shell("mknod out.h5 c 1 3").status != 0) GTEST_SKIP() << "no right to make a device";
   expect_refused(shell, {"mknod", "-c"}, "the output is a device or a pipe");
 }
 
 const std::string link_and_file =
-    "test -L out.svg && test -f real/a.svg && test ! -L real/a.svg && test $(ls -A real | wc -l) = "
+    "test -L out.h5 && test -f real/a.h5 && test ! -L real/a.h5 && test $(ls -A real | wc -l) = "
     "1";
 
 TEST(Links, AreFollowedToTheFile) {
   const Shell shell;
   make_inputs(shell);
-  ASSERT_EQ(shell("mkdir real; ln -s real/a.svg out.svg").status, 0);
+  ASSERT_EQ(shell("mkdir real; ln -s real/a.h5 out.h5").status, 0);
   for (const std::string& writer : writers) {
     // The file is not there, and then it is.
-    const Outcome anew = shell("rm -f real/a.svg; $carom " + writer + "out.svg");
+    const Outcome anew = shell("rm -f real/a.h5; $carom " + writer + "out.h5");
     EXPECT_EQ(anew.status, 0) << writer << "\n" << anew.err;
     EXPECT_EQ(shell(link_and_file).status, 0) << writer;
-    const Outcome refused = shell("$carom " + writer + "out.svg");
-    EXPECT_EQ(refused.err.find("carom: real/a.svg: "), 0u) << writer << "\n" << refused.err;
-    EXPECT_EQ(shell("$carom " + writer + "out.svg --force").status, 0) << writer;
+    const Outcome refused = shell("$carom " + writer + "out.h5");
+    EXPECT_EQ(refused.err.find("carom: real/a.h5: "), 0u) << writer << "\n" << refused.err;
+    EXPECT_EQ(shell("$carom " + writer + "out.h5 --force").status, 0) << writer;
     EXPECT_EQ(shell(link_and_file).status, 0) << writer;
-    EXPECT_EQ(shell.files(), (Names{"1.h5", "2.h5", "out.svg", "real", "run.h5"})) << writer;
+    EXPECT_EQ(shell.files(), (Names{"1.h5", "2.h5", "out.h5", "real", "run.h5"})) << writer;
   }
 }
 
 TEST(Links, CheckpointsStandBesideTheFile) {
   const Shell shell;
   const std::string go_on =
-      " --quiet --block 4 --checkpoint blocks:2000 & pid=$!; until_saved real/a.svg; ";
+      " --quiet --block 4 --checkpoint blocks:2000 & pid=$!; until_saved real/a.h5; ";
   const std::string look = "kill -9 $pid; wait $pid; ls real";
-  ASSERT_EQ(shell("mkdir real; ln -s $PWD/real/a.svg real/link; mv real/link .; ln -s link out.svg")
+  ASSERT_EQ(
+      shell("mkdir real; ln -s $PWD/real/a.h5 real/link; mv real/link .; ln -s link out.h5").status,
+      0);
+  const Outcome first =
+      shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o out.h5" + go_on + look);
+  EXPECT_EQ(first.out, "a.h5.part\n") << first.err;
+  const Outcome again =
+      shell("$carom escape --resume out.h5" + go_on +
+            "timeout 300 $carom escape --resume real/a.h5; kill -INT $pid; wait $pid");
+  EXPECT_EQ(again.status, 130) << again.err;
+  EXPECT_NE(again.err.find("carom: real/a.h5: "), std::string::npos) << again.err;
+  EXPECT_EQ(shell(link_and_file).status, 0);
+  EXPECT_EQ(shell.files(), (Names{"link", "out.h5", "real"}));
+}
+
+// What is said of archives holds for drawings, too.
+TEST(Links, ADrawingIsMadeBehindALinkAndNeverOverAPipe) {
+  const Shell shell;
+  ASSERT_EQ(shell("mkdir real; ln -s real/a.svg out.svg; mkfifo pipe.svg; mkdir folder.svg; "
+                  "echo notes > own.svg.part")
                 .status,
             0);
-  const Outcome first =
-      shell("$carom escape mushroom --trajectories 1e9 --per-trajectory -o out.svg" + go_on + look);
-  EXPECT_EQ(first.out, "a.svg.part\n") << first.err;
-  const Outcome again =
-      shell("$carom escape --resume out.svg" + go_on +
-            "timeout 300 $carom escape --resume real/a.svg; kill -INT $pid; wait $pid");
-  EXPECT_EQ(again.status, 130) << again.err;
-  EXPECT_NE(again.err.find("carom: real/a.svg: "), std::string::npos) << again.err;
-  EXPECT_EQ(shell(link_and_file).status, 0);
-  EXPECT_EQ(shell.files(), (Names{"link", "out.svg", "real"}));
+  EXPECT_EQ(shell("$carom table stadium -o out.svg").status, 0);
+  EXPECT_EQ(shell("test -L out.svg && test -f real/a.svg").status, 0);
+  for (const char* name : {"out", "pipe", "folder", "own"}) {
+    const Outcome o = shell(std::string("timeout 300 $carom table stadium -o ") + name + ".svg");
+    EXPECT_EQ(o.status, 1) << name;
+    EXPECT_EQ(o.out, "") << name;
+  }
+  EXPECT_EQ(shell.read("own.svg.part"), "notes\n");
 }
 
 TEST(Links, LinksInACircleAreRefused) {
@@ -120,8 +136,8 @@ TEST(Links, LinksInACircleAreRefused) {
 // Resumed in place, a run has its copy beside the file.
 TEST(Links, ARunGoesOnBehindALink) {
   const Shell shell;
-  ASSERT_EQ(shell("mkdir real; ln -s real/a.svg out.svg; $carom run mushroom --t-max 3 -o out.svg "
-                  "&& $carom run --resume out.svg --t-max 5")
+  ASSERT_EQ(shell("mkdir real; ln -s real/a.h5 out.h5; $carom run mushroom --t-max 3 -o out.h5 "
+                  "&& $carom run --resume out.h5 --t-max 5")
                 .status,
             0);
   EXPECT_EQ(shell(link_and_file).status, 0);

@@ -83,36 +83,35 @@ TEST(OwnFiles, FilesOfOthersAreRefused) {
                 .status,
             0);
   const std::vector<std::string> others = {
-      "echo notes > a.svg.part",  "mkdir a.svg.part; echo notes > a.svg.part/checkpoint.h5",
-      "cp 1.h5 a.svg.part",       "mkfifo a.svg.part",
-      "ln -s nowhere a.svg.part", "mkdir real; ln -s real a.svg.part"};
+      "echo notes > a.h5.part",  "mkdir a.h5.part; echo notes > a.h5.part/checkpoint.h5",
+      "cp 1.h5 a.h5.part",       "mkfifo a.h5.part",
+      "ln -s nowhere a.h5.part", "mkdir real; ln -s real a.h5.part"};
   const std::vector<std::string> writers = {
-      "escape mushroom --trajectories 20 --t-max 20 -o a.svg",
-      "escape mushroom --trajectories 20 --t-max 20 --per-trajectory -o a.svg",
-      "diffusion lorentz-triangular --trajectories 10 --t-max 3 -o a.svg",
-      "merge a.svg 1.h5 2.h5",
-      "section stadium --orbits 2 --points 3 -o a.svg",
-      "run stadium --t-max 3 -o a.svg",
-      "run stadium --precision certified --collisions 5 -o a.svg",
-      "run --resume run.h5 --t-max 5 -o a.svg",
-      "table stadium -o a.svg"};
+      "escape mushroom --trajectories 20 --t-max 20 -o a.h5",
+      "escape mushroom --trajectories 20 --t-max 20 --per-trajectory -o a.h5",
+      "diffusion lorentz-triangular --trajectories 10 --t-max 3 -o a.h5",
+      "merge a.h5 1.h5 2.h5",
+      "section stadium --orbits 2 --points 3 -o a.h5",
+      "run stadium --t-max 3 -o a.h5",
+      "run stadium --precision certified --collisions 5 -o a.h5",
+      "run --resume run.h5 --t-max 5 -o a.h5"};
   for (const std::string& other : others) {
     ASSERT_EQ(shell(other).status, 0);
     const Names before = shell.files();
     const std::string look =
-        "ls -l a.svg.part; ls -lR . | grep -v '[.]out\\|[.]err'; test -p a.svg.part || cat "
-        "a.svg.part a.svg.part/* 2>/dev/null; true";
+        "ls -l a.h5.part; ls -lR . | grep -v '[.]out\\|[.]err'; test -p a.h5.part || cat "
+        "a.h5.part a.h5.part/* 2>/dev/null; true";
     const std::string is = shell(look).out;
     for (const std::string& writer : writers)
       for (const std::string force : {"", " --force"}) {
         const Outcome o = shell("timeout 300 $carom " + writer + force);
         EXPECT_EQ(o.status, 1) << other << "\n" << writer;
         EXPECT_EQ(o.out, "") << writer;
-        EXPECT_EQ(o.err.find("carom: a.svg.part: "), 0u) << writer << "\n" << o.err;
+        EXPECT_EQ(o.err.find("carom: a.h5.part: "), 0u) << writer << "\n" << o.err;
         EXPECT_EQ(shell.files(), before) << writer;
       }
     EXPECT_EQ(shell(look).out, is) << other;
-    shell("rm -rf a.svg.part real");
+    shell("rm -rf a.h5.part real");
   }
 }
 
