@@ -9,7 +9,7 @@
 Every number is made by the same C++ as the program's `carom`, with the same digest.
 """
 
-from . import _carom
+from . import _carom, plot
 from .commands import diffusion, escape, open, run, section
 from .errors import InputError, Place
 from .results import Certified, Diffusion, Escape, Exact, Result, Run, Section
