@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string lock_of(const std::string& file) { return folder_of(file) + "/carom.lock"; }
+constexpr const char* lock_name = "carom.lock";
+std::string lock_of(const std::string& file) { return folder_of(file) + "/" + lock_name; }
 
 // 0 or the error. A signal in between is none.
 int try_lock(int descriptor) {
@@ -52,31 +53,44 @@ bool is_there(int descriptor, const std::string& path) {
          mine.st_ino == named.st_ino && mine.st_dev == named.st_dev;
 }
 
+// Is it there, and nothing that Carom made? One listing tells: in a folder of Carom's the lock
+// comes first and goes last. What other processes remove meanwhile is no stranger.
+bool is_strange(const std::string& folder) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(folder, error);
+  if (!fs::exists(status)) return false;
+  if (!fs::is_directory(status)) return true;
+  bool any = false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().filename() == lock_name) {
+      const fs::file_status lock = entry.symlink_status(error);
+      return fs::exists(lock) && !fs::is_regular_file(lock);
+    }
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace
 
 bool has_work_folder(const std::string& file) {
   std::error_code error;
   const std::string folder = folder_of(file);
-  if (!fs::is_directory(fs::symlink_status(folder, error))) return false;
-  return exists(lock_of(file)) || (fs::is_empty(folder, error) && !error);
+  return fs::is_directory(fs::symlink_status(folder, error)) && !is_strange(folder);
 }
 
 WorkFolder::WorkFolder(const std::string& file) : file_(file), lock_(lock_of(file)) {
   const std::string folder = folder_of(file);
-  // Between two looks another process may have made the folder, or removed it: what is something
-  // else stays so.
-  constexpr int enough_looks = 10;
-  for (int looks = 0;;) {
+  // Other processes may remove the folder at any time: then it is made anew.
+  for (;;) {
     const bool made = ::mkdir(folder.c_str(), 0777) == 0;
     if (!made && errno != EEXIST)
       throw InputError(fmt::format("cannot write '{}': {}", file, std::strerror(errno)));
     if (made) sync_folder_with(folder);
-    if (!has_work_folder(file)) {
-      if (++looks < enough_looks) continue;
+    if (is_strange(folder))
       throw InputError(Place{folder, 0, 0, ""},
                        fmt::format("'{}' would be made here, and this is something else", file),
                        "another name");
-    }
     if (!open_lock()) continue;
     const int error = try_lock(descriptor_);
     const bool held = error == EWOULDBLOCK, there = is_there(descriptor_, lock_);
