@@ -1,4 +1,4 @@
-"""`carom plot`: the picture of an archive or a system. python3 -m carom.picture FILE -o PICTURE"""
+"""`carom plot`: the picture of an archive or a system."""
 
 import argparse
 import os
@@ -13,7 +13,7 @@ def draw(source):
     """The figure of an archive, a system file or a built-in system."""
     is_system = source.endswith(".toml") or ("." not in source and "/" not in source)
     if is_system:
-        thing = carom.load(source) if "/" in source or source.endswith(".toml") else carom.system(source)
+        thing = carom.load(source) if source.endswith(".toml") else carom.system(source)
     else:
         thing = carom.open(source)
     axes = thing.plot()
@@ -21,6 +21,13 @@ def draw(source):
 
 
 def main():
+    try:
+        make()
+    except carom.InputError as error:
+        sys.exit(f"carom: {error}")
+
+
+def make():
     parser = argparse.ArgumentParser(prog="carom plot", description=__doc__)
     parser.add_argument("source", help="an archive, a system file or the name of a built-in system")
     parser.add_argument("-o", "--output", required=True, help="PICTURE.png, .svg or .pdf")
@@ -44,7 +51,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except (carom.InputError, ImportError) as error:
-        sys.exit(f"carom: {error}")
+    main()

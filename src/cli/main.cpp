@@ -62,8 +62,7 @@ int main(int argc, char** argv) {
     if (silent && !is_plain_ensemble(options)) return done;
     const PictureOfResult picture(parsed.options);
     const int status = command_of(options.command)(options);
-    picture.finish(status);
-    return status;
+    return picture.finish(status);
   } catch (const carom::SamplingStopped&) {
     std::fputs("carom: interrupted before a start was found\n", stderr);
     return stopped;

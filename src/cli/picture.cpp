@@ -35,6 +35,16 @@ std::string interpreter() {
 #endif
 }
 
+// Its exit status says that the module is missing, without Python's own report of that.
+constexpr int no_module = 64;
+constexpr const char* start_of_module =
+    "import sys\n"
+    "try:\n"
+    "  import matplotlib, carom.picture\n"
+    "except Exception:\n"
+    "  sys.exit(64)\n"
+    "if len(sys.argv) > 1: carom.picture.main()\n";
+
 std::string ending_of(const std::string& file) {
   return std::filesystem::path(file).extension().string();
 }
@@ -64,6 +74,15 @@ int run_and_wait(const std::vector<std::string>& words) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+int call_module(const std::string& picture, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{interpreter(), "-c", start_of_module};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const int status = run_and_wait(words);
+  if (status < 0 || status == no_module)
+    throw InputError(Place{picture, 0, 0, ""}, "there is nothing to draw the picture with", needed);
+  return status;
+}
+
 }  // namespace
 
 bool is_picture(const std::string& file) {
@@ -71,12 +90,10 @@ bool is_picture(const std::string& file) {
   return ending == ".png" || ending == ".svg" || ending == ".pdf";
 }
 
-void draw(const std::string& source, const std::string& picture, bool force) {
-  std::vector<std::string> words{interpreter(), "-m", "carom.picture", source, "-o", picture};
+int draw(const std::string& source, const std::string& picture, bool force) {
+  std::vector<std::string> words{source, "-o", picture};
   if (force) words.emplace_back("--force");
-  // Python has said what is wrong.
-  if (run_and_wait(words) != 0)
-    throw InputError(Place{picture, 0, 0, ""}, "the picture was not drawn", needed);
+  return call_module(picture, words) == 0 ? done : bad_input;  // Python has said what is wrong
 }
 
 PictureOfResult::PictureOfResult(Options& options) {
@@ -89,15 +106,17 @@ PictureOfResult::PictureOfResult(Options& options) {
         fmt::format("'{}' ends neither as an archive nor as a picture", options.output),
         ".h5, .hdf5, .png, .svg or .pdf");
   refuse_existing(options.output, options.force);
+  call_module(options.output, {});  // before anything is computed
   picture_ = std::exchange(options.output, {});
   force_ = options.force;
   options.output = folder_.emplace().file("result.h5");
   options.hidden_archive = true;
 }
 
-void PictureOfResult::finish(int status) const {
-  if (picture_.empty() || status == bad_input || status == usage) return;
-  draw(folder_->file("result.h5"), picture_, force_);
+int PictureOfResult::finish(int status) const {
+  if (picture_.empty() || status == bad_input || status == usage) return status;
+  const int drawn = draw(folder_->file("result.h5"), picture_, force_);
+  return drawn == done ? status : drawn;
 }
 
 }  // namespace carom::cli

@@ -12,9 +12,9 @@ namespace carom::cli {
 /// Does the name end in .png, .svg or .pdf?
 bool is_picture(const std::string& file);
 
-/// The picture of an archive or a system. Throws InputError where Python, the module or matplotlib
-/// is not there, and says which package it is in.
-void draw(const std::string& source, const std::string& picture, bool force);
+/// The picture of an archive or a system. Returns the exit status. Throws InputError where Python,
+/// the module or matplotlib is not there, and says which package it is in.
+int draw(const std::string& source, const std::string& picture, bool force);
 
 /// A command that is asked for a picture writes an archive aside, which is drawn when it is done.
 class PictureOfResult {
@@ -22,8 +22,9 @@ class PictureOfResult {
   /// Takes the picture's name out of `options`. Throws InputError for other endings than those of
   /// archives and pictures.
   explicit PictureOfResult(Options& options);
-  /// Draws, if there is something to draw: not after bad input.
-  void finish(int status) const;
+  /// Draws, if there is something to draw: not after bad input. Returns the exit status, given that
+  /// of the command.
+  int finish(int status) const;
 
  private:
   std::string picture_;

@@ -61,3 +61,12 @@ def test_other_endings_are_refused(carom, tmp_path):
     done = carom("run", "stadium", "--collisions", 5, "-o", "orbit.gif", status=1)
     assert "orbit.gif" in done.stderr and ".png" in done.stderr
     assert not list(tmp_path.iterdir())
+
+
+def test_what_is_missing_is_said(carom, tmp_path, monkeypatch):
+    assert "nosuch" in carom("plot", "nosuch", status=1).stderr
+    monkeypatch.setenv("CAROM_PYTHON", str(tmp_path / "no-python"))
+    for command in (("plot", "mushroom"), ("run", "stadium", "--collisions", 5, "-o", "mushroom.png")):
+        said = carom(*command, status=1).stderr
+        assert "./dev python" in said and "Traceback" not in said
+    assert not list(tmp_path.iterdir())
