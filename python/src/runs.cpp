@@ -139,7 +139,7 @@ RunOutcome open_run(const std::string& file) {
   system.name = stored.system_name;
   loaded->options.command = "run";
   cli::choose_engine(stored.engine == "steps" ? "steps" : "auto", system);
-  Observer nobody;
+  Observer none;
   SingleRunOptions how;
   how.resume = stored.particles;
   how.steps = stored.steps;
@@ -147,7 +147,7 @@ RunOutcome open_run(const std::string& file) {
   for (const ParticleProgress& p : stored.particles) end = std::max(end, p.end.value());
   system.run.t_max = end;
   RunOutcome outcome;
-  outcome.result = run_single(system, nobody, how);
+  outcome.result = run_single(system, none, how);
   outcome.starts = starts_of(system, 0);
   outcome.status = stored.status;
   outcome.hits = std::make_shared<const std::vector<HitRow>>(read_hits(file));

@@ -25,7 +25,7 @@ constexpr const char* examples =
     "Examples:\n"
     "  carom escape magnetic-square               survival in a square with a hole, in a few "
     "seconds\n"
-    "  carom run stadium --set 'table.hole=[]' --collisions 1000 -o orbit.h5\n"
+    "  carom run stadium --closed --collisions 1000 -o orbit.h5\n"
     "                                             one orbit, every hit in Birkhoff coordinates\n"
     "  carom table mushroom -o mushroom.svg       area, perimeter, walls; a drawing\n"
     "\n"
@@ -86,6 +86,8 @@ class Command {
     SystemOverrides& o = options_.overrides;
     settings();
     flag("--force", options_.force, "Replace an output file that exists");
+    app_->add_flag_callback(
+        "--closed", [&o] { o.set.emplace_back("table.hole", "[]"); }, "Without the holes");
     text("--seed", o.seed, "N", "Seed of the random numbers");
     text("--threads", options_.threads, "N", "Threads (default: all)");
     text("--t-max", o.t_max, "T", "Last time");
@@ -161,7 +163,7 @@ void define(CLI::App& app, Options& o) {
   Command(app, o, "run", "Follow one trajectory and store every hit",
           "Examples:\n"
           "  carom run mushroom --trajectory 7 --t-max 100\n"
-          "  carom run circle --set 'table.hole=[]' --position 1/10,0 --velocity 1,2 --collisions "
+          "  carom run circle --closed --position 1/10,0 --velocity 1,2 --collisions "
           "1e4 -o orbit.h5\n"
           "  carom run --resume orbit.h5 --collisions 2e4     goes on from where the archive ends\n"
           "\n"
@@ -197,7 +199,7 @@ void define(CLI::App& app, Options& o) {
           "Boundary map, or section by a line, a circle or a velocity, of many orbits",
           "Examples:\n"
           "  carom section ellipse-magnetic --orbits 20 --points 2000 -o section.h5\n"
-          "  carom section stadium --set 'table.hole=[]' --on line:0,-1:0,1 --direction positive\n"
+          "  carom section stadium --closed --on line:0,-1:0,1 --direction positive\n"
           "  carom section henon-heiles --on x=0 --direction positive --points 500 --json\n"
           "\n"
           "WHERE is boundary, wall:NAME, line:x0,y0:x1,y1, segment:x0,y0:x1,y1, circle:x,y,r,\n"
@@ -309,6 +311,17 @@ Parsed parse(int argc, char** argv) {
   app.require_subcommand(0, 1);
   define(app, options);
 
+  // carom help COMMAND is carom COMMAND --help.
+  std::vector<char*> words(argv, argv + argc);
+  static char help[] = "--help";
+  if (argc > 1 && std::string(argv[1]) == "help") {
+    words.erase(words.begin() + 1);
+    const auto known = app.get_subcommands(
+        [&](const CLI::App* one) { return argc > 2 && one->get_name() == argv[2]; });
+    if (argc < 3 || !known.empty()) words.push_back(help);
+    argc = static_cast<int>(words.size());
+    argv = words.data();
+  }
   const auto complain = [&](const std::string& message) {
     const auto chosen = app.get_subcommands();
     const std::string command = chosen.empty() ? "carom" : "carom " + chosen.front()->get_name();

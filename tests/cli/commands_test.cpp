@@ -241,5 +241,23 @@ TEST(Commands, SayWhereNothingFliesInLanes) {
             "");
 }
 
+TEST(Commands, ClosedTakesTheHolesAway) {
+  const Shell shell;
+  const Outcome closed = shell("$carom table stadium --closed --json");
+  EXPECT_EQ(closed.status, 0);
+  EXPECT_NE(closed.out.find("\"holes\": []"), std::string::npos) << closed.out;
+  EXPECT_EQ(
+      shell("$carom run stadium --closed --collisions 50 --json | grep -v seconds").out,
+      shell("$carom run stadium --set 'table.hole=[]' --collisions 50 --json | grep -v seconds")
+          .out);
+}
+
+TEST(Commands, HelpOfACommandIsItsHelp) {
+  const Shell shell;
+  EXPECT_EQ(shell("$carom help escape").out, shell("$carom escape --help").out);
+  EXPECT_EQ(shell("$carom help").out, shell("$carom --help").out);
+  EXPECT_EQ(shell("$carom help nothing").status, 2);
+}
+
 }  // namespace
 }  // namespace carom

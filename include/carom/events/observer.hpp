@@ -1,4 +1,4 @@
-// Who is told what happens in a world.
+// What is told of the events in a world.
 #pragma once
 
 #include "carom/events/event.hpp"

@@ -16,8 +16,8 @@ struct PairStart;
 /// whichever of the two asks and whenever, so that a run that was interrupted repeats its bits.
 ///
 /// Neighbours. Each disc has an anchor, from which it is never farther than `slack_` until `check`,
-/// when it must be anchored anew. Whoever it touches before that is anchored within the sum of the
-/// radii and twice the slack, that is in one of the nine bins around its own, if bins are that
+/// when it must be anchored anew. A disc that it touches before that is anchored within the sum of
+/// the radii and twice the slack, that is in one of the nine bins around its own, if bins are that
 /// wide. Where fewer than three bins fit side by side, all discs are asked, on a lattice in all
 /// copies that can be reached.
 class Contacts {
