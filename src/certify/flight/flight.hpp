@@ -16,17 +16,21 @@ template <class N, class C>
 N dot2(const VectorOf<N>& a, const VectorOf<C>& b) {
   return a.x * b.x + a.y * b.y;
 }
-template <class N, class C>
-N cross2(const VectorOf<N>& a, const VectorOf<C>& b) {
-  return a.x * b.y - a.y * b.x;
-}
 
-/// The velocity after a reflection, by a normal of any length.
+/// The velocity after a reflection takes `factor` = 2 (v . n)/(n . n) times the normal n from v.
+template <class N, class C>
+VectorOf<N> reflected(const VectorOf<N>& v, const VectorOf<C>& normal, const N& factor) {
+  return {v.x - factor * normal.x, v.y - factor * normal.y};
+}
+/// The same where v . n is known.
+template <class N>
+VectorOf<N> reflected_by(const N& along_normal, const VectorOf<N>& v, const VectorOf<N>& normal) {
+  const N factor = (along_normal + along_normal) / (square(normal.x) + square(normal.y));
+  return reflected(v, normal, factor);
+}
 template <class N>
 VectorOf<N> reflected(const VectorOf<N>& v, const VectorOf<N>& normal) {
-  const N along_normal = normal.x * v.x + normal.y * v.y;
-  const N factor = (along_normal + along_normal) / (square(normal.x) + square(normal.y));
-  return {v.x - factor * normal.x, v.y - factor * normal.y};
+  return reflected_by<N>(dot(normal, v), v, normal);
 }
 
 /// The flight from P with velocity v to the wall `w` and the reflection there. `standing`: P lies
@@ -39,9 +43,8 @@ LandingOf<N> fly(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
   if (w.form == Form::segment) {
     const N speed_to_wall = dot2(v, w.normal);
     r.time = -(dot2(minus(P, w.from), w.normal) / speed_to_wall);
-    r.position = {P.x + r.time * v.x, P.y + r.time * v.y};
-    const N factor = speed_to_wall * w.double_inverse;
-    r.velocity = {v.x - factor * w.normal.x, v.y - factor * w.normal.y};
+    r.position = P + r.time * v;
+    r.velocity = reflected<N, C>(v, w.normal, speed_to_wall * w.double_inverse);
     return r;
   }
   if (w.form == Form::circle) {
@@ -57,10 +60,9 @@ LandingOf<N> fly(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
       if (w.turn < 0) outwards = -outwards;
     }
     r.time = (outwards - b) * motion.inverse_speed2;
-    const VectorOf<N> step{r.time * v.x, r.time * v.y};
-    r.position = {P.x + step.x, P.y + step.y};
-    const N factor = outwards * w.double_inverse;
-    r.velocity = {v.x - factor * (e.x + step.x), v.y - factor * (e.y + step.y)};
+    const VectorOf<N> step = r.time * v;
+    r.position = P + step;
+    r.velocity = reflected<N, N>(v, e + step, outwards * w.double_inverse);
     return r;
   }
   const VectorOf<N> e = minus(P, w.centre);
@@ -77,12 +79,11 @@ LandingOf<N> fly(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf<N>& v,
     if (w.turn < 0) outwards = -outwards;
   }
   r.time = (outwards - b) / a;
-  r.position = {P.x + r.time * v.x, P.y + r.time * v.y};
+  r.position = P + r.time * v;
   const N X = ex + r.time * vx, Y = ey + r.time * vy;
   const VectorOf<N> normal{X * w.along.x + Y * w.across.x, X * w.along.y + Y * w.across.y};
   // v . normal = (X, Y) . (vx, vy) = outwards.
-  const N factor = (outwards + outwards) / (square(normal.x) + square(normal.y));
-  r.velocity = {v.x - factor * normal.x, v.y - factor * normal.y};
+  r.velocity = reflected_by<N>(outwards, v, normal);
   return r;
 }
 

@@ -80,7 +80,7 @@ template <class N>
 void fly_for(const N& time, VectorOf<N>& position, VectorOf<N>& velocity,
              const MotionOf<N>& motion) {
   if (!motion.turns) {
-    position = {position.x + time * velocity.x, position.y + time * velocity.y};
+    position = position + time * velocity;
     return;
   }
   const LandingOf<N> there = larmor_state_after<N>(time, position, velocity, motion.half_omega);

@@ -25,7 +25,7 @@ Quadratic<N> larmor_quadratic(const WallOf<C>& w, const VectorOf<N>& P, const Ve
   }
   const VectorOf<N> e = minus(P, w.centre);
   f.b = dot2(e, v);
-  f.c = (h + h) * (e.x * v.y - e.y * v.x) + (square(v.x) + square(v.y));
+  f.c = (h + h) * cross(e, v) + (square(v.x) + square(v.y));
   if (!standing) {
     f.a = (square(e.x) + square(e.y)) - w.radius2;
     f.c = f.c + f.a * square(h);
@@ -72,8 +72,7 @@ LandingOf<N> fly_larmor(const WallOf<C>& w, const VectorOf<N>& P, const VectorOf
   r.time = time_at(k, motion);
   VectorOf<N>& u = r.velocity;
   if (w.form == Form::segment) {
-    const N factor = dot2(u, w.normal) * w.double_inverse;
-    u = {u.x - factor * w.normal.x, u.y - factor * w.normal.y};
+    u = reflected<N, C>(u, w.normal, dot2(u, w.normal) * w.double_inverse);
     return r;
   }
   u = reflected(u, normal_at<N, C>(w, r.position));
