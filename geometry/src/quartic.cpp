@@ -97,8 +97,9 @@ bool refine(const Bernstein& p, int degree, double& t, double& low, double& high
     low = t - width > 0.0 ? t - width : 0.0;
     high = t + width < 1.0 ? t + width : 1.0;
     double low_error = 0.0, high_error = 0.0;
-    const int a = sign_of(value_at(p, degree, low, low_error), low_error);
-    const int b = sign_of(value_at(p, degree, high, high_error), high_error);
+    const double at_low = value_at(p, degree, low, low_error);
+    const double at_high = value_at(p, degree, high, high_error);
+    const int a = sign_of(at_low, low_error), b = sign_of(at_high, high_error);
     if (a != 2 && b != 2 && a == -b && (a < 0) == rises) return true;
   }
   return false;
