@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "carom/geometry/bernstein.hpp"
 #include "exact_end.hpp"
 
 namespace carom::geometry {
@@ -77,20 +78,12 @@ bool vanishes(const Polynomial& p) {
 }
 
 std::vector<RealRoot> roots_in_unit(const Polynomial& p) {
-  // Bernstein coefficients over [0, 1], times 12: if they have one sign, so has the polynomial.
-  static constexpr int binomial[5][5] = {
-      {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
-  const std::size_t degree = p.size() - 1;
-  bool positive = true, negative = true;
-  for (std::size_t i = 0; i <= degree; ++i) {
-    Dyadic coefficient;
-    for (std::size_t j = 0; j <= i; ++j)
-      coefficient = coefficient + Dyadic(12 * binomial[i][j] / binomial[degree][j]) * p[j];
-    positive = positive && coefficient.sign() > 0;
-    negative = negative && coefficient.sign() < 0;
-  }
+  // Bernstein coefficients, times 12: that makes them whole multiples of p's.
+  const auto share = [](const Dyadic& c, int m, int n) { return Dyadic(12 * m / n) * c; };
+  const SignChanges changes = sign_changes(bernstein_form(p, p.size() - 1, share),
+                                           [](const Dyadic& c) { return sign_of(c); });
   std::vector<RealRoot> result;
-  if (positive || negative) return result;
+  if (changes.certain && changes.most == 0) return result;
   for (RealRoot& root : real_roots(p))
     if (compare(root.value, mpq_class(0)) >= 0 && compare(root.value, mpq_class(1)) <= 0)
       result.push_back(std::move(root));

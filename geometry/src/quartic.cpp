@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "carom/geometry/bernstein.hpp"
 #include "carom/geometry/first_root.hpp"
 
 namespace carom::geometry {
@@ -10,72 +11,67 @@ namespace {
 
 constexpr double u = unit_roundoff;
 
-/// A polynomial on [0, 1] in Bernstein form, each coefficient with a bound on its error.
-struct Bernstein {
-  double b[5];
-  double e[5];
-};
+/// A number with a bound on its error.
+struct Bounded {
+  double value = 0.0, error = 0.0;
+  Sign sign() const { return sign_within(value, error); }
 
-constexpr double binomial[5][5] = {
-    {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
-
-Bernstein bernstein(const double* c, const double* error, int degree) {
-  Bernstein p;
-  for (int i = 0; i <= degree; ++i) {
-    p.b[i] = 0.0;
-    p.e[i] = 0.0;
-    for (int j = 0; j <= i; ++j) {
-      // The quotient of binomials is rounded once, the product once, each partial sum once.
-      const double term = binomial[i][j] / binomial[degree][j] * c[j];
-      p.b[i] += term;
-      p.e[i] += binomial[i][j] / binomial[degree][j] * 1.01 * error[j] + 7.1 * u * std::fabs(term);
-    }
+  friend Bounded operator+(const Bounded& a, const Bounded& b) {
+    return {a.value + b.value, a.error + b.error};  // roundings are in the errors of the terms
   }
-  return p;
+  friend Bounded mean_of(const Bounded& a, const Bounded& b) {
+    const double mean = 0.5 * (a.value + b.value);
+    return {mean, 0.5 * (a.error + b.error) + 1.1 * u * std::fabs(mean)};
+  }
+};
+using Polynomial = Bernstein<Bounded>;
+
+/// The quotient m/n is rounded once, the product once, each partial sum of such terms once.
+Bounded share_of(const Bounded& c, int m, int n) {
+  const double ratio = static_cast<double>(m) / n, term = ratio * c.value;
+  return {term, ratio * 1.01 * c.error + 7.1 * u * std::fabs(term)};
 }
 
-/// -1, 0, +1, or 2 where the error hides the sign.
-int sign_of(double b, double e) { return b > e ? 1 : b < -e ? -1 : 2; }
-
-/// Value and error at t, de Casteljau.
-double value_at(const Bernstein& p, int degree, double t, double& error) {
-  double b[5], e[5];
-  for (int i = 0; i <= degree; ++i) {
-    b[i] = p.b[i];
-    e[i] = p.e[i];
-  }
-  for (int k = degree; k > 0; --k)
-    for (int i = 0; i < k; ++i) {
+/// De Casteljau.
+Bounded value_at(Polynomial p, double t) {
+  auto& b = p.b;
+  for (std::size_t k = p.degree; k > 0; --k)
+    for (std::size_t i = 0; i < k; ++i) {
       // 1 - t is rounded once, two products, one sum.
-      const double x = (1.0 - t) * b[i], y = t * b[i + 1];
-      e[i] = (1.0 - t) * e[i] + t * e[i + 1] + 3.1 * u * (std::fabs(x) + std::fabs(y)) +
-             3.1 * u * (e[i] + e[i + 1]);
-      b[i] = x + y;
+      const double x = (1.0 - t) * b[i].value, y = t * b[i + 1].value;
+      b[i].error = (1.0 - t) * b[i].error + t * b[i + 1].error +
+                   3.1 * u * (std::fabs(x) + std::fabs(y)) +
+                   3.1 * u * (b[i].error + b[i + 1].error);
+      b[i].value = x + y;
     }
-  error = e[0];
   return b[0];
+}
+double slope_at(const Polynomial& p, double t) {
+  // In Bernstein form, too: degree (b[i+1] - b[i]).
+  double d[4];
+  for (std::size_t k = 0; k < p.degree; ++k)
+    d[k] = static_cast<double>(p.degree) * (p.b[k + 1].value - p.b[k].value);
+  for (std::size_t k = p.degree - 1; k > 0; --k)
+    for (std::size_t j = 0; j < k; ++j) d[j] += t * (d[j + 1] - d[j]);
+  return d[0];
 }
 
 /// The one root of p in (0, 1), at whose ends p has opposite certain signs: t and an interval about
 /// it.
-bool refine(const Bernstein& p, int degree, double& t, double& low, double& high) {
-  double l = 0.0, h = 1.0, error = 0.0;
-  const bool rises = p.b[0] < 0.0;
-  t = p.b[0] / (p.b[0] - p.b[degree]);
+bool refine(const Polynomial& p, double& t, double& low, double& high) {
+  double l = 0.0, h = 1.0;
+  const double first = p.b[0].value;
+  const bool rises = first < 0.0;
+  t = first / (first - p.b[p.degree].value);
   // Newton, guarded by the bracket. What is less than its error is still nearly right: one step
   // more.
   double last = 1.0;
   bool closing = false;
   for (int i = 0; i < 100 && !closing; ++i) {
-    const double f = value_at(p, degree, t, error);
-    closing = std::fabs(f) <= error;
-    if (!closing) ((f < 0.0) == rises ? l : h) = t;
-    // Derivative in Bernstein form: degree (b[i+1] - b[i]).
-    double d[4];
-    for (int k = 0; k < degree; ++k) d[k] = degree * (p.b[k + 1] - p.b[k]);
-    for (int k = degree - 1; k > 0; --k)
-      for (int j = 0; j < k; ++j) d[j] += t * (d[j + 1] - d[j]);
-    double next = t - f / d[0];
+    const Bounded f = value_at(p, t);
+    closing = std::fabs(f.value) <= f.error;
+    if (!closing) ((f.value < 0.0) == rises ? l : h) = t;
+    double next = t - f.value / slope_at(p, t);
     if (!(next > l && next < h)) {
       if (closing) break;
       next = 0.5 * (l + h);
@@ -86,21 +82,13 @@ bool refine(const Bernstein& p, int degree, double& t, double& low, double& high
     last = step;
   }
   // Walk outwards until the signs are certain: then the interval holds the root.
-  value_at(p, degree, t, error);
-  double d[4];
-  for (int k = 0; k < degree; ++k) d[k] = degree * (p.b[k + 1] - p.b[k]);
-  for (int k = degree - 1; k > 0; --k)
-    for (int j = 0; j < k; ++j) d[j] += t * (d[j + 1] - d[j]);
-  double width = 2.0 * error / std::fabs(d[0]) + 2.0 * u;
+  double width = 2.0 * value_at(p, t).error / std::fabs(slope_at(p, t)) + 2.0 * u;
   if (!(width < 1.0)) return false;
+  const Sign before = rises ? Sign::negative : Sign::positive;
   for (int tries = 0; tries < 60 && width < 1.0; ++tries, width *= 4.0) {
     low = t - width > 0.0 ? t - width : 0.0;
     high = t + width < 1.0 ? t + width : 1.0;
-    double low_error = 0.0, high_error = 0.0;
-    const double at_low = value_at(p, degree, low, low_error);
-    const double at_high = value_at(p, degree, high, high_error);
-    const int a = sign_of(at_low, low_error), b = sign_of(at_high, high_error);
-    if (a != 2 && b != 2 && a == -b && (a < 0) == rises) return true;
+    if (value_at(p, low).sign() == before && value_at(p, high).sign() == -before) return true;
   }
   return false;
 }
@@ -114,43 +102,24 @@ struct Part {
   double kappa(double t) const { return outer ? sigma * (scale / t) : sigma * (scale * t); }
 };
 
-/// Reports the roots of p on (0, 1) mapped to [from, to] of the part, in the order of falling
-/// kappa.
-bool isolate(const Bernstein& p, int degree, double from, double to, const Part& part,
-             bool ascending, int depth, RisingRoots& out, int most) {
+constexpr int deepest = 40;
+
+/// Reports a root of p, which is the polynomial between `from` and `to` of the part. False:
+/// undecided; nothing: p must be halved.
+std::optional<bool> look(const Polynomial& p, double from, double to, int depth, const Part& part,
+                         RisingRoots& out, int most) {
   if (out.count >= most || to <= part.passed) return true;
+  const SignChanges roots = sign_changes(p, [](const Bounded& x) { return x.sign(); });
   // The sign at an end below `passed` need not be certain: bisection cuts that part off.
-  const bool cut = from < part.passed && sign_of(p.b[0], p.e[0]) == 2;
-  int low = 0, high = 0, last = 2;
-  bool open = false;
-  for (int i = 0; i <= degree; ++i) {
-    const int s = sign_of(p.b[i], p.e[i]);
-    if (s == 2) {
-      if ((i == 0 && !cut) || i == degree) return false;
-      open = true;
-      continue;
-    }
-    if (last != 2 && s != last) ++low;
-    last = s;
-  }
-  high = open ? degree : low;
-  if (!open && low == 0) return true;
-  // An uncertain coefficient between two certain neighbours of opposite sign changes nothing.
-  if (open) {
-    high = low;
-    for (int i = 1; i < degree; ++i) {
-      if (sign_of(p.b[i], p.e[i]) != 2) continue;
-      const int before = sign_of(p.b[i - 1], p.e[i - 1]), after = sign_of(p.b[i + 1], p.e[i + 1]);
-      if (before == 2 || after == 2 || before == after) high = degree;
-    }
-    if (high == 0 && !cut) return true;
-  }
-  if (low == 1 && high == 1 && !cut) {
-    const bool rises_with_t = p.b[0] < 0.0;
+  const bool open = roots.first == Sign::undecided, cut = open && from < part.passed;
+  if ((open && !cut) || roots.last == Sign::undecided) return false;
+  if (roots.most == 0 && !cut) return true;
+  if (roots.least == 1 && roots.most == 1 && !cut) {
+    const bool rises_with_t = roots.first == Sign::negative;
     const bool kappa_grows = (part.sigma > 0) != part.outer;
     if (rises_with_t != kappa_grows) return true;  // falls along kappa
     double t = 0, l = 0, h = 0;
-    if (!refine(p, degree, t, l, h)) return false;
+    if (!refine(p, t, l, h)) return false;
     const double width = to - from;
     const double k = part.kappa(from + width * t);
     const double k1 = part.kappa(from + width * l), k2 = part.kappa(from + width * h);
@@ -160,54 +129,40 @@ bool isolate(const Bernstein& p, int degree, double from, double to, const Part&
         std::fmax(std::fabs(k1 - k), std::fabs(k2 - k)) + 6.1 * u * (std::fabs(k1) + std::fabs(k2));
     return true;
   }
-  if (depth == 0) return false;
-  Bernstein first = p, second = p;
-  for (int k = 1; k <= degree; ++k) {
-    for (int i = degree; i >= k; --i) {
-      first.b[i] = 0.5 * (first.b[i] + first.b[i - 1]);
-      first.e[i] = 0.5 * (first.e[i] + first.e[i - 1]) + 1.1 * u * std::fabs(first.b[i]);
-    }
-    for (int i = 0; i <= degree - k; ++i) {
-      second.b[i] = 0.5 * (second.b[i] + second.b[i + 1]);
-      second.e[i] = 0.5 * (second.e[i] + second.e[i + 1]) + 1.1 * u * std::fabs(second.b[i]);
-    }
-  }
-  const double middle = 0.5 * (from + to);
-  if (ascending)
-    return isolate(first, degree, from, middle, part, ascending, depth - 1, out, most) &&
-           isolate(second, degree, middle, to, part, ascending, depth - 1, out, most);
-  return isolate(second, degree, middle, to, part, ascending, depth - 1, out, most) &&
-         isolate(first, degree, from, middle, part, ascending, depth - 1, out, most);
+  if (depth == deepest) return false;
+  return std::nullopt;
 }
 
 RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, int degree,
                            double scale, int most, double farthest) {
   RisingRoots out;
   // kappa = K x: coefficients and errors of the polynomial in x.
-  double c[5], e[5];
+  std::array<Bounded, 5> c;
   double power = 1.0;
-  for (int i = 0; i <= degree; ++i) {
-    c[i] = f.q[i] * power;
-    e[i] = 1.01 * error.q[i] * power + 5.1 * u * std::fabs(c[i]);
+  const auto size = static_cast<std::size_t>(degree);
+  for (std::size_t i = 0; i <= size; ++i) {
+    c[i].value = f.q[i] * power;
+    c[i].error = 1.01 * error.q[i] * power + 5.1 * u * std::fabs(c[i].value);
     power *= scale;
   }
-  for (int part = 0; part < 4 && out.count < most; ++part) {
-    const bool outer = part == 0 || part == 3;
-    const double sigma = part < 2 ? 1.0 : -1.0;
-    double m[5], n[5];
-    for (int i = 0; i <= degree; ++i) {
-      const int k = outer ? degree - i : i;  // t = 1/x reverses the coefficients
-      m[i] = sigma < 0 && k % 2 == 1 ? -c[k] : c[k];
-      n[i] = e[k];
+  for (int n = 0; n < 4 && out.count < most; ++n) {
+    Part part{
+        .outer = n == 0 || n == 3, .sigma = n < 2 ? 1.0 : -1.0, .scale = scale, .passed = 0.0};
+    std::array<Bounded, 5> m;
+    for (std::size_t i = 0; i <= size; ++i) {
+      const std::size_t k = part.outer ? size - i : i;  // t = 1/x reverses the coefficients
+      m[i] = c[k];
+      if (part.sigma < 0 && k % 2 == 1) m[i].value = -m[i].value;
     }
+    const Polynomial p = bernstein_form(m, size, share_of);
+    if (part.outer && p.b[0].sign() == Sign::undecided) part.passed = scale / farthest;
     // Falling kappa: t grows in [K, inf) and in [-K, 0], falls in the others.
-    const bool ascending = part == 0 || part == 2;
-    const Bernstein p = bernstein(m, n, degree);
-    const double passed = outer && sign_of(p.b[0], p.e[0]) == 2 ? scale / farthest : 0.0;
-    if (!isolate(p, degree, 0.0, 1.0, {outer, sigma, scale, passed}, ascending, 40, out, most)) {
-      out.decided = false;
-      return out;
-    }
+    const bool ascending = n == 0 || n == 2;
+    out.decided = isolate(p, 0.0, 1.0, ascending, 0,
+                          [&](const Polynomial& piece, double from, double to, int depth) {
+                            return look(piece, from, to, depth, part, out, most);
+                          });
+    if (!out.decided) return out;
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 
+#include "carom/geometry/bernstein.hpp"
 #include "certify/flight/larmor_circle.hpp"
 #include "certify/flight/next_wall.hpp"
 
@@ -136,56 +137,42 @@ class LarmorExits {
     const IsolationEffort<N> effort;
     deepest_ = effort.deepest;
     for (chord_ = 0; chord_ < chords.size(); ++chord_)
-      if (search(bernstein(chords[chord_]), N(0.0), N(1.0), 0)) return;
+      if (!isolate(bernstein(chords[chord_]), N(0.0), N(1.0), true, 0,
+                   [this](const Bernstein& p, const N& low, const N& high, int depth) {
+                     return look(p, low, high, depth);
+                   }))
+        return;
   }
   const LarmorExit<N>* begin() const { return exits_.data(); }
   const LarmorExit<N>* end() const { return exits_.data() + count_; }
 
  private:
-  std::array<N, 5> bernstein(const Powers<N>& f) {
-    degree_ = f.degree;
-    std::array<N, 5> b{};
-    for (std::size_t k = 0; k <= degree_; ++k) {
-      b[k] = f.c[0];
-      double weight = 1.0, over = 1.0;  // products of j falling factors
-      for (std::size_t j = 1; j <= k; ++j) {
-        weight *= static_cast<double>(k + 1 - j);
-        over *= static_cast<double>(degree_ + 1 - j);
-        b[k] = b[k] + N(weight) * f.c[j] / N(over);
-      }
-    }
-    return b;
+  using Bernstein = geometry::Bernstein<N>;
+
+  static Bernstein bernstein(const Powers<N>& f) {
+    return geometry::bernstein_form(f.c, f.degree, [](const N& c, int m, int n) {
+      return n == 1 ? c : N(static_cast<double>(m)) * c / N(static_cast<double>(n));
+    });
   }
 
+  /// True if more is asked for.
   bool take(LarmorExit<N> exit) {
     exits_[count_++] = std::move(exit);
-    return count_ == most_ || !exits_[count_ - 1].certain;
+    return count_ < most_ && exits_[count_ - 1].certain;
   }
 
-  /// How often the sign of the coefficients changes; -1 where that is not known.
-  int changes(const std::array<N, 5>& b) const {
-    int count = 0;
-    Sign last = sign(b[0]);
-    for (std::size_t k = 0; k <= degree_; ++k) {
-      const Sign s = sign(b[k]);
-      if (s == Sign::undecided || s == Sign::zero) return -1;
-      if (s != last) ++count;
-      last = s;
-    }
-    return count;
-  }
-
-  /// True when nothing more is asked for.
-  bool search(const std::array<N, 5>& b, const N& low, const N& high, int depth) {
-    const int roots = changes(b);
-    if (roots == 0) return false;
-    if (roots == 1) {
-      if (sign(b[0]) == Sign::negative) return false;  // the flight enters there
+  /// Nothing: the piece must be halved.
+  std::optional<bool> look(const Bernstein& p, const N& low, const N& high, int depth) {
+    const geometry::SignChanges roots =
+        geometry::sign_changes(p, [](const N& x) { return sign(x); });
+    if (roots.certain && roots.most == 0) return true;
+    if (roots.certain && roots.most == 1) {
+      if (roots.first == Sign::negative) return true;  // the flight enters there
       bool falls = true;
-      N slope = b[1] - b[0];
+      N slope = p.b[1] - p.b[0];
       double least = HUGE_VAL, most = 0.0;
-      for (std::size_t k = 0; k < degree_; ++k) {
-        const N step = b[k + 1] - b[k];
+      for (std::size_t k = 0; k < p.degree; ++k) {
+        const N step = p.b[k + 1] - p.b[k];
         falls = falls && sign(step) == Sign::negative;
         slope = union_of(slope, step);
         const double size = std::fabs(middle_of(step));
@@ -194,20 +181,13 @@ class LarmorExits {
       }
       // Then the first of Newton's steps makes the bracket four times as narrow.
       if (falls && (most < 1.5 * least || depth == deepest_))
-        return take({true, chord_, low, high, N(static_cast<double>(degree_)) * slope});
+        return take({true, chord_, low, high, N(static_cast<double>(p.degree)) * slope});
     }
     if (depth == deepest_) return take({false, chord_, low, high, {}});
-    std::array<N, 5> left = b, right = b;
-    for (std::size_t level = 1; level <= degree_; ++level) {
-      for (std::size_t k = 0; k + level <= degree_; ++k)
-        right[k] = N(0.5) * (right[k] + right[k + 1]);
-      left[level] = right[0];
-    }
-    const N middle = N(0.5) * (low + high);
-    return search(left, low, middle, depth + 1) || search(right, middle, high, depth + 1);
+    return std::nullopt;
   }
 
-  std::size_t most_, degree_ = 4, chord_ = 0, count_ = 0;
+  std::size_t most_, chord_ = 0, count_ = 0;
   int deepest_ = 50;
   std::array<LarmorExit<N>, 5> exits_{};
 };
