@@ -224,7 +224,7 @@ class SingleRun {
  private:
   /// The number in the system of a particle of the world.
   std::size_t number(std::size_t body) const { return static_cast<std::size_t>(numbers_[body]); }
-  const State& state(std::size_t body) const { return world_.state(static_cast<int>(body)); }
+  State state(std::size_t body) const { return world_.state(static_cast<int>(body)); }
 
   /// Starts and particles that enter later, or those of the stored run that go on.
   void add_particles(Observer& observer) {

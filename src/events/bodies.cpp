@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "carom/events/report.hpp"
+#include "events/step/group.hpp"
 
 namespace carom {
 
@@ -16,6 +17,8 @@ void Bodies::clear() {
   bodies_.clear();
   queue_.clear();
 }
+
+State Bodies::state_in_group(const Body& b) { return b.group->state(b.member); }
 
 void Bodies::end(int i, Fate fate, Time time, Observer& observer, std::string_view why) {
   Body& b = (*this)[i];

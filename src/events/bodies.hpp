@@ -2,6 +2,7 @@
 // ends.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -24,7 +25,7 @@ inline constexpr Time never{std::numeric_limits<double>::infinity()};
 struct Body {
   Particle particle;
   geometry::EnergyShell<double> shell;
-  State state;    ///< after its last event
+  State state;    ///< after its last event; out of date while a group holds it (Bodies::state)
   Flight flight;  ///< free: from that state on
   Ahead ahead;
   std::uint64_t hits = 0;
@@ -32,7 +33,8 @@ struct Body {
   int hole = -1;
   Fate fate = Fate::survived;
   bool finished = false;
-  Group* group = nullptr;  ///< null: free
+  Group* group = nullptr;  ///< it holds the particle's state; null: free
+  std::size_t member = 0;  ///< its number in that group
   Time last_event;         ///< integrated: its last hit or start
   Time check = never;      ///< free: when another particle may be near at the earliest
   std::string report;
@@ -50,6 +52,11 @@ class Bodies {
   const Body& operator[](int i) const { return bodies_[static_cast<std::size_t>(i)]; }
   /// Throws std::out_of_range.
   const Body& at(int i) const { return bodies_.at(static_cast<std::size_t>(i)); }
+  /// After its last event, from its group if it is in one.
+  State state(int i) const {
+    const Body& b = (*this)[i];
+    return b.group == nullptr ? b.state : state_in_group(b);
+  }
 
   /// Has every body ended?
   bool all_ended() const { return queue_.empty(); }
@@ -64,14 +71,16 @@ class Bodies {
   /// Most hits a body may make.
   void limit_hits(std::uint64_t most) { limit_ = most; }
   bool reaches_limit(const Body& b) const { return b.hits >= limit_; }
-  /// Counts a hit after which the body has its present state, on the wall. `flight_time`: since its
-  /// last event.
-  const HitEvent& count_hit(int i, Body& b, const geometry::Vector& before, double flight_time,
-                            int reflections);
-  /// Ends the trajectory of a body. `why`: for its report.
+  /// Counts a hit after which the body has that state, on the wall. `flight_time`: since its last
+  /// event.
+  const HitEvent& count_hit(int i, Body& b, const State& after, const geometry::Vector& before,
+                            double flight_time, int reflections);
+  /// Ends the trajectory of a free body. `why`: for its report.
   void end(int i, Fate fate, Time time, Observer& observer, std::string_view why = {});
 
  private:
+  static State state_in_group(const Body& b);
+
   std::vector<Body> bodies_;
   EventQueue queue_;
   HitEvent event_;  // kept, and filled in place
@@ -79,26 +88,26 @@ class Bodies {
 };
 
 /// Number by number, so that no number waits for another.
-[[gnu::always_inline]] inline const HitEvent& Bodies::count_hit(int i, Body& b,
+[[gnu::always_inline]] inline const HitEvent& Bodies::count_hit(int i, Body& b, const State& after,
                                                                 const geometry::Vector& before,
                                                                 double flight_time,
                                                                 int reflections) {
   b.hits += static_cast<std::uint64_t>(reflections);
-  b.last_wall = b.state.wall;
+  b.last_wall = after.wall;
   event_.particle = i;
-  event_.wall = b.state.wall;
-  event_.u = b.state.u;
-  event_.time.high = b.state.time.high;
-  event_.time.low = b.state.time.low;
+  event_.wall = after.wall;
+  event_.u = after.u;
+  event_.time.high = after.time.high;
+  event_.time.low = after.time.low;
   event_.flight_time = flight_time;
-  event_.position.x = b.state.position.x;
-  event_.position.y = b.state.position.y;
-  event_.cell.first = b.state.cell.first;
-  event_.cell.second = b.state.cell.second;
+  event_.position.x = after.position.x;
+  event_.position.y = after.position.y;
+  event_.cell.first = after.cell.first;
+  event_.cell.second = after.cell.second;
   event_.before.x = before.x;
   event_.before.y = before.y;
-  event_.after.x = b.state.velocity.x;
-  event_.after.y = b.state.velocity.y;
+  event_.after.x = after.velocity.x;
+  event_.after.y = after.velocity.y;
   event_.reflections = reflections;
   return event_;
 }

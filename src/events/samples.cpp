@@ -36,7 +36,7 @@ void Samples::emit(Time until, bool inclusive, Observer& observer) {
       if (b.finished && b.fate != Fate::pinned) continue;
       if (groups_.fails_before(i, t)) continue;
       any = true;
-      if (b.state.time > Time(t)) continue;  // it is still to come
+      if (bodies_.state(i).time > Time(t)) continue;  // it is still to come
       seen_.emplace_back(i, groups_.state_at(i, t));
     }
     for (const auto& [particle, state] : seen_) observer.sample(particle, t, state);

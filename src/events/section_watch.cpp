@@ -24,7 +24,7 @@ SectionWatch::Seen& SectionWatch::seen(int index) {
 
 void SectionWatch::begin_run() {
   for (int i = 0; i < bodies_.size(); ++i) {
-    const State& s = bodies_[i].state;
+    const State s = bodies_.state(i);
     if (!seen(i).begun) seen(i) = {true, in_plane(s.position, s.cell), s.velocity, s.time};
   }
 }
@@ -61,10 +61,11 @@ void SectionWatch::after_event(int index, Time when, Observer& observer) {
     if (ends_now) watch_flight(index, when, nullptr, observer);
     return;
   }
-  const Vector here = in_plane(b.state.position, b.state.cell);
-  watch_flight(index, b.state.time, &here, observer);
+  const State s = bodies_.state(index);
+  const Vector here = in_plane(s.position, s.cell);
+  watch_flight(index, s.time, &here, observer);
   Seen& now = seen(index);
-  if (now.time == b.state.time) now = {true, here, b.state.velocity, b.state.time};
+  if (now.time == s.time) now = {true, here, s.velocity, s.time};
 }
 
 void SectionWatch::watch_step(Group& group, Time until, Observer& observer) {
@@ -74,7 +75,7 @@ void SectionWatch::watch_step(Group& group, Time until, Observer& observer) {
   for (std::size_t k = 0; k < group.bodies().size(); ++k) {
     const int index = group.bodies()[k];
     const double from = seen(index).begun ? seen(index).time - group.time() : 0.0;
-    const Vector origin = in_plane({}, group.cells()[k]);
+    const Vector origin = in_plane({}, group.state(k).cell);
     group.crossings(*surface_, k, from > 0.0 ? from : 0.0, to, origin, found_);
     tell(index, group.time(), observer);
     seen(index).time = until;

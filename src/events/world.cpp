@@ -204,7 +204,10 @@ void World::watch(const Surface* surface, std::size_t most) {
 int World::size() const { return implementation_->bodies.size(); }
 bool World::finished(int p) const { return implementation_->bodies.at(p).finished; }
 Fate World::fate(int p) const { return implementation_->bodies.at(p).fate; }
-const State& World::state(int p) const { return implementation_->bodies.at(p).state; }
+State World::state(int p) const {
+  implementation_->bodies.at(p);
+  return implementation_->bodies.state(p);
+}
 State World::state_at(int p, Time t) const {
   implementation_->bodies.at(p);
   return implementation_->groups.state_at(p, t);

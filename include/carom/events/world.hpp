@@ -78,7 +78,7 @@ class World {
   int size() const;
   bool finished(int particle) const;           ///< has ended
   Fate fate(int particle) const;               ///< survived while it has not ended
-  const State& state(int particle) const;      ///< after its last event
+  State state(int particle) const;             ///< after its last event
   State state_at(int particle, Time t) const;  ///< between its last event and the next
   const Particle& particle(int particle) const;
   std::uint64_t hits(int particle) const;

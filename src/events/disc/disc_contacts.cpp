@@ -338,7 +338,7 @@ bool DiscContacts::settle_on_wall(int index, double way, Observer& observer) {
     bodies_.end(index, Fate::singular, now, observer);
     return false;
   }
-  OnWalls(table_, observer).hit(bodies_.count_hit(index, b, before, 0.0, 1));
+  OnWalls(table_, observer).hit(bodies_.count_hit(index, b, b.state, before, 0.0, 1));
   if (!bodies_.reaches_limit(b)) return true;
   bodies_.end(index, Fate::capped, now, observer);
   return false;

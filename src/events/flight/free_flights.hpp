@@ -137,7 +137,7 @@ class FreeFlights {
   b.state.time.low = now.low;
   pieces().begin_on_wall(b.flight, landing.wall, *landing.curve, landing.at.u, landing.at.point,
                          after);
-  const HitEvent& hit = bodies_.count_hit(index, b, before, b.ahead.duration, reflections);
+  const HitEvent& hit = bodies_.count_hit(index, b, b.state, before, b.ahead.duration, reflections);
   if (bodies_.reaches_limit(b)) {
     observer.hit(hit);
     return bodies_.end(index, Fate::capped, now, observer), true;

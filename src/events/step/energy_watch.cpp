@@ -25,7 +25,9 @@ void EnergyWatch::before_step(const Group& group) {
   if (together_) {
     for (int i = 0; i < bodies_.size(); ++i) {
       const Body& b = bodies_[i];
-      if (!b.finished) kinetic += 0.5 * b.particle.mass * dot(b.state.velocity, b.state.velocity);
+      if (b.finished) continue;
+      const geometry::Vector velocity = bodies_.state(i).velocity;
+      kinetic += 0.5 * b.particle.mass * dot(velocity, velocity);
     }
   } else {
     kinetic = group.kinetic_energy();

@@ -78,7 +78,7 @@ void Group::assign(std::vector<int> bodies, std::vector<Particle> particles) {
   passed_ = nullptr;
   last_energy_.reset();
   external_.position.clear();
-  cells_.assign(bodies_.size(), Cell{});
+  places_.assign(bodies_.size(), {});
   phase_.position.resize(bodies_.size());
   phase_.velocity.resize(bodies_.size());
   make_stepper();
@@ -251,6 +251,7 @@ void Group::advance() {
     *in_.counts += taken;
   }
   phase_ = next_.member < 0 ? path_->end().phase : path_->at(next_.duration).phase;
+  for (Place& at : places_) at.wall = -1;
   time_ = next_time();
 }
 
@@ -267,7 +268,7 @@ State Group::state_at(std::size_t member, const Time& time) {
   const Phase<double>& phase = duration > 0.0 ? between_.phase : phase_;
   s.position = phase.position[member];
   s.velocity = phase.velocity[member];
-  s.cell = cells_[member];
+  s.cell = places_[member].cell;
   s.time = time;
   return s;
 }
@@ -313,7 +314,7 @@ void Group::remove(std::size_t member) {
   const auto i = static_cast<std::ptrdiff_t>(member);
   bodies_.erase(bodies_.begin() + i);
   particles_.erase(particles_.begin() + i);
-  cells_.erase(cells_.begin() + i);
+  places_.erase(places_.begin() + i);
   phase_.position.erase(phase_.position.begin() + i);
   phase_.velocity.erase(phase_.velocity.begin() + i);
   stepper_.reset();
@@ -326,7 +327,7 @@ void Group::fold(std::size_t member) {
   Vector& x = phase_.position[member];
   // The forces have the lattice's period: what is known of them about a point holds for its copies.
   const bool checked = member < checked_.position.size() && checked_.position[member] == x;
-  fold_towards_centre(*in_.lattice, in_.centre, x, cells_[member]);
+  fold_towards_centre(*in_.lattice, in_.centre, x, places_[member].cell);
   if (checked) checked_.position[member] = x;
 }
 

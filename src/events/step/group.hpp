@@ -59,14 +59,22 @@ class Group final : public ForceLaw<double> {
   };
 
   explicit Group(const Surroundings& in) : in_(in) {}
-  /// Becomes a group of these bodies; phase() and cells() are still to be set.
+  /// Becomes a group of these bodies, whose states are still to be set.
   void assign(std::vector<int> bodies, std::vector<Particle> particles);
 
   const std::vector<int>& bodies() const { return bodies_; }
-  Phase<double>& phase() { return phase_; }
   const Phase<double>& phase() const { return phase_; }
-  std::vector<geometry::Cell>& cells() { return cells_; }
-  const std::vector<geometry::Cell>& cells() const { return cells_; }
+  /// The state of a member after the group's last event: on a wall if it hit one then, or came so.
+  State state(std::size_t member) const {
+    const Place& at = places_[member];
+    return {at.wall, at.u, phase_.position[member], phase_.velocity[member], at.cell, time_};
+  }
+  /// All but the time, which members have in common.
+  void set_state(std::size_t member, const State& state) {
+    places_[member] = {state.wall, state.u, state.cell};
+    phase_.position[member] = state.position;
+    phase_.velocity[member] = state.velocity;
+  }
   const Time& time() const { return time_; }
   void set_time(const Time& time) { time_ = time; }
 
@@ -148,7 +156,12 @@ class Group final : public ForceLaw<double> {
   std::vector<int> bodies_;
   std::vector<Particle> particles_;
   std::vector<double> omega_, masses_;
-  std::vector<geometry::Cell> cells_;
+  struct Place {
+    int wall = -1;
+    double u = 0.0;
+    geometry::Cell cell;
+  };
+  std::vector<Place> places_;  ///< what a phase does not tell of a state
   Phase<double> phase_;
   Time time_;
   Next next_;

@@ -22,7 +22,7 @@ bool is_regular(const PieceTable& pieces, int wall) {
 GroupHit hit_of(const PieceTable& pieces, const Table& table, const Group& group,
                 std::size_t member, const Barrier<double>& barrier, DecisionCounts& counts) {
   GroupHit hit;
-  geometry::Cell cell = group.cells()[member];
+  geometry::Cell cell = group.state(member).cell;
   cell.first += barrier.cell.first;
   cell.second += barrier.cell.second;
   Vector x = group.phase().position[member];

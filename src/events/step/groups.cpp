@@ -57,10 +57,9 @@ void Groups::form(const std::vector<int>& members) {
   group.assign(members, std::move(particles));
   for (std::size_t k = 0; k < members.size(); ++k) {
     Body& b = bodies_[members[k]];
-    group.phase().position[k] = b.state.position;
-    group.phase().velocity[k] = b.state.velocity;
-    group.cells()[k] = b.state.cell;
+    group.set_state(k, b.state);
     b.group = &group;
+    b.member = k;
     // At a hit a particle stays where the wall is until its step ends.
     if (b.state.wall < 0) group.fold(k);
     // One entry a group: its first member's.
@@ -71,12 +70,14 @@ void Groups::form(const std::vector<int>& members) {
 }
 
 void Groups::take_out(int body) {
-  Group& group = *bodies_[body].group;
-  const auto& members = group.bodies();
-  const auto member = std::find(members.begin(), members.end(), body) - members.begin();
-  if (members.size() == 1) idle_.push_back(&group);
-  bodies_[body].group = nullptr;
-  group.remove(static_cast<std::size_t>(member));
+  Body& b = bodies_[body];
+  Group& group = *b.group;
+  b.state = group.state(b.member);
+  b.group = nullptr;
+  group.remove(b.member);
+  for (std::size_t k = b.member; k < group.bodies().size(); ++k)
+    bodies_[group.bodies()[k]].member = k;
+  if (group.bodies().empty()) idle_.push_back(&group);
 }
 
 void Groups::predict(Group& group) {
@@ -113,18 +114,6 @@ void Groups::advance(Group& group) {
   if (surroundings_.remember_energy) energies_.after_step(group);
   if (group.next().member < 0)
     for (std::size_t k = 0; k < group.bodies().size(); ++k) group.fold(k);
-  copy_states(group);
-}
-
-void Groups::copy_states(const Group& group) {
-  for (std::size_t k = 0; k < group.bodies().size(); ++k) {
-    State& s = bodies_[group.bodies()[k]].state;
-    s.wall = -1;
-    s.position = group.phase().position[k];
-    s.velocity = group.phase().velocity[k];
-    s.cell = group.cells()[k];
-    s.time = group.time();
-  }
 }
 
 Group* Groups::ending_at(const Time& now) const {
@@ -137,10 +126,7 @@ Group* Groups::ending_at(const Time& now) const {
 
 State Groups::state_at(int body, const Time& t) const {
   const Body& b = bodies_[body];
-  if (b.group == nullptr) return flown(b.state, b.particle.omega, t);
-  const auto& members = b.group->bodies();
-  const auto member = std::find(members.begin(), members.end(), body);
-  return b.group->state_at(static_cast<std::size_t>(member - members.begin()), t);
+  return b.group ? b.group->state_at(b.member, t) : flown(b.state, b.particle.omega, t);
 }
 
 bool Groups::fails_before(int body, const Time& t) const {

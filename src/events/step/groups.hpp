@@ -16,8 +16,8 @@
 namespace carom {
 
 /// Forms groups, takes bodies out of them, and predicts and takes their steps. A group has one
-/// entry in the queue, that of its first member. While a body is in a group, the group moves it,
-/// and Body::state is a copy that is made after each of the group's events.
+/// entry in the queue, that of its first member. While a body is in a group, the group alone holds
+/// its state.
 class Groups {
  public:
   Groups(const Table& table, const Dynamics& dynamics, const ForceRegions& regions,
@@ -28,7 +28,7 @@ class Groups {
 
   /// Makes free bodies, which have the same time, a group, and predicts its first step.
   void form(const std::vector<int>& members);
-  /// Takes a body out of its group, which needs a prediction then.
+  /// Takes a body out of its group, with its state; the group needs a prediction then.
   void take_out(int body);
   /// Predicts and schedules what comes first for the group.
   void predict(Group& group);
@@ -55,8 +55,6 @@ class Groups {
   const EnergyWatch& energies() const { return energies_; }
 
  private:
-  void copy_states(const Group& group);
-
   const ForceRegions& regions_;
   Bodies& bodies_;
   Interrupt& interrupt_;

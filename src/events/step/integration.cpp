@@ -162,7 +162,7 @@ bool Integration::split(const Group& group) {
 bool Integration::leave_between_supports(const Group& group) {
   if (group.bodies().size() > 1 || regions_.edges().empty()) return false;
   const int index = group.bodies().front();
-  const State& s = bodies_[index].state;
+  const State s = bodies_.state(index);
   if (s.velocity == Vector{} || regions_.hold(s.position) || !flights_.contains(s.position))
     return false;
   groups_.take_out(index);
@@ -213,8 +213,8 @@ void Integration::give_up(Group& group, Observer& observer) {
 
 void Integration::end(int index, Fate fate, const Group& group, Observer& observer,
                       std::string_view why) {
-  bodies_.end(index, fate, group.time(), observer, why);
   groups_.take_out(index);
+  bodies_.end(index, fate, group.time(), observer, why);
 }
 
 /// A particle of a group is at a wall: it leaves through a hole or is reflected.
@@ -223,16 +223,14 @@ void Integration::hit(Group& group, std::size_t member, const Barrier<double>& b
   const int index = group.bodies()[member];
   Body& b = bodies_[index];
   const GroupHit hit = hit_of(flights_.pieces(), table_, group, member, barrier, flights_.counts());
-  b.state = hit.state;
+  group.set_state(member, hit.state);
   if (hit.hole >= 0) {
     b.last_wall = barrier.wall;
     b.hole = hit.hole;
     return end(index, Fate::escaped, group, observer);
   }
-  group.phase().position[member] = hit.state.position;
-  group.phase().velocity[member] = hit.state.velocity;
-  group.cells()[member] = hit.state.cell;
-  const HitEvent& event = bodies_.count_hit(index, b, hit.before, group.time() - b.last_event, 1);
+  const HitEvent& event =
+      bodies_.count_hit(index, b, hit.state, hit.before, group.time() - b.last_event, 1);
   b.last_event = group.time();
   if (!hit.inward) return end(index, Fate::singular, group, observer);
   observer.hit(event);
@@ -242,9 +240,10 @@ void Integration::hit(Group& group, std::size_t member, const Barrier<double>& b
 /// A particle comes to the edge of a support from inside. True if it flies freely from here on.
 bool Integration::leave_support(Group& group, const Barrier<double>& barrier) {
   const int index = group.bodies().front();
-  const Vector x = group.phase().position.front(), velocity = group.phase().velocity.front();
+  const State last = group.state(0);
+  const Vector x = last.position, velocity = last.velocity;
   const geometry::PreparedCurve& curve = flights_.pieces().curve(barrier.wall);
-  Cell cell = group.cells().front();
+  Cell cell = last.cell;
   cell.first += barrier.cell.first;
   cell.second += barrier.cell.second;
   const Vector own = table_.lattice ? x - table_.lattice->translation(barrier.cell) : x;
@@ -259,10 +258,10 @@ bool Integration::leave_support(Group& group, const Barrier<double>& barrier) {
   if (flights_.pieces().inward(barrier.wall, u, velocity, frame.normal, flights_.counts()) !=
       Sign::positive)
     return false;
+  groups_.take_out(index);
   Body& b = bodies_[index];
   b.state = {-1, 0.0, frame.point, velocity, cell, group.time()};
   flights_.begin_on_wall(b, barrier.wall, u);
-  groups_.take_out(index);
   flights_.predict(index);
   if (regions_.by_range()) looking_.push_back({nullptr, index, b.state.time, false});
   return true;

@@ -41,10 +41,10 @@ Neighbours::Found Neighbours::around(std::vector<int> members, const Time& now) 
     const double speed = speed_of(here);
     for (int j = 0; j < bodies_.size(); ++j) {
       const Body& other = bodies_[j];
-      // A particle that is still to come looks around itself.
-      if (taken[at(j)] || other.finished || other.state.time > now) continue;
-      // Within its step a group is left alone: it looked around when that began.
-      if (other.group != nullptr && other.group->time() < now) continue;
+      if (taken[at(j)] || other.finished) continue;
+      // Within its step a group is left alone: it looked around when that began. A particle that is
+      // still to come looks around itself.
+      if (other.group ? other.group->time() < now : other.state.time > now) continue;
       const State there = groups_.state_at(j, now);
       const double distance = gap(here.position, there.position);
       const double closing = speed + speed_of(there);
@@ -65,7 +65,7 @@ std::vector<std::vector<int>> Neighbours::parts(const std::vector<int>& members)
   std::iota(part.begin(), part.end(), std::size_t{0});
   for (std::size_t i = 0; i < members.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const State &a = bodies_[members[i]].state, &b = bodies_[members[j]].state;
+      const State a = bodies_.state(members[i]), b = bodies_.state(members[j]);
       const double closing = speed_of(a) + speed_of(b);
       const double far = 2.0 * acceleration_factor * closing * dynamics_.integrator.step;
       if (!(gap(a.position, b.position) < far)) continue;

@@ -255,9 +255,7 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, bool from_lane, double 
       sample(sampled, group_.state_at(0, times[sampled]));
   };
   for (;;) {
-    group_.phase().position[0] = s.position;
-    group_.phase().velocity[0] = s.velocity;
-    group_.cells()[0] = s.cell;
+    group_.set_state(0, s);
     group_.set_time(s.time);
     track.fastest = std::max(track.fastest, dot(s.velocity, s.velocity));
     const Group::Next next = group_.predict(never);
@@ -281,16 +279,11 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, bool from_lane, double 
 }
 
 SoftEngine::Outcome SoftEngine::end_step(SoftTrack& track) {
-  const geometry::Cell cell = group_.cells()[0];
+  const geometry::Cell cell = group_.state(0).cell;
   group_.fold(0);
-  track.arc_known = group_.cells()[0] == cell && group_.arc_at_end();
-  if (group_.cells()[0] != cell) count_start(track);
-  State& s = track.state;
-  s.wall = -1;
-  s.position = group_.phase().position[0];
-  s.velocity = group_.phase().velocity[0];
-  s.cell = group_.cells()[0];
-  s.time = group_.time();
+  track.state = group_.state(0);
+  track.arc_known = track.state.cell == cell && group_.arc_at_end();
+  if (track.state.cell != cell) count_start(track);
   return Outcome::at_step_end;
 }
 
