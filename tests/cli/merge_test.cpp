@@ -117,7 +117,7 @@ TEST(Ranks, AKilledRankCostsTheLastBlocksAlone) {
       const Outcome killed =
           shell(ranks(3) + run +
                 " -o a.h5 --checkpoint blocks:100 & pid=$!; until_saved a.h5.part/rank-2; sleep " +
-                wait + "; kill -9 $(pgrep -P $pid | " + victim + "); wait $pid");
+                wait + "; kill -9 $(children_of $pid | " + victim + "); wait $pid");
       if (killed.status != 0 && shell.exists("a.h5.part/rank-2.part/checkpoint.h5")) break;
       shell("rm -rf a.h5*");
     }

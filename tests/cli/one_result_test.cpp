@@ -57,7 +57,7 @@ void expect_one_result(const std::string& command, const std::string& options, s
     EXPECT_EQ(parts.status, 0) << parts.err;
     expect_same_datasets(shell.folder() + "/all.h5", whole);
     // The first of the ranks: mpirun itself would soon end them all.
-    const std::string process = way.processes > 0 ? "$(pgrep -P $pid | head -1)" : "$pid";
+    const std::string process = way.processes > 0 ? "$(children_of $pid | head -1)" : "$pid";
     const std::string saved = way.processes > 1 ? "r.h5.part/rank-1" : "r.h5";
     bool ended = true;
     for (int tries = 0; ended && tries < 5; ++tries) {

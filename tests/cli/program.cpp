@@ -26,6 +26,7 @@ until_saved() {
   found=$(stat -c %y "$checkpoint")
   while [ "$(stat -c %y "$checkpoint" 2>/dev/null)" = "$found" ]; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done
 }
+children_of() { cat /proc/$1/task/*/children | tr ' ' '\n' | sed '/^$/d' | sort -n; }
 until_listening() {
   until grep -qs '^SigCgt:.*[4-7c-f]...$' /proc/$pid/status; do kill -0 $pid 2>/dev/null || return 1; sleep 0.01; done
 }
