@@ -19,6 +19,8 @@ class Interrupt {
     return work_ < between_questions ? stopped_ : ask();
   }
   bool stopped() const { return stopped_; }
+  /// What was asked elsewhere says so.
+  void stop() { stopped_ = true; }
 
  private:
   static constexpr double between_questions = 1e7;

@@ -21,7 +21,10 @@ class OneByOne : public Engine, private Observer {
   void hit(const HitEvent&) override;
   void contact(const ContactEvent&) override { ++end_.contacts; }
   void sample(int particle, Time, const State&) override;
-  void sampled(Time) override { ++samples_; }
+  bool sampled(Time) override {
+    ++samples_;
+    return true;
+  }
   void crossing(int particle, Time, const State&, int direction) override;
   void end(const EndEvent&) override;
 

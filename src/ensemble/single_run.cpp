@@ -121,7 +121,10 @@ class Renumbering : public Observer {
     if (time < entries_[static_cast<std::size_t>(number(particle))]) return;
     observer_.sample(number(particle), time, state);
   }
-  void sampled(Time time) override { observer_.sampled(time); }
+  bool sampled(Time time) override {
+    interrupted_ = !observer_.sampled(time);
+    return !interrupted_;
+  }
   void end(const EndEvent& event) override {
     if (trust_ != nullptr) trust_->end(event);
     EndEvent copy = event;
@@ -129,6 +132,8 @@ class Renumbering : public Observer {
     ends_[static_cast<std::size_t>(copy.particle)] = copy;
     observer_.end(copy);
   }
+  /// The observer was interrupted over a sample.
+  bool interrupted() const { return interrupted_; }
   const std::optional<EndEvent>& end_of(std::size_t particle) const { return ends_[particle]; }
   void estimate(TrustRecorder* trust) { trust_ = trust; }
   void watch(FreeEnergies* energies) { energies_ = energies; }
@@ -139,6 +144,7 @@ class Renumbering : public Observer {
   Observer& observer_;
   TrustRecorder* trust_ = nullptr;  ///< by the numbers of the world
   FreeEnergies* energies_ = nullptr;
+  bool interrupted_ = false;
   const std::vector<int>& numbers_;
   std::vector<Time> entries_;  ///< when each particle entered
   std::vector<std::optional<EndEvent>> ends_;
@@ -301,6 +307,7 @@ class SingleRun {
     for (std::size_t body = 0; body < numbers_.size(); ++body)
       moving = moving || !world_.finished(static_cast<int>(body));
     if (moving || !without_end_) world_.run_until(system_.run.t_max, *passed_on_, interrupted_);
+    was_interrupted_ = was_interrupted_ || passed_on_->interrupted();
   }
 
   void note_end(std::size_t body) {

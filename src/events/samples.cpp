@@ -41,7 +41,7 @@ void Samples::emit(Time until, bool inclusive, Observer& observer) {
     }
     for (const auto& [particle, state] : seen_) observer.sample(particle, t, state);
     if (!any) return;  // no particle is left to be sampled
-    observer.sampled(t);
+    if (!observer.sampled(t)) return interrupt_.stop();
     ++next_;
   }
 }

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "carom/ensemble/single_run.hpp"
+#include "carom/io/archive.hpp"
+#include "carom/io/system_file.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -111,6 +114,62 @@ TEST(EnergyArchive, GoesOnAfterAPause) {
     EXPECT_EQ(whole.column(std::string("energy/") + name),
               part.column(std::string("energy/") + name))
         << name;
+}
+
+// Enough pairs for a question at each sum.
+const char* crowd = R"([table]
+shape = "circle"
+radius = 100
+[particles]
+count = 1500
+speed = 1
+[interaction]
+kind = "coulomb"
+strength = 0.001
+[integrator]
+scheme = "velocity-verlet"
+step = 0.001
+unresolved = "count"
+[run]
+t_max = 0.003
+sample = 0.001
+)";
+
+// A signal that comes while the pairs of a sample are summed: the sample is not stored, not even
+// its positions, and the run that goes on stores it.
+TEST(EnergyArchive, StoresASampleWholeOrNotAtAll) {
+  const Shell shell;
+  const LoadedSystem loaded = read_system(crowd, "crowd.toml");
+  for (const std::string name : {"whole.h5", "part.h5"}) {
+    const std::string file = shell.folder() + "/" + name;
+    bool signalled = false;
+    int sums = 0;
+    SingleRunOptions how;
+    how.interrupted = [&] { return signalled; };
+    auto archive = RunArchive::create(file, loaded, Provenance{}, false);
+    if (name == "part.h5") archive->listen([&] { return signalled = signalled || ++sums > 2; });
+    const SingleRunResult first = run_single(loaded.system, *archive, how);
+    archive->finish(first, "completed");
+    EXPECT_EQ(first.interrupted, name == "part.h5");
+    if (!first.interrupted) continue;
+    {
+      const Archive part(shell, name);
+      const auto energies = part.column("energy/t").size();
+      EXPECT_GT(energies, 0u);
+      EXPECT_LT(energies, 4u);
+      EXPECT_EQ(part.column("trajectory/t").size(), 1500 * energies);
+    }
+    const StoredRun stored = read_run(file);
+    SingleRunOptions again;
+    again.resume = stored.particles;
+    again.steps = stored.steps;
+    archive = RunArchive::extend(file, file, loaded, Provenance{}, true);
+    archive->finish(run_single(loaded.system, *archive, again), "completed");
+  }
+  const Archive whole(shell, "whole.h5"), part(shell, "part.h5");
+  EXPECT_EQ(whole.column("energy/t").size(), 4u);
+  for (const char* name : {"energy/t", "energy/total", "trajectory/t", "trajectory/x"})
+    EXPECT_EQ(whole.column(name), part.column(name)) << name;
 }
 
 TEST(EnergyArchive, IsThereOnlyWhereForcesAct) {

@@ -38,7 +38,7 @@ class Samples : public Observer {
   Samples(const Dynamics& d, const Table& table, bool shared)
       : dynamics_(d), table_(table), shared_(shared) {}
   void sample(int, Time, const State& state) override { now_.push_back(state); }
-  void sampled(Time) override {
+  bool sampled(Time) override {
     for (std::size_t i = 0; i < (shared_ ? 1 : now_.size()); ++i) {
       const std::vector<State> states = shared_ ? now_ : std::vector<State>{now_[i]};
       const std::vector<Particle> particles(states.size(), particle());
@@ -49,6 +49,7 @@ class Samples : public Observer {
       kinetic[i] = std::max(kinetic[i], e.kinetic);
     }
     now_.clear();
+    return true;
   }
   std::vector<double> largest, kinetic;
 

@@ -122,9 +122,10 @@ struct Samples : Observer {
   std::vector<Positions> x;
   Positions now;
   void sample(int, Time, const State& s) override { now.push_back(s.position); }
-  void sampled(Time) override {
+  bool sampled(Time) override {
     x.push_back(now);
     now.clear();
+    return true;
   }
 };
 

@@ -13,7 +13,9 @@ class Observer {
   virtual void hit(const HitEvent&) {}                          ///< a reflection, after it
   virtual void contact(const ContactEvent&) {}                  ///< of two hard discs
   virtual void sample(int /*particle*/, Time, const State&) {}  ///< state at the sample's time
-  virtual void sampled(Time) {}         ///< all samples of this time are given
+  /// All samples of this time are given. False: the observer was interrupted over them. The run
+  /// ends there as interrupted, and when it goes on it gives the samples of this time again.
+  virtual bool sampled(Time) { return true; }
   virtual void end(const EndEvent&) {}  ///< once, of a particle that has ended
   /// A crossing of the surface that is watched: the state there with its position in the plane
   /// (cell 0), and the direction, +1 or -1. Those of a flight come after the event that ends it.

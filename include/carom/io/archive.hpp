@@ -83,7 +83,10 @@ class RunArchive : public Observer {
   void append(const HitRow&);
   void contact(const ContactEvent&) override;
   void sample(int particle, Time, const State&) override;
-  void sampled(Time) override;
+  /// False where the sum over all pairs was interrupted: nothing of this sample is stored.
+  bool sampled(Time) override;
+  /// Asked while energies are summed, which takes seconds for thousands of particles. True: stop.
+  void listen(std::function<bool()> interrupted);
   void finish(const SingleRunResult&, const std::string& status);
 
  private:

@@ -38,9 +38,9 @@ class Counting : public Observer {
   void sample(int particle, Time at, const State& state) override {
     if (next_) next_->sample(particle, at, state);
   }
-  void sampled(Time at) override {
+  bool sampled(Time at) override {
     time = at.value();
-    if (next_) next_->sampled(at);
+    return !next_ || next_->sampled(at);
   }
   std::uint64_t hits = 0;
   double time = 0.0;
@@ -165,6 +165,7 @@ int run(const Options& options) {
       }
       return interrupted.load(std::memory_order_relaxed);
     };
+    if (archive) archive->listen(how.interrupted);
     result = run_single(system, counting, how);
   }
   const std::string status = run_status(result);

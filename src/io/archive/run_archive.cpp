@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/run_rows.hpp"
@@ -176,6 +177,8 @@ class RunArchive::Implementation {
   void write_state(const std::vector<RunEnd>& particles);
   void create_steps();
   void write_steps(const StepCounts& steps);
+  /// Those of the sample under way. False: it was interrupted, and nothing was stored.
+  bool add_energies(Time time);
   bool with_energies() const { return of_discs || (dynamics.forces && !dynamics.forces->empty()); }
 
   ArchiveLock lock;  // first: it lets go last
@@ -189,8 +192,11 @@ class RunArchive::Implementation {
   ContactColumns contacts;
   bool of_discs;
   hdf5::Columns energies;
-  std::vector<Particle> particles_now;  ///< of the sample's time
+  // Of the sample under way: stored together with its energy or not at all.
+  std::vector<SampleRow> rows_now;
+  std::vector<Particle> particles_now;
   std::vector<State> states_now;
+  std::function<bool()> interrupted;
   double sampled_until = -std::numeric_limits<double>::infinity();
 };
 
@@ -339,6 +345,16 @@ void RunArchive::Implementation::write_steps(const StepCounts& steps) {
   write(first_unresolved, H5T_NATIVE_DOUBLE, &steps.first_unresolved);
 }
 
+bool RunArchive::Implementation::add_energies(Time time) {
+  Interrupt summing(&interrupted);
+  const Energy energy = energy_of(particles_now, states_now, dynamics, *table, &summing);
+  if (summing.stopped()) return false;
+  const Vector momentum = momentum_of(particles_now, states_now);
+  energies.row(time.value(), energy.kinetic, energy.external, energy.pair, energy.total(),
+               momentum.x, momentum.y, angular_momentum_of(particles_now, states_now, *table));
+  return true;
+}
+
 RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 RunArchive::~RunArchive() = default;
@@ -394,23 +410,27 @@ void RunArchive::sample(int particle, Time time, const State& state) {
   Implementation& a = *implementation_;
   // A run that goes on is asked for its samples from the beginning.
   if (!(time.value() > a.sampled_until)) return;
-  const SampleRow row = sample_row(particle, time, state, *a.table);
-  a.samples.row(row.particle, row.t, row.x, row.y, row.vx, row.vy, row.cell_first, row.cell_second);
+  a.rows_now.push_back(sample_row(particle, time, state, *a.table));
   if (!a.with_energies()) return;
   a.particles_now.push_back(a.all_particles.at(static_cast<std::size_t>(particle)));
   a.states_now.push_back(state);
 }
 
-void RunArchive::sampled(Time time) {
+bool RunArchive::sampled(Time time) {
   Implementation& a = *implementation_;
-  if (a.states_now.empty()) return;
-  const Energy energy = energy_of(a.particles_now, a.states_now, a.dynamics, *a.table);
-  const Vector momentum = momentum_of(a.particles_now, a.states_now);
-  a.energies.row(time.value(), energy.kinetic, energy.external, energy.pair, energy.total(),
-                 momentum.x, momentum.y,
-                 angular_momentum_of(a.particles_now, a.states_now, *a.table));
+  const bool complete = a.states_now.empty() || a.add_energies(time);
+  if (complete)
+    for (const SampleRow& row : a.rows_now)
+      a.samples.row(row.particle, row.t, row.x, row.y, row.vx, row.vy, row.cell_first,
+                    row.cell_second);
+  a.rows_now.clear();
   a.particles_now.clear();
   a.states_now.clear();
+  return complete;
+}
+
+void RunArchive::listen(std::function<bool()> interrupted) {
+  implementation_->interrupted = std::move(interrupted);
 }
 
 void RunArchive::finish(const SingleRunResult& result, const std::string& status) {
