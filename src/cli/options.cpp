@@ -11,6 +11,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom_version.hpp"
+#include "cli/command_table.hpp"
 
 namespace carom::cli {
 
@@ -97,8 +98,8 @@ class Command {
     text("--position", o.position, "X,Y", "Start, in exact numbers: 1/10,-1/5");
     text("--velocity", o.velocity, "U,V",
          "Velocity of the start; only its direction counts where a speed is set");
-    text("--engine", options_.engine, "NAME", "auto, events or steps");
-    text("--isa", options_.isa, "NAME", "Instruction set of lanes: auto, baseline, avx2 or avx512");
+    text("--engine", options_.engine, "auto|events|steps", "What moves the particles");
+    text("--isa", options_.isa, "auto|baseline|avx2|avx512", "Instruction set of lanes");
     return *this;
   }
   /// Options of ensembles that can be continued, divided and shared between processes.
@@ -127,7 +128,10 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-void define(CLI::App& app, Options& o) {
+void define(CLI::App& app, Options& o, bool& version_wanted) {
+  app.footer(examples);
+  app.add_flag("--version", version_wanted, "Print the version");
+  app.require_subcommand(0, 1);
   Command(app, o, "escape", "Survival probability and escape rate of an ensemble",
           "Examples:\n"
           "  carom escape magnetic-square\n"
@@ -176,7 +180,7 @@ void define(CLI::App& app, Options& o) {
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
       .text("--trust-tolerance", o.overrides.trust_tolerance, "X",
             "Largest error of a trusted collision, in units of the table's size (default 1e-3)")
-      .text("--precision", o.precision, "NAME", "double, or certified: every digit guaranteed")
+      .text("--precision", o.precision, "double|certified", "Certified: every digit guaranteed")
       .text("--digits", o.digits, "D", "Guaranteed decimals of a certified run (default 20)")
       .text("--resume", o.resume, "FILE.h5", "Go on with a stored run instead of SYSTEM");
   Command(app, o, "diffusion", "Mean square displacement and diffusion coefficient of an ensemble",
@@ -210,7 +214,7 @@ void define(CLI::App& app, Options& o) {
       .text("-o,--output", o.output, "FILE",
             "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .text("--on", o.on, "WHERE", "Where the section is taken (default: boundary)")
-      .text("--direction", o.direction, "NAME", "Crossings that count: both, positive or negative")
+      .text("--direction", o.direction, "both|positive|negative", "Crossings that count")
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
       .text("--orbits", o.orbits, "N",
             "Number of orbits (default: the listed starts, else at most 50)");
@@ -297,7 +301,34 @@ std::string unknown_option(const CLI::App& command, int argc, char** argv) {
   return "'" + (first.empty() ? remaining.front() : first) + "' is not expected";
 }
 
+CommandRow row_of(const CLI::App& app) {
+  CommandRow row{app.get_name(), app.get_description(), app.get_footer(), {}, {}, false};
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string value = option->get_type_size() > 0 ? option->get_type_name() : "";
+    if (option->get_positional()) {
+      row.arguments.push_back({{option->get_name(true)}, "", option->get_description()});
+      row.many_arguments = option->get_items_expected_max() > 1;
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    row.options.push_back({names, value, option->get_description()});
+  }
+  return row;
+}
+
 }  // namespace
+
+std::vector<CommandRow> command_table() {
+  Options options;
+  bool version_wanted = false;
+  CLI::App app(introduction);
+  define(app, options, version_wanted);
+  std::vector<CommandRow> rows{row_of(app)};
+  for (const CLI::App* command : app.get_subcommands({})) rows.push_back(row_of(*command));
+  return rows;
+}
 
 Parsed parse(int argc, char** argv) {
   Parsed parsed;
@@ -305,11 +336,8 @@ Parsed parse(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) options.line += (i ? " " : "") + quoted(i ? argv[i] : "carom");
 
   CLI::App app(introduction, "carom");
-  app.footer(examples);
   bool version_wanted = false;
-  app.add_flag("--version", version_wanted, "Print the version");
-  app.require_subcommand(0, 1);
-  define(app, options);
+  define(app, options, version_wanted);
 
   // carom help COMMAND is carom COMMAND --help.
   std::vector<char*> words(argv, argv + argc);

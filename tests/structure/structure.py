@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks that the sources keep the rules of the tables below: dependencies, packages, lengths, format.
+"""Checks that the sources keep the rules of the tables below: dependencies, packages, lengths, format, one version.
 
-    structure.py includes | umbrella | libm | length | format | headers  [ROOT]
+    structure.py includes | umbrella | libm | length | format | headers | version  [ROOT]
 
 Prints one line for each fault; the exit status is then 1.
 """
@@ -223,9 +223,29 @@ def check_headers(root):
             yield f"src/{name} does not compile alone: {(done.stderr.splitlines() or [''])[-1]}"
 
 
+# Files that name the version of Carom, and how. CMakeLists.txt is the one that the program and the packages take it from.
+VERSIONS = {
+    "CMakeLists.txt": r"^project\(carom VERSION (\S+)",
+    "CITATION.cff": r"^version: (\S+)",
+    "pyproject.toml": r'^version = "(\S+)"',
+    "CHANGELOG.md": r"^## \[(\S+)\]",  # the first heading is the newest version
+}
+
+
+def check_version(root):
+    """All files name the same version."""
+    found = {}
+    for name, pattern in VERSIONS.items():
+        match = re.search(pattern, (root / name).read_text(encoding="utf-8"), re.M)
+        found[name] = match.group(1) if match else None
+    for name, version in found.items():
+        if version is None or version != found["CMakeLists.txt"]:
+            yield f"{name} names version {version}, CMakeLists.txt {found['CMakeLists.txt']}"
+
+
 SKIPPED = 77
 CHECKS = {"includes": check_includes, "umbrella": check_umbrella, "libm": check_libm, "length": check_length,
-          "format": check_format, "headers": check_headers}
+          "format": check_format, "headers": check_headers, "version": check_version}
 
 
 def main(arguments):

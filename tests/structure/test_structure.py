@@ -123,6 +123,18 @@ class Format(unittest.TestCase):
         self.assertEqual([fault.split(":")[0] for fault in found], ["src/base/bad.cpp"])
 
 
+class Version(unittest.TestCase):
+    def test_another_version_is_found(self):
+        files = {"src/base/a.cpp": "", "CMakeLists.txt": "project(carom VERSION 1.2.3 LANGUAGES CXX)\n",
+                 "CITATION.cff": "cff-version: 1.2.0\nversion: 1.2.3\n", "pyproject.toml": 'version = "1.2.3"\n',
+                 "CHANGELOG.md": "# Changelog\n\n## [1.2.3] - unreleased\n\n## [1.2.2]\n"}
+        self.assertEqual(faults("version", files), [])
+        for name in files:
+            if name != "src/base/a.cpp":
+                self.assertTrue(faults("version", files | {name: files[name].replace("1.2.3", "1.2.4")}), name)
+                self.assertTrue(faults("version", files | {name: "none\n"}), name)
+
+
 class Plan(unittest.TestCase):
     def test_a_cycle_is_found(self):
         plan = dict(structure.DEPENDENCIES)
