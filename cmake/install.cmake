@@ -1,26 +1,40 @@
-# Installation: two libraries, their headers, the program, find_package(carom).
+# Installation: the program, two libraries with their headers, find_package(carom), the Python module, documents.
+# Components: program, library, python; each is a Debian package (package.cmake).
 include(CMakePackageConfigHelpers)
 set(carom_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
 
+install(TARGETS carom_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+
 # Two export sets, so that a project that uses geometry alone needs none of the other packages.
-set_target_properties(carom_program PROPERTIES EXPORT_NAME program)
 install(TARGETS carom_geometry EXPORT carom-geometry-targets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS carom carom_program EXPORT carom-targets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
+install(TARGETS carom EXPORT carom-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
 foreach(set carom-geometry-targets carom-targets)
-  install(EXPORT ${set} NAMESPACE carom:: DESTINATION ${carom_package_dir})
+  install(EXPORT ${set} NAMESPACE carom:: DESTINATION ${carom_package_dir} COMPONENT library)
 endforeach()
 
 # The maps are a witness for the tests: neither their header nor their library is installed.
-install(DIRECTORY include/ geometry/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+install(DIRECTORY include/ geometry/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library
   PATTERN maps EXCLUDE)
-install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(cmake/carom-config.cmake.in ${PROJECT_BINARY_DIR}/carom-config.cmake
   INSTALL_DESTINATION ${carom_package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/carom-config-version.cmake
-  COMPATIBILITY SameMajorVersion)
+  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/carom-config.cmake
               ${PROJECT_BINARY_DIR}/carom-config-version.cmake
-  DESTINATION ${carom_package_dir})
+  DESTINATION ${carom_package_dir} COMPONENT library)
+
+# Man page and completions.
+set(carom_zsh_dir ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+if(CAROM_DEBIAN)
+  set(carom_zsh_dir ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+endif()
+install(FILES ${carom_man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${manual_folder}/carom DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+install(FILES ${manual_folder}/_carom DESTINATION ${carom_zsh_dir} COMPONENT program)
+
+# Documents; the gallery is a part of the guide.
+install(FILES LICENSE CITATION.cff CHANGELOG.md README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs/guide docs/physics docs/developer DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

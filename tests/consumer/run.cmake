@@ -1,5 +1,5 @@
-# cmake -DBUILD=… -DSOURCE=… -DCXX=… -P run.cmake: installs BUILD into a scratch prefix, then configures,
-# builds and runs the projects in SOURCE against it.
+# cmake -DBUILD=… -DSOURCE=… -DCXX=… -P run.cmake: installs BUILD into a scratch prefix, then configures, builds and
+# runs the installed examples and the project in SOURCE/geometry against it.
 set(scratch ${BUILD}/consumer)
 file(REMOVE_RECURSE ${scratch})
 set(ENV{DESTDIR} "")
@@ -13,6 +13,13 @@ run(${scratch}/prefix/bin/carom --version)
 if(EXISTS ${scratch}/prefix/include/carom/maps)
   message(FATAL_ERROR "the maps are installed")
 endif()
+foreach(file share/man/man1/carom.1 share/bash-completion/completions/carom share/zsh/site-functions/_carom
+    share/doc/carom/LICENSE share/doc/carom/CITATION.cff share/doc/carom/docs/guide/commands.md
+    share/doc/carom/docs/guide/gallery/mushroom.py)
+  if(NOT EXISTS ${scratch}/prefix/${file})
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
 # No path of the machine that built it may stand in the package.
 file(GLOB package_files ${scratch}/prefix/lib*/cmake/carom/*.cmake ${scratch}/prefix/lib*/*/cmake/carom/*.cmake)
 if(NOT package_files)
@@ -26,10 +33,10 @@ foreach(file IN LISTS package_files)
   endif()
 endforeach()
 
-foreach(project consumer consumer_geometry)
-  string(REGEX REPLACE "consumer_?" "" folder ${project})
-  run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/${folder} -B ${scratch}/${project} -DCMAKE_PREFIX_PATH=${scratch}/prefix
+foreach(project ${scratch}/prefix/share/doc/carom/examples ${SOURCE}/geometry)
+  get_filename_component(name ${project} NAME)
+  run(${CMAKE_COMMAND} -G Ninja -S ${project} -B ${scratch}/${name} -DCMAKE_PREFIX_PATH=${scratch}/prefix
       -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS})
-  run(${CMAKE_COMMAND} --build ${scratch}/${project})
-  run(${CMAKE_CTEST_COMMAND} --test-dir ${scratch}/${project} --output-on-failure --no-tests=error)
+  run(${CMAKE_COMMAND} --build ${scratch}/${name})
+  run(${CMAKE_CTEST_COMMAND} --test-dir ${scratch}/${name} --output-on-failure --no-tests=error)
 endforeach()
