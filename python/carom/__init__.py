@@ -10,9 +10,22 @@ Every number is made by the same C++ as the program's `carom`, with the same dig
 """
 
 from . import _carom, plot
-from .commands import diffusion, escape, open, run, section
+from .commands import diffusion, escape, open, run, section, table, validate
 from .errors import InputError, Place
-from .results import Certified, Diffusion, Escape, Exact, Result, Run, Section
+from .records import Record
+from .results import (
+    Certified,
+    CertifiedSample,
+    Diffusion,
+    Escape,
+    Exact,
+    Result,
+    Run,
+    Section,
+    Splitting,
+    Table,
+    Validation,
+)
 from .system import (
     System,
     annulus,
@@ -34,5 +47,6 @@ from .system import (
     triangle,
 )
 
-__version__ = _carom.version
-fates = list(_carom.fates)
+__version__: str = _carom.version
+#: Names of fates: `carom.fates[row["fate"]]`.
+fates: list[str] = list(_carom.fates)

@@ -4,8 +4,9 @@ command is a keyword: `t_max=100`, `B=0.5`, `trajectories=10**6`, `integrator={"
 import os
 import sys
 import time
+from typing import Any, Callable, Union
 
-from . import _carom, results
+from . import _carom, results, toml
 from .errors import InputError
 from .system import System, load, system
 
@@ -64,48 +65,108 @@ def _progress(progress):
     return _Bar(tqdm)
 
 
-def _compute(kind, function, thing, command, keywords, progress, *arguments):
-    of = _as_system(thing)
-    loaded = of._loaded(command, **keywords)
+# What says how one command computes; the rest of the keywords describes the system.
+_OF_ONE_COMMAND = (
+    "certify_sample", "splitting", "population", "repetitions", "kick", "lookback", "precision",
+    "digits",
+)  # fmt: skip
+
+
+def _shown(progress, function, *arguments):
+    """Calls a function of the compiled module with its progress shown."""
     shown = _progress(progress)
     try:
-        outcome, error = function(loaded, *arguments, progress=shown)
+        return function(*arguments, progress=shown)
     finally:
         if hasattr(shown, "close"):
             shown.close()
-    result = kind(outcome, of.with_(**keywords))
+
+
+def _compute(kind, function, thing, command, keywords, progress, *arguments):
+    of = _as_system(thing)
+    loaded = of._loaded(command, **keywords)
+    outcome, error = _shown(progress, function, loaded, *arguments)
+    kept = {key: value for key, value in keywords.items() if key not in _OF_ONE_COMMAND}
+    result = kind(outcome, of.with_(**kept))
     if error is not None:
         error.result = result
         raise error
     return result
 
 
-def escape(system, *, per_trajectory=False, progress=None, **keywords):
+Systems = Union[System, str, "os.PathLike[str]"]
+Progress = Union[bool, None, Callable[[float, int], object]]
+
+
+def escape(
+    system: Systems,
+    *,
+    per_trajectory: bool = False,
+    certify_sample=None,
+    splitting=None,
+    progress: Progress = None,
+    **keywords: Any,
+) -> Union[results.Escape, results.CertifiedSample, results.Splitting]:
     """Survival and escapes of an ensemble: a `carom.Escape`.
 
     system: a System, the name of a built-in one, or a system file. Keywords: keys of a system file
-    (t_max, trajectories, seed, times, B, larmor_radius, speed, initial, …) and threads, isa,
-    engine. progress: True, False, a function of (share, number done), or None: on a terminal.
+    (t_max: time, trajectories, seed, times, B, larmor_radius: length, speed: length/time, initial,
+    …) and threads, isa, engine. progress: True, False, a function of (share, number done), or
+    None: on a terminal. per_trajectory: keeps the start and the end of each.
+
+    certify_sample=M, digits=D: a `carom.CertifiedSample`, the first M trajectories in doubles and
+    certified. splitting="10,20,40" (times) or "hits:lin:0:30:31", with population, repetitions,
+    kick and lookback: a `carom.Splitting`, for rare events.
+
     Ctrl-C raises KeyboardInterrupt, whose `result` holds what was done.
     """
-    return _compute(
-        results.Escape, _carom.escape, system, "escape", keywords, progress, per_trajectory
+    if certify_sample is None and splitting is None:
+        return _compute(
+            results.Escape, _carom.escape, system, "escape", keywords, progress, per_trajectory
+        )
+    if per_trajectory:
+        raise InputError(
+            "per_trajectory goes with neither certify_sample nor splitting",
+            ("", 0, 0, "per_trajectory"), "a plain ensemble",
+        )  # fmt: skip
+    keywords |= {"certify_sample": certify_sample, "splitting": _levels(splitting)}
+    kind, function = (
+        (results.Splitting, _carom.split)
+        if splitting is not None
+        else (results.CertifiedSample, _carom.compare_with_certified)
     )
+    return _compute(kind, function, system, "escape", keywords, progress)
 
 
-def diffusion(system, *, per_trajectory=False, progress=None, **keywords):
-    """Mean square displacement and diffusion coefficient: a `carom.Diffusion`."""
+def _levels(levels):
+    if levels is None or isinstance(levels, str):
+        return levels
+    return ",".join(toml.bare(level) for level in levels)
+
+
+def diffusion(
+    system: Systems, *, per_trajectory: bool = False, progress: Progress = None, **keywords: Any
+) -> results.Diffusion:
+    """Mean square displacement and diffusion coefficient of an ensemble: a `carom.Diffusion`.
+
+    Keywords as of `carom.escape`, and window=(from, to), the report times (time) from which D and
+    the exponent are taken.
+    """
     return _compute(
         results.Diffusion, _carom.diffusion, system, "diffusion", keywords, progress, per_trajectory
     )
 
 
-def run(system, *, state_error=True, progress=None, **keywords):
+def run(
+    system: Systems, *, state_error: bool = True, progress: Progress = None, **keywords: Any
+) -> Union[results.Run, results.Certified]:
     """One trajectory, followed closely: a `carom.Run`.
 
-    position, velocity: a start; else `initial` of the system, drawn with `trajectory` (0).
-    state_error: estimates the error of the state under forces, which costs up to three times the
-    run. precision="certified", digits=30: a `carom.Certified`, every digit of which is guaranteed.
+    position (length, 2 numbers), velocity (length/time): a start; else `initial` of the system,
+    drawn with `trajectory` (0). collisions, t_max (time): when it ends. sample (time): between
+    stored states. state_error: estimates the error of the state under forces, which costs up to
+    three times the run. precision="certified", digits=30: a `carom.Certified`, every digit of
+    which is guaranteed.
     """
     if keywords.get("precision", "double") != "double" or "digits" in keywords:
         return _compute(
@@ -114,15 +175,40 @@ def run(system, *, state_error=True, progress=None, **keywords):
     return _compute(results.Run, _carom.run, system, "run", keywords, progress, state_error)
 
 
-def section(system, *, progress=None, **keywords):
+def section(system: Systems, *, progress: Progress = None, **keywords: Any) -> results.Section:
     """Where orbits meet walls, a line, a circle or a velocity: a `carom.Section`.
 
-    on: "boundary", "wall:NAME", "line:x0,y0:x1,y1", "x=0" …; points: of each orbit; orbits.
+    on: "boundary", "wall:NAME", "line:x0,y0:x1,y1", "x=0" … (lengths); direction: "both",
+    "positive" or "negative"; points: most of each orbit; orbits: number of them.
     """
     return _compute(results.Section, _carom.section, system, "section", keywords, progress)
 
 
-_KINDS = {
+def table(system: Systems, **keywords: Any) -> results.Table:
+    """Checks and measures a table: a `carom.Table` with area (length²), perimeter (length), walls
+    and holes. Keywords: keys of a system file."""
+    of = _as_system(system).with_(**keywords)
+    return results.Table(_carom.measure(of._loaded("table")), of)
+
+
+def validate(
+    *, soak: bool = False, scale=1, threads=None, progress: Progress = None
+) -> results.Validation:
+    """Checks the engine against identities and published values: a `carom.Validation`.
+
+    scale multiplies the trajectories of every case; soak: the long runs. Ctrl-C raises
+    KeyboardInterrupt, whose `result` holds the cases that were finished.
+    """
+    threads = "" if threads is None else toml.bare(threads)
+    outcome, error = _shown(progress, _carom.validate, soak, toml.bare(scale), threads)
+    result = results.Validation(outcome)
+    if error is not None:
+        error.result = result
+        raise error
+    return result
+
+
+_KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = {
     "escape": (results.Escape, _carom.open_escape),
     "diffusion": (results.Diffusion, _carom.open_diffusion),
     "run": (results.Run, _carom.open_run),
@@ -130,7 +216,7 @@ _KINDS = {
 }
 
 
-def open(path):  # noqa: A001: the name that users expect
+def open(path) -> results.Result:  # noqa: A001: the name that users expect
     """The result that an archive holds: the same classes as of the functions that compute."""
     path = os.fspath(path)
     kind = _carom.kind_of_archive(path)

@@ -1,62 +1,17 @@
-"""Results: attributes are named as the keys of the program's JSON."""
+"""Results: attributes are named as the keys of the program's JSON. Units are those of the system:
+lengths, times and masses as its file means them."""
 
 import decimal
-import json
 import os
 import tempfile
+from typing import Any, Optional
 
 import numpy
 
 from . import _carom
 from .errors import InputError
-
-
-class Record:
-    """A few named numbers: `fit.rate`, also `fit["rate"]`."""
-
-    def __init__(self, entries):
-        self.__dict__.update({key: _python(value) for key, value in entries.items()})
-
-    def __getitem__(self, key):
-        return self.__dict__[key]
-
-    def keys(self):
-        return self.__dict__.keys()
-
-    def __repr__(self):
-        return "(" + ", ".join(f"{key}={value!r}" for key, value in self.__dict__.items()) + ")"
-
-    def __eq__(self, other):
-        return isinstance(other, Record) and repr(self) == repr(other)
-
-
-def _python(value):
-    if isinstance(value, dict):
-        return Record(value)
-    if isinstance(value, list) and value and all(isinstance(one, dict) for one in value):
-        return _table(value)
-    return value
-
-
-def _table(rows):
-    """A list of objects with equal keys as a structured array, if they hold numbers and names."""
-    first = rows[0]
-    kinds = {}
-    for key in first:
-        column = [row.get(key) for row in rows]
-        if all(isinstance(one, bool) for one in column):
-            kinds[key] = "?"
-        elif all(isinstance(one, int) and not isinstance(one, bool) for one in column):
-            kinds[key] = "i8"
-        elif all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in column):
-            kinds[key] = "f8"
-        elif all(isinstance(one, str) for one in column):
-            kinds[key] = f"U{max(map(len, column)) or 1}"
-        else:
-            return [Record(row) for row in rows]
-    if any(row.keys() != first.keys() for row in rows):
-        return [Record(row) for row in rows]
-    return numpy.array([tuple(row.values()) for row in rows], dtype=list(kinds.items()))
+from .records import Record, Report
+from .system import System
 
 
 def _restored(archive):
@@ -72,46 +27,98 @@ def _restored(archive):
     return result
 
 
-class Result:
-    """What a command gives. `print(result)` is its report, `result.json` what it says as JSON."""
+class OfSystem(Report):
+    """What a command reports of a system."""
 
     def __init__(self, outcome, system):
-        self._outcome = outcome
+        super().__init__(outcome)
         self._system = system
-        self._archive = None  # that it was read from: its name, or its bytes
-        self._json = json.loads(outcome.json())
 
     @property
-    def json(self):
-        """All keys and values, as the program's --json prints them."""
-        return json.loads(self._outcome.json())
-
-    @property
-    def system(self):
+    def system(self) -> System:
         """The system that was computed."""
         return self._system
 
-    @property
-    def doubts(self):
-        """Why the result cannot be trusted, a line each: [] where it can."""
-        return self._outcome.doubts()
+    def _of(self):
+        return f" of {self._system.name}"
 
-    def __getattr__(self, key):
-        entries = self.__dict__.get("_json")
-        if entries is None or key not in entries:
-            names = list(entries or ())
-            nearest = _carom.nearest_name(key, names)
-            hint = f"; did you mean '{nearest}'?" if nearest else ""
-            raise AttributeError(f"{type(self).__name__} has no '{key}'{hint}")
-        return _python(entries[key])
+    def plot(self, ax=None, **keywords):
+        """Draws what there is to see with a function of `carom.plot`; returns the axes."""
+        from . import plot
 
-    def __dir__(self):
-        return [*super().__dir__(), *self._json]
+        return plot.result(self, ax=ax, **keywords)
 
-    def __str__(self):
-        return self._outcome.text() if hasattr(self._outcome, "text") else repr(self)
 
-    def save(self, path, force=False):
+class Table(OfSystem):
+    """A table with its measures.
+
+    area (length²; of one cell of a lattice, "inf" in the open plane), perimeter and mean_flight
+    (length; π·area/perimeter), shape. Arrays:
+
+    walls   (number of walls,): name, kind, length (length), from and to (length, two numbers each)
+    holes   (number of holes,): name, wall, center and width (length, along the wall)
+    """
+
+    def _summary(self):
+        return f"{self.shape}, {len(self.walls)} walls, {len(self.holes)} holes"
+
+    def _main(self):
+        return [{**wall} for wall in self._json["walls"]]
+
+
+class Validation(Report):
+    """Cases that check the engine against identities and published values.
+
+    passed, failed: numbers of cases. cases (number of cases,): name, passed, value, error,
+    expected, sigma (difference in standard errors), source … in the units of each case.
+    """
+
+    def _summary(self):
+        return f"{self.passed} passed, {self.failed} failed"
+
+    def _main(self):
+        return self._json["cases"]
+
+
+class CertifiedSample(OfSystem):
+    """The same starts in doubles and certified: do the survival curves differ?
+
+    pairs, other_hole, other_hits, other_time: numbers of pairs; p_value of the swap test. Array:
+
+    survival  (number of times,): t (time), double, certified, difference, stderr, detectable
+              (shares), only_double, only_certified (numbers of pairs)
+    """
+
+    def _summary(self):
+        return f"{self.pairs} pairs, p = {self.p_value}"
+
+    def _main(self):
+        return self.survival
+
+
+class Splitting(OfSystem):
+    """Survival far beyond what an ensemble reaches, by populations whose survivors are copied.
+
+    survival (levels in time) or survival_hits (levels in hits), rate and decay: a record or row
+    each has value, stderr, extrapolation, kick_error, low, high (95 %), at_kicks; t is a time, n a
+    number of hits, rates are shares per time.
+    """
+
+    def _summary(self):
+        return f"{self.levels}, {self.repetitions} populations of {self.population}"
+
+    def _main(self):
+        return self._json["survival" if self.levels == "time" else "survival_hits"]
+
+
+class Result(OfSystem):
+    """A result that an archive can hold: it is saved, opened and pickled."""
+
+    def __init__(self, outcome, system):
+        super().__init__(outcome, system)
+        self._archive = None  # that it was read from: its name, or its bytes
+
+    def save(self, path, force: bool = False) -> None:
         """Writes the archive that the program writes with -o; `force` replaces one."""
         if self._archive is None:
             self._outcome.save(str(path), force)
@@ -132,32 +139,21 @@ class Result:
             with open(file, "rb") as stream:
                 return _restored, (stream.read(),)
 
-    def plot(self, ax=None, **keywords):
-        """Draws what there is to see; returns the axes."""
-        from . import plot
 
-        return plot.result(self, ax=ax, **keywords)
+_PER_TRAJECTORY = """One row a particle, None unless asked for.
 
-    def to_dataframe(self):
-        """The main table as a pandas.DataFrame."""
-        import pandas
-
-        return pandas.DataFrame(self._main())
-
-    def _main(self):
-        raise NotImplementedError
-
-    def __repr__(self):
-        return f"<carom.{type(self).__name__} of {self._system.name}: {self._summary()}>"
-
-    def _repr_html_(self):
-        import html
-
-        return f"<pre>{html.escape(str(self))}</pre>"
+        (trajectories × particles,): index; x, y (length) and vx, vy (length/time) of the start;
+        fate (its name is carom.fates[fate]); hole (−1: none); time of the end (time); hits."""
 
 
 class Escape(Result):
-    """Survival and escape: `survival`, `rate`, `holes`, `escaped`, `digest` …"""
+    """Survival and escape. trajectories, escaped, survived, collisions, digest … Arrays:
+
+    survival       (number of times,): t (time), p, low, high (share, 95 % interval)
+    survival_hits  (number of counts,): n, p, low, high: the share still there after n hits
+    rate           (number of times,): t, from, to (time), value, low, high (1/time): −dp/dt
+    holes          (number of holes,): name, escaped
+    """
 
     def _summary(self):
         return f"{self.trajectories} trajectories, {self.escaped} escaped, {self.survived} survived"
@@ -166,13 +162,20 @@ class Escape(Result):
         return self.survival
 
     @property
-    def per_trajectory(self):
-        """One row a particle with its fate (a number: see carom.fates); None unless asked for."""
+    def per_trajectory(self) -> Optional[numpy.ndarray]:
         return self._outcome.trajectories()
+
+    per_trajectory.__doc__ = _PER_TRAJECTORY
 
 
 class Diffusion(Result):
-    """Mean square displacement: `msd`, `D`, `exponent` …"""
+    """Mean square displacements.
+
+    D (value, stderr: length²/time; None where it does not exist), exponent and local_exponent
+    (value, stderr), window (time). Array:
+
+    msd  (number of times,): t (time), value, stderr (length²), fourth, fourth_stderr (length⁴) …
+    """
 
     def _summary(self):
         return f"{self.trajectories} trajectories, D = {self.D!r}"
@@ -181,29 +184,69 @@ class Diffusion(Result):
         return self.msd
 
     @property
-    def per_trajectory(self):
-        """One row a particle with its fate (a number: see carom.fates); None unless asked for."""
+    def per_trajectory(self) -> Optional[numpy.ndarray]:
         return self._outcome.trajectories()
+
+    per_trajectory.__doc__ = _PER_TRAJECTORY
 
 
 class Run(Result):
-    """One trajectory: `hits`, `samples`, `x`, `y`, `status`, `trusted_collisions` …"""
+    """One trajectory, of one or several particles.
 
-    def __init__(self, outcome, system):
-        super().__init__(outcome, system)
-        self.hits = outcome.hits()
-        self.samples = outcome.samples()
-        self.starts = outcome.starts()
+    status, collisions, t (time), x, y (length), vx, vy (length/time) of the end,
+    trusted_collisions; of several particles `particles`, an array with these columns.
+    """
 
-    def _summary(self):
-        return f"{self.status}, {self.collisions} collisions"
+    @property
+    def hits(self) -> numpy.ndarray:
+        """Reflections in order of time, (number of hits,), not copied and not to be written.
 
-    def _main(self):
-        return self.hits
+        particle, wall (index into system.walls), u (parameter on the wall), s (length, along the
+        wall), v_parallel (length/time, along the wall), t (time), x, y (length, in the plane),
+        vx, vy (length/time) after the hit, cell_first, cell_second (cell of the lattice),
+        reflections (1, or n at a corner of angle π/n).
+        """
+        return self._outcome.hits()
 
-    def path(self, particle=0):
-        """Points (t, x, y) along the orbit of a particle: arcs are arcs. Where forces act, its
-        samples and hits."""
+    @property
+    def samples(self) -> numpy.ndarray:
+        """States at the times of `sample`, (times × particles,).
+
+        particle, t (time), x, y (length, in the plane), vx, vy (length/time), cell_first,
+        cell_second.
+        """
+        return self._outcome.samples()
+
+    @property
+    def contacts(self) -> numpy.ndarray:
+        """Contacts of hard discs in order of time, (number of contacts,).
+
+        first, second (particles, first < second), t (time), first_x, first_y, second_x, second_y
+        (length, centres in the plane), dx, dy (length, from the second to the first, of the copies
+        that touch), first_vx, first_vy, second_vx, second_vy (length/time) after the contact,
+        transfer (momentum along the line of centres).
+        """
+        return self._outcome.contacts()
+
+    @property
+    def energies(self) -> numpy.ndarray:
+        """Sums over the particles at the times of `sample`, (times,); empty without forces or
+        hard discs.
+
+        t (time), kinetic, external, pair, total (energy), px, py (momentum), angular_momentum
+        (about the origin).
+        """
+        return self._outcome.energies()
+
+    @property
+    def starts(self) -> numpy.ndarray:
+        """The start of each particle, (particles,): columns and units (time, length, length/time) as
+        of `samples`."""
+        return self._outcome.starts()
+
+    def path(self, particle: int = 0) -> numpy.ndarray:
+        """Points along the orbit of a particle, (points,): t (time), x, y (length, in the plane).
+        Arcs have points between their ends. Where forces act: its samples and hits."""
         rows = [self.starts[self.starts["particle"] == particle]]
         names = ["t", "x", "y", "vx", "vy"]
         if self.engine != "events":
@@ -218,9 +261,18 @@ class Run(Result):
         omega = omegas[particle] if self.engine == "events" else 0.0
         return _carom.path(table, omega)
 
+    def _summary(self):
+        return f"{self.status}, {self.collisions} collisions"
+
+    def _main(self):
+        return self.hits
+
 
 class Exact(decimal.Decimal):
-    """A number whose printed digits are guaranteed; `interval` encloses the true one."""
+    """A number whose printed digits are guaranteed; `digits` of them are decimals, `interval`
+    encloses the true one. Unit: that of what it stands for."""
+
+    digits: int
 
     def __new__(cls, text, digits):
         made = super().__new__(cls, text)
@@ -228,7 +280,7 @@ class Exact(decimal.Decimal):
         return made
 
     @property
-    def interval(self):
+    def interval(self) -> tuple[decimal.Decimal, decimal.Decimal]:
         """(low, high): the true number lies between them."""
         with decimal.localcontext() as context:
             context.prec = max(28, len(self.as_tuple().digits) + 4)
@@ -240,18 +292,20 @@ class Exact(decimal.Decimal):
 
 
 class Certified(Result):
-    """A certified run: t, x, y, vx, vy are `Exact`; `hits` holds those of each hit."""
+    """A certified run: t (time), x, y (length), vx, vy (length/time) are `Exact`; status,
+    collisions, digits, bits, lost_bits."""
 
     def _summary(self):
         return f"{self.status}, {self.collisions} collisions, {self.digits} digits"
 
-    def __getattr__(self, key):
+    def __getattr__(self, key: str) -> Any:
         value = super().__getattr__(key)
         return Exact(value, self._json["digits"]) if key in ("t", "x", "y", "vx", "vy") else value
 
     @property
-    def hits(self):
-        """A record for each hit: number, wall, t, x, y, vx, vy."""
+    def hits(self) -> list[Record]:
+        """A record for each hit, (collisions,): number (from 1), wall (its name), and after it t
+        (time), x, y (length), vx, vy (length/time), all `Exact`."""
         digits = self._json["digits"]
         names = ("t", "x", "y", "vx", "vy")
         return [
@@ -263,6 +317,7 @@ class Certified(Result):
         return [dict(hit.__dict__) for hit in self.hits]
 
     def plot(self, ax=None, **keywords):
+        """Raises NotImplementedError: the same run in doubles has a picture."""
         raise NotImplementedError("a certified run has no picture; draw carom.run(…) in doubles")
 
     def __reduce__(self):
@@ -270,11 +325,18 @@ class Certified(Result):
 
 
 class Section(Result):
-    """Points of many orbits: `points`."""
+    """Points of many orbits on a surface: orbits, collisions, digest …"""
 
-    def __init__(self, outcome, system):
-        super().__init__(outcome, system)
-        self.points = outcome.points()
+    @property
+    def points(self) -> numpy.ndarray:
+        """Orbit after orbit and in order of time, (points,), not copied and not to be written.
+
+        orbit, index (number in the orbit), particle, wall (index into system.walls, −1: not at a
+        wall), direction (1 or −1, 0 at a wall), t (time), s (length, along the wall, line or
+        circle), v_parallel (length/time, in the direction of s), x, y (length, in the plane), vx,
+        vy (length/time, after the hit at a wall).
+        """
+        return self._outcome.points()
 
     def _summary(self):
         return f"{len(self.points)} points of {self.orbits} orbits"

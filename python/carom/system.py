@@ -11,11 +11,12 @@ _PAIRS = ("position", "velocity", "window")
 _OPTIONS = (
     "engine", "isa", "threads", "trajectory", "seed", "trajectories", "t_max", "collisions",
     "trust_tolerance", "on", "direction", "points", "orbits", "precision", "digits",
+    "certify_sample", "splitting", "population", "repetitions", "kick", "lookback",
 )  # fmt: skip
 _PLAIN_SECTIONS = ("field", "particles", "integrator", "run", "section")
 _KEYS = _carom.keys()
 _SECTIONS = {section.split(".")[0] for section, *_ in _KEYS} | {"initial", "table"}
-_SECTION_OF = {}
+_SECTION_OF: dict[str, str] = {}
 for _section, _kind, _key, *_rest in _KEYS:
     if _section in _PLAIN_SECTIONS:
         _SECTION_OF.setdefault(_key, _section)
@@ -69,7 +70,7 @@ class System:
 
     # What it is made of.
 
-    def with_(self, **keywords):
+    def with_(self, **keywords) -> "System":
         """The same system with other values: `system.with_(B=0.5, t_max=100)`."""
         changes, options = _changes(keywords)
         return System(self._text, self._name, (*self._changes, *changes), (*self._options, *options))
@@ -84,28 +85,28 @@ class System:
         self._loaded("table")
         return self
 
-    def hole(self, wall, center=None, width=None, name=None, **keys):
-        """An opening of that width in a wall, its middle at the arc length `center`."""
+    def hole(self, wall, center=None, width=None, name=None, **keys) -> "System":
+        """An opening of that width in a wall, its middle at the arc length `center` (lengths)."""
         return self._append(
             toml.section(
                 "table.hole", {"wall": wall, "center": center, "width": width, "name": name, **keys}, True
             )
         )
 
-    def obstacle(self, shape, name=None, **keys):
+    def obstacle(self, shape, name=None, **keys) -> "System":
         """A hard obstacle: "circle" {center, radius}, "ellipse" {center, a, b, angle} or
-        "polygon" {points}."""
+        "polygon" {points}; lengths and radians."""
         return self._append(
             toml.section("table.obstacle", {"shape": shape, "name": name, **keys}, True)
         )
 
-    def closed(self):
+    def closed(self) -> "System":
         """The same without holes."""
         return System(
             self._text, self._name, (*self._changes, ("table.hole", "[]")), self._options
         )
 
-    def to_toml(self):
+    def to_toml(self) -> str:
         """The complete system file, which the program takes too."""
         return self._loaded("table").toml
 
@@ -122,39 +123,42 @@ class System:
 
     def _table(self):
         if not self._tables:
-            self._tables.update(json.loads(self._loaded("table").table_json()))
+            self._tables.update(json.loads(_carom.measure(self._loaded("table")).json()))
         return self._tables
 
     @property
-    def name(self):
+    def name(self) -> str:
+        """As it was asked for: of a built-in system, or the file."""
         return self._name
 
     @property
-    def title(self):
+    def title(self) -> str:
+        """A line for pictures and reports."""
         return self._loaded("table").title
 
     @property
-    def area(self):
-        """Of the table, or of one cell of its lattice; infinite in the open plane."""
+    def area(self) -> float:
+        """Of the table, or of one cell of its lattice (length²); infinite in the open plane."""
         return float(self._table()["area"])
 
     @property
-    def perimeter(self):
-        """The length of all walls."""
+    def perimeter(self) -> float:
+        """The length of all walls (length)."""
         return float(self._table()["perimeter"])
 
     @property
-    def mean_flight(self):
-        """π·area/perimeter: the mean way from hit to hit without a field."""
+    def mean_flight(self) -> float:
+        """π·area/perimeter: the mean way from hit to hit without a field (length)."""
         return float(self._table()["mean_flight"])
 
     @property
-    def walls(self):
+    def walls(self) -> list[str]:
         """Names of the walls, in the order of their numbers."""
         return [wall["name"] for wall in self._table()["walls"]]
 
     @property
-    def holes(self):
+    def holes(self) -> list[str]:
+        """Names of the holes, in the order of their numbers."""
         return [hole["name"] for hole in self._table()["holes"]]
 
     def __repr__(self):
@@ -174,8 +178,8 @@ class System:
         return plot.table(self, ax=ax, **keywords)
 
 
-def load(path):
-    """A system file."""
+def load(path) -> System:
+    """A system file (TOML)."""
     path = pathlib.Path(path)
     try:
         text = path.read_text(encoding="utf-8")
@@ -184,7 +188,7 @@ def load(path):
     return System(text, str(path))._checked()
 
 
-def system(name):
+def system(name: str) -> System:
     """A system that Carom carries with it, by its name: see `carom.systems()`."""
     texts = dict(_carom.systems())
     if name not in texts:
@@ -196,7 +200,7 @@ def system(name):
     return System(texts[name], name)
 
 
-def systems():
+def systems() -> list[str]:
     """Names of the systems that Carom carries with it."""
     return [name for name, _ in _carom.systems()]
 
@@ -205,75 +209,81 @@ def _shape(shape, **keys):
     return System(toml.section("table", {"shape": shape, **keys}), shape)._checked()
 
 
-def rectangle(width=1, height=1):
-    """[0, width] × [0, height], with walls bottom, right, top, left."""
+def rectangle(width=1, height=1) -> System:
+    """[0, width] × [0, height] (lengths), with walls bottom, right, top, left."""
     return _shape("rectangle", width=width, height=height)
 
 
-def polygon(points):
-    """A polygon through the points, with walls side_1, side_2, …"""
+def polygon(points) -> System:
+    """A polygon through the points, (corners, 2), lengths; walls side_1, side_2, …"""
     return _shape("polygon", points=points)
 
 
-def triangle(points):
-    """A triangle, with walls side_1, side_2, side_3."""
+def triangle(points) -> System:
+    """A triangle with these three points (lengths); walls side_1, side_2, side_3."""
     return _shape("triangle", points=points)
 
 
-def regular(sides, radius=1, angle=None):
-    """A regular polygon about the origin; `radius` is that of its corners."""
+def regular(sides, radius=1, angle=None) -> System:
+    """A regular polygon about the origin; `radius` (length) is that of its corners, `angle` (radians)
+    the direction of the first."""
     return _shape("regular", sides=sides, radius=radius, angle=angle)
 
 
-def circle(radius=1):
-    """A disc about the origin, with the wall circle."""
+def circle(radius=1) -> System:
+    """A disc of this radius (length) about the origin, with the wall circle."""
     return _shape("circle", radius=radius)
 
 
-def ellipse(a, b):
-    """An ellipse about the origin with semi-axis a along x, with the wall ellipse."""
+def ellipse(a, b) -> System:
+    """An ellipse about the origin with semi-axes a along x and b along y (lengths), with the wall
+    ellipse."""
     return _shape("ellipse", a=a, b=b)
 
 
-def annulus(outer, inner, offset=None):
-    """Between two circles, the inner one shifted along x; walls outer, inner."""
+def annulus(outer, inner, offset=None) -> System:
+    """Between two circles of these radii, the inner one shifted by `offset` along x (lengths); walls
+    outer, inner."""
     return _shape("annulus", outer=outer, inner=inner, offset=offset)
 
 
-def stadium(half_length=1, radius=1):
-    """Bunimovich's stadium about the origin; walls bottom, right, top, left."""
+def stadium(half_length=1, radius=1) -> System:
+    """Bunimovich's stadium about the origin, straight walls of 2·half_length (lengths); walls
+    bottom, right, top, left."""
     return _shape("stadium", half_length=half_length, radius=radius)
 
 
-def mushroom(cap_radius, stem_width, stem_height):
-    """Bunimovich's mushroom: cap above y = 0, stem below."""
+def mushroom(cap_radius, stem_width, stem_height) -> System:
+    """Bunimovich's mushroom: cap above y = 0, stem below (lengths)."""
     return _shape("mushroom", cap_radius=cap_radius, stem_width=stem_width, stem_height=stem_height)
 
 
-def lemon(radius, separation):
-    """The lens between two circles whose centres are `separation` apart."""
+def lemon(radius, separation) -> System:
+    """The lens between two circles of one radius whose centres are `separation` apart (lengths)."""
     return _shape("lemon", radius=radius, separation=separation)
 
 
-def sinai(side=1, radius=0.25, torus=None):
-    """A disc at the centre of a square [0, side]², with walls or (torus=True) periodic."""
+def sinai(side=1, radius=0.25, torus=None) -> System:
+    """A disc at the centre of a square [0, side]² (lengths), with walls or (torus=True) periodic."""
     return _shape("sinai", side=side, radius=radius, torus=torus)
 
 
-def lorentz(lattice="triangular", spacing=2.2, radius=1):
-    """The periodic Lorentz gas: one disc a cell of a triangular or square lattice."""
+def lorentz(lattice="triangular", spacing=2.2, radius=1) -> System:
+    """The periodic Lorentz gas: one disc a cell of a triangular or square lattice; `spacing` is that
+    of the centres (lengths)."""
     return _shape("lorentz", lattice=lattice, spacing=spacing, radius=radius)
 
 
-def discs(centers, radius=None, radii=None):
-    """Hard discs in the open plane; walls disc_1, disc_2, … Starts are on the first of them by the
+def discs(centers, radius=None, radii=None) -> System:
+    """Hard discs in the open plane about these centers, (discs, 2), lengths; walls disc_1, disc_2,
+    … Starts are on the first of them by the
     cosine law, unless `initial` says another."""
     text = toml.section("table", {"shape": "discs", "centers": centers, "radius": radius, "radii": radii})
     text += toml.section("initial", {"kind": "boundary", "wall": "disc_1"})
     return System(text, "discs")._checked()
 
 
-def path(*loops):
+def path(*loops) -> System:
     """Own loops of pieces, as [[table.loop]] of a system file describes them."""
     text = toml.section("table", {"shape": "path"})
     for loop in loops:

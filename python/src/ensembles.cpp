@@ -38,6 +38,17 @@ struct EnsembleOutcome {
   Result result;
   std::string status;
   std::shared_ptr<std::vector<TrajectoryRecord>> records;  ///< null: not asked for
+  std::shared_ptr<const std::vector<ParticleRow>> rows;    ///< the same, as Python has them
+
+  void make_rows() {
+    if (!records) return;
+    auto made = std::make_shared<std::vector<ParticleRow>>();
+    made->reserve(records->size());
+    for (const TrajectoryRecord& r : *records)
+      made->push_back({r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int8_t>(r.fate), r.hole,
+                       r.time, r.hits});
+    rows = std::move(made);
+  }
 };
 
 const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
@@ -68,7 +79,7 @@ DiffusionResult run(const System& system, const EnsembleOptions<DiffusionResult>
 template <class Result>
 py::tuple fly(const std::shared_ptr<Loaded>& loaded, bool per_trajectory,
               const py::object& progress) {
-  EnsembleOutcome<Result> outcome{loaded, {}, {}, nullptr};
+  EnsembleOutcome<Result> outcome{loaded, {}, {}, nullptr, nullptr};
   const System& system = loaded->system();
   EnsembleOptions<Result> how;
   how.threads = cli::threads_of(loaded->options);
@@ -91,6 +102,7 @@ py::tuple fly(const std::shared_ptr<Loaded>& loaded, bool per_trajectory,
   if (outcome.records)
     std::sort(outcome.records->begin(), outcome.records->end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
+  outcome.make_rows();
   return py::make_tuple(std::move(outcome), error_of(interruption));
 }
 
@@ -118,7 +130,14 @@ EnsembleOutcome<Result> open(const std::string& file) {
   loaded->options.command = kind_of(stored.result);
   cli::choose_engine(stored.everywhere ? "steps" : "auto", loaded->loaded.system);
   check_stored(stored, loaded->system());
-  return {loaded, std::move(stored.result), stored.status, nullptr};
+  EnsembleOutcome<Result> outcome{loaded, std::move(stored.result), stored.status, nullptr,
+                                  nullptr};
+  if (stored.per_trajectory && stored.file == file) {
+    outcome.records =
+        std::make_shared<std::vector<TrajectoryRecord>>(read_trajectories(stored.file));
+    outcome.make_rows();
+  }
+  return outcome;
 }
 
 template <class Result>
@@ -143,18 +162,15 @@ void add(py::module_& module, const char* name, const char* function) {
            })
       .def("trajectories",
            [](const Outcome& self) -> py::object {
-             if (!self.records) return py::none();
-             std::vector<ParticleRow> rows;
-             for (const TrajectoryRecord& r : *self.records)
-               rows.push_back({r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int8_t>(r.fate),
-                               r.hole, r.time, r.hits});
-             return array_of(std::move(rows));
+             if (!self.rows) return py::none();
+             return array_of<ParticleRow>(self.rows);
            })
-      .def("save", &save<Result>, py::call_guard<py::gil_scoped_release>());
+      .def("save", &save<Result>, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
+           py::arg("force"));
   module.def(function, &fly<Result>, py::arg("system"), py::arg("per_trajectory"),
              py::arg("progress"));
   module.def((std::string("open_") + function).c_str(), &open<Result>,
-             py::call_guard<py::gil_scoped_release>());
+             py::call_guard<py::gil_scoped_release>(), py::arg("file"));
 }
 
 }  // namespace

@@ -23,6 +23,8 @@ void add_loading(pybind11::module_&);
 void add_ensembles(pybind11::module_&);
 void add_runs(pybind11::module_&);
 void add_certified(pybind11::module_&);
+void add_rare(pybind11::module_&);
+void add_validation(pybind11::module_&);
 void add_pictures(pybind11::module_&);
 
 }  // namespace carom::python

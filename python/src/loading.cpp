@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
+#include "cli/commands/escape_options.hpp"
 #include "cli/commands/run_certified.hpp"
 #include "cli/commands/section.hpp"
 #include "cli/common.hpp"
@@ -42,7 +43,14 @@ void set_option(cli::Options& options, const std::string& name, const std::strin
       {"isa", &options.isa},
       {"precision", &options.precision},
       {"digits", &options.digits},
-      {"block", &options.block}};
+      {"block", &options.block},
+      {"certify_sample", &options.certify_sample},
+      {"splitting", &options.splitting},
+      {"population", &options.population},
+      {"repetitions", &options.repetitions},
+      {"kick", &options.kick},
+      {"lookback", &options.lookback},
+      {"scale", &options.scale}};
   for (const auto& [key, field] : all)
     if (name == key) {
       *field = text;
@@ -69,6 +77,7 @@ LoadedPointer load(const std::string& toml, const std::string& name, const std::
   } else if (command == "run") {
     made->loaded = with(cli::run_overrides(options));
   } else {
+    if (command == "escape") cli::check_escape_options(options);
     SystemOverrides overrides = options.overrides;
     overrides.window = options.window;
     made->loaded = with(overrides);
@@ -77,8 +86,15 @@ LoadedPointer load(const std::string& toml, const std::string& name, const std::
   return made;
 }
 
-std::string table_json(const Loaded& self) {
-  return cli::table_json(self.system(), measure(*self.system().table), "", Stopwatch()).text();
+struct TableOutcome {
+  LoadedPointer system;
+  TableMeasure measured;
+  Stopwatch watch;
+};
+
+TableOutcome measured(const std::shared_ptr<Loaded>& loaded) {
+  const Stopwatch watch;
+  return {loaded, measure(*loaded->system().table), watch};
 }
 
 }  // namespace
@@ -90,10 +106,20 @@ void add_loading(py::module_& module) {
       .def_property_readonly("toml", [](const Loaded& self) { return self.loaded.resolved_toml; })
       .def_property_readonly("engine",
                              [](const Loaded& self) { return cli::engine_of(self.system()); })
-      .def("table_json", &table_json, py::call_guard<py::gil_scoped_release>())
       .def("svg", [](const Loaded& self) {
         return cli::table_svg(*self.system().table, self.system().title);
       });
+  py::class_<TableOutcome>(module, "TableOutcome")
+      .def("json",
+           [](const TableOutcome& self) {
+             return cli::table_json(self.system->system(), self.measured, "", self.watch).text();
+           })
+      .def("text",
+           [](const TableOutcome& self) {
+             return cli::table_text(self.system->system(), self.measured, "");
+           })
+      .def("doubts", [](const TableOutcome&) { return std::vector<std::string>(); });
+  module.def("measure", &measured, py::call_guard<py::gil_scoped_release>(), py::arg("system"));
   module.def(
       "load",
       [](const std::string& toml, const std::string& name, const std::string& command,
@@ -116,7 +142,7 @@ void add_loading(py::module_& module) {
                                 std::string(key.fallback), std::string(key.meaning)));
     return all;
   });
-  module.def("nearest_name", &nearest_name);
+  module.def("nearest_name", &nearest_name, py::arg("name"), py::arg("known"));
 }
 
 }  // namespace carom::python

@@ -145,12 +145,12 @@ py::object potential(const Loaded& loaded, const std::vector<double>& xs,
 
 void add_pictures(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(PathPoint, t, x, y);
-  module.def("walls", &walls);
-  module.def("cell", &cell);
-  module.def("translations", &translations);
-  module.def("path", &path);
-  module.def("omegas", &omegas);
-  module.def("potential", &potential);
+  module.def("walls", &walls, py::arg("system"));
+  module.def("cell", &cell, py::arg("system"));
+  module.def("translations", &translations, py::arg("system"), py::arg("cells"));
+  module.def("path", &path, py::arg("rows"), py::arg("omega"));
+  module.def("omegas", &omegas, py::arg("system"));
+  module.def("potential", &potential, py::arg("system"), py::arg("xs"), py::arg("ys"));
 }
 
 }  // namespace carom::python

@@ -33,7 +33,9 @@ namespace {
 class Recording : public Observer {
  public:
   Recording(const System& system, Course& course)
-      : system_(system), frames_(frames_of(*system.table)), course_(course) {}
+      : system_(system), frames_(frames_of(*system.table)), energies_(system), course_(course) {
+    energies_.listen([&course] { return course.stop.load(std::memory_order_relaxed); });
+  }
 
   void hit(const HitEvent& event) override {
     hits->push_back(hit_row(event, *system_.table, frames_));
@@ -46,23 +48,32 @@ class Recording : public Observer {
     course_.share.store(std::max(by_hits, event.time.value() / system_.run.t_max),
                         std::memory_order_relaxed);
   }
-  void contact(const ContactEvent& event) override { contacts.push_back(event); }
+  void contact(const ContactEvent& event) override {
+    contacts->push_back(contact_row(event, *system_.table));
+  }
   void sample(int particle, Time time, const State& state) override {
-    samples.push_back({particle, time, state});
+    samples->push_back(sample_row(particle, time, state, *system_.table));
+    energies_.sample(particle, state);
+  }
+  bool sampled(Time time) override {
+    std::optional<EnergyRow> row;
+    const bool complete = energies_.sampled(time, row);
+    if (row) energies->push_back(*row);
+    if (!complete) samples->resize(samples_before_);  // a sample is kept with its energy
+    samples_before_ = samples->size();
+    return complete;
   }
 
-  struct Sample {
-    int particle;
-    Time time;
-    State state;
-  };
   std::shared_ptr<std::vector<HitRow>> hits = std::make_shared<std::vector<HitRow>>();
-  std::vector<Sample> samples;
-  std::vector<ContactEvent> contacts;
+  std::shared_ptr<std::vector<SampleRow>> samples = std::make_shared<std::vector<SampleRow>>();
+  std::shared_ptr<std::vector<ContactRow>> contacts = std::make_shared<std::vector<ContactRow>>();
+  std::shared_ptr<std::vector<EnergyRow>> energies = std::make_shared<std::vector<EnergyRow>>();
 
  private:
   const System& system_;
   std::vector<geometry::CurveFrame> frames_;
+  EnergyRows energies_;
+  std::size_t samples_before_ = 0;
   Course& course_;
 };
 
@@ -72,10 +83,10 @@ struct RunOutcome {
   std::string status;
   std::uint64_t trajectory = 0;
   std::shared_ptr<const std::vector<HitRow>> hits;
-  std::vector<Recording::Sample> samples;
-  std::vector<ContactEvent> contacts;
+  std::shared_ptr<const std::vector<SampleRow>> samples;
+  std::shared_ptr<const std::vector<ContactRow>> contacts;
+  std::shared_ptr<const std::vector<EnergyRow>> energies;
   std::vector<SampleRow> starts;
-  std::vector<SampleRow> stored_samples;  ///< of an archive, instead of `samples`
 };
 
 std::vector<SampleRow> starts_of(const System& system, std::uint64_t trajectory,
@@ -109,8 +120,9 @@ py::tuple run(const std::shared_ptr<Loaded>& loaded, bool state_error, const py:
   if (interruption && outcome.result.particles.empty()) std::rethrow_exception(interruption);
   outcome.status = cli::run_status(outcome.result);
   outcome.hits = recording.hits;
-  outcome.samples = std::move(recording.samples);
-  outcome.contacts = std::move(recording.contacts);
+  outcome.samples = recording.samples;
+  outcome.contacts = recording.contacts;
+  outcome.energies = recording.energies;
   return py::make_tuple(std::move(outcome), error_of(interruption));
 }
 
@@ -120,13 +132,9 @@ void save(const RunOutcome& self, const std::string& file, bool force) {
       followed(file), loaded, cli::provenance_of(self.system->options, loaded.system, 1), force,
       self.trajectory);
   for (const HitRow& row : *self.hits) archive->append(row);
-  for (const ContactEvent& event : self.contacts) archive->contact(event);
-  for (std::size_t i = 0; i < self.samples.size(); ++i) {
-    const Recording::Sample& one = self.samples[i];
-    archive->sample(one.particle, one.time, one.state);
-    if (i + 1 == self.samples.size() || one.time != self.samples[i + 1].time)
-      archive->sampled(one.time);
-  }
+  for (const ContactRow& row : *self.contacts) archive->append(row);
+  for (const SampleRow& row : *self.samples) archive->append(row);
+  for (const EnergyRow& row : *self.energies) archive->append(row);
   archive->finish(self.result, self.status);
 }
 
@@ -151,7 +159,9 @@ RunOutcome open_run(const std::string& file) {
   outcome.starts = starts_of(system, 0);
   outcome.status = stored.status;
   outcome.hits = std::make_shared<const std::vector<HitRow>>(read_hits(file));
-  outcome.stored_samples = read_samples(file);
+  outcome.samples = std::make_shared<const std::vector<SampleRow>>(read_samples(file));
+  outcome.contacts = std::make_shared<const std::vector<ContactRow>>(read_contacts(file));
+  outcome.energies = std::make_shared<const std::vector<EnergyRow>>(read_energies(file));
   outcome.system = std::move(loaded);
   return outcome;
 }
@@ -217,6 +227,9 @@ void add_runs(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(HitRow, particle, wall, u, s, v_parallel, t, x, y, vx, vy, cell_first,
                        cell_second, reflections);
   PYBIND11_NUMPY_DTYPE(SampleRow, particle, t, x, y, vx, vy, cell_first, cell_second);
+  PYBIND11_NUMPY_DTYPE(ContactRow, first, second, t, first_x, first_y, second_x, second_y, dx, dy,
+                       first_vx, first_vy, second_vx, second_vy, transfer);
+  PYBIND11_NUMPY_DTYPE(EnergyRow, t, kinetic, external, pair, total, px, py, angular_momentum);
   PYBIND11_NUMPY_DTYPE(SectionPoint, orbit, index, particle, wall, direction, t, s, v_parallel, x,
                        y, vx, vy);
   py::class_<RunOutcome>(module, "RunOutcome")
@@ -235,17 +248,13 @@ void add_runs(py::module_& module) {
              return cli::doubts_of(self.system->system(), self.result).lines;
            })
       .def("hits", [](const RunOutcome& self) { return array_of<HitRow>(self.hits); })
-      .def("samples",
-           [](const RunOutcome& self) {
-             std::vector<SampleRow> rows = self.stored_samples;
-             for (const auto& one : self.samples)
-               rows.push_back(
-                   sample_row(one.particle, one.time, one.state, *self.system->system().table));
-             return array_of(std::move(rows));
-           })
+      .def("samples", [](const RunOutcome& self) { return array_of<SampleRow>(self.samples); })
+      .def("contacts", [](const RunOutcome& self) { return array_of<ContactRow>(self.contacts); })
+      .def("energies", [](const RunOutcome& self) { return array_of<EnergyRow>(self.energies); })
       .def("starts",
            [](const RunOutcome& self) { return array_of(std::vector<SampleRow>(self.starts)); })
-      .def("save", &save, py::call_guard<py::gil_scoped_release>());
+      .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
+           py::arg("force"));
   module.def("run", &run, py::arg("system"), py::arg("state_error"), py::arg("progress"));
   py::class_<SectionOutcome>(module, "SectionOutcome")
       .def_property_readonly("system",
@@ -259,10 +268,13 @@ void add_runs(py::module_& module) {
              return cli::doubts_of(self.system->system(), self.result).lines;
            })
       .def("points", [](const SectionOutcome& self) { return array_of<SectionPoint>(self.points); })
-      .def("save", &save_section, py::call_guard<py::gil_scoped_release>());
-  module.def("open_run", &open_run, py::call_guard<py::gil_scoped_release>());
-  module.def("open_section", &open_section, py::call_guard<py::gil_scoped_release>());
-  module.def("kind_of_archive", &kind_of_archive, py::call_guard<py::gil_scoped_release>());
+      .def("save", &save_section, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
+           py::arg("force"));
+  module.def("open_run", &open_run, py::call_guard<py::gil_scoped_release>(), py::arg("file"));
+  module.def("open_section", &open_section, py::call_guard<py::gil_scoped_release>(),
+             py::arg("file"));
+  module.def("kind_of_archive", &kind_of_archive, py::call_guard<py::gil_scoped_release>(),
+             py::arg("file"));
   module.def("section", &section, py::arg("system"), py::arg("progress"));
 }
 

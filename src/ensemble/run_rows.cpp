@@ -1,6 +1,8 @@
 #include "carom/ensemble/run_rows.hpp"
 
+#include "base/interrupt.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/events/energy.hpp"
 
 namespace carom {
 
@@ -39,6 +41,54 @@ SampleRow sample_row(int particle, Time time, const State& state, const Table& t
   fold_into_cell(table, folded.position, folded.cell);
   return {particle,          time.value(),      x.x, x.y, state.velocity.x, state.velocity.y,
           folded.cell.first, folded.cell.second};
+}
+
+ContactRow contact_row(const ContactEvent& e, const Table& table) {
+  const Vector x = unwrapped(table, e.first_position, e.first_cell),
+               y = unwrapped(table, e.second_position, e.second_cell);
+  return {e.first,
+          e.second,
+          e.time.value(),
+          x.x,
+          x.y,
+          y.x,
+          y.y,
+          e.separation.x,
+          e.separation.y,
+          e.first_after.x,
+          e.first_after.y,
+          e.second_after.x,
+          e.second_after.y,
+          e.transfer};
+}
+
+bool EnergyRows::wanted() const {
+  const Dynamics& dynamics = system_.dynamics;
+  return system_.of_discs() || (dynamics.forces && !dynamics.forces->empty());
+}
+
+void EnergyRows::sample(int particle, const State& state) {
+  if (!wanted()) return;
+  particles_.push_back(system_.particles.at(static_cast<std::size_t>(particle)));
+  states_.push_back(state);
+}
+
+bool EnergyRows::sampled(Time time, std::optional<EnergyRow>& row) {
+  row.reset();
+  if (states_.empty()) return true;
+  const Table& table = *system_.table;
+  Interrupt summing(&interrupted_);
+  const Energy energy = energy_of(particles_, states_, system_.dynamics, table, &summing);
+  if (!summing.stopped()) {
+    const Vector momentum = momentum_of(particles_, states_);
+    row = {time.value(),    energy.kinetic,
+           energy.external, energy.pair,
+           energy.total(),  momentum.x,
+           momentum.y,      angular_momentum_of(particles_, states_, table)};
+  }
+  particles_.clear();
+  states_.clear();
+  return row.has_value();
 }
 
 }  // namespace carom

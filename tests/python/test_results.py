@@ -104,3 +104,52 @@ def test_certified_digits_are_decimals(program):
     double = carom.run(table, **start, collisions=20)
     for row, hit in zip(double.hits, exact.hits):
         assert row["x"] == pytest.approx(float(hit.x), abs=1e-6)
+
+
+def test_ten_million_hits_are_handed_over_without_a_copy():
+    run = carom.run(carom.circle(), collisions=10_000_000)
+    assert run.hits.shape == (10_000_000,)
+    before = resident()
+    again = run.hits
+    assert again.ctypes.data == run.hits.ctypes.data and not again.flags.owndata
+    s = again["s"]
+    assert s.base is not None and s.strides == (again.itemsize,)
+    assert resident() - before < again.nbytes / 20
+
+
+def resident():
+    """Memory of this process, in bytes."""
+    with open("/proc/self/statm", encoding="ascii") as stream:
+        return int(stream.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_results_are_dataframes(escape):
+    pandas = pytest.importorskip("pandas")
+    frame = escape.to_dataframe()
+    assert isinstance(frame, pandas.DataFrame)
+    assert list(frame.columns) == ["t", "p", "low", "high"]
+    assert len(frame) == len(escape.survival)
+    for result in (
+        carom.run("stadium", collisions=5), carom.section("stadium", points=5, orbits=2),
+        carom.diffusion("sinai", trajectories=200, t_max=10), carom.table("mushroom"),
+        carom.run("stadium", collisions=3, precision="certified"),
+    ):  # fmt: skip
+        assert len(result.to_dataframe()) > 0
+
+
+def test_notebooks_show_tables_and_reports(escape):
+    assert carom.system("mushroom")._repr_svg_().startswith("<svg")
+    for report in (escape, carom.table("stadium"), carom.section("stadium", points=5, orbits=1)):
+        shown = report._repr_html_()
+        assert shown.startswith("<pre>") and shown.endswith("</pre>")
+        assert "<carom" not in shown
+
+
+def test_results_are_pickled(escape):
+    import pickle
+
+    again = pickle.loads(pickle.dumps(escape))
+    assert again.digest == escape.digest
+    assert numpy.array_equal(again.per_trajectory, escape.per_trajectory)
+    run = carom.run("henon-heiles", t_max=2, sample=0.5)
+    assert numpy.array_equal(pickle.loads(pickle.dumps(run)).energies, run.energies)

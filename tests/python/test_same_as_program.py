@@ -9,6 +9,11 @@ import carom
 CHANGING = ("seconds", "cpu_seconds", "archive", "threads", "decisions", "lanes")
 
 
+DISCS = carom.rectangle(4, 4).with_(
+    particles={"count": 6}, interaction={"kind": "hard-discs", "radius": 0.25}
+)
+
+
 def same(result, printed):
     for key, value in printed.items():
         if key not in CHANGING:
@@ -66,3 +71,78 @@ def test_an_archive_holds_the_same_result(program, tmp_path, compute):
     with pytest.raises(carom.InputError):
         result.save(tmp_path / "saved.h5")
     result.save(tmp_path / "saved.h5", force=True)
+
+
+def test_table(program):
+    for name in ("mushroom", "lorentz-triangular", "three-disc"):
+        same(carom.table(name), program("table", name))
+    table = carom.table(carom.stadium(2, 1))
+    assert table.walls["length"][0] == 4
+    assert table.walls["from"].shape == (4, 2)
+
+
+def test_validation(program):
+    result = carom.validate(scale=0.001)
+    printed = program("validate", "--scale", 0.001)
+    assert (result.passed, result.failed) == (printed["passed"], printed["failed"])
+    changing = ("seconds", "cpu_seconds", "filter_share")
+    for mine, its in zip(result.json["cases"], printed["cases"]):
+        assert {k: v for k, v in mine.items() if k not in changing} == {
+            k: v for k, v in its.items() if k not in changing
+        }
+    assert len(result.doubts) == result.failed
+    assert f"{result.passed} passed" in str(result)
+
+
+def test_certified_sample(program):
+    keywords = {"times": [1, 5, 10], "t_max": 10}
+    result = carom.escape("stadium", certify_sample=50, digits=12, **keywords)
+    assert isinstance(result, carom.CertifiedSample)
+    options = ("--certify-sample", 50, "--digits", 12, "--times", "1,5,10", "--t-max", 10)
+    same(result, program("escape", "stadium", *options))
+    assert result.survival.dtype.names[:3] == ("t", "double", "certified")
+    assert type(carom.escape(result.system, trajectories=10)) is carom.Escape
+
+
+def test_splitting(program):
+    keywords = {"population": 100, "repetitions": 4, "kick": 0.01}
+    options = ("--population", 100, "--repetitions", 4, "--kick", 0.01)
+    by_hits = carom.escape("three-disc", splitting="hits:lin:0:4:5", **keywords)
+    same(by_hits, program("escape", "three-disc", "--splitting", "hits:lin:0:4:5", *options))
+    by_time = carom.escape("three-disc", splitting=[2, 4, 6, 8], **keywords)
+    same(by_time, program("escape", "three-disc", "--splitting", "2,4,6,8", *options))
+    assert len(by_time.rate) > 0
+    small = carom.escape("three-disc", splitting=[1, 2], population=4, repetitions=2, kick=0.01)
+    assert "4 trajectories" in small.doubts[0]
+
+
+def test_options_without_a_use_are_refused():
+    for keywords in ({"digits": 5}, {"population": 5}, {"splitting": "1,2", "certify_sample": 5}):
+        with pytest.raises(carom.InputError):
+            carom.escape("stadium", trajectories=10, **keywords)
+    with pytest.raises(carom.InputError, match="per_trajectory"):
+        carom.escape("stadium", certify_sample=5, per_trajectory=True)
+
+
+def test_archives_hold_contacts_energies_and_trajectories(tmp_path):
+    run = carom.run(DISCS, t_max=3, sample=0.5)
+    assert len(run.contacts) > 0 and len(run.energies) == 7
+    run.save(tmp_path / "run.h5")
+    stored = carom.open(tmp_path / "run.h5")
+    for name in ("contacts", "energies", "samples", "hits"):
+        assert numpy.array_equal(getattr(stored, name), getattr(run, name)), name
+    result = carom.escape("stadium", trajectories=100, t_max=5, per_trajectory=True)
+    result.save(tmp_path / "escape.h5")
+    assert numpy.array_equal(
+        carom.open(tmp_path / "escape.h5").per_trajectory, result.per_trajectory
+    )
+    carom.escape("stadium", trajectories=100, t_max=5).save(tmp_path / "plain.h5")
+    assert carom.open(tmp_path / "plain.h5").per_trajectory is None
+
+
+def test_energies_are_those_of_the_archive(program, tmp_path):
+    archive = tmp_path / "its.h5"
+    program("run", "henon-heiles", "--t-max", 5, "--set", "run.sample=0.5", "-o", archive)
+    run = carom.run("henon-heiles", t_max=5, sample=0.5)
+    assert numpy.array_equal(carom.open(archive).energies, run.energies)
+    assert len(run.energies) == 11

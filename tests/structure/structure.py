@@ -30,7 +30,7 @@ DEPENDENCIES = {
     "io": ["analysis", "certify", "ensemble", "events", "forces", "geometry", "integrators", "table"],
     "validation": ["analysis", "ensemble", "events", "io"],
     "cli": ["certify", "ensemble", "events", "geometry", "integrators", "io", "lanes", "table", "validation"],
-    "python": ["analysis", "certify", "cli", "ensemble", "events", "forces", "geometry", "io", "motion", "table"],
+    "python": ["analysis", "certify", "cli", "ensemble", "events", "forces", "geometry", "io", "motion", "table", "validation"],
 }
 # The closed-form maps check the engine, so they share nothing with it.
 MAPS_MAY_INCLUDE = {"carom/maps/maps.hpp", "carom/base/error.hpp"}

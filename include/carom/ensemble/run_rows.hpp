@@ -1,9 +1,14 @@
-// The hits and samples of a run as tables hold them: archives, Python, pictures.
+// The hits, samples, contacts and energies of a run as tables hold them: archives, Python,
+// pictures.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "carom/ensemble/system.hpp"
 #include "carom/events/event.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "carom/table/table.hpp"
@@ -33,5 +38,44 @@ struct SampleRow {
 /// `frames`: those of frames_of(table) (analysis/section.hpp).
 HitRow hit_row(const HitEvent&, const Table&, const std::vector<geometry::CurveFrame>& frames);
 SampleRow sample_row(int particle, Time, const State&, const Table&);
+
+/// Two hard discs that touch. Centres are those in the plane, unwrapped; velocities those after the
+/// contact.
+struct ContactRow {
+  std::int32_t first = 0, second = 0;  ///< first < second
+  double t = 0;
+  double first_x = 0, first_y = 0, second_x = 0, second_y = 0;
+  double dx = 0, dy = 0;  ///< from the second's centre to the first's, of the copies that touch
+  double first_vx = 0, first_vy = 0, second_vx = 0, second_vy = 0;
+  double transfer = 0;  ///< momentum exchanged along the line of centres
+};
+ContactRow contact_row(const ContactEvent&, const Table&);
+
+/// Sums over the particles that are there at a time (events/energy.hpp).
+struct EnergyRow {
+  double t = 0;
+  double kinetic = 0, external = 0, pair = 0, total = 0;
+  double px = 0, py = 0, angular_momentum = 0;
+};
+
+/// Makes a row of the samples of each time. Refers to the system.
+class EnergyRows {
+ public:
+  explicit EnergyRows(const System& system) : system_(system) {}
+  /// Asked while energies are summed, which takes seconds for thousands of particles. True: stop.
+  void listen(std::function<bool()> interrupted) { interrupted_ = std::move(interrupted); }
+  /// Where forces act or hard discs touch; elsewhere there are no rows.
+  bool wanted() const;
+  void sample(int particle, const State&);
+  /// Sets the row of the samples since the last one, if there were any. False: the sum over all
+  /// pairs was interrupted, and there is no row.
+  bool sampled(Time, std::optional<EnergyRow>& row);
+
+ private:
+  const System& system_;
+  std::vector<Particle> particles_;
+  std::vector<State> states_;
+  std::function<bool()> interrupted_;
+};
 
 }  // namespace carom

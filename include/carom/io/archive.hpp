@@ -79,8 +79,11 @@ class RunArchive : public Observer {
   ~RunArchive() override;
 
   void hit(const HitEvent&) override;
-  /// The same of a hit that was kept as a row.
+  /// The same of what was kept as rows. Energies are rows only where they are wanted.
   void append(const HitRow&);
+  void append(const ContactRow&);
+  void append(const SampleRow&);
+  void append(const EnergyRow&);
   void contact(const ContactEvent&) override;
   void sample(int particle, Time, const State&) override;
   /// False where the sum over all pairs was interrupted: nothing of this sample is stored.
@@ -108,6 +111,12 @@ StoredRun read_run(const std::string& file);
 /// The rows of a run's archive. Throw InputError for anything else.
 std::vector<HitRow> read_hits(const std::string& file);
 std::vector<SampleRow> read_samples(const std::string& file);
+/// None where the archive has no such group: no hard discs; no forces and no hard discs.
+std::vector<ContactRow> read_contacts(const std::string& file);
+std::vector<EnergyRow> read_energies(const std::string& file);
+
+/// The records of an ensemble's archive, in order of index; none where none were stored.
+std::vector<TrajectoryRecord> read_trajectories(const std::string& file);
 
 /// A section as its archive holds it; times, decisions and steps are not among it.
 struct StoredSection {

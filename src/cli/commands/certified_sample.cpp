@@ -6,7 +6,6 @@
 
 #include "carom/base/error.hpp"
 #include "carom/certify/certified_orbit.hpp"
-#include "carom/ensemble/paired_escape.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/events/world.hpp"
@@ -20,7 +19,8 @@ namespace {
 
 Place place_of(const char* option) { return {"command line", 0, 0, option}; }
 
-OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
+OtherFlight certified_flight(const LoadedSystem& loaded, int digits,
+                             const std::atomic<bool>& stop) {
   ExactSystem system = loaded.exact;
   CertifiedTask task;
   task.collisions = loaded.system.run.collisions;
@@ -28,13 +28,12 @@ OtherFlight certified_flight(const LoadedSystem& loaded, int digits) {
   task.digits = digits;
   task.most_bits = 200'000;
   const bool written = loaded.system.initial.kind == InitialCondition::Kind::point;
-  return [system, task, written](const State& start) mutable -> OtherEnd {
+  return [system, task, written, &stop](const State& start) mutable -> OtherEnd {
     // A start that was drawn is its doubles, taken exactly; the direction's length is free.
     if (!written) system.start = exact_start(start);
     std::optional<CertifiedOrbit> orbit;
     try {
-      orbit.emplace(system, task,
-                    [&stop = catch_interrupts()] { return stop.load(std::memory_order_relaxed); });
+      orbit.emplace(system, task, [&stop] { return stop.load(std::memory_order_relaxed); });
     } catch (const InputError&) {  // next to a wall, and outside of the table as it was written
       return {};
     }
@@ -143,46 +142,64 @@ std::string text_of(const PairedEscapeResult& result, int digits) {
 
 }  // namespace
 
-int certified_sample(const Options& options) {
-  if (!options.output.empty())
-    throw InputError(place_of("--output"), "a certified sample writes no archive",
-                     "--json, or no -o");
-  check_engine(options);
+CertifiedSample compare_with_certified(const Options& options, const LoadedSystem& loaded,
+                                       const std::atomic<bool>& stop,
+                                       std::function<void(std::uint64_t)> progress) {
   PairedEscapeOptions how;
   how.sample = whole_number(options.certify_sample, "--certify-sample", 1);
   how.threads = threads_of(options);
-  const int digits = digits_of(options);
-  LoadedSystem loaded = load_system(options.system, options.overrides);
-  choose_engine(options.engine, loaded.system);
-  how.interrupted = &catch_interrupts();
+  how.interrupted = &stop;
+  how.progress = std::move(progress);
+  CertifiedSample sample;
+  sample.digits = digits_of(options);
   const System& system = loaded.system;
   if (how.sample > system.run.trajectories)
     throw InputError(place_of("--certify-sample"),
                      fmt::format("the ensemble has {} trajectories", system.run.trajectories),
                      "a sample of at most these, or more --trajectories");
   check(loaded);
-  PairedEscapeResult result;
+  sample.result = compare_escapes(
+      system, [&] { return certified_flight(loaded, sample.digits, stop); }, how);
+  return sample;
+}
+
+Json sample_json(const System& system, const CertifiedSample& sample) {
+  const PairedEscapeResult& result = sample.result;
+  Json json = Json::object();
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  add_result(json, result, sample.digits);
+  return json;
+}
+
+std::string sample_text(const System& system, const CertifiedSample& sample) {
+  return fmt::format("{}\n", system.title.empty() ? system.name : system.title) +
+         text_of(sample.result, sample.digits);
+}
+
+int certified_sample(const Options& options) {
+  if (!options.output.empty())
+    throw InputError(place_of("--output"), "a certified sample writes no archive",
+                     "--json, or no -o");
+  check_engine(options);
+  const std::uint64_t wanted = whole_number(options.certify_sample, "--certify-sample", 1);
+  threads_of(options);
+  digits_of(options);
+  LoadedSystem loaded = load_system(options.system, options.overrides);
+  choose_engine(options.engine, loaded.system);
+  CertifiedSample sample;
   {
     Progress progress(!options.quiet);
-    const double all = static_cast<double>(how.sample);
-    how.progress = [&](std::uint64_t done) {
+    const double all = static_cast<double>(wanted);
+    sample = compare_with_certified(options, loaded, catch_interrupts(), [&](std::uint64_t done) {
       if (progress.due())
         progress.show(
             static_cast<double>(done) / all,
             with_prefix(static_cast<double>(done) / progress.seconds()) + "certified orbits/s");
-    };
-    result = compare_escapes(
-        system, [&] { return certified_flight(loaded, digits); }, how);
+    });
   }
-  if (options.json) {
-    Json json = Json::object();
-    add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
-    add_result(json, result, digits);
-    print(json.text() + "\n");
-  } else {
-    print(fmt::format("{}\n", system.title.empty() ? system.name : system.title) +
-          text_of(result, digits));
-  }
+  print(options.json ? sample_json(loaded.system, sample).text() + "\n"
+                     : sample_text(loaded.system, sample));
+  const PairedEscapeResult& result = sample.result;
   if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;
 }

@@ -3,64 +3,15 @@
 
 #include "cli/commands/certified_sample.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/escape_options.hpp"
 #include "cli/commands/run_shared.hpp"
 #include "cli/reports/escape_report.hpp"
 
 namespace carom::cli {
 
-namespace {
-
-// Each pair of a sample takes memory, and a certified orbit milliseconds at least.
-constexpr std::uint64_t largest_sample = 100'000'000;
-
-Place place_of(const char* option) { return {"command line", 0, 0, option}; }
-
-// Options that another one gives a meaning, or takes it away.
-void refuse_options_without_a_use(const Options& options) {
-  const auto refuse = [](const std::string& given, const char* option, const char* other) {
-    if (!given.empty())
-      throw InputError(place_of(option), fmt::format("it has no effect without {}", other), other);
-  };
-  const auto refuse_beside = [](const std::string& given, const char* option, const char* other) {
-    if (!given.empty())
-      throw InputError(place_of(option), fmt::format("it cannot be combined with {}", other),
-                       "one of the two");
-  };
-  if (!options.certify_sample.empty()) {
-    const std::uint64_t sample = whole_number(options.certify_sample, "--certify-sample", 1);
-    if (sample > largest_sample)
-      throw InputError(place_of("--certify-sample"),
-                       fmt::format("{} certified orbits are too many", options.certify_sample),
-                       fmt::format("at most {}", grouped(largest_sample)));
-  }
-  for (const auto& [given, other] : {std::pair{&options.splitting, "--splitting"},
-                                     {&options.certify_sample, "--certify-sample"}}) {
-    if (given->empty()) continue;
-    refuse_beside(options.block, "--block", other);
-    refuse_beside(options.checkpoint, "--checkpoint", other);
-  }
-  if (!options.splitting.empty()) {
-    refuse_beside(options.certify_sample, "--certify-sample", "--splitting");
-    refuse_beside(options.overrides.trajectories, "--trajectories",
-                  "--splitting, which has --population");
-    refuse_beside(options.isa == "auto" ? "" : options.isa, "--isa",
-                  "--splitting, which takes the widest lanes");
-    if (options.splitting.starts_with("hits:"))
-      refuse_beside(options.overrides.times, "--times", "levels of hits");
-  }
-  if (options.certify_sample.empty()) refuse(options.digits, "--digits", "--certify-sample");
-  if (!options.splitting.empty()) return;
-  refuse(options.population, "--population", "--splitting");
-  refuse(options.repetitions, "--repetitions", "--splitting");
-  refuse(options.kick, "--kick", "--splitting");
-  refuse(options.lookback, "--lookback", "--splitting");
-}
-
-}  // namespace
-
 int escape(const Options& options) {
   refuse_parts_of_others(options);
-  refuse_options_without_a_use(options);
+  check_escape_options(options);
   if (!options.splitting.empty()) return splitting(options);
   if (!options.certify_sample.empty()) return certified_sample(options);
   return run_ensemble<EscapeResult>(options, [](const System& system, const auto& how) {

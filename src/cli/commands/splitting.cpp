@@ -1,6 +1,4 @@
-// carom escape --splitting: survival by splitting populations.
-#include "carom/ensemble/splitting.hpp"
-#include "carom/events/report.hpp"
+#include "cli/commands/splitting.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +11,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
+#include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "io/progress.hpp"
@@ -51,28 +50,6 @@ std::vector<double> numbers_of(const std::string& text, const char* option) {
     throw InputError(place, fmt::format("cannot read the levels '{}'", text),
                      "from < to, at most 1e6 levels");
   return io::spaced(first, last, count, log);
-}
-
-SplittingPlan plan_of(const Options& options) {
-  SplittingPlan plan;
-  std::string levels = options.splitting;
-  if (levels.starts_with("hits:")) {
-    plan.by = SplittingPlan::Level::hits;
-    levels = levels.substr(5);
-  }
-  plan.levels = numbers_of(levels, "--splitting");
-  // A grid is spaced as evenly as whole hits allow; levels that were written are whole or
-  // refused.
-  const bool grid = levels.find(':') != std::string::npos;
-  if (grid && plan.by == SplittingPlan::Level::hits)
-    for (double& level : plan.levels) level = std::nearbyint(level);
-  if (!options.population.empty())
-    plan.population = whole_number(options.population, "--population", 2);
-  if (!options.repetitions.empty())
-    plan.repetitions = whole_number(options.repetitions, "--repetitions", 2);
-  if (!options.lookback.empty()) plan.lookback = whole_number(options.lookback, "--lookback", 0);
-  if (!options.kick.empty()) plan.kick = ExactNumber(options.kick, place_of("--kick")).to_double();
-  return plan;
 }
 
 // Half of the reports, to be free of the start: -ln(P(last)/P(first)) / (last - first).
@@ -123,7 +100,145 @@ double share_rejected(const SplittingResult& result) {
   return tried > 0.0 ? 1.0 - accepted / tried : 0.0;
 }
 
+// When all populations had died out; infinite: never.
+double extinction_of(const std::vector<SplitPoint>& points) {
+  const auto last =
+      std::find_if(points.begin(), points.end(), [](const SplitPoint& p) { return died_out(p.p); });
+  return last == points.end() ? std::numeric_limits<double>::infinity() : last->at;
+}
+
+const char* variable_of(const SplittingResult& result) {
+  return result.plan.by == SplittingPlan::Level::time ? "t" : "n";
+}
+
 }  // namespace
+
+SplittingPlan plan_of(const Options& options) {
+  SplittingPlan plan;
+  std::string levels = options.splitting;
+  if (levels.starts_with("hits:")) {
+    plan.by = SplittingPlan::Level::hits;
+    levels = levels.substr(5);
+  }
+  plan.levels = numbers_of(levels, "--splitting");
+  // A grid is spaced as evenly as whole hits allow; levels that were written are whole or
+  // refused.
+  const bool grid = levels.find(':') != std::string::npos;
+  if (grid && plan.by == SplittingPlan::Level::hits)
+    for (double& level : plan.levels) level = std::nearbyint(level);
+  if (!options.population.empty())
+    plan.population = whole_number(options.population, "--population", 2);
+  if (!options.repetitions.empty())
+    plan.repetitions = whole_number(options.repetitions, "--repetitions", 2);
+  if (!options.lookback.empty()) plan.lookback = whole_number(options.lookback, "--lookback", 0);
+  if (!options.kick.empty()) plan.kick = ExactNumber(options.kick, place_of("--kick")).to_double();
+  return plan;
+}
+
+std::vector<std::string> warnings_of(const SplittingResult& result) {
+  std::vector<std::string> lines;
+  for (const std::string& report : result.reports) lines.emplace_back(shown(report));
+  const char* const variable = variable_of(result);
+  if (result.plan.population < Extrapolated::least_population)
+    lines.push_back(
+        fmt::format("populations of {} trajectories: errors and intervals are valid from {} on",
+                    result.plan.population, Extrapolated::least_population));
+  const std::size_t repetitions = result.runs.back().size();
+  const Mean cost = cost_of_kicks(result, result.at.size() - 1);
+  if (is_certain(cost, repetitions))
+    lines.push_back(fmt::format(
+        "kicked copies do not stay as long as others: by {} = {:.6g} p is off by {:.2g}({:.1g}) % "
+        "for that, and by as much "
+        "again for what is not seen. The intervals hold it; smaller kicks (--kick {:.3g}) or "
+        "independent trajectories have "
+        "less of it",
+        variable, result.at.back(), 100.0 * cost.value, 100.0 * cost.error, result.plan.kick / 16));
+  return lines;
+}
+
+Json splitting_json(const System& system, const SplittingResult& result) {
+  const bool by_time = result.plan.by == SplittingPlan::Level::time;
+  const char* const variable = variable_of(result);
+  const std::vector<SplitPoint> points_of_p = survival(result);
+  const double extinction = extinction_of(points_of_p);
+  const double rejected = share_rejected(result);
+  const Mean cost = cost_of_kicks(result, result.at.size() - 1);
+  Json json = Json::object();
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  json.set("status", result.complete ? "completed" : "interrupted");
+  json.set("levels", by_time ? "time" : "hits");
+  json.set("population", result.plan.population).set("repetitions", result.runs.front().size());
+  json.set("kick", result.plan.kick)
+      .set("lookback", result.plan.lookback)
+      .set("rejected", rejected);
+  json.set("kick_cost", Json::object().set("value", cost.value).set("stderr", cost.error));
+  json.set("unresolved", result.unresolved)
+      .set("lost", result.lost)
+      .set("collisions", result.collisions);
+  json.set("digest", fmt::format("{:016x}", result.digest));
+  Json points = Json::array(), rates = Json::array();
+  for (const SplitPoint& point : points_of_p)
+    points.push(json_of(point.p,
+                        Json::object().set(variable, point.at).set("equivalent", point.equivalent),
+                        !died_out(point.p)));
+  for (const SplitRate& rate : escape_rate(result))
+    rates.push(json_of(rate.value,
+                       Json::object().set("t", rate.t).set("from", rate.from).set("to", rate.to),
+                       !(rate.from >= extinction)));
+  if (std::isfinite(extinction))
+    json.set("note", fmt::format("{} by {} = {:.6g}", all_died_out, variable, extinction));
+  json.set(by_time ? "survival" : "survival_hits", std::move(points));
+  if (by_time) json.set("rate", std::move(rates));
+  const auto decay = decay_of(result);
+  json.set("decay", decay ? json_of(decay->rate,
+                                    Json::object().set("from", decay->from).set("to", decay->to))
+                          : Json());
+  return json;
+}
+
+std::string splitting_text(const System& system, const SplittingResult& result) {
+  const bool by_time = result.plan.by == SplittingPlan::Level::time;
+  const char* const variable = variable_of(result);
+  const std::vector<SplitPoint> points_of_p = survival(result);
+  const double extinction = extinction_of(points_of_p);
+  const double rejected = share_rejected(result);
+  std::string text = fmt::format(
+      "{}\n{} populations of {} trajectories at each of three kicks, {:.3g} and its half and "
+      "quarter, seed "
+      "{}\n\n"
+      "{:>12}           p   std error  extrapolation  as of trajectories\n",
+      system.title.empty() ? system.name : system.title, grouped(result.runs.front().size()),
+      grouped(result.plan.population), result.plan.kick, system.run.seed, variable);
+  for (const SplitPoint& point : points_of_p) {
+    if (point.at >= extinction) break;
+    text += fmt::format("{:>12.6g}  {:>10.4e}  {:>10.1e}  {:>13.1e}  {:>18.1e}\n", point.at,
+                        point.p.limit.value, point.p.limit.error, point.p.extrapolation,
+                        point.equivalent);
+  }
+  if (std::isfinite(extinction))
+    text += fmt::format(
+        "{:>12.6g}  {} by then: how rare survival is they do not say. More trajectories\n"
+        "              (--population), or levels closer together, go further.\n",
+        extinction, all_died_out);
+  if (by_time) text += "\n           t     -dP/dt   std error  extrapolation\n";
+  for (const SplitRate& rate : escape_rate(result))
+    if (rate.from < extinction)
+      text += fmt::format("{:>12.6g}  {:>9.3e}  {:>10.1e}  {:>13.1e}\n", rate.t,
+                          rate.value.limit.value, rate.value.limit.error, rate.value.extrapolation);
+  if (const auto decay = decay_of(result))
+    text += fmt::format(
+        "\nFrom {0} = {1:.6g} to {2:.6g} p decays as exp(-{3:.6f} {0}), standard error {4:.1e}, "
+        "extrapolation {5:.1e}\n",
+        variable, decay->from, decay->to, decay->rate.limit.value, decay->rate.limit.error,
+        decay->rate.extrapolation);
+  text += fmt::format(
+      "\n{} collisions in {:.3g} s on {} thread{}; {:.0f} % of the kicked copies kept their "
+      "way\n",
+      grouped(result.collisions), result.seconds, result.threads, result.threads == 1 ? "" : "s",
+      100.0 * rejected);
+  text += fmt::format("digest {:016x}\n", result.digest);
+  return text;
+}
 
 int splitting(const Options& options) {
   check_engine(options);
@@ -145,99 +260,9 @@ int splitting(const Options& options) {
       };
     result = run_splitting(system, plan_of(options), how);
   }
-  const bool by_time = result.plan.by == SplittingPlan::Level::time;
-  const char* variable = by_time ? "t" : "n";
-  const double rejected = share_rejected(result);
-  const std::vector<SplitPoint> points_of_p = survival(result);
-  const auto last = std::find_if(points_of_p.begin(), points_of_p.end(),
-                                 [](const SplitPoint& p) { return died_out(p.p); });
-  const double extinction =
-      last == points_of_p.end() ? std::numeric_limits<double>::infinity() : last->at;
-  for (const std::string& report : result.reports) warn(std::string(shown(report)));
-  if (result.plan.population < Extrapolated::least_population)
-    warn(fmt::format("populations of {} trajectories: errors and intervals are valid from {} on",
-                     result.plan.population, Extrapolated::least_population));
-  const std::size_t repetitions = result.runs.back().size();
-  const Mean cost = cost_of_kicks(result, result.at.size() - 1);
-  if (is_certain(cost, repetitions))
-    warn(fmt::format(
-        "kicked copies do not stay as long as others: by {} = {:.6g} p is off by {:.2g}({:.1g}) % "
-        "for that, and by as much "
-        "again for what is not seen. The intervals hold it; smaller kicks (--kick {:.3g}) or "
-        "independent trajectories have "
-        "less of it",
-        variable, result.at.back(), 100.0 * cost.value, 100.0 * cost.error, result.plan.kick / 16));
-  if (options.json) {
-    Json json = Json::object();
-    add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
-    json.set("status", result.complete ? "completed" : "interrupted");
-    json.set("levels", by_time ? "time" : "hits");
-    json.set("population", result.plan.population).set("repetitions", result.runs.front().size());
-    json.set("kick", result.plan.kick)
-        .set("lookback", result.plan.lookback)
-        .set("rejected", rejected);
-    json.set("kick_cost", Json::object().set("value", cost.value).set("stderr", cost.error));
-    json.set("unresolved", result.unresolved)
-        .set("lost", result.lost)
-        .set("collisions", result.collisions);
-    json.set("digest", fmt::format("{:016x}", result.digest));
-    Json points = Json::array(), rates = Json::array();
-    for (const SplitPoint& point : points_of_p)
-      points.push(json_of(
-          point.p, Json::object().set(variable, point.at).set("equivalent", point.equivalent),
-          !died_out(point.p)));
-    for (const SplitRate& rate : escape_rate(result))
-      rates.push(json_of(rate.value,
-                         Json::object().set("t", rate.t).set("from", rate.from).set("to", rate.to),
-                         !(rate.from >= extinction)));
-    if (std::isfinite(extinction))
-      json.set("note", fmt::format("{} by {} = {:.6g}", all_died_out, variable, extinction));
-    json.set(by_time ? "survival" : "survival_hits", std::move(points));
-    if (by_time) json.set("rate", std::move(rates));
-    const auto decay = decay_of(result);
-    json.set("decay", decay ? json_of(decay->rate,
-                                      Json::object().set("from", decay->from).set("to", decay->to))
-                            : Json());
-    print(json.text() + "\n");
-  } else {
-    std::string text = fmt::format(
-        "{}\n{} populations of {} trajectories at each of three kicks, {:.3g} and its half and "
-        "quarter, seed "
-        "{}\n\n"
-        "{:>12}           p   std error  extrapolation  as of trajectories\n",
-        system.title.empty() ? system.name : system.title, grouped(result.runs.front().size()),
-        grouped(result.plan.population), result.plan.kick, system.run.seed, variable);
-    for (const SplitPoint& point : points_of_p) {
-      if (point.at >= extinction) break;
-      text += fmt::format("{:>12.6g}  {:>10.4e}  {:>10.1e}  {:>13.1e}  {:>18.1e}\n", point.at,
-                          point.p.limit.value, point.p.limit.error, point.p.extrapolation,
-                          point.equivalent);
-    }
-    if (std::isfinite(extinction))
-      text += fmt::format(
-          "{:>12.6g}  {} by then: how rare survival is they do not say. More trajectories\n"
-          "              (--population), or levels closer together, go further.\n",
-          extinction, all_died_out);
-    if (by_time) text += "\n           t     -dP/dt   std error  extrapolation\n";
-    for (const SplitRate& rate : escape_rate(result))
-      if (rate.from < extinction)
-        text +=
-            fmt::format("{:>12.6g}  {:>9.3e}  {:>10.1e}  {:>13.1e}\n", rate.t,
-                        rate.value.limit.value, rate.value.limit.error, rate.value.extrapolation);
-    if (const auto decay = decay_of(result))
-      text += fmt::format(
-          "\nFrom {0} = {1:.6g} to {2:.6g} p decays as exp(-{3:.6f} {0}), standard error {4:.1e}, "
-          "extrapolation {5:.1e}\n",
-          variable, decay->from, decay->to, decay->rate.limit.value, decay->rate.limit.error,
-          decay->rate.extrapolation);
-    text += fmt::format(
-        "\n{} collisions in {:.3g} s on {} thread{}; {:.0f} % of the kicked copies kept their "
-        "way\n",
-        grouped(result.collisions), result.seconds, result.threads, result.threads == 1 ? "" : "s",
-        100.0 * rejected);
-    text += fmt::format("digest {:016x}\n", result.digest);
-    print(text);
-  }
+  for (const std::string& line : warnings_of(result)) warn(line);
+  print(options.json ? splitting_json(system, result).text() + "\n"
+                     : splitting_text(system, result));
   if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;
 }

@@ -1,4 +1,6 @@
 // carom validate: the engine against identities and published values.
+#include "cli/commands/validate.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
 #include "io/progress.hpp"
-#include "validation/cases/cases.hpp"
 
 namespace carom::cli {
 
@@ -71,42 +72,68 @@ Json json_of(const validation::Check& c, validation::Allowance allowance) {
 
 }  // namespace
 
-int validate(const Options& options) {
+int Validation::passed() const {
+  return static_cast<int>(
+      std::count_if(cases.begin(), cases.end(), [](const Done& c) { return c.check.passed; }));
+}
+int Validation::failed() const { return static_cast<int>(cases.size()) - passed(); }
+
+Validation run_validation(const Options& options, const validation::CheckOptions& how,
+                          const std::function<void(double, const std::string&)>& before,
+                          const std::function<void(const Validation::Done&)>& after) {
   const std::vector<validation::Case> plan = validation::all_cases(options.soak, scale_of(options));
+  Validation all;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    before(static_cast<double>(i) / static_cast<double>(plan.size()), plan[i].name);
+    validation::Check c = plan[i].run(how);
+    c.name = plan[i].name;
+    c.source = plan[i].source;
+    all.complete = c.complete;
+    if (!all.complete) break;
+    all.cases.push_back({plan[i], std::move(c)});
+    after(all.cases.back());
+  }
+  return all;
+}
+
+Json validation_json(const Validation& all) {
+  int threads = 1;
+  double seconds = 0.0, cpu_seconds = 0.0;
+  Json list = Json::array();
+  for (const auto& [of, check] : all.cases) {
+    threads = std::max(threads, check.threads);
+    seconds += check.seconds;
+    cpu_seconds += check.cpu_seconds;
+    list.push(json_of(check, of.allowance));
+  }
+  Json json = Json::object();
+  add_common_keys(json, System(), threads, seconds, cpu_seconds);
+  return json.set("passed", all.passed()).set("failed", all.failed()).set("cases", std::move(list));
+}
+
+std::string text_of(const Validation::Done& one) { return line_of(one.check, one.of.allowance); }
+
+std::string summary_of(const Validation& all) {
+  return fmt::format("\n{} passed, {} failed{}\n", all.passed(), all.failed(),
+                     all.complete ? "" : ", interrupted");
+}
+
+int validate(const Options& options) {
   validation::CheckOptions how;
   how.threads = threads_of(options);
   how.interrupted = &catch_interrupts();
   Progress progress(!options.quiet && options.json);  // text shows its progress by itself
-  Json list = Json::array();
-  int passed = 0, failed = 0, threads = 1;
-  double seconds = 0.0, cpu_seconds = 0.0;
-  bool complete = true;
-  for (std::size_t i = 0; i < plan.size() && complete; ++i) {
-    if (progress.enabled())
-      progress.show(static_cast<double>(i) / static_cast<double>(plan.size()), plan[i].name);
-    validation::Check c = plan[i].run(how);
-    c.name = plan[i].name;
-    c.source = plan[i].source;
-    complete = c.complete;
-    if (!complete) break;
-    c.passed ? ++passed : ++failed;
-    threads = std::max(threads, c.threads);
-    seconds += c.seconds;
-    cpu_seconds += c.cpu_seconds;
-    list.push(json_of(c, plan[i].allowance));
-    if (!options.json) print(line_of(c, plan[i].allowance));
-  }
-  if (options.json) {
-    Json json = Json::object();
-    add_common_keys(json, System(), threads, seconds, cpu_seconds);
-    json.set("passed", passed).set("failed", failed).set("cases", std::move(list));
-    print(json.text() + "\n");
-  } else {
-    print(
-        fmt::format("\n{} passed, {} failed{}\n", passed, failed, complete ? "" : ", interrupted"));
-  }
-  if (failed > 0) return untrusted;
-  return complete ? done : stopped;
+  const Validation all = run_validation(
+      options, how,
+      [&](double share, const std::string& name) {
+        if (progress.enabled()) progress.show(share, name);
+      },
+      [&](const Validation::Done& one) {
+        if (!options.json) print(text_of(one));
+      });
+  print(options.json ? validation_json(all).text() + "\n" : summary_of(all));
+  if (all.failed() > 0) return untrusted;
+  return all.complete ? done : stopped;
 }
 
 }  // namespace carom::cli

@@ -1,8 +1,7 @@
 // /contacts of a run's archive: hard discs that touch.
 #pragma once
 
-#include "carom/events/event.hpp"
-#include "carom/table/table.hpp"
+#include "carom/ensemble/run_rows.hpp"
 #include "io/archive/columns.hpp"
 
 namespace carom {
@@ -19,15 +18,9 @@ class ContactColumns {
     for (const Column& c : integers) rows_.open<std::int32_t>(from, c.name);
     for (const Column& c : reals) rows_.open<double>(from, c.name);
   }
-  void add(const ContactEvent& e, const Table& table) {
-    const auto unwrapped = [&](geometry::Vector x, const geometry::Cell& cell) {
-      return table.lattice ? x + table.lattice->translation(cell) : x;
-    };
-    const geometry::Vector x = unwrapped(e.first_position, e.first_cell),
-                           y = unwrapped(e.second_position, e.second_cell);
-    rows_.row(std::int32_t{e.first}, std::int32_t{e.second}, e.time.value(), x.x, x.y, y.x, y.y,
-              e.separation.x, e.separation.y, e.first_after.x, e.first_after.y, e.second_after.x,
-              e.second_after.y, e.transfer);
+  void add(const ContactRow& r) {
+    rows_.row(r.first, r.second, r.t, r.first_x, r.first_y, r.second_x, r.second_y, r.dx, r.dy,
+              r.first_vx, r.first_vy, r.second_vx, r.second_vy, r.transfer);
   }
   void close() { rows_.close(); }
 

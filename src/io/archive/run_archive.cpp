@@ -3,7 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/interrupt.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/run_rows.hpp"
@@ -20,7 +19,6 @@
 
 namespace carom {
 
-using geometry::Vector;
 using hdf5::Description;
 using hdf5::Handle;
 
@@ -161,13 +159,14 @@ class RunArchive::Implementation {
       : file(std::move(opened)),
         target(std::move(final_path)),
         table(loaded.system.table),
-        dynamics(loaded.system.dynamics),
-        all_particles(loaded.system.particles),
         hits(file.name()),
         samples(file.name()),
         contacts(file.name()),
         of_discs(loaded.system.of_discs()),
-        energies(file.name()) {
+        with_energies(EnergyRows(loaded.system).wanted()),
+        energies(file.name()),
+        system(loaded.system),
+        energies_now(system) {
     frames = frames_of(*table);
   }
 
@@ -177,26 +176,20 @@ class RunArchive::Implementation {
   void write_state(const std::vector<RunEnd>& particles);
   void create_steps();
   void write_steps(const StepCounts& steps);
-  /// Those of the sample under way. False: it was interrupted, and nothing was stored.
-  bool add_energies(Time time);
-  bool with_energies() const { return of_discs || (dynamics.forces && !dynamics.forces->empty()); }
 
   ArchiveLock lock;  // first: it lets go last
   ArchiveFile file;
   std::string target;
   std::shared_ptr<const Table> table;
-  Dynamics dynamics;
-  std::vector<Particle> all_particles;
   std::vector<geometry::CurveFrame> frames;
   hdf5::Columns hits, samples;
   ContactColumns contacts;
-  bool of_discs;
+  bool of_discs, with_energies;
   hdf5::Columns energies;
-  // Of the sample under way: stored together with its energy or not at all.
-  std::vector<SampleRow> rows_now;
-  std::vector<Particle> particles_now;
-  std::vector<State> states_now;
-  std::function<bool()> interrupted;
+  std::vector<SampleRow>
+      rows_now;  ///< of the sample under way: stored with its energy or not at all
+  System system;
+  EnergyRows energies_now;
   double sampled_until = -std::numeric_limits<double>::infinity();
 };
 
@@ -243,7 +236,7 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     const Handle group = file.group("contacts", "Contacts of hard discs in order of time");
     contacts.create(group.get());
   }
-  if (with_energies()) {
+  if (with_energies) {
     const Handle group = file.group("energy", "Sums over the particles at each sample's time");
     for (const auto& [name, description] : energy_fields)
       energies.add<double>(group.get(), name, description);
@@ -291,7 +284,7 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
   samples.open<std::int64_t>(from, "cell_first");
   samples.open<std::int64_t>(from, "cell_second");
   if (of_discs) contacts.open(file.open_group("contacts").get());
-  if (with_energies()) {
+  if (with_energies) {
     const Handle energy = file.open_group("energy");
     for (const auto& [name, description] : energy_fields) energies.open<double>(energy.get(), name);
   }
@@ -345,16 +338,6 @@ void RunArchive::Implementation::write_steps(const StepCounts& steps) {
   write(first_unresolved, H5T_NATIVE_DOUBLE, &steps.first_unresolved);
 }
 
-bool RunArchive::Implementation::add_energies(Time time) {
-  Interrupt summing(&interrupted);
-  const Energy energy = energy_of(particles_now, states_now, dynamics, *table, &summing);
-  if (summing.stopped()) return false;
-  const Vector momentum = momentum_of(particles_now, states_now);
-  energies.row(time.value(), energy.kinetic, energy.external, energy.pair, energy.total(),
-               momentum.x, momentum.y, angular_momentum_of(particles_now, states_now, *table));
-  return true;
-}
-
 RunArchive::RunArchive(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 RunArchive::~RunArchive() = default;
@@ -403,7 +386,16 @@ void RunArchive::append(const HitRow& row) {
 }
 
 void RunArchive::contact(const ContactEvent& event) {
-  implementation_->contacts.add(event, *implementation_->table);
+  append(contact_row(event, *implementation_->table));
+}
+void RunArchive::append(const ContactRow& row) { implementation_->contacts.add(row); }
+void RunArchive::append(const SampleRow& row) {
+  implementation_->samples.row(row.particle, row.t, row.x, row.y, row.vx, row.vy, row.cell_first,
+                               row.cell_second);
+}
+void RunArchive::append(const EnergyRow& row) {
+  implementation_->energies.row(row.t, row.kinetic, row.external, row.pair, row.total, row.px,
+                                row.py, row.angular_momentum);
 }
 
 void RunArchive::sample(int particle, Time time, const State& state) {
@@ -411,26 +403,22 @@ void RunArchive::sample(int particle, Time time, const State& state) {
   // A run that goes on is asked for its samples from the beginning.
   if (!(time.value() > a.sampled_until)) return;
   a.rows_now.push_back(sample_row(particle, time, state, *a.table));
-  if (!a.with_energies()) return;
-  a.particles_now.push_back(a.all_particles.at(static_cast<std::size_t>(particle)));
-  a.states_now.push_back(state);
+  a.energies_now.sample(particle, state);
 }
 
 bool RunArchive::sampled(Time time) {
   Implementation& a = *implementation_;
-  const bool complete = a.states_now.empty() || a.add_energies(time);
+  std::optional<EnergyRow> energy;
+  const bool complete = a.energies_now.sampled(time, energy);
   if (complete)
-    for (const SampleRow& row : a.rows_now)
-      a.samples.row(row.particle, row.t, row.x, row.y, row.vx, row.vy, row.cell_first,
-                    row.cell_second);
+    for (const SampleRow& row : a.rows_now) append(row);
+  if (energy) append(*energy);
   a.rows_now.clear();
-  a.particles_now.clear();
-  a.states_now.clear();
   return complete;
 }
 
 void RunArchive::listen(std::function<bool()> interrupted) {
-  implementation_->interrupted = std::move(interrupted);
+  implementation_->energies_now.listen(std::move(interrupted));
 }
 
 void RunArchive::finish(const SingleRunResult& result, const std::string& status) {

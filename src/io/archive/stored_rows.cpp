@@ -3,6 +3,7 @@
 #include "carom/io/archive.hpp"
 #include "io/archive/archive_file.hpp"
 #include "io/archive/checksums.hpp"
+#include "io/archive/ensemble_columns.hpp"
 #include "io/archive/hdf5.hpp"
 #include "io/archive/section_numbers.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
@@ -80,6 +81,60 @@ std::vector<SampleRow> read_samples(const std::string& file) {
   group.read_motion(rows);
   group.read_cells(rows);
   return rows;
+}
+
+namespace {
+
+// Archives have the group only where there can be rows.
+bool has_group(const std::string& file, const char* group) {
+  return H5Lexists(opened(file).get(), group, H5P_DEFAULT) > 0;
+}
+
+}  // namespace
+
+std::vector<ContactRow> read_contacts(const std::string& file) {
+  std::vector<ContactRow> rows;
+  if (!has_group(file, "contacts")) return rows;
+  const Group group(file, run_archive_kind, "contacts");
+  group.read(rows, "first", &ContactRow::first);
+  group.read(rows, "second", &ContactRow::second);
+  group.read(rows, "t", &ContactRow::t);
+  group.read(rows, "first_x", &ContactRow::first_x);
+  group.read(rows, "first_y", &ContactRow::first_y);
+  group.read(rows, "second_x", &ContactRow::second_x);
+  group.read(rows, "second_y", &ContactRow::second_y);
+  group.read(rows, "dx", &ContactRow::dx);
+  group.read(rows, "dy", &ContactRow::dy);
+  group.read(rows, "first_vx", &ContactRow::first_vx);
+  group.read(rows, "first_vy", &ContactRow::first_vy);
+  group.read(rows, "second_vx", &ContactRow::second_vx);
+  group.read(rows, "second_vy", &ContactRow::second_vy);
+  group.read(rows, "transfer", &ContactRow::transfer);
+  return rows;
+}
+
+std::vector<EnergyRow> read_energies(const std::string& file) {
+  std::vector<EnergyRow> rows;
+  if (!has_group(file, "energy")) return rows;
+  const Group group(file, run_archive_kind, "energy");
+  group.read(rows, "t", &EnergyRow::t);
+  group.read(rows, "kinetic", &EnergyRow::kinetic);
+  group.read(rows, "external", &EnergyRow::external);
+  group.read(rows, "pair", &EnergyRow::pair);
+  group.read(rows, "total", &EnergyRow::total);
+  group.read(rows, "px", &EnergyRow::px);
+  group.read(rows, "py", &EnergyRow::py);
+  group.read(rows, "angular_momentum", &EnergyRow::angular_momentum);
+  return rows;
+}
+
+std::vector<TrajectoryRecord> read_trajectories(const std::string& file) {
+  std::vector<TrajectoryRecord> all, batch;
+  if (!has_group(file, "trajectories")) return all;
+  RecordReader reader(file);
+  all.reserve(reader.rows());
+  while (reader.next(batch)) all.insert(all.end(), batch.begin(), batch.end());
+  return all;
 }
 
 StoredSection read_section(const std::string& file) {

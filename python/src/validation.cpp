@@ -1,0 +1,64 @@
+// The engine against identities and published values.
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "beside.hpp"
+#include "cli/commands/validate.hpp"
+#include "cli/common.hpp"
+#include "loaded.hpp"
+
+namespace py = pybind11;
+
+namespace carom::python {
+
+namespace {
+
+std::string text_of(const cli::Validation& all) {
+  std::string text;
+  for (const auto& one : all.cases) text += cli::text_of(one);
+  return text + cli::summary_of(all);
+}
+
+std::vector<std::string> doubts_of(const cli::Validation& all) {
+  std::vector<std::string> failed;
+  for (const auto& one : all.cases)
+    if (!one.check.passed) failed.push_back(fmt::format("failed: {}", one.of.name));
+  return failed;
+}
+
+py::tuple validate(bool soak, const std::string& scale, const std::string& threads,
+                   const py::object& progress) {
+  cli::Options options;
+  options.command = "validate";
+  options.soak = soak;
+  options.scale = scale;
+  options.threads = threads;
+  validation::CheckOptions how;
+  how.threads = cli::threads_of(options);
+  Course course;
+  how.interrupted = &course.stop;
+  cli::Validation all;
+  const std::exception_ptr interruption = run_beside(course, progress, [&] {
+    all = cli::run_validation(
+        options, how, [&](double share, const std::string&) { course.share = share; },
+        [&](const auto&) { ++course.done; });
+  });
+  return py::make_tuple(std::move(all), error_of(interruption));
+}
+
+}  // namespace
+
+void add_validation(py::module_& module) {
+  py::class_<cli::Validation>(module, "ValidationOutcome")
+      .def("json", [](const cli::Validation& self) { return cli::validation_json(self).text(); })
+      .def("text", &text_of)
+      .def("doubts", &doubts_of);
+  module.def("validate", &validate, py::arg("soak"), py::arg("scale"), py::arg("threads"),
+             py::arg("progress"));
+}
+
+}  // namespace carom::python
