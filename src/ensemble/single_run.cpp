@@ -46,11 +46,11 @@ class FreeEnergies {
     // that of before, but rounded anew.
     if (!goes_on_) seen.kinetic = larger(seen.kinetic, sum_);
   }
-  void hit(const HitEvent& event) {
-    if (shared_) return pass({{event.particle, event.before, event.after}});
-    const Particle& p = particles_[static_cast<std::size_t>(event.particle)];
-    see(event.particle,
-        kinetic_energy(event.particle, event.after) - 0.5 * p.mass * (p.speed * p.speed));
+  /// `particle`: its number in the system.
+  void hit(int particle, const HitEvent& event) {
+    if (shared_) return pass({{particle, event.before, event.after}});
+    const Particle& p = particles_[static_cast<std::size_t>(particle)];
+    see(particle, kinetic_energy(particle, event.after) - 0.5 * p.mass * (p.speed * p.speed));
   }
   void contact(const ContactEvent& event) {
     pass({{event.first, event.first_before, event.first_after},
@@ -74,6 +74,7 @@ class FreeEnergies {
   void see(int particle, double change) {
     EnergyBalance& seen = seen_[at(particle)];
     seen.change = change;
+    if (std::fabs(change) <= seen.largest) return;
     seen.largest = larger(seen.largest, std::fabs(change));
   }
   std::size_t at(int particle) const { return shared_ ? 0 : static_cast<std::size_t>(particle); }
@@ -102,9 +103,12 @@ class Renumbering : public Observer {
 
   void hit(const HitEvent& event) override {
     if (trust_ != nullptr) trust_->hit(event);
+    const int particle = number(event.particle);
+    if (energies_ != nullptr) energies_->hit(particle, event);
+    // A copy would wait until every number of the event is written.
+    if (particle == event.particle) return observer_.hit(event);
     HitEvent copy = event;
-    copy.particle = number(event.particle);
-    if (energies_ != nullptr) energies_->hit(copy);
+    copy.particle = particle;
     observer_.hit(copy);
   }
   void contact(const ContactEvent& event) override {

@@ -71,6 +71,8 @@ class World::Implementation {
     groups.predict_again();
     return true;
   }
+  std::uint64_t run_until(double t_end, Observer& observer,
+                          const std::function<bool()>& interrupted);
   void apply(int index, Time when, Observer& observer);
 
   const Table& table;          ///< the user's
@@ -100,37 +102,44 @@ class World::Implementation {
 
 std::uint64_t World::run_until(double t_end, Observer& observer,
                                const std::function<bool()>& interrupted) {
-  Implementation& w = *implementation_;
-  std::uint64_t events = 0;
-  w.interrupt = Interrupt(&interrupted);
+  Interrupt& interrupt = implementation_->interrupt;
+  interrupt = Interrupt(&interrupted);
   const struct Over {
     Interrupt& interrupt;
     ~Over() { interrupt = Interrupt(); }
-  } over{w.interrupt};
-  if (!w.begin_run()) return events;
-  const bool asks = static_cast<bool>(w.enough);
-  // Asking may cost more than a flight, and less than a step.
-  const std::uint64_t between_questions = w.regions.any() || w.discs ? 16 : 256;
+  } over{interrupt};
+  return implementation_->run_until(t_end, observer, interrupted);
+}
+
+// A function of its own: where an exception has something to destroy in it, the compiler keeps the
+// numbers of a flight in memory, which costs a fifth of a hit.
+[[gnu::noinline]] std::uint64_t World::Implementation::run_until(
+    double t_end, Observer& observer, const std::function<bool()>& interrupted) {
+  std::uint64_t events = 0;
+  if (!begin_run()) return events;
+  const bool asks = static_cast<bool>(enough);
+  // Asking may cost more than a flight, and less than a step: once in 16 or 256 events.
+  const std::uint64_t between_questions = regions.any() || discs ? 15 : 255;
   do {
-    while (!w.bodies.all_ended()) {
-      if (asks && w.enough()) return events;
-      const int index = w.bodies.first();
-      const Time when(w.bodies.when(index).high, w.bodies.when(index).low);
+    while (!bodies.all_ended()) {
+      if (asks && enough()) return events;
+      const int index = bodies.first();
+      const Time when(bodies.when(index).high, bodies.when(index).low);
       if (!(when.high < t_end) && when > Time(t_end)) break;
-      if (w.interrupt.stopped()) return events;
-      if (interrupted && events % between_questions == 0 && interrupted()) return events;
-      if (w.samples.any()) w.samples.emit(when, false, observer);
-      if (w.interrupt.stopped()) return events;
-      w.apply(index, when, observer);
+      if (interrupt.stopped()) return events;
+      if (interrupted && (events & between_questions) == 0 && interrupted()) return events;
+      if (samples.any()) samples.emit(when, false, observer);
+      if (interrupt.stopped()) return events;
+      apply(index, when, observer);
       ++events;
     }
-    if (w.interrupt.stopped()) return events;
-    if (w.samples.any()) w.samples.emit(t_end, true, observer);
-    if (w.interrupt.stopped()) return events;
-  } while (w.regions.any() && w.integration.end_failed_steps(t_end, observer));
-  if (w.watch.active()) {
-    w.watch.watch_flights(t_end, observer);
-    w.integration.watch_steps(t_end, observer);
+    if (interrupt.stopped()) return events;
+    if (samples.any()) samples.emit(t_end, true, observer);
+    if (interrupt.stopped()) return events;
+  } while (regions.any() && integration.end_failed_steps(t_end, observer));
+  if (watch.active()) {
+    watch.watch_flights(t_end, observer);
+    integration.watch_steps(t_end, observer);
   }
   return events;
 }
