@@ -24,7 +24,8 @@ class SectionWatch {
 
   /// Bodies that have come since the last run are watched from their states on.
   void begin_run();
-  /// After an event of the body was applied.
+  /// After an event of the body was applied, or where it goes over between flight and group: not
+  /// every body that does so has the event.
   void after_event(int index, Time when, Observer& observer);
   /// The step of a group until a time within it.
   void watch_step(Group& group, Time until, Observer& observer);

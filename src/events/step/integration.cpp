@@ -72,13 +72,15 @@ void Integration::form(const std::vector<int>& members) {
 }
 
 /// One group of all of these, which are at `now`.
-void Integration::join(std::vector<int> members, const Time& now) {
+void Integration::join(std::vector<int> members, const Time& now, Observer& observer) {
   std::sort(members.begin(), members.end());
   for (const int i : members) {
-    if (bodies_[i].group != nullptr)
+    if (bodies_[i].group != nullptr) {
       groups_.take_out(i);
-    else
-      bodies_[i].state = groups_.state_at(i, now);
+      continue;
+    }
+    bodies_[i].state = groups_.state_at(i, now);
+    if (watch_.active()) watch_.after_event(i, now, observer);  // its flight ends here
   }
   form(members);
 }
@@ -99,41 +101,41 @@ void Integration::settle(Observer& observer) {
     looking_.pop_back();
     if (taken_in) continue;
     if (looking.group)
-      end_step(*looking.group);
+      end_step(*looking.group, observer);
     else
-      look_around(looking);
+      look_around(looking, observer);
   }
 }
 
 /// A free body forms a group with those that are near, or knows when to look again.
-void Integration::look_around(const Looking& looking) {
-  if (!regions_.by_range()) return join({looking.body}, looking.now);
+void Integration::look_around(const Looking& looking, Observer& observer) {
+  if (!regions_.by_range()) return join({looking.body}, looking.now, observer);
   Neighbours::Found near = neighbours_.around({looking.body}, looking.now);
   if (looking.integrated || near.members.size() > 1)
-    return join(std::move(near.members), looking.now);
+    return join(std::move(near.members), looking.now, observer);
   bodies_[looking.body].check = looking.now + near.free_for;
   flights_.schedule(looking.body);
 }
 
 /// A group at the end of a step goes on, if not in others or freely.
-void Integration::end_step(Group& group) {
-  if (regions_.by_range() && regroup(group)) return;
-  if (leave_between_supports(group)) return;
+void Integration::end_step(Group& group, Observer& observer) {
+  if (regions_.by_range() && regroup(group, observer)) return;
+  if (leave_between_supports(group, observer)) return;
   groups_.predict(group);
 }
 
 /// Takes in what is near, or falls apart. True if the group has changed.
-bool Integration::regroup(const Group& group) {
+bool Integration::regroup(const Group& group, Observer& observer) {
   const std::size_t before = group.bodies().size();
   const Time now = group.time();
   Neighbours::Found near = neighbours_.around(group.bodies(), now);
-  if (near.members.size() == before) return before > 1 && split(group);
-  join(std::move(near.members), now);
+  if (near.members.size() == before) return before > 1 && split(group, observer);
+  join(std::move(near.members), now, observer);
   return true;
 }
 
 /// Parts of a group that are far from each other go their own ways.
-bool Integration::split(const Group& group) {
+bool Integration::split(const Group& group, Observer& observer) {
   const std::vector<int> members = group.bodies();
   const std::vector<std::vector<int>> parts = neighbours_.parts(members);
   if (parts.size() == 1) return false;
@@ -149,7 +151,7 @@ bool Integration::split(const Group& group) {
       form(part);
       continue;
     }
-    set_free(part.front());
+    set_free(part.front(), observer);
     freed.push_back({nullptr, part.front(), now, false});
   }
   looking_.insert(looking_.end(), freed.rbegin(), freed.rend());
@@ -159,24 +161,25 @@ bool Integration::split(const Group& group) {
 /// A lone particle that ends a step outside of all supports has crossed an edge where it could not
 /// leave: along it to rounding, or where it meets another edge or a wall. True if it flies freely
 /// from here on.
-bool Integration::leave_between_supports(const Group& group) {
+bool Integration::leave_between_supports(const Group& group, Observer& observer) {
   if (group.bodies().size() > 1 || regions_.edges().empty()) return false;
   const int index = group.bodies().front();
   const State s = bodies_.state(index);
   if (s.velocity == Vector{} || regions_.hold(s.position) || !flights_.contains(s.position))
     return false;
   groups_.take_out(index);
-  set_free(index);
+  set_free(index, observer);
   if (regions_.by_range()) looking_.push_back({nullptr, index, s.time, false});
   return true;
 }
 
 /// From its state on, which is inside the table and under no force.
-void Integration::set_free(int index) {
+void Integration::set_free(int index, Observer& observer) {
   Body& b = bodies_[index];
   b.particle.speed = std::sqrt(dot(b.state.velocity, b.state.velocity));
   flights_.begin(b);
   flights_.predict(index);
+  if (watch_.active()) watch_.after_event(index, b.state.time, observer);  // its flight begins here
 }
 
 /// Applies what comes first for a group.
@@ -191,7 +194,7 @@ void Integration::step(Group& group, Observer& observer) {
     hit(group, static_cast<std::size_t>(member), barrier, observer);
     if (group.bodies().empty()) return;
   } else {
-    if (leave_support(group, barrier)) return;
+    if (leave_support(group, barrier, observer)) return;
     group.pass(barrier);
   }
   groups_.predict(group);
@@ -238,7 +241,7 @@ void Integration::hit(Group& group, std::size_t member, const Barrier<double>& b
 }
 
 /// A particle comes to the edge of a support from inside. True if it flies freely from here on.
-bool Integration::leave_support(Group& group, const Barrier<double>& barrier) {
+bool Integration::leave_support(Group& group, const Barrier<double>& barrier, Observer& observer) {
   const int index = group.bodies().front();
   const State last = group.state(0);
   const Vector x = last.position, velocity = last.velocity;
@@ -263,6 +266,7 @@ bool Integration::leave_support(Group& group, const Barrier<double>& barrier) {
   b.state = {-1, 0.0, frame.point, velocity, cell, group.time()};
   flights_.begin_on_wall(b, barrier.wall, u);
   flights_.predict(index);
+  if (watch_.active()) watch_.after_event(index, b.state.time, observer);
   if (regions_.by_range()) looking_.push_back({nullptr, index, b.state.time, false});
   return true;
 }

@@ -43,20 +43,20 @@ class Integration {
 
   void start(int index, Observer& observer);
   void form(const std::vector<int>& members);
-  void join(std::vector<int> members, const Time& now);
+  void join(std::vector<int> members, const Time& now, Observer& observer);
 
   void settle(Observer& observer);
-  void look_around(const Looking& looking);
-  void end_step(Group& group);
-  bool regroup(const Group& group);
-  bool split(const Group& group);
-  bool leave_between_supports(const Group& group);
-  void set_free(int index);
+  void look_around(const Looking& looking, Observer& observer);
+  void end_step(Group& group, Observer& observer);
+  bool regroup(const Group& group, Observer& observer);
+  bool split(const Group& group, Observer& observer);
+  bool leave_between_supports(const Group& group, Observer& observer);
+  void set_free(int index, Observer& observer);
 
   void step(Group& group, Observer& observer);
   void give_up(Group& group, Observer& observer);
   void hit(Group& group, std::size_t member, const Barrier<double>& barrier, Observer& observer);
-  bool leave_support(Group& group, const Barrier<double>& barrier);
+  bool leave_support(Group& group, const Barrier<double>& barrier, Observer& observer);
   void end(int index, Fate fate, const Group& group, Observer& observer, std::string_view why = {});
 
   const Table& table_;
