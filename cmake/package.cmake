@@ -4,6 +4,7 @@ set(CPACK_PACKAGE_NAME carom)
 set(CPACK_PACKAGE_VENDOR "The Carom developers")
 set(CPACK_PACKAGE_CONTACT "The Carom developers")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")  # the first line of each package
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -14,13 +15,12 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME carom)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-carom, python3-matplotlib, libcarom-dev")
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "classical particles in two dimensions (program)
- Billiards with and without a magnetic field, potentials and interactions.
- Every decision between walls is exact; ensembles repeat bit for bit.
- .
- The package has the program carom, its man page and documents, the scripts
- of the gallery (they need python3-carom) and examples in C++ (they need
- libcarom-dev).")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Billiards with and without a magnetic field, potentials and interactions.
+Every decision between walls is exact; ensembles repeat bit for bit.
+.
+The package has the program carom, its man page and documents, the scripts
+of the gallery (they need python3-carom) and examples in C++ (they need
+libcarom-dev).")
 
 # The libraries are static: whoever links them needs what find_package(carom) looks for.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcarom-dev)
@@ -28,8 +28,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libflint-arb-dev libflint-dev libfmt-dev libgmp-dev libhdf5-dev
   libmpfr-dev libsleef-dev libsundials-dev libtomlplusplus-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS carom)
-set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "classical particles in two dimensions (C++ libraries)
- Headers, carom::carom and carom::geometry, found by find_package(carom).")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "Headers, carom::carom and carom::geometry, found by find_package(carom).")
 
 if(CAROM_BUILD_PYTHON)
   find_package(Python 3.9 REQUIRED COMPONENTS Interpreter)
@@ -46,9 +45,8 @@ python3 (<< ${Python_VERSION_MAJOR}.${next_minor}~)")
   # Python's compiled files are made and removed with the package.
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;\
 ${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
-  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "classical particles in two dimensions (Python module)
- The module carom computes with the code of the program carom and draws
- pictures by matplotlib.")
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION "The module carom computes with the code of the program carom and draws
+pictures by matplotlib.")
 endif()
 
 if(CAROM_DEBIAN)
