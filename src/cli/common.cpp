@@ -82,6 +82,8 @@ namespace {
 
 }  // namespace
 
+namespace {
+
 void check_instruction_set(const Options& options) {
   if (options.isa == "auto") return;
   std::vector<std::string> here{"auto"};
@@ -91,9 +93,10 @@ void check_instruction_set(const Options& options) {
                 fmt::format("{}", fmt::join(here, ", ")), nearest_name(options.isa, here));
   // Whether a plain ensemble flies in lanes is known, and said, at its end.
   if (is_plain_ensemble(options)) return;
-  warn(fmt::format("--isa changed nothing: carom {}{} takes the widest lanes, or none",
-                   options.command, options.certify_sample.empty() ? "" : " --certify-sample"));
+  warn("--isa changed nothing: carom escape --certify-sample takes the widest lanes, or none");
 }
+
+}  // namespace
 
 void check_engine(const Options& options) {
   if (options.engine != "auto" && options.engine != "events" && options.engine != "steps")
@@ -165,6 +168,7 @@ void add_common_keys(Json& json, const System& system, int threads, double secon
                      double cpu_seconds, const char* isa) {
   json.set("version", version);
   json.set("system", system.name);
+  if (!system.title.empty()) json.set("title", system.title);
   json.set("seed", system.run.seed);
   json.set("threads", threads);
   json.set("engine", engine_of(system));
@@ -202,10 +206,15 @@ std::string lanes_text(const std::string& none, std::optional<InstructionSet> la
                      set, 100.0 * effort.busy(), 100.0 * effort.left());
 }
 
+std::size_t rows_of(const Options& options) {
+  return options.verbose || !options.overrides.times.empty() ? SIZE_MAX : 12;
+}
+
 void print(const std::string& text) {
   errno = 0;
   const bool ok =
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!ok && errno == EPIPE) throw OutputClosed();
   if (!ok)
     throw InputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <optional>
 #include <string>
 
@@ -21,10 +23,9 @@ namespace carom::cli {
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least);
 /// Threads asked for; 0: all.
 int threads_of(const Options&);
-/// Throws InputError for engines and instruction sets that this version does not have.
+/// Throws InputError for engines and instruction sets that this version does not have. Where the
+/// lanes are chosen otherwise, a warning says that --isa changed nothing.
 void check_engine(const Options&);
-/// Checks --isa alone; a command that chooses its lanes itself says that it changed nothing.
-void check_instruction_set(const Options&);
 /// What --isa asks for: the widest of this machine, or the one named.
 InstructionSet instruction_set_of(const Options&);
 /// Sets what --engine asks for: "auto", "events" (refused where forces act) or "steps".
@@ -43,7 +44,7 @@ void follow_links(Options&);
 ArchiveLock lock_output(const std::string& file);
 Provenance provenance_of(const Options&, const System&, int threads);
 
-/// Adds version, system, seed, threads, engine, isa, seconds, cpu_seconds.
+/// Adds version, system, title if there is one, seed, threads, engine, isa, seconds, cpu_seconds.
 void add_common_keys(Json& json, const System& system, int threads, double seconds,
                      double cpu_seconds, const char* isa = "baseline");
 /// {filter, exact, share}: how many decisions each stage took, and the share that left the filter.
@@ -54,7 +55,12 @@ std::string decisions_text(const DecisionCounts&);
 /// instruction set and how busy they were.
 std::string lanes_text(const std::string& none, std::optional<InstructionSet> lanes,
                        const LaneEffort& effort = {});
-/// Writes to standard output; an output that cannot be written is an InputError.
+/// The reader of standard output has closed it, as `head` does.
+struct OutputClosed : std::exception {};
+/// Most rows of a printed table of times: 12; all with --verbose or --times.
+std::size_t rows_of(const Options&);
+/// Writes to standard output. Throws OutputClosed, or InputError where it cannot be written
+/// otherwise.
 void print(const std::string& text);
 /// The archive that a report names: none where it goes when its picture is drawn.
 inline std::string named_archive(const Options& options, const std::string& output) {

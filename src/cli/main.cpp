@@ -32,6 +32,13 @@ void reserve_standard_streams() {
 
 using carom::cli::Options;
 
+// As a program that knows nothing of pipes: silently, by the signal.
+int end_by_closed_pipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+  return 128 + SIGPIPE;
+}
+
 int (*command_of(const std::string& name))(const Options&) {
   using namespace carom::cli;
   static const std::pair<const char*, int (*)(const Options&)> commands[] = {
@@ -40,6 +47,16 @@ int (*command_of(const std::string& name))(const Options&) {
   for (const auto& [known, command] : commands)
     if (name == known) return command;
   return systems;
+}
+
+// Calls the command. Its text comes last: where nobody reads that any more, all else is done.
+int status_of(const Options& options, bool& closed) {
+  try {
+    return command_of(options.command)(options);
+  } catch (const carom::cli::OutputClosed&) {
+    closed = true;
+    return carom::cli::done;
+  }
 }
 
 }  // namespace
@@ -53,7 +70,7 @@ int main(int argc, char** argv) {
     if (silent &&
         (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)))
       return bad_input;
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of the write
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe shows where it is written to
     carom::prepare_archives();
     Parsed parsed = parse(argc, argv);
     if (parsed.exit) return *parsed.exit;
@@ -61,8 +78,9 @@ int main(int argc, char** argv) {
     follow_links(parsed.options);
     if (silent && !is_plain_ensemble(options)) return done;
     const PictureOfResult picture(parsed.options);
-    const int status = command_of(options.command)(options);
-    return picture.finish(status);
+    bool closed = false;
+    const int status = picture.finish(status_of(options, closed));
+    return closed ? end_by_closed_pipe() : status;
   } catch (const carom::SamplingStopped&) {
     std::fputs("carom: interrupted before a start was found\n", stderr);
     return stopped;

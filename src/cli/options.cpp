@@ -1,8 +1,10 @@
 #include "cli/options.hpp"
 
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
+#include "carom/io/system_file.hpp"
 #include "carom_version.hpp"
 #include "cli/command_table.hpp"
 
@@ -81,26 +84,36 @@ class Command {
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false)
         ->take_all();
-    return *this;
-  }
-  Command& common() {
-    SystemOverrides& o = options_.overrides;
-    settings();
-    flag("--force", options_.force, "Replace an output file that exists");
     app_->add_flag_callback(
         "--closed", [&o] { o.set.emplace_back("table.hole", "[]"); }, "Without the holes");
+    return *this;
+  }
+  Command& output(const char* type, const char* help) {
+    text("-o,--output", options_.output, type, help);
+    return flag("--force", options_.force, "Replace an output file that exists");
+  }
+  /// What changes the particles' motion.
+  Command& motion() {
+    SystemOverrides& o = options_.overrides;
     text("--seed", o.seed, "N", "Seed of the random numbers");
-    text("--threads", options_.threads, "N", "Threads (default: all)");
     text("--t-max", o.t_max, "T", "Last time");
     text("--collisions", o.collisions, "N", "Most collisions of a trajectory");
-    text("--times", o.times, "TIMES", times_help);
-    text("--trajectories", o.trajectories, "N", "Size of the ensemble (1e6 is a number)");
     text("--position", o.position, "X,Y", "Start, in exact numbers: 1/10,-1/5");
     text("--velocity", o.velocity, "U,V",
          "Velocity of the start; only its direction counts where a speed is set");
-    text("--engine", options_.engine, "auto|events|steps", "What moves the particles");
-    text("--isa", options_.isa, "auto|baseline|avx2|avx512", "Instruction set of lanes");
-    return *this;
+    return text("--engine", options_.engine, "auto|events|steps", "What moves the particles");
+  }
+  Command& threads() { return text("--threads", options_.threads, "N", "Threads (default: all)"); }
+  Command& verbose() {
+    return flag("--verbose", options_.verbose,
+                "All rows of tables; what decisions took, lanes, the digest");
+  }
+  Command& ensemble() {
+    SystemOverrides& o = options_.overrides;
+    text("--times", o.times, "TIMES", times_help);
+    text("--trajectories", o.trajectories, "N", "Size of the ensemble (1e6 is a number)");
+    threads();
+    return text("--isa", options_.isa, "auto|baseline|avx2|avx512", "Instruction set of lanes");
   }
   /// Options of ensembles that can be continued, divided and shared between processes.
   Command& parts() {
@@ -145,9 +158,11 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "A closed table is legal: nothing escapes. Exit status 3 if a trajectory could not be "
           "followed.")
       .system("SYSTEM", "Built-in name or TOML file")
-      .common()
-      .text("-o,--output", o.output, "FILE",
-            "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
+      .settings()
+      .motion()
+      .ensemble()
+      .verbose()
+      .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .flag("--per-trajectory", o.per_trajectory,
             "Store start, fate, hole, time and hits of each trajectory in the archive")
       .parts()
@@ -173,10 +188,12 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "\n"
           "With --collisions and without --t-max the run has no last time.")
       .system("SYSTEM", "Built-in name or TOML file")
-      .common()
-      .text("-o,--output", o.output, "FILE",
-            "Write an archive (.h5): every hit, and samples if run.sample is set; or draw a "
-            "picture (.png, .svg, .pdf)")
+      .settings()
+      .motion()
+      .verbose()
+      .output("FILE",
+              "Write an archive (.h5): every hit, and samples if run.sample is set; or draw a "
+              "picture (.png, .svg, .pdf)")
       .text("--trajectory", o.trajectory, "I", "Which trajectory of the ensemble (default 0)")
       .text("--trust-tolerance", o.overrides.trust_tolerance, "X",
             "Largest error of a trusted collision, in units of the table's size (default 1e-3)")
@@ -193,9 +210,11 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "decade).\n"
           "Checkpoints, --resume, --shard and mpirun as with carom escape.")
       .system("SYSTEM", "Built-in name or TOML file")
-      .common()
-      .text("-o,--output", o.output, "FILE",
-            "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
+      .settings()
+      .motion()
+      .ensemble()
+      .verbose()
+      .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .parts()
       .text("--window", o.window, "FROM,TO",
             "Range of report times from which D and the exponent are computed");
@@ -210,9 +229,11 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "x=c, y=c, vx=c or vy=c. With --points and without --t-max a boundary section has no "
           "last time.")
       .system("SYSTEM", "Built-in name or TOML file")
-      .common()
-      .text("-o,--output", o.output, "FILE",
-            "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
+      .settings()
+      .motion()
+      .threads()
+      .verbose()
+      .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .text("--on", o.on, "WHERE", "Where the section is taken (default: boundary)")
       .text("--direction", o.direction, "both|positive|negative", "Crossings that count")
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
@@ -227,16 +248,17 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       "\n"
       "Parts that overlap or do not match are refused.")
       .files("FILES", "The archive to be written (or -o FILE.h5), then the parts")
-      .text("-o,--output", o.output, "FILE.h5", "The archive to be written")
-      .flag("--force", o.force, "Replace an output file that exists");
+      .output("FILE.h5", "The archive to be written")
+      .verbose();
   Command(app, o, "table", "Checks, measures and draws the table",
           "Examples:\n"
           "  carom table stadium\n"
           "  carom table mushroom --set table.stem_width=0.6 -o mushroom.svg\n"
           "  carom table three-disc --json")
       .system("SYSTEM", "Built-in name or TOML file")
-      .common()
-      .text("-o,--output", o.output, "FILE.svg", "Draw the table");
+      .settings()
+      .verbose()
+      .output("FILE.svg", "Draw the table");
   Command(app, o, "plot", "The picture of an archive or a system",
           "Examples:\n"
           "  carom plot orbit.h5 -o orbit.pdf\n"
@@ -245,8 +267,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "\n"
           "Without -o the picture is NAME.png in this folder. It needs Python with matplotlib.")
       .system("SOURCE", "Archive, TOML file or built-in name")
-      .text("-o,--output", o.output, "PICTURE", "A name ending in .png, .svg or .pdf")
-      .flag("--force", o.force, "Replace a picture that exists");
+      .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(app, o, "systems", "Lists the built-in systems; prints one as TOML",
           "Examples:\n"
           "  carom systems\n"
@@ -263,14 +284,30 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "Exit status 3 if a case fails.")
       .flag("--soak", o.soak, "The long runs: 10^9 hits a closed table, 10^7 a mean flight")
       .text("--scale", o.scale, "X", "Multiplies the trajectories of each case (default 1)")
-      .text("--threads", o.threads, "N", "Threads (default: all)");
+      .threads()
+      .verbose();
 }
 
-std::string unknown_word(const std::vector<std::string>& remaining) {
-  for (const std::string& word : remaining) {
+bool is_system(const std::string& word) {
+  const auto& systems = builtin_systems();
+  return word.ends_with(".toml") ||
+         std::any_of(systems.begin(), systems.end(),
+                     [&](const BuiltinSystem& system) { return system.name == word; });
+}
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+std::string unknown_word(const CLI::App& app) {
+  for (const std::string& word : app.remaining()) {
     if (word.empty() || word[0] == '-') continue;
-    const std::string near = nearest_name(word, {"escape", "run", "diffusion", "section", "merge",
-                                                 "table", "plot", "systems", "validate"});
+    if (is_system(word))
+      return "'" + word + "' is a system, not a command: carom run " + word + ", carom escape " +
+             word + ", carom table " + word;
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
+    const std::string near = nearest_name(word, names);
     return "there is no command '" + word + "'" +
            (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   }
@@ -278,7 +315,7 @@ std::string unknown_word(const std::vector<std::string>& remaining) {
 }
 
 // The first word that was typed and is not known, as a message. CLI11 tells them in another order.
-std::string unknown_option(const CLI::App& command, int argc, char** argv) {
+std::string unknown_option(const CLI::App& app, const CLI::App& command, int argc, char** argv) {
   const std::vector<std::string> remaining = command.remaining();
   const auto is_option = [](const std::string& word) {
     return word.size() > 1 && word[0] == '-' &&
@@ -291,6 +328,12 @@ std::string unknown_option(const CLI::App& command, int argc, char** argv) {
     if (first.empty()) first = word;
     if (!is_option(word)) continue;
     const std::string name = word.substr(0, word.find('='));
+    std::vector<std::string> others;
+    for (const CLI::App* other : commands_of(app))
+      if (other->get_option_no_throw(name)) others.push_back(other->get_name());
+    if (!others.empty() && &app != &command)
+      return name + " means nothing to carom " + command.get_name() + ": it is an option of " +
+             fmt::format("{}", fmt::join(others, ", "));
     std::vector<std::string> known;
     for (const CLI::Option* option : command.get_options())
       for (const std::string& one : option->get_lnames()) known.push_back("--" + one);
@@ -316,6 +359,22 @@ CommandRow row_of(const CLI::App& app) {
     row.options.push_back({names, value, option->get_description()});
   }
   return row;
+}
+
+// Two numbers of one option, typed with a blank between them: what to write instead; "" if there
+// are none.
+std::string parted_pair(int argc, char** argv) {
+  const auto is_number = [](const std::string& word) {
+    const std::size_t first = word.find_first_not_of("+-");
+    return first != std::string::npos && std::string("0123456789.").find(word[first]) < 11;
+  };
+  for (int i = 1; i + 2 < argc; ++i) {
+    const std::string option = argv[i], one = argv[i + 1], other = argv[i + 2];
+    if (option != "--position" && option != "--velocity" && option != "--window") continue;
+    if (is_number(one) && is_number(other) && one.find(',') == std::string::npos)
+      return option + " takes two numbers in one word: write " + option + " " + one + "," + other;
+  }
+  return {};
 }
 
 }  // namespace
@@ -366,9 +425,15 @@ Parsed parse(int argc, char** argv) {
     return parsed;
   } catch (const CLI::ExtrasError&) {
     const auto chosen = app.get_subcommands();
-    const std::string word = chosen.empty() ? unknown_word(app.remaining()) : std::string();
+    std::string message = chosen.empty() ? unknown_word(app) : parted_pair(argc, argv);
     const bool before_it = !app.remaining().empty() || chosen.empty();
-    complain(word.empty() ? unknown_option(before_it ? app : *chosen.front(), argc, argv) : word);
+    if (message.empty())
+      message = unknown_option(app, before_it ? app : *chosen.front(), argc, argv);
+    complain(message);
+    return parsed;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    complain(text.substr(0, text.find(':')) + " needs a value");
     return parsed;
   } catch (const CLI::ParseError& error) {
     complain(error.what());

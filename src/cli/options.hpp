@@ -15,7 +15,8 @@ struct Options {
   std::string system;   ///< SYSTEM, or NAME of `carom systems`
   /// `hidden_archive`: the output is aside and goes when its picture is drawn.
   bool hidden_archive = false;
-  bool json = false, force = false, quiet = false, per_trajectory = false, soak = false;
+  bool json = false, force = false, quiet = false, verbose = false, per_trajectory = false,
+       soak = false;
   std::string window;                                              ///< of carom diffusion
   std::string on, direction, points, orbits;                       ///< of carom section
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape

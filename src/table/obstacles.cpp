@@ -10,7 +10,8 @@ namespace {
 
 using geometry::Vector;
 
-bool counterclockwise(const std::vector<Vector>& corners) {
+// Twice the area, positive where the corners run counter-clockwise; its sign is exact.
+double signed_area(const std::vector<Vector>& corners) {
   ExactSum twice_the_area;
   const auto add_product = [&](double a, double b) {
     const double product = a * b;
@@ -22,7 +23,7 @@ bool counterclockwise(const std::vector<Vector>& corners) {
     add_product(p.x, q.y);
     add_product(-p.y, q.x);
   }
-  return twice_the_area.value() > 0.0;
+  return twice_the_area.value();
 }
 
 std::vector<Vector> corners_of(const ObstacleSpec& obstacle) {
@@ -42,13 +43,14 @@ std::size_t walls_of(const ObstacleSpec& obstacle) {
   return obstacle.shape == ObstacleSpec::Shape::polygon ? obstacle.points.size() : 1;
 }
 
-std::vector<ClockwiseSide> clockwise_sides(const ObstacleSpec& obstacle) {
-  const std::size_t n = obstacle.points.size();
-  const bool turn_round = counterclockwise(corners_of(obstacle));
-  std::vector<ClockwiseSide> sides;
+std::vector<OrderedSide> ordered_sides(const std::vector<Vector>& corners, bool clockwise) {
+  const std::size_t n = corners.size();
+  const double area = signed_area(corners);
+  const bool turn_round = clockwise ? area > 0.0 : area < 0.0;
+  std::vector<OrderedSide> sides;
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t side = turn_round ? n - 1 - k : k, next = (side + 1) % n;
-    sides.push_back(turn_round ? ClockwiseSide{next, side, side} : ClockwiseSide{side, next, side});
+    sides.push_back(turn_round ? OrderedSide{next, side, side} : OrderedSide{side, next, side});
   }
   return sides;
 }
@@ -68,7 +70,7 @@ Chain polygon_obstacle(const ObstacleSpec& obstacle, const std::string& name) {
                        "corners that differ");
   const std::vector<std::string> names = numbered(name + "_side", corners.size());
   Chain chain;
-  for (const ClockwiseSide& s : clockwise_sides(obstacle))
+  for (const OrderedSide& s : ordered_sides(corners, true))
     chain.push_back(
         {names[s.side], WrittenSegment{obstacle.points[s.from], obstacle.points[s.to]}});
   return chain;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/geometry/vector.hpp"
 #include "carom/table/table_spec.hpp"
 
 namespace carom {
@@ -16,12 +17,13 @@ std::string name_of_obstacle(const std::vector<ObstacleSpec>&, std::size_t index
 /// How many walls an obstacle has.
 std::size_t walls_of(const ObstacleSpec&);
 
-/// The numbers of a polygon's corners in the order of its walls, which have the domain on their
-/// left: clockwise. Side k leads from corner k to the next or back. Decided by the exact sign of
-/// the area of the rounded corners.
-struct ClockwiseSide {
+/// The numbers of a polygon's corners in the order of its walls, clockwise or counter-clockwise,
+/// whichever way the list of corners runs. Side k leads from corner k to the next or back. Decided
+/// by the exact sign of the area of the rounded corners.
+struct OrderedSide {
   std::size_t from, to, side;
 };
-std::vector<ClockwiseSide> clockwise_sides(const ObstacleSpec&);
+std::vector<OrderedSide> ordered_sides(const std::vector<geometry::Vector>& corners,
+                                       bool clockwise);
 
 }  // namespace carom

@@ -1,6 +1,9 @@
 // Rectangle, polygon, triangle, regular polygon.
+#include <utility>
+
 #include "carom/base/whole_number.hpp"
 #include "table/numbers.hpp"
+#include "table/obstacles.hpp"
 #include "table/shapes.hpp"
 
 namespace carom::shapes {
@@ -32,6 +35,19 @@ std::vector<WrittenPoint> corners_of(const TableSpec& spec) {
   return corners;
 }
 
+// Counter-clockwise: the sides of a clockwise list keep their names and run backwards.
+Shape turned_polygon(const TableSpec& spec, const std::vector<WrittenPoint>& corners) {
+  std::vector<Vector> rounded;
+  for (const ExactPoint& p : spec.points.at("points")) rounded.push_back(point(p));
+  const std::vector<std::string> names = numbered("side", corners.size());
+  Chain chain;
+  for (const OrderedSide& s : ordered_sides(rounded, false))
+    chain.push_back({names[s.side], WrittenSegment{corners[s.from], corners[s.to]}});
+  Shape shape;
+  shape.loops.push_back(std::move(chain));
+  return shape;
+}
+
 }  // namespace
 
 void add_polygon(Shape& shape, const std::vector<std::string>& names,
@@ -61,9 +77,7 @@ Shape polygon(const TableSpec& spec) {
                      "a polygon has at least three corners, not " + std::to_string(corners.size()),
                      "three points or more");
   }
-  Shape shape;
-  add_polygon(shape, numbered("side", corners.size()), corners);
-  return shape;
+  return turned_polygon(spec, corners);
 }
 
 Shape triangle(const TableSpec& spec) {
@@ -74,9 +88,7 @@ Shape triangle(const TableSpec& spec) {
                      "a triangle has three corners, not " + std::to_string(corners.size()),
                      "three points");
   }
-  Shape shape;
-  add_polygon(shape, numbered("side", 3), corners);
-  return shape;
+  return turned_polygon(spec, corners);
 }
 
 Shape regular(const TableSpec& spec) {

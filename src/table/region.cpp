@@ -1,7 +1,8 @@
 // The exact check that the walls bound a region.
 #include "carom/geometry/region.hpp"
 
-#include <algorithm>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "table/obstacles.hpp"
@@ -39,6 +40,15 @@ geometry::RegionKind kind_of(Extent extent) {
 
 }  // namespace
 
+namespace {
+
+// "side_3" is side 2.
+std::size_t side_of(const std::string& name) {
+  return std::stoul(name.substr(name.rfind('_') + 1)) - 1;
+}
+
+}  // namespace
+
 Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall) {
   std::size_t after = table.walls.size();
   for (std::size_t k = spec.obstacles.size(); k-- > 0;) {
@@ -52,8 +62,12 @@ Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall)
   }
   for (const char* key : {"points", "centers"}) {
     const auto found = spec.points.find(key);
-    if (found != spec.points.end() && left < found->second.size())
-      return found->second[left].x.place();
+    if (found == spec.points.end() || left >= found->second.size()) continue;
+    // Side k of a polygon, which may have been turned round, belongs to the points k and k + 1.
+    const std::size_t index = std::string(key) == "points" ? side_of(table.walls[wall].name) : left;
+    Place place = found->second[index].x.place();
+    if (place.key.ends_with("[0]")) place.key.resize(place.key.size() - 3);  // of x: the point's
+    return place;
   }
   return spec.place;
 }
@@ -66,11 +80,28 @@ void check_region(const TableSpec& spec, const Table& table) {
   for (const geometry::RegionFault& fault : faults) {
     problem.append(problem.empty() ? "" : "; ").append(fault.sentence);
   }
-  // If two walls cross, the later one is named: it belongs to the obstacle.
-  const int wall =
-      std::max(table.wall_index(faults.front().first), table.wall_index(faults.front().second));
+  // If two walls cross, the fault is placed at the one that is written later: it belongs to the
+  // obstacle. The other's place is added.
+  const auto place_of = [&](const std::string& name) {
+    const int wall = table.wall_index(name);
+    return wall < 0 ? spec.place : place_of_wall(spec, table, static_cast<std::size_t>(wall));
+  };
+  const std::string *later = &faults.front().first, *earlier = &faults.front().second;
+  Place place = place_of(*later);
+  if (!earlier->empty()) {
+    Place other = place_of(*earlier);
+    if (std::tuple(other.line, other.column, table.wall_index(*earlier)) >
+        std::tuple(place.line, place.column, table.wall_index(*later))) {
+      std::swap(place, other);
+      std::swap(later, earlier);
+    }
+    const bool apart = other.line != place.line || other.column != place.column;
+    if (faults.size() == 1 && other.line > 0 && apart)
+      problem += "; '" + *earlier + "' is at line " + std::to_string(other.line) + ", column " +
+                 std::to_string(other.column);
+  }
   throw InputError(
-      wall < 0 ? spec.place : place_of_wall(spec, table, static_cast<std::size_t>(wall)), problem,
+      place, problem,
       "closed loops that do not cross, outer ones counter-clockwise, obstacles clockwise");
 }
 

@@ -145,10 +145,10 @@ TEST(ForceFaults, EnergyThatStepsLoseIsReported) {
 TEST(ForceFaults, AStepThatFailsIsNoInternalError) {
   const Shell shell;
   for (const char* command :
-       {"escape --t-max 100", "diffusion --t-max 100", "section --on x=0 --t-max 100 --orbits 4"}) {
-    const Outcome o = shell(
-        std::string("$carom ") + command +
-        " henon-heiles --trajectories 20 --set particles.energy=2 --set integrator.step=0.01");
+       {"escape --t-max 100 --trajectories 20", "diffusion --t-max 100 --trajectories 20",
+        "section --on x=0 --t-max 100 --orbits 4"}) {
+    const Outcome o = shell(std::string("$carom ") + command +
+                            " henon-heiles --set particles.energy=2 --set integrator.step=0.01");
     EXPECT_EQ(o.status, 3) << command << o.out << o.err;
     EXPECT_TRUE(holds(o.out, "unresolved")) << o.out;
     EXPECT_FALSE(holds(o.out, "internal error")) << o.out;

@@ -21,7 +21,7 @@ TEST(LanesReport, SaysWhyNothingFliesInThem) {
         "escape wigner --t-max 0.1 --trajectories 20",
         "diffusion soft-lorentz --set integrator.scheme=arkode --set integrator.tolerance=1e-6 "
         "--t-max 0.1 --trajectories 20"}) {
-    const Outcome text = shell("$carom " + command);
+    const Outcome text = shell("$carom " + command + " --verbose");
     ASSERT_EQ(text.status, 0) << text.err;
     const std::string why = json_value(shell("$carom " + command + " --json").out, "no_lanes");
     ASSERT_GT(why.size(), 2u) << command;
@@ -36,7 +36,7 @@ TEST(LanesReport, NamesTheInstructionSet) {
        {"escape mushroom", "diffusion lorentz-triangular", "diffusion soft-lorentz"}) {
     const std::string run =
         std::string("$carom ") + command + " --t-max 1 --trajectories 200 --isa baseline";
-    const Outcome text = shell(run);
+    const Outcome text = shell(run + " --verbose");
     EXPECT_NE(text.out.find("\nlanes: baseline"), std::string::npos) << text.out;
     EXPECT_EQ(text.err, "");
     EXPECT_EQ(json_value(shell(run + " --json").out, "no_lanes"), "");

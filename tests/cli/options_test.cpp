@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/program.hpp"
 
@@ -36,18 +38,34 @@ TEST(OptionNames, EveryCommandMayBeQuiet) {
         << command;
 }
 
-// Where it has no effect, that is told; the names are checked even so.
-TEST(OptionNames, InstructionSetsAreCheckedWithoutLanes) {
+// An option that a command does not use is not in its help, and refused with the commands that it
+// belongs to.
+TEST(OptionNames, CommandsHaveNoOptionsWithoutAUse) {
   const Shell shell;
-  const char* const commands[] = {"run stadium --t-max 3",
-                                  "run stadium --t-max 3 --precision certified", "table stadium",
-                                  "section ellipse-magnetic --orbits 2 --points 5"};
-  for (const std::string command : commands) {
-    const Outcome o = shell("$carom " + command + " --isa baseline");
-    EXPECT_EQ(o.status, 0) << o.err;
-    EXPECT_EQ(o.err.rfind("carom: --isa ", 0), 0u) << o.err;
-    EXPECT_EQ(shell("$carom " + command + " --isa mmx").status, 1) << command;
-  }
+  const std::pair<const char*, std::vector<const char*>> without[] = {
+      {"table",
+       {"--seed", "--t-max", "--threads", "--isa", "--position", "--times", "--engine",
+        "--trajectories"}},
+      {"run", {"--times", "--isa", "--threads", "--trajectories"}},
+      {"section", {"--times", "--isa", "--trajectories"}},
+      {"merge", {"--seed", "--set"}},
+      {"systems", {"--set", "--threads", "--force"}}};
+  for (const auto& [command, options] : without)
+    for (const std::string option : options) {
+      const std::string line = std::string("$carom ") + command;
+      EXPECT_EQ(shell(line + " --help").out.find(option + " "), std::string::npos)
+          << command << option;
+      const Outcome o = shell(line + " stadium " + option + " 1");
+      EXPECT_EQ(o.status, 2) << command << option;
+      EXPECT_NE(o.err.find(option + " means nothing to carom " + command), std::string::npos)
+          << o.err;
+      EXPECT_NE(o.err.find("an option of"), std::string::npos) << o.err;
+    }
+}
+
+// Where it has no effect, that is told.
+TEST(OptionNames, InstructionSetsWithoutLanesAreTold) {
+  const Shell shell;
   const Outcome sample = shell("$carom escape stadium --t-max 3 --certify-sample 5 --isa baseline");
   EXPECT_EQ(sample.err.rfind("carom: --isa ", 0), 0u) << sample.err;
 }

@@ -160,6 +160,11 @@ void expect_refused(const Outcome& outcome, const std::string& place) {
   EXPECT_TRUE(outcome.err.starts_with("carom: " + place)) << outcome.err;
 }
 
+std::string on_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 bool is_json_object(const std::string& text) { return Reader(text).object(); }
 
 std::string json_value(const std::string& text, const std::string& key) {

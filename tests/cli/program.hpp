@@ -34,6 +34,9 @@ class Shell {
 /// Status 1, nothing on standard output, and a message that begins with this place: a file, or
 /// "command line: " and an option or key.
 void expect_refused(const Outcome& outcome, const std::string& place);
+/// The text with the ends of its lines as blanks: sentences of a report are broken where they are
+/// long.
+std::string on_one_line(std::string text);
 /// Is the text exactly one JSON object (and white space)?
 bool is_json_object(const std::string& text);
 /// The text of a key's value in an object as this program prints it, "" if there is none.

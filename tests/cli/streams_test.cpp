@@ -27,6 +27,18 @@ TEST(Streams, AResultThatNobodyGetsIsAnError) {
   EXPECT_EQ(o.err.rfind("carom: ", 0), 0u) << o.err;
 }
 
+// As other programs in a pipe: silently, by the signal, and with all else done.
+TEST(Streams, AReaderThatLeavesEndsTheProgramSilently) {
+  const Shell shell;
+  const Outcome o = shell(
+      "mkfifo pipe; head -c 1 pipe >first & "
+      "$carom escape stadium --trajectories 100 --t-max 9 --times lin:0:9:50000 -o a.h5 >pipe; "
+      "echo $?");
+  EXPECT_EQ(o.out, "141\n");
+  EXPECT_EQ(o.err.find("carom: "), std::string::npos) << o.err;
+  EXPECT_EQ(shell("$carom escape --resume a.h5 --json | grep -c '\"completed\"'").out, "1\n");
+}
+
 TEST(Streams, AWarningThatNobodyReadsEndsNothing) {
   const Shell shell;
   // A folder in its way costs a checkpoint or two; where it stands there for long, because the

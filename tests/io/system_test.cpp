@@ -152,5 +152,46 @@ TEST(System, PathsAreRelativeToTheFile) {
   EXPECT_NEAR(measure(*s.table).area, 1.5707963267948966 * (1 - 1.0 / 16), 1e-14);
 }
 
+// "45 deg" is the diagonal, as pi/4 is, also where digits are guaranteed.
+TEST(Angles, MayBeDegrees) {
+  const auto velocity = [](const std::string& angle) {
+    return read_system(
+               "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[initial]\nkind = "
+               "\"point\"\nposition = [0.5, 0.5]\nangle = " +
+                   angle + "\n",
+               "test.toml")
+        .system.initial.velocity;
+  };
+  EXPECT_EQ(velocity("\"45 deg\""), velocity("\"pi/4\""));
+  EXPECT_EQ(velocity("\"-90deg\""), (geometry::Vector{0, -1}));
+  EXPECT_EQ(velocity("\"1e1*9 deg\""), (geometry::Vector{0, 1}));
+  EXPECT_EQ(velocity("\"720 deg\""), (geometry::Vector{1, 0}));
+  EXPECT_EQ(velocity("\"2 rad\""), velocity("2"));
+  EXPECT_EQ(velocity("\"2*pi\""), (geometry::Vector{1, 0}));
+  EXPECT_EQ(velocity("-6.283"), velocity("\"-6.283 rad\""));
+  for (const char* large : {"45", "6.284", "-90", "\"7\""})
+    EXPECT_THROW(velocity(large), InputError);
+}
+
+// The title says what was changed, once, and an archive's system has it.
+TEST(Titles, SayWhatWasChanged) {
+  SystemOverrides overrides;
+  overrides.set = {{"table.spacing", "2.5"},
+                   {"table.spacing", "2.3"},
+                   {"field.B", "1/3"},
+                   {"run.t_max", "10"},
+                   {"initial.kind", "boundary"}};
+  const LoadedSystem gas = load_system("lorentz-triangular", overrides);
+  const std::string plain = load_system("lorentz-triangular").system.title;
+  EXPECT_EQ(gas.system.title, plain + ", with table.spacing = 2.3, field.B = 1/3");
+  const LoadedSystem again = read_system(gas.resolved_toml, "again.toml");
+  EXPECT_EQ(again.system.title, gas.system.title);
+  EXPECT_EQ(read_system(gas.resolved_toml, "again.toml", overrides).system.title, gas.system.title);
+  overrides.set = {{"table.hole", "[]"}};
+  EXPECT_TRUE(load_system("stadium", overrides).system.title.ends_with(", with no holes"));
+  overrides.set = {{"title", "mine"}, {"field.B", "1"}};
+  EXPECT_EQ(load_system("stadium", overrides).system.title, "mine");
+}
+
 }  // namespace
 }  // namespace carom::tests

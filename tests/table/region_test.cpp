@@ -1,4 +1,6 @@
 // Walls that bound no region are found with their names and their place.
+#include "carom/geometry/region.hpp"
+
 #include "spec.hpp"
 
 namespace carom::tests {
@@ -30,9 +32,24 @@ TEST(Region, ASelfCrossingPolygonIsRefused) {
     EXPECT_NE(error.problem().find(part), std::string::npos) << error.what();
 }
 
-TEST(Region, AClockwisePolygonIsRefused) {
-  EXPECT_FALSE(is_legal(polygon({{"0", "0"}, {"0", "1"}, {"1", "0"}})));
-  EXPECT_TRUE(is_legal(polygon({{"0", "0"}, {"1", "0"}, {"0", "1"}})));
+// Its walls are those of the same corners counter-clockwise; each side keeps the name that it has
+// in the list.
+TEST(Region, AClockwisePolygonIsTurnedRound) {
+  const Table table = build_table(polygon({{"0", "0"}, {"0", "1"}, {"3", "0"}}));
+  ASSERT_EQ(table.walls.size(), 3u);
+  std::vector<geometry::Loop> loops(1);
+  for (const Wall& wall : table.walls) loops[0].push_back({wall.name, wall.curve});
+  EXPECT_EQ(geometry::area(loops), 1.5);
+  const auto end = [&](const char* name, auto point) {
+    return point(table.walls[static_cast<std::size_t>(table.wall_index(name))].curve);
+  };
+  EXPECT_EQ(end("side_1", geometry::start_point), (geometry::Vector{0, 1}));
+  EXPECT_EQ(end("side_1", geometry::end_point), (geometry::Vector{0, 0}));
+  EXPECT_EQ(end("side_2", geometry::start_point), (geometry::Vector{3, 0}));
+  EXPECT_EQ(end("side_3", geometry::start_point), (geometry::Vector{0, 0}));
+  const Table given = build_table(polygon({{"0", "0"}, {"3", "0"}, {"0", "1"}}));
+  EXPECT_EQ(given.walls[0].name, "side_1");
+  EXPECT_EQ(geometry::start_point(given.walls[0].curve), (geometry::Vector{0, 0}));
 }
 
 TEST(Region, APolygonWithASpikeIsRefused) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
 #include "carom/base/error.hpp"
@@ -11,6 +12,7 @@
 #include "carom/events/world.hpp"
 #include "cli/commands/run_certified.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -103,7 +105,7 @@ void add_result(Json& json, const PairedEscapeResult& result, int digits) {
   json.set("survival", std::move(points));
 }
 
-std::string text_of(const PairedEscapeResult& result, int digits) {
+std::string text_of(const PairedEscapeResult& result, int digits, std::size_t most) {
   const PairedResult& r = result.pairs;
   const double all = r.pairs > 0 ? static_cast<double>(r.pairs) : 1.0;
   const auto share = [&](std::uint64_t n) {
@@ -119,21 +121,34 @@ std::string text_of(const PairedEscapeResult& result, int digits) {
   if (result.singular + result.unresolved + result.lost + result.other_singular + result.unknown >
       0)
     text += fmt::format(
-        "  not compared          {} singular in doubles, {} certified as singular, {} unresolved, "
-        "{} lost, {} undecided\n",
+        "  not compared          {} singular in doubles, {} certified as singular,\n"
+        "                        {} unresolved, {} lost, {} undecided\n",
         result.singular, result.other_singular, result.unresolved, result.lost, result.unknown);
   if (r.pairs == 0)
     return text + fmt::format(
                       "  no pair was compared: nothing is known of the curves\n  computed in       "
                       "    {:.3g} s\n",
                       result.seconds);
-  text += "\n           t      double   certified   difference      error   detectable\n";
-  for (const PairedPoint& p : r.points)
-    text += fmt::format("{:>12.6g}  {:>10.6f}  {:>10.6f}   {:>+10.6f}   {:.6f}     {:.6f}\n", p.t,
-                        p.first, p.second, p.difference, p.error, p.detectable);
+  std::vector<double> times;
+  std::vector<Column> columns(6);
+  const char* const headers[] = {"t", "double", "certified", "difference", "error", "detectable"};
+  for (std::size_t c = 0; c < columns.size(); ++c) columns[c].header = headers[c];
+  for (const std::size_t row : every_kth(r.points.size(), most)) {
+    const PairedPoint& p = r.points[row];
+    const double standard_error = std::sqrt(p.first * (1 - p.first) / all);
+    const Rounding rounded = rounding_of(p.first, standard_error);
+    const Rounding difference = rounding_of(p.error, p.error);
+    times.push_back(p.t);
+    const std::string cells[] = {rounded(p.first), rounded(p.second), difference(p.difference),
+                                 difference(p.error),
+                                 rounding_of(p.detectable, p.detectable)(p.detectable)};
+    for (std::size_t c = 0; c < std::size(cells); ++c) columns[c + 1].cells.push_back(cells[c]);
+  }
+  columns.front().cells = times_text(times);
+  text += "\n" + aligned(columns) + "\n";
   text += fmt::format(
-      "  largest difference    {:.2f} standard errors; {} random swaps of pairs exceed {:.2f} in 5 "
-      "%\n",
+      "  largest difference    {:.2f} standard errors;\n"
+      "                        {} random swaps of pairs exceed {:.2f} in 5 %\n",
       r.statistic, grouped(r.swaps), r.threshold);
   text += fmt::format("  swap test             p = {:.4f}: the curves {}\n", r.p_value,
                       r.p_value > 0.05 ? "do not differ" : "differ");
@@ -171,9 +186,9 @@ Json sample_json(const System& system, const CertifiedSample& sample) {
   return json;
 }
 
-std::string sample_text(const System& system, const CertifiedSample& sample) {
+std::string sample_text(const System& system, const CertifiedSample& sample, std::size_t rows) {
   return fmt::format("{}\n", system.title.empty() ? system.name : system.title) +
-         text_of(sample.result, sample.digits);
+         text_of(sample.result, sample.digits, rows);
 }
 
 int certified_sample(const Options& options) {
@@ -198,7 +213,7 @@ int certified_sample(const Options& options) {
     });
   }
   print(options.json ? sample_json(loaded.system, sample).text() + "\n"
-                     : sample_text(loaded.system, sample));
+                     : sample_text(loaded.system, sample, rows_of(options)));
   const PairedEscapeResult& result = sample.result;
   if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -23,7 +24,8 @@ CertifiedSample compare_with_certified(const Options&, const LoadedSystem&,
                                        const std::atomic<bool>& stop,
                                        std::function<void(std::uint64_t done)> progress);
 Json sample_json(const System&, const CertifiedSample&);
-std::string sample_text(const System&, const CertifiedSample&);
+/// `rows`: at most so many times in the table.
+std::string sample_text(const System&, const CertifiedSample&, std::size_t rows = 12);
 
 int certified_sample(const Options&);
 

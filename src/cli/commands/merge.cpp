@@ -34,7 +34,8 @@ int merge_parts(const Options& options, const std::string& output,
   write_sum(output, loaded, origin, sum, lock);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
-  return report(options, loaded.system, sum.result, {sum.status, output, sum.shard}, true);
+  return report(options, loaded.system, sum.result,
+                context_of(options, sum.status, output, sum.shard), true);
 }
 
 }  // namespace

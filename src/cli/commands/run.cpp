@@ -96,11 +96,9 @@ void say_if_ended(const StoredRun& stored) {
 
 int run(const Options& options) {
   if (options.precision != "double" || !options.digits.empty()) {
-    check_instruction_set(options);
     return run_certified(options);
   }
   check_engine(options);
-  threads_of(options);  // one trajectory takes one thread; a wrong number is an error all the same
   SingleRunOptions how;
   if (!options.trajectory.empty())
     how.trajectory = whole_number(options.trajectory, "--trajectory", 0);
@@ -176,7 +174,7 @@ int run(const Options& options) {
       warn(std::string(shown(particle.report)));
   const std::string archive_name = named_archive(options, output);
   print(options.json ? run_json(system, result, status, archive_name).text() + "\n"
-                     : run_text(system, result, status, archive_name));
+                     : run_text(system, result, status, archive_name, options.verbose));
   return doubts_of(system, result).status(!result.interrupted);
 }
 

@@ -61,6 +61,11 @@ std::unique_ptr<EnsembleArchive<Result>> archive_of(const Options& options,
 
 inline const char* status_of(bool complete) { return complete ? "completed" : "interrupted"; }
 
+inline EnsembleContext context_of(const Options& options, std::string status, std::string output,
+                                  const Shard& part) {
+  return {std::move(status), std::move(output), part, options.verbose, rows_of(options)};
+}
+
 /// Prints a result; the exit status. `complete`: it was not interrupted.
 template <class Result>
 int report(const Options& options, const System& system, const Result& result,
@@ -75,7 +80,8 @@ template <class Result>
 int report(const Options& options, const EnsembleJob<Result>& job, const Result& result,
            const std::string& status) {
   return report(options, job.loaded.system, result,
-                {status, named_archive(options, job.output), job.shard}, result.complete);
+                context_of(options, status, named_archive(options, job.output), job.shard),
+                result.complete);
 }
 
 template <class Result>
@@ -85,12 +91,25 @@ void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, st
                    grouped(kept), options.command, job.output));
 }
 
+// Reports a result that was just computed. How to go on stands at the end, where it is seen; it is
+// said also if the report cannot be written.
 template <class Result>
-void say_what_became_of_it(const Options& options, const EnsembleJob<Result>& job,
-                           const Result& result) {
+int report_and_say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job,
+                                const Result& result, const std::string& status) {
   if (options.isa != "auto" && !result.lanes)
     warn("--isa changed nothing: these particles fly one after the other, in no lanes");
-  if (!result.complete) say_how_to_go_on(options, job, result.done.size());
+  const auto go_on = [&] {
+    if (!result.complete) say_how_to_go_on(options, job, result.done.size());
+  };
+  int exit = done;
+  try {
+    exit = report(options, job, result, status);
+  } catch (...) {
+    go_on();
+    throw;
+  }
+  go_on();
+  return exit;
 }
 
 // Runs the ensemble and shows the progress of this process.
@@ -141,8 +160,7 @@ int run_alone(const Options& options, const Fly<Result>& run) {
   }
   archive.reset();  // whatever becomes of the report
   job.lock.reset();
-  say_what_became_of_it(options, job, result);
-  return report(options, job, result, status_of(result.complete));
+  return report_and_say_how_to_go_on(options, job, result, status_of(result.complete));
 }
 
 }  // namespace carom::cli

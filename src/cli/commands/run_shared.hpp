@@ -98,8 +98,7 @@ int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
     throw;
   }
   job.lock.reset();
-  say_what_became_of_it(options, job, sum->result);
-  return report(options, job, sum->result, sum->status);
+  return report_and_say_how_to_go_on(options, job, sum->result, sum->status);
 }
 
 template <class Result>

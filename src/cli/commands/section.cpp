@@ -12,6 +12,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/section.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/section_report.hpp"
 #include "io/progress.hpp"
@@ -57,17 +58,28 @@ SystemOverrides section_overrides(const Options& options) {
 }
 
 std::string section_text(const System& system, const SectionResult& result,
-                         const std::vector<OrbitLine>& lines, const std::string& output) {
+                         const std::vector<OrbitLine>& lines, const std::string& output,
+                         bool verbose) {
   std::string text = doubts_of(system, result).text() +
                      fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format("{} points of {} orbit{}{}\n", grouped(result.points), grouped(result.orbits),
                       result.orbits == 1 ? "" : "s",
                       result.complete ? "" : "  (interrupted: those that were finished)");
-  if (!lines.empty()) text += "\n   orbit       points     last time   v_parallel\n";
-  for (const OrbitLine& line : lines)
-    text += fmt::format("{:>8}  {:>11}  {:>12.6g}   {:+.4f} .. {:+.4f}\n", line.orbit,
-                        grouped(line.points), line.last_time, line.from, line.to);
-  if (result.orbits > lines.size() && !lines.empty()) text += "     ...\n";
+  if (!lines.empty()) {
+    std::vector<Column> columns{{"orbit", {}}, {"points", {}}, {"last time", {}}};
+    std::vector<std::string> from, to;
+    for (const OrbitLine& line : lines) {
+      columns[0].cells.push_back(fmt::format("{}", line.orbit));
+      columns[1].cells.push_back(grouped(line.points));
+      columns[2].cells.push_back(fmt::format("{:.6g}", line.last_time));
+      from.push_back(fmt::format("{:+.4f}", line.from));
+      to.push_back(fmt::format("{:+.4f}", line.to));
+    }
+    columns.push_back({"v_parallel", ranges(from, to), true});
+    text += "\n" + aligned(columns);
+    if (result.orbits > lines.size())
+      text += fmt::format("  of {} orbits\n", grouped(result.orbits));
+  }
   const std::string ends = fates_text(result);
   if (result.incomplete > 0)
     text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n",
@@ -75,10 +87,12 @@ std::string section_text(const System& system, const SectionResult& result,
                         system.run.t_max, ends.empty() ? "" : " (" + ends + ")");
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   const std::string steps = steps_text(system, result.steps);
-  text += fmt::format("\n{} collisions{} in {:.3g} s on {} thread{}\n{}   digest {:016x}\n",
-                      grouped(result.collisions), steps.empty() ? "" : ", " + steps, result.seconds,
-                      result.threads, result.threads == 1 ? "" : "s",
-                      decisions_text(result.decisions), result.digest);
+  text += fmt::format("\n{} collisions{}in {:.3g} s on {} thread{}: {}\n",
+                      grouped(result.collisions), steps.empty() ? " " : "\n" + steps + "\n",
+                      result.seconds, result.threads, result.threads == 1 ? "" : "s",
+                      pace_text(system, result.collisions, result.steps, result.seconds));
+  if (verbose)
+    text += fmt::format("{}\ndigest {:016x}\n", decisions_text(result.decisions), result.digest);
   text += output.empty() ? "-o FILE.h5 stores the points\n" : fmt::format("archive: {}\n", output);
   return text;
 }
@@ -141,7 +155,7 @@ int section(const Options& options) {
   warn_of(result.reports);
   const std::string archive_name = named_archive(options, options.output);
   print(options.json ? section_json(system, result, status, archive_name).text() + "\n"
-                     : section_text(system, result, lines, archive_name));
+                     : section_text(system, result, lines, archive_name, options.verbose));
   return doubts_of(system, result).status(result.complete);
 }
 

@@ -14,6 +14,7 @@
 #include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 #include "io/progress.hpp"
 #include "io/toml/read.hpp"
 
@@ -90,6 +91,18 @@ Json json_of(const Extrapolated& value, Json json, bool known = true) {
       .set("high", value.high())
       .set("at_kicks", std::move(kicks));
 }
+
+// Columns of a printed table.
+struct EstimateTable {
+  std::vector<double> at;
+  std::vector<std::string> value, error, extrapolation;
+  void add(double where, const Extrapolated& one) {
+    at.push_back(where);
+    value.push_back(rounding_of(one.limit.value, one.limit.error)(one.limit.value));
+    error.push_back(fmt::format("{:.1e}", one.limit.error));
+    extrapolation.push_back(fmt::format("{:.1e}", one.extrapolation));
+  }
+};
 
 double share_rejected(const SplittingResult& result) {
   double tried = 0.0, accepted = 0.0;
@@ -196,47 +209,59 @@ Json splitting_json(const System& system, const SplittingResult& result) {
   return json;
 }
 
-std::string splitting_text(const System& system, const SplittingResult& result) {
+std::string splitting_text(const System& system, const SplittingResult& result, bool verbose,
+                           std::size_t most) {
   const bool by_time = result.plan.by == SplittingPlan::Level::time;
   const char* const variable = variable_of(result);
   const std::vector<SplitPoint> points_of_p = survival(result);
   const double extinction = extinction_of(points_of_p);
   const double rejected = share_rejected(result);
   std::string text = fmt::format(
-      "{}\n{} populations of {} trajectories at each of three kicks, {:.3g} and its half and "
-      "quarter, seed "
-      "{}\n\n"
-      "{:>12}           p   std error  extrapolation  as of trajectories\n",
+      "{}\n{} populations of {} trajectories at each of three kicks,\n"
+      "{:.3g} and its half and quarter, seed {}\n\n",
       system.title.empty() ? system.name : system.title, grouped(result.runs.front().size()),
-      grouped(result.plan.population), result.plan.kick, system.run.seed, variable);
-  for (const SplitPoint& point : points_of_p) {
+      grouped(result.plan.population), result.plan.kick, system.run.seed);
+  EstimateTable p_table, rate_table;
+  std::vector<std::string> equivalent;
+  for (const std::size_t row : every_kth(points_of_p.size(), most)) {
+    const SplitPoint& point = points_of_p[row];
     if (point.at >= extinction) break;
-    text += fmt::format("{:>12.6g}  {:>10.4e}  {:>10.1e}  {:>13.1e}  {:>18.1e}\n", point.at,
-                        point.p.limit.value, point.p.limit.error, point.p.extrapolation,
-                        point.equivalent);
+    p_table.add(point.at, point.p);
+    equivalent.push_back(fmt::format("{:.1e}", point.equivalent));
   }
+  text += aligned({{variable, times_text(p_table.at)},
+                   {"p", p_table.value},
+                   {"std error", p_table.error},
+                   {"extrapolation", p_table.extrapolation},
+                   {"as of trajectories", equivalent}});
   if (std::isfinite(extinction))
     text += fmt::format(
-        "{:>12.6g}  {} by then: how rare survival is they do not say. More trajectories\n"
-        "              (--population), or levels closer together, go further.\n",
+        "{:>12.6g}  {} by then: how rare survival is they do not say.\n"
+        "              More trajectories (--population), or levels closer together, go "
+        "further.\n",
         extinction, all_died_out);
-  if (by_time) text += "\n           t     -dP/dt   std error  extrapolation\n";
-  for (const SplitRate& rate : escape_rate(result))
-    if (rate.from < extinction)
-      text += fmt::format("{:>12.6g}  {:>9.3e}  {:>10.1e}  {:>13.1e}\n", rate.t,
-                          rate.value.limit.value, rate.value.limit.error, rate.value.extrapolation);
+  const std::vector<SplitRate> rates = escape_rate(result);
+  for (const std::size_t row : every_kth(rates.size(), most))
+    if (rates[row].from < extinction) rate_table.add(rates[row].t, rates[row].value);
+  if (by_time)
+    text += "\n" +
+            aligned({{"t", times_text(rate_table.at)},
+                     {"-dP/dt", rate_table.value},
+                     {"std error", rate_table.error},
+                     {"extrapolation", rate_table.extrapolation}}) +
+            "  -dP/dt between the times before and after t\n";
   if (const auto decay = decay_of(result))
     text += fmt::format(
-        "\nFrom {0} = {1:.6g} to {2:.6g} p decays as exp(-{3:.6f} {0}), standard error {4:.1e}, "
-        "extrapolation {5:.1e}\n",
-        variable, decay->from, decay->to, decay->rate.limit.value, decay->rate.limit.error,
-        decay->rate.extrapolation);
+        "\nFrom {0} = {1:.6g} to {2:.6g} p decays as exp(-k {0}):\nk = {3}, extrapolation "
+        "{4:.1e}\n",
+        variable, decay->from, decay->to,
+        with_error(decay->rate.limit.value, decay->rate.limit.error), decay->rate.extrapolation);
   text += fmt::format(
-      "\n{} collisions in {:.3g} s on {} thread{}; {:.0f} % of the kicked copies kept their "
-      "way\n",
+      "\n{} collisions in {:.3g} s on {} thread{}\n"
+      "{:.0f} % of the kicked copies kept their way\n",
       grouped(result.collisions), result.seconds, result.threads, result.threads == 1 ? "" : "s",
       100.0 * rejected);
-  text += fmt::format("digest {:016x}\n", result.digest);
+  if (verbose) text += fmt::format("digest {:016x}\n", result.digest);
   return text;
 }
 
@@ -262,7 +287,7 @@ int splitting(const Options& options) {
   }
   for (const std::string& line : warnings_of(result)) warn(line);
   print(options.json ? splitting_json(system, result).text() + "\n"
-                     : splitting_text(system, result));
+                     : splitting_text(system, result, options.verbose, rows_of(options)));
   if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;
 }

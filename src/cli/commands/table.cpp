@@ -34,7 +34,6 @@ void write_file(const std::string& name, const std::string& text) {
 }  // namespace
 
 int table(const Options& options) {
-  check_engine(options);
   const Stopwatch watch;
   ArchiveLock lock;
   if (!options.output.empty()) {
@@ -51,7 +50,7 @@ int table(const Options& options) {
   preparing.reset();
   if (!options.output.empty()) write_file(options.output, table_svg(*system.table, system.title));
   if (!options.json) {
-    print(table_text(system, measured, options.output));
+    print(table_text(system, measured, options.output, options.verbose));
     return done;
   }
   print(table_json(system, measured, options.output, watch).text() + "\n");

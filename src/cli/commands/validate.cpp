@@ -11,6 +11,7 @@
 #include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -32,25 +33,30 @@ std::string number_text(double value) {
   return value < 10.0 ? fmt::format("{:.7f}", value) : fmt::format("{:.7g}", value);
 }
 
-std::string line_of(const validation::Check& c, validation::Allowance allowance) {
-  std::string line =
-      fmt::format("{}  {:<34} seed {}  {:>12.4g} hits {:>7.2f} s  ", c.passed ? "passed" : "FAILED",
-                  c.name, c.seed, static_cast<double>(c.hits), c.seconds);
+// Two lines: which case, and what it gave.
+std::string lines_of(const validation::Check& c, validation::Allowance allowance, bool verbose) {
+  const std::string indent = "\n        ";
+  std::string text = fmt::format("{}  {:<40} {:>9.3g} hits  {:>8}", c.passed ? "passed" : "FAILED",
+                                 c.name, static_cast<double>(c.hits), short_duration(c.seconds));
+  text += indent;
   if (c.error > 0.0)
-    line += fmt::format("{} +- {}  expected {}{}  {:+.1f} sigma", number_text(c.value),
-                        number_text(c.error), number_text(c.expected),
-                        c.expected_error > 0.0 ? " +- " + number_text(c.expected_error) : "",
-                        c.distance);
+    text += fmt::format(
+        "{}, expected {}{}: {:+.1f} sigma", with_error(c.value, c.error), number_text(c.expected),
+        c.expected_error > 0.0 ? " +- " + number_text(c.expected_error) : "", c.distance);
   else if (c.digest != 0)
-    line += fmt::format("{} lost, {}{} singular, filter share {:.9f}, digest {:016x}", c.lost,
+    text += fmt::format("{} lost, {}{} singular", c.lost,
                         c.unresolved > 0 ? fmt::format("{} unresolved, ", c.unresolved) : "",
-                        c.singular, c.filter_share, c.digest);
+                        c.singular);
   else
-    line += fmt::format("{:.15f}  expected {:.15f}  difference {:+.2g}", c.value, c.expected,
-                        c.distance);
+    text += fmt::format("{:.12g}, expected {:.12g}: {:+.2g}", c.value, c.expected, c.distance);
   if (allowance.below > 0.0 || allowance.above > 0.0)
-    line += fmt::format(" (allowed -{:g}, +{:g})", allowance.below, allowance.above);
-  return line + (c.report.empty() ? "" : "\n        " + std::string(shown(c.report))) + "\n";
+    text += fmt::format(" (allowed -{:g}, +{:g})", allowance.below, allowance.above);
+  if (verbose) {
+    text += indent + fmt::format("seed {}", c.seed);
+    if (c.digest != 0)
+      text += fmt::format(", filter share {:.9f}, digest {:016x}", c.filter_share, c.digest);
+  }
+  return text + (c.report.empty() ? "" : indent + std::string(shown(c.report))) + "\n";
 }
 
 Json json_of(const validation::Check& c, validation::Allowance allowance) {
@@ -111,7 +117,9 @@ Json validation_json(const Validation& all) {
   return json.set("passed", all.passed()).set("failed", all.failed()).set("cases", std::move(list));
 }
 
-std::string text_of(const Validation::Done& one) { return line_of(one.check, one.of.allowance); }
+std::string text_of(const Validation::Done& one, bool verbose) {
+  return lines_of(one.check, one.of.allowance, verbose);
+}
 
 std::string summary_of(const Validation& all) {
   return fmt::format("\n{} passed, {} failed{}\n", all.passed(), all.failed(),
@@ -129,7 +137,7 @@ int validate(const Options& options) {
         if (progress.enabled()) progress.show(share, name);
       },
       [&](const Validation::Done& one) {
-        if (!options.json) print(text_of(one));
+        if (!options.json) print(text_of(one, options.verbose));
       });
   print(options.json ? validation_json(all).text() + "\n" : summary_of(all));
   if (all.failed() > 0) return untrusted;

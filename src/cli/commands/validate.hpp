@@ -28,7 +28,8 @@ Validation run_validation(const Options&, const validation::CheckOptions&,
                           const std::function<void(double share, const std::string& name)>& before,
                           const std::function<void(const Validation::Done&)>& after);
 Json validation_json(const Validation&);
-std::string text_of(const Validation::Done&);
+/// `verbose`: with the seed and the digest.
+std::string text_of(const Validation::Done&, bool verbose = false);
 /// The last line.
 std::string summary_of(const Validation&);
 

@@ -7,8 +7,8 @@
 
 #include "carom/ensemble/engine.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
-#include "io/progress.hpp"
 
 namespace carom::cli {
 
@@ -38,26 +38,26 @@ Json json_of(const Estimate& e) {
   return Json::object().set("value", e.value).set("stderr", e.error);
 }
 
-// "0.16993 +- 0.00031": as many digits as the error allows, the error with two.
-std::string with_error(const Estimate& e) {
-  if (!(e.error > 0) || !std::isfinite(e.error)) return fmt::format("{:.6g}", e.value);
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(e.error))), 0, 15);
-  return fmt::format("{:.{}f} +- {:.{}f}", e.value, digits, e.error, digits);
-}
+std::string with_error(const Estimate& e) { return cli::with_error(e.value, e.error); }
 
-std::string moments_table(const std::vector<MomentPoint>& points) {
-  std::string text =
-      "\n           t           MSD        +-       MSD/4t         <r^4>        +-   local "
-      "exponent\n";
-  for (const MomentPoint& p : points) {
-    text += fmt::format("{:>12.6g}  {:>12.6g}  {:>8.2g}", p.t, p.square.value, p.square.error);
-    text += p.t > 0 ? fmt::format("  {:>11.6g}", p.square.value / (4 * p.t)) : std::string(13, ' ');
-    text += fmt::format("  {:>12.6g}  {:>8.2g}", p.fourth.value, p.fourth.error);
-    if (std::isfinite(p.exponent.value))
-      text += fmt::format("   {:.4f} +- {:.4f}", p.exponent.value, p.exponent.error);
-    text += '\n';
+std::string moments_table(const std::vector<MomentPoint>& points, const EnsembleContext& context) {
+  std::vector<double> times;
+  std::vector<std::string> square, slope, exponent;
+  for (const std::size_t row : every_kth(points.size(), context.rows)) {
+    const MomentPoint& p = points[row];
+    times.push_back(p.t);
+    square.push_back(with_error(p.square));
+    slope.push_back(p.t > 0 ? rounding_of(p.square.value / (4 * p.t),
+                                          p.square.error / (4 * p.t))(p.square.value / (4 * p.t))
+                            : "");
+    exponent.push_back(std::isfinite(p.exponent.value) ? with_error(p.exponent) : "");
   }
-  return text;
+  return "\n" +
+         aligned({{"t", times_text(times)},
+                  {"MSD", square},
+                  {"MSD/4t", slope},
+                  {"local exponent", exponent}}) +
+         rows_text(points.size(), context);
 }
 
 std::string horizon_text(const Horizon& horizon) {
@@ -82,26 +82,28 @@ std::string fit_text(const DiffusionSummary& summary) {
   std::string text = "\n";
   const auto& fit = summary.fit;
   if (!summary.no_D.empty())
-    text += fmt::format("D {}: {}.\n", summary.estimable ? "does not exist" : "cannot be estimated",
-                        summary.no_D);
+    text += folded(fmt::format("D {}: {}.",
+                               summary.estimable ? "does not exist" : "cannot be estimated",
+                               summary.no_D)) +
+            '\n';
   if (fit && summary.no_D.empty())
     text += fmt::format("D = {}   from MSD = 4 D t + c, c = {}\n", with_error(fit->D),
                         with_error(fit->offset));
-  if (!summary.note.empty()) text += fmt::format("    {}\n", summary.note);
+  if (!summary.note.empty()) text += folded("    " + summary.note, "    ") + '\n';
   if (summary.horizon.machta_zwanzig)
     text += fmt::format("    {:.6g} by Machta and Zwanzig, for narrow gaps\n",
                         *summary.horizon.machta_zwanzig);
   if (!fit) return text;
   if (std::isfinite(fit->exponent.value))
-    text += fmt::format("exponent a = {}   from MSD = A t^a + c;", with_error(fit->exponent));
+    text += fmt::format("exponent a = {}   from MSD = A t^a + c", with_error(fit->exponent));
   else if (fit->points < 4)
-    text += "exponent a of MSD = A t^a + c needs four times in the window;";
+    text += "exponent a of MSD = A t^a + c needs four times in the window";
   else
-    text += "MSD = A t^a + c has no best exponent a between 0.05 and 4;";
+    text += "MSD = A t^a + c has no best exponent a between 0.05 and 4";
   text += fmt::format(
-      "  slope of ln MSD against ln t {}\n"
-      "window {:.6g} <= t <= {:.6g}, {} times; errors by the jackknife over groups of "
-      "trajectories\n",
+      "\nslope of ln MSD against ln t: {}\n"
+      "window {:.6g} <= t <= {:.6g}, {} times\n"
+      "errors by the jackknife over groups of trajectories\n",
       with_error(fit->local_exponent), fit->window.from, fit->window.to, fit->points);
   return text;
 }
@@ -218,27 +220,17 @@ Json result_json(const System& system, const DiffusionResult& result,
 std::string result_text(const System& system, const DiffusionResult& result,
                         const EnsembleContext& context) {
   const DiffusionSummary summary = summary_of(system, result);
-  std::string text = doubts_of(system, result).text() +
-                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text +=
-      fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(result.trajectories),
-                  system.run.times.back(), system.run.seed,
-                  context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
-                  result.complete ? "" : "  (" + context.status + ": those that were finished)");
-  text += moments_table(summary.points);
+  std::string text =
+      doubts_of(system, result).text() +
+      head_text(system, result.trajectories, system.run.times.back(), result.complete, context);
+  text += moments_table(summary.points, context);
   text += fit_text(summary);
   text += horizon_text(summary.horizon);
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  const std::string steps = steps_text(system, result.steps);
-  text += fmt::format("\n{} collisions{} in {:.3g} s on {}{} thread{}: {}\n{}   digest {:016x}\n",
-                      grouped(result.collisions), steps.empty() ? "" : ", " + steps, result.seconds,
-                      result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
-                      result.threads, result.threads == 1 ? "" : "s",
-                      pace_text(system, result.collisions, result.steps, result.seconds),
-                      decisions_text(result.decisions), result.digest);
-  text += lanes_text(why_one_by_one(system), result.lanes);
+  text += "\n" + work_text(system, result.collisions, std::nullopt, result);
+  text += verbose_text(system, result, context);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

@@ -167,8 +167,8 @@ std::string pace_text(const System& system, std::uint64_t hits, const StepCounts
 std::string energy_text(const System& system, const EnergyError& error) {
   if (!integrated(system)) return {};
   return fmt::format(
-      "largest change of a trajectory's energy {:.2g} at the end, {:.2g} at most, relative to its "
-      "largest kinetic energy\n",
+      "largest change of a trajectory's energy, over its largest kinetic energy:\n"
+      "{:.2g} at the end, {:.2g} at most\n",
       error.end, error.largest);
 }
 

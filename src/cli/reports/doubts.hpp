@@ -54,7 +54,8 @@ void add_steps(Json&, const System&, const StepCounts&);
 std::string steps_text(const System&, const StepCounts&);
 /// "1.2M hits/s", or steps where nothing hits.
 std::string pace_text(const System&, std::uint64_t hits, const StepCounts&, double seconds);
-/// "largest change of a trajectory's energy 1e-12 …\n"; "" where nothing is integrated.
+/// "largest change of a trajectory's energy …: 1e-12 at the end …\n"; "" where nothing is
+/// integrated.
 std::string energy_text(const System&, const EnergyError&);
 
 }  // namespace carom::cli

@@ -1,8 +1,53 @@
 #include "cli/reports/ensemble_context.hpp"
 
+#include <fmt/format.h>
+
+#include "carom/ensemble/engine.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
+#include "cli/reports/doubts.hpp"
 
 namespace carom::cli {
+
+std::string head_text(const System& system, std::uint64_t trajectories, double until, bool complete,
+                      const EnsembleContext& context) {
+  return fmt::format("{}\n{} trajectories until t = {:.6g}, seed {}{}{}\n",
+                     system.title.empty() ? system.name : system.title, grouped(trajectories),
+                     until, system.run.seed,
+                     context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
+                     complete ? "" : "  (" + context.status + ": those that were finished)");
+}
+
+std::string work_text(const System& system, std::uint64_t collisions,
+                      std::optional<std::uint64_t> contacts, const EnsembleResult& result) {
+  std::string text = fmt::format("{} collisions", grouped(collisions));
+  if (contacts) text += fmt::format(" and {} contacts", grouped(*contacts));
+  if (const std::string steps = steps_text(system, result.steps); !steps.empty())
+    text += "\n" + steps + "\n";
+  else
+    text += " ";
+  text += fmt::format("in {:.3g} s on {}{} thread{}: {}", result.seconds,
+                      result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "",
+                      result.threads, result.threads == 1 ? "" : "s",
+                      pace_text(system, collisions, result.steps, result.seconds));
+  if (collisions > 0)
+    text += fmt::format(", {} of CPU each",
+                        short_duration(result.cpu_seconds / static_cast<double>(collisions)));
+  const std::size_t last = text.rfind('\n') + 1;
+  return text.substr(0, last) + folded(text.substr(last)) + '\n';
+}
+
+std::string rows_text(std::size_t all, const EnsembleContext& context) {
+  if (all <= context.rows) return {};
+  return fmt::format("  of {} times; --verbose prints all\n", grouped(all));
+}
+
+std::string verbose_text(const System& system, const EnsembleResult& result,
+                         const EnsembleContext& context, const LaneEffort& effort) {
+  if (!context.verbose) return {};
+  return fmt::format("{}\n{}digest {:016x}\n", decisions_text(result.decisions),
+                     lanes_text(why_one_by_one(system), result.lanes, effort), result.digest);
+}
 
 Json ensemble_json(const System& system, const EnsembleResult& result,
                    const EnsembleContext& context) {

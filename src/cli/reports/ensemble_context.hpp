@@ -1,6 +1,9 @@
 // What the report of an ensemble says besides the numbers.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "carom/ensemble/parts.hpp"
@@ -14,8 +17,21 @@ struct EnsembleContext {
   std::string status;  ///< "completed", "interrupted", "incomplete"
   std::string output;  ///< archive, or ""
   Shard shard;
+  bool verbose = false;   ///< the text says of decisions, lanes and digest, too
+  std::size_t rows = 12;  ///< most rows of a table of the text
 };
 
+/// The first lines of the text: title, number of trajectories, last time, seed.
+std::string head_text(const System&, std::uint64_t trajectories, double until, bool complete,
+                      const EnsembleContext&);
+/// What is said below a table of 12 of 31 times; "" where all are in it.
+std::string rows_text(std::size_t all, const EnsembleContext&);
+/// "1 000 collisions in 0.1 s on 2 threads: 10 khits/s …".
+std::string work_text(const System&, std::uint64_t collisions,
+                      std::optional<std::uint64_t> contacts, const EnsembleResult&);
+/// What only --verbose prints: decisions, digest, lanes.
+std::string verbose_text(const System&, const EnsembleResult&, const EnsembleContext&,
+                         const LaneEffort& = {});
 /// The keys with which the report of every ensemble begins.
 Json ensemble_json(const System&, const EnsembleResult&, const EnsembleContext&);
 

@@ -3,34 +3,69 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "carom/ensemble/engine.hpp"
 #include "carom/table/hole_names.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
-#include "io/progress.hpp"
 
 namespace carom::cli {
 
 namespace {
 
-std::string survival_table(const SurvivalCounts& counts) {
-  const auto points = survival(counts);
+// The counts at some of the report times: rates are then those between these times.
+SurvivalCounts at_rows(const SurvivalCounts& all, const std::vector<std::size_t>& rows) {
+  SurvivalCounts some = all;
+  some.times.clear();
+  some.gone_in.clear();
+  std::uint64_t gone = 0;
+  auto row = rows.begin();
+  for (std::size_t i = 0; i < all.times.size() && row != rows.end(); ++i) {
+    gone += all.gone_in[i];
+    if (i != *row) continue;
+    some.times.push_back(all.times[i]);
+    some.gone_in.push_back(std::exchange(gone, 0));
+    ++row;
+  }
+  return some;
+}
+
+// A share or rate and the ends of its interval, with the digits that a standard error allows.
+void add_estimate(double value, double low, double high, std::vector<std::string>& values,
+                  std::vector<std::string>& lows, std::vector<std::string>& highs) {
+  constexpr double width = 4;  // of a 95 % interval, in standard errors
+  const Rounding rounded = rounding_of(value > 0.0 ? value : high, (high - low) / width);
+  values.push_back(rounded(value));
+  lows.push_back(rounded(low));
+  highs.push_back(rounded(high));
+}
+
+std::string survival_table(const SurvivalCounts& all, const EnsembleContext& context) {
+  const SurvivalCounts counts = at_rows(all, every_kth(all.times.size(), context.rows));
   const auto rates = escape_rate(counts);
   auto rate = rates.begin();  // both lists in the order of time
-  std::string text =
-      "\n           t        p(t)   95 % interval            rate -dP/dt   95 % interval\n";
-  for (const SurvivalPoint& point : points) {
-    text += fmt::format("{:>12.6g}  {:>10.6f}   {:.6f} .. {:.6f}", point.t, point.p, point.low,
-                        point.high);
+  std::vector<std::string> p, low, high, value, least, most;
+  for (const SurvivalPoint& point : survival(counts)) {
+    add_estimate(point.p, point.low, point.high, p, low, high);
     while (rate != rates.end() && rate->to < point.t) ++rate;
     if (rate != rates.end() && rate->to == point.t)
-      text += fmt::format("   {:>12.4e}   {:.3e} .. {:.3e}", rate->value, rate->low, rate->high);
-    text += '\n';
+      add_estimate(rate->value, rate->low, rate->high, value, least, most);
+    else
+      for (auto* const none : {&value, &least, &most}) none->emplace_back();
   }
-  return text;
+  const char* const interval = "95 % interval";
+  return "\n" +
+         aligned({{"t", times_text(counts.times)},
+                  {"p(t)", p},
+                  {interval, ranges(low, high), true},
+                  {"-dP/dt since\nthe row above", value},
+                  {interval, ranges(least, most), true}}) +
+         rows_text(all.times.size(), context);
 }
 
 std::string fates(const System& system, const SurvivalCounts& counts) {
@@ -109,30 +144,17 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
 std::string result_text(const System& system, const EscapeResult& result,
                         const EnsembleContext& context) {
   const SurvivalCounts& counts = result.counts;
-  std::string text = doubts_of(system, result).text() +
-                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text +=
-      fmt::format("{} trajectories until t = {:.6g}, seed {}{}{}\n", grouped(counts.trajectories),
-                  system.run.t_max, system.run.seed,
-                  context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
-                  result.complete ? "" : "  (" + context.status + ": those that were finished)");
-  if (const std::string note = repeated_starts(system); !note.empty()) text += note + '\n';
-  text += survival_table(counts);
+  std::string text =
+      doubts_of(system, result).text() +
+      head_text(system, counts.trajectories, system.run.t_max, result.complete, context);
+  if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
+  text += survival_table(counts, context);
   text += fates(system, counts);
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  const double hits = static_cast<double>(counts.collisions);
-  const std::string steps = steps_text(system, result.steps);
-  text += fmt::format(
-      "\n{} collisions{}{} in {:.3g} s on {}{} thread{}: {}", grouped(counts.collisions),
-      system.of_discs() ? fmt::format(" and {} contacts", grouped(counts.contacts)) : "",
-      steps.empty() ? "" : ", " + steps, result.seconds,
-      result.ranks > 1 ? fmt::format("{} processes of ", result.ranks) : "", result.threads,
-      result.threads == 1 ? "" : "s",
-      pace_text(system, counts.collisions, result.steps, result.seconds));
-  if (counts.collisions > 0)
-    text += fmt::format(", {:.3g} ns of CPU time each", 1e9 * result.cpu_seconds / hits);
-  text += fmt::format("\n{}   digest {:016x}\n", decisions_text(result.decisions), result.digest);
-  text += lanes_text(why_one_by_one(system), result.lanes, result.effort);
+  text +=
+      "\n" + work_text(system, counts.collisions,
+                       system.of_discs() ? std::optional(counts.contacts) : std::nullopt, result);
+  text += verbose_text(system, result, context, result.effort);
   if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
   return text;
 }

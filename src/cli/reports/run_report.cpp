@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "carom/integrators/scheme.hpp"
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
-#include "io/progress.hpp"
 
 namespace carom::cli {
 
@@ -56,7 +57,8 @@ std::string trust_text(const System& system, const RunEnd& particle) {
     return fmt::format("to the end: errors below {} of the table's size",
                        system.run.trust_tolerance);
   return fmt::format(
-      "{} collisions, until t = {:.6g}; then errors exceed {} of the table's size or change a wall",
+      "{} collisions, until t = {:.6g}\n"
+      "                then errors exceed {} of the table's size or change a wall",
       grouped(trust.hits), trust.time.value(), system.run.trust_tolerance);
 }
 
@@ -81,6 +83,38 @@ std::string end_text(const System& system, const RunEnd& particle, bool interrup
   if (!system.dynamics.forces || system.dynamics.forces->empty())
     text += fmt::format("  trusted       {}\n", trust_text(system, particle));
   return text;
+}
+
+// A line for each of several particles, with as many digits as the width allows.
+std::string particles_text(const System& system, const SingleRunResult& result, bool verbose) {
+  constexpr std::size_t most = 20;
+  const std::size_t all = result.particles.size(), rows = verbose ? all : std::min(all, most);
+  const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
+  const bool trusted = !forces && result.particles.front().trust.known;
+  std::string text;
+  for (int digits = 6; digits >= 3; --digits) {
+    std::vector<Column> columns{{"particle", {}}, {"status", {}, true}, {"collisions", {}}};
+    if (system.of_discs()) columns.push_back({"contacts", {}});
+    if (trusted) columns.push_back({"trusted", {}});
+    for (const char* name : {"t", "x", "y", "vx", "vy"}) columns.push_back({name, {}});
+    for (std::size_t i = 0; i < rows; ++i) {
+      const RunEnd& p = result.particles[i];
+      std::vector<std::string> cells{fmt::format("{}", i), status_of(p, result.interrupted),
+                                     grouped(p.progress.hits)};
+      if (system.of_discs()) cells.push_back(grouped(p.progress.contacts));
+      if (trusted) cells.push_back(grouped(p.trust.hits));
+      for (const double x : {p.t, p.x, p.y, p.vx, p.vy})
+        cells.push_back(fmt::format("{:.{}g}", x, digits));
+      for (std::size_t c = 0; c < columns.size(); ++c) columns[c].cells.push_back(cells[c]);
+    }
+    text = "\n" + aligned(columns);
+    if (width_of(text) <= line_width) break;
+  }
+  if (rows < all) text += fmt::format("  and {} more; --verbose prints all\n", grouped(all - rows));
+  EnergyError energy;
+  for (const RunEnd& particle : result.particles) energy += particle.energy_error;
+  return text + fmt::format("\n  energy error  {:.2g} at the end, {:.2g} at most\n", energy.end,
+                            energy.largest);
 }
 
 std::string state_error_text(const System& system, const StateError& error, double end) {
@@ -151,17 +185,17 @@ Json run_json(const System& system, const SingleRunResult& result, const std::st
 }
 
 std::string run_text(const System& system, const SingleRunResult& result, const std::string& status,
-                     const std::string& output) {
+                     const std::string& output, bool verbose) {
   std::string text = doubts_of(system, result).text() +
                      fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  for (std::size_t i = 0; i < result.particles.size(); ++i) {
-    if (result.particles.size() > 1) text += fmt::format("particle {}\n", i);
-    text += end_text(system, result.particles[i], result.interrupted);
-  }
-  if (result.particles.size() > 1)
+  if (result.particles.size() == 1)
+    text += end_text(system, result.particles.front(), result.interrupted);
+  else
     text += fmt::format(
-        "{}: {} collisions{}\n", status, grouped(result.collisions),
-        system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "");
+                "{}: {} particles, {} collisions{}\n", status, grouped(result.particles.size()),
+                grouped(result.collisions),
+                system.of_discs() ? fmt::format(", {} contacts", grouped(result.contacts)) : "") +
+            particles_text(system, result, verbose);
   if (const std::string steps = steps_text(system, result.steps); !steps.empty())
     text += fmt::format("  integration   {}\n", steps);
   if (result.state_error) {
@@ -170,8 +204,8 @@ std::string run_text(const System& system, const SingleRunResult& result, const 
       end = std::max(end, particle.progress.end.value());
     text += state_error_text(system, *result.state_error, end);
   }
-  text += fmt::format("  computed in   {:.3g} s; {}\n", result.seconds,
-                      decisions_text(result.decisions));
+  text += fmt::format("  computed in   {}\n", short_duration(result.seconds));
+  if (verbose) text += fmt::format("  {}\n", decisions_text(result.decisions));
   if (!output.empty()) text += fmt::format("  archive       {}\n", output);
   return text;
 }

@@ -13,7 +13,8 @@ namespace carom::cli {
 std::string run_status(const SingleRunResult&);
 Json run_json(const System&, const SingleRunResult&, const std::string& status,
               const std::string& output);
+/// `verbose`: with the decisions, and all of many particles.
 std::string run_text(const System&, const SingleRunResult&, const std::string& status,
-                     const std::string& output);
+                     const std::string& output, bool verbose = false);
 
 }  // namespace carom::cli

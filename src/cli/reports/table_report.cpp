@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
 
 namespace carom::cli {
 
@@ -54,6 +55,8 @@ Json holes_json(const Table& table) {
   return holes;
 }
 
+constexpr std::size_t most_walls = 15;  // of the text
+
 std::string number(double value) {
   return std::isinf(value) ? "infinite" : fmt::format("{:.12g}", value);
 }
@@ -61,20 +64,27 @@ std::string number(double value) {
 }  // namespace
 
 std::string table_text(const System& system, const TableMeasure& measured,
-                       const std::string& output) {
+                       const std::string& output, bool verbose) {
   const Table& table = *system.table;
   std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
   text += fmt::format(
       "  shape        {}\n  area         {}\n  perimeter    {}\n  mean flight  {}\n\n", table.shape,
       number(measured.area), number(measured.perimeter), number(measured.mean_flight));
-  text += "  wall                  kind                 length   from -> to\n";
+  std::vector<Column> columns{
+      {"wall", {}, true}, {"kind", {}, true}, {"length", {}}, {"from", {}}, {"to", {}}};
   for (const Wall& wall : table.walls) {
-    const geometry::Vector a = geometry::start_point(wall.curve),
-                           b = geometry::end_point(wall.curve);
-    text += fmt::format("  {:<20}  {:<12} {:>14.9g}   ({:.6g}, {:.6g}) -> ({:.6g}, {:.6g})\n",
-                        wall.name, kind_of(wall.curve), geometry::length(wall.curve), a.x, a.y, b.x,
-                        b.y);
+    if (!verbose && columns.front().cells.size() == most_walls) break;
+    const auto point = [](geometry::Vector p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); };
+    const bool whole = geometry::is_closed(wall.curve);
+    const std::string cells[] = {wall.name, kind_of(wall.curve),
+                                 fmt::format("{:.9g}", geometry::length(wall.curve)),
+                                 point(geometry::start_point(wall.curve)),
+                                 whole ? "" : point(geometry::end_point(wall.curve))};
+    for (std::size_t c = 0; c < columns.size(); ++c) columns[c].cells.push_back(cells[c]);
   }
+  if (!table.walls.empty()) text += aligned(columns);
+  if (const std::size_t shown = columns.front().cells.size(); shown < table.walls.size())
+    text += fmt::format("  and {} more; --verbose prints all\n", table.walls.size() - shown);
   for (const Hole& hole : table.holes) {
     const auto [from, to] = measure_hole(table, hole);
     text += fmt::format("  hole '{}' in '{}': arc length {:.9g} to {:.9g}\n", hole.name,

@@ -11,6 +11,8 @@ namespace carom::cli {
 
 /// `output`: the drawing, or "".
 Json table_json(const System&, const TableMeasure&, const std::string& output, const Stopwatch&);
-std::string table_text(const System&, const TableMeasure&, const std::string& output);
+/// `verbose`: with all of many walls.
+std::string table_text(const System&, const TableMeasure&, const std::string& output,
+                       bool verbose = false);
 
 }  // namespace carom::cli

@@ -47,7 +47,7 @@ ExactSystem read_exact(Value& root, bool free) {
   if (initial.find("kind")->text == "point") {
     exact.start.position = as_point(*initial.find("position"));
     if (const Value* angle = initial.find("angle"))
-      exact.start.angle = as_number(*angle);
+      exact.start.angle = as_angle(*angle);
     else
       exact.start.direction = as_point(*initial.find("velocity"));
   }

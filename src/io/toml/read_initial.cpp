@@ -110,7 +110,7 @@ void read_point(TomlSection& section, const std::vector<Particle>& particles,
   initial.place = position.place;
   section.exclude("velocity", "angle");
   if (const Value* angle = section.find("angle")) {
-    initial.velocity = direction(as_number(*angle));
+    initial.velocity = direction(as_angle(*angle));
     return;
   }
   if (!section.has("velocity")) {
@@ -216,8 +216,9 @@ InitialCondition read_initial(Value& root, const Table& table,
       initial.place = section.get("from").place;
       initial.from = as_vector(section.get("from"));
       initial.to = as_vector(section.get("to"));
-      initial.angle = as_double(section.get("angle"));
-      initial.velocity = direction(as_number(section.get("angle")));
+      const ExactNumber angle = as_angle(section.get("angle"));
+      initial.angle = angle.to_double();
+      initial.velocity = direction(angle);
       break;
   }
   return initial;

@@ -48,7 +48,7 @@ ObstacleSpec read_obstacle(Value& value, std::size_t index) {
     obstacle.shape = Shape::ellipse;
     obstacle.a = as_number(section.get("a"));
     obstacle.b = as_number(section.get("b"));
-    obstacle.angle = as_number(section.get("angle"));
+    obstacle.angle = as_angle(section.get("angle"));
   }
   const std::string name = "obstacle_" + std::to_string(index + 1);
   obstacle.name = as_text(section.fill("name", text_value(name, section.place_of("name"))));
@@ -77,7 +77,7 @@ PieceSpec read_piece(Value& value) {
     piece.to = as_point(section.get("ellipse_to"));
     piece.via = as_point(section.get("ellipse_via"));
     piece.ratio = as_number(section.get("ellipse_ratio"));
-    piece.angle = as_number(section.get("ellipse_angle"));
+    piece.angle = as_angle(section.get("ellipse_angle"));
   } else {
     piece.to = as_point(section.get("line_to"));
   }
@@ -107,7 +107,7 @@ void read_key(const KeyDescription& key, const Value& value, TableSpec& spec) {
   } else if (key.type == "boolean") {
     spec.torus = as_flag(value);
   } else {
-    spec.numbers[name] = as_number(value);
+    spec.numbers[name] = key.type == "angle" ? as_angle(value) : as_number(value);
   }
 }
 

@@ -142,6 +142,28 @@ void check_rest(const Value& root, const System& system) {
                    "the particle rests, and no force acts on it", "a velocity that is not zero");
 }
 
+// The title says what the command line changed in the system. Where its particles start, how long
+// it runs and where sections are taken is no part of it.
+void note_changes(const SystemOverrides& overrides, Value& root) {
+  std::string& title = root.find("title")->text;
+  if (title.empty()) return;
+  std::string changes;
+  for (std::size_t i = 0; i < overrides.set.size(); ++i) {
+    const auto& [path, text] = overrides.set[i];
+    if (path == "title") return;
+    const bool again =
+        std::any_of(overrides.set.begin() + static_cast<std::ptrdiff_t>(i) + 1, overrides.set.end(),
+                    [&path = path](const auto& later) { return later.first == path; });
+    const std::string section = path.substr(0, path.find('.'));
+    if (again || section == "run" || section == "section" || section == "initial") continue;
+    const std::string change =
+        path == "table.hole" && text == "[]" ? "no holes" : path + " = " + text;
+    if (title.find(change) != std::string::npos) continue;  // a stored system has it already
+    changes += (changes.empty() ? ", with " : ", ") + change;
+  }
+  title += changes;
+}
+
 std::string text_of_builtin(const std::string& name) {
   std::vector<std::string> names;
   for (const BuiltinSystem& system : builtin_systems()) {
@@ -162,6 +184,8 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
   io::apply(overrides, root);
   check_sections(root);
   complete_sections(root);
+  io::as_text(*root.find("title"));
+  note_changes(overrides, root);
   LoadedSystem loaded;
   System& system = loaded.system;
   system.name = file;

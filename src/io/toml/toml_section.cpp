@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "carom/base/whole_number.hpp"
@@ -22,6 +23,23 @@ ExactNumber as_number(const Value& value) {
   ExactNumber number(value.text, value.place);
   number.to_double();  // out of range: say so here, with the place
   return number;
+}
+
+ExactNumber as_angle(const Value& value) {
+  if (value.kind == Value::Kind::text) {
+    for (const auto& [unit, factor] : {std::pair{"deg", "*pi/180"}, std::pair{"rad", ""}}) {
+      if (!value.text.ends_with(unit)) continue;
+      const std::string number = value.text.substr(0, value.text.size() - 3);
+      ExactNumber(number, value.place).to_double();  // faults count the characters that were typed
+      return {"(" + number + ")" + factor, value.place};
+    }
+  }
+  const ExactNumber angle = as_number(value);
+  if (std::fabs(angle.to_double()) <= 6.2831853071795862)  // the double above 2 pi
+    return angle;
+  throw InputError(value.place, "an angle of " + value.text + " is more than a full turn",
+                   "radians up to 2 pi, or a text with a unit: \"" + value.text + " deg\", \"" +
+                       value.text + " rad\"");
 }
 
 double as_double(const Value& value) { return as_number(value).to_double(); }

@@ -17,6 +17,9 @@ namespace carom::io {
 // One value of the expected type each, or an InputError at its place.
 ExactNumber as_number(const Value& value);
 double as_double(const Value& value);
+/// An angle in radians: a number of at most a full turn, or a text with a unit, "45 deg" or "2
+/// rad". A larger number without a unit is refused: it may be degrees.
+ExactNumber as_angle(const Value& value);
 double as_positive(const Value& value);
 std::uint64_t as_count(const Value& value, std::uint64_t least, std::uint64_t most = UINT64_MAX);
 const std::string& as_text(const Value& value);

@@ -1,0 +1,178 @@
+// What the program prints for people: digits, width, length, and what stands where.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+#include <sstream>
+
+#include "carom/io/system_file.hpp"
+#include "cli/program.hpp"
+#include "cli/reports/aligned.hpp"
+
+namespace carom {
+namespace {
+
+using cli::rounding_of;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+// (1) The rounded number is within half a unit of the second digit of its error. (2) That digit is
+// printed.
+TEST(Digits, AreThoseThatTheErrorAllows) {
+  for (int e = -12; e < 6; ++e)
+    for (double value : {1.0, 1.2345678, 7.654321, 9.9999})
+      for (double share : {0.5, 0.1, 0.0123, 1e-4}) {
+        const double size = value * std::pow(10.0, e), error = share * size;
+        const std::string text = rounding_of(size, error)(size);
+        const double unit = std::pow(10.0, std::floor(std::log10(error)) - 1);
+        EXPECT_LE(std::fabs(std::strtod(text.c_str(), nullptr) - size),
+                  0.51 * std::max(unit, size >= 1e-3 && size < 1e6 ? 1e-15 : 0.0))
+            << text;
+        EXPECT_LE(text.size(), 14u) << text;
+      }
+  EXPECT_EQ(rounding_of(0.123456789, 0.00032)(0.123456789), "0.12346");
+  EXPECT_EQ(rounding_of(1.23456e-7, 3e-8)(1.23456e-7), "1.23e-07");
+  EXPECT_EQ(rounding_of(1.23456e-7, 3e-8)(0.0), "0");
+  EXPECT_EQ(cli::with_error(0.169934, 0.00031), "0.16993 +- 0.00031");
+  EXPECT_EQ(cli::with_error(4.5678e-8, 1.2e-9), "4.57e-08 +- 1.2e-09");
+}
+
+TEST(Digits, TellTimesApart) {
+  EXPECT_EQ(cli::times_text({0.1, 1e6}), (std::vector<std::string>{"0.1", "1e+06"}));
+  EXPECT_EQ(cli::times_text({1234567.1, 1234567.2}),
+            (std::vector<std::string>{"1234567.1", "1234567.2"}));
+}
+
+TEST(Rows, KeepTheLastAndAreFew) {
+  for (std::size_t all = 1; all < 100; ++all) {
+    const auto kept = cli::every_kth(all, 12);
+    EXPECT_LE(kept.size(), 12u);
+    EXPECT_GE(kept.size(), std::min<std::size_t>(all, 6));
+    EXPECT_EQ(kept.back(), all - 1);
+  }
+}
+
+// Half of a table of rare survival used to read 0.000000.
+TEST(Reports, RareSurvivalHasDigits) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom escape stadium --trajectories 2e4 --t-max 1000 --times 900,1000 --set "
+      "table.hole[0].width=0.5 --seed 3");
+  int small = 0;
+  for (const std::string& line : lines_of(o.out))
+    small += std::regex_search(line, std::regex("^ +(900|1000)  [1-9][.0-9]*e-0[4-6]  "));
+  EXPECT_EQ(small, 2) << o.out;
+}
+
+// A rate is that since the row above, also where rows are left out.
+TEST(Reports, RatesAreThoseSinceTheRowAbove) {
+  const Shell shell;
+  const std::string command = "$carom escape magnetic-square --trajectories 2e4 --t-max 100";
+  const auto lines = lines_of(shell(command).out);
+  double t = 0.0, p = 1.0;
+  int rows = 0;
+  for (const std::string& line : lines) {
+    std::smatch found;
+    const std::regex row("^ +([0-9.]+)  +([0-9.]+)  +[0-9.]+ \\.\\. [0-9.]+ +([0-9.e-]+)  ");
+    if (!std::regex_search(line, found, row)) continue;
+    const double next = std::stod(found[1]), share = std::stod(found[2]);
+    EXPECT_NEAR(std::stod(found[3]), (p - share) / (next - t), 3e-4 / (next - t)) << line;
+    t = next;
+    p = share;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 11);
+  EXPECT_EQ(t, 100.0);
+  EXPECT_NE(shell(command).out.find("the row above"), std::string::npos);
+  int all = 0;
+  for (const std::string& line : lines_of(shell(command + " --verbose").out))
+    all += line.find(" .. ") != std::string::npos;
+  EXPECT_EQ(all, 31);
+}
+
+// But for the title, which is prose, no line wraps, and a report is seen as a whole.
+TEST(Reports, FitTheScreen) {
+  const Shell shell;
+  const auto expect_fit = [&](const std::string& command, std::size_t most_lines) {
+    const Outcome o = shell("$carom " + command);
+    EXPECT_EQ(o.status, 0) << command << o.err;
+    const auto lines = lines_of(o.out);
+    EXPECT_LE(lines.size(), most_lines) << command << "\n" << o.out;
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      EXPECT_LE(cli::width_of(lines[i]), cli::line_width) << command << "\n" << lines[i];
+  };
+  for (const BuiltinSystem& system : builtin_systems()) {
+    const std::string name(system.name);
+    const bool particles = name == "coulomb-circle" || name == "wigner";
+    expect_fit("run " + name + " --t-max 2", particles ? 40 : 16);
+    expect_fit("escape " + name + " --trajectories 3 --t-max 2 --seed 3", 34);
+    if (name == "coulomb-circle" || name == "wigner") continue;
+    expect_fit("table " + name, 26);
+  }
+  for (const char* gas : {"lorentz-triangular", "lorentz-square", "soft-lorentz"})
+    expect_fit(std::string("diffusion ") + gas + " --trajectories 200 --t-max 20", 36);
+  expect_fit("section ellipse-magnetic --points 20", 22);
+  expect_fit("escape stadium --splitting lin:0:50:11 --population 200", 40);
+  expect_fit("escape stadium --certify-sample 20 --t-max 20", 30);
+  expect_fit("run magnetic-square --closed --collisions 1000 --set particles.count=40", 30);
+  expect_fit("validate --scale 0.001", 200);
+}
+
+// Decisions, lanes and the digest are for those who ask; scripts find them in the JSON.
+TEST(Reports, ShowTheirInnerWorksOnlyWhenAsked) {
+  const Shell shell;
+  for (const std::string command :
+       {"escape stadium --trajectories 100 --t-max 9",
+        "diffusion lorentz-triangular --trajectories 100 --t-max 9",
+        "section stadium --closed --points 10", "run stadium --t-max 9"}) {
+    const Outcome plain = shell("$carom " + command);
+    const Outcome all = shell("$carom " + command + " --verbose");
+    for (const char* word : {"digest", "lanes", "decisions"})
+      EXPECT_EQ(plain.out.find(word), std::string::npos) << command << word;
+    EXPECT_NE(all.out.find("decisions"), std::string::npos) << command;
+    if (command.starts_with("run")) continue;
+    EXPECT_NE(all.out.find("digest"), std::string::npos) << command;
+    EXPECT_NE(json_value(shell("$carom " + command + " --json").out, "digest"), "") << command;
+  }
+}
+
+TEST(Reports, SeveralParticlesAreATable) {
+  const Shell shell;
+  const std::string command = "$carom run sinai --set particles.count=25 --t-max 20";
+  const auto lines = lines_of(shell(command).out);
+  int rows = 0;
+  for (const std::string& line : lines)
+    rows += std::regex_search(line, std::regex("^ +[0-9]+  completed "));
+  EXPECT_EQ(rows, 20);
+  EXPECT_NE(shell(command).out.find("and 5 more"), std::string::npos);
+  EXPECT_NE(shell(command + " --verbose").out.find("\n        24  completed"), std::string::npos);
+}
+
+TEST(Reports, StepsAreCountedWhereNothingHits) {
+  const Shell shell;
+  const Outcome o = shell("$carom diffusion soft-lorentz --trajectories 20 --t-max 2");
+  EXPECT_NE(o.out.find("steps/s"), std::string::npos) << o.out;
+  EXPECT_EQ(o.out.find("hits/s"), std::string::npos) << o.out;
+}
+
+// The report is long; what to type next stands below it.
+TEST(Reports, HowToGoOnComesLast) {
+  const Shell shell;
+  const Outcome o = shell(
+      "$carom escape mushroom --trajectories 1e8 --t-max 4000 --quiet -o a.h5 --checkpoint 0.2 "
+      ">both 2>&1 & pid=$!; until_saved a.h5; kill -INT $pid; wait $pid");
+  EXPECT_EQ(o.status, 130);
+  const auto lines = lines_of(shell.read("both"));
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("carom escape --resume a.h5"), std::string::npos) << lines.back();
+  EXPECT_NE(lines.front().find("ushroom"), std::string::npos) << lines.front();
+}
+
+}  // namespace
+}  // namespace carom
