@@ -37,4 +37,5 @@ install(FILES ${manual_folder}/_carom DESTINATION ${carom_zsh_dir} COMPONENT pro
 # Documents; the gallery is a part of the guide.
 install(FILES LICENSE CITATION.cff CHANGELOG.md README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs/guide docs/physics docs/developer DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
+install(DIRECTORY build/docs/html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program OPTIONAL)  # where ./dev docs was run
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

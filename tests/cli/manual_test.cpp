@@ -120,8 +120,8 @@ TEST(ManPage, IsSetWithoutAWarning) {
 
 // What bash offers when TAB is typed at the end of the line.
 std::string offered(const Shell& shell, const std::string& line) {
-  // bash splits words at "=" too.
-  const std::string words = std::regex_replace(line, std::regex("="), " = ");
+  // bash splits words at "=" and ":", too.
+  const std::string words = std::regex_replace(line, std::regex("[=:]"), " $& ");
   const std::string last = line.ends_with(' ') || line.ends_with('=') ? " \"\"" : "";
   const Outcome o = shell("bash -c 'source " + manual + "/carom; COMP_WORDS=(" + words +
                           (line.ends_with('=') ? "" : last) +
@@ -143,6 +143,9 @@ TEST(Completion, OfBashOffersWhatFits) {
       {"carom escape m", "magnetic-square mushroom my.toml"},
       {"carom escape --seed 3 m", "magnetic-square mushroom my.toml"},
       {"carom escape --seed=3 m", "magnetic-square mushroom my.toml"},
+      {"carom escape --times log:1:100:5 mu", "mushroom"},
+      {"carom escape --times log:1", ""},
+      {"carom escape stadium m", ""},
       {"carom escape su", "sub"},
       {"carom escape t", "three-disc two words.toml"},
       {"carom escape --seed ", ""},

@@ -81,8 +81,11 @@ _carom_files() {
 
 )";
 
-constexpr const char* bash_begin = R"(  # bash takes --option=VALUE for three words.
-  if [[ $word == = ]]; then
+constexpr const char* bash_begin =
+    R"(  # bash takes --option=VALUE and a:b for three words. Nothing is offered within a:b.
+  if [[ $word == : || $before == : ]]; then
+    return
+  elif [[ $word == = ]]; then
     word=
   elif [[ $before == = ]]; then
     before=${COMP_WORDS[COMP_CWORD - 2]}
@@ -103,6 +106,8 @@ constexpr const char* bash_end =
     for ((i = i + 1; i < COMP_CWORD; ++i)); do
       if [[ $valued == *" ${COMP_WORDS[i]} "* ]]; then
         if [[ ${COMP_WORDS[i + 1]} == = ]]; then i=$((i + 1)); fi
+        i=$((i + 1))
+      elif [[ ${COMP_WORDS[i]} == : ]]; then
         i=$((i + 1))
       elif [[ ${COMP_WORDS[i]} != -* ]]; then
         given=$((given + 1))
