@@ -44,6 +44,7 @@ class EnergyWatch {
   }
 
   void begin(const Trajectory& t) {
+    if (!of_each_ && !of_all_) return;
     const std::size_t count = of_each_ ? t.starts.size() : of_all_ ? 1 : 0;
     start_.resize(count);
     largest_.assign(count, 0.0);

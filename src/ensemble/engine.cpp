@@ -37,7 +37,13 @@ bool DrawnStarts::next(Trajectory& trajectory, const World& world) {
     if (!blocks_(block_)) return false;
   trajectory.number = block_.first++;
   const System& system = sampler_.system();
-  trajectory.starts = sampler_.draw_all(world, trajectory.number);
+  if (system.particles.size() == 1 && !system.of_discs()) {
+    // Into the memory that the trajectory has: many are short.
+    trajectory.starts.resize(1);
+    trajectory.starts.front() = sampler_.draw(world, trajectory.number, 0);
+  } else {
+    trajectory.starts = sampler_.draw_all(world, trajectory.number);
+  }
   if (system.injections.empty()) {
     // A trajectory that is used again has them.
     if (trajectory.particles.empty()) trajectory.particles = system.particles;

@@ -37,12 +37,20 @@ TEST(Twofold, KeepsAHundredBits) {
 }
 
 TEST(Twofold, SumsAndProductsOfDoublesAreExact) {
-  Dice dice(12);
-  for (int i = 0; i < 20000; ++i) {
-    const double a = dice.sign() * dice.spread(1e-5, 1e5), b = dice.sign() * dice.spread(1e-5, 1e5);
-    ASSERT_EQ(double(quad(Twofold::product(a, b)) - Quad(a) * Quad(b)), 0.0);
-    ASSERT_EQ(double(quad(Twofold::sum(a, b)) - (Quad(a) + Quad(b))), 0.0);
+  // With the processor's fused product and without.
+  const bool both[] = {detail::fuses, false};
+  const bool before = detail::fuses;
+  for (const bool fuses : both) {
+    detail::fuses = fuses;
+    Dice dice(12);
+    for (int i = 0; i < 20000; ++i) {
+      const double a = dice.sign() * dice.spread(1e-5, 1e5);
+      const double b = dice.sign() * dice.spread(1e-5, 1e5);
+      EXPECT_EQ(double(quad(Twofold::product(a, b)) - Quad(a) * Quad(b)), 0.0);
+      EXPECT_EQ(double(quad(Twofold::sum(a, b)) - (Quad(a) + Quad(b))), 0.0);
+    }
   }
+  detail::fuses = before;
 }
 
 }  // namespace

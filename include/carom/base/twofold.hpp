@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
+
+#include "carom/base/fused_product.hpp"
 
 namespace carom {
 
 /// high + low, |low| at most about an ulp of high. Results are good to some 2^-100 of their size,
-/// so what a double lost in rounding can be computed. (Dekker 1971; Knuth's two-sum. No fused
-/// operation, so that every machine finds the same bits.)
+/// so what a double lost in rounding can be computed. (Dekker 1971; Knuth's two-sum.)
 struct Twofold {
   double high = 0.0, low = 0.0;
 
@@ -29,8 +31,10 @@ struct Twofold {
   }
   /// a b, exactly for numbers between 1e-140 and 1e140.
   static constexpr Twofold product(double a, double b) {
-    constexpr double split = 134217729.0;  // 2^27 + 1
     const double p = a * b;
+    // What p has lost is a double, so both ways find the same.
+    if (!std::is_constant_evaluated() && detail::fuses) return {p, fused_product(a, b, -p)};
+    constexpr double split = 134217729.0;  // 2^27 + 1
     const double ca = split * a, cb = split * b;
     const double a1 = ca - (ca - a), b1 = cb - (cb - b), a2 = a - a1, b2 = b - b1;
     return {p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
