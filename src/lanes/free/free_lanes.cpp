@@ -7,20 +7,22 @@
 #include <utility>
 
 #include "carom/events/world.hpp"
-#include "events/flight/next_hit.hpp"
-#include "lanes/free/exit_by_signs.hpp"
+#include "lanes/free/filled_pack.hpp"
 #include "lanes/free/kernels.hpp"
 #include "lanes/free/lane_start.hpp"
 #include "lanes/free/make_lane_table.hpp"
 #include "lanes/free/next_disc_table.hpp"
+#include "lanes/free/scalar_event.hpp"
 #include "motion/free_motion.hpp"
 
 namespace carom {
 
 using geometry::Vector;
 using lanes::Call;
+using lanes::FilledPack;
 using lanes::LanePack;
 using lanes::LaneTable;
+using lanes::LaneTrajectory;
 using lanes::Turn;
 using lanes::turn_of;
 
@@ -39,30 +41,20 @@ double reach_of(const std::vector<Particle>& particles) {
   return reach;
 }
 
-/// Of one particle: when it ended, and its states at report times.
-class OneEvent : public Observer {
- public:
-  void end(const EndEvent& event) override { time = event.time; }
-  void sample(int, Time, const State& state) override { states.push_back(state); }
-  Time time;
-  std::vector<State> states;
-};
-
 }  // namespace
 
 class FreeLanes::Implementation {
  public:
   Implementation(World world, const std::vector<Particle>& particles, InstructionSet set)
-      : scalar(std::move(world)),
-        walls(scalar.pieces()),
-        table(walls.table),
-        pieces(lanes::make_lane_table(walls, reach_of(particles))),
-        turn(turn_of(particles.at(0).omega)),
+      : turn(turn_of(particles.at(0).omega)),
+        pieces(lanes::make_lane_table(world.pieces(), reach_of(particles))),
+        scalar(std::move(world), pieces, turn),
+        walls(scalar.walls()),
         next_discs(lanes::make_next_discs(pieces)),
         kernels(lanes::kernels_for(set, pieces, turn)) {
     pieces.clockwise = turn == Turn::clockwise;
     if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
-    for (Lanes* l : {&main, &entrance}) l->pack.search_pack = &search_pack;
+    for (FilledPack* l : {&main, &entrance}) l->pack.search_pack = &search_pack;
     if (!available(set))
       throw std::invalid_argument("this machine does not have the instruction set");
   }
@@ -74,7 +66,7 @@ class FreeLanes::Implementation {
     sink = &ended;
     stop = &interrupted;
     stopped = false;
-    for (Lanes* l : {&main, &entrance}) {
+    for (FilledPack* l : {&main, &entrance}) {
       l->pack.end = t_end;
       l->pack.limit = static_cast<double>(std::min(limit, most_hits));
       l->pack.next_cap = HUGE_VAL;
@@ -88,7 +80,7 @@ class FreeLanes::Implementation {
       if (stopped || (sweep % 64 == 0 && asked_to_stop())) return;
       if (sweep % most_sweeps == 0) main.add_cells();
       kernels.on_walls(pieces, main.pack);
-      cap(main);
+      main.cap();
       effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
       effort.idle += static_cast<std::uint64_t>(rounded_up(main.pack.used) - main.busy);
       const std::vector<int> enough = report_hits(main);
@@ -109,11 +101,10 @@ class FreeLanes::Implementation {
     return sum;
   }
 
-  World scalar;
-  const PieceTable& walls;
-  const Table& table;
-  LaneTable pieces;
   Turn turn;
+  LaneTable pieces;
+  lanes::ScalarEvent scalar;
+  const PieceTable& walls;
   std::vector<std::uint32_t> next_discs;
   lanes::Kernels kernels;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
@@ -132,35 +123,6 @@ class FreeLanes::Implementation {
   int rounded_up(int used) const {
     return (used + kernels.width - 1) / kernels.width * kernels.width;
   }
-
-  /// What a lane's trajectory needs besides its numbers in the pack.
-  struct Trajectory {
-    LaneStart start;               ///< or where the scalar engine left it
-    std::uint64_t first_hits = 0;  ///< when it began
-    std::size_t reported = 0;      ///< times
-    std::uint64_t told = 0;        ///< hits that were reported, if they are
-  };
-  struct Lanes {
-    LanePack pack;
-    Trajectory trajectories[LanePack::lanes];
-    int busy = 0;
-
-    void clear() {
-      busy = 0;
-      for (double& active : pack.active) active = 0.0;
-    }
-    /// To the cells of their homes: those of hits are counted in 32 bits.
-    void add_cells() {
-      for (int lane = 0; lane < LanePack::lanes; ++lane) {
-        pack.home_first[lane] += std::exchange(pack.cells[2 * lane], 0);
-        pack.home_second[lane] += std::exchange(pack.cells[2 * lane + 1], 0);
-      }
-    }
-    void leave(int lane) {
-      if (pack.active[lane] != 0.0) --busy;
-      pack.active[lane] = 0.0;
-    }
-  };
 
   /// Puts the next trajectory into a lane.
   void fill(int lane) {
@@ -203,11 +165,11 @@ class FreeLanes::Implementation {
     waiting = 0;
     if (entrance.busy == 0) return;
     kernels.anywhere(pieces, entrance.pack);
-    cap(entrance);
+    entrance.cap();
     effort.steps += LanePack::lanes;
     effort.idle += static_cast<std::uint64_t>(LanePack::lanes - entrance.busy);
     for (int lane = 0; lane < LanePack::lanes; ++lane) {
-      Trajectory& mine = entrance.trajectories[lane];
+      LaneTrajectory& mine = entrance.trajectories[lane];
       const bool has_hit = entrance.pack.active[lane] != 0.0 &&
                            entrance.pack.hits(lane) != static_cast<double>(mine.start.hits);
       if (has_hit)
@@ -225,9 +187,9 @@ class FreeLanes::Implementation {
   }
 
   /// Begins the next trajectory that lasts; false if there is none.
-  bool begin(Lanes& lanes, int lane) {
+  bool begin(FilledPack& lanes, int lane) {
     for (;;) {
-      Trajectory& mine = lanes.trajectories[lane];
+      LaneTrajectory& mine = lanes.trajectories[lane];
       if (exhausted || stopped || !(*source)(mine.start)) {
         exhausted = true;
         return false;
@@ -249,7 +211,7 @@ class FreeLanes::Implementation {
   }
 
   /// The numbers of a lane's trajectory.
-  void resume(Lanes& lanes, int lane) {
+  void resume(FilledPack& lanes, int lane) {
     const LaneStart& start = lanes.trajectories[lane].start;
     lanes::put_into(lanes.pack, lane, pieces, start);
     lanes.pack.until[lane] = until(lanes, lane);
@@ -258,14 +220,14 @@ class FreeLanes::Implementation {
   }
 
   /// When a lane is to be looked at. First flights are looked at once they are made.
-  double until(const Lanes& lanes, int lane) const {
+  double until(const FilledPack& lanes, int lane) const {
     const std::size_t next = lanes.trajectories[lane].reported;
     return &lanes == &main && next < times.size() ? std::min(times[next], lanes.pack.end)
                                                   : lanes.pack.end;
   }
   /// Reports a trajectory that flies on from its last event, at times before `t` or, if that
   /// counts, at it.
-  void report(Trajectory& mine, const State& last, Time t, bool counts = false) {
+  void report(LaneTrajectory& mine, const State& last, Time t, bool counts = false) {
     for (; mine.reported < times.size(); ++mine.reported) {
       const Time next = times[mine.reported];
       if (counts ? next > t : !(next < t)) return;
@@ -273,85 +235,57 @@ class FreeLanes::Implementation {
     }
   }
   /// Reports the hits of a sweep if asked to; returns the lanes whose hits are enough.
-  std::vector<int> report_hits(Lanes& lanes) {
+  std::vector<int> report_hits(FilledPack& lanes) {
     std::vector<int> enough;
     if (!hit) return enough;
     for (int lane = 0; lane < lanes.pack.used; ++lane) {
       if (lanes.pack.active[lane] == 0.0) continue;
-      Trajectory& mine = lanes.trajectories[lane];
+      LaneTrajectory& mine = lanes.trajectories[lane];
       const auto hits = static_cast<std::uint64_t>(lanes.pack.hits(lane));
       if (hits == mine.told) continue;
       mine.told = hits;
       // A call reports its last one.
-      if (!hit(mine.start.tag, state_on_wall(lanes.pack, lane), hits) && hits < limit)
+      if (!hit(mine.start.tag, state_on_wall(lanes, lane), hits) && hits < limit)
         enough.push_back(lane);
     }
     return enough;
   }
   /// Ends a trajectory at the hit that its state tells.
-  void end_after_hit(Lanes& lanes, int lane) {
+  void end_after_hit(FilledPack& lanes, int lane) {
     lanes.leave(lane);
-    const Trajectory& mine = lanes.trajectories[lane];
+    const LaneTrajectory& mine = lanes.trajectories[lane];
     const auto& [tag, particle, state, hits] = mine.start;
-    (*sink)({tag, Fate::survived, state.time, state, -1, hits, last_wall(mine), {}});
+    (*sink)({tag, Fate::survived, state.time, state, -1, hits, mine.last_wall(), {}});
   }
-  State state_on_wall(const LanePack& pack, int lane) const {
-    State s = last_event(pack, lane);
-    s.wall = static_cast<int>(pieces.wall[static_cast<int>(pack.piece[lane])]);
+  State state_on_wall(const FilledPack& lanes, int lane) const {
+    State s = lanes.last_event(lane);
+    s.wall = static_cast<int>(pieces.wall[static_cast<int>(lanes.pack.piece[lane])]);
     s.u = walls.curve(s.wall).parameter(s.position);
     return s;
   }
-  /// A lane's last event, but for its wall.
-  static State last_event(const LanePack& pack, int lane) {
-    State s;
-    s.position = {pack.x[lane], pack.y[lane]};
-    s.velocity = {pack.vx[lane], pack.vy[lane]};
-    s.time = {pack.high[lane], pack.low[lane]};
-    s.cell = {static_cast<std::int64_t>(pack.home_first[lane]) + pack.cells[2 * lane],
-              static_cast<std::int64_t>(pack.home_second[lane]) + pack.cells[2 * lane + 1]};
-    return s;
-  }
-
-  /// Calls for lanes that have made all their hits.
-  static void cap(Lanes& lanes) {
-    LanePack& pack = lanes.pack;
-    if (pack.sweep < pack.next_cap) return;
-    pack.next_cap = HUGE_VAL;
-    for (int lane = 0; lane < pack.used; ++lane) {
-      if (pack.active[lane] == 0.0) continue;
-      const auto before = static_cast<double>(lanes.trajectories[lane].start.hits);
-      if (pack.hits(lane) < pack.limit || pack.hits(lane) == before) {
-        pack.next_cap = std::min(pack.next_cap, pack.born[lane] + pack.limit);
-        continue;
-      }
-      pack.lane[pack.calls] = lane;
-      pack.call[pack.calls++] = Call::capped;
-    }
-  }
-
   /// The lane's numbers as a state.
-  void take_out(Lanes& lanes, int lane) {
+  void take_out(FilledPack& lanes, int lane) {
     const LanePack& pack = lanes.pack;
-    Trajectory& mine = lanes.trajectories[lane];
+    LaneTrajectory& mine = lanes.trajectories[lane];
     const auto hits = static_cast<std::uint64_t>(pack.hits(lane));
     effort.hits += hits - mine.start.hits;
     filter += 2 * (hits - mine.start.hits);  // which wall, and which way the velocity points
     if (hits == mine.start.hits) return;
     mine.start.hits = hits;
-    mine.start.state = state_on_wall(pack, lane);
+    mine.start.state = state_on_wall(lanes, lane);
   }
 
   /// Answers a call; false if the trajectory has ended.
-  bool answer(Lanes& lanes, int number) {
+  bool answer(FilledPack& lanes, int number) {
     const int lane = lanes.pack.lane[number];
     const Call call = lanes.pack.call[number];
     const LanePack::Met met = lanes.pack.met[number];
     const Time there{met.high, met.low}, last(lanes.pack.end);
     const bool survives = call == Call::over && there > last;
-    Trajectory& mine = lanes.trajectories[lane];
+    LaneTrajectory& mine = lanes.trajectories[lane];
     if ((call == Call::over || call == Call::escaped) && mine.reported < times.size()) {
       const std::size_t before = mine.reported;
-      report(mine, last_event(lanes.pack, lane), survives ? last : there, survives);
+      report(mine, lanes.last_event(lane), survives ? last : there, survives);
       lanes.pack.until[lane] = until(lanes, lane);
       // A first flight that ends when the run does must not be flown by the kernel of particles
       // that stand on walls.
@@ -370,8 +304,8 @@ class FreeLanes::Implementation {
     if (call == Call::undecided || (call == Call::over && !survives)) return go_on(lanes, lane);
     const State& s = mine.start.state;
     ++filter;
-    LaneEnd end{mine.start.tag,  Fate::survived,  s.time, s, -1,
-                mine.start.hits, last_wall(mine), {}};
+    LaneEnd end{mine.start.tag,  Fate::survived,   s.time, s, -1,
+                mine.start.hits, mine.last_wall(), {}};
     if (call == Call::escaped) {
       end.fate = Fate::escaped;
       end.time = {met.high, met.low};
@@ -384,38 +318,29 @@ class FreeLanes::Implementation {
     return false;
   }
 
-  static int last_wall(const Trajectory& t) {
-    return t.start.hits > t.first_hits ? t.start.state.wall : -1;
-  }
-
   /// One event by the scalar engine; false if it ends the trajectory.
-  bool go_on(Lanes& lanes, int lane) {
-    Trajectory& mine = lanes.trajectories[lane];
+  bool go_on(FilledPack& lanes, int lane) {
+    LaneTrajectory& mine = lanes.trajectories[lane];
     ++effort.scalar;
-    const int entry = entry_at(mine.start);
-    OneEvent event;
-    event.time = mine.start.state.time;
-    scalar.sample_at({times.begin() + static_cast<std::ptrdiff_t>(mine.reported), times.end()});
-    scalar.clear();
-    scalar.limit_hits(std::min(limit, mine.start.hits + 1));
-    scalar.add(mine.start.particle, mine.start.state, mine.start.hits);
     // A single flight may take long: so this is asked meanwhile.
-    scalar.run_until(lanes.pack.end, event, [this] { return asked_to_stop(); });
+    scalar.fly(
+        mine.start, {times.begin() + static_cast<std::ptrdiff_t>(mine.reported), times.end()},
+        std::min(limit, mine.start.hits + 1), lanes.pack.end, [this] { return asked_to_stop(); });
     if (stopped) {
       lanes.leave(lane);
       return false;
     }
-    for (const State& state : event.states) sampled(mine.start.tag, mine.reported++, state);
-    if (entry >= 0) learn(entry, mine.start.hits);
-    const bool has_hit = scalar.hits(0) > mine.start.hits;
-    mine.start.hits = mine.told = scalar.hits(0);
-    mine.start.state = scalar.state(0);
+    for (const State& state : scalar.samples()) sampled(mine.start.tag, mine.reported++, state);
+    scalar.learn();
+    const bool has_hit = scalar.hits() > mine.start.hits;
+    mine.start.hits = mine.told = scalar.hits();
+    mine.start.state = scalar.state();
     if (has_hit && hit && !hit(mine.start.tag, mine.start.state, mine.start.hits) &&
         mine.start.hits < limit) {
       end_after_hit(lanes, lane);
       return false;
     }
-    if (scalar.fate(0) == Fate::capped && mine.start.hits < limit) {
+    if (scalar.fate() == Fate::capped && mine.start.hits < limit) {
       if (mine.start.state.u > geometry::first_parameter) {
         resume(lanes, lane);
         return true;
@@ -423,41 +348,18 @@ class FreeLanes::Implementation {
       return go_on(lanes, lane);  // from a joint
     }
     lanes.leave(lane);
-    (*sink)({mine.start.tag, scalar.fate(0), scalar.finished(0) ? event.time : scalar.state(0).time,
-             mine.start.state, scalar.hole(0), mine.start.hits, last_wall(mine), scalar.report(0)});
+    (*sink)({mine.start.tag, scalar.fate(), scalar.time(), mine.start.state, scalar.hole(),
+             mine.start.hits, mine.last_wall(), scalar.report()});
     return false;
-  }
-
-  /// Where the exit of a flight is told by the sides of joints: the entry for it.
-  int entry_at(const LaneStart& start) const {
-    const State& s = start.state;
-    if (!pieces.by_signs || turn != Turn::straight || s.wall < 0) return -1;
-    // The world flies from u where the position is another one.
-    const geometry::PreparedCurve& w = walls.curve(s.wall);
-    if (!(s.u > geometry::first_parameter && s.u < w.last() && w.parameter(s.position) == s.u))
-      return -1;
-    const int piece = lanes::piece_at(pieces, s.wall, s.u);
-    return piece < 0 ? -1
-                     : lanes::entry_of(pieces, piece, s.position, s.velocity,
-                                       lanes::side_margin * pieces.size * start.particle.speed);
-  }
-  /// What the scalar engine has just seen: all flights of this entry leave there.
-  void learn(int entry, std::uint64_t hits_before) {
-    int piece = -1;
-    if (scalar.fate(0) == Fate::escaped)
-      for (int i = 0; i < pieces.pieces; ++i)
-        piece = static_cast<int>(pieces.hole[i]) == scalar.hole(0) ? i : piece;
-    else if (scalar.hits(0) == hits_before + 1 && scalar.state(0).u > geometry::first_parameter)
-      piece = lanes::piece_at(pieces, scalar.state(0).wall, scalar.state(0).u);
-    if (piece >= 0) pieces.exit[entry] = static_cast<unsigned char>(piece);
   }
 
   const std::function<bool(LaneStart&)>* source = nullptr;
   const std::function<void(const LaneEnd&)>* sink = nullptr;
   const std::function<bool()>* stop = nullptr;
   bool stopped = false;
-  Lanes main;
-  Lanes entrance;  ///< used where particles are not born on walls and `on_walls` cannot fly them
+  FilledPack main;
+  /// Used where particles are not born on walls and `on_walls` cannot fly them.
+  FilledPack entrance;
   LanePack search_pack;
   int waiting = 0;  ///< the next lane of the entrance that may wait
   bool exhausted = false;
