@@ -19,6 +19,7 @@
 #include "carom/integrators/scheme.hpp"
 #include "carom_version.hpp"
 #include "cli/commands/ensemble_job.hpp"
+#include "io/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -146,7 +147,8 @@ std::string repeated_starts(const System& system) {
 }
 
 void follow_links(Options& options) {
-  for (std::string* name : {&options.output, &options.resume}) *name = followed(*name);
+  for (std::string* name : {&options.output, &options.resume, &options.report})
+    *name = followed(*name);
   for (std::string& name : options.files) name = followed(name);
 }
 
@@ -158,6 +160,17 @@ ArchiveLock lock_output(const std::string& file) {
         "no other process is kept from writing '{}': its file system gives no locks ({})", file,
         weakness));
   return lock;
+}
+
+void write_file(const std::string& name, const std::string& text) {
+  const std::string part = aside_of(name);
+  errno = 0;
+  std::FILE* file = std::fopen(part.c_str(), "w");
+  bool ok = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  ok = file && std::fclose(file) == 0 && ok;
+  ok = ok && std::rename(part.c_str(), name.c_str()) == 0;
+  if (ok) return;
+  throw InputError(fmt::format("cannot write '{}': {}", name, std::strerror(errno)));
 }
 
 Provenance provenance_of(const Options& options, const System& system, int threads) {

@@ -42,6 +42,8 @@ std::string repeated_starts(const System&);
 void follow_links(Options&);
 /// lock_archive; where others are not kept away, a warning says so.
 ArchiveLock lock_output(const std::string& file);
+/// Writes a file aside and then renames it: it is there whole or not at all.
+void write_file(const std::string& name, const std::string& text);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, title if there is one, seed, threads, engine, isa, seconds, cpu_seconds.

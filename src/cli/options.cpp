@@ -280,10 +280,13 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "values\n"
           "  carom validate --scale 0.01     a quick look\n"
           "  carom validate --soak --json    the long runs\n"
+          "  carom validate --report validation.html\n"
           "\n"
           "Exit status 3 if a case fails.")
       .flag("--soak", o.soak, "The long runs: 10^9 hits a closed table, 10^7 a mean flight")
       .text("--scale", o.scale, "X", "Multiplies the trajectories of each case (default 1)")
+      .text("--report", o.report, "FILE.html", "Write a page with all cases and their distances")
+      .flag("--force", o.force, "Replace a report that exists")
       .threads()
       .verbose();
 }

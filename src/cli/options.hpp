@@ -22,7 +22,7 @@ struct Options {
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
   std::vector<std::string> files;                                  ///< of carom merge
   std::string shard, block, checkpoint;                            ///< of carom escape
-  std::string output, threads, trajectory, resume, scale;
+  std::string output, threads, trajectory, resume, scale, report;
   std::string engine = "auto", isa = "auto", precision = "double", digits;
   std::string certify_sample;  ///< of carom escape
   SystemOverrides overrides;

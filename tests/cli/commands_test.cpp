@@ -187,6 +187,38 @@ TEST(Validate, PassesItsCases) {
     EXPECT_NE(o.out.find(part), std::string::npos) << part;
 }
 
+TEST(Validate, WritesAPageThatNeedsNoOtherFile) {
+  const Shell shell;
+  const Outcome o = shell("$carom validate --scale 0.002 --json --report page.html");
+  EXPECT_EQ(o.status, 0) << o.err;
+  const std::string page = shell.read("page.html");
+  const auto count = [&page](const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = page.find(part); at != std::string::npos; at = page.find(part, at + 1))
+      ++found;
+    return std::to_string(found);
+  };
+  EXPECT_EQ(count("<td class=\"passed\">"), json_value(o.out, "passed"));
+  EXPECT_EQ(count("<td class=\"failed\">"), "0");
+  for (const char* part :
+       {"three-disc: escape rate", "Gaspard &amp; Rice 1989", "0.1830297954", "σ"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  for (const char* outside : {"http", "src=", "href=", "url(", "<script", "<link", "nan"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"page.html"});
+}
+
+TEST(Validate, RefusesAPageBeforeItComputes) {
+  const Shell shell;
+  expect_refused(shell("$carom validate --report no/folder/page.html"),
+                 "cannot write 'no/folder/page.html'");
+  expect_refused(shell("$carom validate --report ."), ".");
+  shell("touch page.html");
+  expect_refused(shell("$carom validate --report page.html"), "page.html");
+  EXPECT_EQ(shell("$carom validate --scale 0.002 --report page.html --force").status, 0);
+  EXPECT_NE(shell.read("page.html"), "");
+}
+
 TEST(StandardOutput, AFullStandardOutputIsAnError) {
   const Shell shell;
   const Outcome o = shell("$carom escape sinai --trajectories 10 --json > /dev/full");

@@ -1,9 +1,4 @@
 // carom table: checks, measures and draws a table.
-#include <fmt/format.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <optional>
 
 #include "carom/base/error.hpp"
@@ -12,26 +7,9 @@
 #include "cli/common.hpp"
 #include "cli/reports/table_report.hpp"
 #include "cli/reports/table_svg.hpp"
-#include "io/checkpoint/work_folder.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
-
-namespace {
-
-// Aside, then renamed: a drawing is there whole or not at all.
-void write_file(const std::string& name, const std::string& text) {
-  const std::string part = aside_of(name);
-  errno = 0;
-  std::FILE* file = std::fopen(part.c_str(), "w");
-  bool ok = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  ok = file && std::fclose(file) == 0 && ok;
-  ok = ok && std::rename(part.c_str(), name.c_str()) == 0;
-  if (ok) return;
-  throw InputError(fmt::format("cannot write '{}': {}", name, std::strerror(errno)));
-}
-
-}  // namespace
 
 int table(const Options& options) {
   const Stopwatch watch;

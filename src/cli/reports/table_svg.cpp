@@ -9,6 +9,7 @@
 #include "carom/base/error.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "carom/geometry/hull.hpp"
+#include "cli/reports/markup.hpp"
 
 namespace carom::cli {
 
@@ -92,13 +93,6 @@ std::string piece(const View& view, const geometry::Curve& curve, const CurveFra
 std::string whole(const View& view, const Wall& wall, const CurveFrame& frame) {
   const bool segment = frame.kind == CurveFrame::Kind::segment;
   return piece(view, wall.curve, frame, 0.0, segment ? 1.0 : frame.end);
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
 }
 
 // A name beside the middle of a piece, on the side away from the domain.
