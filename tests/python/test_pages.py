@@ -1,0 +1,92 @@
+"""The commands and the Python of README and guide work as they are shown, at small sizes."""
+
+import os
+import pathlib
+import re
+import subprocess
+
+import matplotlib.pyplot as pyplot
+import pytest
+
+ROOT = pathlib.Path(__file__).parents[2]
+GUIDE = ROOT / "docs" / "guide"
+PAGES = [ROOT / "README.md", *sorted(GUIDE.rglob("*.md"))]
+PYTHON = [ROOT / "README.md", *sorted((GUIDE / "coming-from").glob("*.md"))]
+# Sizes that a test can afford; a command that is continued keeps its own.
+SMALLER = (
+    (r"--trajectories \S+", "--trajectories 100"),
+    (r"--collisions \S+", "--collisions 300"),
+    (r"--points \S+", "--points 20"),
+    (r"--orbits \S+", "--orbits 3"),
+    (r"--population \S+", "--population 50"),
+    (r"--certify-sample \S+", "--certify-sample 20"),
+)
+NEEDS = {"escape": "--trajectories 100", "diffusion": "--trajectories 100", "section": "--orbits 3 --points 20",
+         "validate": "--scale 0.002"}  # fmt: skip
+
+
+def blocks(page, language):
+    return re.findall(rf"^```{language}\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)
+
+
+def commands(page):
+    """The lines of its shell blocks that call the program, without comments."""
+    for block in blocks(page, "(?:sh)?"):
+        for line in re.sub(r"\\\n *", "", block).splitlines():
+            line = re.sub(r"\s+#.*", "", line.strip())
+            line = re.sub(r"^\./dev run ", "carom ", line)
+            if line.startswith("carom "):
+                yield line
+
+
+def smaller(command):
+    if "--resume" in command:
+        return re.sub(r"--collisions \S+", "--collisions 400", command)
+    for pattern, text in SMALLER:
+        command = re.sub(pattern, text, command)
+    for name, option in NEEDS.items():
+        if command.startswith(f"carom {name} ") or command == f"carom {name}":
+            if "--splitting" in command:
+                option = "--population 50"
+            missing = [f"{key} {value}" for key, value in re.findall(r"(--\S+) (\S+)", option) if key not in command]
+            command = re.sub(rf"^carom {name}", " ".join([f"carom {name}", *missing]), command)
+    return command
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_commands_of_a_page(page, tmp_path):
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/carom").symlink_to(os.environ["CAROM_PROGRAM"])
+    environment = os.environ | {"PATH": f"{tmp_path}/bin:{os.environ['PATH']}"}
+
+    def shell(command):
+        # Pages write the same file in several ways.
+        for output in re.findall(r"-o (\S+)|merge (?!-)(\S+)", command):
+            (tmp_path / "".join(output)).unlink(missing_ok=True)
+        return subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=tmp_path, env=environment,
+                              capture_output=True, text=True, timeout=100)  # fmt: skip
+
+    # What other pages have made.
+    shell("carom systems mushroom > my.toml")
+    for part in (1, 2, 3):
+        shell(f"carom escape stadium --trajectories 100 --shard {part}/3 -o part-{part}.h5")
+    # A system file that the page shows has the name that the page uses next.
+    text = page.read_text(encoding="utf-8")
+    for shown in re.finditer(r"^```toml\n(.*?)^```", text, re.M | re.S):
+        name = re.search(r"\./(\w+\.toml)", text[shown.end() :])
+        if name and not (tmp_path / name[1]).exists():
+            (tmp_path / name[1]).write_text(shown[1], encoding="utf-8")
+    failed = []
+    for command in commands(page):
+        done = shell(smaller(command))
+        if done.returncode != 0:
+            failed.append(f"{smaller(command)}: {done.stderr}")
+    assert not failed, "\n".join(failed)
+
+
+@pytest.mark.parametrize("page", PYTHON, ids=lambda page: page.stem)
+def test_python_of_a_page(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for block in blocks(page, "python"):
+        exec(compile(block, str(page), "exec"), {})
+    pyplot.close("all")
