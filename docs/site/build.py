@@ -153,6 +153,19 @@ def mathjax(static):
         copy(MATHJAX / part, goal)
 
 
+def mend_theme(html):
+    """Debian's Furo expects a web server's /javascript and a bundler: a page from a file has neither."""
+    style = html / "_static/styles/furo.css"
+    normalize = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")
+    text = style.read_text(encoding="utf-8")
+    link = "@import url(/javascript/normalize.css/normalize.css);"
+    style.write_text(text.replace(link, normalize.read_text(encoding="utf-8")), encoding="utf-8")
+    scripts = html / "_static/scripts"
+    parts = [(scripts / name).read_text(encoding="utf-8") for name in ("gumshoe-patched.js", "furo.js")]
+    text = "\n".join(parts).replace('import Gumshoe from "./gumshoe-patched.js";', "")
+    (scripts / "furo.js").write_text(text, encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     for name in ("source", "build", "module"):
@@ -188,6 +201,7 @@ def main():
     done = subprocess.run([str(word) for word in sphinx], env=environment)
     if done.returncode != 0:
         raise SystemExit("the site has warnings, which count as errors")
+    mend_theme(html)
     check_links.main(html)
 
 

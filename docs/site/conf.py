@@ -29,6 +29,8 @@ html_theme = "furo"
 html_title = f"Carom {release}"
 html_static_path = [os.environ["CAROM_STATIC"]]
 html_copy_source = False
+# The search would fetch pages for their first lines, which a page from a file must not.
+html_show_search_summary = False
 html_show_sourcelink = False
 html_css_files = ["carom.css"]
 html_theme_options = {

@@ -136,7 +136,7 @@ def write(stage, root, doxygen):
     comments.put_classes()
     modules = headers_of(root)
     for module, headers in modules.items():
-        text = title(module)
+        text = title(f"C++: {module}")
         for header in headers:
             text += title(f"<{header}>", "-") + comments.page(header)
         stage.write(f"reference/cpp/{module}.rst", text)
