@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+import sys
 import xml.etree.ElementTree as xml
 
 from rst import description, indented, title
@@ -132,6 +133,10 @@ def write(stage, root, doxygen):
     shutil.rmtree(doxygen, ignore_errors=True)
     doxygen.mkdir(parents=True)
     subprocess.run(["doxygen", "docs/Doxyfile"], cwd=root, check=True)
+    # Members may speak for themselves; a class without a word is told of.
+    for line in (doxygen / "warnings.txt").read_text(encoding="utf-8").splitlines():
+        if "Compound" in line:
+            print(line, file=sys.stderr)
     comments = Comments(doxygen / "xml")
     comments.put_classes()
     modules = headers_of(root)
