@@ -10,6 +10,7 @@ Every number is made by the same C++ as the program's `carom`, with the same dig
 """
 
 from . import _carom, plot
+from .animation import animate
 from .commands import diffusion, escape, open, run, section, table, validate
 from .errors import InputError, Place
 from .records import Record

@@ -1,4 +1,4 @@
-"""`carom plot`: the picture of an archive or a system."""
+"""`carom plot` and `carom animate`: the picture or film of an archive or a system."""
 
 import argparse
 import os
@@ -9,15 +9,28 @@ import carom
 ENDINGS = (".png", ".svg", ".pdf")
 
 
-def draw(source):
-    """The figure of an archive, a system file or a built-in system."""
+def read(source):
+    """An archive, a system file or a built-in system."""
     is_system = source.endswith(".toml") or ("." not in source and "/" not in source)
     if is_system:
-        thing = carom.load(source) if source.endswith(".toml") else carom.system(source)
-    else:
-        thing = carom.open(source)
-    axes = thing.plot()
+        return carom.load(source) if source.endswith(".toml") else carom.system(source)
+    return carom.open(source)
+
+
+def draw(source):
+    """The figure of what is read."""
+    axes = read(source).plot()
     return (axes[0] if hasattr(axes, "__len__") else axes).figure
+
+
+def animate(source, output):
+    """Saves the film of what is read."""
+    thing = read(source)
+    if not isinstance(thing, (carom.System, carom.Run)):
+        raise carom.InputError(
+            f"{source} has no moving particles", (source, 0, 0, ""), "a system, or the archive of carom run"
+        )
+    carom.animate(thing, output)
 
 
 def main():
@@ -34,19 +47,23 @@ def make():
     parser.add_argument("--force", action="store_true", help="replaces a picture that is there")
     parser.add_argument("--dpi", type=float, default=200, help="dots per inch of a .png")
     given = parser.parse_args()
-    if not given.output.endswith(ENDINGS):
+    film = given.output.endswith(carom.animation.ENDINGS)
+    if not film and not given.output.endswith(ENDINGS):
         raise carom.InputError(
-            f"-o {given.output}: not the name of a picture", ("command line", 0, 0, "-o"), "a name ending in .png, .svg or .pdf"
-        )
+            f"-o {given.output}: neither a picture nor a film", ("command line", 0, 0, "-o"),
+            "a name ending in .png, .svg, .pdf, .gif or .mp4",
+        )  # fmt: skip
     if os.path.exists(given.output) and not given.force:
         raise carom.InputError(f"{given.output}: the file exists already", (given.output, 0, 0, ""))
     import matplotlib
 
     matplotlib.use("Agg")
-    figure = draw(given.source)
     stem, ending = os.path.splitext(given.output)
     part = f"{stem}.part{ending}"
-    figure.savefig(part, dpi=given.dpi)
+    if film:
+        animate(given.source, part)
+    else:
+        draw(given.source).savefig(part, dpi=given.dpi)
     os.replace(part, given.output)
 
 

@@ -1,4 +1,4 @@
-"""Pictures, by matplotlib: tables, orbits, survival, diffusion, sections.
+"""Pictures, by matplotlib: tables, orbits, energies, survival, rates, basins, diffusion, sections.
 
 `thing.plot()` chooses among these functions; all of them return the axes and take `ax`.
 Colours can be told apart by people who see few of them (Okabe and Ito).
@@ -37,9 +37,13 @@ def _title(ax, system):
     ax.set_title(_title_of(system), fontsize="small")
 
 
-def table(system, ax=None, names=True, cells=((0, 0),), levels=True):
-    """Walls, holes (dashed, with their names) and level lines of the potentials; of a lattice these
-    cells."""
+def table(
+    system, ax=None, names=True, cells=((0, 0),), levels=True, directions=True, field=True, starts=None
+):
+    """Walls with the direction of their arc length, holes (dashed, with their names), the sense of
+    the field, level lines of the potentials; of a lattice these cells. starts: this many
+    trajectories' starts as dots with their directions; None: those that the system lists."""
+    made = ax is None
     ax = _axes(ax)
     loaded = system._loaded("table")
     walls = _carom.walls(loaded)
@@ -52,30 +56,99 @@ def table(system, ax=None, names=True, cells=((0, 0),), levels=True):
             for _, piece in holes:
                 hole = {"color": COLOURS[1], "linewidth": 1.4, "linestyle": (0, (2, 1.5))}
                 ax.plot(*(piece + shift).T, zorder=3, **hole)
-    for _, _, holes in walls:
-        for hole_name, piece in holes:
-            if names and len(system.holes) <= 8:
-                _label(ax, piece[len(piece) // 2], hole_name, COLOURS[1])
-    if names and len(walls) <= 12:
-        for name, pieces, _ in walls:
-            if pieces:
-                longest = max(pieces, key=len)
-                middle = longest[len(longest) // 2] if len(longest) > 2 else longest.mean(axis=0)
-                _label(ax, middle, name, "0.45")
     if levels:
         _levels(system, loaded, ax)
+    if starts is None:
+        starts = min(_carom.listed(loaded), 100)
+    if starts:
+        _starts(_carom.starts(loaded, starts), ax)
     ax.set_aspect("equal")
     ax.set_xlabel("x")
     ax.set_ylabel("y")
     _title(ax, system)
+    if made:
+        _fit(ax)
+    if directions and len(walls) <= 12:
+        for _, pieces, _ in walls:
+            if pieces:
+                _arrow(ax, max(pieces, key=len))
+    if field:
+        _field(loaded, ax)
+    if names:
+        labels = [(h, piece[len(piece) // 2], COLOURS[1]) for _, _, hs in walls for h, piece in hs]
+        if len(walls) <= 12:
+            for name, pieces, _ in walls:
+                if pieces:
+                    labels.append((name, _at(max(pieces, key=len), 0.5), "0.45"))
+        _labels(ax, labels)
     return ax
 
 
-def _label(ax, at, text, colour):
+def _at(points, share):
+    """The point of a piece of wall after this share of it."""
+    steps = numpy.hypot(*numpy.diff(points, axis=0).T)
+    along = numpy.concatenate([[0.0], numpy.cumsum(steps)])
+    where = share * along[-1]
+    return numpy.array([numpy.interp(where, along, points[:, i]) for i in (0, 1)])
+
+
+def _fit(ax):
+    """A figure as high as its table."""
+    width, height = numpy.diff(ax.get_xlim())[0], numpy.diff(ax.get_ylim())[0]
+    ax.figure.set_size_inches(5.0, float(numpy.clip(0.8 + 4.2 * height / width, 1.8, 6.5)))
+
+
+def _arrow(ax, piece):
+    """The direction of arc length, at three quarters of a piece of wall."""
+    tip, foot = _at(piece, 0.76), _at(piece, 0.74)
+    style = {"arrowstyle": "-|>", "color": _WALL, "linewidth": 0, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", tip, foot, arrowprops=style, zorder=4)
+
+
+def _field(loaded, ax):
+    """The sense in which particles turn, and how fast."""
+    omegas = sorted({omega for omega in _carom.omegas(loaded) if omega})
+    if not omegas:
+        return
+    sense = "clockwise" if omegas[0] > 0 else "counter-clockwise"
+    sense = sense if omegas[0] * omegas[-1] > 0 else "both ways"
+    rate = f"ω = {omegas[0]:.4g}" + (f" … {omegas[-1]:.4g}" if len(omegas) > 1 else "")
     ax.annotate(
-        text, at, color=colour, fontsize="x-small", ha="center", va="center", zorder=5,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.8},
+        f"{rate}, {sense}", (1, 0), xycoords="axes fraction", xytext=(0, -22),
+        textcoords="offset points", fontsize="x-small", ha="right", va="top", color="0.35",
+    )  # fmt: skip
+
+
+def _starts(rows, ax):
+    ax.quiver(
+        *rows.T, color=COLOURS[0], angles="xy", pivot="tail", width=0.004, scale=28, zorder=4, alpha=0.8
     )
+    ax.plot(rows[:, 0], rows[:, 1], "o", color=COLOURS[0], markersize=2.5, zorder=4)
+
+
+def _labels(ax, labels):
+    """Names at points; one that would cover another, or that would be among too many, is left out."""
+    labels = labels[:40]
+    texts = [_label(ax, at, text, colour) for text, at, colour in labels]
+    if not texts:
+        return
+    figure = ax.get_figure()
+    figure.draw_without_rendering()
+    renderer = figure.canvas.get_renderer()
+    kept = []
+    for text in texts:
+        box = text.get_window_extent(renderer).expanded(1.05, 1.1)
+        if any(box.overlaps(other) for other in kept):
+            text.remove()
+        else:
+            kept.append(box)
+
+
+def _label(ax, at, text, colour):
+    return ax.annotate(
+        text, at, color=colour, fontsize="x-small", ha="center", va="center", zorder=5,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
+    )  # fmt: skip
 
 
 def _levels(system, loaded, ax):
@@ -94,14 +167,17 @@ def _levels(system, loaded, ax):
         ax.set(xlim=(low_x, high_x), ylim=(low_y, high_y))
 
 
-def orbit(run, ax=None, most_hits=2000, colour=None, names=False):
-    """The table with the orbit of each particle: arcs are arcs."""
+def orbit(run, ax=None, most_hits=2000, colour=None, names=False, by="particle"):
+    """The table with the orbit of each particle: arcs are arcs. Coloured by "particle" or by
+    "time"; `colour`: one for all."""
     hits = run.hits[: most_hits * len(run.starts)]
     cells = {(0, 0), *zip(hits["cell_first"].tolist(), hits["cell_second"].tolist())}
     cells = cells if len(cells) <= 400 else [(0, 0)]
-    ax = table(run.system, ax=_axes(ax), names=names, cells=cells, levels=False)
+    made = ax is None
+    ax = table(run.system, ax=_axes(ax), names=names, cells=cells, levels=False, directions=False, starts=0)
     particles = sorted(set(run.starts["particle"].tolist()))
     drawn = False
+    lines = []
     for number in particles:
         path = run.path(number)
         times = run.hits["t"][run.hits["particle"] == number]
@@ -109,14 +185,67 @@ def orbit(run, ax=None, most_hits=2000, colour=None, names=False):
             path = path[path["t"] <= times[most_hits]]
             drawn = True
         kept = colour or COLOURS[number % len(COLOURS)]
-        ax.plot(path["x"], path["y"], color=kept, linewidth=0.7, zorder=2)
+        if by == "time":
+            lines.append((path, ax))
+            kept = "black"
+        else:
+            ax.plot(path["x"], path["y"], color=kept, linewidth=0.7, zorder=2)
         ax.plot(path["x"][:1], path["y"][:1], "o", color=kept, markersize=3.5, zorder=4)
+    for radius, start in zip(_carom.disc_radii(run._outcome.system), run.starts):
+        shade = colour or COLOURS[start["particle"] % len(COLOURS)]
+        disc = _pyplot().Circle((start["x"], start["y"]), radius, color=shade, alpha=0.3, linewidth=0)
+        ax.add_patch(disc)
+    if by == "time":
+        _by_time(lines, ax)
     if drawn:
         ax.annotate(
             f"the first {most_hits} hits", (1, 0), xycoords="axes fraction", fontsize="x-small",
             ha="right", va="bottom", color="0.4",
-        )
+        )  # fmt: skip
     _levels(run.system, run.system._loaded("table"), ax)
+    if made:
+        _fit(ax)
+    return ax
+
+
+def _by_time(lines, ax):
+    """Paths in colours of their times, with the scale beside them."""
+    from matplotlib.collections import LineCollection
+
+    last = max(float(path["t"][-1]) for path, _ in lines)
+    for path, _ in lines:
+        points = numpy.stack([path["x"], path["y"]], axis=1)
+        pieces = LineCollection(
+            list(numpy.stack([points[:-1], points[1:]], axis=1)), cmap="viridis", linewidths=0.8, zorder=2
+        )
+        pieces.set_array(path["t"][:-1])
+        pieces.set_clim(0.0, last)
+        ax.add_collection(pieces)
+    ax.autoscale_view()
+    ax.figure.colorbar(pieces, ax=ax, shrink=0.8).ax.set_title("t", fontsize="medium")
+
+
+def energy(run, ax=None):
+    """Energies along the run at the times of its samples: the parts, and below them how far their
+    sum is from its start."""
+    rows = run.energies
+    if not len(rows):
+        raise ValueError("no energies: they need forces or hard discs, and run.sample")
+    if ax is None:
+        _, (ax, below) = _pyplot().subplots(
+            2, 1, figsize=(5.0, 4.2), sharex=True, height_ratios=(2, 1), layout="constrained"
+        )
+        below.plot(rows["t"], rows["total"] - rows["total"][0], color=_WALL, linewidth=0.8)
+        below.set(xlabel="t", ylabel="change of total")
+    else:
+        ax.set_xlabel("t")
+    for name, shade in zip(("kinetic", "external", "pair", "total"), (*COLOURS[:3], _WALL)):
+        if name in ("kinetic", "total") or rows[name].any():
+            ax.plot(rows["t"], rows[name], color=shade, linewidth=1, label=name)
+    ax.set_ylabel("energy")
+    ax.margins(y=0.1)
+    ax.legend(fontsize="small", frameon=False, ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    ax.set_title(_title_of(run.system), fontsize="small", pad=22)
     return ax
 
 
@@ -134,6 +263,79 @@ def survival(result, ax=None, scale="log"):
     ax.set_ylabel("p(t)")
     _title(ax, result.system)
     return ax
+
+
+def rate(result, ax=None, scale=None):
+    """The escape rate −dp/dt with its 95 % interval; scale of time: "log" or "linear", if not given
+    what its range asks for."""
+    ax = _axes(ax)
+    seen = result.rate[result.rate["value"] > 0]
+    seen = seen[seen["t"] > 0]
+    if scale is None:
+        scale = "log" if len(seen) and seen["t"].max() > 30 * seen["t"].min() else "linear"
+    low = numpy.maximum(seen["low"], seen["value"].min() * 1e-3 if len(seen) else 1e-300)
+    ax.fill_between(seen["t"], low, seen["high"], color=COLOURS[0], alpha=0.25, linewidth=0)
+    ax.plot(seen["t"], seen["value"], "o-", color=COLOURS[0], markersize=3, linewidth=1)
+    ax.set(xscale=scale, yscale="log", xlabel="t", ylabel="−dp/dt")
+    _title(ax, result.system)
+    return ax
+
+
+def basins(result, ax=None, colour=None, x="x", y="y", size=None):
+    """Starts of an escape with per_trajectory, coloured by what becomes of them: "hole", "time" (of
+    the end) or "hits". x and y: columns of its rows, as "x", "y", "vx", "vy"."""
+    rows = result.per_trajectory
+    if rows is None:
+        raise ValueError("no starts are stored: carom.escape(…, per_trajectory=True)")
+    in_plane = (x, y) == ("x", "y")
+    colour = colour or ("hole" if len(result.system.holes) > 1 else "time")
+    made = ax is None
+    ax = _axes(ax)
+    if in_plane:
+        table(result.system, ax=ax, names=False, levels=False, directions=False, starts=0)
+    from matplotlib.colors import ListedColormap, LogNorm, Normalize
+
+    size = size or float(numpy.clip(6e4 / max(1, len(rows)), 0.1, 20.0))
+    if colour == "hole":
+        shades = ["0.8", *(COLOURS[i % len(COLOURS)] for i in range(len(result.system.holes)))]
+        norm = Normalize(-1.5, len(shades) - 1.5)
+        _cover(ax, rows[x], rows[y], rows["hole"], norm, ListedColormap(shades), size)
+        for number, name in enumerate(["none", *result.system.holes], -1):
+            if (rows["hole"] == number).any():
+                ax.scatter([], [], color=shades[number + 1], s=20, label=name)
+        ax.legend(fontsize="small", frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    else:
+        values = rows[colour]
+        seen = values[values > 0]
+        wide = len(seen) and seen.max() > 20 * seen.min()
+        norm = LogNorm(seen.min(), seen.max()) if wide else Normalize()
+        values = numpy.maximum(values, seen.min()) if wide else values
+        drawn = _cover(ax, rows[x], rows[y], values, norm, "viridis", size)
+        label = {"time": "time of the end", "hits": "hits"}[colour]
+        ax.figure.colorbar(drawn, ax=ax, label=label, shrink=0.9)
+    _title(ax, result.system)
+    if not in_plane:
+        ax.set(xlabel=x, ylabel=y)
+        ax.margins(0.0)
+    elif made:
+        _fit(ax)
+    return ax
+
+
+def _cover(ax, x, y, values, norm, cmap, size):
+    """Colours at points: cells where these are a grid, else dots."""
+    columns, i = numpy.unique(x, return_inverse=True)
+    lines, j = numpy.unique(y, return_inverse=True)
+    if len(columns) * len(lines) == len(x) and len(columns) > 1 and len(lines) > 1:
+        cells = numpy.full((len(lines), len(columns)), numpy.nan)
+        cells[j, i] = values
+        if not numpy.isnan(cells).any():
+            return ax.pcolormesh(
+                columns, lines, cells, norm=norm, cmap=cmap, shading="nearest", zorder=1, rasterized=True
+            )
+    return ax.scatter(
+        x, y, c=values, norm=norm, cmap=cmap, s=size, linewidths=0, zorder=1, rasterized=len(x) > 5000
+    )
 
 
 def escape(result, ax=None):
@@ -212,6 +414,12 @@ def result(result, ax=None, **keywords):
 
     draw = {
         results.Run: orbit, results.Escape: escape, results.Diffusion: diffusion,
-        results.Section: section,
-    }[type(result)]
-    return draw(result, ax=ax, **keywords)
+        results.Section: section, results.Table: _of_table,
+    }  # fmt: skip
+    if type(result) not in draw:
+        raise NotImplementedError(f"a {type(result).__name__} has no picture")
+    return draw[type(result)](result, ax=ax, **keywords)
+
+
+def _of_table(measured, ax=None, **keywords):
+    return table(measured.system, ax=ax, **keywords)

@@ -247,19 +247,27 @@ class Run(Result):
     def path(self, particle: int = 0) -> numpy.ndarray:
         """Points along the orbit of a particle, (points,): t (time), x, y (length, in the plane).
         Arcs have points between their ends. Where forces act: its samples and hits."""
+        omegas = _carom.omegas(self._outcome.system)
+        omega = omegas[particle] if self.engine == "events" else 0.0
+        return _carom.path(self._states(particle), omega)
+
+    def _states(self, particle):
+        """Rows of (t, x, y, vx, vy): start, samples where forces act, hits, contacts, end."""
         rows = [self.starts[self.starts["particle"] == particle]]
         names = ["t", "x", "y", "vx", "vy"]
         if self.engine != "events":
             rows.append(self.samples[self.samples["particle"] == particle])
         rows.append(self.hits[self.hits["particle"] == particle])
-        table = numpy.concatenate([numpy.stack([r[n] for n in names], axis=1) for r in rows])
+        parts = [numpy.stack([r[n] for n in names], axis=1) for r in rows]
+        for which in ("first", "second"):
+            met = self.contacts[self.contacts[which] == particle]
+            columns = ["t", *(f"{which}_{name}" for name in names[1:])]
+            parts.append(numpy.stack([met[name] for name in columns], axis=1))
+        table = numpy.concatenate(parts)
         end = self._json if "x" in self._json else self._json["particles"][particle]
         last = [float(end[name] or 0) for name in names]
         table = numpy.concatenate([table[table[:, 0] <= last[0]], [last]])
-        table = table[numpy.argsort(table[:, 0], kind="stable")]
-        omegas = _carom.omegas(self._outcome.system)
-        omega = omegas[particle] if self.engine == "events" else 0.0
-        return _carom.path(table, omega)
+        return table[numpy.argsort(table[:, 0], kind="stable")]
 
     def _summary(self):
         return f"{self.status}, {self.collisions} collisions"

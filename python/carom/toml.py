@@ -29,7 +29,10 @@ def value(thing):
     if isinstance(thing, dict):
         return "{ " + ", ".join(f"{key} = {value(one)}" for key, one in thing.items()) + " }"
     if isinstance(thing, (list, tuple)) or hasattr(thing, "__iter__"):
-        return "[" + ", ".join(value(one) for one in thing) + "]"
+        items = [value(one) for one in thing]
+        # A line each: the place of a number is found by counting along its line.
+        rows = any(item.startswith("[") for item in items)
+        return "[" + (",\n" if rows else ", ").join(items) + "]"
     raise TypeError(f"a {type(thing).__name__} cannot be written in a system file")
 
 

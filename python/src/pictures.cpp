@@ -4,11 +4,15 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "arrays.hpp"
+#include "carom/ensemble/run_rows.hpp"
+#include "carom/ensemble/sampler.hpp"
+#include "carom/events/world.hpp"
 #include "carom/forces/force_field.hpp"
 #include "carom/geometry/curve_frame.hpp"
 #include "carom/table/table.hpp"
@@ -119,10 +123,66 @@ py::array_t<PathPoint> path(const py::array_t<double, py::array::c_style>& rows,
   return array_of(std::move(points));
 }
 
+// Are the starts listed in the system, rather than drawn? How many of its trajectories differ.
+std::uint64_t listed(const Loaded& loaded) { return listed_trajectories(loaded.system()); }
+
+// The start of each particle of the first trajectories: x, y, vx, vy.
+py::array_t<double> starts(const Loaded& loaded, std::uint64_t trajectories) {
+  const System& system = loaded.system();
+  const Sampler sampler(system);
+  std::vector<State> states;
+  for (std::uint64_t i = 0; i < trajectories; ++i) {
+    World world(*system.table, system.dynamics);
+    add_starts(world, sampler, i);
+    for (int p = 0; p < world.size(); ++p) states.push_back(world.state(p));
+  }
+  py::array_t<double> array({static_cast<py::ssize_t>(states.size()), py::ssize_t{4}});
+  auto view = array.mutable_unchecked<2>();
+  for (py::ssize_t i = 0; i < view.shape(0); ++i) {
+    const SampleRow row =
+        sample_row(0, Time(0.0), states[static_cast<std::size_t>(i)], *system.table);
+    view(i, 0) = row.x;
+    view(i, 1) = row.y;
+    view(i, 2) = row.vx;
+    view(i, 3) = row.vy;
+  }
+  return array;
+}
+
+// Where particles are at each time: x and y by time and particle, NaN before the start and after
+// the end. Rows are those of path(), one table a particle, each in order of time.
+py::array_t<double> frames(const std::vector<py::array_t<double, py::array::c_style>>& tables,
+                           const std::vector<double>& omegas, const std::vector<double>& times) {
+  const auto many = static_cast<py::ssize_t>(tables.size());
+  py::array_t<double> array({static_cast<py::ssize_t>(times.size()), many, py::ssize_t{2}});
+  auto view = array.mutable_unchecked<3>();
+  for (py::ssize_t p = 0; p < many; ++p) {
+    const auto row = tables[static_cast<std::size_t>(p)].unchecked<2>();
+    const double omega = omegas[static_cast<std::size_t>(p)];
+    py::ssize_t i = 0;
+    for (py::ssize_t k = 0; k < view.shape(0); ++k) {
+      const double t = times[static_cast<std::size_t>(k)];
+      while (i + 1 < row.shape(0) && row(i + 1, 0) <= t) ++i;
+      Vector x{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+      if (row.shape(0) > 0 && row(0, 0) <= t && t <= row(row.shape(0) - 1, 0))
+        x = moved({row(i, 1), row(i, 2)}, {row(i, 3), row(i, 4)}, omega, t - row(i, 0)).first;
+      view(k, p, 0) = x.x;
+      view(k, p, 1) = x.y;
+    }
+  }
+  return array;
+}
+
 std::vector<double> omegas(const Loaded& loaded) {
   std::vector<double> all;
   for (const Particle& p : loaded.system().particles) all.push_back(p.omega);
   return all;
+}
+
+// Of each particle; none where they are points.
+std::vector<double> disc_radii(const Loaded& loaded) {
+  if (!loaded.system().of_discs()) return {};
+  return loaded.system().dynamics.forces->disc_radii();
 }
 
 // The potential energy of the first particle on a grid; None where there is no potential.
@@ -149,6 +209,10 @@ void add_pictures(py::module_& module) {
   module.def("cell", &cell, py::arg("system"));
   module.def("translations", &translations, py::arg("system"), py::arg("cells"));
   module.def("path", &path, py::arg("rows"), py::arg("omega"));
+  module.def("disc_radii", &disc_radii, py::arg("system"));
+  module.def("frames", &frames, py::arg("tables"), py::arg("omegas"), py::arg("times"));
+  module.def("listed", &listed, py::arg("system"));
+  module.def("starts", &starts, py::arg("system"), py::arg("trajectories"));
   module.def("omegas", &omegas, py::arg("system"));
   module.def("potential", &potential, py::arg("system"), py::arg("xs"), py::arg("ys"));
 }

@@ -268,6 +268,18 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "Without -o the picture is NAME.png in this folder. It needs Python with matplotlib.")
       .system("SOURCE", "Archive, TOML file or built-in name")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
+  Command(
+      app, o, "animate", "The film of a run or of a system's particles",
+      "Examples:\n"
+      "  carom animate lorentz-triangular -o lorentz.gif\n"
+      "  carom animate wigner -o wigner.mp4\n"
+      "  carom run mushroom --collisions 50 -o orbit.h5 && carom animate orbit.h5\n"
+      "\n"
+      "Without -o the film is NAME.gif in this folder. A run is shown until its hundredth hit, a "
+      "system for twenty mean flights.\n"
+      "It needs Python with matplotlib; .mp4 needs ffmpeg as well.")
+      .system("SOURCE", "Archive of carom run, TOML file or built-in name")
+      .output("FILM", "A name ending in .gif or .mp4");
   Command(app, o, "systems", "Lists the built-in systems; prints one as TOML",
           "Examples:\n"
           "  carom systems\n"

@@ -98,7 +98,9 @@ int draw(const std::string& source, const std::string& picture, bool force) {
 
 PictureOfResult::PictureOfResult(Options& options) {
   const std::string ending = ending_of(options.output);
-  if (options.output.empty() || options.command == "table" || options.command == "plot") return;
+  if (options.output.empty() || options.command == "table" || options.command == "plot" ||
+      options.command == "animate")
+    return;
   if (ending.empty() || ending == ".h5" || ending == ".hdf5" || ending == ".part") return;
   if (!is_picture(options.output))
     throw InputError(

@@ -1,6 +1,9 @@
 """Pictures are made of everything; nothing is clipped."""
 
+import shutil
+
 import matplotlib.pyplot as pyplot
+import numpy
 import pytest
 
 import carom
@@ -35,3 +38,110 @@ def test_every_system_is_drawn(name, tmp_path):
 def test_every_result_is_drawn(make, tmp_path):
     make().plot()
     pyplot.gcf().savefig(tmp_path / "result.png", dpi=60)
+
+
+@pytest.mark.parametrize("name", carom.systems())
+def test_names_cover_nothing_and_are_not_clipped(name):
+    nothing_is_covered(carom.system(name).plot())
+
+
+def test_a_hundred_names_are_not_written():
+    comb = [(0, 0), (50, 0), *((50 - x, 1 + x % 2) for x in range(51))]
+    ax = carom.polygon(comb).plot()
+    assert len([one for one in ax.texts if one.get_text()]) == 0
+    ring = carom.regular(12, radius=1)
+    nothing_is_covered(ring.plot())
+    small = carom.rectangle(10, 10)
+    for k in range(8):
+        small = small.obstacle("circle", center=[1 + 0.11 * k, 5], radius=0.05)
+    nothing_is_covered(small.plot())
+
+
+def nothing_is_covered(ax):
+    figure = ax.figure
+    figure.canvas.draw()
+    renderer = figure.canvas.get_renderer()
+    boxes = [t.get_window_extent(renderer) for t in ax.texts if t.get_text()]
+    whole = figure.bbox
+    for i, box in enumerate(boxes):
+        assert not any(box.overlaps(other) for other in boxes[i + 1 :])
+        assert box.x0 >= whole.x0 and box.x1 <= whole.x1 and box.y0 >= whole.y0 and box.y1 <= whole.y1
+    for one in (ax.title, ax.xaxis.label, ax.yaxis.label):
+        box = one.get_window_extent(renderer)
+        assert box.x0 >= whole.x0 and box.x1 <= whole.x1 and box.y0 >= whole.y0 and box.y1 <= whole.y1
+    assert ax.get_aspect() == 1.0
+
+
+def test_starts_field_and_directions_are_shown():
+    square = carom.system("magnetic-square")
+    drawn = " ".join(one.get_text() for one in square.plot().texts)
+    assert "ω" in drawn and "clockwise" in drawn
+    assert "ω" not in " ".join(one.get_text() for one in square.plot(field=False).texts)
+    point = square.with_(initial={"kind": "point", "position": [0.5, 0.25], "velocity": [1, 1]})
+    dots = [line.get_xydata().tolist() for line in point.plot().get_lines()]
+    assert [[0.5, 0.25]] in dots
+    assert len(square.plot(starts=7).get_lines()[-1].get_xydata()) == 7
+
+
+def test_rates_are_those_of_the_result():
+    result = carom.escape("magnetic-square", trajectories=2000)
+    ax = carom.plot.rate(result)
+    drawn = ax.get_lines()[0].get_xydata()
+    seen = result.rate[(result.rate["value"] > 0) & (result.rate["t"] > 0)]
+    assert numpy.array_equal(drawn[:, 1], seen["value"])
+
+
+def test_energies_are_drawn_where_there_are_some():
+    run = carom.run("wigner", t_max=1, sample=0.1)
+    ax = carom.plot.energy(run)
+    lines = {line.get_label(): line.get_ydata() for line in ax.get_lines()}
+    assert numpy.array_equal(lines["total"], run.energies["total"])
+    with pytest.raises(ValueError):
+        carom.plot.energy(carom.run("stadium", collisions=3))
+
+
+def test_an_orbit_is_coloured_by_time():
+    run = carom.run("stadium", collisions=20)
+    lines = [one for one in run.plot(by="time").collections if one.get_array() is not None]
+    assert lines[0].get_array().max() == run.path()["t"][-2]
+
+
+def test_basins_are_a_grid_where_the_starts_are():
+    table = carom.stadium(1, 1).hole("bottom", center=0.5, width=0.4, name="left")
+    table = table.hole("bottom", center=1.5, width=0.4, name="right")
+    grid = [[x, y, 0.6, 0.8] for x in (-0.5, 0.0, 0.5) for y in (-0.5, 0.1)]
+    result = carom.escape(
+        table, initial={"kind": "list", "starts": grid}, trajectories=6, per_trajectory=True
+    )
+    mesh = carom.plot.basins(result).collections[0]
+    rows = result.per_trajectory
+    assert numpy.array_equal(numpy.sort(mesh.get_array().ravel()), numpy.sort(rows["hole"]))
+    uniform = carom.escape(table, trajectories=50, per_trajectory=True)
+    for colour in ("hole", "time", "hits"):
+        assert len(carom.plot.basins(uniform, colour=colour).collections[0].get_offsets()) == 50
+    with pytest.raises(ValueError):
+        carom.plot.basins(carom.escape(table, trajectories=5))
+
+
+@pytest.mark.parametrize("name", ["stadium", "wigner"])
+def test_films_are_made(name, tmp_path):
+    carom.animate(name, tmp_path / "film.gif", frames=4, t_max=1)
+    assert (tmp_path / "film.gif").read_bytes().startswith(b"GIF")
+    film = carom.animate(carom.run(name, t_max=2, sample=0.1), frames=5)
+    assert len(list(film.new_frame_seq())) == 5
+    film._draw_was_started = True  # it is not shown, and that is no mistake
+
+
+@pytest.mark.skipif(not shutil.which("ffmpeg"), reason="ffmpeg is not installed")
+def test_films_are_made_by_ffmpeg(tmp_path):
+    carom.animate("stadium", tmp_path / "film.mp4", frames=4, t_max=1)
+    assert b"ftyp" in (tmp_path / "film.mp4").read_bytes()[:12]
+
+
+def test_what_films_need_is_named(monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+    with pytest.raises(carom.InputError, match="nothing here writes such films") as error:
+        carom.animate("stadium", "film.mp4")
+    assert "ffmpeg" in error.value.expected and ".gif" in error.value.expected
+    with pytest.raises(carom.InputError):
+        carom.animate("stadium", "film.avi")

@@ -57,6 +57,16 @@ def test_a_command_draws_its_result(carom, tmp_path, command):
     assert list(tmp_path.iterdir()) == [tmp_path / "result.png"]
 
 
+def test_a_film_is_made(carom, tmp_path):
+    carom("run", "ellipse-magnetic", "--collisions", 3, "-o", "orbit.h5", "--quiet")
+    carom("animate", "orbit.h5")
+    assert (tmp_path / "orbit.gif").read_bytes().startswith(b"GIF")
+    assert "orbit.gif" in carom("animate", "orbit.h5", status=1).stderr
+    carom("escape", "stadium", "--trajectories", 10, "-o", "escape.h5", "--quiet")
+    assert "no moving particles" in carom("animate", "escape.h5", status=1).stderr
+    assert ".mp4" in carom("animate", "orbit.h5", "-o", "orbit.png", status=1).stderr
+
+
 def test_other_endings_are_refused(carom, tmp_path):
     done = carom("run", "stadium", "--collisions", 5, "-o", "orbit.gif", status=1)
     assert "orbit.gif" in done.stderr and ".png" in done.stderr

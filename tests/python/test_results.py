@@ -153,3 +153,19 @@ def test_results_are_pickled(escape):
     assert numpy.array_equal(again.per_trajectory, escape.per_trajectory)
     run = carom.run("henon-heiles", t_max=2, sample=0.5)
     assert numpy.array_equal(pickle.loads(pickle.dumps(run)).energies, run.energies)
+
+
+def test_paths_of_hard_discs_turn_at_their_contacts():
+    box = carom.rectangle(4, 4).with_(
+        particles={"count": 6}, interaction={"kind": "hard-discs", "radius": 0.25}
+    )
+    run = carom.run(box, t_max=5)
+    assert len(run.contacts) > 0
+    for number in range(6):
+        path = run.path(number)
+        for axis in ("x", "y"):
+            assert path[axis].min() > 0.25 - 1e-9 and path[axis].max() < 3.75 + 1e-9
+    contact = run.contacts[0]
+    path = run.path(int(contact["first"]))
+    at = path[path["t"] == contact["t"]]
+    assert at["x"][0] == contact["first_x"]

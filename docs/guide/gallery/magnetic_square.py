@@ -1,5 +1,5 @@
-# Survival in a magnetic square: exponential first, then a plateau of islands and a slow tail.
+# Escape rate of a magnetic square: exponential first, then a slow tail beside islands.
 import carom
 
-result = carom.escape("magnetic-square", trajectories=200_000)
-result.plot()[0].figure.savefig("magnetic_square.png")
+result = carom.escape("magnetic-square", trajectories=1_000_000)
+carom.plot.rate(result).figure.savefig("magnetic_square.png")

@@ -15,5 +15,6 @@ int diffusion(const Options&);
 int section(const Options&);
 int validate(const Options&);
 int plot(const Options&);
+int animate(const Options&);
 
 }  // namespace carom::cli

@@ -1,4 +1,4 @@
-// carom plot: the picture of an archive or a system.
+// carom plot, carom animate: the picture or the film of an archive or a system.
 #include <filesystem>
 
 #include "carom/base/error.hpp"
@@ -6,6 +6,15 @@
 #include "cli/picture.hpp"
 
 namespace carom::cli {
+
+int animate(const Options& options) {
+  std::string film = options.output;
+  if (film.empty()) film = std::filesystem::path(options.system).stem().string() + ".gif";
+  if (!film.ends_with(".gif") && !film.ends_with(".mp4"))
+    throw InputError(Place{"command line", 0, 0, "-o"}, "'" + film + "' is not a film",
+                     "a name ending in .gif or .mp4");
+  return draw(options.system, film, options.force);
+}
 
 int plot(const Options& options) {
   std::string picture = options.output;

@@ -1,0 +1,5 @@
+# Energies of charges in a harmonic well: their sum is kept.
+import carom
+
+run = carom.run("wigner", t_max=10, sample=0.02)
+carom.plot.energy(run).figure.savefig("wigner_energy.png")

@@ -1,0 +1,110 @@
+"""Films of particles, by matplotlib: .gif by pillow, .mp4 by ffmpeg."""
+
+import os
+
+import numpy
+
+from . import _carom, plot, results
+from .commands import _as_system, run
+from .errors import InputError
+
+ENDINGS = (".gif", ".mp4")
+
+
+def animate(thing, output=None, *, t_max=None, frames=200, fps=25, trail=20, dpi=120, **keywords):
+    """A film of the particles of a `carom.Run` or of a system, which is run: a
+    matplotlib.animation.FuncAnimation.
+
+    output: a name ending in .gif or .mp4 that it is saved as. t_max (time): where it ends; of a
+    run its end or its hundredth hit, of a system that of twenty mean flights. frames: their
+    number; fps: frames a second; trail: frames that a particle's way stays visible. Keywords: keys
+    of a system file.
+    """
+    if output is not None:
+        output = os.fspath(output)
+        _check(output)
+    pyplot = plot._pyplot()
+    from matplotlib import animation
+
+    if not isinstance(thing, results.Run):
+        system = _as_system(thing)
+        t_max = t_max or _until(system)
+        sample = {} if system._loaded("run").engine == "events" else {"sample": t_max / (4 * frames)}
+        thing = run(system, t_max=t_max, state_error=False, **sample, **keywords)
+    particles = sorted(set(thing.starts["particle"].tolist()))
+    last = min(t_max or numpy.inf, *(thing._states(p)[-1, 0] for p in particles), _hundredth(thing))
+    times = numpy.linspace(0.0, last, frames)
+    omegas = _carom.omegas(thing._outcome.system)
+    free = thing.engine == "events"
+    where = _carom.frames(
+        [thing._states(p) for p in particles],
+        [omegas[p] if free else 0.0 for p in particles],
+        list(times),
+    )
+    ax = plot.orbit(thing, most_hits=100)
+    lines = [line for line in ax.get_lines() if line.get_zorder() in (2, 4)]
+    limits = ax.get_xlim(), ax.get_ylim()
+    for drawn in (*lines, *ax.patches):
+        drawn.remove()
+    ax.set(xlim=limits[0], ylim=limits[1])
+    clock = ax.annotate("", (0, 1), xycoords="axes fraction", xytext=(2, -2), va="top",
+                        textcoords="offset points", fontsize="x-small", color="0.35")  # fmt: skip
+    colours = [plot.COLOURS[p % len(plot.COLOURS)] for p in particles]
+    ways = [ax.plot([], [], color=c, linewidth=0.8, alpha=0.6, zorder=2)[0] for c in colours]
+    dots = [ax.plot([], [], "o", color=c, markersize=5, zorder=4)[0] for c in colours]
+    paths = [thing.path(p) for p in particles]
+    # Hard discs are drawn as large as they are.
+    discs = [
+        ax.add_patch(pyplot.Circle((0, 0), radius, color=c, alpha=0.5, linewidth=0, zorder=3))
+        for radius, c in zip(_carom.disc_radii(thing._outcome.system), colours)
+    ]
+
+    def show(k):
+        begin = times[max(0, k - trail)]
+        for i, (way, dot, path) in enumerate(zip(ways, dots, paths)):
+            x, y = where[k, i]
+            seen = (path["t"] >= begin) & (path["t"] <= times[k])
+            way.set_data(numpy.append(path["x"][seen], x), numpy.append(path["y"][seen], y))
+            dot.set_data([x], [y])
+            if discs:
+                discs[i].set_center((x, y))
+        clock.set_text(f"t = {times[k]:.3g}")
+        return [*ways, *dots, *discs, clock]
+
+    film = animation.FuncAnimation(ax.figure, show, frames=frames, interval=1000 / fps)
+    if output is not None:
+        film.save(output, writer=_writer(output, fps), dpi=dpi)
+    return film
+
+
+def _check(output):
+    if not output.endswith(ENDINGS):
+        raise InputError(
+            f"{output}: not the name of a film", ("", 0, 0, "output"), "a name ending in .gif or .mp4"
+        )
+    _writer(output, 25)
+
+
+def _writer(output, fps):
+    from matplotlib import animation
+
+    name, package = ("ffmpeg", "ffmpeg") if output.endswith(".mp4") else ("pillow", "python3-pil")
+    if not animation.writers.is_available(name):
+        raise InputError(
+            f"{output}: nothing here writes such films", ("", 0, 0, "output"),
+            f"{name} (Debian: {package}), or a name ending in " + (".gif" if name == "ffmpeg" else ".mp4"),
+        )  # fmt: skip
+    return animation.writers[name](fps=fps)
+
+
+def _until(system):
+    """Twenty mean flights, or what the system says where there are none."""
+    flight = system.mean_flight
+    return 20 * flight if numpy.isfinite(flight) and flight > 0 else 20.0
+
+
+def _hundredth(run):
+    """The time of the hundredth hit of the first particle that has so many."""
+    times = run.hits["t"]
+    many = 100 * len(run.starts)
+    return float(times[many]) if len(times) > many else numpy.inf
