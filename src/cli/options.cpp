@@ -273,7 +273,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       "Examples:\n"
       "  carom animate lorentz-triangular -o lorentz.gif\n"
       "  carom animate wigner -o wigner.mp4\n"
-      "  carom run mushroom --collisions 50 -o orbit.h5 && carom animate orbit.h5\n"
+      "  carom run mushroom --closed --collisions 50 -o orbit.h5 && carom animate orbit.h5\n"
       "\n"
       "Without -o the film is NAME.gif in this folder. A run is shown until its hundredth hit, a "
       "system for twenty mean flights.\n"
