@@ -11,7 +11,7 @@ from .errors import InputError
 ENDINGS = (".gif", ".mp4")
 
 
-def animate(thing, output=None, *, t_max=None, frames=200, fps=25, trail=20, dpi=120, **keywords):
+def animate(thing, output=None, *, t_max=None, frames=100, fps=20, trail=10, dpi=100, **keywords):
     """A film of the particles of a `carom.Run` or of a system, which is run: a
     matplotlib.animation.FuncAnimation.
 
@@ -47,7 +47,9 @@ def animate(thing, output=None, *, t_max=None, frames=200, fps=25, trail=20, dpi
     for drawn in (*lines, *ax.patches):
         drawn.remove()
     ax.set(xlim=limits[0], ylim=limits[1])
-    clock = ax.annotate("", (0, 1), xycoords="axes fraction", xytext=(2, -2), va="top",
+    ax.figure.draw_without_rendering()
+    ax.figure.set_layout_engine("none")  # what it has laid out is kept: once is enough for all frames
+    clock = ax.annotate("", (0, 0), xycoords="axes fraction", xytext=(0, -22), va="top",
                         textcoords="offset points", fontsize="x-small", color="0.35")  # fmt: skip
     colours = [plot.COLOURS[p % len(plot.COLOURS)] for p in particles]
     ways = [ax.plot([], [], color=c, linewidth=0.8, alpha=0.6, zorder=2)[0] for c in colours]
