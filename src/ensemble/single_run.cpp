@@ -102,7 +102,7 @@ class Renumbering : public Observer {
         contacts_(entries_.size()) {}
 
   void hit(const HitEvent& event) override {
-    if (trust_ != nullptr) trust_->hit(event);
+    if (trust_ != nullptr) trust_->TrustRecorder::hit(event);  // directly: this is every hit
     const int particle = number(event.particle);
     if (energies_ != nullptr) energies_->hit(particle, event);
     // A copy would wait until every number of the event is written.

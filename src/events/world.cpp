@@ -128,8 +128,10 @@ std::uint64_t World::run_until(double t_end, Observer& observer,
       if (!(when.high < t_end) && when > Time(t_end)) break;
       if (interrupt.stopped()) return events;
       if (interrupted && (events & between_questions) == 0 && interrupted()) return events;
-      if (samples.any()) samples.emit(when, false, observer);
-      if (interrupt.stopped()) return events;
+      if (samples.any()) {
+        samples.emit(when, false, observer);
+        if (interrupt.stopped()) return events;
+      }
       apply(index, when, observer);
       ++events;
     }
