@@ -112,7 +112,7 @@ void add_loading(py::module_& module) {
   py::class_<TableOutcome>(module, "TableOutcome")
       .def("json",
            [](const TableOutcome& self) {
-             return cli::table_json(self.system->system(), self.measured, "", self.watch).text();
+             return cli::table_json(self.system->loaded, self.measured, "", self.watch).text();
            })
       .def("text",
            [](const TableOutcome& self) {

@@ -21,6 +21,7 @@ void FateCounts::count(Fate fate) {
       return;
     case Fate::unbounded:
       ++unbounded;
+      ++escaped;
       return;
     case Fate::unresolved:
       ++unresolved;

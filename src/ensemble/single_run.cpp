@@ -162,6 +162,20 @@ bool gone(Fate fate) {
          is_failure(fate);
 }
 
+// Where a particle has left the table by: rounding may put it beside the wall. On a wall along an
+// axis the coordinate that all its points share is known.
+geometry::Vector at_exit(const Table& table, const ParticleProgress& progress,
+                         geometry::Vector position) {
+  if (progress.fate != Fate::escaped || progress.hole < 0) return position;
+  const Hole& hole = table.holes[static_cast<std::size_t>(progress.hole)];
+  const Wall& wall = table.walls[static_cast<std::size_t>(hole.wall)];
+  const auto* segment = std::get_if<geometry::Segment>(&wall.curve);
+  if (!segment) return position;
+  if (segment->from.x == segment->to.x) position.x = segment->from.x;
+  if (segment->from.y == segment->to.y) position.y = segment->from.y;
+  return position;
+}
+
 RunEnd as_seen(const System& system, const ParticleProgress& progress, State state,
                const EnergyError& energy_error) {
   RunEnd end;
@@ -169,7 +183,7 @@ RunEnd as_seen(const System& system, const ParticleProgress& progress, State sta
   end.t = state.time.value();
   end.vx = state.velocity.x;
   end.vy = state.velocity.y;
-  geometry::Vector unwrapped = state.position;
+  geometry::Vector unwrapped = at_exit(*system.table, progress, state.position);
   if (system.table->lattice) unwrapped = unwrapped + system.table->lattice->translation(state.cell);
   end.x = unwrapped.x;
   end.y = unwrapped.y;

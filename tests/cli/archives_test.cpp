@@ -392,5 +392,39 @@ TEST(FullDisk, KeepsTheRunThatWasToGoOn) {
   EXPECT_EQ(shell.files().size(), 1u);
 }
 
+// Readers get numbers, not lists of one, and no texts of digits.
+TEST(Archives, SingleNumbersAreScalars) {
+  const Shell shell;
+  ASSERT_EQ(
+      shell("$carom escape stadium --trajectories 50 --t-max 9 --seed 7 -o e.h5 && "
+            "$carom diffusion lorentz-triangular --trajectories 50 --t-max 9 --seed 7 -o d.h5 "
+            "&& $carom section stadium --closed --points 5 --seed 7 -o s.h5 && $carom run "
+            "siam-photon --precision certified --digits 5 --t-max 3 --seed 7 -o c.h5")
+          .status,
+      0);
+  const std::pair<const char*, const char*> numbers[] = {{"e.h5", "fates/escaped"},
+                                                         {"e.h5", "fates/digest"},
+                                                         {"d.h5", "fates/survived"},
+                                                         {"s.h5", "fates/points"},
+                                                         {"c.h5", "state/x"}};
+  for (const auto& [name, path] : numbers) {
+    const hid_t file = H5Fopen((shell.folder() + "/" + name).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    ASSERT_GE(file, 0) << name;
+    const hid_t dataset = H5Dopen2(file, path, H5P_DEFAULT), space = H5Dget_space(dataset);
+    EXPECT_EQ(H5Sget_simple_extent_type(space), H5S_SCALAR) << name << path;
+    H5Sclose(space);
+    H5Dclose(dataset);
+    const hid_t seed = H5Aopen_by_name(file, "provenance", "seed", H5P_DEFAULT, H5P_DEFAULT),
+                type = H5Aget_type(seed);
+    std::uint64_t value = 0;
+    EXPECT_EQ(H5Tget_class(type), H5T_INTEGER) << name;
+    EXPECT_GE(H5Aread(seed, H5T_NATIVE_UINT64, &value), 0);
+    EXPECT_EQ(value, 7u);
+    H5Tclose(type);
+    H5Aclose(seed);
+    H5Fclose(file);
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -292,5 +292,38 @@ TEST(Commands, HelpOfACommandIsItsHelp) {
   EXPECT_EQ(shell("$carom help nothing").status, 2);
 }
 
+// Three discs in the plane: whoever leaves them has escaped.
+TEST(Escape, CountsThoseThatFlyToInfinity) {
+  const Shell shell;
+  const std::string command = "$carom escape three-disc --trajectories 500 --t-max 50";
+  const Outcome json = shell(command + " --json -o a.h5"), text = shell(command);
+  EXPECT_EQ(json_value(json.out, "escaped"), "500") << json.out;
+  EXPECT_EQ(json_value(json.out, "unbounded"), "500");
+  EXPECT_EQ(json_value(json.out, "survived"), "0");
+  EXPECT_NE(text.out.find("  escaped                            500  100.00000 %\n    unbounded "),
+            std::string::npos)
+      << text.out;
+  EXPECT_EQ(json_value(shell("$carom escape --resume a.h5 --json").out, "escaped"), "500");
+  EXPECT_EQ(json_value(shell("$carom run three-disc --json").out, "status"), "\"unbounded\"");
+  EXPECT_NE(shell("$carom run three-disc").out.find("escaped to infinity"), std::string::npos);
+}
+
+// What was written is what is printed: 0.2, and the wall's own coordinate.
+TEST(Numbers, AreExactWhereTheyCanBe) {
+  const Shell shell;
+  const Outcome table = shell(
+      "$carom table stadium --set table.hole[0].width=0.2 --set table.hole[0].center=0.9 "
+      "--json");
+  EXPECT_NE(table.out.find("\"center\": 0.9, \"width\": 0.2"), std::string::npos) << table.out;
+  int left = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Outcome o = shell("$carom run stadium --json --trajectory " + std::to_string(i));
+    if (json_value(o.out, "status") != "\"escaped\"") continue;
+    ++left;
+    EXPECT_EQ(json_value(o.out, "y"), "-1") << i;
+  }
+  EXPECT_GT(left, 30);
+}
+
 }  // namespace
 }  // namespace carom

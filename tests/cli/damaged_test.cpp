@@ -141,7 +141,7 @@ TEST(Damaged, EscapeNamesTheDataset) {
           {[](Damage& d) { d.resize("fates/holes", 7); },
            "'/fates/holes' are not the holes of '/system'"},
           {[](Damage& d) { d.set_first("fates/holes", 5); },
-           "'/fates/holes' do not add up to '/fates/escaped'"},
+           "'/fates/holes' and '/fates/unbounded' do not add up to '/fates/escaped'"},
           {[](Damage& d) { d.set_first("fates/pinned", 201); },
            "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'"},
           {[](Damage& d) { d.set_first("fates/collisions", 1); },

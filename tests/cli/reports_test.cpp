@@ -118,6 +118,10 @@ TEST(Reports, FitTheScreen) {
   for (const char* gas : {"lorentz-triangular", "lorentz-square", "soft-lorentz"})
     expect_fit(std::string("diffusion ") + gas + " --trajectories 200 --t-max 20", 36);
   expect_fit("section ellipse-magnetic --points 20", 22);
+  expect_fit(
+      "escape magnetic-square --trajectories 300 --t-max 30 --collisions 5 --set "
+      "field.larmor_radius=0.1",
+      36);
   expect_fit("escape stadium --splitting lin:0:50:11 --population 200", 40);
   expect_fit("escape stadium --certify-sample 20 --t-max 20", 30);
   expect_fit("run magnetic-square --closed --collisions 1000 --set particles.count=40", 30);

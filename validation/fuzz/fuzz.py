@@ -191,7 +191,7 @@ def judge(ended, command, limits):
     if any(isinstance(n, int) and n > 0 for n in values_of(report, {"lost"})) or "lost" in values_of(report, {"status"}):
         return "lost", last
     if command == "escape" and "trajectories" in report:
-        fates = ("escaped", "survived", "singular", "unbounded", "unresolved", "lost")
+        fates = ("escaped", "survived", "singular", "unresolved", "lost")
         if report.get("status") == "completed" and report["trajectories"] != sum(report[fate] for fate in fates):
             return "output", "the fates do not add up"
     if ended.code == 0:

@@ -100,9 +100,9 @@ std::string fates_text(const FateCounts& counts) {
     if (number > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(number), what);
   };
   add(counts.pinned, "pinned on cyclotron orbits that never hit");
-  add(counts.escaped, "escaped");
+  add(counts.escaped - counts.unbounded, "escaped");
   add(counts.capped, "ended by the cap on hits");
-  add(counts.unbounded, "left all walls behind");
+  add(counts.unbounded, "escaped to infinity");
   add(counts.singular, "singular");
   add(counts.unresolved, fmt::format("unresolved: {}", why_unresolved));
   add(counts.lost, fmt::format("lost: {}", why_lost));

@@ -81,13 +81,13 @@ std::string fates(const System& system, const SurvivalCounts& counts) {
   const std::vector<std::string> holes = hole_names(*system.table);
   for (std::size_t i = 0; holes.size() > 1 && i < holes.size(); ++i)
     line("  by " + holes[i], counts.hole_escapes[i], "", true);
+  line("  unbounded", counts.unbounded, "no wall follows any more", false);
   line("survived", counts.survived, "", true);
-  line("  pinned", counts.pinned, "on cyclotron orbits that never hit", false);
-  line("  capped", counts.capped, "ended by the cap on hits", false);
-  line("singular", counts.singular, "hit a corner without a limit, or moved along a wall", false);
-  line("unbounded", counts.unbounded, "no wall follows any more", false);
-  line("unresolved", counts.unresolved, why_unresolved, false);
-  line("lost", counts.lost, why_lost, false);
+  line("  pinned", counts.pinned, "circles that never hit", false);
+  line("  capped", counts.capped, "by the limit on hits", false);
+  line("singular", counts.singular, "corners, or along a wall", false);
+  line("unresolved", counts.unresolved, "could not be followed", false);
+  line("lost", counts.lost, "internal error: report it", false);
   return text;
 }
 

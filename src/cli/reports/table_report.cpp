@@ -42,16 +42,14 @@ HoleMeasure measure_hole(const Table& table, const Hole& hole) {
   return {from, to_end ? geometry::length(curve) : geometry::arc_length_at(curve, hole.to)};
 }
 
-Json holes_json(const Table& table) {
+Json holes_json(const TableSpec& spec) {
   Json holes = Json::array();
-  for (const Hole& hole : table.holes) {
-    const auto [from, to] = measure_hole(table, hole);
+  for (std::size_t i = 0; i < spec.holes.size(); ++i)
     holes.push(Json::object()
-                   .set("name", hole.name)
-                   .set("wall", table.walls[static_cast<std::size_t>(hole.wall)].name)
-                   .set("center", (from + to) / 2)
-                   .set("width", to - from));
-  }
+                   .set("name", name_of_hole(spec.holes, i))
+                   .set("wall", spec.holes[i].wall)
+                   .set("center", spec.holes[i].center.to_double())
+                   .set("width", spec.holes[i].width.to_double()));
   return holes;
 }
 
@@ -94,8 +92,9 @@ std::string table_text(const System& system, const TableMeasure& measured,
   return text;
 }
 
-Json table_json(const System& system, const TableMeasure& measured, const std::string& output,
+Json table_json(const LoadedSystem& loaded, const TableMeasure& measured, const std::string& output,
                 const Stopwatch& watch) {
+  const System& system = loaded.system;
   Json json = Json::object();
   add_common_keys(json, system, 1, watch.seconds(), watch.cpu_seconds());
   json.set("shape", system.table->shape);
@@ -103,7 +102,7 @@ Json table_json(const System& system, const TableMeasure& measured, const std::s
   json.set("perimeter", measured.perimeter);
   json.set("mean_flight", measured.mean_flight);
   json.set("walls", walls_json(*system.table));
-  json.set("holes", holes_json(*system.table));
+  json.set("holes", holes_json(*loaded.exact.spec));
   if (!output.empty()) json.set("drawing", output);
   return json;
 }

@@ -5,12 +5,14 @@
 
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/system.hpp"
+#include "carom/io/system_file.hpp"
 #include "io/json.hpp"
 
 namespace carom::cli {
 
-/// `output`: the drawing, or "".
-Json table_json(const System&, const TableMeasure&, const std::string& output, const Stopwatch&);
+/// `output`: the drawing, or "". Holes have the numbers that were written.
+Json table_json(const LoadedSystem&, const TableMeasure&, const std::string& output,
+                const Stopwatch&);
 /// `verbose`: with all of many walls.
 std::string table_text(const System&, const TableMeasure&, const std::string& output,
                        bool verbose = false);

@@ -154,7 +154,7 @@ void ArchiveFile::write_head(const char* kind, const LoadedSystem& loaded,
   const hid_t to = provenance.get();
   hdf5::write_attribute(to, "system", std::string_view(loaded.system.name), name_);
   hdf5::write_attribute(to, "compiler", std::string_view(compiler), name_);
-  hdf5::write_attribute(to, "seed", fmt::format("{}", loaded.system.run.seed), name_);
+  hdf5::write_attribute(to, "seed", loaded.system.run.seed, name_);
   hdf5::write_attribute(to, "engine", std::string_view(origin.engine), name_);
   hdf5::write_attribute(to, "isa", std::string_view(origin.isa), name_);
   hdf5::write_attribute(to, "threads", std::int64_t{origin.threads}, name_);

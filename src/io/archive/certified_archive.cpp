@@ -131,7 +131,7 @@ class CertifiedArchive::Implementation {
         "state", "Where the orbit ended: after the last event, at the last time or in a hole");
     const hid_t to = group.get();
     const auto integer = [&](const char* name, std::int64_t value, const char* text) {
-      hdf5::write_column(to, name, std::span<const std::int64_t>(&value, 1), {"1", text}, target);
+      hdf5::write_number(to, name, value, {"1", text}, target);
     };
     integer("hits", static_cast<std::int64_t>(end.collisions), "Reflections");
     integer("last_wall", end.wall, "Wall of the last reflection, -1: none");
@@ -141,7 +141,7 @@ class CertifiedArchive::Implementation {
     if (!end.t.has_value()) return;
     for (const Coordinate& c : coordinates) {
       const double value = (end.*c.value).to_double();
-      hdf5::write_column(to, c.name, std::span<const double>(&value, 1), c.description, target);
+      hdf5::write_number(to, c.name, value, c.description, target);
       hdf5::write_text(to, c.decimals, (end.*c.value).text(digits), c.description, target);
     }
   }

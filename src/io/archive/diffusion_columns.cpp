@@ -120,10 +120,10 @@ constexpr Number numbers[] = {
     {"trajectories", &DiffusionResult::trajectories, "All particles of all trajectories"},
     {"survived", &DiffusionResult::survived, "Still there at the end"},
     {"pinned", &DiffusionResult::pinned, "Survivors on a cyclotron orbit that never hits"},
-    {"escaped", &DiffusionResult::escaped, "Left through a hole"},
+    {"escaped", &DiffusionResult::escaped, "Left through a hole, or to infinity"},
     {"capped", &DiffusionResult::capped, "Ended by the cap on hits"},
     {"singular", &DiffusionResult::singular, "Ended where no continuation is defined"},
-    {"unbounded", &DiffusionResult::unbounded, "No wall follows any more"},
+    {"unbounded", &DiffusionResult::unbounded, "Escaped to infinity: no wall follows any more"},
     {"lost", &DiffusionResult::lost, "Internal errors: always 0"},
     {"collisions", &DiffusionResult::collisions, "Reflections of all particles"},
 };
@@ -138,7 +138,7 @@ void write_counts(const ArchiveFile& file, const DiffusionResult& result, const 
   const Handle ends =
       file.group("fates", "Numbers of particles by their end before the last report time");
   const auto write = [&](const char* name, const auto& value, Description description) {
-    hdf5::write_column(ends.get(), name, std::span(&value, 1), description, file.name());
+    hdf5::write_number(ends.get(), name, value, description, file.name());
   };
   for (const Number& number : numbers) write(number.name, result.*number.value, {"1", number.text});
   write("unresolved", result.unresolved, {"1", "Ended where integration could not follow"});

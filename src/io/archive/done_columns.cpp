@@ -91,13 +91,10 @@ std::vector<RealNumber> reals_of(EnsembleResult& result) {
 
 void write_integration(hid_t fates, const EnsembleResult& result, const std::string& name) {
   for (const StepNumber& number : step_numbers)
-    hdf5::write_column(fates, number.name,
-                       std::span<const std::uint64_t>(&(result.steps.*number.value), 1),
-                       {"1", number.text}, name);
+    hdf5::write_number(fates, number.name, result.steps.*number.value, {"1", number.text}, name);
   EnsembleResult copy = result;
   for (const RealNumber& number : reals_of(copy))
-    hdf5::write_column(fates, number.name, std::span<const double>(&number.value, 1),
-                       number.description, name);
+    hdf5::write_number(fates, number.name, double{number.value}, number.description, name);
 }
 
 void read_integration(hid_t fates, const std::string& name, EnsembleResult& result) {

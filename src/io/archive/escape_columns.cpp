@@ -75,16 +75,15 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
   }
   const Handle group = file.group("fates", "Numbers of trajectories by fate");
   const auto number = [&](const char* name, std::uint64_t value, const char* text) {
-    hdf5::write_column(group.get(), name, std::span<const std::uint64_t>(&value, 1), {"1", text},
-                       target);
+    hdf5::write_number(group.get(), name, value, {"1", text}, target);
   };
   number("trajectories", counts.trajectories, "All trajectories");
-  number("escaped", counts.escaped, "Left through a hole");
+  number("escaped", counts.escaped, "Left through a hole, or to infinity");
   number("survived", counts.survived, "Still there at the end");
   number("pinned", counts.pinned, "Survivors on a cyclotron orbit that never hits");
   number("capped", counts.capped, "Survivors ended by the cap on hits");
   number("singular", counts.singular, "Ended where no continuation is defined");
-  number("unbounded", counts.unbounded, "No wall follows any more");
+  number("unbounded", counts.unbounded, "Escaped to infinity: no wall follows any more");
   number("unresolved", counts.unresolved, "Ended where integration could not follow");
   number("lost", counts.lost, "Internal errors: always 0");
   number("collisions", counts.collisions, "Reflections of all trajectories");
@@ -93,8 +92,7 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
     number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
   if (is_integrated(system)) write_integration(group.get(), result, target);
   if (system.dynamics.forces && !system.dynamics.forces->empty())
-    hdf5::write_column(group.get(), "energy_change",
-                       std::span<const double>(&counts.energy_change, 1),
+    hdf5::write_number(group.get(), "energy_change", counts.energy_change,
                        {"energy", "The largest change of a particle's energy"}, target);
   number("digest", result.digest,
          "Sum of a hash of each trajectory's end: other ends, another digest");
@@ -163,11 +161,12 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   if (H5Lexists(fates.get(), "energy_change", H5P_DEFAULT) > 0)
     counts.energy_change =
         read_number<double>(fates.get(), "energy_change", "/fates/energy_change", name);
-  if (counts.escaped + counts.survived + counts.singular + counts.unbounded + counts.unresolved +
-          counts.lost !=
+  if (counts.escaped + counts.survived + counts.singular + counts.unresolved + counts.lost !=
       counts.trajectories)
     damaged(name, "'/fates' do not add up to '/fates/trajectories'");
-  const std::uint64_t gone = counts.escaped + counts.unbounded;
+  if (counts.unbounded > counts.escaped)
+    damaged(name, "'/fates/unbounded' is more than '/fates/escaped'");
+  const std::uint64_t gone = counts.escaped;
   if (total(counts.gone_in) > gone) damaged(name, "'/survival/gone' has more than '/fates'");
   if (total(counts.gone_in_hits) > gone)
     damaged(name, "'/survival_hits/gone' has more than '/fates'");

@@ -95,6 +95,14 @@ void write_attribute(hid_t object, const char* name, std::int64_t value, const s
   check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
 }
 
+void write_attribute(hid_t object, const char* name, std::uint64_t value, const std::string& file) {
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
+  const Handle attribute =
+      checked(H5Acreate2(object, name, H5T_STD_U64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+              H5Aclose, file);
+  check(H5Awrite(attribute.get(), H5T_NATIVE_UINT64, &value) >= 0, file);
+}
+
 void write_attribute(hid_t object, const char* name, double value, const std::string& file) {
   const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
   const Handle attribute =
@@ -196,6 +204,18 @@ std::string read_text(hid_t parent, const char* name, const std::string& file) {
   if (H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     cannot_read(file, name);
   return trimmed(std::move(text));
+}
+
+Handle create_scalar(hid_t parent, const char* name, hid_t type, Description description,
+                     const std::string& file) {
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
+  const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
+  check(H5Pset_alloc_time(layout.get(), H5D_ALLOC_TIME_EARLY) >= 0, file);
+  Handle dataset =
+      checked(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
+              H5Dclose, file);
+  describe(dataset.get(), description, file);
+  return dataset;
 }
 
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows,

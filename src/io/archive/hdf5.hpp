@@ -57,6 +57,7 @@ struct Description {
 void write_attribute(hid_t object, const char* name, std::string_view value,
                      const std::string& file);
 void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
+void write_attribute(hid_t object, const char* name, std::uint64_t value, const std::string& file);
 void write_attribute(hid_t object, const char* name, double value, const std::string& file);
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
                      const std::string& file);
@@ -94,6 +95,18 @@ inline hid_t native_type<std::uint64_t>() {
 void write_text(hid_t parent, const char* name, std::string_view text, Description,
                 const std::string& file);
 std::string read_text(hid_t parent, const char* name, const std::string& file);
+
+/// A single number as a scalar dataset.
+Handle create_scalar(hid_t parent, const char* name, hid_t type, Description,
+                     const std::string& file);
+template <class T>
+void write_number(hid_t parent, const char* name, T value, Description description,
+                  const std::string& file) {
+  Handle dataset = create_scalar(parent, name, native_type<T>(), description, file);
+  check(H5Dwrite(dataset.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0,
+        file);
+  check(dataset.close(), file);
+}
 
 /// A dataset of fixed size, with HDF5's own checksums (Fletcher-32): no reader gets damaged rows,
 /// but for words of zeros that became words of ones, which it takes for the same. See

@@ -69,9 +69,8 @@ void SectionArchive::finish(const SectionResult& result, const std::string& stat
   {
     const Handle group = a.file.group("fates", "Numbers of orbits");
     for (const SectionNumber& number : section_numbers)
-      hdf5::write_column(group.get(), number.name,
-                         std::span<const std::uint64_t>(&(result.*number.value), 1),
-                         {"1", number.text}, a.target);
+      hdf5::write_number(group.get(), number.name, result.*number.value, {"1", number.text},
+                         a.target);
     const Handle provenance = a.file.open_group("provenance");
     hdf5::change_attribute(provenance.get(), "threads", std::int64_t{result.threads}, a.target);
   }

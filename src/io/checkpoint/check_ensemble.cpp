@@ -74,8 +74,8 @@ void check_stored(const StoredEnsemble& stored, const EscapeResult& result, cons
   if (counts.hole_escapes.size() != hole_names(*system.table).size())
     damaged(stored.file, "'/fates/holes' are not the holes of '/system'");
   if (std::accumulate(counts.hole_escapes.begin(), counts.hole_escapes.end(), std::uint64_t{0}) !=
-      counts.escaped)
-    damaged(stored.file, "'/fates/holes' do not add up to '/fates/escaped'");
+      counts.escaped - counts.unbounded)
+    damaged(stored.file, "'/fates/holes' and '/fates/unbounded' do not add up to '/fates/escaped'");
   if (counts.pinned > counts.survived || counts.capped > counts.survived - counts.pinned)
     damaged(stored.file, "'/fates/pinned' and '/fates/capped' are more than '/fates/survived'");
   const std::uint64_t mean = counts.trajectories == 0 ? 0 : counts.collisions / counts.trajectories;
@@ -88,10 +88,12 @@ void check_stored(const StoredEnsemble& stored, const DiffusionResult& result,
                   const System& system) {
   check_common(stored, result, result.trajectories, "/fates/trajectories", system);
   check_times(stored, result.sums.times(), "/msd/t", system);
-  if (result.survived + result.escaped + result.capped + result.singular + result.unbounded +
-          result.unresolved + result.lost !=
+  if (result.survived + result.escaped + result.capped + result.singular + result.unresolved +
+          result.lost !=
       result.trajectories)
     damaged(stored.file, "'/fates' do not add up to '/fates/trajectories'");
+  if (result.unbounded > result.escaped)
+    damaged(stored.file, "'/fates/unbounded' is more than '/fates/escaped'");
   if (result.pinned > result.survived)
     damaged(stored.file, "'/fates/pinned' is more than '/fates/survived'");
   check_samples(stored, result);
