@@ -2,6 +2,8 @@
 /// The whole library: `#include <carom/carom.hpp>`. For geometry alone take <carom/geometry/…>.
 #pragma once
 
+#include "carom/analysis/decay.hpp"
+#include "carom/analysis/escape_times.hpp"
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/analysis/paired_survival.hpp"
 #include "carom/analysis/section.hpp"

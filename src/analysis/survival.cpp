@@ -81,12 +81,14 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole) {
   if (fate != Fate::escaped && fate != Fate::unbounded) return;
   if (fate == Fate::escaped && hole >= 0) ++hole_escapes.at(static_cast<std::size_t>(hole));
   count_in(gone_in, times, time);
+  gone_at.add(time);
   count_in(gone_in_hits, reported_hits(), hits);
 }
 
 void SurvivalCounts::merge(const SurvivalCounts& other) {
   add_fates(other);
   add_each(gone_in, other.gone_in);
+  gone_at.merge(other.gone_at);
   add_each(gone_in_hits, other.gone_in_hits);
   add_each(hole_escapes, other.hole_escapes);
   trajectories += other.trajectories;

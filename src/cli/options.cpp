@@ -165,6 +165,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .flag("--per-trajectory", o.per_trajectory,
             "Store start, fate, hole, time and hits of each trajectory in the archive")
+      .text("--window", o.window, "FROM,TO", "Times between which the decay is fitted")
       .parts()
       .text("--splitting", o.splitting, "LEVELS",
             "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")

@@ -17,7 +17,7 @@ struct Options {
   bool hidden_archive = false;
   bool json = false, force = false, quiet = false, verbose = false, per_trajectory = false,
        soak = false;
-  std::string window;                                              ///< of carom diffusion
+  std::string window;                                              ///< of fits
   std::string on, direction, points, orbits;                       ///< of carom section
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
   std::vector<std::string> files;                                  ///< of carom merge

@@ -222,7 +222,7 @@ TEST(EscapeResume, ARunGoesOnAfterAFullDisk) {
   EXPECT_EQ(shell.files().size(), 2u);
 }
 
-TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk(mushroom, "", 96); }
+TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk(mushroom, "", 128); }
 
 TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNoRecords) {
   fill_the_disk(mushroom, " --per-trajectory", 32 << 10);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "carom/analysis/escape_times.hpp"
 #include "carom/analysis/fate_counts.hpp"
 
 namespace carom {
@@ -26,6 +27,7 @@ struct SurvivalCounts : FateCounts {
   std::vector<double> times;                ///< report times, increasing
   std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
   std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
+  EscapeTimes gone_at;                      ///< the same in fine bins, at all times
   std::uint64_t trajectories = 0, collisions = 0;
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; set by the ensemble
   std::uint64_t most_hits = 0;  ///< of a single trajectory

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/analysis/decay.hpp"
 #include "carom/analysis/survival.hpp"
 #include "carom/ensemble/parts.hpp"
 #include "carom/ensemble/system.hpp"
@@ -35,5 +36,9 @@ struct EscapeOptions : EnsembleOptions<EscapeResult> {
 /// that is injected counts from the time 0 on as one that is not gone. Throws InputError where the
 /// initial condition is impossible, and whatever `records` and the journal throw.
 EscapeResult run_escape(const System&, const EscapeOptions& = {});
+
+/// How the survival of a run of this system decays, in the window of System::run or as late as the
+/// data allow.
+DecayFit decay_of(const System&, const EscapeResult&);
 
 }  // namespace carom

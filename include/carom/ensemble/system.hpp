@@ -49,7 +49,8 @@ struct RunPlan {
   double sample = 0.0;            ///< time between samples (0: none)
   double trust_tolerance = 1e-3;  ///< of errors, relative to the table's size (analysis/trust.hpp)
   std::vector<double> times = {};
-  std::optional<std::pair<double, double>> window = {};  ///< report times that D is taken from
+  std::optional<std::pair<double, double>> window =
+      {};  ///< of fits: of a decay, and report times of D
 };
 
 /// Particles that enter through a hole during a run: the cosine law over its opening, inwards.

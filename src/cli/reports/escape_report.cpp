@@ -12,6 +12,7 @@
 #include "carom/table/hole_names.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/decay_report.hpp"
 #include "cli/reports/doubts.hpp"
 
 namespace carom::cli {
@@ -136,6 +137,7 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
   json.set("survival", std::move(by_time));
   json.set("survival_hits", std::move(by_hits));
   json.set("rate", std::move(rates));
+  json.set("fit", decay_json(decay_of(system, result)));
   if (const std::string note = repeated_starts(system); !note.empty()) json.set("note", note);
   if (!context.output.empty()) json.set("archive", context.output);
   return json;
@@ -149,6 +151,7 @@ std::string result_text(const System& system, const EscapeResult& result,
       head_text(system, counts.trajectories, system.run.t_max, result.complete, context);
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   text += survival_table(counts, context);
+  text += decay_text(decay_of(system, result));
   text += fates(system, counts);
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   text +=

@@ -41,6 +41,15 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
            {"1", "Trajectories gone after the time before and by t"});
   }
   {
+    const auto bins = counts.gone_at.bins();
+    const Handle group =
+        file.group("escape_times", "Trajectories gone in fine bins of time, 64 to a factor of two");
+    column(group, "from", bins, [](const auto& bin) { return bin.from; },
+           {"time", "Start of the bin, in it; it ends where the next one starts"});
+    column(group, "gone", bins, [](const auto& bin) { return bin.count; },
+           {"1", "Trajectories gone in it"});
+  }
+  {
     const auto points = survival_by_hits(counts);
     const Handle group = file.group(
         "survival_hits", "Share of the non-singular trajectories still there after n hits");
@@ -140,6 +149,16 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   counts = SurvivalCounts(hdf5::read_column<double>(survival.get(), "t", name), by_hole.size());
   counts.hole_escapes = by_hole;
   counts.gone_in = integers(survival, "gone");
+  const Handle fine = open_group(file, "escape_times", name);
+  const auto from = hdf5::read_column<double>(fine.get(), "from", name);
+  const std::vector<std::uint64_t> gone_at = integers(fine, "gone");
+  if (from.size() != gone_at.size())
+    damaged(name, "'/escape_times/from' and '/escape_times/gone' differ in length");
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (!(from[i] > 0.0) || EscapeTimes::bin_of(from[i]).from != from[i])
+      damaged(name, "'/escape_times/from' is not the start of a bin");
+    counts.gone_at.add(from[i], gone_at[i]);
+  }
   const std::vector<std::uint64_t> gone_in_hits = integers(hits, "gone");
   if (counts.gone_in.size() != counts.times.size())
     damaged(name, "'/survival/t' and '/survival/gone' differ in length");
@@ -168,6 +187,7 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
     damaged(name, "'/fates/unbounded' is more than '/fates/escaped'");
   const std::uint64_t gone = counts.escaped;
   if (total(counts.gone_in) > gone) damaged(name, "'/survival/gone' has more than '/fates'");
+  if (counts.gone_at.total() > gone) damaged(name, "'/escape_times/gone' has more than '/fates'");
   if (total(counts.gone_in_hits) > gone)
     damaged(name, "'/survival_hits/gone' has more than '/fates'");
   result.digest = number("digest");

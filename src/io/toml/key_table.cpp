@@ -214,9 +214,8 @@ const std::vector<KeyDescription>& key_table() {
        "if not "
        "given"},
       {"run", "", "window", "list of two numbers", "",
-       "report times between which the diffusion coefficient is taken from the slope; the last "
-       "decade if not "
-       "given"},
+       "times between which a decay is fitted, or report times between which the diffusion "
+       "coefficient is taken; chosen if not given"},
       {"run.times", "", "from", "number", "", "the first time"},
       {"run.times", "", "to", "number", "", "the last time, at most t_max"},
       {"run.times", "", "count", "whole number", "31", "number of times, from 2 to 100000"},

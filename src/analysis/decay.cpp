@@ -1,0 +1,305 @@
+#include "carom/analysis/decay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "base/chi_squared.hpp"
+
+namespace carom {
+
+namespace {
+
+// With u = t - a, or ln(t / a), from the start a of the window, both laws are
+//   P(u) / P(0) = (1 - c) exp(-rate u) + c.
+struct Cell {
+  double u, width, count;
+};
+/// What is seen of those that are there at the start of the window.
+struct Seen {
+  std::vector<Cell> cells;         ///< without those that are empty
+  double length = 0.0;             ///< of the window
+  double gone = 0.0, there = 0.0;  ///< in the window, and at its end
+};
+
+struct Rate {
+  double value, error;
+};
+
+/// Most likely rate. `truncated`: nothing is known of those that stay, so only how the times of the
+/// others are spread within the window counts. Nothing where they are not denser at its start.
+std::optional<Rate> most_likely_rate(std::span<const Cell> cells, double start, double length,
+                                     double there, bool truncated) {
+  double gone = 0.0, sum = 0.0;
+  for (const Cell& cell : cells) {
+    gone += cell.count;
+    sum += cell.count * (cell.u - start + 0.5 * cell.width);
+  }
+  if (gone == 0.0 || length <= 0.0) return {};
+  if (truncated && sum >= 0.5 * length * gone) return {};
+  // The logarithm of the likelihood is concave in the rate: Newton's method, kept within a factor.
+  double rate = gone / (sum + (truncated ? 0.0 : there * length)), curvature = 0.0;
+  // One factor a step at worst, from a start that is wrong by 2 gone at most; then quadratically.
+  constexpr int most_steps = 200;
+  for (int step = 0; step < most_steps; ++step) {
+    double slope = 0.0;
+    curvature = 0.0;
+    const auto add = [&](double weight, double width) {
+      const double growth = std::expm1(rate * width);
+      if (std::isinf(growth)) return;
+      slope += weight * width / growth;
+      curvature += weight * width * width / growth * (1.0 + 1.0 / growth);
+    };
+    for (const Cell& cell : cells) {
+      slope -= cell.count * (cell.u - start);
+      add(cell.count, cell.width);
+    }
+    if (truncated)
+      add(-gone, length);
+    else
+      slope -= there * length;
+    if (!(curvature > 0.0)) return {};
+    const double before = rate;
+    rate = std::clamp(before + slope / curvature, 0.5 * before, 2.0 * before);
+    // A hundredth of a millionth of the error.
+    if (std::fabs(rate - before) * std::sqrt(curvature) < 1e-8) break;
+  }
+  return Rate{rate, 1.0 / std::sqrt(curvature)};
+}
+
+/// Pearson's test in cells of about equal expectation. `stay`: expected share at the end.
+double p_value(const Seen& seen, double rate, double c, double stay, int fitted) {
+  const double all = seen.gone + seen.there;
+  // Few cells notice slow deviations best; each expects twenty at least.
+  const int most = static_cast<int>(std::clamp(seen.gone / 20.0, 3.0, 24.0));
+  const double leave = -std::expm1(-rate * seen.length);
+  std::vector<double> expected(static_cast<std::size_t>(most)), found(expected.size());
+  // Ends of cells lie at those of bins.
+  std::size_t next = 0;
+  double begun = 0.0;
+  const auto close = [&](std::size_t cell, double u) {
+    const double until = -std::expm1(-rate * u);
+    expected[cell] = (1.0 - c) * (until - begun) * all;
+    begun = until;
+  };
+  std::size_t cell = 0;
+  for (; next < seen.cells.size(); ++next) {
+    const Cell& bin = seen.cells[next];
+    const double before = -std::expm1(-rate * bin.u) / leave;
+    if (cell + 1 < expected.size() &&
+        before * static_cast<double>(most) >= static_cast<double>(cell + 1)) {
+      close(cell++, bin.u);
+    }
+    found[cell] += bin.count;
+  }
+  close(cell++, seen.length);
+  expected.resize(cell);
+  found.resize(cell);
+  if (c == 0.0) {
+    expected.push_back(stay * all);
+    found.push_back(seen.there);
+  }
+  double chi_squared = 0.0;
+  int cells = 0;
+  double small_expected = 0.0, small_found = 0.0;  // what expects too few is added up
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    small_expected += expected[i];
+    small_found += found[i];
+    if (small_expected < 5.0 && i + 1 < expected.size()) continue;
+    if (small_expected > 0.0) {
+      const double off = small_found - small_expected;
+      chi_squared += off * off / small_expected;
+      ++cells;
+    }
+    small_expected = small_found = 0.0;
+  }
+  const int degrees = cells - 1 - fitted;
+  if (degrees < 1) return std::numeric_limits<double>::quiet_NaN();
+  return chi_squared_beyond(chi_squared, degrees);
+}
+
+/// How far the rates of the earlier and the later half of the escapes differ, in standard errors.
+double drift(const Seen& seen, bool truncated) {
+  double gone = 0.0;
+  std::size_t half = 0;
+  while (half < seen.cells.size() && gone < 0.5 * seen.gone) gone += seen.cells[half++].count;
+  if (half == 0 || half >= seen.cells.size()) return 0.0;
+  const double middle = seen.cells[half].u;
+  const std::span<const Cell> all(seen.cells);
+  const auto early = most_likely_rate(all.first(half), 0.0, middle, 0.0, true);
+  const auto late =
+      most_likely_rate(all.subspan(half), middle, seen.length - middle, seen.there, truncated);
+  if (!early || !late) return std::numeric_limits<double>::infinity();
+  return std::fabs(early->value - late->value) / std::hypot(early->error, late->error);
+}
+
+double square(double x) { return x * x; }
+
+struct Candidate {
+  Decay decay;
+  double drift;
+};
+
+/// `at_start`: share of all that is there at the start a of the window.
+std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, double a,
+                             double at_start) {
+  if (with_plateau && seen.there == 0.0) return {};
+  const auto rate = most_likely_rate(seen.cells, 0.0, seen.length, seen.there, with_plateau);
+  if (!rate) return {};
+  const double all = seen.gone + seen.there, stay = std::exp(-rate->value * seen.length);
+  // With a plateau the share at the end is fitted exactly, whatever the rate.
+  const double s = seen.there / all;
+  const double c = with_plateau ? (s - stay) / (1.0 - stay) : 0.0;
+  if (with_plateau && !(c > 0.0)) return {};
+  Decay d;
+  d.law = law;
+  d.with_plateau = with_plateau;
+  d.rate = rate->value;
+  d.rate_error = rate->error;
+  double log_likelihood =
+      seen.there == 0.0 ? 0.0
+                        : seen.there * (with_plateau ? std::log(s) : -rate->value * seen.length);
+  for (const Cell& cell : seen.cells)
+    log_likelihood += cell.count * (std::log1p(-c) - rate->value * cell.u +
+                                    std::log(-std::expm1(-rate->value * cell.width)));
+  d.evidence = log_likelihood - 0.5 * std::log(seen.gone) * (with_plateau ? 2.0 : 1.0);
+  // Errors by first order: the share at the start, s and the rate are independent.
+  const double lever = law == DecayLaw::exponential ? a : std::log(a);
+  const double start_variance = (1.0 - at_start) / all;  // of ln at_start
+  const double slope = with_plateau ? seen.length * stay / (1.0 - stay) : 0.0;
+  d.amplitude = at_start * (1.0 - c) * std::exp(lever * d.rate);
+  d.amplitude_error =
+      d.amplitude * std::sqrt(start_variance + (with_plateau ? s / ((1.0 - s) * all) : 0.0) +
+                              square((lever - slope) * d.rate_error));
+  if (with_plateau) {
+    d.plateau = at_start * c;
+    const double variance = s * (1.0 - s) / all / square(1.0 - stay) +
+                            square((1.0 - s) * slope / (1.0 - stay) * d.rate_error);
+    d.plateau_error = d.plateau * std::sqrt(start_variance + variance / square(c));
+  }
+  d.p_value = p_value(seen, d.rate, c, stay, 1);
+  return Candidate{d, drift(seen, with_plateau)};
+}
+
+std::vector<Candidate> all_fits(std::span<const EscapeTimes::Bin> bins, double end, double there,
+                                double particles) {
+  const double a = bins.front().from;
+  std::vector<Candidate> found;
+  for (const DecayLaw law : {DecayLaw::exponential, DecayLaw::power}) {
+    Seen seen;
+    const auto coordinate = [&](double t) {
+      return law == DecayLaw::exponential ? t - a : std::log(t / a);
+    };
+    seen.length = coordinate(end);
+    seen.there = there;
+    for (const EscapeTimes::Bin& bin : bins) {
+      if (bin.count == 0) continue;
+      const double u = coordinate(bin.from), count = static_cast<double>(bin.count);
+      seen.cells.push_back({u, coordinate(std::min(bin.to, end)) - u, count});
+      seen.gone += count;
+    }
+    for (const bool with_plateau : {false, true})
+      if (const auto one = fit(law, with_plateau, seen, a, (seen.gone + there) / particles))
+        found.push_back(*one);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
+    return x.decay.evidence > y.decay.evidence;
+  });
+  return found;
+}
+
+// Fewer escapes tell no law from another.
+constexpr double fewest = 100.0;
+constexpr double share_of_escapes = 0.3;
+constexpr double least_p = 0.1;
+constexpr double largest_drift = 1.0;
+// ln 20
+constexpr double decisive = 2.995732273553991;
+// Starts that are tried lie a factor of 2^(1/4) apart.
+constexpr std::size_t between_starts = 16;
+
+bool describes(const Candidate& one) {
+  return one.decay.p_value >= least_p && one.drift < largest_drift;
+}
+
+double count_of(std::span<const EscapeTimes::Bin> bins) {
+  double sum = 0.0;
+  for (const EscapeTimes::Bin& bin : bins) sum += static_cast<double>(bin.count);
+  return sum;
+}
+
+/// The number of the bin where the window begins, or that of bins.
+std::size_t latest_start(std::span<const EscapeTimes::Bin> bins, double end, double there,
+                         double particles) {
+  for (std::size_t i = 0; i < bins.size(); i += between_starts) {
+    const double escapes = count_of(bins.subspan(i));
+    if (escapes < fewest) break;
+    const std::vector<Candidate> fits = all_fits(bins.subspan(i), end, there, particles);
+    if (std::none_of(fits.begin(), fits.end(), describes)) continue;
+    const double wanted = std::max(fewest, share_of_escapes * escapes);
+    double left = escapes;
+    while (left - static_cast<double>(bins[i].count) >= wanted)
+      left -= static_cast<double>(bins[i++].count);
+    return i;
+  }
+  return bins.size();
+}
+
+}  // namespace
+
+std::string name_of(const Decay& decay) {
+  return std::string(decay.law == DecayLaw::exponential ? "exponential" : "power") +
+         (decay.with_plateau ? " + plateau" : "");
+}
+
+DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint64_t still_there,
+                   double until, std::optional<DecayWindow> window) {
+  DecayFit result;
+  std::vector<EscapeTimes::Bin> bins = times.bins();
+  double there = static_cast<double>(still_there), end = until;
+  if (window) {
+    while (!bins.empty() && !(bins.back().from < window->second)) {
+      there += static_cast<double>(bins.back().count);
+      bins.pop_back();
+    }
+    bins.erase(bins.begin(), std::find_if(bins.begin(), bins.end(),
+                                          [&](const auto& bin) { return bin.to > window->first; }));
+    end = std::min(until, EscapeTimes::bin_of(window->second).from);
+    if (end < window->second) end = std::min(until, EscapeTimes::bin_of(window->second).to);
+  }
+  const double all = static_cast<double>(particles);
+  std::size_t first = 0;
+  if (count_of(bins) < fewest) {
+    result.why_none = window ? "fewer than 100 escapes in the window" : "fewer than 100 escapes";
+    return result;
+  }
+  if (!window) first = latest_start(bins, end, there, all);
+  if (first == bins.size()) {
+    result.why_none = "no law describes the last 100 escapes";
+    return result;
+  }
+  const std::span<const EscapeTimes::Bin> used(bins.begin() + static_cast<std::ptrdiff_t>(first),
+                                               bins.end());
+  for (const Candidate& one : all_fits(used, end, there, all)) result.decays.push_back(one.decay);
+  if (result.decays.empty()) {
+    result.why_none = "the escapes do not become rarer";
+    return result;
+  }
+  result.from = used.front().from;
+  result.to = end;
+  result.escapes = static_cast<std::uint64_t>(count_of(used));
+  result.decided =
+      result.decays.size() == 1 || result.decays[0].evidence - result.decays[1].evidence > decisive;
+  return result;
+}
+
+DecayFit fit_decay(const SurvivalCounts& counts, double until, std::optional<DecayWindow> window) {
+  if (counts.capped == 0)
+    return fit_decay(counts.gone_at, counts.followed(), counts.survived, until, window);
+  DecayFit none;
+  none.why_none = "trajectories ended by the cap on hits would have stayed for unknown times";
+  return none;
+}
+
+}  // namespace carom

@@ -1,0 +1,83 @@
+#include "cli/reports/decay_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+std::string formula_of(const Decay& decay) {
+  return std::string("P(t) = A ") +
+         (decay.law == DecayLaw::exponential ? "exp(-kappa t)" : "t^-a") +
+         (decay.with_plateau ? " + P_infinity" : "");
+}
+
+std::string numbers_of(const Decay& decay) {
+  std::string text = fmt::format("{} = {}", decay.law == DecayLaw::exponential ? "kappa" : "a",
+                                 with_error(decay.rate, decay.rate_error));
+  text += fmt::format(", A = {}", with_error(decay.amplitude, decay.amplitude_error));
+  if (decay.with_plateau)
+    text += fmt::format(", P_infinity = {}", with_error(decay.plateau, decay.plateau_error));
+  return text;
+}
+
+Json json_of(const Decay& decay) {
+  Json json = Json::object().set("model", name_of(decay));
+  json.set(decay.law == DecayLaw::exponential ? "rate" : "exponent", decay.rate)
+      .set("stderr", decay.rate_error)
+      .set("amplitude", decay.amplitude)
+      .set("amplitude_stderr", decay.amplitude_error);
+  if (decay.with_plateau)
+    json.set("plateau", decay.plateau).set("plateau_stderr", decay.plateau_error);
+  return json.set("p_value", decay.p_value);
+}
+
+// A p-value below it says that the law is not that of the data.
+constexpr double hardly = 1e-3;
+
+// How likely the data are under one law, compared with another.
+double odds(const Decay& of, const Decay& against) {
+  return std::exp(of.evidence - against.evidence);
+}
+
+}  // namespace
+
+Json decay_json(const DecayFit& fit) {
+  if (fit.decays.empty()) return Json::object().set("model", Json()).set("reason", fit.why_none);
+  Json json = json_of(fit.decays.front());
+  json.set("decided", fit.decided)
+      .set("window", Json::array().push(fit.from).push(fit.to))
+      .set("escapes", fit.escapes);
+  Json others = Json::array();
+  for (std::size_t i = 1; i < fit.decays.size(); ++i)
+    others.push(json_of(fit.decays[i]).set("odds", odds(fit.decays[i], fit.decays[0])));
+  return json.set("alternatives", std::move(others));
+}
+
+std::string decay_text(const DecayFit& fit) {
+  if (fit.decays.empty()) return fmt::format("\nNo decay was fitted: {}.\n", fit.why_none);
+  std::string text = fmt::format("\nDecay from t = {:.4g} to {:.4g}, {} escapes\n", fit.from,
+                                 fit.to, grouped(fit.escapes));
+  const std::size_t shown = fit.decided ? 1 : 2;
+  if (!fit.decided) text += "The data do not tell these two laws apart.\n";
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Decay& decay = fit.decays[i];
+    text += fmt::format("  {}\n    {}\n    p-value {:.2g}{}\n", formula_of(decay),
+                        numbers_of(decay), decay.p_value,
+                        decay.p_value < hardly ? ": the law does not describe this window" : "");
+  }
+  if (fit.decays.size() > shown) {
+    const double ratio = odds(fit.decays[shown], fit.decays[0]);
+    text += fmt::format("  next: {}, {} times as likely\n", name_of(fit.decays[shown]),
+                        ratio < 1e-9 ? "less than 1e-9" : fmt::format("{:.2g}", ratio));
+  }
+  return text;
+}
+
+}  // namespace carom::cli

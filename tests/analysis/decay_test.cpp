@@ -1,0 +1,141 @@
+// Decays of made-up ensembles: the law that made them is found, and 95 % intervals hold its numbers
+// in 95 % of trials.
+#include "carom/analysis/decay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "random_tables.hpp"
+
+namespace carom::tests {
+namespace {
+
+using Generator = std::mt19937_64;
+
+double uniform(Generator& generator) { return std::uniform_real_distribution<>(0, 1)(generator); }
+double exponential(Generator& generator, double rate) {
+  return -std::log1p(-uniform(generator)) / rate;
+}
+double power(Generator& generator, double exponent) {
+  return std::pow(1.0 - uniform(generator), -1.0 / exponent);
+}
+constexpr double never = 1e300;
+
+struct Ensemble {
+  const char* name;
+  double until;
+  std::function<double(Generator&)> time;
+  const char* law;
+  double rate, amplitude, plateau;
+  double held = 0.95;  ///< share of intervals that hold the truth
+};
+
+DecayFit fit_of(const Ensemble& ensemble, int particles, Generator& generator,
+                std::optional<DecayWindow> window = {}) {
+  EscapeTimes times;
+  std::uint64_t there = 0;
+  for (int i = 0; i < particles; ++i)
+    if (const double t = ensemble.time(generator); t < ensemble.until)
+      times.add(t);
+    else
+      ++there;
+  return fit_decay(times, static_cast<std::uint64_t>(particles), there, ensemble.until, window);
+}
+
+const Ensemble pure[] = {
+    {"exponential", 200, [](Generator& g) { return exponential(g, 0.1); }, "exponential", 0.1, 1,
+     0},
+    {"power", 1000, [](Generator& g) { return power(g, 1.5); }, "power", 1.5, 1, 0},
+    {"exponential + plateau", 200,
+     [](Generator& g) { return uniform(g) < 0.1 ? never : exponential(g, 0.1); },
+     "exponential + plateau", 0.1, 0.9, 0.1},
+    {"power + plateau", 1000,
+     [](Generator& g) { return uniform(g) < 0.05 ? never : power(g, 1.0); }, "power + plateau", 1.0,
+     0.95, 0.05}};
+
+// What is not of the law at first has to be left out. Of 1 / (1 + t) a correction decays as slowly
+// as 1 / t, and is noticed only when it is as large as the error.
+const Ensemble with_a_beginning[] = {
+    {"two exponentials", 200,
+     [](Generator& g) { return exponential(g, uniform(g) < 0.5 ? 1.0 / 3.0 : 0.1); }, "exponential",
+     0.1, 0.5, 0},
+    {"a delay", 300, [](Generator& g) { return 2 + exponential(g, 0.1) + exponential(g, 0.5); },
+     "exponential", 0.1, std::exp(0.2) * 0.5 / 0.4, 0},
+    {"1 / (1 + t)", 1000, [](Generator& g) { return power(g, 1.0) - 1.0; }, "power", 1.0, 1, 0,
+     0.78},
+    {"an exponential before a power", 3000,
+     [](Generator& g) { return uniform(g) < 0.97 ? exponential(g, 0.2) : 8 * power(g, 1.0); },
+     "power", 1.0, 0.24, 0}};
+
+struct Count {
+  long trials = 0, right = 0, decided = 0, rate = 0, amplitude = 0, plateau = 0;
+};
+
+Count try_often(const Ensemble& ensemble, long trials, int particles,
+                std::optional<DecayWindow> window = {}) {
+  Generator generator(1);
+  Count count;
+  for (; count.trials < trials; ++count.trials) {
+    const DecayFit fit = fit_of(ensemble, particles, generator, window);
+    if (fit.decays.empty() || name_of(fit.decays[0]) != ensemble.law) continue;
+    const Decay& best = fit.decays[0];
+    ++count.right;
+    count.decided += fit.decided;
+    const auto holds = [](double value, double error, double truth) {
+      return std::fabs(value - truth) <= 1.96 * error;
+    };
+    count.rate += holds(best.rate, best.rate_error, ensemble.rate);
+    count.amplitude += holds(best.amplitude, best.amplitude_error, ensemble.amplitude);
+    count.plateau += holds(best.plateau, best.plateau_error, ensemble.plateau);
+  }
+  return count;
+}
+
+// Of n trials of this probability, fewer succeed with a probability of 1e-4 at most.
+long at_least(long count, double share) {
+  const double trials = static_cast<double>(count);
+  return static_cast<long>(trials * share - 3.9 * std::sqrt(trials * share * (1 - share)));
+}
+void expect_intervals(const Count& count, const Ensemble& ensemble) {
+  for (const long held : {count.rate, count.amplitude, count.plateau}) {
+    EXPECT_GE(held, at_least(count.right, ensemble.held)) << ensemble.name;
+    // Too wide ones are wrong, too.
+    if (count.right >= 1000 && ensemble.plateau > 0.0) {
+      EXPECT_LE(static_cast<double>(held), 0.97 * static_cast<double>(count.right));
+    }
+  }
+}
+
+TEST(Decay, FindsTheLawAndItsNumbers) {
+  for (const Ensemble& ensemble : pure) {
+    const Count count = try_often(ensemble, cases(25, 1000), 110000);
+    EXPECT_GE(static_cast<double>(count.right), 0.95 * static_cast<double>(count.trials))
+        << ensemble.name;
+    expect_intervals(count, ensemble);
+  }
+}
+
+TEST(Decay, LeavesOutTheBeginning) {
+  for (const Ensemble& ensemble : with_a_beginning) {
+    const Count count = try_often(ensemble, cases(10, 1000), 110000);
+    EXPECT_GE(static_cast<double>(count.right), 0.95 * static_cast<double>(count.trials))
+        << ensemble.name;
+    expect_intervals(count, ensemble);
+  }
+}
+
+TEST(Decay, TakesTheWindowThatIsGiven) {
+  Generator generator(1);
+  const DecayFit fit = fit_of(pure[0], 100000, generator, DecayWindow{7, 23});
+  EXPECT_LE(fit.from, 7);
+  EXPECT_GE(fit.to, 23);
+  EXPECT_GT(fit.from, 6.9);
+  EXPECT_LT(fit.to, 23.4);
+  expect_intervals(try_often(pure[0], cases(50, 1000), 20000, DecayWindow{7, 23}), pure[0]);
+}
+
+}  // namespace
+}  // namespace carom::tests
