@@ -105,7 +105,7 @@ void fly(std::vector<PathPoint>& path, Vector x, Vector v, double omega, double 
       turn > 0.0 ? 1 + static_cast<int>(std::min(1e6, turn / quarter * points_a_quarter)) : 1;
   for (int i = 0; i < count; ++i) {
     const double duration = (to - from) * i / count;
-    const Vector y = i == 0 ? x : moved(x, v, omega, duration).first;
+    const Vector y = i == 0 ? x : motion::moved(x, v, omega, duration).first;
     path.push_back({from + duration, y.x, y.y});
   }
 }
@@ -165,7 +165,8 @@ py::array_t<double> frames(const std::vector<py::array_t<double, py::array::c_st
       while (i + 1 < row.shape(0) && row(i + 1, 0) <= t) ++i;
       Vector x{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
       if (row.shape(0) > 0 && row(0, 0) <= t && t <= row(row.shape(0) - 1, 0))
-        x = moved({row(i, 1), row(i, 2)}, {row(i, 3), row(i, 4)}, omega, t - row(i, 0)).first;
+        x = motion::moved({row(i, 1), row(i, 2)}, {row(i, 3), row(i, 4)}, omega, t - row(i, 0))
+                .first;
       view(k, p, 0) = x.x;
       view(k, p, 1) = x.y;
     }

@@ -116,7 +116,7 @@ double p_value(const Seen& seen, double rate, double c, double stay, int fitted)
   }
   const int degrees = cells - 1 - fitted;
   if (degrees < 1) return std::numeric_limits<double>::quiet_NaN();
-  return chi_squared_beyond(chi_squared, degrees);
+  return base::chi_squared_beyond(chi_squared, degrees);
 }
 
 /// How far the rates of the earlier and the later half of the escapes differ, in standard errors.

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
-namespace carom {
+namespace carom::analysis {
 
+using events::Ahead;
+using events::PieceTable;
 using geometry::Vector;
 
 namespace {
@@ -17,7 +19,7 @@ Vector turned(Vector v, double angle) {
 }  // namespace
 
 bool ErrorEdges::begin(const Particle& particle, const State& start, const Deviation& d,
-                       Flight& flight) {
+                       events::Flight& flight) {
   flight.omega = particle.omega;
   flight.square_speed = particle.speed * particle.speed;
   const Vector v = start.velocity;
@@ -44,7 +46,7 @@ bool ErrorEdges::begin(const Particle& particle, const State& start, const Devia
 
 bool ErrorEdges::land(const Particle& particle, const State& start, const Deviation& d,
                       double latest, PieceTable::Landing& landing) {
-  Flight flight;
+  events::Flight flight;
   if (!begin(particle, start, d, flight)) return false;
   Ahead ahead;
   // In a corridor of a lattice it might fly for ever.
@@ -74,4 +76,4 @@ bool ErrorEdges::same_hole(const Particle& particle, const State& start, const D
   return land(particle, start, d, latest, landing) && landing.hole == hole;
 }
 
-}  // namespace carom
+}  // namespace carom::analysis

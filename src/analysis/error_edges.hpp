@@ -7,7 +7,7 @@
 #include "carom/motion/tangent.hpp"
 #include "events/flight/next_hit.hpp"
 
-namespace carom {
+namespace carom::analysis {
 
 /// Flies neighbours of an orbit from one event to the next, deciding as the engine does.
 class ErrorEdges {
@@ -29,13 +29,13 @@ class ErrorEdges {
   bool same_hole(const Particle&, const State& start, const Deviation& d, int hole, double latest);
 
  private:
-  bool begin(const Particle&, const State& start, const Deviation& d, Flight& flight);
+  bool begin(const Particle&, const State& start, const Deviation& d, events::Flight& flight);
   bool land(const Particle&, const State& start, const Deviation& d, double latest,
-            PieceTable::Landing& landing);
+            events::PieceTable::Landing& landing);
 
   const Table& table_;
-  HitFinder finder_;
+  events::HitFinder finder_;
   DecisionCounts counts_;
 };
 
-}  // namespace carom
+}  // namespace carom::analysis

@@ -7,20 +7,6 @@
 
 namespace carom {
 
-using geometry::Vector;
-
-namespace {
-
-// Steps below this share of a flight err by their square, beyond what two doubles hold of the
-// error.
-constexpr double small_step = 1e-11;
-constexpr int most_steps = 8;
-
-Vector rounded(const TwofoldVector& v) { return {v.x.value(), v.y.value()}; }
-TwofoldVector exactly(Vector v) { return {v.x, v.y}; }
-
-}  // namespace
-
 // By the series of a sixteenth of the angle, which is doubled four times; 1 - cos is kept instead
 // of cos.
 void sin_cos(Twofold& sin, Twofold& cos, const Twofold& x) {
@@ -44,6 +30,24 @@ void sin_cos(Twofold& sin, Twofold& cos, const Twofold& x) {
   sin = s;
   cos = Twofold(1.0) - m;
 }
+
+}  // namespace carom
+
+namespace carom::analysis {
+
+using geometry::Vector;
+
+namespace {
+
+// Steps below this share of a flight err by their square, beyond what two doubles hold of the
+// error.
+constexpr double small_step = 1e-11;
+constexpr int most_steps = 8;
+
+Vector rounded(const TwofoldVector& v) { return {v.x.value(), v.y.value()}; }
+TwofoldVector exactly(Vector v) { return {v.x, v.y}; }
+
+}  // namespace
 
 std::optional<OrbitError> error_after(const WrittenSystem& system, const State& before,
                                       const OrbitError& error, const HitEvent& hit) {
@@ -107,4 +111,4 @@ OrbitError error_of_start(const WrittenSystem& system, const State& start, bool 
   return error;
 }
 
-}  // namespace carom
+}  // namespace carom::analysis

@@ -10,8 +10,12 @@
 
 namespace carom {
 
-/// For |x| up to 4, to 2^-70.
+/// For |x| up to 4, to 2^-70. Beside Twofold, for there the formulas of certify/ look for it.
 void sin_cos(Twofold& sin, Twofold& cos, const Twofold& x);
+
+}  // namespace carom
+
+namespace carom::analysis {
 
 /// The error after a hit from the one before it: the true orbit flies to the same wall and is
 /// reflected there. Nothing if it does not meet that wall near the engine's hit.
@@ -22,4 +26,4 @@ std::optional<OrbitError> error_after(const WrittenSystem&, const State& before,
 /// its wall.
 OrbitError error_of_start(const WrittenSystem&, const State& start, bool first_particle);
 
-}  // namespace carom
+}  // namespace carom::analysis

@@ -12,6 +12,7 @@
 
 namespace carom {
 
+using namespace analysis;
 using geometry::Vector;
 
 namespace {

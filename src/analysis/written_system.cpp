@@ -2,7 +2,7 @@
 
 #include <variant>
 
-namespace carom {
+namespace carom::analysis {
 
 using certify::WallOf;
 using geometry::Vector;
@@ -55,4 +55,4 @@ WrittenSystem as_stored(const Table& table, const Particle& particle) {
   return written;
 }
 
-}  // namespace carom
+}  // namespace carom::analysis

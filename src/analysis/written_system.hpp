@@ -9,7 +9,7 @@
 #include "carom/table/table.hpp"
 #include "certify/wall/ball_table.hpp"
 
-namespace carom {
+namespace carom::analysis {
 
 using TwofoldVector = geometry::BasicVector<Twofold>;
 
@@ -24,4 +24,4 @@ struct WrittenSystem {
 /// A system that is its doubles.
 WrittenSystem as_stored(const Table&, const Particle&);
 
-}  // namespace carom
+}  // namespace carom::analysis

@@ -5,7 +5,7 @@
 
 #include "base/pair.hpp"
 
-namespace carom::elementary {
+namespace carom::base {
 
 namespace detail {
 
@@ -96,4 +96,4 @@ template <class Number>
   return angle_beyond(angle_high[centre], angle_low[centre], q, z, p[0], p[1]);
 }
 
-}  // namespace carom::elementary
+}  // namespace carom::base

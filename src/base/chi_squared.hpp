@@ -1,9 +1,9 @@
 // Pearson's chi squared.
 #pragma once
 
-namespace carom {
+namespace carom::base {
 
 /// The share of chi squared with so many degrees of freedom that lies beyond a value.
 double chi_squared_beyond(double value, double degrees);
 
-}  // namespace carom
+}  // namespace carom::base

@@ -4,7 +4,7 @@
 
 #include "expression.hpp"
 
-namespace carom::expression {
+namespace carom::base::expression {
 namespace {
 
 std::size_t bits(const mpq_class& q) {
@@ -134,4 +134,4 @@ NodePointer power(const NodePointer& x, long exponent) {
                n % 2 == 0 ? mpq_class(1) : factor.radicand, factor.power * static_cast<long>(n)});
 }
 
-}  // namespace carom::expression
+}  // namespace carom::base::expression

@@ -6,7 +6,7 @@
 
 #include "expression.hpp"
 
-namespace carom::expression {
+namespace carom::base::expression {
 namespace {
 
 class Real {
@@ -174,4 +174,4 @@ std::optional<double> nearest_double(const Node& x) {
   }
 }
 
-}  // namespace carom::expression
+}  // namespace carom::base::expression

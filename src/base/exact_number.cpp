@@ -9,6 +9,8 @@
 
 namespace carom {
 
+using namespace base;
+
 ExactNumber::ExactNumber(double value) {
   if (!std::isfinite(value)) throw InputError("a number must be finite");
   std::array<char, 32> buffer{};

@@ -11,7 +11,7 @@
 
 #include "carom/base/exact_number.hpp"
 
-namespace carom {
+namespace carom::base {
 
 /// A number in closed form, coefficient * sqrt(radicand) * pi^power: what most numbers of a table
 /// are. Kept so that radicand is 1 where the root is rational, and radicand and power are 1 and 0
@@ -24,17 +24,23 @@ struct ClosedForm {
   bool is_rational() const { return radicand == 1 && power == 0; }
 };
 
+}  // namespace carom::base
+
+namespace carom {
+
 /// One operation of an expression, or a leaf: what has a closed form is folded into one. A null
 /// expression is zero.
 struct ExactNumber::Node {
   enum class Operation { leaf, root, sum, difference, product, quotient, power };
   Operation operation = Operation::leaf;
-  ClosedForm closed;  // of a leaf
-  long exponent = 0;  // of a power
+  base::ClosedForm closed;  // of a leaf
+  long exponent = 0;        // of a power
   std::shared_ptr<const Node> first, second;
 };
 
-namespace expression {
+}  // namespace carom
+
+namespace carom::base::expression {
 
 using Node = ExactNumber::Node;
 using NodePointer = std::shared_ptr<const Node>;
@@ -68,5 +74,4 @@ std::optional<double> nearest_double(const Node&);
 /// Parses a number; messages of the InputError count characters of `text` from 1.
 NodePointer parse(std::string_view text, const Place& place);
 
-}  // namespace expression
-}  // namespace carom
+}  // namespace carom::base::expression

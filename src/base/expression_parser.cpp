@@ -12,7 +12,7 @@
 #include "expression.hpp"
 #include "shown_character.hpp"
 
-namespace carom::expression {
+namespace carom::base::expression {
 namespace {
 
 // Sizes no honest number needs; beyond them time, memory or the stack would be at the writer's
@@ -259,4 +259,4 @@ class Parser {
 
 NodePointer parse(std::string_view text, const Place& place) { return Parser(text, place).parse(); }
 
-}  // namespace carom::expression
+}  // namespace carom::base::expression

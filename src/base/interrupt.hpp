@@ -3,7 +3,7 @@
 
 #include <functional>
 
-namespace carom {
+namespace carom::base {
 
 /// Counts work, and asks once in some milliseconds of it. It belongs to one thread.
 class Interrupt {
@@ -35,4 +35,4 @@ class Interrupt {
   bool stopped_ = false;
 };
 
-}  // namespace carom
+}  // namespace carom::base

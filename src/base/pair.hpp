@@ -5,7 +5,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace carom {
+namespace carom::base {
 
 /// Arithmetic of a Pair is that of its two doubles, each rounded by itself.
 using Pair [[gnu::vector_size(16)]] = double;
@@ -33,4 +33,4 @@ inline unsigned signs(Pair x) {
 }
 inline unsigned signs(PairMask m) { return signs(reinterpret_cast<Pair>(m)); }
 
-}  // namespace carom
+}  // namespace carom::base

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace carom {
+namespace carom::base {
 
 /// Is the byte one of a UTF-8 character's but its first?
 inline bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
@@ -30,4 +30,4 @@ inline std::string at_character(const std::string& problem, std::size_t characte
   return message;
 }
 
-}  // namespace carom
+}  // namespace carom::base

@@ -23,6 +23,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 std::atomic<bool> interrupted{false};
@@ -163,7 +165,7 @@ ArchiveLock lock_output(const std::string& file) {
 }
 
 void write_file(const std::string& name, const std::string& text) {
-  const std::string part = aside_of(name);
+  const std::string part = io::aside_of(name);
   errno = 0;
   std::FILE* file = std::fopen(part.c_str(), "w");
   bool ok = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();

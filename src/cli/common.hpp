@@ -47,10 +47,10 @@ void write_file(const std::string& name, const std::string& text);
 Provenance provenance_of(const Options&, const System&, int threads);
 
 /// Adds version, system, title if there is one, seed, threads, engine, isa, seconds, cpu_seconds.
-void add_common_keys(Json& json, const System& system, int threads, double seconds,
+void add_common_keys(io::Json& json, const System& system, int threads, double seconds,
                      double cpu_seconds, const char* isa = "baseline");
 /// {filter, exact, share}: how many decisions each stage took, and the share that left the filter.
-Json decisions_json(const DecisionCounts&);
+io::Json decisions_json(const DecisionCounts&);
 /// "decisions beyond double precision: 0.0001 %".
 std::string decisions_text(const DecisionCounts&);
 /// "lanes: " and what becomes of them: `none`, why nothing flies in lanes, or if that is "" the

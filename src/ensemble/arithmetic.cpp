@@ -15,7 +15,7 @@
 #include "carom/events/world.hpp"
 #include "ensemble/particle_hash.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 namespace {
 
@@ -102,4 +102,4 @@ const std::string& arithmetic_fingerprint() {
   return digits;
 }
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace carom {
+namespace carom::ensemble {
 
 /// A hash of the states to which some short orbits of fixed systems come, and of what they add to a
 /// digest, 16 hexadecimal digits: builds whose digits differ, or their digests, do not go on with
@@ -11,4 +11,4 @@ namespace carom {
 /// asked for first, in some milliseconds.
 const std::string& arithmetic_fingerprint();
 
-}  // namespace carom
+}  // namespace carom::ensemble

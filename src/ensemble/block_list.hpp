@@ -8,7 +8,7 @@
 
 #include "carom/ensemble/trajectory_ranges.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 /// Numbers blocks of at most `block` trajectories through several ranges, in order.
 class BlockList {
@@ -37,4 +37,4 @@ class BlockList {
   std::uint64_t block_, size_ = 0;
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -10,7 +10,7 @@
 
 #include "carom/ensemble/escape.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 /// Holds at most `window` blocks: a thread that is further ahead waits for the slowest block.
 template <class Record>
@@ -63,4 +63,4 @@ class OrderedBlocks {
 
 using BlockOrder = OrderedBlocks<TrajectoryRecord>;
 
-}  // namespace carom
+}  // namespace carom::ensemble

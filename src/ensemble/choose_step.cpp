@@ -101,7 +101,7 @@ class Pilots {
       particles.push_back(world.particle(i));
       states.push_back(world.state_at(i, t));
     }
-    Interrupt interrupt(&stopped_);
+    base::Interrupt interrupt(&stopped_);
     const Energy sum = energy_of(particles, states, system_.dynamics, *system_.table, &interrupt);
     if (interrupt.stopped()) throw SamplingStopped();
     return sum;
@@ -132,12 +132,12 @@ bool resolves_region(const System& system, const World& world, double energy, do
                     : geometry::hull_of(table.walls, [](const Wall& wall) {
                         return geometry::bounding_box(wall.curve);
                       });
-  ForceMap map(forces, system.particles.front());
+  forces::ForceMap map(forces, system.particles.front());
   const auto inside = [&](Vector x) { return table.lattice || world.contains(x); };
-  return map.resolves_everywhere(
-             box.low, box.high, energy, inside,
-             resolution::span_of(h / resolution::steps_a_radius, system.particles.front().omega),
-             meshes) ||
+  return map.resolves_everywhere(box.low, box.high, energy, inside,
+                                 forces::resolution::span_of(h / forces::resolution::steps_a_radius,
+                                                             system.particles.front().omega),
+                                 meshes) ||
          meshes <= 0;
 }
 

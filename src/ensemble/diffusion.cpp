@@ -10,6 +10,8 @@
 
 namespace carom {
 
+using namespace ensemble;
+
 namespace {
 
 // Each takes 150 kB a thread.

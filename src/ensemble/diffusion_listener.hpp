@@ -18,7 +18,7 @@
 #include "ensemble/first_reports.hpp"
 #include "ensemble/particle_hash.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 /// One thread's.
 class DiffusionListener : public Listener {
@@ -112,4 +112,4 @@ class DiffusionListener : public Listener {
   DecisionCounts decisions_;         ///< that were told
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -21,7 +21,7 @@ constexpr double most_pairs = 2e8;
 
 bool overlap(const System& system, const State& a, const State& b, double reach) {
   Vector d = a.position - b.position;
-  if (system.table->lattice) d = nearest_copy(d, *system.table->lattice);
+  if (system.table->lattice) d = forces::nearest_copy(d, *system.table->lattice);
   return dot(d, d) < reach * reach;
 }
 
@@ -31,7 +31,7 @@ bool overlap(const System& system, const State& a, const State& b, double reach)
 /// other. If they are too many or too large for that, places one after the other.
 std::vector<State> Sampler::draw_discs(const World& world, std::uint64_t trajectory) const {
   const std::size_t count = system_.particles.size();
-  Interrupt interrupt(&stopped_);
+  base::Interrupt interrupt(&stopped_);
   double pairs = 0.0;  // of draws that did not fit
   const auto fits = [&](const std::vector<State>& placed, const State& next) {
     if (interrupt.after(200.0 + 4.0 * static_cast<double>(placed.size()))) throw SamplingStopped();

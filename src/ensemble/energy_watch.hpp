@@ -15,7 +15,7 @@
 #include "carom/ensemble/system.hpp"
 #include "carom/events/energy.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 /// What is seen of the energies of trajectories.
 struct EnergiesSeen {
@@ -84,7 +84,7 @@ class EnergyWatch {
 
  private:
   Energy energy(std::span<const Particle> particles, std::span<const State> states) const {
-    Interrupt interrupt(&stopped_);
+    base::Interrupt interrupt(&stopped_);
     const Energy sum = energy_of(particles, states, system_->dynamics, *system_->table, &interrupt);
     if (interrupt.stopped()) throw SamplingStopped();
     return sum;
@@ -104,4 +104,4 @@ class EnergyWatch {
   std::size_t number_ = 0;
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -9,6 +9,8 @@
 
 namespace carom {
 
+using namespace ensemble;
+
 namespace {
 
 /// Does nothing act between walls?

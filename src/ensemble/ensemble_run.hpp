@@ -24,7 +24,7 @@
 #include "ensemble/block_list.hpp"
 #include "ensemble/periodic.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 template <class Result>
 class EnsembleRun {
@@ -229,4 +229,4 @@ class EnsembleRun {
   const std::uint64_t save_after_;  ///< trajectories; 0: checkpoints are some time apart
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

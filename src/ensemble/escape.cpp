@@ -6,6 +6,8 @@
 
 namespace carom {
 
+using namespace ensemble;
+
 namespace {
 
 EscapeResult nothing(const System& system) {

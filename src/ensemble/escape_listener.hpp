@@ -16,7 +16,7 @@
 #include "ensemble/first_reports.hpp"
 #include "ensemble/particle_hash.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 /// One thread's. Lanes go from block to block without a pause, so several are under way at once;
 /// where records are wanted in order, one block after the other: a thread that waits for its turn
@@ -136,4 +136,4 @@ class EscapeListener : public Listener {
   LaneEffort effort_;
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -9,7 +9,7 @@
 
 #include "carom/ensemble/parts.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 /// Keeps the reports of the lowest indices, sorted. Their order of arrival does not matter.
 inline void keep_first(std::vector<std::pair<std::uint64_t, std::string>>& reports,
@@ -21,4 +21,4 @@ inline void keep_first(std::vector<std::pair<std::uint64_t, std::string>>& repor
   if (reports.size() > most) reports.pop_back();
 }
 
-}  // namespace carom
+}  // namespace carom::ensemble

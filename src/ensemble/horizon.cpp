@@ -37,7 +37,7 @@ Horizon horizon_of(const System& system) {
   const bool of_discs = system.of_discs(), one_disc = of_discs && system.particles.size() == 1;
   const bool inset = one_disc && system.table->extent == Extent::lattice;
   const Table table =
-      inset ? inset_table(*system.table, system.particles.front().radius) : *system.table;
+      inset ? table::inset_table(*system.table, system.particles.front().radius) : *system.table;
   Horizon horizon;
   const bool bent = std::all_of(system.particles.begin(), system.particles.end(),
                                 [](const Particle& p) { return p.omega != 0.0; });

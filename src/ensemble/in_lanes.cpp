@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace carom {
+namespace carom::ensemble {
 
 InLanes::InLanes(const System& system, const EngineOptions& options, const World& like,
                  std::unique_ptr<Lanes> lanes)
@@ -76,4 +76,4 @@ void InLanes::note(const LaneEnd& end) {
   listener_->end(f.trajectory, f.end);
 }
 
-}  // namespace carom
+}  // namespace carom::ensemble

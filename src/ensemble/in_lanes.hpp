@@ -8,7 +8,7 @@
 #include "carom/events/world.hpp"
 #include "carom/lanes/lanes.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 /// Puts the particles of trajectories into lanes, and the ends of particles together to ends of
 /// trajectories.
@@ -51,4 +51,4 @@ class InLanes : public Engine {
               begun_ = 0;  ///< the latest flight, and how many of its particles are in lanes
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -5,7 +5,7 @@
 
 #include "carom/base/random.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 namespace {
 
@@ -41,4 +41,4 @@ State Kick::operator()(const State& state, double speed, double delta, RandomStr
   return kicked;
 }
 
-}  // namespace carom
+}  // namespace carom::ensemble

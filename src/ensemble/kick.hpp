@@ -8,8 +8,10 @@
 #include "carom/table/table.hpp"
 
 namespace carom {
-
 class RandomStream;
+}  // namespace carom
+
+namespace carom::ensemble {
 
 /// Turns the velocity of a state that has just hit: v_parallel changes, the place on the wall does
 /// not. Grazing directions fold it back, so that the invariant measure ds d(v_parallel) is kept. A
@@ -28,4 +30,4 @@ class Kick {
   std::vector<geometry::CurveFrame> frames_;  // one a wall
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

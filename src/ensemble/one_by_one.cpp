@@ -5,7 +5,7 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 namespace {
 
@@ -91,4 +91,4 @@ void OneByOne::end(const EndEvent& event) {
   listener_->particle_end(trajectory_, event.particle, event.fate);
 }
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -5,7 +5,7 @@
 #include "carom/ensemble/engine.hpp"
 #include "carom/events/world.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 class OneByOne : public Engine, private Observer {
  public:
@@ -37,4 +37,4 @@ class OneByOne : public Engine, private Observer {
   std::size_t samples_ = 0;  ///< times of this trajectory that are sampled
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

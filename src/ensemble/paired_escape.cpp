@@ -16,6 +16,8 @@
 
 namespace carom {
 
+using namespace ensemble;
+
 namespace {
 
 struct Pair {

@@ -12,7 +12,7 @@
 
 #include "carom/ensemble/sampler.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 struct BlockPlan {
   std::uint64_t trajectories = 0, block = 1, blocks = 0;
@@ -74,4 +74,4 @@ bool run_blocks(const BlockPlan& plan, const std::atomic<bool>* interrupted, Mak
   return finished.load() == plan.blocks;
 }
 
-}  // namespace carom
+}  // namespace carom::ensemble

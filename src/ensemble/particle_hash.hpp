@@ -7,7 +7,9 @@
 #include "carom/base/digest.hpp"
 #include "carom/ensemble/system.hpp"
 
-namespace carom {
+namespace carom::ensemble {
+
+using carom::mix;
 
 /// The bits of a state: where in the plane, how fast and when it is. Not the wall: that of a
 /// particle in a step is none.
@@ -49,4 +51,4 @@ class ParticleHash {
   bool of_states_;
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-namespace carom {
+namespace carom::ensemble {
 
 /// Calls `action`, which must not throw, every so many seconds until it is stopped.
 class Periodic {
@@ -45,4 +45,4 @@ class Periodic {
   std::thread thread_;  // last: it uses the others
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

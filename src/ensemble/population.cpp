@@ -10,7 +10,7 @@
 #include "carom/base/elementary.hpp"
 #include "carom/base/random.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 namespace {
 
@@ -345,4 +345,4 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
   return std::move(result_);
 }
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -13,7 +13,7 @@
 #include "carom/ensemble/splitting.hpp"
 #include "kick.hpp"
 
-namespace carom {
+namespace carom::ensemble {
 
 /// Runs populations in one thread, each stage of one by an engine. A population is a function of
 /// (seed, repetition, number of the kick) alone.
@@ -107,4 +107,4 @@ class Population {
   std::vector<std::uint64_t> going_;  // number gone in this stage, likewise
 };
 
-}  // namespace carom
+}  // namespace carom::ensemble

@@ -77,7 +77,7 @@ bool EnergyRows::sampled(Time time, std::optional<EnergyRow>& row) {
   row.reset();
   if (states_.empty()) return true;
   const Table& table = *system_.table;
-  Interrupt summing(&interrupted_);
+  base::Interrupt summing(&interrupted_);
   const Energy energy = energy_of(particles_, states_, system_.dynamics, table, &summing);
   if (!summing.stopped()) {
     const Vector momentum = momentum_of(particles_, states_);

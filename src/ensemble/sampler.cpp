@@ -114,7 +114,7 @@ void fold_into_cell(const Table& table, Vector& position, geometry::Cell& cell) 
   // First the whole number of cells from the solution of position - centre = a first + b second,
   // then edge by edge. Each subtraction is rounded; the folded position is the start, exactly. The
   // home cell lies about its walls, be they many cells from the origin.
-  const Vector from_centre = position - centre_of_cell(lattice);
+  const Vector from_centre = position - events::centre_of_cell(lattice);
   const double area = cross(lattice.first, lattice.second);
   const double a = std::nearbyint(cross(from_centre, lattice.second) / area);
   const double b = std::nearbyint(cross(lattice.first, from_centre) / area);

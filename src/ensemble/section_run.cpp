@@ -15,6 +15,8 @@
 
 namespace carom {
 
+using namespace ensemble;
+
 namespace {
 
 // Orbits of random starts, unless a number is asked for: more are hard to tell apart in a picture.

@@ -205,7 +205,8 @@ State moved_on(const Particle& particle, const ParticleProgress& progress) {
   State state = progress.state;
   const double duration = progress.end - state.time;
   if (!(duration > 0.0)) return state;
-  const auto [position, velocity] = moved(state.position, state.velocity, particle.omega, duration);
+  const auto [position, velocity] =
+      motion::moved(state.position, state.velocity, particle.omega, duration);
   state.position = position;
   state.velocity = velocity;
   state.time = progress.end;
@@ -427,7 +428,7 @@ class SingleRun {
     return was_interrupted_;
   };
   /// The energies of many that interact take seconds: worth nothing where that was interrupted.
-  Interrupt summing_{&interrupted_};
+  base::Interrupt summing_{&interrupted_};
   std::vector<Particle> all_ = system_.particles;  ///< those that enter later, too
   std::vector<ParticleProgress> progress_;         ///< of each of all
   // Particles that ended in an earlier part of the run are not in the world.

@@ -100,7 +100,7 @@ std::vector<State> Sampler::draw_all(const World& world, std::uint64_t trajector
   for (const double e : system_.energies) energy += e;
   double lowest = std::numeric_limits<double>::infinity();
   const std::int64_t most = random_positions() ? patience(most_draws_of_all(count), trajectory) : 1;
-  Interrupt interrupt(&stopped_);
+  base::Interrupt interrupt(&stopped_);
   for (std::int64_t draw = 0; draw < most; ++draw) {
     states.clear();
     for (std::size_t p = 0; p < count; ++p) {

@@ -15,6 +15,8 @@
 
 namespace carom {
 
+using namespace ensemble;
+
 namespace {
 
 void check(const System& system, const SplittingPlan& plan) {

@@ -109,7 +109,7 @@ namespace {
 bool exceeds(const Mean& cost, std::size_t repetitions, double quantile) {
   return repetitions >= 2 &&
          std::fabs(cost.value) >
-             student_quantile(quantile, static_cast<double>(repetitions - 1)) * cost.error;
+             base::student_quantile(quantile, static_cast<double>(repetitions - 1)) * cost.error;
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ double kick_error(const SplittingResult& result, std::size_t from, std::size_t t
 
 double Extrapolated::band() const {
   if (repetitions < 2) return std::nan("");
-  return student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error +
+  return base::student_quantile(0.975, static_cast<double>(repetitions - 1)) * limit.error +
          extrapolation + kick_error + unseen;
 }
 

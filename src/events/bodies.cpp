@@ -5,7 +5,7 @@
 #include "carom/events/report.hpp"
 #include "events/step/group.hpp"
 
-namespace carom {
+namespace carom::events {
 
 int Bodies::add(Body body) {
   bodies_.push_back(std::move(body));
@@ -30,4 +30,4 @@ void Bodies::end(int i, Fate fate, Time time, Observer& observer, std::string_vi
   observer.end({i, fate, time, b.state, b.hole, b.hits});
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -15,7 +15,7 @@
 #include "events/flight/flight.hpp"
 #include "events/queue.hpp"
 
-namespace carom {
+namespace carom::events {
 
 class Group;
 
@@ -112,4 +112,4 @@ class Bodies {
   return event_;
 }
 
-}  // namespace carom
+}  // namespace carom::events

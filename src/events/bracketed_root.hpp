@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace carom {
+namespace carom::events {
 
 /// `path` tells of a point its time(), its function g() and the rate() of that, and gives the point
 /// at() a time. Of g it is known that low and high are on different sides: g > 0, or not. Newton's
@@ -38,4 +38,4 @@ Point bracketed_root(Path& path, Point low, Point high) {
   return best;
 }
 
-}  // namespace carom
+}  // namespace carom::events

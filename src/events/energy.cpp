@@ -35,7 +35,7 @@ EnergyError EnergyBalance::error_at_end(double change_at_end, double kinetic_at_
 }
 
 Energy energy_of(std::span<const Particle> particles, std::span<const State> states,
-                 const Dynamics& dynamics, const Table& table, Interrupt* interrupt) {
+                 const Dynamics& dynamics, const Table& table, base::Interrupt* interrupt) {
   Energy e;
   for (std::size_t i = 0; i < states.size(); ++i)
     e.kinetic += 0.5 * particles[i].mass * dot(states[i].velocity, states[i].velocity);
@@ -48,7 +48,7 @@ Energy energy_of(std::span<const Particle> particles, std::span<const State> sta
       e.external += forces.add_external(particles[i], states[i].position, unused);
     for (std::size_t j = i + 1; j < states.size() && forces.interacts(); ++j) {
       Vector d = states[i].position - states[j].position;
-      if (table.lattice) d = nearest_copy(d, *table.lattice);
+      if (table.lattice) d = forces::nearest_copy(d, *table.lattice);
       e.pair += forces.add_pair(particles[i], particles[j], d, unused);
     }
   }

@@ -7,7 +7,7 @@
 
 #include "carom/base/time.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// Indexed 4-ary heap. Entries are 0 … size-1; each has a key that may change at any time.
 class EventQueue {
@@ -95,4 +95,4 @@ class EventQueue {
   std::vector<Key> keys_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

@@ -2,7 +2,7 @@
 
 #include "events/step/groups.hpp"
 
-namespace carom {
+namespace carom::events {
 
 void Samples::at(std::vector<double> times) {
   any_ = !times.empty();
@@ -46,4 +46,4 @@ void Samples::emit(Time until, bool inclusive, Observer& observer) {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -8,14 +8,14 @@
 #include "base/interrupt.hpp"
 #include "events/bodies.hpp"
 
-namespace carom {
+namespace carom::events {
 
 class Groups;
 
 /// Tells an observer the state of every body at each of these times. It changes nothing of them.
 class Samples {
  public:
-  Samples(const Bodies& bodies, const Groups& groups, Interrupt& interrupt)
+  Samples(const Bodies& bodies, const Groups& groups, base::Interrupt& interrupt)
       : bodies_(bodies), groups_(groups), interrupt_(interrupt) {}
 
   /// Increasing times.
@@ -33,7 +33,7 @@ class Samples {
  private:
   const Bodies& bodies_;
   const Groups& groups_;
-  Interrupt& interrupt_;
+  base::Interrupt& interrupt_;
   std::vector<double> times_;
   double interval_ = 0.0;
   std::uint64_t next_ = 0;
@@ -41,4 +41,4 @@ class Samples {
   std::vector<std::pair<int, State>> seen_;  ///< of the sample under way
 };
 
-}  // namespace carom
+}  // namespace carom::events

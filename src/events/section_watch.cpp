@@ -3,7 +3,7 @@
 #include "events/step/group.hpp"
 #include "motion/free_motion.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Vector;
 
@@ -46,7 +46,8 @@ void SectionWatch::watch_flight(int index, Time until, const Vector* end, Observ
   const double duration = until - from.time;
   if (!(duration > 0.0)) return;
   FreeFlight flight{from.position, from.velocity, bodies_[index].particle.omega, duration, {}};
-  const auto [position, velocity] = moved(flight.position, flight.velocity, flight.omega, duration);
+  const auto [position, velocity] =
+      motion::moved(flight.position, flight.velocity, flight.omega, duration);
   flight.end = end ? *end : position;
   crossings(*surface_, flight, most_, found_);
   tell(index, from.time, observer);
@@ -91,4 +92,4 @@ void SectionWatch::watch_flights(Time until, Observer& observer) {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::events

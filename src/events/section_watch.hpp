@@ -8,7 +8,7 @@
 #include "carom/table/table.hpp"
 #include "events/bodies.hpp"
 
-namespace carom {
+namespace carom::events {
 
 class Group;
 
@@ -53,4 +53,4 @@ class SectionWatch {
   std::vector<SurfaceCrossing> found_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

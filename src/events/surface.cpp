@@ -28,7 +28,7 @@ class SeenFlight {
       : surface_(surface), flight_(flight) {}
   Point at(double time) const {
     const auto [position, velocity] =
-        moved(flight_.position, flight_.velocity, flight_.omega, time);
+        motion::moved(flight_.position, flight_.velocity, flight_.omega, time);
     return {time, surface_function(surface_, position, velocity), position, velocity};
   }
   static double time(const Point& p) { return p.time; }
@@ -157,7 +157,7 @@ void crossings(const Surface& s, const FreeFlight& f, std::size_t most,
   // Adds the crossing on a stretch on which g is monotone.
   const auto stretch = [&](const Point& after) {
     if ((before.g > 0.0) != (after.g > 0.0)) {
-      const Point p = bracketed_root(seen, before, after);
+      const Point p = events::bracketed_root(seen, before, after);
       if (on_surface_part(s, p.position))
         found.push_back({p.time, after.g > 0.0 ? 1 : -1, p.position, p.velocity});
     }

@@ -20,6 +20,8 @@
 
 namespace carom {
 
+using namespace events;
+using base::Interrupt;
 using geometry::Vector;
 
 namespace {
@@ -27,8 +29,8 @@ namespace {
 /// Tables from files were asked when they were built; this one may be made by hand.
 const Table& with_bent_arcs(const Table& table) {
   for (const Wall& wall : table.walls)
-    if (const std::string fault = flat_arc(wall); !fault.empty())
-      throw InputError(Place{}, fault, bent_enough);
+    if (const std::string fault = table::flat_arc(wall); !fault.empty())
+      throw InputError(Place{}, fault, table::bent_enough);
   return table;
 }
 

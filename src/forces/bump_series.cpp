@@ -7,7 +7,7 @@
 
 #include "carom/base/elementary.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 using geometry::Vector;
 
@@ -128,4 +128,4 @@ void add_series(const BumpShape& shape, Vector d, Vector a, Vector b, int degree
     for (std::size_t i = 0; i + j < rows; ++i) to[i + width * j] += now[j][i];
 }
 
-}  // namespace carom
+}  // namespace carom::forces

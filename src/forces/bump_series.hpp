@@ -8,7 +8,7 @@
 #include "carom/geometry/vector.hpp"
 #include "forces/lattice_sum.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 /// V = 1/(1 + exp((r - radius)/softness)) or V = exp(-r^2/(2 width^2)).
 struct BumpShape {
@@ -32,4 +32,4 @@ SeriesErrors series_errors(const BumpShape&, double r, double way);
 void add_series(const BumpShape&, geometry::Vector d, geometry::Vector a, geometry::Vector b,
                 int degree, std::size_t width, std::vector<double>& to);
 
-}  // namespace carom
+}  // namespace carom::forces

@@ -9,7 +9,7 @@
 #include "carom/base/elementary.hpp"
 #include "forces/central_bounds.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 using geometry::Vector;
 
@@ -260,4 +260,4 @@ std::unique_ptr<const Potential> make_gaussian_bumps(double height, double width
   return std::make_unique<GaussianBumps>(height, width, centers);
 }
 
-}  // namespace carom
+}  // namespace carom::forces

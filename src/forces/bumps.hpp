@@ -12,7 +12,7 @@
 #define CAROM_VECTORISED
 #endif
 
-namespace carom {
+namespace carom::forces {
 
 /// The copies, on a lattice, that are nearer than `reach` to some point of the cell.
 std::vector<geometry::Vector> copies_that_reach(const std::vector<geometry::Vector>& centers,
@@ -28,4 +28,4 @@ std::unique_ptr<const Potential> make_fermi_bumps(double height, double radius, 
 std::unique_ptr<const Potential> make_gaussian_bumps(double height, double width,
                                                      const std::vector<geometry::Vector>& centers);
 
-}  // namespace carom
+}  // namespace carom::forces

@@ -9,7 +9,7 @@
 #include "carom/base/elementary.hpp"
 #include "forces/force_bound.hpp"
 
-namespace carom::central {
+namespace carom::forces::central {
 
 inline constexpr double none = std::numeric_limits<double>::infinity();
 
@@ -86,4 +86,4 @@ inline ForceBound fermi(double height, double radius, double softness, const Dis
       2.0 * steepest * tip / ((1.0 + tip) * (1.0 + tip))};
 }
 
-}  // namespace carom::central
+}  // namespace carom::forces::central

@@ -10,7 +10,7 @@
 #include "carom/base/elementary.hpp"
 #include "forces/hyperbolic.hpp"
 
-namespace carom::complex_box {
+namespace carom::forces::complex_box {
 
 struct Range {
   double low = 0.0, high = 0.0;
@@ -166,4 +166,4 @@ inline Box power(const Box& a, int n) {
   return of_polar({to(m.low), to(m.high)}, {n * t.low, n * t.high});
 }
 
-}  // namespace carom::complex_box
+}  // namespace carom::forces::complex_box

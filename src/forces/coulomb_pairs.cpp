@@ -10,7 +10,7 @@
 
 #include "base/interrupt.hpp"
 
-namespace carom {
+namespace carom::forces {
 namespace {
 
 constexpr std::size_t lanes = 8;
@@ -20,7 +20,7 @@ struct Arrays {
   std::size_t size;
   const double *x, *y, *charge;
   double *force_x, *force_y, *pull_x, *pull_y;
-  Interrupt* interrupt;
+  base::Interrupt* interrupt;
 };
 
 using Lanes [[gnu::vector_size(lanes * sizeof(double))]] = double;
@@ -93,7 +93,7 @@ Sum widest() {
 
 void add_coulomb_pairs(double strength, std::span<const Particle> particles,
                        std::span<const geometry::Vector> x, std::span<geometry::Vector> force,
-                       Interrupt* interrupt) {
+                       base::Interrupt* interrupt) {
   static const Sum sum = widest();
   thread_local std::vector<double> columns;
   const std::size_t n = x.size();
@@ -110,4 +110,4 @@ void add_coulomb_pairs(double strength, std::span<const Particle> particles,
     force[i] = force[i] + geometry::Vector{column[3 * n + i], column[4 * n + i]};
 }
 
-}  // namespace carom
+}  // namespace carom::forces

@@ -6,9 +6,11 @@
 #include "carom/geometry/vector.hpp"
 #include "carom/motion/state.hpp"
 
-namespace carom {
-
+namespace carom::base {
 class Interrupt;
+}  // namespace carom::base
+
+namespace carom::forces {
 
 /// Adds strength q_i q_j d / |d|^3, d = x_i - x_j, of every pair to `force`; the other feels the
 /// opposite, exactly. The sums are taken in an order that depends on the number of particles alone,
@@ -16,6 +18,6 @@ class Interrupt;
 /// it stops half done.
 void add_coulomb_pairs(double strength, std::span<const Particle> particles,
                        std::span<const geometry::Vector> x, std::span<geometry::Vector> force,
-                       Interrupt* interrupt = nullptr);
+                       base::Interrupt* interrupt = nullptr);
 
-}  // namespace carom
+}  // namespace carom::forces

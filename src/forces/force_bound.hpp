@@ -8,7 +8,7 @@
 
 #include "carom/geometry/vector.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 /// All places within complex displacements of size `rho` of a real box.
 struct Neighbourhood {
@@ -28,4 +28,4 @@ struct ForceBound {
   }
 };
 
-}  // namespace carom
+}  // namespace carom::forces

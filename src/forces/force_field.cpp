@@ -11,6 +11,7 @@
 
 namespace carom {
 
+using namespace forces;
 using geometry::Vector;
 
 ForceField::ForceField() = default;
@@ -40,12 +41,12 @@ ForceBound ForceField::pair_bound(const Particle& a, const Particle& b, double d
 
 void ForceField::add_pairs(std::span<const Particle> particles, std::span<const Vector> x,
                            const geometry::Lattice* lattice, std::span<Vector> force,
-                           Interrupt* interrupt) const {
+                           base::Interrupt* interrupt) const {
   if (interaction_) interaction_->add_forces(particles, x, lattice, force, interrupt);
 }
 
 double ForceField::pair_energy(std::span<const Particle> particles, std::span<const Vector> x,
-                               const geometry::Lattice* lattice, Interrupt* interrupt) const {
+                               const geometry::Lattice* lattice, base::Interrupt* interrupt) const {
   return interaction_ ? interaction_->energy(particles, x, lattice, interrupt) : 0.0;
 }
 

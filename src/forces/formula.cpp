@@ -8,6 +8,9 @@
 #include "forces/hyperbolic.hpp"
 
 namespace carom {
+
+using namespace forces;
+
 namespace {
 
 using formula::Instruction;

@@ -11,9 +11,7 @@
 
 #include "carom/forces/typed_expression.hpp"
 
-namespace carom {
-
-namespace formula {
+namespace carom::forces::formula {
 
 /// a, b: results of earlier operations; c: a number.
 enum class Operation : std::uint8_t {
@@ -64,19 +62,23 @@ struct Part {
   std::uint16_t slot = 0;
 };
 
-}  // namespace formula
+}  // namespace carom::forces::formula
+
+namespace carom {
 
 /// Slots hold values: first the variables, then the result of each instruction.
 struct TypedExpression::Formula {
   std::size_t variables = 0;
-  std::vector<formula::Instruction> instructions;
+  std::vector<forces::formula::Instruction> instructions;
   std::size_t result = 0;
 
   double value(const double* at) const;
   double value_and_gradient(const double* at, double* gradient) const;
 };
 
-namespace formula {
+}  // namespace carom
+
+namespace carom::forces::formula {
 
 using Formula = TypedExpression::Formula;
 
@@ -118,5 +120,4 @@ inline constexpr double most_exponent = 10000.0;
 Formula parse(std::string_view text, std::span<const std::string> variables,
               const std::map<std::string, double>& parameters, const Place& place);
 
-}  // namespace formula
-}  // namespace carom
+}  // namespace carom::forces::formula

@@ -7,7 +7,7 @@
 #include "forces/complex_box.hpp"
 #include "forces/formula.hpp"
 
-namespace carom {
+namespace carom::forces {
 namespace {
 
 using complex_box::Box;
@@ -245,4 +245,4 @@ ForceBound bound_of(const TypedExpression& w, double distance, double rho) {
   return bound;
 }
 
-}  // namespace carom
+}  // namespace carom::forces

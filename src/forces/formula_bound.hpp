@@ -5,11 +5,11 @@
 #include "carom/forces/typed_expression.hpp"
 #include "forces/force_bound.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 /// A bound of -grad V, V a formula of x and y.
 ForceBound bound_of(const TypedExpression&, const Neighbourhood&);
 /// A bound of the force of a pair, W a formula of the distance r.
 ForceBound bound_of(const TypedExpression&, double distance, double rho);
 
-}  // namespace carom
+}  // namespace carom::forces

@@ -4,7 +4,7 @@
 
 #include "forces/formula.hpp"
 
-namespace carom::formula {
+namespace carom::forces::formula {
 
 Part Builder::fold(Instruction instruction, double a, double b) {
   instruction.a = 0;
@@ -113,4 +113,4 @@ Formula Builder::finish(Part result) {
   return kept;
 }
 
-}  // namespace carom::formula
+}  // namespace carom::forces::formula

@@ -16,7 +16,7 @@
 #include "carom/base/exact_number.hpp"
 #include "forces/formula.hpp"
 
-namespace carom::formula {
+namespace carom::forces::formula {
 namespace {
 
 // Sizes no honest formula needs; beyond them time, memory or the stack would be at the writer's
@@ -123,7 +123,7 @@ class Parser {
     return true;
   }
 
-  std::string shown(std::size_t at) const { return shown_character(text_, at); }
+  std::string shown(std::size_t at) const { return base::shown_character(text_, at); }
   std::string found() const {
     return at_end() ? "the formula ends too early" : "unexpected " + shown(at_);
   }
@@ -148,7 +148,8 @@ class Parser {
 
   [[noreturn]] void fail(std::size_t at, const std::string& problem,
                          const std::string& expected = {}, const std::string& nearest = {}) const {
-    throw InputError(place_of(at), at_character(problem, character(at), text_), expected, nearest);
+    throw InputError(place_of(at), base::at_character(problem, character(at), text_), expected,
+                     nearest);
   }
 
   // Something stands where an operator or `else_expected` should.
@@ -360,4 +361,4 @@ Formula parse(std::string_view text, std::span<const std::string> variables,
   return Parser(text, variables, parameters, place).parse();
 }
 
-}  // namespace carom::formula
+}  // namespace carom::forces::formula

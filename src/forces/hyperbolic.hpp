@@ -5,7 +5,7 @@
 
 #include "carom/base/elementary.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 struct Hyperbolic {
   double sine, cosine;
@@ -53,4 +53,4 @@ inline HyperbolicTangent tangent_hyperbolic(double x) {
   return {std::copysign((1.0 - e) / (1.0 + e), x), 4.0 * e / ((1.0 + e) * (1.0 + e))};
 }
 
-}  // namespace carom
+}  // namespace carom::forces

@@ -11,7 +11,7 @@
 #include "forces/nearest_copy.hpp"
 #include "forces/potential.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 using geometry::Vector;
 using Kind = InteractionSpec::Kind;
@@ -56,7 +56,7 @@ class Central final : public Interaction {
   }
   void add_forces(std::span<const Particle> particles, std::span<const Vector> x,
                   const geometry::Lattice* lattice, std::span<Vector> force,
-                  Interrupt* interrupt) const override {
+                  base::Interrupt* interrupt) const override {
     if (!lattice && coulomb_strength_ && x.size() >= worth_lanes)
       return add_coulomb_pairs(*coulomb_strength_, particles, x, force, interrupt);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -73,7 +73,7 @@ class Central final : public Interaction {
     }
   }
   double energy(std::span<const Particle> particles, std::span<const Vector> x,
-                const geometry::Lattice* lattice, Interrupt* interrupt) const override {
+                const geometry::Lattice* lattice, base::Interrupt* interrupt) const override {
     double all = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (interrupt && interrupt->after(10.0 * static_cast<double>(x.size() - i))) return all;
@@ -189,4 +189,4 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
   return nullptr;
 }
 
-}  // namespace carom
+}  // namespace carom::forces

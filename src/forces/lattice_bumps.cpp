@@ -9,7 +9,7 @@
 #include "carom/base/elementary.hpp"
 #include "forces/central_bounds.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 using geometry::Vector;
 
@@ -185,4 +185,4 @@ std::unique_ptr<const Potential> make_lattice_bumps(const BumpShape& shape, doub
   return std::make_unique<LatticeBumps>(shape, height, centers, lattice, reach);
 }
 
-}  // namespace carom
+}  // namespace carom::forces

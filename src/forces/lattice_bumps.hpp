@@ -10,7 +10,7 @@
 #include "forces/lattice_sum.hpp"
 #include "forces/potential.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 /// The sum of all copies nearer than `reach`, which leaves out less than tail_share, by a table
 /// whose own error is below tail_share, too (times height; for the force: times height/length()).
@@ -44,4 +44,4 @@ std::unique_ptr<const Potential> make_lattice_bumps(const BumpShape&, double hei
                                                     const std::vector<geometry::Vector>& centers,
                                                     const geometry::Lattice&, double reach);
 
-}  // namespace carom
+}  // namespace carom::forces

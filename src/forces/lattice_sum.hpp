@@ -14,7 +14,7 @@
 
 #include "base/inline.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 /// Numbers in a register of the machine, W = 2, 4 or 8 of them.
 template <int W>
@@ -239,4 +239,4 @@ CAROM_INLINE void add_slopes(const LatticeSum& t, const Number& by_X, const Numb
 }
 
 }  // namespace lattice_sum
-}  // namespace carom
+}  // namespace carom::forces

@@ -5,7 +5,7 @@
 
 #include "forces/lattice_bumps.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 using geometry::Vector;
 
@@ -251,4 +251,4 @@ LatticeTable::LatticeTable(const BumpShape& shape, const std::vector<Vector>& ce
     }
 }
 
-}  // namespace carom
+}  // namespace carom::forces

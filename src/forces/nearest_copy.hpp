@@ -3,7 +3,7 @@
 
 #include "carom/geometry/lattice.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 /// The shortest of d and its displacements by lattice vectors.
 inline geometry::Vector nearest_copy(geometry::Vector d, const geometry::Lattice& lattice) {
@@ -19,4 +19,4 @@ inline geometry::Vector nearest_copy(geometry::Vector d, const geometry::Lattice
   return d;
 }
 
-}  // namespace carom
+}  // namespace carom::forces

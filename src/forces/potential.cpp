@@ -11,7 +11,7 @@
 #include "forces/formula_bound.hpp"
 #include "forces/lattice_bumps.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 using geometry::Vector;
 using Kind = PotentialSpec::Kind;
@@ -253,4 +253,4 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
   return nullptr;
 }
 
-}  // namespace carom
+}  // namespace carom::forces

@@ -10,7 +10,7 @@
 #include "carom/forces/force_field.hpp"
 #include "forces/force_bound.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 struct LatticeField;
 
@@ -51,14 +51,14 @@ class Interaction {
   /// The same for all pairs at once; half done where `interrupt`, if there is one, says so.
   virtual void add_forces(std::span<const Particle>, std::span<const geometry::Vector> x,
                           const geometry::Lattice*, std::span<geometry::Vector> force,
-                          Interrupt* interrupt) const = 0;
+                          base::Interrupt* interrupt) const = 0;
   /// How large the force of a pair can be whose separation is displaced by at most `rho` from one
   /// of that length.
   virtual ForceBound bound(const Particle& a, const Particle& b, double distance,
                            double rho) const = 0;
   /// The sum of W over all pairs.
   virtual double energy(std::span<const Particle>, std::span<const geometry::Vector> x,
-                        const geometry::Lattice*, Interrupt* interrupt = nullptr) const = 0;
+                        const geometry::Lattice*, base::Interrupt* interrupt = nullptr) const = 0;
   virtual double reach() const { return std::numeric_limits<double>::infinity(); }
   virtual double tail() const { return 0.0; }
 };
@@ -70,4 +70,4 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec&);
 /// The t at which exp(-t) = tail_share, rounded up.
 inline constexpr double tail_exponent = 36.85;
 
-}  // namespace carom
+}  // namespace carom::forces

@@ -4,7 +4,7 @@
 
 #include "carom/base/elementary.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 using geometry::Vector;
 
@@ -143,4 +143,4 @@ ForceMap& ForceMaps::of(const Particle& kind) {
   return *maps_.emplace_back(std::make_unique<ForceMap>(forces_, kind));
 }
 
-}  // namespace carom
+}  // namespace carom::forces

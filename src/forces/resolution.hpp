@@ -17,7 +17,7 @@
 #include "carom/forces/force_field.hpp"
 #include "forces/force_bound.hpp"
 
-namespace carom {
+namespace carom::forces {
 
 namespace resolution {
 
@@ -227,4 +227,4 @@ class ForceMaps {
   std::vector<std::unique_ptr<ForceMap>> maps_;
 };
 
-}  // namespace carom
+}  // namespace carom::forces

@@ -4,6 +4,8 @@
 
 namespace carom {
 
+using namespace forces;
+
 TypedExpression TypedExpression::parse(std::string_view text,
                                        std::span<const std::string> variables,
                                        const std::map<std::string, double>& parameters,

@@ -11,7 +11,7 @@
 #include "carom/integrators/arithmetic.hpp"
 #include "integrators/embedded_table.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 namespace {
 
@@ -161,4 +161,4 @@ bool ArkodeStepper::take(double length, double at_most) {
   return ok;
 }
 
-}  // namespace carom
+}  // namespace carom::integrators

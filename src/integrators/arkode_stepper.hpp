@@ -10,7 +10,7 @@
 #include "integrators/energy_check.hpp"
 #include "integrators/ode_problem.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 /// One call is one step of the method. A shorter one
 /// from the same start is the same method's step of that length, so that a path may be cut
@@ -48,4 +48,4 @@ class ArkodeStepper final : public Stepper<double> {
   double proposed_ = 0.0;    ///< length to try from the end
 };
 
-}  // namespace carom
+}  // namespace carom::integrators

@@ -8,7 +8,7 @@
 
 #include "carom/base/error.hpp"
 
-namespace carom {
+namespace carom::integrators {
 namespace {
 
 /// After so many internal steps a chain begins anew: CVODE's clock runs on, and what it loses
@@ -119,4 +119,4 @@ bool CvodeStepper::take() {
   return true;
 }
 
-}  // namespace carom
+}  // namespace carom::integrators

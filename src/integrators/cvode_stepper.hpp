@@ -8,7 +8,7 @@
 #include "integrators/energy_check.hpp"
 #include "integrators/ode_problem.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 /// One call is one internal step of CVODE, or a part of it: between the ends the path is the
 /// polynomial of the method, which is continuous. A chain of steps goes on with CVODE's memory; any
@@ -48,4 +48,4 @@ class CvodeStepper final : public Stepper<double> {
   int steps_ = 0;
 };
 
-}  // namespace carom
+}  // namespace carom::integrators

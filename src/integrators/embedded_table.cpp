@@ -1,6 +1,6 @@
 #include "integrators/embedded_table.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 const EmbeddedTable& verner_9_8() {
   static const EmbeddedTable table{
@@ -111,4 +111,4 @@ const EmbeddedTable& verner_9_8() {
   return table;
 }
 
-}  // namespace carom
+}  // namespace carom::integrators

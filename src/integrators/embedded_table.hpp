@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace carom {
+namespace carom::integrators {
 
 /// Stage i is the derivative at y + h sum_j stage[i][j] k_j, for the time time[i] h; a step is
 /// y + h sum_i weight[i] k_i, and its estimated error the difference to the same sum with
@@ -22,4 +22,4 @@ struct EmbeddedTable {
 /// of sight.
 const EmbeddedTable& verner_9_8();
 
-}  // namespace carom
+}  // namespace carom::integrators

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace carom {
+namespace carom::integrators {
 namespace {
 
 using geometry::Vector;
@@ -110,4 +110,4 @@ double EnergyCheck::noise_at(const std::vector<Vector>& position, double size) c
   return most;
 }
 
-}  // namespace carom
+}  // namespace carom::integrators

@@ -10,7 +10,7 @@
 
 #include "integrators/ode_problem.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 class EnergyCheck {
  public:
@@ -46,4 +46,4 @@ class EnergyCheck {
   bool first_ = true;   ///< no step of the chain has been looked at
 };
 
-}  // namespace carom
+}  // namespace carom::integrators

@@ -9,7 +9,7 @@
 
 #include "carom/integrators/stepper.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 /// Remembers the accelerations at the start under way and at the ends of two steps from it: of the
 /// first, which is the whole step as a rule, and of the latest, which may be a part of it. A
@@ -78,4 +78,4 @@ class EvaluatedForces {
   Known start_, whole_, part_;
 };
 
-}  // namespace carom
+}  // namespace carom::integrators

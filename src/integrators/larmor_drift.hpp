@@ -10,7 +10,7 @@
 #include "carom/geometry/vector.hpp"
 #include "carom/integrators/arithmetic.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 /// A turn clockwise as three shears, each of determinant 1 whatever its coefficient is rounded to:
 /// many turns by one angle neither shrink nor stretch a velocity (a rounded sine and cosine do, by
@@ -81,4 +81,4 @@ class LarmorDrift {
   bool straight_ = true;
 };
 
-}  // namespace carom
+}  // namespace carom::integrators

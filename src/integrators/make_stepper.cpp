@@ -10,6 +10,8 @@
 
 namespace carom {
 
+using namespace integrators;
+
 std::unique_ptr<Stepper<double>> make_stepper(const IntegratorPlan& plan,
                                               const ForceLaw<double>& law,
                                               std::span<const double> omega) {

@@ -9,7 +9,7 @@
 
 #include "carom/base/elementary.hpp"
 
-namespace carom {
+namespace carom::integrators {
 namespace {
 
 using geometry::Vector;
@@ -154,4 +154,4 @@ bool same_bits(const Phase<double>& a, const Phase<double>& b) {
          std::memcmp(a.velocity.data(), b.velocity.data(), bytes) == 0;
 }
 
-}  // namespace carom
+}  // namespace carom::integrators

@@ -16,7 +16,7 @@
 #include "carom/integrators/stepper.hpp"
 #include "integrators/evaluated_forces.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 class OdeProblem {
  public:
@@ -99,4 +99,4 @@ class OdeProblem {
 /// Are the phases the same, bit for bit?
 bool same_bits(const Phase<double>& a, const Phase<double>& b);
 
-}  // namespace carom
+}  // namespace carom::integrators

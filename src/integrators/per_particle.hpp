@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace carom {
+namespace carom::integrators {
 
 /// Particles of equal omega share one entry; the entries of two lengths of steps are kept, so that
 /// parts of steps do not drive out those of the whole step, which comes back.
@@ -49,4 +49,4 @@ class PerParticle {
   Made usual_, latest_;
 };
 
-}  // namespace carom
+}  // namespace carom::integrators

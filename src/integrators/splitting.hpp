@@ -12,7 +12,7 @@
 #include "integrators/per_particle.hpp"
 #include "integrators/stages.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 template <class Real>
 class SplittingStepper final : public Stepper<Real> {
@@ -82,4 +82,4 @@ class SplittingStepper final : public Stepper<Real> {
   std::vector<Vector> scratch_;
 };
 
-}  // namespace carom
+}  // namespace carom::integrators

@@ -12,7 +12,7 @@
 #include "integrators/larmor_drift.hpp"
 #include "integrators/per_particle.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 /// (theta - sin theta)/theta^2, odd in theta. Its series for |theta| < 1, where the difference
 /// cancels; both are good to rounding there.
@@ -89,4 +89,4 @@ class SpreiterWalterStepper final : public Stepper<Real> {
   PerParticle<Real, Motion> motions_;
 };
 
-}  // namespace carom
+}  // namespace carom::integrators

@@ -8,7 +8,7 @@
 #include "carom/integrators/arithmetic.hpp"
 #include "carom/integrators/scheme.hpp"
 
-namespace carom {
+namespace carom::integrators {
 
 template <class Real>
 struct Stage {
@@ -89,4 +89,4 @@ std::vector<Stage<Real>> stages_of(const Scheme& scheme) {
   return list;
 }
 
-}  // namespace carom
+}  // namespace carom::integrators

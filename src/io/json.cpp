@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace carom {
+namespace carom::io {
 
 namespace {
 
@@ -92,4 +92,4 @@ void Json::print(std::string& out, int depth) const {
   out += object ? '}' : ']';
 }
 
-}  // namespace carom
+}  // namespace carom::io

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace carom {
+namespace carom::io {
 
 /// Numbers print as the shortest text that reads back as the same double. What no double holds
 /// (infinities, integers beyond 2^53) prints as a string, NaN as null.
@@ -52,4 +52,4 @@ class Json {
   std::vector<std::pair<std::string, Json>> members_;  // of an object; keys are empty in arrays
 };
 
-}  // namespace carom
+}  // namespace carom::io

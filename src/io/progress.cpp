@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace carom {
+namespace carom::io {
 
 Progress::Progress(bool wanted, double done)
     : enabled_(wanted && isatty(STDERR_FILENO) != 0),
@@ -76,4 +76,4 @@ std::string as_duration(double seconds) {
   return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
 }
 
-}  // namespace carom
+}  // namespace carom::io

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-namespace carom {
+namespace carom::io {
 
 /// Rewrites one line a few times a second while standard error is a terminal. Where nothing is
 /// shown for some seconds, as while a system is prepared, the line tells how long it has taken.
@@ -48,4 +48,4 @@ std::string with_prefix(double value);
 /// "4 s", "3 min 20 s", "2 h 5 min".
 std::string as_duration(double seconds);
 
-}  // namespace carom
+}  // namespace carom::io

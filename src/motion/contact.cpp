@@ -8,7 +8,7 @@
 #include "carom/geometry/prepared_curve.hpp"
 #include "motion/free_motion.hpp"
 
-namespace carom {
+namespace carom::motion {
 
 using geometry::Vector;
 
@@ -38,7 +38,7 @@ double time_to_contact(Vector d, Vector v, double omega, double reach) {
   const double kappa = q.b < 0.0 ? (root - q.b) / q.a : -q.c / (q.b + root);
   if (!std::isfinite(kappa)) return no_contact;
   const double h = 0.5 * std::fabs(omega);
-  return kappa > 0x1p500 * h ? 1.0 / kappa : elementary::angle(kappa, h) / h;
+  return kappa > 0x1p500 * h ? 1.0 / kappa : base::angle(kappa, h) / h;
 }
 
 namespace {
@@ -315,4 +315,4 @@ ElasticContact elastic_contact(Vector d, Vector first, Vector second, double fir
   return c;
 }
 
-}  // namespace carom
+}  // namespace carom::motion

@@ -6,7 +6,7 @@
 
 #include "carom/geometry/vector.hpp"
 
-namespace carom {
+namespace carom::motion {
 
 inline constexpr double no_contact = std::numeric_limits<double>::infinity();
 
@@ -44,4 +44,4 @@ struct ElasticContact {
 ElasticContact elastic_contact(geometry::Vector separation, geometry::Vector first,
                                geometry::Vector second, double first_mass, double second_mass);
 
-}  // namespace carom
+}  // namespace carom::motion

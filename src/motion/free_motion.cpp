@@ -5,7 +5,7 @@
 
 #include "carom/base/elementary.hpp"
 
-namespace carom {
+namespace carom::motion {
 
 using geometry::Vector;
 
@@ -46,4 +46,4 @@ State flown(const State& last, double omega, Time t) {
   return now;
 }
 
-}  // namespace carom
+}  // namespace carom::motion

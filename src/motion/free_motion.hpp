@@ -7,7 +7,7 @@
 #include "carom/geometry/vector.hpp"
 #include "carom/motion/state.hpp"
 
-namespace carom {
+namespace carom::motion {
 
 /// The energy shell of particles of this speed.
 geometry::EnergyShell<double> energy_shell(double speed);
@@ -26,4 +26,4 @@ std::pair<geometry::Vector, geometry::Vector> moved(geometry::Vector position,
 /// A particle's state on its flight from its last event, at a time that is not before that.
 State flown(const State& last, double omega, Time t);
 
-}  // namespace carom
+}  // namespace carom::motion

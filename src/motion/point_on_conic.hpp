@@ -6,7 +6,7 @@
 
 #include "carom/geometry/vector.hpp"
 
-namespace carom {
+namespace carom::motion {
 
 /// The quarter turn of `a` in the frame where the ellipse with these axes over squared semi-axes is
 /// a circle.
@@ -34,4 +34,4 @@ geometry::BasicVector<N> point_on_conic(const geometry::BasicVector<N>& centre,
   return centre + (((one - u * u) / weight) * a + ((u + u) / weight) * b);
 }
 
-}  // namespace carom
+}  // namespace carom::motion

@@ -6,7 +6,10 @@
 #include "table/shapes.hpp"
 
 namespace carom {
-namespace shapes {
+
+using namespace table;
+
+namespace table::shapes {
 
 std::vector<std::string> numbered(const std::string& stem, std::size_t count) {
   std::vector<std::string> names;
@@ -14,7 +17,7 @@ std::vector<std::string> numbered(const std::string& stem, std::size_t count) {
   return names;
 }
 
-}  // namespace shapes
+}  // namespace table::shapes
 
 namespace {
 

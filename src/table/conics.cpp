@@ -4,7 +4,7 @@
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 
 Shape circle(const TableSpec& spec) {
   size(spec, "radius");
@@ -35,4 +35,4 @@ Shape annulus(const TableSpec& spec) {
            {{"inner", WrittenCircle{{offset_number, 0}, inner_number, false}}}}};
 }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

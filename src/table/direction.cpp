@@ -4,7 +4,7 @@
 
 #include "table/numbers.hpp"
 
-namespace carom {
+namespace carom::table {
 namespace {
 
 struct Multiple {
@@ -33,4 +33,4 @@ geometry::Vector direction(const ExactNumber& angle, int part, int whole, double
   return {x, mpfr_get_d(component.value, MPFR_RNDN) + 0.0};
 }
 
-}  // namespace carom
+}  // namespace carom::table

@@ -4,7 +4,7 @@
 #include "carom/base/exact_number.hpp"
 #include "carom/geometry/vector.hpp"
 
-namespace carom {
+namespace carom::table {
 
 /// The unit vector at an angle in radians against +x, plus `part` of `whole` turns, times `length`:
 /// each component rounded once from the angle's nearest double in turns. Multiples of a quarter
@@ -12,4 +12,4 @@ namespace carom {
 geometry::Vector direction(const ExactNumber& angle, int part = 0, int whole = 1,
                            double length = 1.0);
 
-}  // namespace carom
+}  // namespace carom::table

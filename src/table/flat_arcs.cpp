@@ -8,7 +8,7 @@
 #include "table/flat_arcs.hpp"
 #include "table/shapes.hpp"
 
-namespace carom {
+namespace carom::table {
 namespace shapes {
 namespace {
 
@@ -73,4 +73,4 @@ void shapes::refuse_flat_arcs(const TableSpec& spec, const Table& table) {
       throw InputError(place_of_wall(spec, table, k), fault, bent_enough);
 }
 
-}  // namespace carom
+}  // namespace carom::table

@@ -6,7 +6,7 @@
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 namespace {
 
 int named_wall(const HoleSpec& hole, const Table& table) {
@@ -129,4 +129,4 @@ void add_holes(const TableSpec& spec, Table& table) {
   }
 }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -8,7 +8,7 @@
 #include "carom/geometry/prepared_curve.hpp"
 #include "carom/geometry/region.hpp"
 
-namespace carom {
+namespace carom::table {
 
 namespace {
 
@@ -124,4 +124,4 @@ double touched_parameter(const Wall& wall, double u, Vector centre) {
                                                      : u;
 }
 
-}  // namespace carom
+}  // namespace carom::table

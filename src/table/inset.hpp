@@ -3,7 +3,7 @@
 
 #include "carom/table/table.hpp"
 
-namespace carom {
+namespace carom::table {
 
 /// The curves at the distance `radius` from the walls, on the domain's side: where centres of discs
 /// are when they touch. Wall k of the result belongs to wall k of the table, and holes keep their
@@ -17,4 +17,4 @@ Table inset_table(const Table& table, double radius);
 /// the moved wall, at `centre`.
 double touched_parameter(const Wall& wall, double u, geometry::Vector centre);
 
-}  // namespace carom
+}  // namespace carom::table

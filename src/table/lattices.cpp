@@ -8,7 +8,7 @@
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 namespace {
 
 using geometry::Vector;
@@ -149,4 +149,4 @@ void repeat(const LatticeSpec& lattice, Table& table) {
   set_lattice(table, lattice, centre);
 }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 namespace {
 
 // Fourth powers of lengths (quartics) and their products must stay far from the ends of the range.
@@ -78,4 +78,4 @@ ExactNumber derived(const std::string& expression, const ExactNumber& origin) {
 ExactNumber half(const ExactNumber& value) { return derived(quoted(value) + "/2", value); }
 ExactNumber negative(const ExactNumber& value) { return derived("-" + quoted(value), value); }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -6,7 +6,7 @@
 #include "carom/geometry/vector.hpp"
 #include "carom/table/table_spec.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 
 /// The number under a key; a missing one is an InputError at the shape.
 const ExactNumber& number(const TableSpec& spec, const std::string& key);
@@ -34,4 +34,4 @@ ExactNumber negative(const ExactNumber&);
 /// The place of a key of the table that was not written.
 Place place_of(const TableSpec& spec, const std::string& key);
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -5,7 +5,7 @@
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
-namespace carom {
+namespace carom::table {
 namespace {
 
 using geometry::Vector;
@@ -98,4 +98,4 @@ void add_obstacles(const TableSpec& spec, Shape& shape) {
 }
 
 }  // namespace shapes
-}  // namespace carom
+}  // namespace carom::table

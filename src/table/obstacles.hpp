@@ -8,7 +8,7 @@
 #include "carom/geometry/vector.hpp"
 #include "carom/table/table_spec.hpp"
 
-namespace carom {
+namespace carom::table {
 
 /// "obstacle_1", "obstacle_2" … where none is given. A circle or ellipse is one wall of that name;
 /// the sides of a polygon are NAME_side_1, NAME_side_2 …
@@ -26,4 +26,4 @@ struct OrderedSide {
 std::vector<OrderedSide> ordered_sides(const std::vector<geometry::Vector>& corners,
                                        bool clockwise);
 
-}  // namespace carom
+}  // namespace carom::table

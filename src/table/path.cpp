@@ -2,7 +2,7 @@
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 namespace {
 
 using geometry::Vector;
@@ -57,4 +57,4 @@ Shape path(const TableSpec& spec) {
   return shape;
 }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -6,7 +6,7 @@
 #include "table/obstacles.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 namespace {
 
 using geometry::Vector;
@@ -111,4 +111,4 @@ Shape regular(const TableSpec& spec) {
   return shape;
 }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -8,7 +8,7 @@
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 namespace {
 
 using geometry::Circle;
@@ -144,4 +144,4 @@ Shape random_discs(const TableSpec& spec) {
   return shape;
 }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -8,7 +8,7 @@
 #include "table/obstacles.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 namespace {
 
 std::vector<geometry::Loop> loops_of(const Table& table) {
@@ -105,4 +105,4 @@ void check_region(const TableSpec& spec, const Table& table) {
       "closed loops that do not cross, outer ones counter-clockwise, obstacles clockwise");
 }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -5,7 +5,7 @@
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 namespace {
 
 using geometry::Vector;
@@ -65,4 +65,4 @@ struct Rounding {
 
 geometry::Curve rounded(const WrittenCurve& curve) { return std::visit(Rounding{}, curve); }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -12,7 +12,7 @@
 
 #include "carom/table/table.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 
 /// A corner of a regular polygon: `radius` from the origin, in the direction of `angle` and `part`
 /// of `whole` turns.
@@ -121,4 +121,4 @@ Place place_of_wall(const TableSpec& spec, const Table& table, std::size_t wall)
 /// Is the table a region: closed, simple, oriented, obstacles inside and apart? Exact.
 void check_region(const TableSpec& spec, const Table& table);
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

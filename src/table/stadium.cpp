@@ -2,7 +2,7 @@
 #include "table/numbers.hpp"
 #include "table/shapes.hpp"
 
-namespace carom::shapes {
+namespace carom::table::shapes {
 
 Shape stadium(const TableSpec& spec) {
   const ExactNumber &a = number(spec, "half_length"), &r = number(spec, "radius"),
@@ -60,4 +60,4 @@ Shape lemon(const TableSpec& spec) {
             {"left", WrittenArc{north, south, {half(separation), 0}, radius, offset}}}}};
 }
 
-}  // namespace carom::shapes
+}  // namespace carom::table::shapes

@@ -13,6 +13,9 @@
 #include "tables_by_hand.hpp"
 
 namespace carom::tests {
+
+using namespace analysis;
+
 namespace {
 
 Quad quad(const Twofold& x) { return Quad(x.high) + Quad(x.low); }

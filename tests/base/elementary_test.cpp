@@ -105,7 +105,7 @@ TEST(Elementary, AngleIsWithinWhatItClaims) {
   Reference reference;
   double worst = 0.0, below = 0.0, above = 0.0, sum = 0.0;
   const auto look = [&](double x, double y) {
-    const double error = reference.ulps_atan2(y, x, elementary::angle(x, y));
+    const double error = reference.ulps_atan2(y, x, base::angle(x, y));
     worst = std::max(worst, error);
     // Below 7/16 the quotient's rounding may count twice.
     if (y < 0.43 * x) {
@@ -129,7 +129,7 @@ TEST(Elementary, AngleIsWithinWhatItClaims) {
     }
     // Bias, in the middle of a binade's share of angles.
     const double z = 1.0 + 0x1p-20 * static_cast<double>(i & 0xfffff);
-    sum += (elementary::angle(z, 1.25) - std::atan2(1.25, z)) * 0x1p53;
+    sum += (base::angle(z, 1.25) - std::atan2(1.25, z)) * 0x1p53;
   }
   std::printf("angle: %.3f ulp below 7/16, %.3f above; mean %.1e\n", below, above, sum / count);
   EXPECT_LE(below, 1.6);
@@ -140,18 +140,18 @@ TEST(Elementary, AngleIsWithinWhatItClaims) {
 
 TEST(Elementary, AngleKnowsItsEnds) {
   const double pi = 0x1.921fb54442d18p+1;
-  EXPECT_EQ(elementary::angle(0.0, 1.0), pi / 2);
-  EXPECT_EQ(elementary::angle(-0.0, 3.0), pi / 2);
-  EXPECT_EQ(elementary::angle(1.0, 1.0), pi / 4);
-  EXPECT_EQ(elementary::angle(-2.0, 2.0), 3 * (pi / 4));
-  EXPECT_EQ(elementary::angle(1e12, 1e-12), 1e-24);
-  EXPECT_EQ(elementary::angle(-1e12, 1e-12), pi);
+  EXPECT_EQ(base::angle(0.0, 1.0), pi / 2);
+  EXPECT_EQ(base::angle(-0.0, 3.0), pi / 2);
+  EXPECT_EQ(base::angle(1.0, 1.0), pi / 4);
+  EXPECT_EQ(base::angle(-2.0, 2.0), 3 * (pi / 4));
+  EXPECT_EQ(base::angle(1e12, 1e-12), 1e-24);
+  EXPECT_EQ(base::angle(-1e12, 1e-12), pi);
   // One angle after the other: no step back where another centre takes over.
   for (const double tangent : {7.0 / 16, 11.0 / 16, 16.0 / 11, 16.0 / 7})
     for (const double side : {1.0, -1.0})
       for (int i = -200; i < 200; ++i)
-        EXPECT_LE(side * (elementary::angle(side, tangent + i * 0x1p-44) -
-                          elementary::angle(side, tangent + (i + 1) * 0x1p-44)),
+        EXPECT_LE(side * (base::angle(side, tangent + i * 0x1p-44) -
+                          base::angle(side, tangent + (i + 1) * 0x1p-44)),
                   0.0);
 }
 
@@ -166,7 +166,7 @@ std::uint64_t hash_of_all_bits() {
     for (const double value :
          {elementary::sin(x), elementary::cos(x), both.sin, both.cos,
           elementary::atan2(argument(i + 1000000, -30, 40), x),
-          elementary::angle(x, std::fabs(argument(i + 1000000, -30, 40))),
+          base::angle(x, std::fabs(argument(i + 1000000, -30, 40))),
           elementary::exp(argument(i, -20, 9)), elementary::log(std::fabs(x))}) {
       take(value);
     }

@@ -104,7 +104,7 @@ struct Walls : Observer {
   /// Against the system as it is written: its numbers are not doubles.
   explicit Walls(const ExactSystem& system)
       : trust(*system.table, TrustRecorder::usual_tolerance, written(system)) {}
-  static std::shared_ptr<const WrittenSystem> written(const ExactSystem& system) {
+  static std::shared_ptr<const analysis::WrittenSystem> written(const ExactSystem& system) {
     LoadedSystem loaded;
     loaded.exact = system;
     loaded.system.table = system.table;

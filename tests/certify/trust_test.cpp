@@ -114,7 +114,7 @@ class AgainstCertified {
   static constexpr std::uint64_t most = 300;
   ExactSystem system_;
   LoadedSystem loaded_;
-  std::shared_ptr<const WrittenSystem> written_;
+  std::shared_ptr<const analysis::WrittenSystem> written_;
   Particle particle_;
   std::unique_ptr<World> world_;
   geometry::Box box_{{1e9, 1e9}, {-1e9, -1e9}};

@@ -286,16 +286,16 @@ TEST(Checksums, DataOfOtherProgramsAreIgnored) {
 
 // As a user of Python computes it: the sum of a dataset's bytes, and zlib's function.
 TEST(Checksums, AreThoseOfZlib) {
-  EXPECT_EQ(hdf5::crc32("123456789", 9), 0xcbf43926u);
+  EXPECT_EQ(io::hdf5::crc32("123456789", 9), 0xcbf43926u);
   const std::string text = "Carom computes the motion of classical particles";
-  EXPECT_EQ(hdf5::crc32(text.data() + 5, text.size() - 5, hdf5::crc32(text.data(), 5)),
-            hdf5::crc32(text.data(), text.size()));
+  EXPECT_EQ(io::hdf5::crc32(text.data() + 5, text.size() - 5, io::hdf5::crc32(text.data(), 5)),
+            io::hdf5::crc32(text.data(), text.size()));
   const Shell shell;
   ASSERT_EQ(shell("$carom run sinai --collisions 5000 -o a.h5 --quiet").status, 0);
   const std::vector<double> times = read_reals(shell.folder() + "/a.h5", "collisions/t");
   char line[80];
   std::snprintf(line, sizeof line, "\n%08x float64 %015zu /collisions/t\n",
-                hdf5::crc32(times.data(), times.size() * sizeof(double)), times.size());
+                io::hdf5::crc32(times.data(), times.size() * sizeof(double)), times.size());
   EXPECT_NE(shell.read("a.h5").find(line), std::string::npos) << line;
 }
 

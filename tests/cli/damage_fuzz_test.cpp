@@ -171,7 +171,7 @@ void read_archive(const std::string& name, const std::string& path) {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) throw InputError(Place{path, 0, 0, ""}, "no archive");
     try {
-      hdf5::verify(file, path);
+      io::hdf5::verify(file, path);
     } catch (...) {
       H5Fclose(file);
       throw;

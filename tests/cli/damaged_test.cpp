@@ -24,7 +24,7 @@ class Damage {
     EXPECT_GE(file_, 0);
   }
   ~Damage() {
-    hdf5::write_checksums(file_, "b.h5");
+    io::hdf5::write_checksums(file_, "b.h5");
     H5Fclose(file_);
   }
   Damage(const Damage&) = delete;

@@ -145,7 +145,7 @@ void change_provenance(const std::string& path, const char* name, bool remove = 
     H5Aclose(attribute);
   }
   H5Gclose(provenance);
-  hdf5::write_checksums(file, path);
+  io::hdf5::write_checksums(file, path);
   H5Fclose(file);
 }
 

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 namespace carom {
+
+using namespace ensemble;
+
 namespace {
 
 // The same of all compilers and on all processors. Where digits, or what digests are made of, are

@@ -5,6 +5,9 @@
 #include <thread>
 
 namespace carom {
+
+using namespace ensemble;
+
 namespace {
 
 std::vector<TrajectoryRecord> block_of(std::uint64_t index) {

@@ -12,6 +12,9 @@
 #include "systems.hpp"
 
 namespace carom {
+
+using namespace ensemble;
+
 namespace {
 
 System stadium() {

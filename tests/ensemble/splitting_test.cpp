@@ -15,6 +15,9 @@
 #include "systems.hpp"
 
 namespace carom {
+
+using namespace ensemble;
+
 namespace {
 
 System three_disc() { return load_system("three-disc", {}).system; }

@@ -4,6 +4,9 @@
 #include "geometry/bounds.hpp"
 
 namespace carom::tests {
+
+using namespace events;
+
 namespace {
 
 using namespace bounds;

@@ -8,6 +8,9 @@
 #include "events/step/group.hpp"
 
 namespace carom {
+
+using namespace events;
+
 namespace {
 
 using geometry::Cell;

@@ -15,6 +15,9 @@
 #include "random_tables.hpp"
 
 namespace carom::tests {
+
+using namespace events;
+
 namespace {
 
 constexpr DecisionOptions always{1.0, 0}, never_a_grid{1.0, std::numeric_limits<int>::max()};

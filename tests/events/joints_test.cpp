@@ -9,6 +9,9 @@
 #include "random_tables.hpp"
 
 namespace carom::tests {
+
+using namespace events;
+
 namespace {
 
 struct Recorder : Observer {

@@ -9,6 +9,9 @@
 #include "events/step/group.hpp"
 
 namespace carom {
+
+using namespace events;
+
 namespace {
 
 TEST(LateSteps, TheNextMultipleIsFoundOrInfinite) {

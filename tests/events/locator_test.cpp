@@ -8,6 +8,9 @@
 #include "random_tables.hpp"
 
 namespace carom {
+
+using namespace events;
+
 namespace {
 
 using geometry::Vector;

@@ -9,6 +9,9 @@
 #include <vector>
 
 namespace carom {
+
+using namespace events;
+
 namespace {
 
 TEST(EventQueue, AgreesWithASortedList) {

@@ -10,6 +10,9 @@
 #include "carom/geometry/curve.hpp"
 
 namespace carom {
+
+using namespace events;
+
 namespace {
 
 using geometry::Curve;

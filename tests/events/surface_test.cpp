@@ -28,7 +28,7 @@ class Cases {
   FreeFlight flight(double omega, double duration) {
     const double angle = in(0, 6.2831853);
     FreeFlight f{point(), {std::cos(angle), std::sin(angle)}, omega, duration, {}};
-    f.end = moved(f.position, f.velocity, omega, duration).first;
+    f.end = motion::moved(f.position, f.velocity, omega, duration).first;
     return f;
   }
 
@@ -52,7 +52,7 @@ std::vector<Change> sampled(const Surface& s, const FreeFlight& f, int steps) {
   double before = 0, t_before = 0;
   for (int i = 0; i <= steps; ++i) {
     const double t = f.duration * i / steps;
-    const auto [position, velocity] = moved(f.position, f.velocity, f.omega, t);
+    const auto [position, velocity] = motion::moved(f.position, f.velocity, f.omega, t);
     const double g = surface_function(s, position, velocity);
     if (i > 0 && (g > 0) != (before > 0)) {
       bool inside = true;
@@ -107,7 +107,7 @@ TEST(Surface, CrossingsLieOnTheSurfaceToRounding) {
         for (const SurfaceCrossing& c : all(s, f)) {
           const double g = surface_function(s, c.position, c.velocity);
           EXPECT_LT(std::fabs(g), 1e-14) << static_cast<int>(kind) << ' ' << omega;
-          const auto [position, velocity] = moved(f.position, f.velocity, f.omega, c.time);
+          const auto [position, velocity] = motion::moved(f.position, f.velocity, f.omega, c.time);
           EXPECT_EQ(position, c.position);
           EXPECT_EQ(velocity, c.velocity);
         }
@@ -119,7 +119,7 @@ TEST(Surface, CrossingsLieOnTheSurfaceToRounding) {
 TEST(Surface, ALarmorCircleCrossesTwiceATurn) {
   // Clockwise about (0, -1) with radius 1, ten turns and a half.
   FreeFlight f{{0, 0}, {1, 0}, 1.0, 21 * 3.14159265358979, {}};
-  f.end = moved(f.position, f.velocity, f.omega, f.duration).first;
+  f.end = motion::moved(f.position, f.velocity, f.omega, f.duration).first;
   EXPECT_EQ(all({Kind::position_y, {}, {}, 0, -0.5}, f).size(), 21u);
   EXPECT_EQ(all({Kind::position_x, {}, {}, 0, 0.25}, f).size(), 22u)
       << "the first at once, the last at the end";
@@ -160,7 +160,7 @@ TEST(Surface, FlightsCanBeCut) {
         const auto expected = all(s, whole);
         double cut = cases.in(0, 4);
         if (i % 2 == 0 && !expected.empty()) cut = expected[expected.size() / 2].time;
-        const auto [position, velocity] = moved(whole.position, whole.velocity, omega, cut);
+        const auto [position, velocity] = motion::moved(whole.position, whole.velocity, omega, cut);
         const FreeFlight first{whole.position, whole.velocity, omega, cut, position};
         const FreeFlight second{position, velocity, omega, 4 - cut, whole.end};
         const auto a = all(s, first), b = all(s, second);
@@ -181,7 +181,7 @@ TEST(Surface, BackwardsTheSameCrossingsTurnRound) {
     for (int i = 0; i < 200; ++i) {
       const Surface s = cases.surface(kind);
       const FreeFlight f = cases.flight(i % 2 ? 2.0 : 0.0, 3);
-      const auto [end, velocity] = moved(f.position, f.velocity, f.omega, f.duration);
+      const auto [end, velocity] = motion::moved(f.position, f.velocity, f.omega, f.duration);
       const FreeFlight back{end, -velocity, -f.omega, f.duration, f.position};
       const auto there = all(s, f), again = all(s, back);
       ASSERT_EQ(there.size(), again.size());
@@ -237,7 +237,7 @@ TEST(BracketedRoot, LeavesNoDoubleBetweenTheSides) {
     for (const double floor : {0.0, 1e-18, 1e-6})
       for (const double zero : {0.3, 1.0 / 3.0, 0.9999}) {
         Path path{order, zero, floor};
-        const double root = bracketed_root(path, 0.0, 1.0);
+        const double root = events::bracketed_root(path, 0.0, 1.0);
         const bool above = path.g(root) > 0.0;
         EXPECT_TRUE(path.g(root) == 0.0 ||
                     path.g(std::nextafter(root, above ? 0.0 : 1.0)) * path.g(root) <= 0.0)
@@ -246,7 +246,7 @@ TEST(BracketedRoot, LeavesNoDoubleBetweenTheSides) {
       }
   // In a plain case it is Newton's method and two points more.
   Path plain{1.0, 1.0 / 3.0, 0.0};
-  EXPECT_DOUBLE_EQ(bracketed_root(plain, 0.0, 1.0), 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(events::bracketed_root(plain, 0.0, 1.0), 1.0 / 3.0);
   EXPECT_LT(plain.calls, 6);
 }
 

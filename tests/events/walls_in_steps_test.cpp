@@ -17,6 +17,8 @@
 
 namespace carom {
 
+using namespace events;
+
 template <>
 struct Arithmetic<boost::multiprecision::float128> {
   using Number = boost::multiprecision::float128;

@@ -15,6 +15,9 @@
 #include "forces/resolution.hpp"
 
 namespace carom {
+
+using namespace forces;
+
 namespace {
 
 using geometry::Vector;
@@ -259,7 +262,7 @@ TEST(ForceMap, AWellIsResolvedByStepsShortAgainstItsPeriodAtAnyScale) {
       const double speed = scale * std::sin(phase);
       const auto resolves = [&](double time) {
         const double way = 0.5 * scale * time * time + speed * time;
-        return map.resolves(x, speed * speed, way * way, resolution::span_of(time, 0.0));
+        return map.resolves(x, speed * speed, way * way, forces::resolution::span_of(time, 0.0));
       };
       EXPECT_TRUE(resolves(0.01)) << scale << " " << phase;
       EXPECT_TRUE(resolves(0.3)) << scale << " " << phase;
@@ -280,7 +283,7 @@ TEST(ForceMap, ANarrowBumpIsSeenHoweverWeakItIs) {
     const auto forces = ForceField::build(spec, {Particle{}}, {});
     ForceMap map(*forces, Particle{});
     const auto resolves = [&](double x, double time) {
-      return map.resolves({x, 0.0}, 1.0, time * time, resolution::span_of(time, 0.0));
+      return map.resolves({x, 0.0}, 1.0, time * time, forces::resolution::span_of(time, 0.0));
     };
     EXPECT_FALSE(resolves(0.99, 0.02)) << height;
     EXPECT_FALSE(resolves(0.95, 0.05)) << height;
@@ -310,7 +313,7 @@ TEST_P(ForceMapOf, AnswersDoNotDependOnEarlierQuestions) {
     const Vector x{places.uniform(-1, 1), places.uniform(-1, 1)};
     const double speed = places.uniform(0, 2), time = std::pow(2.0, places.uniform(-9, -2));
     const double way = speed * time;
-    const resolution::Span span = resolution::span_of(time, 0.0);
+    const forces::resolution::Span span = forces::resolution::span_of(time, 0.0);
     ForceMap fresh(*forces, Particle{});
     const bool answer = used.resolves(x, speed * speed, way * way, span);
     EXPECT_EQ(answer, fresh.resolves(x, speed * speed, way * way, span));

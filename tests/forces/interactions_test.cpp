@@ -192,7 +192,7 @@ TEST(Interactions, SumsOverAllPairsStopWhereTheyAreAsked) {
   spec.interaction->kind = Kind::yukawa;
   const auto field = ForceField::build(spec, particles, std::nullopt);
   const std::function<bool()> stop = [] { return true; };
-  Interrupt interrupt(&stop);
+  base::Interrupt interrupt(&stop);
   const double whole = field->pair_energy(particles, x, nullptr),
                part = field->pair_energy(particles, x, nullptr, &interrupt);
   EXPECT_TRUE(interrupt.stopped());

@@ -12,6 +12,9 @@
 #include "forces/nearest_copy.hpp"
 
 namespace carom {
+
+using namespace forces;
+
 namespace {
 
 using geometry::Vector;

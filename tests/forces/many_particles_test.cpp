@@ -9,6 +9,9 @@
 #include "forces/potential.hpp"
 
 namespace carom {
+
+using namespace forces;
+
 namespace {
 
 using Kind = PotentialSpec::Kind;

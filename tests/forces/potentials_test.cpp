@@ -13,6 +13,9 @@
 #include "forces/formulas.hpp"
 
 namespace carom {
+
+using namespace forces;
+
 namespace {
 
 using geometry::Vector;

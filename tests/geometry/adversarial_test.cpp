@@ -55,8 +55,8 @@ bool aim_at_joint(Bench& bench, Dice& dice, double omega_times_size, double size
   s.velocity = s.omega == 0.0 ? d : (1.0 / l) * (cosine * d + sine * left(d));
   s.velocity = turned_by(s.velocity, off);
   if (!bench.inward(s)) return false;
-  const Ahead a = bench.ahead(s);
-  return a.kind != Ahead::Kind::wall || a.piece == wall || a.piece == begins.previous;
+  const events::Ahead a = bench.ahead(s);
+  return a.kind != events::Ahead::Kind::wall || a.piece == wall || a.piece == begins.previous;
 }
 
 constexpr Shape jointed[] = {Shape::polygon, Shape::arcs, Shape::stadium, Shape::mushroom,

@@ -78,7 +78,7 @@ class Bench {
       : table_(std::move(table)), fast_(table_), integers_(table_, {no_filter}) {}
 
   const Table& table() const { return table_; }
-  HitFinder& finder() { return fast_; }
+  events::HitFinder& finder() { return fast_; }
   const geometry::PreparedCurve& curve(int wall) const { return fast_.pieces().curve(wall); }
   Vector place(const Start& s) const { return s.wall < 0 ? s.point : curve(s.wall).point(s.u); }
 
@@ -104,15 +104,15 @@ class Bench {
                table_.walls[static_cast<std::size_t>(s.wall)].previous, s.velocity) ==
                Sign::positive;
   }
-  Ahead ahead(const Start& s) {
+  events::Ahead ahead(const Start& s) {
     DecisionCounts counts;
     return fast_.next(flight(fast_, s), counts);
   }
   /// A free start half way to what lies ahead.
   Start half_way(const Start& s) {
     DecisionCounts counts;
-    const Ahead a = fast_.next(flight(fast_, s), counts);
-    if (a.kind == Ahead::Kind::none) return s;
+    const events::Ahead a = fast_.next(flight(fast_, s), counts);
+    if (a.kind == events::Ahead::Kind::none) return s;
     Start free = s;
     free.wall = -1;
     const Vector from = place(s);
@@ -128,8 +128,8 @@ class Bench {
     return free;
   }
 
-  Flight flight(const HitFinder& finder, const Start& s) const {
-    Flight f;
+  events::Flight flight(const events::HitFinder& finder, const Start& s) const {
+    events::Flight f;
     f.omega = s.omega;
     f.square_speed = dot(s.velocity, s.velocity);
     if (s.wall >= 0) {
@@ -144,20 +144,20 @@ class Bench {
 
   void check(const Start& s, bool with_cgal, Tally& tally) {
     DecisionCounts counts, unused;
-    const Flight f = flight(fast_, s), g = flight(integers_, s);
-    const Ahead a = fast_.next(f, counts), b = integers_.next(g, unused);
+    const events::Flight f = flight(fast_, s), g = flight(integers_, s);
+    const events::Ahead a = fast_.next(f, counts), b = integers_.next(g, unused);
     ++tally.cases;
     tally.by_filter += counts.filter == 1 && counts.exact == 0;
-    tally.joints += a.kind == Ahead::Kind::joint;
-    tally.cusps += a.kind == Ahead::Kind::cusp;
-    tally.none += a.kind == Ahead::Kind::none;
+    tally.joints += a.kind == events::Ahead::Kind::joint;
+    tally.cusps += a.kind == events::Ahead::Kind::cusp;
+    tally.none += a.kind == events::Ahead::Kind::none;
     const bool same =
         a.kind == b.kind && a.piece == b.piece &&
-        (a.kind == Ahead::Kind::none || (a.kappa == b.kappa && a.duration == b.duration));
+        (a.kind == events::Ahead::Kind::none || (a.kappa == b.kappa && a.duration == b.duration));
     if (!same && tally.differ++ < 3)
       ADD_FAILURE() << "filter " << text(a) << ", integers " << text(b) << "; " << text(s);
     int hole = -2;
-    if (same && a.kind == Ahead::Kind::wall &&
+    if (same && a.kind == events::Ahead::Kind::wall &&
         !table_.walls[static_cast<std::size_t>(a.piece)].holes.empty()) {
       DecisionCounts fast, slow;
       hole = fast_.pieces().land(f, a, fast).hole;
@@ -174,10 +174,10 @@ class Bench {
     ++tally.by_cgal;
     const Expected e = oracle_->first(s.wall, s.u, s.point, s.velocity, s.omega);
     const bool agrees =
-        static_cast<int>(e.kind) == (a.kind == Ahead::Kind::none    ? 0
-                                     : a.kind == Ahead::Kind::wall  ? 1
-                                     : a.kind == Ahead::Kind::joint ? 2
-                                                                    : 3) &&
+        static_cast<int>(e.kind) == (a.kind == events::Ahead::Kind::none    ? 0
+                                     : a.kind == events::Ahead::Kind::wall  ? 1
+                                     : a.kind == events::Ahead::Kind::joint ? 2
+                                                                            : 3) &&
         (e.kind == Expected::Kind::none || e.kind == Expected::Kind::cusp || e.wall == a.piece);
     if (!agrees && tally.cgal_differs++ < 3)
       ADD_FAILURE() << "engine " << text(a) << ", CGAL " << static_cast<int>(e.kind) << " wall "
@@ -194,7 +194,7 @@ class Bench {
   }
 
  private:
-  static std::string text(const Ahead& a) {
+  static std::string text(const events::Ahead& a) {
     char line[120];
     std::snprintf(line, sizeof line, "kind %d piece %d kappa %a duration %a",
                   static_cast<int>(a.kind), a.piece, a.kappa, a.duration);
@@ -209,7 +209,7 @@ class Bench {
   }
 
   Table table_;
-  HitFinder fast_, integers_;
+  events::HitFinder fast_, integers_;
   std::unique_ptr<Oracle> oracle_;
 };
 

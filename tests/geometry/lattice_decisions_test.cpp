@@ -2,6 +2,9 @@
 #include "geometry/decisions.hpp"
 
 namespace carom::tests {
+
+using events::Ahead;
+
 namespace {
 
 constexpr int reach = 6;  // cells laid out to each side; the horizon is far nearer
@@ -38,8 +41,8 @@ struct Met {
   friend bool operator==(const Met&, const Met&) = default;
 };
 
-Met follow(HitFinder& finder, const Start& s, DecisionCounts& counts) {
-  Flight f;
+Met follow(events::HitFinder& finder, const Start& s, DecisionCounts& counts) {
+  events::Flight f;
   f.omega = s.omega;
   f.square_speed = dot(s.velocity, s.velocity);
   finder.pieces().begin_on_wall(f, s.wall, s.u, finder.pieces().curve(s.wall).point(s.u),
@@ -48,7 +51,7 @@ Met follow(HitFinder& finder, const Start& s, DecisionCounts& counts) {
   for (; met.edges < 100; ++met.edges) {
     const Ahead a = finder.next(f, counts);
     if (a.kind == Ahead::Kind::wall) {
-      const PieceTable::Landing l = finder.pieces().land(f, a, counts);
+      const events::PieceTable::Landing l = finder.pieces().land(f, a, counts);
       return {true, l.wall, met.edges, l.cell, a.kappa};
     }
     if (a.kind != Ahead::Kind::edge) break;
@@ -60,7 +63,7 @@ Met follow(HitFinder& finder, const Start& s, DecisionCounts& counts) {
 TEST(Decisions, LatticesAreDiscsInThePlane) {
   for (const bool square : {false, true}) {
     const Table table = lorentz(square ? 2.6 : 2.25, square), plane = laid_out(table);
-    HitFinder fast(table), integers(table, {no_filter});
+    events::HitFinder fast(table), integers(table, {no_filter});
     const Oracle oracle(plane);
     Dice dice(11);
     DecisionCounts counts, unused;

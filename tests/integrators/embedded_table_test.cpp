@@ -14,6 +14,9 @@
 #include "steppers.hpp"
 
 namespace carom {
+
+using namespace integrators;
+
 namespace {
 
 using Real = HighPrecision;

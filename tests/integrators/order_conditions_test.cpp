@@ -13,6 +13,9 @@
 #include "integrators/stages.hpp"
 
 namespace carom {
+
+using namespace integrators;
+
 namespace {
 
 using Real = HighPrecision;

@@ -13,6 +13,8 @@
 
 namespace carom {
 
+using namespace integrators;
+
 // Enough digits for Jacobians by differences.
 using Precise = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
                                               boost::multiprecision::et_off>;

@@ -13,6 +13,9 @@
 #include "steppers.hpp"
 
 namespace carom {
+
+using namespace integrators;
+
 namespace {
 
 using geometry::Vector;

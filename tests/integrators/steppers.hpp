@@ -14,9 +14,9 @@ template <class Real>
 std::unique_ptr<Stepper<Real>> stepper_of(const Scheme& scheme, const ForceLaw<Real>& law,
                                           std::span<const Real> omega) {
   if (scheme.form == Scheme::Form::spreiter_walter) {
-    return std::make_unique<SpreiterWalterStepper<Real>>(law, omega);
+    return std::make_unique<integrators::SpreiterWalterStepper<Real>>(law, omega);
   }
-  return std::make_unique<SplittingStepper<Real>>(scheme, law, omega);
+  return std::make_unique<integrators::SplittingStepper<Real>>(scheme, law, omega);
 }
 
 template <class Real>

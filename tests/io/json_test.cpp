@@ -11,6 +11,9 @@
 #include "io/progress.hpp"
 
 namespace carom {
+
+using namespace io;
+
 namespace {
 
 TEST(Json, NumbersReadBackAsTheSameDouble) {

@@ -12,6 +12,9 @@
 #include <string>
 
 namespace carom {
+
+using namespace io;
+
 namespace {
 
 TEST(Progress, EstimatesTheRestFromThisProcessAlone) {

@@ -20,6 +20,9 @@
 #include "scratch_folder.hpp"
 
 namespace carom {
+
+using namespace io;
+
 namespace {
 
 TEST(WorkFolder, RefusesTheSecondAndLeavesNothing) {

@@ -17,6 +17,9 @@
 #include "random_tables.hpp"
 
 namespace carom {
+
+using events::PieceTable;
+
 namespace {
 
 using lanes::LaneTable;

@@ -9,6 +9,9 @@
 #include "motion/free_motion.hpp"
 
 namespace carom::tests {
+
+using namespace motion;
+
 namespace {
 
 using geometry::Vector;

@@ -6,6 +6,9 @@
 #include <cmath>
 
 namespace carom {
+
+using namespace motion;
+
 namespace {
 
 using geometry::Vector;

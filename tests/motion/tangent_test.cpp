@@ -9,6 +9,9 @@
 #include "random_tables.hpp"
 
 namespace carom {
+
+using namespace motion;
+
 namespace {
 
 using geometry::Vector;

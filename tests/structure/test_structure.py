@@ -83,6 +83,28 @@ class Umbrella(unittest.TestCase):
         self.assertEqual(len(faults("umbrella", files)), 1)
 
 
+class Names(unittest.TestCase):
+    def count(self, namespace, text, path="src/motion/contact.hpp"):
+        return len(faults("names", {path: f"namespace {namespace} {{\n\n{text}\n\n}}  // namespace {namespace}\n"}))
+
+    def test_internal_names_in_plain_carom_are_found(self):
+        for text in ("struct Ahead {", "double angle(double x);", "using Pair = double[2];", "namespace detail {",
+                     "inline constexpr int most = 3;", "template <class Real>\nReal area(Real r) {", "enum class Kind {"):
+            self.assertEqual(self.count("carom", text), 1, text)
+            self.assertEqual(self.count("carom::events", text), 1, text)
+            self.assertEqual(self.count("carom::motion", text), 0, text)
+            self.assertEqual(self.count("carom", text, "src/motion/contact.cpp"), 0, text)
+            self.assertEqual(self.count("carom", text, "include/carom/motion/state.hpp"), 0, text)
+
+    def test_parts_of_public_classes_stay_there(self):
+        for text in ("class World;", "class World::Implementation {", "template <>\nstruct FusedProduct<lanes::Real> {",
+                     "// a comment"):
+            self.assertEqual(self.count("carom", text), 0, text)
+
+    def test_using_directives_are_found(self):
+        self.assertEqual(self.count("carom::motion", "using namespace events;"), 1)
+
+
 class Libm(unittest.TestCase):
     def count(self, path, line):
         return len(faults("libm", {path: line + "\n"}))

@@ -69,9 +69,9 @@ void measure_row(Report& report, const Row& row) {
     world.run_until(t_end, recorder);
     change = std::fmax(change, std::fabs(energy(recorder.states.back()) - energy(starts.back())));
   }
-  ForceMap map(*system.dynamics.forces, particle);
-  const resolution::Span span =
-      resolution::span_of(step / resolution::steps_a_radius, particle.omega);
+  forces::ForceMap map(*system.dynamics.forces, particle);
+  const forces::resolution::Span span =
+      forces::resolution::span_of(step / forces::resolution::steps_a_radius, particle.omega);
   std::size_t resolved = 0;
   Best question;
   question.repeat(5, [&] {

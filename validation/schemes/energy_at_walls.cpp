@@ -46,11 +46,11 @@ Statistics measure(const Scheme& scheme, double omega, double step, int hits) {
   const std::vector<double> omegas = {omega};
   std::unique_ptr<Stepper<double>> stepper;
   if (scheme.form == Scheme::Form::spreiter_walter)
-    stepper = std::make_unique<SpreiterWalterStepper<double>>(law, omegas);
+    stepper = std::make_unique<integrators::SpreiterWalterStepper<double>>(law, omegas);
   else
-    stepper = std::make_unique<SplittingStepper<double>>(scheme, law, omegas);
-  const Barrier<double> wall =
-      barrier_of<double>(geometry::Circle{{0.05, 0.03}, 0.5, true}, Vector{});
+    stepper = std::make_unique<integrators::SplittingStepper<double>>(scheme, law, omegas);
+  const events::Barrier<double> wall =
+      events::barrier_of<double>(geometry::Circle{{0.05, 0.03}, 0.5, true}, Vector{});
   double sum = 0.0, squares = 0.0, hit_squares = 0.0;
   for (int orbit = 0; orbit < orbits; ++orbit) {
     RandomStream random(1, Purpose::initial_state, static_cast<std::uint64_t>(orbit));
@@ -59,13 +59,13 @@ Statistics measure(const Scheme& scheme, double omega, double step, int hits) {
     random.point_in_disc(direction.x, direction.y);
     const double speed = std::sqrt(2.0 * (energy - HenonHeiles::potential(p.position[0])));
     p.velocity[0] = (speed / std::sqrt(dot(direction, direction))) * direction;
-    StepPath<double> path(*stepper, law, omegas);
-    CrossingSearch<double> search(path);
+    events::StepPath<double> path(*stepper, law, omegas);
+    events::CrossingSearch<double> search(path);
     double last = energy_of(p), rest = step;
     const double first = last;
     for (int done = 0; done < hits;) {
       path.begin(p, rest);
-      const PathHull<double> hull(path.start(), path.end(), 0);
+      const events::PathHull<double> hull(path.start(), path.end(), 0);
       auto* found =
           stays_off(wall, hull) ? nullptr : search.first(wall, 0, path.start(), path.end());
       if (!found) {

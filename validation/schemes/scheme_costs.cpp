@@ -173,7 +173,7 @@ void print_tables(std::vector<Case>& cases) {
     for (Case& c : cases) {
       std::vector<Point> points;
       for (double tolerance = 1e-3; tolerance > 2e-15; tolerance /= std::sqrt(10.0)) {
-        ArkodeStepper stepper(*c.problem, c.problem->omega, tolerance, table);
+        integrators::ArkodeStepper stepper(*c.problem, c.problem->omega, tolerance, table);
         points.push_back(walk(c, stepper, 0));
       }
       for (const double bound : {1e-5, 1e-7, 1e-9, 1e-11}) {

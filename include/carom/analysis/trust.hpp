@@ -9,10 +9,13 @@
 #include "carom/events/observer.hpp"
 #include "carom/table/table.hpp"
 
+namespace carom::analysis {
+struct WrittenSystem;
+}  // namespace carom::analysis
+
 namespace carom {
 
 /// A system as it was written, in twice the digits of a double (written_system() of io/).
-struct WrittenSystem;
 
 /// The true state after an event less the computed one, each at its own hit.
 struct OrbitError {
@@ -45,7 +48,7 @@ class TrustRecorder : public Observer {
   /// Keeps a reference to the table, which must live as long. `written`: what the table's doubles
   /// were rounded from, and the first particle's start; nothing: they are what is meant.
   explicit TrustRecorder(const Table&, double tolerance = usual_tolerance,
-                         std::shared_ptr<const WrittenSystem> written = nullptr);
+                         std::shared_ptr<const analysis::WrittenSystem> written = nullptr);
   ~TrustRecorder() override;
 
   /// Follows the world's next particle from its state, which has made `hits` hits; `before`: what

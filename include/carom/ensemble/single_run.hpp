@@ -56,7 +56,7 @@ struct SingleRunOptions {
   bool estimate_state_error =
       false;  ///< under forces: costs up to three times the run (ensemble/state_error.hpp)
   /// What the system's doubles were rounded from; null: they are what is meant.
-  std::shared_ptr<const WrittenSystem> written;
+  std::shared_ptr<const analysis::WrittenSystem> written;
 };
 
 /// How one trajectory ended.

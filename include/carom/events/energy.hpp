@@ -6,9 +6,11 @@
 #include "carom/events/dynamics.hpp"
 #include "carom/table/table.hpp"
 
-namespace carom {
-
+namespace carom::base {
 class Interrupt;
+}  // namespace carom::base
+
+namespace carom {
 
 /// The parts of the total energy.
 struct Energy {
@@ -43,7 +45,7 @@ double relative_to(double kinetic, double change);
 /// One state a particle, all at the same time. Pairs on a lattice see their nearest copies, as in
 /// the motion. Where `interrupt` says so, it stops half done.
 Energy energy_of(std::span<const Particle>, std::span<const State>, const Dynamics&, const Table&,
-                 Interrupt* interrupt = nullptr);
+                 base::Interrupt* interrupt = nullptr);
 
 /// Sum of m v. Conserved without walls, external forces and field.
 geometry::Vector momentum_of(std::span<const Particle>, std::span<const State>);

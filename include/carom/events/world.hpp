@@ -18,9 +18,11 @@
 #include "carom/motion/state.hpp"
 #include "carom/table/table.hpp"
 
-namespace carom {
-
+namespace carom::events {
 struct PieceTable;
+}  // namespace carom::events
+
+namespace carom {
 
 /// Particles on one table. Where nothing acts they fly exactly (straight or Larmor flights). Where
 /// a force acts they are integrated, from the edge of its support on and back
@@ -103,7 +105,7 @@ class World {
   bool contains(geometry::Vector point) const;
 
   /// For engines: the walls as flights see them.
-  const PieceTable& pieces() const;
+  const events::PieceTable& pieces() const;
 
  private:
   class Implementation;

@@ -12,6 +12,17 @@
 #include "carom/geometry/vector.hpp"
 #include "carom/motion/state.hpp"
 
+namespace carom::base {
+class Interrupt;
+}  // namespace carom::base
+
+namespace carom::forces {
+struct Neighbourhood;
+struct ForceBound;
+class Interaction;
+class Potential;
+}  // namespace carom::forces
+
 namespace carom {
 
 /// A disc outside which a potential is below its stated bound.
@@ -19,12 +30,6 @@ struct Support {
   geometry::Vector center;
   double radius = 0.0;
 };
-
-class Potential;
-class Interaction;
-class Interrupt;
-struct ForceBound;
-struct Neighbourhood;
 
 /// External potentials, superposed, and the interaction of pairs. Immutable: threads share it.
 class ForceField {
@@ -48,22 +53,25 @@ class ForceField {
   /// says so, it stops half done.
   void add_pairs(std::span<const Particle> particles, std::span<const geometry::Vector> x,
                  const geometry::Lattice* lattice, std::span<geometry::Vector> force,
-                 Interrupt* interrupt = nullptr) const;
+                 base::Interrupt* interrupt = nullptr) const;
 
   /// How large the external force can be near a place, and that of a pair whose separation is
   /// displaced by at most `rho` from one of that length: docs/physics/resolution.md.
-  ForceBound external_bound(const Particle&, const Neighbourhood&) const;
-  ForceBound pair_bound(const Particle& a, const Particle& b, double distance, double rho) const;
+  forces::ForceBound external_bound(const Particle&, const forces::Neighbourhood&) const;
+  forces::ForceBound pair_bound(const Particle& a, const Particle& b, double distance,
+                                double rho) const;
   /// Energy of all pairs, which feel each other as in add_pairs. Where `interrupt` says so, it
   /// stops half done.
   double pair_energy(std::span<const Particle> particles, std::span<const geometry::Vector> x,
-                     const geometry::Lattice* lattice, Interrupt* interrupt = nullptr) const;
+                     const geometry::Lattice* lattice, base::Interrupt* interrupt = nullptr) const;
 
   /// The potential energy of all.
   double potential_energy(std::span<const Particle> particles, std::span<const geometry::Vector> x,
                           const geometry::Lattice* lattice) const;
 
-  const std::vector<std::unique_ptr<const Potential>>& potentials() const { return potentials_; }
+  const std::vector<std::unique_ptr<const forces::Potential>>& potentials() const {
+    return potentials_;
+  }
   /// Does some external potential reach everywhere?
   bool everywhere() const { return everywhere_; }
   /// Is some external potential a typed formula, whose bounds take long?
@@ -85,8 +93,8 @@ class ForceField {
                                                  const std::optional<geometry::Lattice>& lattice);
 
  private:
-  std::vector<std::unique_ptr<const Potential>> potentials_;
-  std::unique_ptr<const Interaction> interaction_;
+  std::vector<std::unique_ptr<const forces::Potential>> potentials_;
+  std::unique_ptr<const forces::Interaction> interaction_;
   std::vector<Support> supports_;
   bool everywhere_ = false, typed_ = false;
   double pair_range_ = std::numeric_limits<double>::infinity();

@@ -15,6 +15,10 @@
 #include "carom/ensemble/trajectory_ranges.hpp"
 #include "carom/io/system_file.hpp"
 
+namespace carom::io {
+class WorkFolder;
+}  // namespace carom::io
+
 namespace carom {
 
 /// Once, before anything else happens in the program.
@@ -38,10 +42,9 @@ std::string archive_named(const std::string& name);
 /// Throws InputError where FILE is in the folder in which another archive is made.
 void refuse_inside(const std::string& file);
 
-class WorkFolder;
 /// As long as it lives, no other process writes the archive. It holds the folder FILE.part, in
 /// which FILE is made.
-using ArchiveLock = std::shared_ptr<WorkFolder>;
+using ArchiveLock = std::shared_ptr<io::WorkFolder>;
 /// Throws InputError where another process writes it, where it is no file, and where FILE.part is
 /// something else. Archives take their lock themselves, unless they are given one that was taken
 /// before something was read.

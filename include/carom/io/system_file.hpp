@@ -10,9 +10,11 @@
 #include "carom/ensemble/system.hpp"
 #include "carom/io/system_overrides.hpp"
 
-namespace carom {
-
+namespace carom::analysis {
 struct WrittenSystem;
+}  // namespace carom::analysis
+
+namespace carom {
 
 /// A key of the system file.
 struct KeyDescription {
@@ -52,6 +54,6 @@ LoadedSystem read_system(std::string_view toml, const std::string& file,
                          const SystemOverrides& = {});
 /// The written numbers from which the doubles of a system were rounded (SingleRunOptions::written);
 /// null if they are not known.
-std::shared_ptr<const WrittenSystem> written_system(const LoadedSystem&);
+std::shared_ptr<const analysis::WrittenSystem> written_system(const LoadedSystem&);
 
 }  // namespace carom

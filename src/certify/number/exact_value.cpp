@@ -25,7 +25,7 @@ Ball power_of(const Ball& x, long exponent) {
   return result;
 }
 
-Ball closed(const ClosedForm& x) {
+Ball closed(const base::ClosedForm& x) {
   Ball result = rational(x.coefficient);
   if (x.radicand != 1) result = result * sqrt(rational(x.radicand));
   if (x.power != 0) {
@@ -79,8 +79,8 @@ Sign sign_of(const ExactNumber& number) {
 
 CosSin direction_of(const ExactNumber& angle, long part, long whole) {
   CosSin result;
-  const std::string turns = "(" + shapes::quoted(angle) + "/(2*pi)+" + std::to_string(part) + "/" +
-                            std::to_string(whole) + ")";
+  const std::string turns = "(" + table::shapes::quoted(angle) + "/(2*pi)+" + std::to_string(part) +
+                            "/" + std::to_string(whole) + ")";
   const ExactNumber halves(turns + "*2", angle.place());  // in units of pi
   if (const auto exact = halves.to_rational()) {
     fmpq_t q;

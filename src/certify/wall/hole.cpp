@@ -89,7 +89,8 @@ class EllipseLength {
 };
 
 ExactNumber end_of(const HoleSpec& spec, const char* side) {
-  return {shapes::quoted(spec.center) + side + shapes::quoted(spec.width) + "/2", spec.place};
+  return {table::shapes::quoted(spec.center) + side + table::shapes::quoted(spec.width) + "/2",
+          spec.place};
 }
 
 // The sign of an arc length less that of the wall.

@@ -11,8 +11,8 @@ template <>
 struct Source<Rational> {
   static Rational value(const ExactNumber& number) { return Rational(number); }
   static VectorOf<Rational> direction(const ExactNumber& angle, long part = 0, long whole = 1) {
-    const std::string turns =
-        shapes::quoted(angle) + "/(2*pi)+" + std::to_string(part) + "/" + std::to_string(whole);
+    const std::string turns = table::shapes::quoted(angle) + "/(2*pi)+" + std::to_string(part) +
+                              "/" + std::to_string(whole);
     const Rational quarters(ExactNumber("4*(" + turns + ")"));
     const mpq_class* const q = quarters.value();
     if (q == nullptr || q->get_den() != 1) return {Rational::unknown(), Rational::unknown()};

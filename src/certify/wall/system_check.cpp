@@ -33,8 +33,10 @@ void check_walls(const ExactSystem& system) {
   };
   if (spec.shape == "mushroom") {
     const ExactNumber& stem = spec.numbers.at("stem_width");
-    const Sign brim = sign_of(shapes::derived(
-        "2*" + shapes::quoted(spec.numbers.at("cap_radius")) + "-" + shapes::quoted(stem), stem));
+    const Sign brim =
+        sign_of(table::shapes::derived("2*" + table::shapes::quoted(spec.numbers.at("cap_radius")) +
+                                           "-" + table::shapes::quoted(stem),
+                                       stem));
     if (brim == Sign::negative)
       throw InputError(stem.place(), "the stem is wider than the cap",
                        "stem_width <= 2 cap_radius");

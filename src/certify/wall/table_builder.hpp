@@ -20,27 +20,27 @@ template <class N>
 struct WallBuilder {
   static N value(const ExactNumber& number) { return Source<N>::value(number); }
   static VectorOf<N> point(const ExactPoint& p) { return {value(p.x), value(p.y)}; }
-  static VectorOf<N> point(const shapes::WrittenPoint& p) {
+  static VectorOf<N> point(const table::shapes::WrittenPoint& p) {
     if (const auto* written = std::get_if<ExactPoint>(&p)) return point(*written);
-    const auto& corner = std::get<shapes::RegularCorner>(p);
+    const auto& corner = std::get<table::shapes::RegularCorner>(p);
     return value(corner.radius) * Source<N>::direction(corner.angle, corner.part, corner.whole);
   }
 
-  WallOf<N> operator()(const shapes::WrittenSegment& s) const {
+  WallOf<N> operator()(const table::shapes::WrittenSegment& s) const {
     return segment_wall(point(s.from), point(s.to));
   }
-  WallOf<N> operator()(const shapes::WrittenArc& s) const {
+  WallOf<N> operator()(const table::shapes::WrittenArc& s) const {
     return arc_wall(point(s.from), point(s.to), point(s.centre), square(value(s.radius)), true);
   }
-  WallOf<N> operator()(const shapes::WrittenCircle& s) const {
+  WallOf<N> operator()(const table::shapes::WrittenCircle& s) const {
     return circle_wall(point(s.centre), value(s.radius), s.counterclockwise);
   }
-  WallOf<N> operator()(const shapes::WrittenEllipse& s) const {
+  WallOf<N> operator()(const table::shapes::WrittenEllipse& s) const {
     const N a = value(s.a);
     return ellipse_wall(point(s.centre), a * Source<N>::direction(s.angle), value(s.b) / a,
                         s.counterclockwise);
   }
-  WallOf<N> operator()(const shapes::WrittenPiece& s) const {
+  WallOf<N> operator()(const table::shapes::WrittenPiece& s) const {
     const VectorOf<N> from = point(s.from), to = point(s.piece.to);
     if (s.piece.kind == PieceSpec::Kind::line) return segment_wall(from, to);
     if (s.piece.kind == PieceSpec::Kind::arc)
@@ -78,9 +78,9 @@ struct WallBuilder {
 template <class N>
 TableOf<N> table_of(const TableSpec& spec) {
   TableOf<N> table;
-  const shapes::Shape shape = shapes::written_shape(spec);
-  for (const shapes::Chain& chain : shape.loops)
-    for (const shapes::NamedCurve& wall : chain)
+  const table::shapes::Shape shape = table::shapes::written_shape(spec);
+  for (const table::shapes::Chain& chain : shape.loops)
+    for (const table::shapes::NamedCurve& wall : chain)
       table.walls.push_back(std::visit(WallBuilder<N>{}, wall.curve));
   if (const auto& lattice = spec.lattice ? spec.lattice : shape.lattice)
     table.lattice = {WallBuilder<N>::point(lattice->first), WallBuilder<N>::point(lattice->second)};

@@ -17,6 +17,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 Place place_of(const char* option) { return {"command line", 0, 0, option}; }
@@ -203,13 +205,13 @@ int certified_sample(const Options& options) {
   choose_engine(options.engine, loaded.system);
   CertifiedSample sample;
   {
-    Progress progress(!options.quiet);
+    io::Progress progress(!options.quiet);
     const double all = static_cast<double>(wanted);
     sample = compare_with_certified(options, loaded, catch_interrupts(), [&](std::uint64_t done) {
       if (progress.due())
         progress.show(
             static_cast<double>(done) / all,
-            with_prefix(static_cast<double>(done) / progress.seconds()) + "certified orbits/s");
+            io::with_prefix(static_cast<double>(done) / progress.seconds()) + "certified orbits/s");
     });
   }
   print(options.json ? sample_json(loaded.system, sample).text() + "\n"

@@ -23,7 +23,7 @@ struct CertifiedSample {
 CertifiedSample compare_with_certified(const Options&, const LoadedSystem&,
                                        const std::atomic<bool>& stop,
                                        std::function<void(std::uint64_t done)> progress);
-Json sample_json(const System&, const CertifiedSample&);
+io::Json sample_json(const System&, const CertifiedSample&);
 /// `rows`: at most so many times in the table.
 std::string sample_text(const System&, const CertifiedSample&, std::size_t rows = 12);
 

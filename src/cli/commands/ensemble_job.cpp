@@ -67,9 +67,9 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   EnsembleJob<Result> job;
   job.output = archive_named(options.resume);
   // A complete archive is only shown.
-  if (sharing != Sharing::other && !(is_complete(job.output) && !has_work_folder(job.output))) {
+  if (sharing != Sharing::other && !(is_complete(job.output) && !io::has_work_folder(job.output))) {
     job.lock = lock_output(job.output);
-    gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);
+    io::gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);
   }
   job.stored = read_ensemble<Result>(job.output);
   if (!options.output.empty() && options.output != job.output)

@@ -104,7 +104,7 @@ int run(const Options& options) {
     how.trajectory = whole_number(options.trajectory, "--trajectory", 0);
 
   LoadedSystem loaded;
-  std::optional<Progress> preparing(std::in_place, !options.quiet);
+  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
   std::unique_ptr<RunArchive> archive;
   std::string output = options.output;
   if (options.resume.empty()) {
@@ -146,7 +146,7 @@ int run(const Options& options) {
   Counting counting(archive.get());
   SingleRunResult result;
   {
-    Progress progress(!options.quiet);
+    io::Progress progress(!options.quiet);
     how.interrupted = [&] {
       if (progress.due()) {
         const double by_time = counting.time / system.run.t_max;
@@ -155,11 +155,11 @@ int run(const Options& options) {
                                    : static_cast<double>(counting.hits) /
                                          (static_cast<double>(system.run.collisions) *
                                           static_cast<double>(system.particles.size()));
-        progress.show(
-            by_time > by_hits ? by_time : by_hits,
-            counting.hits > 0
-                ? with_prefix(static_cast<double>(counting.hits) / progress.seconds()) + "hits/s"
-                : fmt::format("t = {:.4g}", counting.time));
+        progress.show(by_time > by_hits ? by_time : by_hits,
+                      counting.hits > 0 ? io::with_prefix(static_cast<double>(counting.hits) /
+                                                          progress.seconds()) +
+                                              "hits/s"
+                                        : fmt::format("t = {:.4g}", counting.time));
       }
       return interrupted.load(std::memory_order_relaxed);
     };

@@ -17,6 +17,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 Place place_of(const char* option) { return {"command line", 0, 0, option}; }
@@ -132,7 +134,7 @@ namespace {
 
 void follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& task,
             CertifiedArchive* archive) {
-  Progress progress(!options.quiet);
+  io::Progress progress(!options.quiet);
   while (const auto hit = orbit.next()) {
     if (archive) archive->hit(*hit);
     if (progress.due()) {
@@ -140,8 +142,9 @@ void follow(CertifiedOrbit& orbit, const Options& options, const CertifiedTask& 
                                                   : static_cast<double>(hit->number) /
                                                         static_cast<double>(task.collisions);
       const double by_time = task.t_max ? hit->t.to_double() / task.t_max->to_double() : 0.0;
-      progress.show(std::max(by_hits, by_time),
-                    with_prefix(static_cast<double>(hit->number) / progress.seconds()) + "hits/s");
+      progress.show(
+          std::max(by_hits, by_time),
+          io::with_prefix(static_cast<double>(hit->number) / progress.seconds()) + "hits/s");
     }
   }
 }

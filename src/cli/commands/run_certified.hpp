@@ -17,9 +17,9 @@ ExactStart exact_start(const State&);
 /// What the options ask for; draws the start into the system. Throws InputError where a system or
 /// an option has no certified form.
 CertifiedTask certified_task(const Options&, LoadedSystem&);
-Json certified_json(const System&, const CertifiedEnd&, const CertifiedTask&,
-                    const CertifiedEffort&, const std::string& output, double seconds,
-                    double cpu_seconds);
+io::Json certified_json(const System&, const CertifiedEnd&, const CertifiedTask&,
+                        const CertifiedEffort&, const std::string& output, double seconds,
+                        double cpu_seconds);
 std::string certified_text(const System&, const CertifiedEnd&, const CertifiedTask&,
                            const CertifiedEffort&, const std::string& output, double seconds);
 

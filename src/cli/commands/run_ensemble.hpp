@@ -118,15 +118,15 @@ Result fly(const Options& options, const Fly<Result>& run, const System& system,
            EnsembleOptions<Result> how) {
   const double all = static_cast<double>(how.part.last - how.part.first);
   const std::uint64_t before = how.before ? how.before->done.size() : 0;
-  Progress progress(!options.quiet, all > 0 ? static_cast<double>(before) / all : 0.0);
+  io::Progress progress(!options.quiet, all > 0 ? static_cast<double>(before) / all : 0.0);
   if (progress.enabled())
     how.progress = [&](std::uint64_t trajectories, std::uint64_t hits) {
       if (progress.due())
-        progress.show(static_cast<double>(trajectories) / all,
-                      hits > 0
-                          ? with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
-                          : with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
-                                "trajectories/s");
+        progress.show(
+            static_cast<double>(trajectories) / all,
+            hits > 0 ? io::with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s"
+                     : io::with_prefix(static_cast<double>(trajectories) / progress.seconds()) +
+                           "trajectories/s");
     };
   return run(system, how);
 }
@@ -135,7 +135,7 @@ template <class Result>
 int run_alone(const Options& options, const Fly<Result>& run) {
   check_engine(options);
   EnsembleOptions<Result> how = how_to_run<Result>(options);
-  std::optional<Progress> preparing(std::in_place, !options.quiet);
+  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
   EnsembleJob<Result> job = job_of<Result>(options);
   preparing.reset();
   how.interrupted =

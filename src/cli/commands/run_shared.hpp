@@ -85,8 +85,8 @@ int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
     throw_first_error(ends);
     std::vector<std::string> files;
     if (job.stored) files.push_back(job.output);
-    for (int rank = 0; rank < ranks.size(); ++rank) files.push_back(part_of_rank(file, rank));
-    sum = sum_of_ranks<Result>(job.output, files, job.shard);
+    for (int rank = 0; rank < ranks.size(); ++rank) files.push_back(io::part_of_rank(file, rank));
+    sum = io::sum_of_ranks<Result>(job.output, files, job.shard);
     sum->status = status_of(sum->result.complete);
     sum->result.ranks = ranks.size();
     Provenance origin = origin_of(options, job);
@@ -111,9 +111,9 @@ int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
     if (!first) return;
     check_engine(options);
     how_to_run<Result>(options);
-    const Progress preparing(!options.quiet);
+    const io::Progress preparing(!options.quiet);
     job = job_of<Result>(options, Sharing::first);
-    if (!job.stored && !job.output.empty()) give_up_checkpoint(job.output);
+    if (!job.stored && !job.output.empty()) io::give_up_checkpoint(job.output);
   });
   const bool complete = job.stored && job.stored->result.complete;
   const std::string word = ranks.tell(ready.exception ? "failed" : complete ? nothing : go);
@@ -135,8 +135,9 @@ int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
       if (!first) job = job_of<Result>(options, Sharing::other);
       if (job.output.empty()) temporary.emplace();
       file = temporary ? temporary->file("sum") : job.output;
-      if (temporary) std::filesystem::create_directory(folder_of(file));
-      fly_share(options, run, job, ranks, part_of_rank(file, ranks.rank()), meeting.stopped(), end);
+      if (temporary) std::filesystem::create_directory(io::folder_of(file));
+      fly_share(options, run, job, ranks, io::part_of_rank(file, ranks.rank()), meeting.stopped(),
+                end);
     });
     meeting.end(mine.exception != nullptr);
   }
@@ -144,7 +145,7 @@ int run_shared(const Options& options, const Fly<Result>& run, Ranks& ranks) {
   const bool failed =
       share_end_of([&](ShareEnd&) { throw_first_error(ends); }).exception != nullptr;
   if (ranks.tell(failed ? "failed" : go) == go && temporary)
-    send_parts(ranks, part_of_rank(file, ranks.rank()), file);
+    send_parts(ranks, io::part_of_rank(file, ranks.rank()), file);
 
   int status = bad_input;
   const ShareEnd last = share_end_of([&](ShareEnd&) {

@@ -119,7 +119,7 @@ int section(const Options& options) {
   check_engine(options);
   SectionOptions how;
   how.threads = threads_of(options);
-  std::optional<Progress> preparing(std::in_place, !options.quiet);
+  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
   LoadedSystem loaded = load_section(options, [&](const SystemOverrides& overrides) {
     return load_system(options.system, overrides);
   });
@@ -140,13 +140,14 @@ int section(const Options& options) {
   };
   SectionResult result;
   {
-    Progress progress(!options.quiet);
+    io::Progress progress(!options.quiet);
     const double all = static_cast<double>(section_orbits(system));
     if (progress.enabled())
       how.progress = [&](std::uint64_t orbits, std::uint64_t points) {
         if (progress.due())
-          progress.show(static_cast<double>(orbits) / all,
-                        with_prefix(static_cast<double>(points) / progress.seconds()) + "points/s");
+          progress.show(
+              static_cast<double>(orbits) / all,
+              io::with_prefix(static_cast<double>(points) / progress.seconds()) + "points/s");
       };
     result = run_section(system, how);
   }

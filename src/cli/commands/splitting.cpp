@@ -20,6 +20,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 Place place_of(const char* option) { return Place{"command line", 0, 0, option}; }
@@ -277,11 +279,11 @@ int splitting(const Options& options) {
   how.interrupted = &catch_interrupts();
   SplittingResult result;
   {
-    Progress progress(!options.quiet);
+    io::Progress progress(!options.quiet);
     if (progress.enabled())
       how.progress = [&](std::uint64_t populations, std::uint64_t all, std::uint64_t hits) {
         progress.show(static_cast<double>(populations) / static_cast<double>(all),
-                      with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s");
+                      io::with_prefix(static_cast<double>(hits) / progress.seconds()) + "hits/s");
       };
     result = run_splitting(system, plan_of(options), how);
   }

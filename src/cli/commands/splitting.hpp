@@ -15,7 +15,7 @@ namespace carom::cli {
 SplittingPlan plan_of(const Options&);
 /// What a reader has to know before the result, a line each.
 std::vector<std::string> warnings_of(const SplittingResult&);
-Json splitting_json(const System&, const SplittingResult&);
+io::Json splitting_json(const System&, const SplittingResult&);
 /// `verbose`: with the digest; `rows`: at most so many times in a table.
 std::string splitting_text(const System&, const SplittingResult&, bool verbose = false,
                            std::size_t rows = 12);

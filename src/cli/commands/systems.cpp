@@ -9,6 +9,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 int systems(const Options& options) {
   const std::vector<BuiltinSystem>& all = builtin_systems();
   if (!options.system.empty()) {

@@ -21,7 +21,7 @@ int table(const Options& options) {
     lock = lock_output(options.output);
     refuse_existing(options.output, options.force);
   }
-  std::optional<Progress> preparing(std::in_place, !options.quiet);
+  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
   const LoadedSystem loaded = load_system(options.system, options.overrides);
   const System& system = loaded.system;
   const TableMeasure measured = measure(*system.table);

@@ -17,6 +17,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 double scale_of(const Options& options) {
@@ -136,7 +138,7 @@ int validate(const Options& options) {
   validation::CheckOptions how;
   how.threads = threads_of(options);
   how.interrupted = &catch_interrupts();
-  Progress progress(!options.quiet && options.json);  // text shows its progress by itself
+  io::Progress progress(!options.quiet && options.json);  // text shows its progress by itself
   const Validation all = run_validation(
       options, how,
       [&](double share, const std::string& name) {

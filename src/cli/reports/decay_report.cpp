@@ -10,6 +10,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 std::string formula_of(const Decay& decay) {
@@ -61,7 +63,8 @@ Json decay_json(const DecayFit& fit) {
 }
 
 std::string decay_text(const DecayFit& fit) {
-  if (fit.decays.empty()) return fmt::format("\nNo decay was fitted: {}.\n", fit.why_none);
+  if (fit.decays.empty())
+    return "\n" + folded(fmt::format("No decay was fitted: {}.", fit.why_none)) + "\n";
   std::string text = fmt::format("\nDecay from t = {:.4g} to {:.4g}, {} escapes\n", fit.from,
                                  fit.to, grouped(fit.escapes));
   const std::size_t shown = fit.decided ? 1 : 2;

@@ -8,7 +8,7 @@
 
 namespace carom::cli {
 
-Json decay_json(const DecayFit&);
+io::Json decay_json(const DecayFit&);
 std::string decay_text(const DecayFit&);
 
 }  // namespace carom::cli

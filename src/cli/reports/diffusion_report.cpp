@@ -12,6 +12,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 using Kind = Horizon::Kind;

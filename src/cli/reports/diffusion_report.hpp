@@ -21,7 +21,7 @@ struct DiffusionSummary {
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 
-Json result_json(const System&, const DiffusionResult&, const EnsembleContext&);
+io::Json result_json(const System&, const DiffusionResult&, const EnsembleContext&);
 std::string result_text(const System&, const DiffusionResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

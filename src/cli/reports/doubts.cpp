@@ -11,6 +11,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 bool integrated(const System& system) { return engine_of(system) != "events"; }
@@ -160,7 +162,8 @@ std::string steps_text(const System& system, const StepCounts& steps) {
 std::string pace_text(const System& system, std::uint64_t hits, const StepCounts& steps,
                       double seconds) {
   const bool by_steps = hits == 0 && integrated(system);
-  return with_prefix(static_cast<double>(by_steps ? steps.steps : hits) / std::max(seconds, 1e-9)) +
+  return io::with_prefix(static_cast<double>(by_steps ? steps.steps : hits) /
+                         std::max(seconds, 1e-9)) +
          (by_steps ? "steps/s" : "hits/s");
 }
 

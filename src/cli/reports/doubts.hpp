@@ -34,21 +34,21 @@ Doubts doubts_of(const System&, const SingleRunResult&);
 std::string energy_doubt(const System&, const EnergyError&);
 
 /// The keys `pinned`, `escaped`, `capped`, `singular`, `unbounded`, `unresolved`, `lost`.
-void add_fates(Json&, const FateCounts&);
+void add_fates(io::Json&, const FateCounts&);
 /// The same as text, "3 escaped, 1 lost: …"; "" if no particle ended so.
 std::string fates_text(const FateCounts&);
-Json energy_json(const EnergyError&);
+io::Json energy_json(const EnergyError&);
 /// `reports` of those that failed, if there are any: index, reason, and state in hexadecimal
 /// numbers.
-void add_reports(Json&, const Reports&);
+void add_reports(io::Json&, const Reports&);
 /// `reason` and `state` of a report.
-void add_report(Json&, const std::string& report);
+void add_report(io::Json&, const std::string& report);
 /// Prints to standard error why trajectories failed.
 void warn_of(const Reports&);
 
 /// Keys of integrated motion: `steps`, `force_evaluations`, and with unresolved = "count"
 /// `unresolved_steps` and `first_unresolved`.
-void add_steps(Json&, const System&, const StepCounts&);
+void add_steps(io::Json&, const System&, const StepCounts&);
 /// The same as a text that goes on a sentence: "1 200 steps, 13 200 force evaluations"; "" where
 /// nothing is integrated.
 std::string steps_text(const System&, const StepCounts&);

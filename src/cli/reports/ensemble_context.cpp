@@ -9,6 +9,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 std::string head_text(const System& system, std::uint64_t trajectories, double until, bool complete,
                       const EnsembleContext& context) {
   return fmt::format("{}\n{} trajectories until t = {:.6g}, seed {}{}{}\n",

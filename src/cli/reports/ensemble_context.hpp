@@ -33,6 +33,6 @@ std::string work_text(const System&, std::uint64_t collisions,
 std::string verbose_text(const System&, const EnsembleResult&, const EnsembleContext&,
                          const LaneEffort& = {});
 /// The keys with which the report of every ensemble begins.
-Json ensemble_json(const System&, const EnsembleResult&, const EnsembleContext&);
+io::Json ensemble_json(const System&, const EnsembleResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

@@ -17,6 +17,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 // The counts at some of the report times: rates are then those between these times.

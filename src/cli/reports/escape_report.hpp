@@ -9,7 +9,7 @@
 
 namespace carom::cli {
 
-Json result_json(const System&, const EscapeResult&, const EnsembleContext&);
+io::Json result_json(const System&, const EscapeResult&, const EnsembleContext&);
 std::string result_text(const System&, const EscapeResult&, const EnsembleContext&);
 
 }  // namespace carom::cli

@@ -12,6 +12,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 std::string status_of(const RunEnd& particle, bool interrupted) {

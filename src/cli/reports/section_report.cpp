@@ -7,6 +7,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 Json section_json(const System& system, const SectionResult& result, const std::string& status,
                   const std::string& output) {
   Json json = Json::object();

@@ -9,7 +9,7 @@
 namespace carom::cli {
 
 /// `output`: the archive, or "".
-Json section_json(const System&, const SectionResult&, const std::string& status,
-                  const std::string& output);
+io::Json section_json(const System&, const SectionResult&, const std::string& status,
+                      const std::string& output);
 
 }  // namespace carom::cli

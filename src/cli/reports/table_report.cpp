@@ -10,6 +10,8 @@
 
 namespace carom::cli {
 
+using io::Json;
+
 namespace {
 
 const char* kind_of(const geometry::Curve& curve) {

@@ -11,8 +11,8 @@
 namespace carom::cli {
 
 /// `output`: the drawing, or "". Holes have the numbers that were written.
-Json table_json(const LoadedSystem&, const TableMeasure&, const std::string& output,
-                const Stopwatch&);
+io::Json table_json(const LoadedSystem&, const TableMeasure&, const std::string& output,
+                    const Stopwatch&);
 /// `verbose`: with all of many walls.
 std::string table_text(const System&, const TableMeasure&, const std::string& output,
                        bool verbose = false);

@@ -8,7 +8,7 @@
 #include "motion/contact.hpp"
 #include "motion/free_motion.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Cell;
 using geometry::Vector;
@@ -25,7 +25,7 @@ double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 /// Two discs from the later of their starts on.
 struct PairStart {
   Time time;
-  PairFlight flight;
+  motion::PairFlight flight;
 };
 
 namespace {
@@ -36,7 +36,7 @@ struct Moved {
 };
 inline Moved after(const Contacts::Disc& d, double duration) {
   if (d.omega == 0.0) return {geometry::moved(d.position, duration, d.velocity), d.velocity};
-  const auto [x, v] = moved(d.position, d.velocity, d.omega, duration);
+  const auto [x, v] = motion::moved(d.position, d.velocity, d.omega, duration);
   return {x, v};
 }
 
@@ -59,10 +59,10 @@ double Contacts::reach_within(const Disc& disc, double duration) const {
 void Contacts::try_copy(int i, int j, const PairStart& start, const Cell& copy, const Time& end) {
   Disc& a = disc(i);
   const Disc& b = disc(j);
-  PairFlight flight = start.flight;
+  motion::PairFlight flight = start.flight;
   flight.separation = separation(flight.separation, {}, copy);
-  const double t = time_to_contact(flight, a.radius + b.radius, end - start.time);
-  if (!(t < no_contact)) return;
+  const double t = motion::time_to_contact(flight, a.radius + b.radius, end - start.time);
+  if (!(t < motion::no_contact)) return;
   const Time when = start.time + t;
   if (!(when < end)) return;
   if (partner(i) >= 0 && !(when < a.meeting)) return;
@@ -91,8 +91,8 @@ void Contacts::first_contact(int i, int j, const Time& now, const Time& until) {
   if (straight)
     d = d + since * v;
   else if (since > 0.0)
-    d = d + (moved({}, start.flight.first, a.omega, since).first -
-             moved({}, start.flight.second, b.omega, since).first);
+    d = d + (motion::moved({}, start.flight.first, a.omega, since).first -
+             motion::moved({}, start.flight.second, b.omega, since).first);
   const Cell near = nearest(d);
   if (binned_) {
     if (straight && !(dot(separation(start.flight.separation, {}, near), v) < 0.0)) return;
@@ -206,7 +206,7 @@ void Contacts::anchor(int i, const Time& now) {
   leave(i);
   const Time from = std::max(now, a.time);
   a.here = true;
-  a.bin = bin_of(moved(a.position, a.velocity, a.omega, from - a.time).first);
+  a.bin = bin_of(motion::moved(a.position, a.velocity, a.omega, from - a.time).first);
   bins_[at(a.bin)].push_back(i);
   a.check = a.speed > 0.0 ? from + slack_ / a.speed : Time(infinity);
 }
@@ -229,7 +229,8 @@ void Contacts::choose_bins(const Time& now) {
     if (!d.here) continue;
     ++count;
     radius = std::max(radius, d.radius);
-    const Vector x = moved(d.position, d.velocity, d.omega, std::max(now, d.time) - d.time).first;
+    const Vector x =
+        motion::moved(d.position, d.velocity, d.omega, std::max(now, d.time) - d.time).first;
     low = {std::min(low.x, x.x), std::min(low.y, x.y)};
     high = {std::max(high.x, x.x), std::max(high.y, x.y)};
   }
@@ -328,4 +329,4 @@ int Contacts::overlapped(const Disc& a) const {
   return -1;
 }
 
-}  // namespace carom
+}  // namespace carom::events

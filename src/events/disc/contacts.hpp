@@ -8,7 +8,7 @@
 #include "carom/geometry/lattice.hpp"
 #include "carom/geometry/vector.hpp"
 
-namespace carom {
+namespace carom::events {
 
 struct PairStart;
 
@@ -101,4 +101,4 @@ class Contacts {
   std::vector<std::vector<int>> bins_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

@@ -11,7 +11,7 @@
 #include "motion/free_motion.hpp"
 #include "table/inset.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Cell;
 using geometry::Vector;
@@ -39,7 +39,7 @@ class OnWalls final : public Observer {
   OnWalls(const Table& table, Observer& observer) : table_(table), observer_(observer) {}
   void hit(const HitEvent& event) override {
     HitEvent seen = event;
-    seen.u = touched_parameter(table_.walls[at(event.wall)], event.u, event.position);
+    seen.u = table::touched_parameter(table_.walls[at(event.wall)], event.u, event.position);
     observer_.hit(seen);
   }
   void end(const EndEvent& event) override { observer_.end(event); }
@@ -70,11 +70,11 @@ Table table_of_discs(const Table& table, const Dynamics& dynamics) {
   if (std::any_of(radii.begin(), radii.end(), [&](double r) { return r != radii.front(); }))
     throw refused("between walls all discs have one radius",
                   "one radius, or a table without walls");
-  return inset_table(table, radii.front());
+  return table::inset_table(table, radii.front());
 }
 
 DiscContacts::DiscContacts(const Table& table, const Dynamics& dynamics, Bodies& bodies,
-                           FreeFlights& flights, SectionWatch& watch, Interrupt& interrupt)
+                           FreeFlights& flights, SectionWatch& watch, base::Interrupt& interrupt)
     : table_(table),
       radii_(dynamics.forces->disc_radii()),
       bodies_(bodies),
@@ -192,7 +192,7 @@ void DiscContacts::apply(int index, Observer& observer) {
 Cell DiscContacts::advance(int index, const Time& now) {
   Body& b = bodies_[index];
   const auto [position, velocity] =
-      moved(b.state.position, b.state.velocity, b.particle.omega, now - b.state.time);
+      motion::moved(b.state.position, b.state.velocity, b.particle.omega, now - b.state.time);
   b.state.position = position;
   b.state.velocity = velocity;
   b.state.time = now;
@@ -238,8 +238,8 @@ void DiscContacts::collide(int finding, Observer& observer) {
   contact.separation = d;
   contact.first_before = a.state.velocity;
   contact.second_before = b.state.velocity;
-  const ElasticContact after =
-      elastic_contact(d, a.state.velocity, b.state.velocity, a.particle.mass, b.particle.mass);
+  const motion::ElasticContact after = motion::elastic_contact(
+      d, a.state.velocity, b.state.velocity, a.particle.mass, b.particle.mass);
   contact.first_after = a.state.velocity = after.first;
   contact.second_after = b.state.velocity = after.second;
   contact.transfer = after.transfer;
@@ -344,4 +344,4 @@ bool DiscContacts::settle_on_wall(int index, double way, Observer& observer) {
   return false;
 }
 
-}  // namespace carom
+}  // namespace carom::events

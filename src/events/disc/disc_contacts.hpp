@@ -12,7 +12,7 @@
 #include "events/flight/free_flights.hpp"
 #include "events/section_watch.hpp"
 
-namespace carom {
+namespace carom::events {
 
 inline bool has_discs(const Dynamics& d) { return d.forces && !d.forces->disc_radii().empty(); }
 /// The table as the centres of hard discs see it, or one without walls. Throws InputError where it
@@ -23,7 +23,7 @@ Table table_of_discs(const Table& table, const Dynamics& dynamics);
 class DiscContacts {
  public:
   DiscContacts(const Table& table, const Dynamics& dynamics, Bodies& bodies, FreeFlights& flights,
-               SectionWatch& watch, Interrupt& interrupt);
+               SectionWatch& watch, base::Interrupt& interrupt);
 
   /// A disc that is to be added: its speed becomes that of its velocity. Throws
   /// std::invalid_argument if it overlaps another.
@@ -58,11 +58,11 @@ class DiscContacts {
   Bodies& bodies_;
   FreeFlights& flights_;
   SectionWatch& watch_;
-  Interrupt& interrupt_;
+  base::Interrupt& interrupt_;
   Contacts contacts_;
   bool unprepared_ = false;  ///< discs have been added
   Time clock_;               ///< of the last event
   std::vector<int> partners_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

@@ -8,7 +8,7 @@
 #include "carom/geometry/filter.hpp"
 #include "events/flight/crossing.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// A number, and what its error cannot exceed.
 struct Bounded {
@@ -117,4 +117,4 @@ inline double parameter_error(const geometry::PreparedCurve& w, geometry::Vector
   return 1.01 * w.parameter_stretch * x + s.inflation * 16.0 * unit_roundoff;
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -8,7 +8,7 @@
 #include "events/flight/crossing.hpp"
 #include "events/flight/piece_table.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using namespace geometry;
 
@@ -149,4 +149,4 @@ ExactFlight PieceTable::exact_flight(const Flight& f) const {
   return ExactFlight(*exact, f.wall, f.u, f.start, f.velocity, f.omega);
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -7,7 +7,7 @@
 
 #include "carom/geometry/filter.hpp"
 
-namespace carom {
+namespace carom::events {
 
 inline double norm_1(geometry::Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
@@ -81,4 +81,4 @@ struct Quotient {
   return q.b <= 0.0 ? Quotient{q.a, root - q.b} : Quotient{-(q.b + root), q.c};
 }
 
-}  // namespace carom
+}  // namespace carom::events

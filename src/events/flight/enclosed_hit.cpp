@@ -5,7 +5,7 @@
 #include "events/flight/crossing.hpp"
 #include "events/flight/next_hit.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using namespace geometry;
 
@@ -97,4 +97,4 @@ bool HitFinder::filtered_enclosed(const Flight& f, Ahead& ahead) const {
   return true;
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -8,14 +8,15 @@
 #include "events/flight/enclosure.hpp"
 #include "events/flight/next_hit.hpp"
 
-namespace carom {
+namespace carom::events {
 
 namespace detail {
 
 /// One fraction for b <= 0, another for b > 0, chosen without a branch; and its inverse.
-[[gnu::always_inline]] inline Pair quotients(double b, Pair falling, Pair rising) {
-  const Pair p = both(b) <= 0.0 ? falling : rising;
-  return p / Pair{p[1], p[0]};
+[[gnu::always_inline]] inline base::Pair quotients(double b, base::Pair falling,
+                                                   base::Pair rising) {
+  const base::Pair p = base::both(b) <= 0.0 ? falling : rising;
+  return p / base::Pair{p[1], p[0]};
 }
 
 /// Squares below this lose digits, and the root of b^2 is not |b|: for the general formulas.
@@ -41,11 +42,11 @@ inline constexpr double least_square = 0x1p-900;
     }
   }
   const geometry::PreparedCurve& w = t_.curves[static_cast<std::size_t>(wall)];
-  Pair found;  // duration and kappa
+  base::Pair found;  // duration and kappa
   if (w.kind == geometry::CurveKind::segment) {
-    const Pair p{geometry::fused_cross(w.tangent, origin - w.from),
-                 -geometry::fused_cross(w.tangent, v)};
-    found = p / Pair{p[1], p[0]};
+    const base::Pair p{geometry::fused_cross(w.tangent, origin - w.from),
+                       -geometry::fused_cross(w.tangent, v)};
+    found = p / base::Pair{p[1], p[0]};
   } else {
     // A conic about the domain: all signs turned.
     const bool stands = wall == f.start_piece;
@@ -57,7 +58,7 @@ inline constexpr double least_square = 0x1p-900;
       q = ellipse_quadratic(w, origin - w.centre, v, stands);
     }
     const double n = std::fabs(q.b) + (stands ? std::fabs(q.b) : std::sqrt(discriminant_of(q)));
-    found = detail::quotients(-q.b, Pair{-q.a, n}, Pair{n, q.c});
+    found = detail::quotients(-q.b, base::Pair{-q.a, n}, base::Pair{n, q.c});
   }
   const double duration = found[0];
   if (!(duration > 0.0 && duration < HUGE_VAL)) return false;  // too short a way for doubles
@@ -103,7 +104,7 @@ inline constexpr double least_square = 0x1p-900;
   geometry::Quadratic<double> q;
   if (w.kind == geometry::CurveKind::segment) {
     const Vector d = origin - w.from;
-    const Pair e = keep_if(wall != f.start_piece, Pair{d.x, d.y});
+    const base::Pair e = base::keep_if(wall != f.start_piece, base::Pair{d.x, d.y});
     q = geometry::line_quadratic(Vector{e[0], e[1]}, w.tangent, v, f.omega, 0.5);
   } else {
     q = quadratic<true>(w, origin, v, f.square_speed, f.omega, wall == f.start_piece);
@@ -124,7 +125,7 @@ inline constexpr double least_square = 0x1p-900;
   }
   const double discriminant = discriminant_of(q);
   const double n = std::fabs(q.b) + std::sqrt(discriminant > 0.0 ? discriminant : 0.0);
-  const double kappa = detail::quotients(q.b, Pair{n, q.a}, Pair{-q.c, n})[0];
+  const double kappa = detail::quotients(q.b, base::Pair{n, q.a}, base::Pair{-q.c, n})[0];
   if (!(n * n > detail::least_square) || !(std::fabs(kappa) < HUGE_VAL)) return false;
   ahead.kind = Ahead::Kind::wall;
   ahead.piece = wall;
@@ -155,4 +156,4 @@ inline constexpr double least_square = 0x1p-900;
   next_of_all(flight, ahead, counts);
 }
 
-}  // namespace carom
+}  // namespace carom::events

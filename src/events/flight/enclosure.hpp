@@ -11,7 +11,7 @@
 #include "base/pair.hpp"
 #include "carom/geometry/filter.hpp"
 
-namespace carom {
+namespace carom::events {
 
 class Enclosure {
  public:
@@ -23,8 +23,9 @@ class Enclosure {
     const std::size_t i = static_cast<std::size_t>(size_);
     // A last wall without a neighbour stands there twice.
     if (i % 2 == 0)
-      walls_.push_back(
-          {{both(from.x), both(from.y)}, {both(tangent.x), both(tangent.y)}, both(length)});
+      walls_.push_back({{base::both(from.x), base::both(from.y)},
+                        {base::both(tangent.x), base::both(tangent.y)},
+                        base::both(length)});
     Two& w = walls_.back();
     w.from.x[i % 2] = from.x;
     w.from.y[i % 2] = from.y;
@@ -45,14 +46,15 @@ class Enclosure {
   /// one side.
   [[gnu::always_inline]] int exit_of_line(geometry::Vector origin, geometry::Vector v,
                                           double bound) const {
-    const Vectors from{both(origin.x), both(origin.y)}, velocity{both(v.x), both(v.y)};
-    Pair least = both(HUGE_VAL);
+    const Vectors from{base::both(origin.x), base::both(origin.y)},
+        velocity{base::both(v.x), base::both(v.y)};
+    base::Pair least = base::both(HUGE_VAL);
     std::uint64_t right = 0;
     int shift = 0;
     for (const Two& w : walls_) {
-      const Pair side = cross(velocity, w.from - from);
-      least = smaller(magnitude(side), least);
-      right |= static_cast<std::uint64_t>(signs(side)) << shift;
+      const base::Pair side = cross(velocity, w.from - from);
+      least = base::smaller(base::magnitude(side), least);
+      right |= static_cast<std::uint64_t>(base::signs(side)) << shift;
       shift += 2;
     }
     if (!((least[0] > bound) & (least[1] > bound))) return undecided;
@@ -75,25 +77,26 @@ class Enclosure {
                                                const geometry::CentreError& error) const {
     // Run through the other way it is the same circle: with its disc on the right.
     const double turn = omega > 0.0 ? 1.0 : -1.0;
-    const Vectors from{both(origin.x), both(origin.y)},
-        velocity{both(turn * v.x), both(turn * v.y)};
-    const Pair w0 = both(turn * omega), square = both(square_speed),
-               radius = both(std::sqrt(square_speed));
-    const Pair bound = both(error.segment);
-    Pair least = both(HUGE_VAL);
+    const Vectors from{base::both(origin.x), base::both(origin.y)},
+        velocity{base::both(turn * v.x), base::both(turn * v.y)};
+    const base::Pair w0 = base::both(turn * omega), square = base::both(square_speed),
+                     radius = base::both(std::sqrt(square_speed));
+    const base::Pair bound = base::both(error.segment);
+    base::Pair least = base::both(HUGE_VAL);
     std::uint64_t inside = 0, missed = 0, open = 0;
     int shift = 0;
     for (const Two& w : walls_) {
       const Vectors centre = geometry::centre_of_circle(from - w.from, velocity, w0);
-      const Pair side = dot(centre, centre) - square;
-      least = smaller(magnitude(side), least);
-      inside |= static_cast<std::uint64_t>(signs(side)) << shift;
+      const base::Pair side = dot(centre, centre) - square;
+      least = base::smaller(base::magnitude(side), least);
+      inside |= static_cast<std::uint64_t>(base::signs(side)) << shift;
       // The circle cuts the wall twice if its centre is nearer to the line than the radius, and its
       // foot lies between the ends.
-      const Pair height = cross(w.tangent, centre), foot = dot(w.tangent, centre);
-      const Pair cut = smaller(smaller(foot, w0 * w.length - foot), radius - magnitude(height));
-      missed |= static_cast<std::uint64_t>(signs(cut)) << shift;
-      open |= static_cast<std::uint64_t>(signs(magnitude(cut) <= bound)) << shift;
+      const base::Pair height = cross(w.tangent, centre), foot = dot(w.tangent, centre);
+      const base::Pair cut = base::smaller(base::smaller(foot, w0 * w.length - foot),
+                                           radius - base::magnitude(height));
+      missed |= static_cast<std::uint64_t>(base::signs(cut)) << shift;
+      open |= static_cast<std::uint64_t>(base::signs(base::magnitude(cut) <= bound)) << shift;
       shift += 2;
     }
     inside &= all_;
@@ -125,10 +128,10 @@ class Enclosure {
   std::uint64_t rotated(std::uint64_t bits, int by) const {
     return (bits >> by | bits << (size_ - by)) & all_;
   }
-  using Vectors = geometry::BasicVector<Pair>;
+  using Vectors = geometry::BasicVector<base::Pair>;
   struct Two {
     Vectors from, tangent;
-    Pair length;
+    base::Pair length;
   };
   std::vector<Two> walls_;
   std::uint64_t bent_ = 0, all_ = 0;
@@ -136,4 +139,4 @@ class Enclosure {
   double diameter_ = 0.0;
 };
 
-}  // namespace carom
+}  // namespace carom::events

@@ -5,7 +5,7 @@
 #include "carom/geometry/filter.hpp"
 #include "carom/geometry/lattice.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// A flight under way, in the frame of the cell where it started.
 struct Flight {
@@ -39,7 +39,7 @@ struct Ahead {
 [[gnu::always_inline]] inline double duration_at(double kappa, double omega) {
   if (omega == 0.0) return 1.0 / kappa;
   const double h = 0.5 * std::fabs(omega);
-  return elementary::angle(kappa, h) * (1.0 / h);  // the quotient is ready before the angle is
+  return base::angle(kappa, h) * (1.0 / h);  // the quotient is ready before the angle is
 }
 
 /// The start of a flight as walls of one cell see it, with what bounds its errors.
@@ -57,4 +57,4 @@ struct Crossing {
   double time = 0.0, unit = 1.0;
 };
 
-}  // namespace carom
+}  // namespace carom::events

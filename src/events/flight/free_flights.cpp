@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Vector;
 
@@ -35,7 +35,7 @@ void FreeFlights::check_speed(const Body& b) const {
 }
 
 void FreeFlights::begin(Body& b) const {
-  b.shell = energy_shell(b.particle.speed);
+  b.shell = motion::energy_shell(b.particle.speed);
   b.flight = Flight();
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;
@@ -58,7 +58,7 @@ void FreeFlights::begin(Body& b) const {
 
 void FreeFlights::begin_on_wall(Body& b, int wall, double u) const {
   b.particle.speed = std::sqrt(dot(b.state.velocity, b.state.velocity));
-  b.shell = energy_shell(b.particle.speed);
+  b.shell = motion::energy_shell(b.particle.speed);
   b.flight.omega = b.particle.omega;
   b.flight.square_speed = b.particle.speed * b.particle.speed;
   pieces().begin_on_wall(b.flight, wall, u, b.state.position, b.state.velocity);
@@ -80,4 +80,4 @@ bool FreeFlights::contains(Vector point) {
   return locator_->contains(point);
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -13,7 +13,7 @@
 #include "events/step/force_regions.hpp"
 #include "motion/free_motion.hpp"
 
-namespace carom {
+namespace carom::events {
 
 class FreeFlights {
  public:
@@ -114,8 +114,8 @@ class FreeFlights {
     reflections = corners_[static_cast<std::size_t>(landing.wall)];
     if (reflections == 0) return bodies_.end(index, Fate::singular, now, observer), true;
     const int previous = pieces().table.walls[static_cast<std::size_t>(landing.wall)].previous;
-    after = (1.0 + step) *
-            reflected_at_corner(before, pieces().normal_at_end(previous), normal, reflections);
+    after = (1.0 + step) * motion::reflected_at_corner(before, pieces().normal_at_end(previous),
+                                                       normal, reflections);
   } else {
     after = geometry::reflected(before, normal, landing.at.factor, step);
   }
@@ -190,4 +190,4 @@ class FreeFlights {
   return reflect(index, b, now, observer, landing);
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -6,7 +6,7 @@
 #include "events/flight/crossing.hpp"
 #include "events/flight/next_hit.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using namespace geometry;
 
@@ -167,4 +167,4 @@ void HitFinder::next_in_grid(const Flight& f, Ahead& ahead, DecisionCounts& coun
   if (ahead.kind == Ahead::Kind::none) ahead.duration = 0.0;
 }
 
-}  // namespace carom
+}  // namespace carom::events

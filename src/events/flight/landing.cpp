@@ -6,7 +6,7 @@
 #include "events/flight/crossing.hpp"
 #include "events/flight/piece_table.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using namespace geometry;
 
@@ -138,4 +138,4 @@ void PieceTable::cross(Flight& f, const Ahead& ahead) const {
   find_start(f);
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -1,6 +1,6 @@
 #include "events/flight/locator.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using namespace geometry;
 
@@ -53,4 +53,4 @@ bool Locator::contains(Vector point) {
   return false;  // on a wall, or nearer to one than rounding tells from every side
 }
 
-}  // namespace carom
+}  // namespace carom::events

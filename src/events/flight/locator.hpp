@@ -4,7 +4,7 @@
 #include "events/flight/next_hit.hpp"
 #include "events/flight/wall_touch.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// A straight flight from a point of the domain meets the boundary from inside first; one from
 /// outside meets it from outside first, which is from inside for the table turned inside out. Both
@@ -22,4 +22,4 @@ class Locator {
   WallTouch touch_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

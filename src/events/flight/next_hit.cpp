@@ -6,7 +6,7 @@
 #include "events/flight/bounded.hpp"
 #include "events/flight/crossing.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using namespace geometry;
 
@@ -367,4 +367,4 @@ void HitFinder::next_of_all(const Flight& f, Ahead& ahead, DecisionCounts& count
   if (ahead.kind == Ahead::Kind::none) ahead.duration = 0.0;
 }
 
-}  // namespace carom
+}  // namespace carom::events

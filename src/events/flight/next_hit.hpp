@@ -13,7 +13,7 @@
 #include "events/flight/flight.hpp"
 #include "events/flight/piece_table.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// Finds the first hits of flights in one table. It writes to its own memory while it does, so each
 /// thread needs one of its own; they share the table.
@@ -94,6 +94,6 @@ class HitFinder {
   std::vector<int> list_;  // pieces on the way of a flight
 };
 
-}  // namespace carom
+}  // namespace carom::events
 
 #include "events/flight/enclosed_hit.hpp"  // the inline functions of convex tables

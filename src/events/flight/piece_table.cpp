@@ -12,7 +12,7 @@
 #include "events/flight/crossing.hpp"
 #include "events/flight/piece_table.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using namespace geometry;
 
@@ -331,4 +331,4 @@ void PieceTable::Preparation::make_grid(bool edges) {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -18,7 +18,7 @@
 #include "events/flight/flight.hpp"
 #include "events/flight/wall_grid.hpp"
 
-namespace carom {
+namespace carom::events {
 
 struct PieceTable {
   /// `edges`: with the edges of the lattice cell, and flights start in the domain (else anywhere).
@@ -254,4 +254,4 @@ struct PieceTable {
   return exactly_inward(wall, u, v, counts);
 }
 
-}  // namespace carom
+}  // namespace carom::events

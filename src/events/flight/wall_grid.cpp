@@ -2,7 +2,7 @@
 
 #include <variant>
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Box;
 using geometry::Piece;
@@ -222,4 +222,4 @@ void WallGrid::find_clearances() {
   }
 }
 
-}  // namespace carom
+}  // namespace carom::events

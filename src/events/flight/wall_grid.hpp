@@ -13,7 +13,7 @@
 #include "carom/geometry/formulas.hpp"
 #include "carom/geometry/prepared_curve.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// An axis cut into parts at increasing doubles. A number below the first cut is of the first part,
 /// one beyond the last of the last. part() never falls as x grows: so a point that two boxes share
@@ -314,4 +314,4 @@ class WallGrid {
   std::vector<int> list_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

@@ -5,7 +5,7 @@
 
 #include "carom/geometry/hull.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Vector;
 
@@ -52,4 +52,4 @@ bool WallTouch::on_wall(Vector point) const {
   return false;
 }
 
-}  // namespace carom
+}  // namespace carom::events

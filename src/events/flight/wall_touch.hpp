@@ -9,7 +9,7 @@
 #include "carom/table/table.hpp"
 #include "events/flight/wall_grid.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// A start on a wall needs (wall, u): as two doubles x, y it has no side that it could leave to.
 class WallTouch {
@@ -27,4 +27,4 @@ class WallTouch {
   std::unique_ptr<const WallGrid> grid_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

@@ -13,7 +13,7 @@
 #include "carom/geometry/curve.hpp"
 #include "carom/geometry/lattice.hpp"
 
-namespace carom {
+namespace carom::events {
 
 template <class Real>
 struct Barrier {
@@ -267,4 +267,4 @@ Barrier<Real> barrier_of(const geometry::Curve& curve, const geometry::BasicVect
   return b;
 }
 
-}  // namespace carom
+}  // namespace carom::events

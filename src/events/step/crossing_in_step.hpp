@@ -23,7 +23,7 @@
 #include "events/step/step_hull.hpp"
 #include "events/step/step_path.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// Values of a polynomial between the smallest and the largest of its Bernstein coefficients.
 template <class Real, std::size_t size>
@@ -336,4 +336,4 @@ class CrossingSearch {
   const Knot* passed_ = nullptr;  ///< where the particle has just crossed the barrier and went on
 };
 
-}  // namespace carom
+}  // namespace carom::events

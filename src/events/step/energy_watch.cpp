@@ -4,7 +4,7 @@
 
 #include "events/step/group.hpp"
 
-namespace carom {
+namespace carom::events {
 
 std::size_t EnergyWatch::entry_of(const Group& group) const {
   return entry(group.bodies().front());
@@ -49,4 +49,4 @@ void EnergyWatch::set_balance(int body, const EnergyBalance& balance) {
   changes_[entry(body)] = balance.change;
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -7,7 +7,7 @@
 #include "carom/events/energy.hpp"
 #include "events/bodies.hpp"
 
-namespace carom {
+namespace carom::events {
 
 class Group;
 
@@ -40,4 +40,4 @@ class EnergyWatch {
   std::vector<Twofold> changes_;  ///< their changes, without the rounding of sums
 };
 
-}  // namespace carom
+}  // namespace carom::events

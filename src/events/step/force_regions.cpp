@@ -5,7 +5,7 @@
 #include "carom/base/error.hpp"
 #include "events/step/surroundings.hpp"
 
-namespace carom {
+namespace carom::events {
 
 namespace {
 
@@ -56,4 +56,4 @@ bool ForceRegions::hold(geometry::Vector x) const {
   return everywhere_ || in_some_support(edges_, x, nullptr);
 }
 
-}  // namespace carom
+}  // namespace carom::events

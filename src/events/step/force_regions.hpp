@@ -8,7 +8,7 @@
 #include "carom/table/table.hpp"
 #include "events/step/barrier.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// The table with a circle for the edge of each support, whose outside is the domain of free
 /// flights: where a flight meets one, integration takes over. Without walls where free flights
@@ -45,4 +45,4 @@ class ForceRegions {
   std::vector<Barrier<double>> edges_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

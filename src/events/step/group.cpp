@@ -6,7 +6,7 @@
 #include "carom/integrators/make_stepper.hpp"
 #include "events/step/surroundings.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Cell;
 using geometry::Vector;
@@ -335,4 +335,4 @@ bool Group::supported(Vector x, const Barrier<double>* except) const {
   return in_some_support(in_.supports, x, except);
 }
 
-}  // namespace carom
+}  // namespace carom::events

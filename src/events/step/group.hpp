@@ -23,7 +23,7 @@
 #include "events/step/step_path.hpp"
 #include "forces/resolution.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// Steps end at the multiples of the plan's step: where a step ends depends on the clock alone, not
 /// on what happened before. An event within a step ends it there, and the rest of it is a step of
@@ -32,8 +32,8 @@ class Group final : public ForceLaw<double> {
  public:
   /// What the group lives in; shared by all groups of a world, which it must outlive.
   struct Surroundings {
-    Interrupt* interrupt = nullptr;      ///< of the run under way; null: nothing interrupts it
-    const ForceField* forces = nullptr;  ///< null: nothing acts
+    base::Interrupt* interrupt = nullptr;  ///< of the run under way; null: nothing interrupts it
+    const ForceField* forces = nullptr;    ///< null: nothing acts
     IntegratorPlan plan;
     const geometry::Lattice* lattice = nullptr;
     geometry::Vector centre;                ///< of the lattice's cell
@@ -41,7 +41,7 @@ class Group final : public ForceLaw<double> {
     std::vector<Barrier<double>> supports;  ///< the latter alone: their inside is positive
     double longest_way =
         std::numeric_limits<double>::infinity();  ///< most that walls allow in one step
-    std::shared_ptr<ForceMaps> maps;  ///< bounds of external forces; null: any step will do
+    std::shared_ptr<forces::ForceMaps> maps;  ///< bounds of external forces; null: any step will do
     std::function<bool(geometry::Vector)>
         inside;  ///< of a bounded table, or on its wall to rounding; empty: of another
     StepCounts* counts = nullptr;  ///< where steps and evaluations are counted, or null
@@ -124,9 +124,9 @@ class Group final : public ForceLaw<double> {
     return listens_ && in_.interrupt && in_.interrupt->after(work);
   }
   void find_maps();
-  bool resolves(const Phase<double>& from, const Phase<double>* to, const resolution::Span&,
+  bool resolves(const Phase<double>& from, const Phase<double>* to, const forces::resolution::Span&,
                 bool ahead) const;
-  bool resolves_pairs(const Phase<double>& from, const resolution::Span&, bool ahead) const;
+  bool resolves_pairs(const Phase<double>& from, const forces::resolution::Span&, bool ahead) const;
   std::string check_resolution();
   std::string describe_unresolved(const Phase<double>& at, double step, double radius);
   void find_next(const Time& limit);
@@ -176,10 +176,10 @@ class Group final : public ForceLaw<double> {
   Time path_end_;            ///< of the step
   std::unique_ptr<Stepper<double>> stepper_;
   std::unique_ptr<StepPath<double>> path_;
-  std::vector<ForceMap*> maps_;  ///< one a member
-  double largest_omega_ = 0.0;   ///< in size
-  resolution::Checks checks_;
-  resolution::Chain chain_;
+  std::vector<forces::ForceMap*> maps_;  ///< one a member
+  double largest_omega_ = 0.0;           ///< in size
+  forces::resolution::Checks checks_;
+  forces::resolution::Chain chain_;
   Phase<double>
       checked_;  ///< a step has ended there and resolved what lies about it; empty: none has
 };
@@ -195,4 +195,4 @@ geometry::Vector centre_of_cell(const geometry::Lattice&);
 void fold_towards_centre(const geometry::Lattice&, geometry::Vector centre, geometry::Vector& x,
                          geometry::Cell&);
 
-}  // namespace carom
+}  // namespace carom::events

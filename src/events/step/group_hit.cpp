@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Vector;
 
@@ -72,4 +72,4 @@ bool meets_some_wall(const std::vector<Barrier<double>>& barriers, int walls, Ve
   });
 }
 
-}  // namespace carom
+}  // namespace carom::events

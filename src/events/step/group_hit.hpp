@@ -10,7 +10,7 @@
 #include "events/flight/piece_table.hpp"
 #include "events/step/group.hpp"
 
-namespace carom {
+namespace carom::events {
 
 struct GroupHit {
   State state;  ///< on the wall; its velocity is that after the hit, or, if it escapes, before
@@ -28,4 +28,4 @@ bool on_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vect
 bool meets_some_wall(const std::vector<Barrier<double>>&, int walls, geometry::Vector,
                      geometry::Vector);
 
-}  // namespace carom
+}  // namespace carom::events

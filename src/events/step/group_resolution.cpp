@@ -7,8 +7,9 @@
 #include "events/step/group.hpp"
 #include "forces/nearest_copy.hpp"
 
-namespace carom {
+namespace carom::events {
 
+using forces::ForceBound;
 using geometry::Vector;
 
 namespace {
@@ -29,9 +30,9 @@ void Group::find_maps() {
 }
 
 /// Is the motion from there analytic over the span? `to`: where a step has led from it, a hint.
-/// `ahead`: with the margin of resolution::Checks.
+/// `ahead`: with the margin of forces::resolution::Checks.
 bool Group::resolves(const Phase<double>& from, const Phase<double>* to,
-                     const resolution::Span& span, bool ahead) const {
+                     const forces::resolution::Span& span, bool ahead) const {
   if (in_.forces->interacts() && bodies_.size() > 1) return resolves_pairs(from, span, ahead);
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     Vector way{};
@@ -49,7 +50,7 @@ bool Group::resolves(const Phase<double>& from, const Phase<double>* to,
 }
 
 /// Of particles that interact, each one is displaced while the others are.
-bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& span,
+bool Group::resolves_pairs(const Phase<double>& from, const forces::resolution::Span& span,
                            bool ahead) const {
   const ForceField& forces = *in_.forces;
   const std::size_t n = maps_.size();
@@ -65,7 +66,7 @@ bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& sp
       if (interrupted(20.0 * static_cast<double>(i))) return;
       for (std::size_t j = 0; j < i; ++j) {
         Vector d = from.position[i] - from.position[j];
-        if (in_.lattice) d = nearest_copy(d, *in_.lattice);
+        if (in_.lattice) d = forces::nearest_copy(d, *in_.lattice);
         const ForceBound pair =
             forces.pair_bound(particles_[i], particles_[j], length(d), rho[i] + rho[j]);
         acceleration[i] += pair.force / particles_[i].mass;
@@ -83,9 +84,9 @@ bool Group::resolves_pairs(const Phase<double>& from, const resolution::Span& sp
   }
   bound();
   for (std::size_t i = 0; i < n; ++i) {
-    if (!resolution::stays(speed[i], acceleration[i], span, share * rho[i])) return false;
-    if (jump[i] > 0.0 && !(!ahead && jump[i] * resolution::steps_a_radius * span.time <=
-                                         resolution::kick_share * speed[i]))
+    if (!forces::resolution::stays(speed[i], acceleration[i], span, share * rho[i])) return false;
+    if (jump[i] > 0.0 && !(!ahead && jump[i] * forces::resolution::steps_a_radius * span.time <=
+                                         forces::resolution::kick_share * speed[i]))
       return false;
   }
   return true;
@@ -99,7 +100,8 @@ double Group::longest_step(const Phase<double>& from, const double& asked) const
   constexpr double work = 1e6;  // of a halving: many meshes are new
   double time = asked;
   for (int k = 0; k < most_halvings && !interrupted(k > 0 ? work : 0.0); ++k, time *= 0.5)
-    if (resolves(from, nullptr, resolution::span_of(time, largest_omega_), false)) return time;
+    if (resolves(from, nullptr, forces::resolution::span_of(time, largest_omega_), false))
+      return time;
   return 0.0;
 }
 
@@ -112,16 +114,16 @@ std::string Group::check_resolution() {
   if (is_adaptive(in_.plan.scheme))
     return {};  // these ask for the longest step before they take it
   if (!checks_.made_for(step, largest_omega_)) {
-    checks_ = resolution::Checks(step, largest_omega_);
+    checks_ = forces::resolution::Checks(step, largest_omega_);
     checked_.position.clear();
   }
-  const resolution::Span& half = checks_.half_a_step();
+  const forces::resolution::Span& half = checks_.half_a_step();
   const bool goes_on = checked_.position == from.position && checked_.velocity == from.velocity;
   if (!goes_on) {
     chain_ = {};
     if (!resolves(from, &to, half, false)) return describe_unresolved(from, step, half.time);
   }
-  const auto at_end = [&](const resolution::Span& span, bool ahead) {
+  const auto at_end = [&](const forces::resolution::Span& span, bool ahead) {
     return resolves(to, &from, span, ahead);
   };
   const bool alone = !in_.forces->interacts() || bodies_.size() == 1;
@@ -137,7 +139,7 @@ std::string Group::describe_unresolved(const Phase<double>& at, double step, dou
   const double shorter = step / radius * longest_step(at, radius);
   // The member that is to blame, where particles do not interact.
   std::size_t member = 0;
-  const resolution::Span span = resolution::span_of(radius, largest_omega_);
+  const forces::resolution::Span span = forces::resolution::span_of(radius, largest_omega_);
   while (member + 1 < maps_.size()) {
     if (!maps_[member]->resolves(at.position[member], dot(at.velocity[member], at.velocity[member]),
                                  0.0, span))
@@ -158,4 +160,4 @@ std::string Group::describe_unresolved(const Phase<double>& at, double step, dou
   return text;
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -4,7 +4,7 @@
 #include "events/bracketed_root.hpp"
 #include "events/step/group.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Vector;
 
@@ -105,4 +105,4 @@ void Group::crossings(const Surface& surface, std::size_t member, double from, d
   if (from < to) SectionSearch(*path_, surface, member, origin, found).search(from, to);
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -6,12 +6,12 @@
 #include "events/step/surroundings.hpp"
 #include "motion/free_motion.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Vector;
 
 Groups::Groups(const Table& table, const Dynamics& dynamics, const ForceRegions& regions,
-               FreeFlights& flights, Bodies& bodies, Interrupt& interrupt)
+               FreeFlights& flights, Bodies& bodies, base::Interrupt& interrupt)
     : regions_(regions),
       bodies_(bodies),
       interrupt_(interrupt),
@@ -21,7 +21,8 @@ Groups::Groups(const Table& table, const Dynamics& dynamics, const ForceRegions&
   surroundings_.forces =
       dynamics.forces && !dynamics.forces->empty() ? dynamics.forces.get() : nullptr;
   surroundings_.plan = dynamics.integrator;
-  if (surroundings_.forces) surroundings_.maps = std::make_shared<ForceMaps>(*surroundings_.forces);
+  if (surroundings_.forces)
+    surroundings_.maps = std::make_shared<forces::ForceMaps>(*surroundings_.forces);
   surroundings_.counts = &steps_;
   if (table.lattice) {
     surroundings_.lattice = &*table.lattice;
@@ -126,7 +127,7 @@ Group* Groups::ending_at(const Time& now) const {
 
 State Groups::state_at(int body, const Time& t) const {
   const Body& b = bodies_[body];
-  return b.group ? b.group->state_at(b.member, t) : flown(b.state, b.particle.omega, t);
+  return b.group ? b.group->state_at(b.member, t) : motion::flown(b.state, b.particle.omega, t);
 }
 
 bool Groups::fails_before(int body, const Time& t) const {
@@ -134,4 +135,4 @@ bool Groups::fails_before(int body, const Time& t) const {
   return group != nullptr && !group->next().fault.empty() && group->time() < t;
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -13,7 +13,7 @@
 #include "events/step/force_regions.hpp"
 #include "events/step/group.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// Forms groups, takes bodies out of them, and predicts and takes their steps. A group has one
 /// entry in the queue, that of its first member. While a body is in a group, the group alone holds
@@ -21,7 +21,7 @@ namespace carom {
 class Groups {
  public:
   Groups(const Table& table, const Dynamics& dynamics, const ForceRegions& regions,
-         FreeFlights& flights, Bodies& bodies, Interrupt& interrupt);
+         FreeFlights& flights, Bodies& bodies, base::Interrupt& interrupt);
   Groups(const Groups&) = delete;
   Groups& operator=(const Groups&) = delete;
   void clear();
@@ -57,7 +57,7 @@ class Groups {
  private:
   const ForceRegions& regions_;
   Bodies& bodies_;
-  Interrupt& interrupt_;
+  base::Interrupt& interrupt_;
   StepCounts steps_;
   Group::Surroundings surroundings_;
   EnergyWatch energies_;
@@ -66,4 +66,4 @@ class Groups {
   bool unpredicted_ = false;  ///< the last run was interrupted within a prediction
 };
 
-}  // namespace carom
+}  // namespace carom::events

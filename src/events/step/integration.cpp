@@ -6,7 +6,7 @@
 
 #include "events/step/group_hit.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Cell;
 using geometry::Vector;
@@ -288,4 +288,4 @@ void Integration::watch_steps(Time until, Observer& observer) {
       watch_.watch_step(*group, until, observer);
 }
 
-}  // namespace carom
+}  // namespace carom::events

@@ -12,7 +12,7 @@
 #include "events/step/groups.hpp"
 #include "events/step/neighbours.hpp"
 
-namespace carom {
+namespace carom::events {
 
 class Integration {
  public:
@@ -70,4 +70,4 @@ class Integration {
   std::vector<Looking> looking_;  ///< the last one looks first
 };
 
-}  // namespace carom
+}  // namespace carom::events

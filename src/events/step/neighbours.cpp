@@ -6,7 +6,7 @@
 
 #include "forces/nearest_copy.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Vector;
 
@@ -24,7 +24,7 @@ constexpr double acceleration_factor = 2.0;
 /// By how much two particles are farther apart than the range.
 double Neighbours::gap(Vector x, Vector y) const {
   Vector d = x - y;
-  if (table_.lattice) d = nearest_copy(d, *table_.lattice);
+  if (table_.lattice) d = forces::nearest_copy(d, *table_.lattice);
   return std::sqrt(dot(d, d)) - dynamics_.forces->pair_range();
 }
 
@@ -83,4 +83,4 @@ std::vector<std::vector<int>> Neighbours::parts(const std::vector<int>& members)
   return parts;
 }
 
-}  // namespace carom
+}  // namespace carom::events

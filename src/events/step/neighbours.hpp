@@ -9,7 +9,7 @@
 #include "events/bodies.hpp"
 #include "events/step/groups.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// Two free particles a distance d apart cannot come within the range R before (d - R)/(v_1 + v_2),
 /// for nothing makes a free particle faster: each looks around again then. A group looks around at
@@ -44,4 +44,4 @@ class Neighbours {
   const Groups& groups_;
 };
 
-}  // namespace carom
+}  // namespace carom::events

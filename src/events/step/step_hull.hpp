@@ -7,7 +7,7 @@
 #include "base/inline.hpp"
 #include "events/step/barrier.hpp"
 
-namespace carom {
+namespace carom::events {
 
 namespace step_hull {
 
@@ -124,4 +124,4 @@ CAROM_INLINE auto stays_off(const Barrier<Real>& b, const StepHull<Number>& hull
   return off;
 }
 
-}  // namespace carom
+}  // namespace carom::events

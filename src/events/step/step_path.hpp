@@ -17,7 +17,7 @@
 #include "carom/integrators/stepper.hpp"
 #include "events/step/step_hull.hpp"
 
-namespace carom {
+namespace carom::events {
 
 template <class Real>
 class StepPath {
@@ -166,4 +166,4 @@ struct PathArc {
   }
 };
 
-}  // namespace carom
+}  // namespace carom::events

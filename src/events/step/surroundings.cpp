@@ -10,7 +10,7 @@
 #include "carom/geometry/lattice_copies.hpp"
 #include "events/step/group.hpp"
 
-namespace carom {
+namespace carom::events {
 
 using geometry::Box;
 using geometry::Cell;
@@ -134,4 +134,4 @@ double longest_way(const Table& table) {
   return length;
 }
 
-}  // namespace carom
+}  // namespace carom::events

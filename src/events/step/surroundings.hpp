@@ -8,7 +8,7 @@
 #include "carom/table/table.hpp"
 #include "events/step/barrier.hpp"
 
-namespace carom {
+namespace carom::events {
 
 /// The curves, numbered in their order, as barriers: those of the table's walls, and others behind
 /// them. On the table's lattice: all copies that a particle may meet within a step that leads no
@@ -26,4 +26,4 @@ bool in_some_support(std::span<const Barrier<double>> supports, geometry::Vector
 /// would hit them about as often; on a lattice to the next cell.
 double longest_way(const Table&);
 
-}  // namespace carom
+}  // namespace carom::events

@@ -20,6 +20,7 @@
 
 namespace carom {
 
+using namespace io;
 using hdf5::Handle;
 
 namespace {
@@ -229,8 +230,8 @@ void ArchiveFile::keep_as(const std::string& target) {
   sync(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY, name_);
 }
 
-hdf5::Handle open_archive(const std::string& name, const std::string& problem,
-                          const std::string& expected) {
+hdf5::Handle io::open_archive(const std::string& name, const std::string& problem,
+                              const std::string& expected) {
   const Place place{name, 0, 0, ""};
   if (!exists(name)) throw InputError(place, "there is no such file");
   Handle file;  // HDF5 would wait for a pipe

@@ -7,7 +7,7 @@
 #include "carom/io/archive.hpp"
 #include "io/archive/hdf5.hpp"
 
-namespace carom {
+namespace carom::io {
 
 class ArchiveFile {
  public:
@@ -53,4 +53,4 @@ hdf5::Handle open_archive(const std::string& name, const std::string& problem,
                           const std::string& expected);
 inline constexpr const char *run_archive_kind = "run", *section_archive_kind = "section";
 
-}  // namespace carom
+}  // namespace carom::io

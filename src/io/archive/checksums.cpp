@@ -13,7 +13,7 @@
 #include "carom/base/error.hpp"
 #include "io/archive/hdf5.hpp"
 
-namespace carom::hdf5 {
+namespace carom::io::hdf5 {
 
 namespace {
 
@@ -253,4 +253,4 @@ void verify(hid_t file, const std::string& name) {
   }
 }
 
-}  // namespace carom::hdf5
+}  // namespace carom::io::hdf5

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace carom::hdf5 {
+namespace carom::io::hdf5 {
 
 /// CRC-32 as zlib has it, so that others can compute it. Goes on from the sum of the bytes before.
 std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before = 0);
@@ -26,4 +26,4 @@ void reserve_checksums(hid_t file, const std::string& name);
 /// to the file later is not looked at.
 void verify(hid_t file, const std::string& name);
 
-}  // namespace carom::hdf5
+}  // namespace carom::io::hdf5

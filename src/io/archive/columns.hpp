@@ -8,7 +8,7 @@
 
 #include "io/archive/hdf5.hpp"
 
-namespace carom::hdf5 {
+namespace carom::io::hdf5 {
 
 class Columns {
  public:
@@ -80,4 +80,4 @@ class Columns {
   std::size_t rows_ = 0, pending_ = 0;
 };
 
-}  // namespace carom::hdf5
+}  // namespace carom::io::hdf5

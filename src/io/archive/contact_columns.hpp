@@ -4,7 +4,7 @@
 #include "carom/ensemble/run_rows.hpp"
 #include "io/archive/columns.hpp"
 
-namespace carom {
+namespace carom::io {
 
 class ContactColumns {
  public:
@@ -48,4 +48,4 @@ class ContactColumns {
   hdf5::Columns rows_;
 };
 
-}  // namespace carom
+}  // namespace carom::io

@@ -9,7 +9,7 @@
 
 #include "io/archive/ensemble_columns.hpp"
 
-namespace carom {
+namespace carom::io {
 
 using hdf5::Description;
 using hdf5::Handle;
@@ -172,4 +172,4 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult& result) {
   read(result.digest, digest);
 }
 
-}  // namespace carom
+}  // namespace carom::io

@@ -10,7 +10,7 @@
 #include "io/archive/ensemble_columns.hpp"
 #include "io/archive/step_numbers.hpp"
 
-namespace carom {
+namespace carom::io {
 
 using hdf5::Description;
 using hdf5::Handle;
@@ -113,4 +113,4 @@ std::uint64_t read_unresolved(hid_t fates, const std::string& name) {
              : 0;
 }
 
-}  // namespace carom
+}  // namespace carom::io

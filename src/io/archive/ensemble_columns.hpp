@@ -9,7 +9,7 @@
 #include "io/archive/archive_file.hpp"
 #include "io/archive/columns.hpp"
 
-namespace carom {
+namespace carom::io {
 
 /// Throws InputError: what an archive holds cannot be.
 [[noreturn]] void damaged(const std::string& name, const std::string& problem);
@@ -70,4 +70,4 @@ class RecordReader {
   std::uint64_t last_ = 0;  ///< index of the last that was read
 };
 
-}  // namespace carom
+}  // namespace carom::io

@@ -11,7 +11,7 @@
 #include "carom/base/error.hpp"
 #include "carom/table/hole_names.hpp"
 
-namespace carom {
+namespace carom::io {
 
 using hdf5::Description;
 using hdf5::Handle;
@@ -199,4 +199,4 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
                    effort("lanes_idle")};
 }
 
-}  // namespace carom
+}  // namespace carom::io

@@ -9,7 +9,7 @@
 
 #include "carom/base/error.hpp"
 
-namespace carom::hdf5 {
+namespace carom::io::hdf5 {
 
 namespace {
 
@@ -299,4 +299,4 @@ template std::vector<std::int64_t> read_column<std::int64_t>(hid_t, const char*,
 template std::vector<std::uint64_t> read_column<std::uint64_t>(hid_t, const char*,
                                                                const std::string&);
 
-}  // namespace carom::hdf5
+}  // namespace carom::io::hdf5

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace carom::hdf5 {
+namespace carom::io::hdf5 {
 
 /// An HDF5 identifier and how to close it.
 class Handle {
@@ -137,4 +137,4 @@ Handle open_column(hid_t parent, const char* name, const std::string& file);
 void read_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, void* values,
                const std::string& file);
 
-}  // namespace carom::hdf5
+}  // namespace carom::io::hdf5

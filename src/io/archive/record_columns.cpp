@@ -6,7 +6,7 @@
 #include "carom/table/hole_names.hpp"
 #include "io/archive/ensemble_columns.hpp"
 
-namespace carom {
+namespace carom::io {
 
 using hdf5::Handle;
 
@@ -91,4 +91,4 @@ bool RecordReader::next(std::vector<TrajectoryRecord>& records) {
   return true;
 }
 
-}  // namespace carom
+}  // namespace carom::io

@@ -19,6 +19,7 @@
 
 namespace carom {
 
+using namespace io;
 using hdf5::Description;
 using hdf5::Handle;
 

@@ -8,6 +8,7 @@
 
 namespace carom {
 
+using namespace io;
 using hdf5::Handle;
 
 class SectionArchive::Implementation {

@@ -5,7 +5,7 @@
 
 #include "carom/ensemble/section_run.hpp"
 
-namespace carom {
+namespace carom::io {
 
 struct SectionNumber {
   const char* name;
@@ -28,4 +28,4 @@ inline constexpr SectionNumber section_numbers[] = {
      "Sum of a hash of each orbit's points: equal digests, equal bits"},
 };
 
-}  // namespace carom
+}  // namespace carom::io

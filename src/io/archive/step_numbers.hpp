@@ -5,7 +5,7 @@
 
 #include "carom/events/step_counts.hpp"
 
-namespace carom {
+namespace carom::io {
 
 struct StepNumber {
   const char* name;
@@ -20,4 +20,4 @@ inline constexpr StepNumber step_numbers[] = {
 };
 inline constexpr const char* first_unresolved = "first_unresolved";
 
-}  // namespace carom
+}  // namespace carom::io

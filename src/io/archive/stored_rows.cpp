@@ -10,6 +10,8 @@
 
 namespace carom {
 
+using namespace io;
+
 namespace {
 
 using hdf5::Handle;

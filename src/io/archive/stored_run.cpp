@@ -9,6 +9,7 @@
 
 namespace carom {
 
+using namespace io;
 using hdf5::Handle;
 
 StoredRun read_run(const std::string& name) {

@@ -2,7 +2,7 @@
 
 #include "carom/base/error.hpp"
 
-namespace carom {
+namespace carom::io {
 
 using hdf5::Handle;
 
@@ -72,4 +72,4 @@ void read_trust(hid_t group, std::vector<ParticleProgress>& particles, const std
   }
 }
 
-}  // namespace carom
+}  // namespace carom::io

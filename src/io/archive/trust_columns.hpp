@@ -8,7 +8,7 @@
 #include "carom/ensemble/single_run.hpp"
 #include "io/archive/hdf5.hpp"
 
-namespace carom {
+namespace carom::io {
 
 /// Makes the datasets; they are filled when the run ends.
 void create_trust(hid_t group, std::size_t particles, const std::string& file);
@@ -16,4 +16,4 @@ void write_trust(hid_t group, const std::vector<RunEnd>&, const std::string& fil
 /// Into the progress of each particle, whose states are read already.
 void read_trust(hid_t group, std::vector<ParticleProgress>&, const std::string& file);
 
-}  // namespace carom
+}  // namespace carom::io

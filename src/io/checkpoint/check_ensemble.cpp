@@ -10,7 +10,7 @@
 #include "carom/table/hole_names.hpp"
 #include "io/archive/ensemble_columns.hpp"
 
-namespace carom {
+namespace carom::io {
 
 namespace {
 
@@ -99,4 +99,4 @@ void check_stored(const StoredEnsemble& stored, const DiffusionResult& result,
   check_samples(stored, result);
 }
 
-}  // namespace carom
+}  // namespace carom::io

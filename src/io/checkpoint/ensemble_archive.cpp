@@ -15,6 +15,7 @@
 
 namespace carom {
 
+using namespace io;
 using hdf5::Handle;
 
 namespace {
@@ -66,8 +67,8 @@ class EnsembleArchive<Result>::Implementation {
   int failures = 0;
 };
 
-void write_parts(const ArchiveFile& file, const EnsembleResult& result, const Shard& shard,
-                 bool everywhere, const std::string& arithmetic) {
+void io::write_parts(const ArchiveFile& file, const EnsembleResult& result, const Shard& shard,
+                     bool everywhere, const std::string& arithmetic) {
   const Handle provenance = file.open_group("provenance");
   hdf5::write_attribute(provenance.get(), "shard", text_of(shard), file.name());
   hdf5::write_attribute(provenance.get(), "everywhere", std::int64_t{everywhere}, file.name());
@@ -91,7 +92,7 @@ void EnsembleArchive<Result>::Implementation::write(const Result& result, const 
   if (result.lanes) now.isa = name_of(*result.lanes);
   file.write_head(kind_of(result), loaded, now);
   write_parts(file, result, plan.shard, loaded.system.dynamics.everywhere,
-              arithmetic_fingerprint());
+              ensemble::arithmetic_fingerprint());
   if (!merged.empty())
     hdf5::write_attribute(file.open_group("provenance").get(), "merged", merged, target);
   write_counts(file, result, loaded.system);

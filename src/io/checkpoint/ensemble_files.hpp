@@ -9,7 +9,7 @@
 #include "io/checkpoint/record_log.hpp"
 #include "io/checkpoint/work_folder.hpp"
 
-namespace carom {
+namespace carom::io {
 
 /// Do both hold parts of one ensemble, or the whole, by one version?
 bool are_one_ensemble(const StoredEnsemble&, const StoredEnsemble&);
@@ -29,4 +29,4 @@ std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint,
 /// All records of an archive to a log, in order of index.
 void copy_records(const StoredEnsemble&, const TrajectoryRanges& done, const System&, RecordLog&);
 
-}  // namespace carom
+}  // namespace carom::io

@@ -14,6 +14,8 @@
 
 namespace carom {
 
+using namespace io;
+
 namespace {
 
 // The first trajectories that both hold, if there are any.

@@ -11,7 +11,7 @@
 #include "io/archive/ensemble_columns.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 
-namespace carom {
+namespace carom::io {
 
 namespace {
 
@@ -131,4 +131,4 @@ void gather_parts(const std::string& file, bool whole, ArchiveLock lock) {
 template void gather_parts<EscapeResult>(const std::string&, bool, ArchiveLock);
 template void gather_parts<DiffusionResult>(const std::string&, bool, ArchiveLock);
 
-}  // namespace carom
+}  // namespace carom::io

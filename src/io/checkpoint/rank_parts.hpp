@@ -6,7 +6,7 @@
 
 #include "carom/io/archive.hpp"
 
-namespace carom {
+namespace carom::io {
 
 /// The archive of a rank's share of FILE; ranks count from 0.
 std::string part_of_rank(const std::string& file, int rank);
@@ -24,4 +24,4 @@ SumOfParts<Result> sum_of_ranks(const std::string& file, const std::vector<std::
 template <class Result>
 void gather_parts(const std::string& file, bool whole, ArchiveLock);
 
-}  // namespace carom
+}  // namespace carom::io

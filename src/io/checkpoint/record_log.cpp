@@ -15,7 +15,7 @@
 #include "carom/base/digest.hpp"
 #include "carom/base/error.hpp"
 
-namespace carom {
+namespace carom::io {
 
 namespace {
 
@@ -187,4 +187,4 @@ void RecordLog::read(
   }
 }
 
-}  // namespace carom
+}  // namespace carom::io

@@ -10,7 +10,7 @@
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/trajectory_ranges.hpp"
 
-namespace carom {
+namespace carom::io {
 
 /// Records as they lie in memory, in the order in which blocks came in. What a checkpoint names
 /// stays where it is; what was written after it is written again by the run that goes on.
@@ -63,4 +63,4 @@ class RecordLog {
   std::uint64_t rows_ = 0;
 };
 
-}  // namespace carom
+}  // namespace carom::io

@@ -20,9 +20,10 @@
 
 namespace carom {
 
+using namespace io;
 using hdf5::Handle;
 
-Handle open_ensemble(const std::string& name) {
+Handle io::open_ensemble(const std::string& name) {
   return open_archive(name, "the file is not an archive", "an archive written by carom");
 }
 
@@ -165,7 +166,7 @@ std::string difference(const std::string& toml, const std::string& other_toml,
   return difference("", a, b, but);
 }
 
-bool are_one_ensemble(const StoredEnsemble& a, const StoredEnsemble& b) {
+bool io::are_one_ensemble(const StoredEnsemble& a, const StoredEnsemble& b) {
   return a.kind == b.kind && difference(a.system_toml, b.system_toml).empty() &&
          a.shard == b.shard && a.version == b.version && a.engine == b.engine &&
          a.everywhere == b.everywhere && a.arithmetic == b.arithmetic &&
@@ -256,14 +257,14 @@ void refuse_other_version(const StoredEnsemble& stored) {
     throw InputError(Place{stored.file, 0, 0, "version"},
                      fmt::format("version {} wrote it", stored.version),
                      fmt::format("version {}, which this is", version));
-  if (stored.arithmetic != arithmetic_fingerprint())
+  if (stored.arithmetic != ensemble::arithmetic_fingerprint())
     throw InputError(
         Place{stored.file, 0, 0, arithmetic_key},
         "another arithmetic wrote it: the digits of its orbits, or of its digest, are others",
         "the build of carom that wrote it, or a run anew");
 }
 
-void write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& pieces) {
+void io::write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& pieces) {
   const Handle group = file.group(
       "records",
       "Where the records of the trajectories first … last - 1 stand in the file of records");
@@ -281,8 +282,8 @@ void write_pieces(const ArchiveFile& file, const std::vector<RecordLog::Piece>& 
   column("sum", &RecordLog::Piece::sum, "Hash of their bytes");
 }
 
-std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint,
-                                          const TrajectoryRanges& done) {
+std::vector<RecordLog::Piece> io::read_pieces(const std::string& checkpoint,
+                                              const TrajectoryRanges& done) {
   const Handle file = open_ensemble(checkpoint);
   const Handle group = open_group(file.get(), "records", checkpoint);
   std::vector<RecordLog::Piece> pieces;
@@ -307,8 +308,8 @@ std::vector<RecordLog::Piece> read_pieces(const std::string& checkpoint,
   return pieces;
 }
 
-void copy_records(const StoredEnsemble& stored, const TrajectoryRanges& done, const System& system,
-                  RecordLog& log) {
+void io::copy_records(const StoredEnsemble& stored, const TrajectoryRanges& done,
+                      const System& system, RecordLog& log) {
   RecordReader reader(stored.file);
   std::vector<TrajectoryRecord> batch;
   bool more = reader.next(batch);

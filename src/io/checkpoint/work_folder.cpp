@@ -19,6 +19,8 @@
 
 namespace carom {
 
+using namespace io;
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -73,7 +75,7 @@ bool is_strange(const std::string& folder) {
 
 }  // namespace
 
-bool has_work_folder(const std::string& file) {
+bool io::has_work_folder(const std::string& file) {
   std::error_code error;
   const std::string folder = folder_of(file);
   return fs::is_directory(fs::symlink_status(folder, error)) && !is_strange(folder);
@@ -133,22 +135,22 @@ WorkFolder::~WorkFolder() {
   ::close(descriptor_);
 }
 
-bool exists(const std::string& file) {
+bool io::exists(const std::string& file) {
   std::error_code ignored;
   return fs::exists(file, ignored);
 }
 
-bool is_empty(const std::string& path) {
+bool io::is_empty(const std::string& path) {
   std::error_code error;
   return fs::file_size(path, error) == 0 && !error;
 }
 
-bool is_no_file(const std::string& path) {
+bool io::is_no_file(const std::string& path) {
   std::error_code ignored;
   return exists(path) && !fs::is_regular_file(path, ignored);
 }
 
-void refuse_no_file(const std::string& file) {
+void io::refuse_no_file(const std::string& file) {
   if (!is_no_file(file)) return;
   std::error_code ignored;
   throw InputError(Place{file, 0, 0, ""},
@@ -184,7 +186,7 @@ void remove_checkpoint(const std::string& file) {
   std::remove(records_of(file).c_str());
 }
 
-void give_up_checkpoint(const std::string& file) {
+void io::give_up_checkpoint(const std::string& file) {
   remove_checkpoint(file);
   std::error_code ignored;
   for (const std::string& part : parts_of_ranks(file)) {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace carom {
+namespace carom::io {
 
 inline std::string folder_of(const std::string& file) { return file + ".part"; }
 /// An archive by itself, always whole: what an ensemble has done so far.
@@ -51,4 +51,4 @@ bool is_no_file(const std::string& path);
 /// Throws InputError where `file`, which is to be written, is no file.
 void refuse_no_file(const std::string& file);
 
-}  // namespace carom
+}  // namespace carom::io

@@ -110,7 +110,7 @@ void read_point(TomlSection& section, const std::vector<Particle>& particles,
   initial.place = position.place;
   section.exclude("velocity", "angle");
   if (const Value* angle = section.find("angle")) {
-    initial.velocity = direction(as_angle(*angle));
+    initial.velocity = table::direction(as_angle(*angle));
     return;
   }
   if (!section.has("velocity")) {
@@ -218,7 +218,7 @@ InitialCondition read_initial(Value& root, const Table& table,
       initial.to = as_vector(section.get("to"));
       const ExactNumber angle = as_angle(section.get("angle"));
       initial.angle = angle.to_double();
-      initial.velocity = direction(angle);
+      initial.velocity = table::direction(angle);
       break;
   }
   return initial;

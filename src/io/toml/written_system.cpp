@@ -7,6 +7,8 @@
 
 namespace carom {
 
+using analysis::WrittenSystem;
+
 namespace {
 
 using certify::Ball;
@@ -16,7 +18,7 @@ Twofold twofold(const Ball& x) {
   const double high = x.to_double();
   return {high, (x - Ball(high)).to_double()};
 }
-TwofoldVector twofold(const BallVector& v) { return {twofold(v.x), twofold(v.y)}; }
+analysis::TwofoldVector twofold(const BallVector& v) { return {twofold(v.x), twofold(v.y)}; }
 
 void write_start(const ExactSystem& exact, const System& system, WrittenSystem& written) {
   if (system.initial.kind != InitialCondition::Kind::point) return;

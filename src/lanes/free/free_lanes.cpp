@@ -104,7 +104,7 @@ class FreeLanes::Implementation {
   Turn turn;
   LaneTable pieces;
   lanes::ScalarEvent scalar;
-  const PieceTable& walls;
+  const events::PieceTable& walls;
   std::vector<std::uint32_t> next_discs;
   lanes::Kernels kernels;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
@@ -231,7 +231,7 @@ class FreeLanes::Implementation {
     for (; mine.reported < times.size(); ++mine.reported) {
       const Time next = times[mine.reported];
       if (counts ? next > t : !(next < t)) return;
-      sampled(mine.start.tag, mine.reported, flown(last, mine.start.particle.omega, next));
+      sampled(mine.start.tag, mine.reported, motion::flown(last, mine.start.particle.omega, next));
     }
   }
   /// Reports the hits of a sweep if asked to; returns the lanes whose hits are enough.

@@ -43,7 +43,7 @@ void put_particle(LanePack& pack, int lane, const LaneTable& t, const Particle& 
   pack.cut_far[lane] = t.cut_within_far * p.speed;
   pack.passed[lane] = t.passed_beyond * p.speed;
   pack.square_speed[lane] = p.speed * p.speed;
-  const geometry::EnergyShell<double> shell = energy_shell(p.speed);
+  const geometry::EnergyShell<double> shell = motion::energy_shell(p.speed);
   pack.shell_weight[lane] = shell.weight;
   pack.shell_rest[lane] = shell.rest;
   pack.sides[lane] = side_margin * t.size * p.speed;
@@ -61,7 +61,7 @@ void put_particle(LanePack& pack, int lane, const LaneTable& t, const Particle& 
 
 }  // namespace
 
-bool can_start(const LaneTable& t, const PieceTable& walls, LaneStart& start) {
+bool can_start(const LaneTable& t, const events::PieceTable& walls, LaneStart& start) {
   State& s = start.state;
   if (s.wall < 0) return within(t, s.position) && in_cell(t, s.position);
   const geometry::PreparedCurve& w = walls.curve(s.wall);

@@ -21,7 +21,7 @@ inline bool moderate(double x) { return x > 1e-30 && x < 1e30; }
 /// May lanes fly from this state? Not from a joint, nor along a wall, nor from beyond the lengths
 /// that margins are measured by. Puts the position on its wall where it is another one, as
 /// World::add does.
-bool can_start(const LaneTable&, const PieceTable&, LaneStart&);
+bool can_start(const LaneTable&, const events::PieceTable&, LaneStart&);
 
 /// A flight whose next disc is looked up begins anew.
 inline void look_again(LanePack& pack, int lane) {

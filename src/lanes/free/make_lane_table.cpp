@@ -275,7 +275,7 @@ std::size_t pieces_of(const Table& table) {
 
 /// One loop of walls that turns to the left everywhere, and nothing in it: as
 /// PieceTable::find_enclosure.
-bool is_convex(const PieceTable& walls) {
+bool is_convex(const events::PieceTable& walls) {
   const Table& table = walls.table;
   const int n = static_cast<int>(table.walls.size());
   if (table.crossing || table.lattice) return false;
@@ -306,7 +306,7 @@ std::string misfit(const Table& table, double reach) {
              : "Larmor circles that may come to more than 64 walls of the lattice";
 }
 
-LaneTable make_lane_table(const PieceTable& walls, double reach) {
+LaneTable make_lane_table(const events::PieceTable& walls, double reach) {
   const Table& table = walls.table;
   LaneTable t;
   std::vector<bool> done(table.walls.size(), false);

@@ -15,7 +15,7 @@ namespace carom::lanes {
 /// flights get from where they began. On a lattice, where that is finite, so must those of all
 /// cells that they may come to.
 std::string misfit(const Table&, double reach = HUGE_VAL);
-LaneTable make_lane_table(const PieceTable& walls, double reach = HUGE_VAL);
+LaneTable make_lane_table(const events::PieceTable& walls, double reach = HUGE_VAL);
 /// The piece on which the point u of a wall lies.
 int piece_at(const LaneTable&, int wall, double u);
 

@@ -27,7 +27,7 @@ class ScalarEvent {
   /// All flights that the joints' sides tell to be like the one that was flown leave where it did.
   void learn();
 
-  const PieceTable& walls() const { return world_.pieces(); }
+  const events::PieceTable& walls() const { return world_.pieces(); }
   DecisionCounts decisions() const { return world_.decisions(); }
 
   // Of the particle that was flown:

@@ -287,9 +287,9 @@ CAROM_INLINE Choice first_of_all_by_circle(const View& f) {
 // Tangents of the angles by which a direction is turned back, as y/x.
 alignas(64) constexpr double back_x[16] = {1, 2, 1, 1, 0}, back_y[16] = {0, 1, 1, 2, 1};
 
-/// elementary::angle: the same operations in the same order, and products with 0, 1 and 2.
+/// base::angle: the same operations in the same order, and products with 0, 1 and 2.
 CAROM_INLINE Real angle(const Real& x, const Real& y) {
-  using namespace elementary::detail;
+  using namespace base::detail;
   const Real far = abs(x);
   const Mask back = x < 0.0;
   const Real one(1.0);

@@ -20,14 +20,15 @@ struct Together {
   const double* node[most_together];
 };
 
-/// As lattice_sum::totals.
+/// As forces::lattice_sum::totals.
 CAROM_INLINE Real total(const double s[8][most_together], int lane) {
   return ((load(s[0] + lane) + load(s[4] + lane)) + (load(s[2] + lane) + load(s[6] + lane))) +
          ((load(s[1] + lane) + load(s[5] + lane)) + (load(s[3] + lane) + load(s[7] + lane)));
 }
 
 /// Up to eight near copies, from number `from` on.
-CAROM_INLINE void add_near(const SoftForces& forces, const LatticeSum& t, int from, Together& g) {
+CAROM_INLINE void add_near(const SoftForces& forces, const forces::LatticeSum& t, int from,
+                           Together& g) {
   const int copies = t.near - from < 8 ? t.near - from : 8;
   for (int lane = 0; lane < g.count; ++lane) {
     const double *x = g.node[lane] + from, *y = x + t.padded_near;
@@ -41,9 +42,9 @@ CAROM_INLINE void add_near(const SoftForces& forces, const LatticeSum& t, int fr
       const Real dx = load(g.near_x[k] + lane), dy = load(g.near_y[k] + lane);
       Real r(0.0), e;
       if (t.fermi)
-        lattice_sum::fermi_exponent(t, dx, dy, r, e);
+        forces::lattice_sum::fermi_exponent(t, dx, dy, r, e);
       else
-        e = lattice_sum::gaussian_exponent(t, dx, dy);
+        e = forces::lattice_sum::gaussian_exponent(t, dx, dy);
       store(r, g.r[k] + lane);
       store(e, g.e + k * g.count + lane);
     }
@@ -54,7 +55,7 @@ CAROM_INLINE void add_near(const SoftForces& forces, const LatticeSum& t, int fr
       if (k < copies) {
         const Real e = load(g.e + k * g.count + lane);
         Real q = e, f = e;
-        if (t.fermi) lattice_sum::fermi_bump(load(g.r[k] + lane), e, q, f);
+        if (t.fermi) forces::lattice_sum::fermi_bump(load(g.r[k] + lane), e, q, f);
         fx = f * load(g.near_x[k] + lane);
         fy = f * load(g.near_y[k] + lane);
       }
@@ -64,14 +65,15 @@ CAROM_INLINE void add_near(const SoftForces& forces, const LatticeSum& t, int fr
 }
 
 /// LatticeBumps::add_force, for many.
-CAROM_INLINE void add_lattice(const SoftForces& forces, const LatticeField& field, SoftPack& pack) {
-  const LatticeSum& t = field.sum;
+CAROM_INLINE void add_lattice(const SoftForces& forces, const forces::LatticeField& field,
+                              SoftPack& pack) {
+  const forces::LatticeSum& t = field.sum;
   Together g;
   for (int first = 0; first < pack.count; first += most_together) {
     g.count = pack.count - first < most_together ? pack.count - first : most_together;
     for (int lane = 0; lane < g.count; lane += width) {
-      const GridPoint<Real> p =
-          lattice_sum::locate(t, load(pack.x + first + lane), load(pack.y + first + lane));
+      const forces::GridPoint<Real> p =
+          forces::lattice_sum::locate(t, load(pack.x + first + lane), load(pack.y + first + lane));
       store(p.i, g.i + lane);
       store(p.j, g.j + lane);
       store(p.dx, g.dx + lane);
@@ -80,13 +82,13 @@ CAROM_INLINE void add_lattice(const SoftForces& forces, const LatticeField& fiel
       store(p.Y, g.Y + lane);
     }
     for (int lane = 0; lane < g.count; ++lane)
-      g.node[lane] = lattice_sum::node_at(t, g.i[lane], g.j[lane]);
+      g.node[lane] = forces::lattice_sum::node_at(t, g.i[lane], g.j[lane]);
     for (int k = 0; k < 8; ++k)
       for (int lane = 0; lane < g.count; ++lane) g.fx[k][lane] = g.fy[k][lane] = 0.0;
     for (int from = 0; from < t.near; from += 8) add_near(forces, t, from, g);
     if (t.degree >= 0)
       for (int lane = 0; lane < g.count; ++lane) {
-        const lattice_sum::Slopes s = lattice_sum::polynomial<width>(
+        const forces::lattice_sum::Slopes s = forces::lattice_sum::polynomial<width>(
             g.node[lane] + 2 * t.padded_near, t.degree, g.X[lane], g.Y[lane]);
         g.by_X[lane] = s.X;
         g.by_Y[lane] = s.Y;
@@ -94,7 +96,7 @@ CAROM_INLINE void add_lattice(const SoftForces& forces, const LatticeField& fiel
     for (int lane = 0; lane < g.count; lane += width) {
       Real fx = field.steepness * total(g.fx, lane), fy = field.steepness * total(g.fy, lane);
       if (t.degree >= 0)
-        lattice_sum::add_slopes(t, load(g.by_X + lane), load(g.by_Y + lane), fx, fy);
+        forces::lattice_sum::add_slopes(t, load(g.by_X + lane), load(g.by_Y + lane), fx, fy);
       double *ax = pack.ax + first + lane, *ay = pack.ay + first + lane;
       store(load(ax) + field.height * fx, ax);
       store(load(ay) + field.height * fy, ay);
@@ -128,8 +130,8 @@ CAROM_INLINE Mask is_clear(const SoftForces& forces, const Real& third, const So
   const Vector from{load(pack.from_x + lane), load(pack.from_y + lane)};
   clear =
       clear && abs(x.x - from.x) <= forces.longest_way && abs(x.y - from.y) <= forces.longest_way;
-  const StepHull<Real> hull(from, {load(pack.from_vx + lane), load(pack.from_vy + lane)}, x, v,
-                            third);
+  const events::StepHull<Real> hull(from, {load(pack.from_vx + lane), load(pack.from_vy + lane)}, x,
+                                    v, third);
   for (int i = 0; i < forces.walls; ++i) clear = clear && stays_off(forces.barriers[i], hull);
   return clear;
 }

@@ -14,7 +14,9 @@
 
 namespace carom::lanes {
 
+using events::Group;
 using geometry::Vector;
+using integrators::Stage;
 
 namespace {
 
@@ -49,13 +51,13 @@ Group::Surroundings surroundings_of(const Table& table, const Dynamics& dynamics
   Group::Surroundings in;
   in.forces = dynamics.forces.get();
   in.plan = dynamics.integrator;
-  in.maps = std::make_shared<ForceMaps>(*dynamics.forces);
+  in.maps = std::make_shared<forces::ForceMaps>(*dynamics.forces);
   if (table.lattice) {
     in.lattice = &*table.lattice;
-    in.centre = centre_of_cell(*table.lattice);
+    in.centre = events::centre_of_cell(*table.lattice);
   }
-  in.barriers = barriers_of(table);
-  if (!table.walls.empty()) in.longest_way = longest_way(table);
+  in.barriers = events::barriers_of(table);
+  if (!table.walls.empty()) in.longest_way = events::longest_way(table);
   return in;
 }
 
@@ -96,7 +98,7 @@ SoftEngine::SoftEngine(const Table& table, const Dynamics& dynamics, Instruction
     : table_(table),
       field_(*dynamics.forces),
       step_(dynamics.integrator.step),
-      stages_(stages_of<double>(find_scheme(dynamics.integrator.scheme))),
+      stages_(integrators::stages_of<double>(find_scheme(dynamics.integrator.scheme))),
       keeps_forces_(is_kick(stages_.front()) && is_kick(stages_.back())),
       step_cost_(evaluations(stages_, keeps_forces_)),
       sample_cost_(evaluations(stages_, is_kick(stages_.front()))),
@@ -136,7 +138,7 @@ void SoftEngine::set_kind(const Particle& kind) {
 
 void SoftEngine::put(State& s, SoftPack& pack, int lane) const {
   if (table_.lattice)
-    fold_towards_centre(*table_.lattice, surroundings_.centre, s.position, s.cell);
+    events::fold_towards_centre(*table_.lattice, surroundings_.centre, s.position, s.cell);
   pack.x[lane] = s.position.x;
   pack.y[lane] = s.position.y;
   pack.vx[lane] = s.velocity.x;
@@ -146,9 +148,10 @@ void SoftEngine::put(State& s, SoftPack& pack, int lane) const {
 /// As Group::check_resolution. What lanes do not know to be resolved the scalar engine judges.
 void SoftEngine::find_calls(double duration, SoftPack& pack) {
   kernel_.find_calls(forces_, duration / 3.0, pack);
-  if (span_.time != duration / resolution::steps_a_radius)
-    span_ = resolution::span_of(duration / resolution::steps_a_radius, particle_.omega);
-  ForceMap::Motions ends;
+  if (span_.time != duration / forces::resolution::steps_a_radius)
+    span_ =
+        forces::resolution::span_of(duration / forces::resolution::steps_a_radius, particle_.omega);
+  forces::ForceMap::Motions ends;
   ends.count = pack.count;
   ends.x = pack.x;
   ends.y = pack.y;
@@ -182,8 +185,9 @@ void SoftEngine::take_step(double duration, SoftPack& pack) {
   if (duration != made_for_ || particle_.omega != made_with_) {
     made_.clear();
     for (const Stage<double>& s : stages_)
-      made_.push_back({kind_of(s.kind), s.coefficient * duration,
-                       LarmorDrift<double>(particle_.omega, s.coefficient * duration)});
+      made_.push_back(
+          {kind_of(s.kind), s.coefficient * duration,
+           integrators::LarmorDrift<double>(particle_.omega, s.coefficient * duration)});
     made_for_ = duration;
     made_with_ = particle_.omega;
   }
@@ -248,7 +252,7 @@ SoftEngine::Outcome SoftEngine::follow(SoftTrack& track, bool from_lane, double 
     return outcome;
   };
   State& s = track.state;
-  const Time end = next_multiple(s.time, step_);
+  const Time end = events::next_multiple(s.time, step_);
   std::size_t sampled = 0;
   const auto emit_while = [&](auto due) {
     for (; sampled < times.size() && due(Time(times[sampled])); ++sampled)
@@ -295,14 +299,15 @@ void SoftEngine::count_lane(SoftTrack& track, std::uint64_t steps, bool tried,
 }
 
 bool SoftEngine::inside(Vector x) {
-  if (on_some_wall(surroundings_.barriers, static_cast<int>(table_.walls.size()), x)) return true;
-  if (!locator_) locator_ = std::make_unique<Locator>(table_);
+  if (events::on_some_wall(surroundings_.barriers, static_cast<int>(table_.walls.size()), x))
+    return true;
+  if (!locator_) locator_ = std::make_unique<events::Locator>(table_);
   return locator_->contains(x);
 }
 
 /// Does it end there?
-bool SoftEngine::hit(SoftTrack& track, const Barrier<double>& barrier) {
-  const GroupHit hit = hit_of(walls_, table_, group_, 0, barrier, counts_);
+bool SoftEngine::hit(SoftTrack& track, const events::Barrier<double>& barrier) {
+  const events::GroupHit hit = events::hit_of(walls_, table_, group_, 0, barrier, counts_);
   track.state = hit.state;
   track.last_wall = barrier.wall;
   track.hole = hit.hole;

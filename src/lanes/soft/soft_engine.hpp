@@ -102,29 +102,29 @@ class SoftEngine {
  private:
   static void add_other(const SoftForces&, int potential, SoftPack&);
   Outcome end_step(SoftTrack& track);
-  bool hit(SoftTrack& track, const Barrier<double>& barrier);
+  bool hit(SoftTrack& track, const events::Barrier<double>& barrier);
   bool inside(geometry::Vector x);
   Outcome end(SoftTrack& track, Fate fate, std::string_view fault) const;
 
   const Table& table_;
   const ForceField& field_;
   double step_;
-  std::vector<Stage<double>> stages_;
+  std::vector<integrators::Stage<double>> stages_;
   bool keeps_forces_;  ///< the force at a step's end is that at the start of the next
   std::uint64_t step_cost_, sample_cost_;  ///< evaluations of a step in a lane, and of a part of it
-  Group::Surroundings surroundings_;
+  events::Group::Surroundings surroundings_;
   SoftKernel kernel_;
-  resolution::Span span_;    ///< of the latest step, about each of its ends
-  ForceMap* map_ = nullptr;  ///< of the kind that is flown
+  forces::resolution::Span span_;    ///< of the latest step, about each of its ends
+  forces::ForceMap* map_ = nullptr;  ///< of the kind that is flown
   SoftForces forces_;
   Particle particle_;
   std::vector<SoftStage> made_;  ///< the stages of the latest step
   double made_for_ = 0.0, made_with_ = 0.0;
 
   // Of the scalar engine.
-  PieceTable walls_;
-  Group group_;
-  std::unique_ptr<Locator> locator_;
+  events::PieceTable walls_;
+  events::Group group_;
+  std::unique_ptr<events::Locator> locator_;
   std::uint64_t limit_ = std::numeric_limits<std::uint64_t>::max();
   std::function<bool(const SoftTrack&)> reported_hit_;
   DecisionCounts counts_;

@@ -108,13 +108,14 @@ class SoftLanes::Implementation {
   /// The step of a trajectory that is under way at a time, or begins then.
   std::uint64_t step_with(const Time& t) const {
     double number = std::fmin(std::floor(t.value() / engine.step()), 0x1p52);
-    while (number > 0.0 && multiple(number, engine.step()) > t) number -= 1.0;
-    while (number < 0x1p52 && multiple(number + 1.0, engine.step()) <= t) number += 1.0;
+    while (number > 0.0 && events::multiple(number, engine.step()) > t) number -= 1.0;
+    while (number < 0x1p52 && events::multiple(number + 1.0, engine.step()) <= t) number += 1.0;
     return static_cast<std::uint64_t>(number);
   }
   /// When the step that the pack has just taken began in a lane.
   Time before(int lane) const {
-    return multiple(static_cast<double>(whole_ - (last_step_[lane] + 1 - next_)), engine.step());
+    return events::multiple(static_cast<double>(whole_ - (last_step_[lane] + 1 - next_)),
+                            engine.step());
   }
 
   /// Begins the next trajectory that lanes can go on with.

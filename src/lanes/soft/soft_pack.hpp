@@ -34,7 +34,7 @@ struct SoftPack {
 struct SoftStage {
   enum class Kind { drift, kick, straight, turn } kind = Kind::kick;
   double duration = 0.0;
-  LarmorDrift<double> drift;
+  integrators::LarmorDrift<double> drift;
 };
 
 /// What acts on the particles, and where they are put back into the cell of a lattice.
@@ -42,7 +42,7 @@ struct SoftForces {
   static constexpr int most = 8, most_edges = 6;
 
   int potentials = 0;
-  const LatticeField* lattice[most] = {};  ///< null: added by `other`
+  const forces::LatticeField* lattice[most] = {};  ///< null: added by `other`
   /// Adds the force of a potential to the pack's accelerations.
   void (*other)(const SoftForces&, int potential, SoftPack&) = nullptr;
   const void* context = nullptr;  ///< for `other`
@@ -51,7 +51,7 @@ struct SoftForces {
   /// exp of numbers, which are a multiple of eight.
   void (*exp)(double*, std::size_t) = nullptr;
 
-  const Barrier<double>* barriers = nullptr;
+  const events::Barrier<double>* barriers = nullptr;
   int walls = 0;             ///< how many barriers there are
   double longest_way = 0.0;  ///< as Group::Surroundings
 
