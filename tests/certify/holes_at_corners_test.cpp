@@ -4,6 +4,7 @@
 
 #include "carom/base/error.hpp"
 #include "certify/systems.hpp"
+#include "certify/tie_names.hpp"
 #include "certify/wall/hole.hpp"
 
 namespace carom {
@@ -59,8 +60,7 @@ TEST(HolesAtCorners, HolesMayEndExactlyAtCorners) {
     t.square.spec.holes = {door("side_1", t.side + "-1/40", "1/20")};
     const CertifiedEnd end = end_of(t.square, t.to_corner());
     ASSERT_EQ(end.fate, CertifiedFate::singular);
-    ASSERT_EQ(end.reason,
-              "event 1: exactly into the corner between 'side_1' and 'side_2', at a hole");
+    ASSERT_EQ(tests::named_in(end.reason), "1 side_1 side_2");
     // On one side neighbours leave, on the other they are reflected.
     const CertifiedFate beside = end_of(t.square, t.to_corner("1/10^30"), 1).fate,
                         other = end_of(t.square, t.to_corner("-1/10^30"), 1).fate;

@@ -5,6 +5,7 @@
 
 #include "certify/number/rational.hpp"
 #include "certify/systems.hpp"
+#include "certify/tie_names.hpp"
 
 namespace carom {
 namespace {
@@ -41,8 +42,7 @@ TEST(CertifiedTies, CornersOfTheSquareTurnOrbitsBack) {
   const CertifiedEnd back = end_of(square("1/2", "1/4"), {exactly("2"), exactly("3")}, 2);
   EXPECT_EQ(back.fate, CertifiedFate::completed);
   ASSERT_EQ(back.ties.size(), 1u);
-  EXPECT_EQ(back.ties[0],
-            "event 1: exactly into the corner between 'right' and 'top', whose angle is pi/2");
+  EXPECT_EQ(tests::named_in(back.ties[0]), "1 right top pi/2");
   EXPECT_EQ(back.x.text(20), "1.00000000000000000000");
   EXPECT_EQ(back.y.text(20), "1.00000000000000000000");
   EXPECT_EQ(back.vx.text(10), "-0.5547001962");
@@ -51,8 +51,7 @@ TEST(CertifiedTies, CornersOfTheSquareTurnOrbitsBack) {
   const CertifiedEnd far = end_of(square("1/10", "1/10"), {exactly("29"), exactly("9")}, 100);
   EXPECT_EQ(far.fate, CertifiedFate::completed);
   ASSERT_GE(far.ties.size(), 1u);
-  EXPECT_EQ(far.ties[0],
-            "event 3: exactly into the corner between 'right' and 'top', whose angle is pi/2");
+  EXPECT_EQ(tests::named_in(far.ties[0]), "3 right top pi/2");
 }
 
 // From (1/10, 1/10) to the lattice point (301, 200) and all the way back.
@@ -64,8 +63,7 @@ TEST(CertifiedTies, ACornerIsMetAfterManyHits) {
   const CertifiedEnd& end = orbit.finish();
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   ASSERT_EQ(end.ties.size(), 1u);
-  EXPECT_EQ(end.ties[0],
-            "event 500: exactly into the corner between 'bottom' and 'right', whose angle is pi/2");
+  EXPECT_EQ(tests::named_in(end.ties[0]), "500 bottom right pi/2");
   EXPECT_EQ(end.collisions, 2u * (300 + 199) + 2);
   EXPECT_EQ(end.x.text(20), "0.10000000000000000000");
   EXPECT_EQ(end.y.text(20), "0.10000000000000000000");
@@ -76,14 +74,13 @@ TEST(CertifiedTies, CornersInOtherShapesReflectByTheirAngle) {
   const Shaped tall = tests::shaped("rectangle", {{"width", "1"}, {"height", "3/2"}}, "1/2", "3/4");
   const CertifiedEnd diagonal = end_of(tall, {exactly("2"), exactly("3")}, 8);
   ASSERT_EQ(diagonal.ties.size(), 4u);  // to and fro between two corners
-  EXPECT_EQ(diagonal.ties[3],
-            "event 7: exactly into the corner between 'left' and 'bottom', whose angle is pi/2");
+  EXPECT_EQ(tests::named_in(diagonal.ties[3]), "7 left bottom pi/2");
   Shaped blunt = tests::shaped("triangle", {}, "1", "1/2");
   blunt.spec.points["points"] = {
       {exactly("0"), exactly("0")}, {exactly("2"), exactly("0")}, {exactly("1"), exactly("1.5")}};
   const CertifiedEnd without = end_of(blunt, {exactly("0"), exactly("1")}, 10);
   EXPECT_EQ(without.fate, CertifiedFate::singular);
-  EXPECT_EQ(without.reason, "event 1: exactly into the corner between 'side_2' and 'side_3'");
+  EXPECT_EQ(tests::named_in(without.reason), "1 side_2 side_3");
   Shaped wedge = tests::shaped("triangle", {}, "1/2", "1/10");
   wedge.spec.points["points"] = {
       {exactly("0"), exactly("0")}, {exactly("1"), exactly("0")}, {exactly("1"), exactly("1")}};
@@ -105,12 +102,8 @@ TEST(CertifiedTies, ReflectsAtSmoothJoints) {
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 12u);
   ASSERT_EQ(end.ties.size(), 8u);
-  EXPECT_EQ(
-      end.ties[0],
-      "event 1: exactly into the joint between 'right' and 'top', where they have one tangent");
-  EXPECT_EQ(
-      end.ties[2],
-      "event 4: exactly into the joint between 'top' and 'left', where they have one tangent");
+  EXPECT_EQ(tests::named_in(end.ties[0]), "1 right top");
+  EXPECT_EQ(tests::named_in(end.ties[2]), "4 top left");
   EXPECT_EQ(end.x.text(20), "-1.00000000000000000000");
   EXPECT_EQ(end.y.text(20), "-1.00000000000000000000");
   CertifiedOrbit before(tests::system_of(stadium, {exactly("1"), exactly("1")}), [] {
@@ -129,14 +122,14 @@ TEST(CertifiedTies, TouchesADisc) {
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 10u);
   ASSERT_EQ(end.ties.size(), 10u);
-  EXPECT_EQ(end.ties[3], "event 4: exactly tangent to 'disc', which is no hit");
+  EXPECT_EQ(tests::named_in(end.ties[3]), "4 disc");
   EXPECT_EQ(end.x.text(10), "0.0000000000");
   EXPECT_EQ(end.y.text(10), "0.3000000000");
   // On the torus along the edge of a corridor: no other disc will follow.
   sinai.spec.torus = true;
   const CertifiedEnd corridor = end_of(sinai, {exactly("1"), exactly("0")}, 10);
   EXPECT_EQ(corridor.fate, CertifiedFate::singular);
-  EXPECT_EQ(corridor.reason, "event 1: exactly tangent to 'disc', which is no hit");
+  EXPECT_EQ(tests::named_in(corridor.reason), "1 disc");
   // 3-4-5: after the bottom at (1/10, 0) the line along (4, 3) passes (1/2, 1/2) at |4/2 - 3
   // (2/5)|/5 = 4/25.
   Shaped beside = tests::shaped("sinai", {{"side", "1"}, {"radius", "4/25"}}, "1/20", "3/80");
@@ -144,7 +137,7 @@ TEST(CertifiedTies, TouchesADisc) {
   const CertifiedEnd touched = end_of(beside, {exactly("4"), exactly("-3")}, 2);
   EXPECT_EQ(touched.wall, 2);  // the right side, after the bottom
   ASSERT_EQ(touched.ties.size(), 1u);
-  EXPECT_EQ(touched.ties[0], "event 2: exactly tangent to 'disc', which is no hit");
+  EXPECT_EQ(tests::named_in(touched.ties[0]), "2 disc");
   // A disc larger by 1/10^40 is hit, one smaller is not touched.
   for (const auto& [radius, wall] : {std::pair{"4/25+1/10^40", 0}, {"4/25-1/10^40", 2}}) {
     beside.spec.numbers["radius"] = exactly(radius);
@@ -171,22 +164,18 @@ TEST(CertifiedTies, EndsOfAHoleAreDecided) {
   const CertifiedEnd start = end_of(s, {exactly("1"), exactly("0")}, 10);
   EXPECT_EQ(start.fate, CertifiedFate::escaped);
   ASSERT_EQ(start.ties.size(), 1u);
-  EXPECT_EQ(start.ties[0],
-            "event 1: exactly at the start of hole 'door' in 'right', which belongs to it");
+  EXPECT_EQ(tests::named_in(start.ties[0]), "1 door right");
   s.spec.holes = {door("2/10", "2/10")};
   const CertifiedEnd end = end_of(s, {exactly("1"), exactly("0")}, 10);
   EXPECT_EQ(end.fate, CertifiedFate::completed);
   EXPECT_EQ(end.collisions, 10u);
   ASSERT_EQ(end.ties.size(), 5u);
-  EXPECT_EQ(end.ties[4],
-            "event 9: exactly at the end of hole 'door' in 'right', which does not belong to it");
+  EXPECT_EQ(tests::named_in(end.ties[4]), "9 door right");
   // For ever: named, and ended after a thousand of them.
   const CertifiedEnd forever = end_of(s, {exactly("1"), exactly("0")}, 100'000);
   EXPECT_EQ(forever.fate, CertifiedFate::singular);
   EXPECT_EQ(forever.ties.size(), 1000u);
-  EXPECT_EQ(
-      forever.reason,
-      "event 2001: exactly at the end of hole 'door' in 'right', which does not belong to it");
+  EXPECT_EQ(tests::named_in(forever.reason), "2001 door right");
 }
 
 // The point where one hole ends and the next one starts belongs to the next, in whatever order they
@@ -215,7 +204,7 @@ TEST(CertifiedTies, CornersWithAHoleAreDecided) {
   s.spec.holes = {door("9/10", "2/10")};
   const CertifiedEnd end = end_of(s, {exactly("2"), exactly("3")}, 2);
   EXPECT_EQ(end.fate, CertifiedFate::singular);
-  EXPECT_EQ(end.reason, "event 1: exactly into the corner between 'right' and 'top', at a hole");
+  EXPECT_EQ(tests::named_in(end.reason), "1 right top");
   s.spec.holes = {door("1/2", "2/10")};
   EXPECT_EQ(end_of(s, {exactly("2"), exactly("3")}, 2).fate, CertifiedFate::completed);
 }
@@ -226,7 +215,7 @@ TEST(CertifiedTies, HitsAtTheLastTimeCount) {
   EXPECT_EQ(end.collisions, 1u);
   EXPECT_EQ(end.t.text(10), "0.8333333333");
   ASSERT_EQ(end.ties.size(), 1u);
-  EXPECT_EQ(end.ties[0], "event 1: 'right' is met exactly at the last time: the hit counts");
+  EXPECT_EQ(tests::named_in(end.ties[0]), "1 right");
 }
 
 // Ties of other numbers, and in fields, end at a stated precision, with what was not told.

@@ -153,8 +153,8 @@ TEST(TypedExpression, WantsAsManyNumbersAsVariables) {
 // Faults: the text starts at column 15 of line 7.
 struct Fault {
   std::string text;
-  int column;  // of the text, from 1
-  std::string problem, expected, nearest;
+  int column;                             // of the text, from 1
+  std::string blamed, expected, nearest;  // blamed: in quotes, or nothing
 };
 
 void expect_fault(const Fault& fault) {
@@ -166,7 +166,8 @@ void expect_fault(const Fault& fault) {
     EXPECT_EQ(error.place().line, 7) << fault.text;
     EXPECT_EQ(error.place().column, 14 + fault.column) << fault.text << ": " << error.what();
     EXPECT_EQ(error.place().key, "potential[0].expression");
-    EXPECT_EQ(error.problem().substr(0, fault.problem.size()), fault.problem) << fault.text;
+    EXPECT_NE(error.problem().find(fault.blamed), std::string::npos)
+        << fault.text << ": " << error.what();
     EXPECT_NE(error.expected().find(fault.expected), std::string::npos)
         << fault.text << ": " << error.what();
     EXPECT_EQ(error.nearest(), fault.nearest) << fault.text;
@@ -175,47 +176,46 @@ void expect_fault(const Fault& fault) {
 
 TEST(TypedExpression, PointsAtTheCharacterToBlame) {
   const Fault faults[] = {
-      {"x^2 + z", 7, "unknown name 'z' at character 7 of \"x^2 + z\"",
-       "x, y, alpha, pi, e or a function", ""},
-      {"x + alhpa", 5, "unknown name 'alhpa'", "alpha", "alpha"},
-      {"sqr(x)", 1, "unknown function 'sqr'", "sqrt, exp", "sqrt"},
-      {"1 + Sin(x)", 5, "unknown function 'Sin'", "sin", "sin"},
-      {"x + inf", 5, "'inf' is not a finite number", "", ""},
-      {"", 1, "the formula is empty", "a formula in x, y", ""},
-      {"   ", 1, "the formula is empty", "", ""},
-      {"(x+1", 5, "the formula ends too early", "')' for the one opened at character 1", ""},
-      {"2*(x+(y-1)", 11, "the formula ends too early", "')' for the one opened at character 3", ""},
-      {"x+1)", 4, "')' without '('", "", ""},
-      {"x +", 4, "the formula ends too early", "a number, a name or '('", ""},
-      {"x^", 3, "the formula ends too early", "a number", ""},
-      {"* x", 1, "unexpected '*'", "a number", ""},
-      {"x + * y", 5, "unexpected '*'", "a number", ""},
-      {"x**2", 2, "unexpected '**'", "'^'", ""},
-      {"2x", 2, "unexpected 'x'", "* for a product", ""},
-      {"2exp(x)", 2, "unexpected 'e'", "* for a product", ""},
-      {"x y", 3, "unexpected 'y'", "* for a product", ""},
-      {"(x)(y)", 4, "unexpected '('", "* for a product", ""},
-      {"x(y)", 2, "'x' is no function", "* for a product", ""},
-      {"sin x", 5, "unexpected 'x'", "'(' after sin", ""},
-      {"x + sin", 8, "the formula ends too early", "'(' after sin", ""},
-      {"sin()", 5, "unexpected ')'", "sin takes one argument", ""},
-      {"sin(x, y)", 6, "unexpected ','", "sin takes one argument", ""},
-      {"min(x)", 6, "unexpected ')'", "min takes two arguments", ""},
-      {"min(x, y, 2)", 9, "unexpected ','", "min takes two arguments", ""},
-      {"max(x, y", 9, "the formula ends too early", "')' for the one opened at character 4", ""},
-      {"x, y", 2, "unexpected ','", "an operator", ""},
-      {"()", 2, "unexpected ')'", "a number", ""},
-      {"1.2.3", 4, "unexpected '.'", "an operator", ""},
-      {".", 1, "unexpected '.'", "a number", ""},
-      {"x = 1", 3, "unexpected '='", "an operator", ""},
-      {"x·y", 2, "unexpected '·'", "an operator", ""},
-      {"x·y + z", 2, "unexpected '·'", "", ""},
-      {"x + β", 5, "unexpected 'β'", "a number, a name", ""},
-      {"1 + 1/0", 6, "this is not finite", "", ""},
-      {"x + log(-1)", 5, "this has no value", "", ""},
-      {"x^(1/(alpha-1))", 5, "this is not finite", "", ""},
-      {"x^20000", 3, "the exponent is too large", "at most 10000", ""},
-      {"1e999*x", 1, "'1e999' is no double", "", ""},
+      {"x^2 + z", 7, "'z'", "x, y, alpha, pi, e or a function", ""},
+      {"x + alhpa", 5, "'alhpa'", "alpha", "alpha"},
+      {"sqr(x)", 1, "'sqr'", "sqrt, exp", "sqrt"},
+      {"1 + Sin(x)", 5, "'Sin'", "sin", "sin"},
+      {"x + inf", 5, "'inf'", "", ""},
+      {"", 1, "", "a formula in x, y", ""},
+      {"   ", 1, "", "", ""},
+      {"(x+1", 5, "", "')' for the one opened at character 1", ""},
+      {"2*(x+(y-1)", 11, "", "')' for the one opened at character 3", ""},
+      {"x+1)", 4, "')'", "", ""},
+      {"x +", 4, "", "a number, a name or '('", ""},
+      {"x^", 3, "", "a number", ""},
+      {"* x", 1, "'*'", "a number", ""},
+      {"x + * y", 5, "'*'", "a number", ""},
+      {"x**2", 2, "'**'", "'^'", ""},
+      {"2x", 2, "'x'", "* for a product", ""},
+      {"2exp(x)", 2, "'e'", "* for a product", ""},
+      {"x y", 3, "'y'", "* for a product", ""},
+      {"(x)(y)", 4, "'('", "* for a product", ""},
+      {"x(y)", 2, "'x'", "* for a product", ""},
+      {"sin x", 5, "'x'", "'(' after sin", ""},
+      {"x + sin", 8, "", "'(' after sin", ""},
+      {"sin()", 5, "')'", "sin takes one argument", ""},
+      {"sin(x, y)", 6, "','", "sin takes one argument", ""},
+      {"min(x)", 6, "')'", "min takes two arguments", ""},
+      {"min(x, y, 2)", 9, "','", "min takes two arguments", ""},
+      {"max(x, y", 9, "", "')' for the one opened at character 4", ""},
+      {"x, y", 2, "','", "an operator", ""},
+      {"()", 2, "')'", "a number", ""},
+      {"1.2.3", 4, "'.'", "an operator", ""},
+      {".", 1, "'.'", "a number", ""},
+      {"x = 1", 3, "'='", "an operator", ""},
+      {"x·y", 2, "'·'", "an operator", ""},
+      {"x·y + z", 2, "'·'", "", ""},
+      {"x + β", 5, "'β'", "a number, a name", ""},
+      {"1 + 1/0", 6, "", "", ""},
+      {"x + log(-1)", 5, "", "", ""},
+      {"x^(1/(alpha-1))", 5, "", "", ""},
+      {"x^20000", 3, "", "at most 10000", ""},
+      {"1e999*x", 1, "'1e999'", "", ""},
   };
   for (const Fault& fault : faults) expect_fault(fault);
 }
