@@ -12,28 +12,28 @@ namespace {
 constexpr double u = unit_roundoff;
 
 /// A number with a bound on its error.
-struct Bounded {
+struct NumberWithError {
   double value = 0.0, error = 0.0;
   Sign sign() const { return sign_within(value, error); }
 
-  friend Bounded operator+(const Bounded& a, const Bounded& b) {
+  friend NumberWithError operator+(const NumberWithError& a, const NumberWithError& b) {
     return {a.value + b.value, a.error + b.error};  // roundings are in the errors of the terms
   }
-  friend Bounded mean_of(const Bounded& a, const Bounded& b) {
+  friend NumberWithError mean_of(const NumberWithError& a, const NumberWithError& b) {
     const double mean = 0.5 * (a.value + b.value);
     return {mean, 0.5 * (a.error + b.error) + 1.1 * u * std::fabs(mean)};
   }
 };
-using Polynomial = Bernstein<Bounded>;
+using Polynomial = BernsteinPolynomial<NumberWithError>;
 
 /// The quotient m/n is rounded once, the product once, each partial sum of such terms once.
-Bounded share_of(const Bounded& c, int m, int n) {
+NumberWithError share_of(const NumberWithError& c, int m, int n) {
   const double ratio = static_cast<double>(m) / n, term = ratio * c.value;
   return {term, ratio * 1.01 * c.error + 7.1 * u * std::fabs(term)};
 }
 
 /// De Casteljau.
-Bounded value_at(Polynomial p, double t) {
+NumberWithError value_at(Polynomial p, double t) {
   auto& b = p.b;
   for (std::size_t k = p.degree; k > 0; --k)
     for (std::size_t i = 0; i < k; ++i) {
@@ -68,7 +68,7 @@ bool refine(const Polynomial& p, double& t, double& low, double& high) {
   double last = 1.0;
   bool closing = false;
   for (int i = 0; i < 100 && !closing; ++i) {
-    const Bounded f = value_at(p, t);
+    const NumberWithError f = value_at(p, t);
     closing = std::fabs(f.value) <= f.error;
     if (!closing) ((f.value < 0.0) == rises ? l : h) = t;
     double next = t - f.value / slope_at(p, t);
@@ -109,7 +109,7 @@ constexpr int deepest = 40;
 std::optional<bool> look(const Polynomial& p, double from, double to, int depth, const Part& part,
                          RisingRoots& out, int most) {
   if (out.count >= most || to <= part.passed) return true;
-  const SignChanges roots = sign_changes(p, [](const Bounded& x) { return x.sign(); });
+  const SignChanges roots = sign_changes(p, [](const NumberWithError& x) { return x.sign(); });
   // The sign at an end below `passed` need not be certain: bisection cuts that part off.
   const bool open = roots.first == Sign::undecided, cut = open && from < part.passed;
   if ((open && !cut) || roots.last == Sign::undecided) return false;
@@ -137,7 +137,7 @@ RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, 
                            double scale, int most, double farthest) {
   RisingRoots out;
   // kappa = K x: coefficients and errors of the polynomial in x.
-  std::array<Bounded, 5> c;
+  std::array<NumberWithError, 5> c;
   double power = 1.0;
   const auto size = static_cast<std::size_t>(degree);
   for (std::size_t i = 0; i <= size; ++i) {
@@ -148,7 +148,7 @@ RisingRoots isolated_roots(const Quartic<double>& f, const QuarticError& error, 
   for (int n = 0; n < 4 && out.count < most; ++n) {
     Part part{
         .outer = n == 0 || n == 3, .sigma = n < 2 ? 1.0 : -1.0, .scale = scale, .passed = 0.0};
-    std::array<Bounded, 5> m;
+    std::array<NumberWithError, 5> m;
     for (std::size_t i = 0; i <= size; ++i) {
       const std::size_t k = part.outer ? size - i : i;  // t = 1/x reverses the coefficients
       m[i] = c[k];

@@ -77,7 +77,7 @@ TEST(EventBounds, SideOfTheChordHasItsBound) {
     const QuadCurve& q = scene.exact;
     const QuadVector x =
         s.exact_start + displacement(c.exact, quad(s.velocity), Quad(s.omega), Quad(0.5));
-    const Bounded side =
+    const ChordSide side =
         side_of_chord(scene.rounded, s.start, s.velocity, s.omega, c.kappa, c.error, s.scale);
     r.add(elliptic ? "side of the chord, ellipse" : "side of the chord, circle",
           Quad(-scene.rounded.orientation) * cross(q.to - q.from, x - q.from), side.value,
@@ -89,7 +89,7 @@ TEST(EventBounds, StartBeyondTheChordHasItsBound) {
   sweep("side of the chord at the start (kappa_beyond_chord)", random_elliptic_arc,
         [](const Sample& s, const Scene& scene, Dice&, Ratios& r) {
           const QuadCurve& q = scene.exact;
-          const Bounded side = start_beyond_chord(scene.rounded, s.start, s.scale);
+          const ChordSide side = start_beyond_chord(scene.rounded, s.start, s.scale);
           r.add("start beyond the chord",
                 Quad(scene.rounded.orientation) * cross(q.to - q.from, s.exact_start - q.from),
                 side.value, side.bound);
@@ -103,7 +103,7 @@ TEST(EventBounds, FootBeyondTheChordHasItsBound) {
           const QuadVector v = quad(s.velocity), chord = q.to - q.from;
           const QuadVector foot =
               s.exact_start - (dot(s.exact_start - q.centre, v) / dot(v, v)) * v;
-          const Bounded side = foot_beyond_chord(scene.rounded, s.start, s.velocity, s.scale);
+          const ChordSide side = foot_beyond_chord(scene.rounded, s.start, s.velocity, s.scale);
           r.add("foot beyond the chord",
                 Quad(scene.rounded.orientation) * dot(v, v) * cross(chord, foot - q.from),
                 side.value, side.bound);

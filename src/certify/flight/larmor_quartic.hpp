@@ -138,7 +138,7 @@ class LarmorExits {
     deepest_ = effort.deepest;
     for (chord_ = 0; chord_ < chords.size(); ++chord_)
       if (!isolate(bernstein(chords[chord_]), N(0.0), N(1.0), true, 0,
-                   [this](const Bernstein& p, const N& low, const N& high, int depth) {
+                   [this](const BernsteinPolynomial& p, const N& low, const N& high, int depth) {
                      return look(p, low, high, depth);
                    }))
         return;
@@ -147,9 +147,9 @@ class LarmorExits {
   const LarmorExit<N>* end() const { return exits_.data() + count_; }
 
  private:
-  using Bernstein = geometry::Bernstein<N>;
+  using BernsteinPolynomial = geometry::BernsteinPolynomial<N>;
 
-  static Bernstein bernstein(const Powers<N>& f) {
+  static BernsteinPolynomial bernstein(const Powers<N>& f) {
     return geometry::bernstein_form(f.c, f.degree, [](const N& c, int m, int n) {
       return n == 1 ? c : N(static_cast<double>(m)) * c / N(static_cast<double>(n));
     });
@@ -162,7 +162,7 @@ class LarmorExits {
   }
 
   /// Nothing: the piece must be halved.
-  std::optional<bool> look(const Bernstein& p, const N& low, const N& high, int depth) {
+  std::optional<bool> look(const BernsteinPolynomial& p, const N& low, const N& high, int depth) {
     const geometry::SignChanges roots =
         geometry::sign_changes(p, [](const N& x) { return sign(x); });
     if (roots.certain && roots.most == 0) return true;

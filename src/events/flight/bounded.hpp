@@ -10,17 +10,17 @@
 
 namespace carom::events {
 
-/// A number, and what its error cannot exceed.
-struct Bounded {
+/// A number whose sign tells a side of a chord, and what its error cannot exceed.
+struct ChordSide {
   double value, bound;
   Sign sign() const { return sign_within(value, bound); }
 };
 
 /// On which side of the chord of its joints is the crossing of a conic at kappa? Positive on the
 /// arc's.
-inline Bounded side_of_chord(const geometry::PreparedCurve& w, geometry::Vector origin,
-                             geometry::Vector v, double omega, double kappa, double kappa_error,
-                             const geometry::FlightScale& s) {
+inline ChordSide side_of_chord(const geometry::PreparedCurve& w, geometry::Vector origin,
+                               geometry::Vector v, double omega, double kappa, double kappa_error,
+                               const geometry::FlightScale& s) {
   using namespace geometry;
   const Vector d = displacement(kappa, v, omega, 0.5);
   const Vector chord = w.to - w.from, e = (origin - w.from) + d;
@@ -32,8 +32,8 @@ inline Bounded side_of_chord(const geometry::PreparedCurve& w, geometry::Vector 
 }
 
 /// On which side of that chord does the flight begin? Positive beyond it, off the arc.
-inline Bounded start_beyond_chord(const geometry::PreparedCurve& w, geometry::Vector origin,
-                                  const geometry::FlightScale& s) {
+inline ChordSide start_beyond_chord(const geometry::PreparedCurve& w, geometry::Vector origin,
+                                    const geometry::FlightScale& s) {
   const geometry::Vector chord = w.to - w.from, e = origin - w.from;
   // e: delta and u; chord u, product u, difference u.
   const double rounding = 4.1 * geometry::unit_roundoff * norm_1(e);
@@ -45,7 +45,7 @@ inline Bounded start_beyond_chord(const geometry::PreparedCurve& w, geometry::Ve
 /// 2^-50: 1.01 is more.
 inline double kappa_beyond_chord(const geometry::PreparedCurve& w, geometry::Vector origin,
                                  const geometry::FlightScale& s) {
-  const Bounded start = start_beyond_chord(w, origin, s);
+  const ChordSide start = start_beyond_chord(w, origin, s);
   return start.sign() == Sign::positive
              ? 1.01 * norm_1(w.to - w.from) * s.speed_1 / (start.value - start.bound)
              : HUGE_VAL;
@@ -53,9 +53,10 @@ inline double kappa_beyond_chord(const geometry::PreparedCurve& w, geometry::Vec
 
 /// Without field: the foot of an arc's centre on the flight, times |v|^2: positive if it lies
 /// beyond the chord of the joints, off the arc.
-[[gnu::always_inline]] inline Bounded foot_beyond_chord(const geometry::PreparedCurve& w,
-                                                        geometry::Vector origin, geometry::Vector v,
-                                                        const geometry::FlightScale& s) {
+[[gnu::always_inline]] inline ChordSide foot_beyond_chord(const geometry::PreparedCurve& w,
+                                                          geometry::Vector origin,
+                                                          geometry::Vector v,
+                                                          const geometry::FlightScale& s) {
   using namespace geometry;
   const Vector e = origin - w.from, chord = w.to - w.from, c = origin - w.centre;
   const double side = dot(v, v) * cross(chord, e) - dot(c, v) * cross(chord, v);

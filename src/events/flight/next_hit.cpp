@@ -50,7 +50,7 @@ struct Meeting {
 /// joints.
 [[gnu::always_inline]] inline bool foot_off_arc(const PreparedCurve& w, Vector origin, Vector v,
                                                 const FlightScale& s) {
-  const Bounded foot = foot_beyond_chord(w, origin, v, s);
+  const ChordSide foot = foot_beyond_chord(w, origin, v, s);
   return foot.value > foot.bound;
 }
 

@@ -25,13 +25,14 @@
 
 namespace carom::events {
 
-/// Values of a polynomial between the smallest and the largest of its Bernstein coefficients.
+/// A polynomial over a part of a step by its Bernstein coefficients: its values lie between the
+/// smallest and the largest of them.
 template <class Real, std::size_t size>
-struct Bernstein {
+struct StepPolynomial {
   std::array<Real, size> coefficient;
 
-  Bernstein<Real, size - 1> derivative() const {
-    Bernstein<Real, size - 1> d;
+  StepPolynomial<Real, size - 1> derivative() const {
+    StepPolynomial<Real, size - 1> d;
     for (std::size_t k = 0; k + 1 < size; ++k)
       d.coefficient[k] = Real(static_cast<int>(size) - 1) * (coefficient[k + 1] - coefficient[k]);
     return d;
@@ -131,7 +132,7 @@ class CrossingSearch {
     if (b.conic) {
       shape = conic_shape(b, arc, noise(b, i, from));
     } else {
-      Bernstein<Real, 6> g;
+      StepPolynomial<Real, 6> g;
       for (std::size_t k = 0; k < 6; ++k) g.coefficient[k] = b.gap(arc.points[k]);
       shape = shape_of(g, only_across() ? arc.error_along(b.first) : arc.error, noise(b, i, from));
     }
@@ -189,13 +190,13 @@ class CrossingSearch {
   // small may differ by. Coefficients that differ by less than `noise` tell nothing, nor do those
   // within it of the wall.
   template <std::size_t size>
-  static Shape shape_of(const Bernstein<Real, size>& g, const Real& error, const Real& noise) {
+  static Shape shape_of(const StepPolynomial<Real, size>& g, const Real& error, const Real& noise) {
     if (g.lowest() > error || g.highest() < -(error + noise)) return Shape::none;
-    const Bernstein<Real, size - 1> rate = g.derivative();
+    const StepPolynomial<Real, size - 1> rate = g.derivative();
     const Real rate_error = Real(static_cast<int>(size) - 1) * (Real(2) * error + noise);
     if (rate.lowest() > rate_error) return Shape::none;
     if (rate.highest() < -rate_error) return Shape::falling;
-    const Bernstein<Real, size - 2> bend = rate.derivative();
+    const StepPolynomial<Real, size - 2> bend = rate.derivative();
     const Real bend_error = Real(2 * (static_cast<int>(size) - 2)) * rate_error;
     if (bend.lowest() > bend_error) return Shape::convex;
     if (bend.highest() < -bend_error) return Shape::concave;
@@ -215,7 +216,7 @@ class CrossingSearch {
     for (std::size_t k = 0; k < 2; ++k) d[2 + k] = seen(arc.difference[k]);
     static constexpr std::array<int, 6> five = {1, 5, 10, 10, 5, 1};
     static constexpr std::array<int, 11> ten = {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1};
-    Bernstein<Real, 11> g, differs;
+    StepPolynomial<Real, 11> g, differs;
     for (std::size_t m = 0; m <= 10; ++m) {
       Real sum(0), change(0);
       for (std::size_t k = m > 5 ? m - 5 : 0; k <= 5 && k <= m; ++k) {

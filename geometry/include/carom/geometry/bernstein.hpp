@@ -14,7 +14,7 @@ namespace carom::geometry {
 /// The polynomial lies between its smallest and its largest coefficient; b[0] and b[degree] are its
 /// values at 0 and 1.
 template <class Number>
-struct Bernstein {
+struct BernsteinPolynomial {
   std::array<Number, 5> b{};
   std::size_t degree = 4;
 };
@@ -23,8 +23,8 @@ struct Bernstein {
 /// all m and n; both are whole numbers, and n is 1 only where m is, too.
 template <class Powers, class Share>
 auto bernstein_form(const Powers& c, std::size_t degree, const Share& share)
-    -> Bernstein<decltype(share(c[0], 1, 1))> {
-  Bernstein<decltype(share(c[0], 1, 1))> p;
+    -> BernsteinPolynomial<decltype(share(c[0], 1, 1))> {
+  BernsteinPolynomial<decltype(share(c[0], 1, 1))> p;
   p.degree = degree;
   for (std::size_t i = 0; i <= degree; ++i) {
     p.b[i] = share(c[0], 1, 1);
@@ -46,7 +46,7 @@ struct SignChanges {
   int least = 0, most = 0;
 };
 template <class Number, class SignOf>
-SignChanges sign_changes(const Bernstein<Number>& p, const SignOf& sign_of) {
+SignChanges sign_changes(const BernsteinPolynomial<Number>& p, const SignOf& sign_of) {
   std::array<Sign, 5> s{};
   SignChanges r;
   Sign before = Sign::undecided;
@@ -79,10 +79,10 @@ Number mean_of(const Number& a, const Number& b) {
 /// The same polynomial on [0, 1/2] and on [1/2, 1].
 template <class Number>
 struct Halves {
-  Bernstein<Number> left, right;
+  BernsteinPolynomial<Number> left, right;
 };
 template <class Number>
-Halves<Number> halves_of(const Bernstein<Number>& p) {
+Halves<Number> halves_of(const BernsteinPolynomial<Number>& p) {
   Halves<Number> h{p, p};
   for (std::size_t level = 1; level <= p.degree; ++level) {
     for (std::size_t k = 0; k + level <= p.degree; ++k)
@@ -96,8 +96,8 @@ Halves<Number> halves_of(const Bernstein<Number>& p) {
 /// the search goes on; it answers nothing where p must be halved. `ascending`: from `from` to `to`.
 /// True if the search went on to the end.
 template <class Number, class Place, class Look>
-bool isolate(const Bernstein<Number>& p, const Place& from, const Place& to, bool ascending,
-             int depth, const Look& look) {
+bool isolate(const BernsteinPolynomial<Number>& p, const Place& from, const Place& to,
+             bool ascending, int depth, const Look& look) {
   const std::optional<bool> goes_on = look(p, from, to, depth);
   if (goes_on) return *goes_on;
   const Halves<Number> half = halves_of(p);
