@@ -33,7 +33,8 @@ void set_end(CurveFrame& f, const ExactCurve& c, const DyadicVector& quarter) {
   const mpq_class end = exact_end.quarter + exact_end.w;
   if (sgn(end) == 0) throw std::invalid_argument("an arc starts and ends at the same point");
   f.last = largest_below(end);
-  // Rounded upwards: u < end exactly when the point at u lies before the end.
+  // The next double, which is not below the end: u < f.end exactly when the point at u lies before
+  // it.
   f.end = std::nextafter(f.last, 8.0);
 }
 

@@ -15,7 +15,7 @@ struct Rounded {
 Rounded rounded(const ExactPoint& p) {
   const double weight = p.w.approximate();
   const Vector at{p.x.approximate() / weight, p.y.approximate() / weight};
-  // Three roundings or cuts, each of at most 2^-52.
+  // Three roundings or cuts, each of at most 2^-52: 4 are taken.
   return {at, 0x1p-50 * std::fmax(std::fabs(at.x), std::fabs(at.y))};
 }
 
@@ -53,7 +53,9 @@ constexpr int directions = 200;
 Box moved(const Box& box, Vector by) {
   const auto down = [](double v) { return std::nextafter(v, -HUGE_VAL); };
   const auto up = [](double v) { return std::nextafter(v, HUGE_VAL); };
-  // Twice: the translation is itself rounded, by less than its last bit.
+  // The translation is itself cut, by less than its last bit, which is 2^-52 of it at most (or the
+  // smallest double, which a step down or up covers). The sum and the difference are each rounded
+  // by half a step at most: one step for each.
   const double dx = 0x1p-52 * std::fabs(by.x), dy = 0x1p-52 * std::fabs(by.y);
   return {{down(down(box.low.x + by.x) - dx), down(down(box.low.y + by.y) - dy)},
           {up(up(box.high.x + by.x) + dx), up(up(box.high.y + by.y) + dy)}};

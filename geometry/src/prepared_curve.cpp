@@ -31,9 +31,10 @@ PreparedCurve::PreparedCurve(const Curve& curve) {
     length = std::sqrt(dot(direction, direction));
     inverse_length = 1.0 / length;
     tangent = {direction.x / length, direction.y / length};
-    // settle: x - from (u), the normal (4u), product and sum (2u) of a length <= 2.83 extent, the
-    // last sum: 21u of the extent; parameter and point: as much along the wall, and the product
-    // with the direction (5u) and its sum.
+    // The normal: the direction is cut (2u), the quotient rounded (u); an error of its length alone
+    // turns nothing. settle: x - from (u), the normal (4u), product and sum (2u) of a length
+    // <= 2.83 extent, the last sum: 21u of the extent; parameter and point: as much along the wall,
+    // and the product with the direction (5u) and its sum.
     point_error = 64.0 * unit_roundoff * extent;
     normal_error = 4.0 * unit_roundoff;
     normal_bound = 1.42 * normal_error;  // of a unit vector

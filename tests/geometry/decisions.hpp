@@ -122,8 +122,8 @@ class Bench {
       const double h = 0.5 * s.omega, angle = 0.5 * a.duration * h;
       const double kappa = h * std::cos(angle) / std::sin(angle);
       free.point = from + geometry::displacement(kappa, s.velocity, s.omega, 0.5);
-      free.velocity =
-          geometry::turned(geometry::flight_factors(kappa, s.omega, 0.5), s.velocity, s.omega);
+      const geometry::FlightFactors<double> f = geometry::flight_factors(kappa, s.omega, 0.5);
+      free.velocity = geometry::turned_by(s.omega * f.along, s.omega * f.across, s.velocity);
     }
     return free;
   }

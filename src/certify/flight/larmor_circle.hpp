@@ -27,12 +27,6 @@ double middle_of(const Dual<N>& x) {
   return middle_of(x.value);
 }
 
-/// The velocity v turned clockwise by an angle: its sine, and 1 less its cosine.
-template <class N>
-VectorOf<N> turned_by(const N& sine, const N& less, const VectorOf<N>& v) {
-  return {v.x + (sine * v.y - less * v.x), v.y - (sine * v.x + less * v.y)};
-}
-
 /// Where a flight is at kappa, and its velocity there.
 template <class N, class C>
 LandingOf<N> larmor_state(const Kappa<N>& k, const VectorOf<N>& P, const VectorOf<N>& v,
@@ -43,7 +37,7 @@ LandingOf<N> larmor_state(const Kappa<N>& k, const VectorOf<N>& P, const VectorO
   LandingOf<N> r;
   r.position = P + displacement(f, v);
   const C omega = h + h;
-  r.velocity = turned_by(omega * f.along, omega * f.across, v);
+  r.velocity = geometry::turned_by<N>(omega * f.along, omega * f.across, v);
   return r;
 }
 
@@ -71,7 +65,8 @@ LandingOf<N> larmor_state_after(const N& time, const VectorOf<N>& P, const Vecto
   LandingOf<N> r;
   r.time = time;
   r.position = P + displacement<N>({times_h.along / h, times_h.across / h}, v);
-  r.velocity = turned_by(times_h.along + times_h.along, times_h.across + times_h.across, v);
+  r.velocity =
+      geometry::turned_by<N>(times_h.along + times_h.along, times_h.across + times_h.across, v);
   return r;
 }
 

@@ -221,7 +221,8 @@ struct PieceTable {
   if (larmor) {
     const auto factors = geometry::flight_factors(ahead.kappa, f.omega, 0.5);
     end = origin + geometry::displacement(factors, f.velocity);
-    landing.velocity = geometry::turned(factors, f.velocity, f.omega);
+    landing.velocity =
+        geometry::turned_by(f.omega * factors.along, f.omega * factors.across, f.velocity);
   } else {
     end = geometry::moved(origin, ahead.duration, f.velocity);
     landing.velocity = f.velocity;

@@ -51,7 +51,7 @@ CAROM_INLINE FlightEnd end_of_flight(const View& f, const Stages& stages, const 
   if constexpr (!kind.larmor) return {geometry::moved(f.origin, duration, f.velocity), f.velocity};
   const auto factors = geometry::flight_factors(load(stages.kappa + lane), f.omega, Real(0.5));
   return {f.origin + geometry::displacement(factors, f.velocity),
-          geometry::turned(factors, f.velocity, f.omega)};
+          geometry::turned_by(f.omega * factors.along, f.omega * factors.across, f.velocity)};
 }
 
 /// That end put back on the wall, as PreparedCurve::arrive does but for the normal's sign, which

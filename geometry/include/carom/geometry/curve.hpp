@@ -74,7 +74,9 @@ Vector end_point(const Curve&);
 double end_parameter(const Curve&);
 /// Largest double whose exact point lies before the end.
 double last_parameter(const Curve&);
-/// Smallest parameter a state may have without lying on the joint: the spacing of doubles at 1.
+/// Smallest parameter of a state that does not lie on the joint: as far from 0 as the last double
+/// before 1 is from 1. It decides nothing: which wall is hit is known before. A parameter nearer to
+/// the joint is put there, and its point moves by less than the rounding of a parameter near 1.
 inline constexpr double first_parameter = 0x1p-53;
 
 /// Rounded image of the exact point at u.

@@ -162,13 +162,12 @@ constexpr BasicVector<Number> displacement(const FlightFactors<Number>& f,
                                            const BasicVector<Number>& v) {
   return {f.along * v.x + f.across * v.y, f.along * v.y - f.across * v.x};
 }
-/// Velocity there: v turned clockwise by omega t.
+/// The vector v turned clockwise by an angle: its sine, and 1 less its cosine. The velocity there:
+/// omega f.along and omega f.across.
 template <class Number>
-constexpr BasicVector<Number> turned(const FlightFactors<Number>& f, const BasicVector<Number>& v,
-                                     const Number& omega) {
-  const Number p = omega * f.along;
-  const Number q = omega * f.across;
-  return {v.x + (p * v.y - q * v.x), v.y - (p * v.x + q * v.y)};
+constexpr BasicVector<Number> turned_by(const Number& sine, const Number& less,
+                                        const BasicVector<Number>& v) {
+  return {v.x + (sine * v.y - less * v.x), v.y - (sine * v.x + less * v.y)};
 }
 template <class Number>
 constexpr BasicVector<Number> displacement(const Number& kappa, const BasicVector<Number>& v,
@@ -251,8 +250,9 @@ constexpr Number reflection_factor_on_circle(const BasicVector<Number>& v,
   const Number factor = strength * fused_dot(v, d);
   return fused_product(step + step, factor, factor);
 }
-/// Up to this step: the square of its double is below the last digit. Beyond lie hits on circles
-/// much smaller than the distances that particles come from.
+/// Up to this step: 1/(1 - 2 step) differs from 1 + 2 step by (2 step)^2 <= 2^-54, half a unit of
+/// rounding, and the point after it from the circle by 3/2 step^2 of the radius, less still. Beyond
+/// lie hits on circles much smaller than the distances that particles come from.
 inline constexpr double longest_step = 0x1p-28;
 /// Velocity after a reflection by a wall with normal n, lengthened by the fraction `step`.
 template <class Number>

@@ -12,6 +12,7 @@
 
 namespace carom::geometry {
 
+/// One operation of doubles errs by at most this share of its result (half the spacing at 1).
 inline constexpr double unit_roundoff = 0x1p-53;
 
 enum class CurveKind : unsigned char { segment, circle, ellipse };
