@@ -41,12 +41,7 @@ EllipticArc elliptic_arc_through(Vector from, Vector via, Vector to, Vector axis
   if (!(ratio > 0.0))
     throw std::invalid_argument("the ratio of an ellipse's axes must be positive");
   if (axis == Vector{}) throw std::invalid_argument("an ellipse needs the direction of an axis");
-  Metric m;
-  m.euclidean = false;
-  m.p = exact(axis);
-  m.k = Dyadic(ratio);
-  m.k2 = m.k * m.k;
-  m.scale = m.k * dot(m.p, m.p);
+  const Metric m = metric_of(axis, ratio);
   const DyadicVector c = exact(to) - exact(from), f = exact(via) - exact(from);
   const bool counterclockwise = turn(c, f) > 0;
   return {from, to, axis, ratio, offset_through(m, c, f), counterclockwise};

@@ -16,8 +16,6 @@ DyadicVector Metric::quarter(const DyadicVector& e) const {
   return {across * q.x - along * p.x, across * q.y - along * p.y};
 }
 
-namespace {
-
 Metric metric_of(Vector axis, double ratio) {
   Metric m;
   m.euclidean = false;
@@ -27,6 +25,8 @@ Metric metric_of(Vector axis, double ratio) {
   m.scale = m.k * dot(m.p, m.p);
   return m;
 }
+
+namespace {
 
 struct Builder {
   ExactCurve& c;

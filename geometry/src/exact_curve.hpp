@@ -24,6 +24,8 @@ struct Metric {
   Dyadic operator()(const DyadicVector& e, const DyadicVector& f) const;
   DyadicVector quarter(const DyadicVector& e) const;  ///< K e
 };
+/// Of ellipses with a semi-axis along `axis` and the other one `ratio` times as long.
+Metric metric_of(Vector axis, double ratio);
 
 struct ExactCurve {
   bool segment = true;
