@@ -37,7 +37,7 @@ TEST(Program, PrintsHelpWithoutArguments) {
     for (std::size_t at = o.out.find("Examples:");
          (at = o.out.find(example, at)) != std::string::npos; ++at)
       ++examples;
-    EXPECT_EQ(examples, 3) << o.out;
+    EXPECT_GE(examples, 3) << o.out;
   }
 }
 

@@ -18,10 +18,10 @@ void write(const Shell& shell, const std::string& text) {
 int status_when_terminated(const Shell& shell, const std::string& arguments) {
   const Outcome o = shell(
       "$carom " + arguments +
-      " --threads 1 --quiet & pid=$!; sleep 1.5; kill -0 $pid || echo over; kill -TERM $pid; n=0; "
+      " --quiet & pid=$!; sleep 1.5; kill -0 $pid || echo ended-too-soon; kill -TERM $pid; n=0; "
       "while kill -0 $pid && [ $n -lt 100 ]; do sleep 0.1; n=$((n + 1)); done 2>/dev/null; kill -9 "
       "$pid; wait $pid");
-  EXPECT_EQ(o.out.find("over"), std::string::npos) << arguments << o.err;
+  EXPECT_EQ(o.out.find("ended-too-soon"), std::string::npos) << arguments << o.err;
   return o.status;
 }
 
@@ -79,9 +79,10 @@ TEST(SlowInputs, EndByASignalBeforeThereIsAnArchive) {
 // Long steps of many particles that hit walls; samples far shorter than a flight.
 TEST(SlowInputs, EndByASignalInTheMiddleOfAStepAndBetweenSamples) {
   const Shell shell;
-  write(shell, coulomb +
-                   "[particles]\ncount = 4000\nspeed = 1\n[integrator]\nstep = "
-                   "1e-4\n[initial]\nkind = \"uniform\"\n[run]\nt_max = 1\n");
+  write(shell,
+        coulomb +
+            "[particles]\ncount = 4000\nspeed = 1\n[integrator]\nstep = "
+            "1e-4\nunresolved = \"count\"\n[initial]\nkind = \"uniform\"\n[run]\nt_max = 1\n");
   EXPECT_EQ(status_when_terminated(shell, "run ./slow.toml"), 130);
   EXPECT_EQ(status_when_terminated(shell, "escape ./slow.toml --trajectories 1 -o b.h5"), 130);
   write(shell,
