@@ -113,6 +113,7 @@ def escape(
     (t_max: time, trajectories, seed, times, B, larmor_radius: length, speed: length/time, initial,
     …) and threads, isa, engine. progress: True, False, a function of (share, number done), or
     None: on a terminal. per_trajectory: keeps the start and the end of each.
+    window=(from, to): times (time) between which the decay is fitted.
 
     certify_sample=M, digits=D: a `carom.CertifiedSample`, the first M trajectories in doubles and
     certified. splitting="10,20,40" (times) or "hits:lin:0:30:31", with population, repetitions,

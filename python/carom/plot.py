@@ -250,19 +250,37 @@ def energy(run, ax=None):
 
 
 def survival(result, ax=None, scale="log"):
-    """p(t) with its 95 % interval; scale of time: "log" (for tails) or "linear" (for rates)."""
+    """p(t) with its 95 % interval, and the decay that was fitted, in its window; scale of time: "log"
+    (for tails) or "linear" (for rates)."""
     ax = _axes(ax)
     points = result.survival
     seen = points[(points["p"] > 0) & ((points["t"] > 0) | (scale == "linear"))]
     low = numpy.maximum(seen["low"], seen["p"].min() * 1e-3 if len(seen) else 1e-300)
     ax.fill_between(seen["t"], low, seen["high"], color=COLOURS[0], alpha=0.25, linewidth=0)
     ax.plot(seen["t"], seen["p"], "o-", color=COLOURS[0], markersize=3, linewidth=1)
+    _decay(ax, result.fit)
     ax.set_yscale("log")
     ax.set_xscale(scale)
     ax.set_xlabel("t")
     ax.set_ylabel("p(t)")
     _title(ax, result.system)
     return ax
+
+
+def _decay(ax, fit):
+    """The line of the likeliest decay."""
+    if fit.model is None:
+        return
+    t = numpy.linspace(*fit.window, 200)
+    exponential = fit.model.startswith("exponential")
+    law = numpy.exp(-fit.rate * t) if exponential else t**-fit.exponent
+    p = fit.amplitude * law + (fit.plateau if "plateau" in fit.model else 0.0)
+    name, value = ("κ", fit.rate) if exponential else ("exponent", fit.exponent)
+    label = f"{fit.model}: {name} = {value:.4g} ± {fit.stderr:.1g}"
+    if not fit.decided:
+        label += " (undecided)"
+    ax.plot(t, p, color=COLOURS[1], linewidth=1.5, zorder=3, label=label)
+    ax.legend(fontsize="small", frameon=False)
 
 
 def rate(result, ax=None, scale=None):

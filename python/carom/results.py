@@ -153,6 +153,9 @@ class Escape(Result):
     survival_hits  (number of counts,): n, p, low, high: the share still there after n hits
     rate           (number of times,): t, from, to (time), value, low, high (1/time): −dp/dt
     holes          (number of holes,): name, escaped
+
+    fit: the likeliest decay at late times. model, rate (1/time) or exponent, stderr, amplitude,
+    plateau, p_value, window (time), decided, alternatives; model is None where `reason` says why.
     """
 
     def _summary(self):

@@ -145,3 +145,21 @@ def test_what_films_need_is_named(monkeypatch):
     assert "ffmpeg" in error.value.expected and ".gif" in error.value.expected
     with pytest.raises(carom.InputError):
         carom.animate("stadium", "film.avi")
+
+
+def test_the_decay_is_drawn_in_its_window():
+    result = carom.escape("stadium", trajectories=100_000, window=(100, 400))
+    assert result.fit.model == "exponential"
+    line = carom.plot.survival(result).get_lines()[-1]
+    assert line.get_label().startswith("exponential: κ = ")
+    assert list(line.get_xdata()[[0, -1]]) == result.fit.window
+    t, p = result.survival["t"], result.survival["p"]
+    fitted = numpy.interp(t, line.get_xdata(), line.get_ydata())
+    inside = (t > result.fit.window[0]) & (t < result.fit.window[1])
+    assert inside.sum() > 3 and numpy.allclose(fitted[inside], p[inside], rtol=0.1)
+
+
+def test_no_decay_is_drawn_where_the_data_tell_none():
+    result = carom.escape("circle", trajectories=1000, collisions=5)
+    assert result.fit.model is None and "cap on hits" in result.fit.reason
+    assert not carom.plot.survival(result).get_legend()
