@@ -92,10 +92,13 @@ py::tuple fly(const std::shared_ptr<Loaded>& loaded, bool per_trajectory,
   }
   Course course;
   how.interrupted = &course.stop;
-  how.progress = [&](std::uint64_t trajectories, std::uint64_t) {
-    course.done = trajectories;
-    course.share = static_cast<double>(trajectories) / static_cast<double>(system.run.trajectories);
-  };
+  // A tenth of the time of short trajectories goes into telling of each.
+  if (!progress.is_none())
+    how.progress = [&](std::uint64_t trajectories, std::uint64_t) {
+      course.done = trajectories;
+      course.share =
+          static_cast<double>(trajectories) / static_cast<double>(system.run.trajectories);
+    };
   const std::exception_ptr interruption =
       run_beside(course, progress, [&] { outcome.result = run(system, how); });
   outcome.status = status_of(outcome.result.complete);
