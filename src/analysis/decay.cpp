@@ -6,10 +6,20 @@
 #include <span>
 
 #include "base/chi_squared.hpp"
+#include "carom/base/elementary.hpp"
 
 namespace carom {
 
 namespace {
+
+/// exp(x) - 1 without a loss of digits near 0: the rounding of exp(x) is also in its logarithm, and
+/// the quotient is free of it (Higham, Accuracy and Stability of Numerical
+/// Algorithms, 2002, section 1.14.1).
+double growth_of(double x) {
+  const double y = elementary::exp(x);
+  if (y == 1.0) return x;
+  return std::isinf(y) || y == 0.0 ? y - 1.0 : (y - 1.0) * (x / elementary::log(y));
+}
 
 // With u = t - a, or ln(t / a), from the start a of the window, both laws are
 //   P(u) / P(0) = (1 - c) exp(-rate u) + c.
@@ -46,7 +56,7 @@ std::optional<Rate> most_likely_rate(std::span<const Cell> cells, double start, 
     double slope = 0.0;
     curvature = 0.0;
     const auto add = [&](double weight, double width) {
-      const double growth = std::expm1(rate * width);
+      const double growth = growth_of(rate * width);
       if (std::isinf(growth)) return;
       slope += weight * width / growth;
       curvature += weight * width * width / growth * (1.0 + 1.0 / growth);
@@ -73,20 +83,20 @@ double p_value(const Seen& seen, double rate, double c, double stay, int fitted)
   const double all = seen.gone + seen.there;
   // Few cells notice slow deviations best; each expects twenty at least.
   const int most = static_cast<int>(std::clamp(seen.gone / 20.0, 3.0, 24.0));
-  const double leave = -std::expm1(-rate * seen.length);
+  const double leave = -growth_of(-rate * seen.length);
   std::vector<double> expected(static_cast<std::size_t>(most)), found(expected.size());
   // Ends of cells lie at those of bins.
   std::size_t next = 0;
   double begun = 0.0;
   const auto close = [&](std::size_t cell, double u) {
-    const double until = -std::expm1(-rate * u);
+    const double until = -growth_of(-rate * u);
     expected[cell] = (1.0 - c) * (until - begun) * all;
     begun = until;
   };
   std::size_t cell = 0;
   for (; next < seen.cells.size(); ++next) {
     const Cell& bin = seen.cells[next];
-    const double before = -std::expm1(-rate * bin.u) / leave;
+    const double before = -growth_of(-rate * bin.u) / leave;
     if (cell + 1 < expected.size() &&
         before * static_cast<double>(most) >= static_cast<double>(cell + 1)) {
       close(cell++, bin.u);
@@ -131,7 +141,8 @@ double drift(const Seen& seen, bool truncated) {
   const auto late =
       most_likely_rate(all.subspan(half), middle, seen.length - middle, seen.there, truncated);
   if (!early || !late) return std::numeric_limits<double>::infinity();
-  return std::fabs(early->value - late->value) / std::hypot(early->error, late->error);
+  return std::fabs(early->value - late->value) /
+         std::sqrt(early->error * early->error + late->error * late->error);
 }
 
 double square(double x) { return x * x; }
@@ -147,7 +158,7 @@ std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, 
   if (with_plateau && seen.there == 0.0) return {};
   const auto rate = most_likely_rate(seen.cells, 0.0, seen.length, seen.there, with_plateau);
   if (!rate) return {};
-  const double all = seen.gone + seen.there, stay = std::exp(-rate->value * seen.length);
+  const double all = seen.gone + seen.there, stay = elementary::exp(-rate->value * seen.length);
   // With a plateau the share at the end is fitted exactly, whatever the rate.
   const double s = seen.there / all;
   const double c = with_plateau ? (s - stay) / (1.0 - stay) : 0.0;
@@ -158,17 +169,18 @@ std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, 
   d.rate = rate->value;
   d.rate_error = rate->error;
   double log_likelihood =
-      seen.there == 0.0 ? 0.0
-                        : seen.there * (with_plateau ? std::log(s) : -rate->value * seen.length);
+      seen.there == 0.0
+          ? 0.0
+          : seen.there * (with_plateau ? elementary::log(s) : -rate->value * seen.length);
   for (const Cell& cell : seen.cells)
-    log_likelihood += cell.count * (std::log1p(-c) - rate->value * cell.u +
-                                    std::log(-std::expm1(-rate->value * cell.width)));
-  d.evidence = log_likelihood - 0.5 * std::log(seen.gone) * (with_plateau ? 2.0 : 1.0);
+    log_likelihood += cell.count * (elementary::log(1.0 - c) - rate->value * cell.u +
+                                    elementary::log(-growth_of(-rate->value * cell.width)));
+  d.evidence = log_likelihood - 0.5 * elementary::log(seen.gone) * (with_plateau ? 2.0 : 1.0);
   // Errors by first order: the share at the start, s and the rate are independent.
-  const double lever = law == DecayLaw::exponential ? a : std::log(a);
+  const double lever = law == DecayLaw::exponential ? a : elementary::log(a);
   const double start_variance = (1.0 - at_start) / all;  // of ln at_start
   const double slope = with_plateau ? seen.length * stay / (1.0 - stay) : 0.0;
-  d.amplitude = at_start * (1.0 - c) * std::exp(lever * d.rate);
+  d.amplitude = at_start * (1.0 - c) * elementary::exp(lever * d.rate);
   d.amplitude_error =
       d.amplitude * std::sqrt(start_variance + (with_plateau ? s / ((1.0 - s) * all) : 0.0) +
                               square((lever - slope) * d.rate_error));
@@ -189,7 +201,7 @@ std::vector<Candidate> all_fits(std::span<const EscapeTimes::Bin> bins, double e
   for (const DecayLaw law : {DecayLaw::exponential, DecayLaw::power}) {
     Seen seen;
     const auto coordinate = [&](double t) {
-      return law == DecayLaw::exponential ? t - a : std::log(t / a);
+      return law == DecayLaw::exponential ? t - a : elementary::log(t / a);
     };
     seen.length = coordinate(end);
     seen.there = there;
@@ -247,6 +259,10 @@ std::size_t latest_start(std::span<const EscapeTimes::Bin> bins, double end, dou
 }
 
 }  // namespace
+
+double odds(const Decay& one, const Decay& against) {
+  return elementary::exp(one.evidence - against.evidence);
+}
 
 std::string name_of(const Decay& decay) {
   return std::string(decay.law == DecayLaw::exponential ? "exponential" : "power") +

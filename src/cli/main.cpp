@@ -50,7 +50,7 @@ int (*command_of(const std::string& name))(const Options&) {
   return systems;
 }
 
-// Calls the command. Its text comes last: where nobody reads that any more, all else is done.
+// Calls the command. Its text comes last: if its reader is gone, all else is done.
 int status_of(const Options& options, bool& closed) {
   try {
     return command_of(options.command)(options);

@@ -292,7 +292,7 @@ TEST(Commands, HelpOfACommandIsItsHelp) {
   EXPECT_EQ(shell("$carom help nothing").status, 2);
 }
 
-// Three discs in the plane: whoever leaves them has escaped.
+// Three discs in the plane: a particle that leaves them has escaped.
 TEST(Escape, CountsThoseThatFlyToInfinity) {
   const Shell shell;
   const std::string command = "$carom escape three-disc --trajectories 500 --t-max 50";

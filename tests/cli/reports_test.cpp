@@ -128,7 +128,7 @@ TEST(Reports, FitTheScreen) {
   expect_fit("validate --scale 0.001", 200);
 }
 
-// Decisions, lanes and the digest are for those who ask; scripts find them in the JSON.
+// Decisions, lanes and the digest are printed with --verbose alone; the JSON always has them.
 TEST(Reports, ShowTheirInnerWorksOnlyWhenAsked) {
   const Shell shell;
   for (const std::string command :

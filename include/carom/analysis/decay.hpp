@@ -33,6 +33,8 @@ struct Decay {
 };
 /// "exponential", "power", "exponential + plateau" or "power + plateau".
 std::string name_of(const Decay&);
+/// How many times as likely the data are under one law as under another, by their evidence.
+double odds(const Decay& one, const Decay& against);
 
 struct DecayFit {
   double from = 0.0, to = 0.0;  ///< the window

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "io/progress.hpp"
@@ -42,11 +40,6 @@ Json json_of(const Decay& decay) {
 
 // A p-value below it says that the law is not that of the data.
 constexpr double hardly = 1e-3;
-
-// How likely the data are under one law, compared with another.
-double odds(const Decay& of, const Decay& against) {
-  return std::exp(of.evidence - against.evidence);
-}
 
 }  // namespace
 
