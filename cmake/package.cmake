@@ -25,7 +25,7 @@ libcarom-dev).")
 # The libraries are static: whoever links them needs what find_package(carom) looks for.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcarom-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libflint-arb-dev libflint-dev libfmt-dev libgmp-dev libhdf5-dev
+string(JOIN ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libflint-arb-dev libflint-dev libfmt-dev libgmp-dev libgsl-dev libhdf5-dev
   libmpfr-dev libsleef-dev libsundials-dev libtomlplusplus-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS carom)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "Headers, carom::carom and carom::geometry, found by find_package(carom).")

@@ -53,6 +53,7 @@
 #include "carom/events/world.hpp"
 #include "carom/forces/force_field.hpp"
 #include "carom/forces/force_spec.hpp"
+#include "carom/forces/hessian.hpp"
 #include "carom/forces/typed_expression.hpp"
 #include "carom/integrators/arithmetic.hpp"
 #include "carom/integrators/make_stepper.hpp"

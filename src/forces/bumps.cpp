@@ -8,6 +8,7 @@
 
 #include "carom/base/elementary.hpp"
 #include "forces/central_bounds.hpp"
+#include "forces/dual.hpp"
 
 namespace carom::forces {
 
@@ -88,6 +89,11 @@ class FermiBumps final : public Potential {
                             central::distances(n, {centers_.x[i], centers_.y[i]}));
     return sum;
   }
+  void add_hessian(const Particle&, Vector x, Hessian& hessian) const override {
+    for (std::size_t i = 0; i < centers_.count; ++i)
+      add_bump_hessian({BumpShape::Kind::fermi, radius_, softness_, 1.0}, height_,
+                       x - Vector{centers_.x[i], centers_.y[i]}, hessian);
+  }
   double reach() const override { return radius_ + tail_exponent * softness_; }
   double tail() const override { return tail_share * std::fabs(height_); }
 
@@ -152,6 +158,11 @@ class GaussianBumps final : public Potential {
           central::gaussian(height_, width_, central::distances(n, {centers_.x[i], centers_.y[i]}));
     return sum;
   }
+  void add_hessian(const Particle&, Vector x, Hessian& hessian) const override {
+    for (std::size_t i = 0; i < centers_.count; ++i)
+      add_bump_hessian({BumpShape::Kind::gaussian, 0.0, 1.0, width_}, height_,
+                       x - Vector{centers_.x[i], centers_.y[i]}, hessian);
+  }
   double reach() const override { return std::sqrt(2.0 * tail_exponent) * width_; }
   double tail() const override { return tail_share * std::fabs(height_); }
 
@@ -187,6 +198,21 @@ class GaussianBumps final : public Potential {
 };
 
 }  // namespace
+
+void add_bump_hessian(const BumpShape& shape, double height, Vector d, Hessian& hessian) {
+  // The smallest normal number as in the sums: at a Fermi bump's centre the force has no direction.
+  const auto square = Dual<1>::variable(dot(d, d) + 0x1p-1022, 0);
+  if (shape.kind == BumpShape::Kind::gaussian) {
+    const double inverse = 1.0 / (shape.width * shape.width);
+    add_central(inverse * exponential(-0.5 * inverse * square), d, height, hessian);
+    return;
+  }
+  const auto r = root(square), t = (r - shape.radius) / shape.softness;
+  if (!(t.v < 300.0))
+    return;  // there the bump is below 1e-130, and exp(t)^2 not much below infinity
+  const auto e = exponential(t), q = 1.0 / (1.0 + e);
+  add_central(q * q * e / (shape.softness * r), d, height, hessian);
+}
 
 std::vector<Vector> copies_that_reach(const std::vector<Vector>& centers,
                                       const geometry::Lattice& lattice, double reach) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/inline.hpp"
+#include "forces/bump_series.hpp"
 #include "forces/potential.hpp"
 
 /// Compiled for several widths of vectors, of which the machine chooses one. All give the same
@@ -13,6 +14,9 @@
 #endif
 
 namespace carom::forces {
+
+/// Adds the second derivatives of one bump of this height at d from its centre.
+void add_bump_hessian(const BumpShape&, double height, geometry::Vector d, Hessian&);
 
 /// The copies, on a lattice, that are nearer than `reach` to some point of the cell.
 std::vector<geometry::Vector> copies_that_reach(const std::vector<geometry::Vector>& centers,

@@ -28,6 +28,15 @@ double ForceField::add_pair(const Particle& a, const Particle& b, Vector separat
   return interaction_ ? interaction_->add_force(a, b, separation, force) : 0.0;
 }
 
+void ForceField::add_external_hessian(const Particle& p, Vector x, Hessian& hessian) const {
+  for (const auto& potential : potentials_) potential->add_hessian(p, x, hessian);
+}
+
+void ForceField::add_pair_hessian(const Particle& a, const Particle& b, Vector separation,
+                                  Hessian& hessian) const {
+  if (interaction_) interaction_->add_hessian(a, b, separation, hessian);
+}
+
 ForceBound ForceField::external_bound(const Particle& p, const Neighbourhood& n) const {
   ForceBound sum;
   for (const auto& potential : potentials_) sum += potential->bound(p, n);

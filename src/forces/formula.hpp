@@ -74,6 +74,7 @@ struct TypedExpression::Formula {
 
   double value(const double* at) const;
   double value_and_gradient(const double* at, double* gradient) const;
+  double value_gradient_and_hessian(const double* at, double* gradient, double* hessian) const;
 };
 
 }  // namespace carom

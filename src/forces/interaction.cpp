@@ -1,12 +1,14 @@
 // Interactions of pairs.
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "base/interrupt.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
 #include "forces/central_bounds.hpp"
 #include "forces/coulomb_pairs.hpp"
+#include "forces/dual.hpp"
 #include "forces/formula_bound.hpp"
 #include "forces/nearest_copy.hpp"
 #include "forces/potential.hpp"
@@ -21,10 +23,11 @@ namespace {
 /// Particles from which on eight partners at a time pay.
 constexpr std::size_t worth_lanes = 16;
 
-double whole_power(double x, int n) {
-  double result = 1.0;
-  for (; n > 0; n >>= 1, x *= x)
-    if (n & 1) result *= x;
+template <class N>
+N whole_power(N x, int n) {
+  N result = 1.0;
+  for (; n > 0; n >>= 1, x = x * x)
+    if (n & 1) result = result * x;
   return result;
 }
 
@@ -53,6 +56,12 @@ class Central final : public Interaction {
     const double charges = charged_ ? a.charge * b.charge : 1.0;
     force = force + (charges * over_r) * separation;
     return charges * w;
+  }
+  void add_hessian(const Particle& a, const Particle& b, Vector separation,
+                   Hessian& hessian) const override {
+    const double charges = charged_ ? a.charge * b.charge : 1.0;
+    add_central(law_(Dual<1>::variable(dot(separation, separation), 0)).over_r, separation, charges,
+                hessian);
   }
   void add_forces(std::span<const Particle> particles, std::span<const Vector> x,
                   const geometry::Lattice* lattice, std::span<Vector> force,
@@ -109,8 +118,9 @@ std::unique_ptr<const Interaction> central_law(Law law, Bound bound, bool charge
 
 constexpr double everywhere = std::numeric_limits<double>::infinity();
 
+template <class N>
 struct Pair {
-  double value, over_r;
+  N value, over_r;
 };
 
 }  // namespace
@@ -119,9 +129,9 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
   switch (s.kind) {
     case Kind::coulomb:
       return central_law(
-          [k = s.strength](double r2) {
-            const double inverse = 1.0 / std::sqrt(r2), w = k * inverse;
-            return Pair{w, w * (inverse * inverse)};
+          [k = s.strength]<class N>(N r2) {
+            const N inverse = 1.0 / root(r2), w = k * inverse;
+            return Pair<N>{w, w * (inverse * inverse)};
           },
           [k = s.strength](const central::Distances& d) {
             return ForceBound{central::falling(k, 2.0, d), 0.0};
@@ -130,10 +140,10 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
     case Kind::yukawa:
       // Beyond r the potential is below its value at the range times exp(-(r/range - 1)).
       return central_law(
-          [k = s.strength, range = s.range](double r2) {
-            const double r = std::sqrt(r2), inverse = 1.0 / r;
-            const double w = k * inverse * elementary::exp(-r / range);
-            return Pair{w, w * (inverse + 1.0 / range) * inverse};
+          [k = s.strength, range = s.range]<class N>(N r2) {
+            const N r = root(r2), inverse = 1.0 / r;
+            const N w = k * inverse * exponential(-r / range);
+            return Pair<N>{w, w * (inverse + 1.0 / range) * inverse};
           },
           [k = s.strength, range = s.range](const central::Distances& d) {
             const double r = d.near - d.rho;
@@ -147,9 +157,9 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
     case Kind::lennard_jones:
       // (d/r)^6 = tail_share / 4 at r = d (4e16)^(1/6) < 585 d.
       return central_law(
-          [e = s.depth, d2 = s.diameter * s.diameter](double r2) {
-            const double inverse = 1.0 / r2, s2 = d2 * inverse, s6 = s2 * s2 * s2;
-            return Pair{4.0 * e * s6 * (s6 - 1.0), 24.0 * e * s6 * (2.0 * s6 - 1.0) * inverse};
+          [e = s.depth, d2 = s.diameter * s.diameter]<class N>(N r2) {
+            const N inverse = 1.0 / r2, s2 = d2 * inverse, s6 = s2 * s2 * s2;
+            return Pair<N>{4.0 * e * s6 * (s6 - 1.0), 24.0 * e * s6 * (2.0 * s6 - 1.0) * inverse};
           },
           [e = s.depth, diameter = s.diameter](const central::Distances& d) {
             const double r = d.near - d.rho;
@@ -160,11 +170,11 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
           false, 585.0 * s.diameter, tail_share * std::fabs(s.depth));
     case Kind::soft_sphere:
       return central_law(
-          [k = s.strength, d = s.diameter, n = s.exponent](double r2) {
-            const double inverse = 1.0 / r2;
-            const double w = n % 2 == 0 ? k * whole_power(d * d * inverse, n / 2)
-                                        : k * whole_power(d * std::sqrt(inverse), n);
-            return Pair{w, n * w * inverse};
+          [k = s.strength, d = s.diameter, n = s.exponent]<class N>(N r2) {
+            const N inverse = 1.0 / r2;
+            const N w = n % 2 == 0 ? k * whole_power<N>(d * d * inverse, n / 2)
+                                   : k * whole_power<N>(d * root(inverse), n);
+            return Pair<N>{w, n * w * inverse};
           },
           [k = s.strength, diameter = s.diameter, n = s.exponent](const central::Distances& d) {
             const double r = d.near - d.rho;
@@ -175,11 +185,18 @@ std::unique_ptr<const Interaction> make_interaction(const InteractionSpec& s) {
           tail_share * std::fabs(s.strength));
     case Kind::expression:
       return central_law(
-          [v = s.expression](double r2) {
-            const double r = std::sqrt(r2), at[] = {r};
+          [v = s.expression]<class N>(N r2) {
+            const N r = root(r2);
+            const double at[] = {value_of(r)};
             double slope[1];
-            const double w = v->value_and_gradient(at, slope);
-            return Pair{w, (w - w) - slope[0] / r};  // no value, no force
+            if constexpr (std::is_same_v<N, double>) {
+              const double w = v->value_and_gradient(at, slope);
+              return Pair<N>{w, (w - w) - slope[0] / r};  // no value, no force
+            } else {
+              double second[1];
+              const double w = v->value_gradient_and_hessian(at, slope, second);
+              return Pair<N>{chain(w, slope[0], r), (w - w) - chain(slope[0], second[0], r) / r};
+            }
           },
           [v = s.expression](const central::Distances& d) { return bound_of(*v, d.near, d.rho); },
           false, everywhere, 0.0);

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "carom/base/elementary.hpp"
+#include "forces/bumps.hpp"
 #include "forces/central_bounds.hpp"
 
 namespace carom::forces {
@@ -131,6 +133,7 @@ class LatticeBumps final : public Potential {
         centers_(centers),
         lattice_(lattice),
         table_(shape, centers, lattice, reach),
+        sum_reach_(reach),
         sums_at_(widest()) {
     const bool fermi = shape.kind == BumpShape::Kind::fermi;
     reach_ = fermi ? shape.radius + tail_exponent * shape.softness
@@ -162,6 +165,12 @@ class LatticeBumps final : public Potential {
     }
     return sum;
   }
+  // The sum of all copies itself: a table of forces has no second derivatives to the last digits.
+  void add_hessian(const Particle&, Vector x, Hessian& hessian) const override {
+    const auto seen = seen_from_copies(x, centers_, lattice_, sum_reach_,
+                                       std::numeric_limits<double>::infinity());
+    for (const Vector& d : *seen) add_bump_hessian(shape_, field_.height, d, hessian);
+  }
   double reach() const override { return reach_; }
   double tail() const override { return tail_share * std::fabs(field_.height); }
   const LatticeField* lattice_field() const override { return &field_; }
@@ -172,7 +181,7 @@ class LatticeBumps final : public Potential {
   geometry::Lattice lattice_;
   LatticeTable table_;
   LatticeField field_;
-  double reach_ = 0.0;
+  double reach_ = 0.0, sum_reach_;
   SumsAt sums_at_;
 };
 

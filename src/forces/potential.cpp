@@ -3,29 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "carom/base/elementary.hpp"
 #include "carom/forces/typed_expression.hpp"
 #include "forces/bumps.hpp"
 #include "forces/central_bounds.hpp"
+#include "forces/dual.hpp"
 #include "forces/formula_bound.hpp"
 #include "forces/lattice_bumps.hpp"
 
 namespace carom::forces {
 
+using geometry::BasicVector;
 using geometry::Vector;
 using Kind = PotentialSpec::Kind;
 
 namespace {
 
-double whole_power(double x, int n) {
-  double result = 1.0;
-  for (; n > 0; n >>= 1, x *= x)
-    if (n & 1) result *= x;
+template <class N>
+N whole_power(N x, int n) {
+  N result = 1.0;
+  for (; n > 0; n >>= 1, x = x * x)
+    if (n & 1) result = result * x;
   return result;
 }
 
-double square(const Vector& a) { return dot(a, a); }
+template <class N>
+N square(const BasicVector<N>& a) {
+  return dot(a, a);
+}
 
 /// A potential of one place, repeated at each centre. `Bound`: of its force near a place, as seen
 /// from the centre.
@@ -43,6 +50,19 @@ class AtCenters final : public Potential {
     double value = 0.0;
     for (const Vector& c : centers_) value += formula_(p, x - c, force);
     return value;
+  }
+  // The formula in dual numbers: the slopes of its force.
+  void add_hessian(const Particle& p, Vector x, Hessian& hessian) const override {
+    using Number = Dual<2>;
+    for (const Vector& c : centers_) {
+      BasicVector<Number> force{0.0, 0.0};
+      formula_(p,
+               BasicVector<Number>{Number::variable(x.x - c.x, 0), Number::variable(x.y - c.y, 1)},
+               force);
+      hessian.xx -= force.x.d[0];
+      hessian.xy -= 0.5 * (force.x.d[1] + force.y.d[0]);  // equal but for rounding
+      hessian.yy -= force.y.d[1];
+    }
   }
   // A loop around the formula itself, which the compiler may turn into vectors.
   void add_forces(const Particle& p, int count, const double* __restrict x,
@@ -94,11 +114,12 @@ std::unique_ptr<const Potential> on_lattice(const PotentialSpec& s, const BumpSh
 }
 
 /// V = h/(1 + e), e = exp((radius - r)/softness): its force points inwards along `out` = grad r.
-double soft_wall(const PotentialSpec& s, double r, const Vector& out, Vector& force) {
-  const double e = elementary::exp((s.radius - r) / s.softness);
-  const double q = 1.0 / (1.0 + e);
+template <class N>
+N soft_wall(const PotentialSpec& s, const N& r, const BasicVector<N>& out, BasicVector<N>& force) {
+  const N e = exponential((s.radius - r) / s.softness);
+  const N q = 1.0 / (1.0 + e);
   // Far inside e overflows to infinity and q is 0: e q is then 1, not 0 * infinity.
-  const double f = s.height / s.softness * q * (1.0 - q);
+  const N f = s.height / s.softness * q * (1.0 - q);
   force = force - f * out;
   return s.height * q;
 }
@@ -120,9 +141,9 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
     }
     case Kind::harmonic:
       return at_centers(
-          [x2 = s.omega_x * s.omega_x, y2 = s.omega_y * s.omega_y](const Particle& p, Vector d,
-                                                                   Vector& force) {
-            const Vector f{p.mass * x2 * d.x, p.mass * y2 * d.y};
+          [x2 = s.omega_x * s.omega_x, y2 = s.omega_y * s.omega_y]<class N>(
+              const Particle& p, BasicVector<N> d, BasicVector<N>& force) {
+            const BasicVector<N> f{p.mass * x2 * d.x, p.mass * y2 * d.y};
             force = force - f;
             return 0.5 * dot(f, d);
           },
@@ -133,8 +154,8 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           s);
     case Kind::quartic:
       return at_centers(
-          [k = s.strength](const Particle&, Vector d, Vector& force) {
-            const double r2 = square(d);
+          [k = s.strength]<class N>(const Particle&, BasicVector<N> d, BasicVector<N>& force) {
+            const N r2 = square(d);
             force = force - (4.0 * k * r2) * d;
             return k * r2 * r2;
           },
@@ -144,14 +165,14 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           s);
     case Kind::power:
       return at_centers(
-          [k = s.strength, n = s.exponent](const Particle&, Vector d, Vector& force) {
-            const double r2 = square(d);
+          [k = s.strength, n = s.exponent]<class N>(const Particle&, BasicVector<N> d,
+                                                    BasicVector<N>& force) {
+            const N r2 = square(d);
             // A whole even power is a product; another one goes through the logarithm.
             const double half = 0.5 * n;
             const bool whole = half == std::floor(half) && half > 0.0 && half <= 64.0;
-            const double lower =
-                whole ? whole_power(r2, static_cast<int>(half) - 1)
-                      : elementary::exp((half - 1.0) * elementary::log(r2));  // r^(n - 2)
+            const N lower = whole ? whole_power(r2, static_cast<int>(half) - 1)
+                                  : exponential((half - 1.0) * logarithm(r2));  // r^(n - 2)
             force = force - (k * n * lower) * d;
             return k * lower * r2;
           },
@@ -166,9 +187,9 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           s);
     case Kind::coulomb:
       return at_centers(
-          [charge = s.charge](const Particle& p, Vector d, Vector& force) {
-            const double inverse = 1.0 / std::sqrt(square(d));
-            const double value = p.charge * charge * inverse;
+          [charge = s.charge]<class N>(const Particle& p, BasicVector<N> d, BasicVector<N>& force) {
+            const N inverse = 1.0 / root(square(d));
+            const N value = p.charge * charge * inverse;
             force = force + (value * inverse * inverse) * d;
             return value;
           },
@@ -178,10 +199,10 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           s);
     case Kind::henon_heiles:
       return at_centers(
-          [](const Particle&, Vector d, Vector& force) {
-            const double x2 = d.x * d.x, y2 = d.y * d.y;
-            force.x -= d.x + 2.0 * d.x * d.y;
-            force.y -= d.y + (x2 - y2);
+          []<class N>(const Particle&, BasicVector<N> d, BasicVector<N>& force) {
+            const N x2 = d.x * d.x, y2 = d.y * d.y;
+            force.x = force.x - (d.x + 2.0 * d.x * d.y);
+            force.y = force.y - (d.y + (x2 - y2));
             return 0.5 * (x2 + y2) + d.y * (x2 - y2 / 3.0);
           },
           [](const Particle&, const Neighbourhood& n) {
@@ -192,9 +213,10 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           s);
     case Kind::linear:
       return at_centers(
-          [f = s.force](const Particle&, Vector d, Vector& force) {
-            force = force + f;
-            return -dot(f, d);
+          [f = s.force]<class N>(const Particle&, BasicVector<N> d, BasicVector<N>& force) {
+            const BasicVector<N> constant{f.x, f.y};
+            force = force + constant;
+            return -dot(constant, d);
           },
           [size = std::sqrt(square(s.force))](const Particle&, const Neighbourhood&) {
             return ForceBound{size, 0.0};
@@ -202,9 +224,9 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           s);
     case Kind::soft_circle:
       return at_centers(
-          [s](const Particle&, Vector d, Vector& force) {
-            const double r = std::sqrt(square(d));
-            return soft_wall(s, r, r > 0.0 ? (1.0 / r) * d : Vector{}, force);
+          [s]<class N>(const Particle&, BasicVector<N> d, BasicVector<N>& force) {
+            const N r = root(square(d));
+            return soft_wall(s, r, value_of(r) > 0.0 ? (1.0 / r) * d : BasicVector<N>{}, force);
           },
           [s](const Particle&, const Neighbourhood& n) {
             return central::fermi(s.height, s.radius, s.softness, from_origin(n));
@@ -212,14 +234,15 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           s);
     case Kind::soft_stadium:
       return at_centers(
-          [s](const Particle&, Vector d, Vector& force) {
+          [s]<class N>(const Particle&, BasicVector<N> d, BasicVector<N>& force) {
             // From the nearest point of the segment between the caps' centres.
-            const double beyond = d.x > s.half_length    ? d.x - s.half_length
-                                  : d.x < -s.half_length ? d.x + s.half_length
-                                                         : 0.0;
-            const Vector e{beyond, d.y};
-            const double r = std::sqrt(square(e));
-            return soft_wall(s, r, r > 0.0 ? (1.0 / r) * e : Vector{}, force);
+            const double along = value_of(d.x);
+            const N beyond = along > s.half_length    ? d.x - s.half_length
+                             : along < -s.half_length ? d.x + s.half_length
+                                                      : N(0.0);
+            const BasicVector<N> e{beyond, d.y};
+            const N r = root(square(e));
+            return soft_wall(s, r, value_of(r) > 0.0 ? (1.0 / r) * e : BasicVector<N>{}, force);
           },
           [s](const Particle&, const Neighbourhood& n) {
             // Distances from the segment between the caps' centres.
@@ -236,16 +259,25 @@ std::unique_ptr<const Potential> make_potential(const PotentialSpec& s,
           s);
     case Kind::expression:
       return at_centers(
-          [v = s.expression](const Particle&, Vector d, Vector& force) {
-            const double at[] = {d.x, d.y};
+          [v = s.expression]<class N>(const Particle&, BasicVector<N> d, BasicVector<N>& force) {
+            const double at[] = {value_of(d.x), value_of(d.y)};
             double gradient[2];
-            const double value = v->value_and_gradient(at, gradient);
-            // A point without a value has no force, even where its formula has one, as 1/x for
-            // log(x) has.
-            const double none = value - value;
-            force.x -= gradient[0] + none;
-            force.y -= gradient[1] + none;
-            return value;
+            if constexpr (std::is_same_v<N, double>) {
+              const double value = v->value_and_gradient(at, gradient);
+              // A point without a value has no force, even where its formula has one, as 1/x for
+              // log(x) has.
+              const double none = value - value;
+              force.x -= gradient[0] + none;
+              force.y -= gradient[1] + none;
+              return value;
+            } else {
+              double second[4];
+              const double value = v->value_gradient_and_hessian(at, gradient, second);
+              const double none = value - value;
+              force.x = force.x - chain(gradient[0] + none, second[0], d.x, second[1], d.y);
+              force.y = force.y - chain(gradient[1] + none, second[2], d.x, second[3], d.y);
+              return chain(value, gradient[0], d.x, gradient[1], d.y);
+            }
           },
           [v = s.expression](const Particle&, const Neighbourhood& n) { return bound_of(*v, n); },
           s);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "carom/forces/force_field.hpp"
+#include "carom/forces/hessian.hpp"
 #include "forces/force_bound.hpp"
 
 namespace carom::forces {
@@ -32,6 +33,8 @@ class Potential {
       force_y[i] = force.y;
     }
   }
+  /// Adds the second derivatives of V.
+  virtual void add_hessian(const Particle&, geometry::Vector x, Hessian&) const = 0;
   /// How large the force can be near a place.
   virtual ForceBound bound(const Particle&, const Neighbourhood&) const = 0;
   /// Distance from a centre beyond which |V| is below `tail`; infinity if there is none.
@@ -48,7 +51,10 @@ class Interaction {
   /// Adds the force on a to `force`, returns W.
   virtual double add_force(const Particle& a, const Particle& b, geometry::Vector separation,
                            geometry::Vector& force) const = 0;
-  /// The same for all pairs at once; half done where `interrupt`, if there is one, says so.
+  /// Adds the second derivatives of W by the separation.
+  virtual void add_hessian(const Particle& a, const Particle& b, geometry::Vector separation,
+                           Hessian&) const = 0;
+  /// The same forces for all pairs at once; half done where `interrupt`, if there is one, says so.
   virtual void add_forces(std::span<const Particle>, std::span<const geometry::Vector> x,
                           const geometry::Lattice*, std::span<geometry::Vector> force,
                           base::Interrupt* interrupt) const = 0;

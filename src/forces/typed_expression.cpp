@@ -27,4 +27,13 @@ double TypedExpression::value_and_gradient(std::span<const double> at,
   return formula_->value_and_gradient(at.data(), gradient.data());
 }
 
+double TypedExpression::value_gradient_and_hessian(std::span<const double> at,
+                                                   std::span<double> gradient,
+                                                   std::span<double> hessian) const {
+  if (at.size() != formula_->variables || gradient.size() != at.size() ||
+      hessian.size() != at.size() * at.size())
+    throw InternalError("a formula needs one number a variable, and gives all second derivatives");
+  return formula_->value_gradient_and_hessian(at.data(), gradient.data(), hessian.data());
+}
+
 }  // namespace carom

@@ -45,6 +45,7 @@ PACKAGES = {
     r"gmp|mpfr": r"geometry/src/|src/base/|src/table/|src/certify/",
     r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
     r"sleef": r"src/base/elementary.*\.cpp",
+    r"gsl/": r"src/ensemble/relax/",
     r"Random123/": r"src/base/random\.cpp",
     r"toml\+\+/|hdf5": r"src/io/",
     r"CLI/": r"src/cli/options\.cpp",

@@ -25,6 +25,8 @@ class Potential;
 
 namespace carom {
 
+struct Hessian;
+
 /// A disc outside which a potential is below its stated bound.
 struct Support {
   geometry::Vector center;
@@ -48,6 +50,12 @@ class ForceField {
   /// `separation` = x_a - x_b.
   double add_pair(const Particle& a, const Particle& b, geometry::Vector separation,
                   geometry::Vector& force) const;
+
+  /// Adds the second derivatives of V at x, and those of W by the separation (forces/hessian.hpp).
+  /// NaN where there are none, as at a Coulomb centre.
+  void add_external_hessian(const Particle&, geometry::Vector x, Hessian&) const;
+  void add_pair_hessian(const Particle& a, const Particle& b, geometry::Vector separation,
+                        Hessian&) const;
 
   /// Adds the forces of all pairs. On a lattice a pair feels its nearest copies. Where `interrupt`
   /// says so, it stops half done.

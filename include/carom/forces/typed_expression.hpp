@@ -36,6 +36,10 @@ class TypedExpression {
   double value(std::span<const double> at) const;
   /// The same value, and its exact derivatives (dual numbers, no differences).
   double value_and_gradient(std::span<const double> at, std::span<double> gradient) const;
+  /// The second derivatives as well, row by row, by nested dual numbers. At a kink abs, min and max
+  /// have those of one side.
+  double value_gradient_and_hessian(std::span<const double> at, std::span<double> gradient,
+                                    std::span<double> hessian) const;
 
   struct Formula;  ///< the operations, one after the other
   const Formula& formula() const { return *formula_; }
