@@ -17,9 +17,14 @@ def read(source):
     return carom.open(source)
 
 
-def draw(source):
-    """The figure of what is read."""
-    axes = read(source).plot()
+def draw(source, what=None):
+    """The figure of what is read; `what`: which of those that there are."""
+    thing = read(source)
+    if not carom.plot.pictures(thing):
+        raise carom.InputError(
+            f"{source}: a certified run has no picture", (source, 0, 0, ""), "the same run in doubles"
+        )
+    axes = carom.plot.result(thing, what=what)
     return (axes[0] if hasattr(axes, "__len__") else axes).figure
 
 
@@ -37,13 +42,15 @@ def main():
     try:
         make()
     except carom.InputError as error:
-        sys.exit(f"carom: {error}")
+        expected = f" (expected {error.expected})" if error.expected not in str(error) else ""
+        sys.exit(f"carom: {error}{expected}")
 
 
 def make():
     parser = argparse.ArgumentParser(prog="carom plot", description=__doc__)
     parser.add_argument("source", help="an archive, a system file or the name of a built-in system")
     parser.add_argument("-o", "--output", required=True, help="PICTURE.png, .svg or .pdf")
+    parser.add_argument("--what", help="which picture, where there are several")
     parser.add_argument("--force", action="store_true", help="replaces a picture that is there")
     parser.add_argument("--dpi", type=float, default=200, help="dots per inch of a .png")
     given = parser.parse_args()
@@ -63,7 +70,7 @@ def make():
     if film:
         animate(given.source, part)
     else:
-        draw(given.source).savefig(part, dpi=given.dpi)
+        draw(given.source, given.what).savefig(part, dpi=given.dpi)
     os.replace(part, given.output)
 
 

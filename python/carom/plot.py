@@ -9,6 +9,8 @@ import textwrap
 import numpy
 
 from . import _carom
+from .errors import InputError
+from .system import System
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _WALL = "#222222"
@@ -426,17 +428,37 @@ def section(result, ax=None, x=None, y=None):
     return ax
 
 
-def result(result, ax=None, **keywords):
-    """What there is to see of a result."""
+def pictures(result):
+    """The pictures that there are of a result or a system, by name; the first is the one that
+    `result.plot()` draws."""
     from . import results
 
-    draw = {
-        results.Run: orbit, results.Escape: escape, results.Diffusion: diffusion,
-        results.Section: section, results.Table: _of_table,
-    }  # fmt: skip
-    if type(result) not in draw:
+    if isinstance(result, results.Run):
+        return {"orbit": orbit} | ({"energy": energy} if len(result.energies) else {})
+    if isinstance(result, results.Escape):
+        more = {"basins": basins} if result.per_trajectory is not None else {}
+        return {"survival": escape, "rate": rate} | more
+    if isinstance(result, results.Table):
+        return {"table": _of_table}
+    if isinstance(result, results.Diffusion):
+        return {"diffusion": diffusion}
+    if isinstance(result, results.Section):
+        return {"section": section}
+    return {"table": table} if isinstance(result, System) else {}
+
+
+def result(result, ax=None, what=None, **keywords):
+    """A picture of a result: the one named `what` of `carom.plot.pictures(result)`, else the first."""
+    there = pictures(result)
+    if not there:
         raise NotImplementedError(f"a {type(result).__name__} has no picture")
-    return draw[type(result)](result, ax=ax, **keywords)
+    what = what or next(iter(there))
+    if what not in there:
+        nearest = _carom.nearest_name(what, list(there))
+        raise InputError(
+            f"there is no picture '{what}' of {result!r}", ("", 0, 0, "what"), " or ".join(there), nearest
+        )
+    return there[what](result, ax=ax, **keywords)
 
 
 def _of_table(measured, ax=None, **keywords):

@@ -264,10 +264,13 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "Examples:\n"
           "  carom plot orbit.h5 -o orbit.pdf\n"
           "  carom plot mushroom -o mushroom.png\n"
+          "  carom plot result.h5 --what rate\n"
           "  carom run stadium --collisions 100 -o orbit.png     computes and draws\n"
           "\n"
           "Without -o the picture is NAME.png in this folder. It needs Python with matplotlib.")
       .system("SOURCE", "Archive, TOML file or built-in name")
+      .text("--what", o.what, "PICTURE",
+            "Of a run: orbit, energy; of an escape: survival, rate, basins (default: the first)")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(
       app, o, "animate", "The film of a run or of a system's particles",

@@ -23,6 +23,7 @@ struct Options {
   std::vector<std::string> files;                                  ///< of carom merge
   std::string shard, block, checkpoint;                            ///< of carom escape
   std::string output, threads, trajectory, resume, scale, report;
+  std::string what;  ///< of carom plot
   std::string engine = "auto", isa = "auto", precision = "double", digits;
   std::string certify_sample;  ///< of carom escape
   SystemOverrides overrides;

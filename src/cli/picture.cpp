@@ -90,8 +90,10 @@ bool is_picture(const std::string& file) {
   return ending == ".png" || ending == ".svg" || ending == ".pdf";
 }
 
-int draw(const std::string& source, const std::string& picture, bool force) {
+int draw(const std::string& source, const std::string& picture, bool force,
+         const std::string& what) {
   std::vector<std::string> words{source, "-o", picture};
+  if (!what.empty()) words.insert(words.end(), {"--what", what});
   if (force) words.emplace_back("--force");
   return call_module(picture, words) == 0 ? done : bad_input;  // Python has said what is wrong
 }

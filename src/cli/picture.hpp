@@ -12,9 +12,11 @@ namespace carom::cli {
 /// Does the name end in .png, .svg or .pdf?
 bool is_picture(const std::string& file);
 
-/// The picture of an archive or a system. Returns the exit status. Throws InputError where Python,
-/// the module or matplotlib is not there, and says which package it is in.
-int draw(const std::string& source, const std::string& picture, bool force);
+/// The picture of an archive or a system; `what`: which one, "": the first. Returns the exit
+/// status. Throws InputError where Python, the module or matplotlib is not there, and says which
+/// package it is in.
+int draw(const std::string& source, const std::string& picture, bool force,
+         const std::string& what = {});
 
 /// A command that is asked for a picture writes an archive aside, which is drawn when it is done.
 class PictureOfResult {

@@ -41,6 +41,27 @@ def test_an_archive_is_drawn(carom, tmp_path):
     carom("plot", "orbit.h5", "--force")
 
 
+def test_an_archive_has_several_pictures(carom, tmp_path):
+    carom("escape", "three-disc", "--trajectories", 500, "--per-trajectory", "-o", "e.h5", "--quiet")
+    carom("run", "henon-heiles", "--t-max", 2, "--set", "run.sample=0.1", "-o", "r.h5", "--quiet")
+    drawn = set()
+    for archive, pictures in {"e": ("survival", "rate", "basins"), "r": ("orbit", "energy")}.items():
+        for what in pictures:
+            carom("plot", f"{archive}.h5", "--what", what, "-o", f"{what}.png")
+            drawn.add((tmp_path / f"{what}.png").read_bytes())
+    assert len(drawn) == 5
+    said = carom("plot", "r.h5", "--what", "energies", "-o", "no.png", status=1).stderr
+    assert "orbit or energy" in said and "Traceback" not in said
+    said = carom("plot", "stadium", "--what", "rate", "-o", "no.png", status=1).stderr
+    assert "table" in said and not (tmp_path / "no.png").exists()
+
+
+def test_a_certified_run_has_no_picture(carom, tmp_path):
+    command = ("run", "stadium", "--collisions", 3, "--precision", "certified", "--quiet")
+    carom(*command, "-o", "exact.h5")
+    assert "Traceback" not in carom("plot", "exact.h5", status=1).stderr
+
+
 @pytest.mark.parametrize(
     "command",
     [

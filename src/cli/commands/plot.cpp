@@ -22,7 +22,7 @@ int plot(const Options& options) {
   if (!is_picture(picture))
     throw InputError(Place{"command line", 0, 0, "-o"}, "'" + picture + "' is not a picture",
                      "a name ending in .png, .svg or .pdf");
-  return draw(options.system, picture, options.force);
+  return draw(options.system, picture, options.force, options.what);
 }
 
 }  // namespace carom::cli
