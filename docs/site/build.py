@@ -16,6 +16,7 @@ import sys
 
 import check_links
 import cpp_reference
+import notebooks
 from rst import title
 
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
@@ -181,7 +182,12 @@ def main():
     pages.append(("Library", ["reference/cpp.md", "reference/python.md"]))
     trees = toctree("Start", ["contents.md"]) + "".join(toctree(*part) for part in pages)
     for page in [root / "README.md", *sorted((root / "docs").rglob("*.md"))]:
-        stage.page(page, trees if page == root / "README.md" else "")
+        ending = trees if page == root / "README.md" else ""
+        if page.parent.name == "tutorials":
+            (stage.folder / "guide/tutorials").mkdir(parents=True, exist_ok=True)
+            made = notebooks.write(page, stage.folder / "guide/tutorials")
+            ending = f"\nThis page [as a Jupyter notebook]({made.name}).\n"
+        stage.page(page, ending)
     pictures(root, build, module, stage)
     mathjax(stage.folder / "static")
     shutil.copyfile(root / "docs/site/carom.css", stage.folder / "static/carom.css")

@@ -1,8 +1,10 @@
 """Every tutorial runs from its first block to its last, at a small size: shell, files and Python.
 
-A tutorial is Markdown with code blocks, which jupytext opens as a notebook.
+A tutorial is Markdown with code blocks, which docs/site/notebooks.py makes a notebook of.
 """
 
+import importlib.util
+import json
 import os
 import pathlib
 import re
@@ -21,7 +23,9 @@ SMALL = {
     "--trajectories 200": "--trajectories 5", "t > 1000": "t > 20", "(t < 300)": "(t < 90)",
     "--t-max 1000": "--t-max 20", "log:1:1000:31": "log:1:20:5",
 }  # fmt: skip
-BLOCK = re.compile(r"^```(sh|python|toml)\n(.*?)^```", re.M | re.S)
+_made = importlib.util.spec_from_file_location("notebooks", TUTORIALS.parents[1] / "site" / "notebooks.py")
+notebooks = importlib.util.module_from_spec(_made)
+_made.loader.exec_module(notebooks)
 NOT_EVERYWHERE = ("h5py", "mpmath")
 
 
@@ -43,17 +47,18 @@ def sh(code, folder):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_a_tutorial_runs(page, tmp_path, monkeypatch):
+def test_the_cells_of_a_tutorial_run_in_order(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = {}
-    text = page.read_text(encoding="utf-8")
-    for found in BLOCK.finditer(text):
-        kind, code = found.group(1), small(found.group(2))
-        if kind == "sh":
+    for cell in notebooks.notebook(page.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        source = small("".join(cell["source"]))
+        magic, _, code = source.partition("\n") if source.startswith("%%") else ("", "", source)
+        if magic == "%%sh":
             sh(code, tmp_path)
-        elif kind == "toml":
-            name = re.findall(r"Write this to `([^`]+)`", text[: found.start()])[-1]
-            (tmp_path / name).write_text(code, encoding="utf-8")
+        elif magic:
+            (tmp_path / magic.removeprefix("%%writefile ")).write_text(code + "\n", encoding="utf-8")
         else:
             try:
                 exec(compile(code, f"{page.name} (python)", "exec"), names)
@@ -64,10 +69,20 @@ def test_a_tutorial_runs(page, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_a_tutorial_is_a_notebook(page, tmp_path):
+    nbformat = pytest.importorskip("nbformat")
+    made = notebooks.write(page, tmp_path)
+    nbformat.validate(json.loads(made.read_text(encoding="utf-8")))
+    code = [cell for cell in nbformat.read(made, as_version=4).cells if cell.cell_type == "code"]
+    text = page.read_text(encoding="utf-8")
+    assert len(code) == sum(text.count(f"\n```{kind}\n") for kind in ("sh", "python", "toml"))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_a_tutorial_has_a_question_shell_python_and_an_error(page):
     text = page.read_text(encoding="utf-8")
     assert "**Question.**" in text and "**Result.**" in text
-    python = "".join(code for kind, code in BLOCK.findall(text) if kind == "python")
+    python = "".join(code for kind, code in notebooks.BLOCK.findall(text) if kind == "python")
     assert "import carom" in python and "savefig(" in python
-    assert re.search(r"carom \w+", "".join(code for kind, code in BLOCK.findall(text) if kind == "sh"))
+    assert re.search(r"carom \w+", "".join(code for kind, code in notebooks.BLOCK.findall(text) if kind == "sh"))
     assert re.search(r"print\(f.*(±|95 %|between)", python), "no number with an error is printed"
