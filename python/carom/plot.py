@@ -204,6 +204,11 @@ def orbit(run, ax=None, most_hits=2000, colour=None, names=False, by="particle")
             f"the first {most_hits} hits", (1, 0), xycoords="axes fraction", fontsize="x-small",
             ha="right", va="bottom", color="0.4",
         )  # fmt: skip
+    if run.engine != "events" and not len(run.samples):
+        ax.annotate(
+            "straight between hits: no samples", (0, 1), xycoords="axes fraction", xytext=(3, -3),
+            textcoords="offset points", fontsize="x-small", ha="left", va="top", color="0.4",
+        )  # fmt: skip
     _levels(run.system, run.system._loaded("table"), ax)
     if made:
         _fit(ax)
@@ -280,9 +285,9 @@ def _decay(ax, fit):
     name, value = ("κ", fit.rate) if exponential else ("exponent", fit.exponent)
     label = f"{fit.model}: {name} = {value:.4g} ± {fit.stderr:.1g}"
     if not fit.decided:
-        label += " (undecided)"
+        label += "\n(undecided)"
     ax.plot(t, p, color=COLOURS[1], linewidth=1.5, zorder=3, label=label)
-    ax.legend(fontsize="small", frameon=False)
+    ax.legend(fontsize="x-small", frameon=False)
 
 
 def rate(result, ax=None, scale=None):
