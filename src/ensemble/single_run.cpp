@@ -28,6 +28,7 @@ class FreeEnergies {
       : particles_(particles),
         shared_(shared),
         seen_(particles.size()),
+        squares_(particles.size()),
         changes_(particles.size()) {}
 
   void begin(int particle, const EnergyBalance& before, const State& state) {
@@ -49,16 +50,35 @@ class FreeEnergies {
   /// `particle`: its number in the system.
   void hit(int particle, const HitEvent& event) {
     if (shared_) return pass({{particle, event.before, event.after}});
-    const Particle& p = particles_[static_cast<std::size_t>(particle)];
-    see(particle, kinetic_energy(particle, event.after) - 0.5 * p.mass * (p.speed * p.speed));
+    Squares& squares = squares_[static_cast<std::size_t>(particle)];
+    const double last = dot(event.after, event.after);
+    squares.last = last;
+    // Nearly every hit: the change is between those that were seen. A square that is no number is
+    // not.
+    if (squares.least <= last && last <= squares.most) return;
+    squares.least = std::min(squares.least, last);
+    squares.most = std::max(squares.most, last);
+    see(particle, change_of_speed(particle, last));
   }
   void contact(const ContactEvent& event) {
     pass({{event.first, event.first_before, event.first_after},
           {event.second, event.second_before, event.second_after}});
   }
-  const EnergyBalance& of(int particle) const { return seen_[at(particle)]; }
+  EnergyBalance of(int particle) const {
+    EnergyBalance seen = seen_[at(particle)];
+    const double last = squares_[at(particle)].last;
+    if (last != no_hit) seen.change = change_of_speed(particle, last);
+    return seen;
+  }
 
  private:
+  static constexpr double no_hit = -1.0;
+  /// Of the speed after hits.
+  struct Squares {
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    double last = no_hit;
+  };
   struct Change {
     int particle;
     geometry::Vector before, after;
@@ -74,8 +94,12 @@ class FreeEnergies {
   void see(int particle, double change) {
     EnergyBalance& seen = seen_[at(particle)];
     seen.change = change;
-    if (std::fabs(change) <= seen.largest) return;
     seen.largest = larger(seen.largest, std::fabs(change));
+  }
+  /// Of a particle that shares its energy with none.
+  double change_of_speed(int particle, double square) const {
+    const Particle& p = particles_[static_cast<std::size_t>(particle)];
+    return 0.5 * p.mass * square - 0.5 * p.mass * (p.speed * p.speed);
   }
   std::size_t at(int particle) const { return shared_ ? 0 : static_cast<std::size_t>(particle); }
   double kinetic_energy(int particle, const geometry::Vector& v) const {
@@ -87,6 +111,7 @@ class FreeEnergies {
   bool begun_ = false, goes_on_ = false;
   double sum_ = 0.0;
   std::vector<EnergyBalance> seen_;
+  std::vector<Squares> squares_;
   std::vector<Twofold> changes_;
 };
 

@@ -120,18 +120,20 @@ std::uint64_t World::run_until(double t_end, Observer& observer,
   std::uint64_t events = 0;
   if (!begin_run()) return events;
   const bool asks = static_cast<bool>(enough);
+  const bool works = regions.any() || discs;  // an event may be interrupted
+  const bool attended = asks || works || samples.any();
   // Asking may cost more than a flight, and less than a step: once in 16 or 256 events.
-  const std::uint64_t between_questions = regions.any() || discs ? 15 : 255;
+  const std::uint64_t between_questions = works ? 15 : 255;
   do {
     while (!bodies.all_ended()) {
-      if (asks && enough()) return events;
+      if (attended && asks && enough()) return events;
       const int index = bodies.first();
       const Time when(bodies.when(index).high, bodies.when(index).low);
       if (!(when.high < t_end) && when > Time(t_end)) break;
-      if (interrupt.stopped()) return events;
       if (interrupted && (events & between_questions) == 0 && interrupted()) return events;
-      if (samples.any()) {
-        samples.emit(when, false, observer);
+      if (attended) {
+        if (interrupt.stopped()) return events;
+        if (samples.any()) samples.emit(when, false, observer);
         if (interrupt.stopped()) return events;
       }
       apply(index, when, observer);

@@ -10,7 +10,6 @@
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
-#include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/run_certified.hpp"
 #include "cli/common.hpp"
@@ -169,9 +168,7 @@ int run(const Options& options) {
   const std::string status = run_status(result);
   if (archive) archive->finish(result, status);
 
-  for (const RunEnd& particle : result.particles)
-    if (is_failure(particle.progress.fate) && !particle.report.empty())
-      warn(std::string(shown(particle.report)));
+  warn_of(result);
   const std::string archive_name = named_archive(options, output);
   print(options.json ? run_json(system, result, status, archive_name).text() + "\n"
                      : run_text(system, result, status, archive_name, options.verbose));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "carom/ensemble/parts.hpp"
 #include "carom/events/report.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "cli/common.hpp"
@@ -40,6 +41,15 @@ Doubts doubts(const System& system, std::uint64_t all, const char* what, std::ui
   return doubts;
 }
 
+Reports reports_of(const SingleRunResult& r) {
+  Reports reports;
+  for (std::size_t p = 0; p < r.particles.size(); ++p) {
+    const RunEnd& end = r.particles[p];
+    if (is_failure(end.progress.fate) && !end.report.empty()) reports.emplace_back(p, end.report);
+  }
+  return reports;
+}
+
 }  // namespace
 
 std::string Doubts::text() const {
@@ -74,16 +84,13 @@ Doubts doubts_of(const System& system, const SectionResult& r) {
 }
 Doubts doubts_of(const System& system, const SingleRunResult& r) {
   std::uint64_t unresolved = 0, lost = 0;
-  Reports reports;
   EnergyError energy;
-  for (std::size_t p = 0; p < r.particles.size(); ++p) {
-    const RunEnd& end = r.particles[p];
+  for (const RunEnd& end : r.particles) {
     unresolved += end.progress.fate == Fate::unresolved;
     lost += end.progress.fate == Fate::lost;
-    if (is_failure(end.progress.fate) && !end.report.empty()) reports.emplace_back(p, end.report);
     energy += end.energy_error;
   }
-  return doubts(system, r.particles.size(), "particle", unresolved, lost, reports, energy);
+  return doubts(system, r.particles.size(), "particle", unresolved, lost, reports_of(r), energy);
 }
 
 void add_fates(Json& json, const FateCounts& counts) {
@@ -132,6 +139,16 @@ void add_reports(Json& json, const Reports& reports) {
 
 void warn_of(const Reports& reports) {
   for (const auto& [index, report] : reports) warn(std::string(shown(report)));
+}
+
+void warn_of(const SingleRunResult& result) {
+  Reports reports = reports_of(result);
+  const std::size_t all = reports.size();
+  reports.resize(std::min(all, EnsembleResult::most_reports));
+  warn_of(reports);
+  if (all > reports.size())
+    warn(fmt::format("{} more particles could not be followed; --json tells of each",
+                     grouped(all - reports.size())));
 }
 
 void add_steps(Json& json, const System& system, const StepCounts& steps) {

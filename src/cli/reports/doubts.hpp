@@ -45,6 +45,8 @@ void add_reports(io::Json&, const Reports&);
 void add_report(io::Json&, const std::string& report);
 /// Prints to standard error why trajectories failed.
 void warn_of(const Reports&);
+/// Of the particles of one run: the first few, and how many more there are.
+void warn_of(const SingleRunResult&);
 
 /// Keys of integrated motion: `steps`, `force_evaluations`, and with unresolved = "count"
 /// `unresolved_steps` and `first_unresolved`.
