@@ -166,26 +166,24 @@ void Group::find_next(const Time& limit) {
   next_.unresolved = !next_.fault.empty();
   if (next_.unresolved && !in_.plan.count_unresolved) return;
   next_.fault.clear();
-  bool near_wall = false;
   CrossingSearch<double> search(*path_);
   StepPath<double>::Knot* last = &path_->end();
-  for (std::size_t i = 0; i < bodies_.size() && !in_.barriers.empty(); ++i) {
-    if (search.gave_up() || interrupted(10.0 * static_cast<double>(in_.barriers.size()))) break;
+  const std::vector<Near> near = near_walls(search);
+  for (const Near& one : near) {
+    if (search.gave_up() || interrupted(10.0)) break;
     path_->keep_few(*last);
-    const PathHull<double> hull(path_->start(), path_->end(), i);
-    for (const Barrier<double>& barrier : in_.barriers) {
-      if (stays_off(barrier, hull)) continue;
-      near_wall = true;
-      StepPath<double>::Knot* found = is_edge(barrier)
-                                          ? first_exit(search, barrier, *last)
-                                          : search.first(barrier, i, path_->start(), *last);
-      if (!found) continue;
-      last = found;
-      next_.member = static_cast<int>(i);
-      next_.barrier = &barrier;
-      next_.duration = found->time;
-      next_.slides = search.slides();
-    }
+    if (last != &path_->end() &&
+        stays_off(*one.barrier, PathHull<double>(path_->start(), *last, one.member)))
+      continue;
+    StepPath<double>::Knot* found =
+        is_edge(*one.barrier) ? first_exit(search, *one.barrier, *last)
+                              : search.first(*one.barrier, one.member, path_->start(), *last);
+    if (!found) continue;
+    last = found;
+    next_.member = static_cast<int>(one.member);
+    next_.barrier = one.barrier;
+    next_.duration = found->time;
+    next_.slides = search.slides();
   }
   passed_ = nullptr;
   if (in_.interrupt && in_.interrupt->stopped()) return;
@@ -196,7 +194,25 @@ void Group::find_next(const Time& limit) {
   else if (next_.member >= 0)
     next_.fault = fault_at(last->phase);
   // Near a wall the search had to decide: no particle may have slipped through.
-  if (near_wall && next_.fault.empty()) watch(last->phase);
+  if (!near.empty() && next_.fault.empty()) watch(last->phase);
+}
+
+/// Members and barriers that the step does not keep apart. Those of a group that cross first come
+/// first: what another one does later need not be looked for.
+std::vector<Group::Near> Group::near_walls(const CrossingSearch<double>& search) const {
+  std::vector<Near> near;
+  for (std::size_t i = 0; i < bodies_.size() && !in_.barriers.empty(); ++i) {
+    if (interrupted(10.0 * static_cast<double>(in_.barriers.size()))) break;
+    const PathHull<double> hull(path_->start(), path_->end(), i);
+    for (const Barrier<double>& barrier : in_.barriers)
+      if (!stays_off(barrier, hull)) near.push_back({i, &barrier, 0.0});
+  }
+  if (bodies_.size() == 1) return near;
+  for (Near& one : near)
+    one.about = search.guess(*one.barrier, one.member, path_->start(), path_->end());
+  std::stable_sort(near.begin(), near.end(),
+                   [](const Near& a, const Near& b) { return a.about < b.about; });
+  return near;
 }
 
 /// The place from which the lone member flies on freely, on the edge. Nothing happens at an edge

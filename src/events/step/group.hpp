@@ -138,6 +138,13 @@ class Group final : public ForceLaw<double> {
   double longest_step(const Phase<double>& from, const double& asked) const override;
   void make_stepper();
   Time step_end(const Time& limit) const;
+  /// A member that may come to a barrier within the step.
+  struct Near {
+    std::size_t member;
+    const Barrier<double>* barrier;
+    double about;  ///< when, roughly
+  };
+  std::vector<Near> near_walls(const CrossingSearch<double>&) const;
   StepPath<double>::Knot* first_exit(CrossingSearch<double>& search, const Barrier<double>& edge,
                                      StepPath<double>::Knot& to);
   std::string_view fault_at(const Phase<double>& phase) const;

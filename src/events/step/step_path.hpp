@@ -152,6 +152,13 @@ struct PathArc {
                   points[3] - tenth * (x1 + Real(6) * c2 + Real(3) * c1)};
     error = std::max(PathHull<Real>::norm(difference[0]), PathHull<Real>::norm(difference[1]));
   }
+  /// The point at a part of the way, 0 to 1 (de Casteljau).
+  Vector at(const Real& part) const {
+    std::array<Vector, 6> p = points;
+    for (std::size_t last = 5; last > 0; --last)
+      for (std::size_t k = 0; k < last; ++k) p[k] = p[k] + part * (p[k + 1] - p[k]);
+    return p[0];
+  }
   /// The larger of them along a unit vector.
   Real error_along(const Vector& unit) const {
     const Real low = dot(unit, difference[0]), high = dot(unit, difference[1]);
