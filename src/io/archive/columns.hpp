@@ -41,7 +41,6 @@ class Columns {
     for (Column& column : columns_) {
       append_rows(column.dataset.get(), column.type, rows_, pending_, column.values.data(), file_);
       check(H5Dflush(column.dataset.get()) >= 0, file_);
-      column.values.clear();
     }
     rows_ += pending_;
     pending_ = 0;
@@ -61,18 +60,17 @@ class Columns {
   struct Column {
     Handle dataset;
     hid_t type;
-    std::vector<std::byte> values;
+    std::vector<std::byte> values;  ///< of the rows that are pending
   };
 
   hid_t take(Handle dataset, hid_t type) {
-    columns_.push_back({std::move(dataset), type, {}});
+    columns_.push_back(
+        {std::move(dataset), type, std::vector<std::byte>(batch * H5Tget_size(type))});
     return columns_.back().dataset.get();
   }
   template <class T>
   void push(Column& column, T value) {
-    const std::size_t size = column.values.size();
-    column.values.resize(size + sizeof value);
-    std::memcpy(column.values.data() + size, &value, sizeof value);
+    std::memcpy(column.values.data() + pending_ * sizeof value, &value, sizeof value);
   }
 
   std::string file_;
