@@ -50,9 +50,13 @@ pictures by matplotlib.")
 endif()
 
 if(CAROM_DEBIAN)
+  set(ENV{LC_ALL} C)
+  string(TIMESTAMP release_date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # SOURCE_DATE_EPOCH, if it is set
+  configure_file(cmake/debian/changelog.in changelog @ONLY)
+  execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/changelog COMMAND_ERROR_IS_FATAL ANY)
   foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     string(TOUPPER ${component} name)
-    install(FILES cmake/debian/copyright COMPONENT ${component}
+    install(FILES cmake/debian/copyright ${PROJECT_BINARY_DIR}/changelog.gz COMPONENT ${component}
       DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME})
   endforeach()
 endif()

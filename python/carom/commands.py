@@ -214,6 +214,7 @@ _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = 
     "diffusion": (results.Diffusion, _carom.open_diffusion),
     "run": (results.Run, _carom.open_run),
     "section": (results.Section, _carom.open_section),
+    "certified": (results.Certified, _carom.open_certified),
 }
 
 

@@ -331,9 +331,6 @@ class Certified(Result):
         """Raises NotImplementedError: the same run in doubles has a picture."""
         raise NotImplementedError("a certified run has no picture; draw carom.run(…) in doubles")
 
-    def __reduce__(self):
-        raise TypeError("a certified run is not pickled; save() it")
-
 
 class Section(Result):
     """Points of many orbits on a surface: orbits, collisions, digest …"""

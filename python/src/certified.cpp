@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "beside.hpp"
+#include "carom/base/error.hpp"
 #include "carom/certify/certified_orbit.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/io/certified_archive.hpp"
@@ -70,6 +71,22 @@ py::list hits(const CertifiedOutcome& self) {
     all.append(row);
   }
   return all;
+}
+
+CertifiedOutcome open_certified(const std::string& file) {
+  StoredCertified stored = read_certified(file);
+  if (!stored.end.x.has_value())
+    throw InputError(Place{file, 0, 0, ""}, "the run was interrupted before its first state");
+  CertifiedOutcome outcome;
+  outcome.system = std::make_shared<Loaded>();
+  outcome.system->loaded = read_system(stored.system_toml, file + ": /system");
+  outcome.system->loaded.system.name = stored.system_name;
+  outcome.system->options.command = "run";
+  outcome.task = std::move(stored.task);
+  outcome.end = std::move(stored.end);
+  outcome.effort = stored.effort;
+  outcome.hits = std::move(stored.hits);
+  return outcome;
 }
 
 void save(const CertifiedOutcome& self, const std::string& file, bool force) {
@@ -142,6 +159,8 @@ void add_certified(py::module_& module) {
       .def("doubts", &doubts_of);
   module.def("compare_with_certified", &compare, py::arg("system"), py::arg("progress"));
   module.def("run_certified", &run, py::arg("system"), py::arg("progress"));
+  module.def("open_certified", &open_certified, py::call_guard<py::gil_scoped_release>(),
+             py::arg("file"));
 }
 
 }  // namespace carom::python

@@ -89,14 +89,11 @@ struct RunOutcome {
   std::vector<SampleRow> starts;
 };
 
-std::vector<SampleRow> starts_of(const System& system, std::uint64_t trajectory,
-                                 const std::function<bool()>& stopped = {}) {
+// Of an archive of an earlier build, which has no starts: trajectory 0 is drawn again.
+std::vector<SampleRow> drawn_starts(const System& system) {
   World world(*system.table, system.dynamics);
-  add_starts(world, Sampler(system, stopped), trajectory);
-  std::vector<SampleRow> rows;
-  for (int i = 0; i < world.size(); ++i)
-    rows.push_back(sample_row(i, Time(0.0), world.state(i), *system.table));
-  return rows;
+  add_starts(world, Sampler(system), 0);
+  return start_rows(world, *system.table);
 }
 
 py::tuple run(const std::shared_ptr<Loaded>& loaded, bool state_error, const py::object& progress) {
@@ -114,7 +111,7 @@ py::tuple run(const std::shared_ptr<Loaded>& loaded, bool state_error, const py:
   how.interrupted = [&] { return course.stop.load(std::memory_order_relaxed); };
   const std::exception_ptr interruption = run_beside(course, progress, [&] {
     if (estimates_trust(system)) how.written = written_system(loaded->loaded);
-    outcome.starts = starts_of(system, outcome.trajectory, how.interrupted);
+    how.started = [&](const World& world) { outcome.starts = start_rows(world, *system.table); };
     outcome.result = run_single(system, recording, how);
   });
   if (interruption && outcome.result.particles.empty()) std::rethrow_exception(interruption);
@@ -126,16 +123,27 @@ py::tuple run(const std::shared_ptr<Loaded>& loaded, bool state_error, const py:
   return py::make_tuple(std::move(outcome), error_of(interruption));
 }
 
+// Ctrl-C leaves no file.
 void save(const RunOutcome& self, const std::string& file, bool force) {
-  const LoadedSystem& loaded = self.system->loaded;
-  const auto archive = RunArchive::create(
-      followed(file), loaded, cli::provenance_of(self.system->options, loaded.system, 1), force,
-      self.trajectory);
-  for (const HitRow& row : *self.hits) archive->append(row);
-  for (const ContactRow& row : *self.contacts) archive->append(row);
-  for (const SampleRow& row : *self.samples) archive->append(row);
-  for (const EnergyRow& row : *self.energies) archive->append(row);
-  archive->finish(self.result, self.status);
+  Course course;
+  const std::exception_ptr interruption = run_beside(course, py::none(), [&] {
+    const LoadedSystem& loaded = self.system->loaded;
+    const auto archive = RunArchive::create(
+        followed(file), loaded, cli::provenance_of(self.system->options, loaded.system, 1), force,
+        self.trajectory);
+    const auto append = [&](const auto& rows) {
+      for (const auto& row : rows) {
+        if (course.stop.load(std::memory_order_relaxed)) return false;
+        archive->append(row);
+      }
+      return true;
+    };
+    archive->start(self.starts);
+    if (append(*self.hits) && append(*self.contacts) && append(*self.samples) &&
+        append(*self.energies))
+      archive->finish(self.result, self.status);
+  });
+  if (interruption) std::rethrow_exception(interruption);
 }
 
 // A stored run is asked to go on where it has ended: no event comes, and the end is told again.
@@ -156,7 +164,8 @@ RunOutcome open_run(const std::string& file) {
   system.run.t_max = end;
   RunOutcome outcome;
   outcome.result = run_single(system, none, how);
-  outcome.starts = starts_of(system, 0);
+  outcome.starts = read_starts(file);
+  if (outcome.starts.empty()) outcome.starts = drawn_starts(system);
   outcome.status = stored.status;
   outcome.hits = std::make_shared<const std::vector<HitRow>>(read_hits(file));
   outcome.samples = std::make_shared<const std::vector<SampleRow>>(read_samples(file));
@@ -253,8 +262,7 @@ void add_runs(py::module_& module) {
       .def("energies", [](const RunOutcome& self) { return array_of<EnergyRow>(self.energies); })
       .def("starts",
            [](const RunOutcome& self) { return array_of(std::vector<SampleRow>(self.starts)); })
-      .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
-           py::arg("force"));
+      .def("save", &save, py::arg("file"), py::arg("force"));
   module.def("run", &run, py::arg("system"), py::arg("state_error"), py::arg("progress"));
   py::class_<SectionOutcome>(module, "SectionOutcome")
       .def_property_readonly("system",
@@ -262,6 +270,12 @@ void add_runs(py::module_& module) {
       .def("json",
            [](const SectionOutcome& self) {
              return cli::section_json(self.system->system(), self.result, self.status(), "").text();
+           })
+      .def("text",
+           [](const SectionOutcome& self) {
+             cli::OrbitLines lines;
+             lines.add(*self.points);
+             return cli::section_text(self.system->system(), self.result, lines, "");
            })
       .def("doubts",
            [](const SectionOutcome& self) {

@@ -269,8 +269,8 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "\n"
           "Without -o the picture is NAME.png in this folder. It needs Python with matplotlib.")
       .system("SOURCE", "Archive, TOML file or built-in name")
-      .text("--what", o.what, "orbit|energy|survival|rate|basins",
-            "Which picture: the first two of a run, the others of an escape")
+      .text("--what", o.what, "PICTURE",
+            "Of a run: orbit, energy; of an escape: survival, rate, basins (default: the first)")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(
       app, o, "animate", "The film of a run or of a system's particles",

@@ -3,6 +3,7 @@
 #include "base/interrupt.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/energy.hpp"
+#include "carom/events/world.hpp"
 
 namespace carom {
 
@@ -41,6 +42,13 @@ SampleRow sample_row(int particle, Time time, const State& state, const Table& t
   fold_into_cell(table, folded.position, folded.cell);
   return {particle,          time.value(),      x.x, x.y, state.velocity.x, state.velocity.y,
           folded.cell.first, folded.cell.second};
+}
+
+std::vector<SampleRow> start_rows(const World& world, const Table& table) {
+  std::vector<SampleRow> rows;
+  for (int i = 0; i < world.size(); ++i)
+    rows.push_back(sample_row(i, Time(0.0), world.state(i), table));
+  return rows;
 }
 
 ContactRow contact_row(const ContactEvent& e, const Table& table) {

@@ -281,6 +281,7 @@ class SingleRun {
     if (system_.run.collisions > 0) world_.limit_hits(system_.run.collisions);
     if (system_.run.sample > 0.0) world_.sample_every(system_.run.sample);
     if (!goes_on_) add_starts(world_, sampler_, options_.trajectory);
+    if (!goes_on_ && options_.started) options_.started(world_);
     std::vector<Time> entries(all_.size());
     for (const InjectedParticle& late : Injector(system_).add(world_, options_.trajectory)) {
       all_.push_back(late.particle);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <cstring>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,13 +20,36 @@ struct Contents {
   int complete = -1;
 };
 
-inline std::string read_all(hid_t dataset) {
-  const hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
-  const auto rows = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
-  std::string bytes(rows * H5Tget_size(type), '\0');
-  if (rows > 0) H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
+/// The values as bytes; texts of variable length each with a zero after it.
+inline std::string bytes_of(hid_t type, hid_t space, const std::function<void(void*)>& read) {
+  const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+  std::string bytes(count * H5Tget_size(type), '\0');
+  if (count > 0) read(bytes.data());
+  if (H5Tis_variable_str(type) > 0) {
+    std::vector<char*> texts(count);
+    std::memcpy(texts.data(), bytes.data(), count * sizeof(char*));
+    bytes.clear();
+    for (char* text : texts) {
+      bytes.append(text ? text : "").push_back('\0');
+      H5free_memory(text);
+    }
+  }
   H5Sclose(space);
   H5Tclose(type);
+  return bytes;
+}
+inline std::string read_all(hid_t dataset) {
+  const hid_t type = H5Dget_type(dataset);
+  return bytes_of(type, H5Dget_space(dataset),
+                  [&](void* to) { H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, to); });
+}
+/// Of an attribute; "" where there is none.
+inline std::string read_attribute(hid_t object, const char* name) {
+  if (H5Aexists(object, name) <= 0) return "";
+  const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT), type = H5Aget_type(attribute);
+  const std::string bytes =
+      bytes_of(type, H5Aget_space(attribute), [&](void* to) { H5Aread(attribute, type, to); });
+  H5Aclose(attribute);
   return bytes;
 }
 
@@ -48,12 +73,7 @@ inline Contents open_archive(const std::string& path) {
   const hid_t complete = H5Aopen(file, "complete", H5P_DEFAULT);
   H5Aread(complete, H5T_NATIVE_INT, &contents.complete);
   H5Aclose(complete);
-  const hid_t status = H5Aopen(file, "status", H5P_DEFAULT), type = H5Aget_type(status);
-  std::string text(H5Tget_size(type), '\0');
-  H5Aread(status, type, text.data());
-  contents.status = text.c_str();
-  H5Tclose(type);
-  H5Aclose(status);
+  contents.status = read_attribute(file, "status").c_str();
   H5Fclose(file);
   return contents;
 }

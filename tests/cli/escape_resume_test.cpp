@@ -138,11 +138,7 @@ void change_provenance(const std::string& path, const char* name, bool remove = 
   if (remove) {
     EXPECT_GE(H5Adelete(provenance, name), 0);
   } else {
-    const hid_t attribute = H5Aopen(provenance, name, H5P_DEFAULT), type = H5Aget_type(attribute);
-    const std::string text(H5Tget_size(type), '9');
-    EXPECT_GE(H5Awrite(attribute, type, text.data()), 0);
-    H5Tclose(type);
-    H5Aclose(attribute);
+    io::hdf5::change_attribute(provenance, name, std::string_view("99999999"), path);
   }
   H5Gclose(provenance);
   io::hdf5::write_checksums(file, path);

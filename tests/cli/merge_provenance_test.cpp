@@ -12,16 +12,7 @@ const std::string stadium = "$carom escape stadium --trajectories 300 --quiet --
 std::string provenance(const Shell& shell, const std::string& file, const char* name) {
   const hid_t archive = H5Fopen((shell.folder() + "/" + file).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   const hid_t group = H5Gopen2(archive, "provenance", H5P_DEFAULT);
-  std::string bytes;
-  if (H5Aexists(group, name) > 0) {
-    const hid_t attribute = H5Aopen(group, name, H5P_DEFAULT), type = H5Aget_type(attribute),
-                space = H5Aget_space(attribute);
-    bytes.resize(H5Tget_size(type) * static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-    H5Aread(attribute, type, bytes.data());
-    H5Sclose(space);
-    H5Tclose(type);
-    H5Aclose(attribute);
-  }
+  const std::string bytes = read_attribute(group, name);
   H5Gclose(group);
   H5Fclose(archive);
   return bytes;

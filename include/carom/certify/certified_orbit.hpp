@@ -22,6 +22,9 @@ class CertifiedNumber {
   struct Enclosure;  ///< a ball of any precision
   CertifiedNumber() = default;
   explicit CertifiedNumber(std::shared_ptr<const Enclosure> value) : value_(std::move(value)) {}
+  /// What text(digits) has written: within 10^-digits of these decimals. Throws InputError, at that
+  /// place, for anything else.
+  static CertifiedNumber of_text(const std::string& decimals, int digits, const Place& = {});
 
   /// With `digits` decimals, the last one rounded.
   std::string text(int digits) const;

@@ -15,6 +15,8 @@
 
 namespace carom {
 
+class World;
+
 /// A reflection; velocities are those after it.
 struct HitRow {
   std::int32_t particle = 0, wall = 0;
@@ -38,6 +40,8 @@ struct SampleRow {
 /// `frames`: those of frames_of(table) (analysis/section.hpp).
 HitRow hit_row(const HitEvent&, const Table&, const std::vector<geometry::CurveFrame>& frames);
 SampleRow sample_row(int particle, Time, const State&, const Table&);
+/// The particles of a world that has not begun to move.
+std::vector<SampleRow> start_rows(const World&, const Table&);
 
 /// Two hard discs that touch. Centres are those in the plane, unwrapped; velocities those after the
 /// contact.

@@ -18,6 +18,8 @@
 
 namespace carom {
 
+class World;
+
 /// Everything that a particle's future depends on. A run continued from it repeats the
 /// uninterrupted one bit for bit.
 struct ParticleProgress {
@@ -52,7 +54,8 @@ struct SingleRunOptions {
   StepCounts steps;                      ///< of the part that is resumed
   std::function<bool()>
       interrupted;  ///< asked between events, and while starts are drawn: SamplingStopped
-  std::uint64_t trajectory = 0;  ///< index: which start is drawn
+  std::function<void(const World&)> started;  ///< told once, when all starts are in the world
+  std::uint64_t trajectory = 0;               ///< index: which start is drawn
   bool estimate_state_error =
       false;  ///< under forces: costs up to three times the run (ensemble/state_error.hpp)
   /// What the system's doubles were rounded from; null: they are what is meant.

@@ -81,6 +81,8 @@ class RunArchive : public Observer {
                                             ArchiveLock = nullptr);
   ~RunArchive() override;
 
+  /// Before anything else.
+  void start(const std::vector<SampleRow>&);
   void hit(const HitEvent&) override;
   /// The same of what was kept as rows. Energies are rows only where they are wanted.
   void append(const HitRow&);
@@ -114,6 +116,8 @@ StoredRun read_run(const std::string& file);
 /// The rows of a run's archive. Throw InputError for anything else.
 std::vector<HitRow> read_hits(const std::string& file);
 std::vector<SampleRow> read_samples(const std::string& file);
+/// The starts, a row a particle; none in archives of earlier builds.
+std::vector<SampleRow> read_starts(const std::string& file);
 /// None where the archive has no such group: no hard discs; no forces and no hard discs.
 std::vector<ContactRow> read_contacts(const std::string& file);
 std::vector<EnergyRow> read_energies(const std::string& file);

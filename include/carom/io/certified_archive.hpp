@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "carom/certify/certified_orbit.hpp"
 #include "carom/io/archive.hpp"
@@ -25,5 +26,16 @@ class CertifiedArchive {
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// A certified run as its archive holds it; of the task only `digits` is known.
+struct StoredCertified {
+  std::string system_name, system_toml;
+  CertifiedTask task;
+  CertifiedEnd end;
+  CertifiedEffort effort;
+  std::vector<CertifiedHit> hits;
+};
+/// Throws InputError for anything but the archive of a certified run.
+StoredCertified read_certified(const std::string& file);
 
 }  // namespace carom

@@ -24,6 +24,19 @@ CertifiedNumber number_of(Ball ball) {
 
 }  // namespace certify
 
+CertifiedNumber CertifiedNumber::of_text(const std::string& decimals, int digits,
+                                         const Place& place) {
+  const auto bits = static_cast<slong>(4 * decimals.size() + 64);  // a digit has 3.33
+  const bool plain = decimals.find_first_not_of("-.0123456789") == std::string::npos;
+  certify::Ball ball, error;
+  arb_ui_pow_ui(error.raw(), 10, static_cast<ulong>(digits), bits);
+  arb_inv(error.raw(), error.raw(), bits);
+  if (!plain || arb_set_str(ball.raw(), decimals.c_str(), bits) != 0)
+    throw InputError(place, "'" + decimals + "' is not a number", "decimals");
+  arb_add_error(ball.raw(), error.raw());
+  return certify::number_of(std::move(ball));
+}
+
 std::string CertifiedNumber::text(int digits) const { return value_->ball.decimals(digits); }
 double CertifiedNumber::to_double() const { return value_->ball.to_double(); }
 double CertifiedNumber::log2_error() const { return value_->ball.radius().log2(); }

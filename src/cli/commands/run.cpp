@@ -8,6 +8,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "cli/commands/commands.hpp"
@@ -109,6 +110,11 @@ int run(const Options& options) {
   if (options.resume.empty()) {
     loaded = load_system(options.system, run_overrides(options));
     choose_engine(options.engine, loaded.system);
+    // Of a picture: where forces act, hits alone would be joined by straight lines.
+    RunPlan& plan = loaded.system.run;
+    if (options.hidden_archive && engine_of(loaded.system) != "events" && plan.sample == 0.0 &&
+        plan.t_max < no_last_time)
+      plan.sample = plan.t_max / 2000;
     check_start(loaded.system);  // a start that is impossible must not cost an old archive
     // From here on a signal must leave a valid archive. Before, it simply ends the program,
     // whatever that computes.
@@ -162,7 +168,10 @@ int run(const Options& options) {
       }
       return interrupted.load(std::memory_order_relaxed);
     };
-    if (archive) archive->listen(how.interrupted);
+    if (archive) {
+      archive->listen(how.interrupted);
+      how.started = [&](const World& world) { archive->start(start_rows(world, *system.table)); };
+    }
     result = run_single(system, counting, how);
   }
   const std::string status = run_status(result);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -12,7 +11,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/section.hpp"
 #include "cli/common.hpp"
-#include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/section_report.hpp"
 #include "io/progress.hpp"
@@ -20,28 +18,6 @@
 namespace carom::cli {
 
 namespace {
-
-constexpr std::size_t orbits_shown = 12;
-
-// A line of the printed table.
-struct OrbitLine {
-  std::uint64_t orbit = 0, points = 0;
-  double from = 0, to = 0, last_time = 0;
-};
-
-void add(std::vector<OrbitLine>& lines, const std::vector<SectionPoint>& points) {
-  for (const SectionPoint& p : points) {
-    if (lines.empty() || lines.back().orbit != p.orbit) {
-      if (lines.size() == orbits_shown) return;
-      lines.push_back({p.orbit, 0, p.v_parallel, p.v_parallel, 0});
-    }
-    OrbitLine& line = lines.back();
-    ++line.points;
-    line.from = std::min(line.from, p.v_parallel);
-    line.to = std::max(line.to, p.v_parallel);
-    line.last_time = p.t;
-  }
-}
 
 SystemOverrides section_overrides(const Options& options) {
   SystemOverrides overrides = options.overrides;
@@ -55,46 +31,6 @@ SystemOverrides section_overrides(const Options& options) {
   if (options.orbits.empty() && !overrides.trajectories.empty())
     overrides.set.emplace_back("section.orbits", overrides.trajectories);
   return overrides;
-}
-
-std::string section_text(const System& system, const SectionResult& result,
-                         const std::vector<OrbitLine>& lines, const std::string& output,
-                         bool verbose) {
-  std::string text = doubts_of(system, result).text() +
-                     fmt::format("{}\n", system.title.empty() ? system.name : system.title);
-  text += fmt::format("{} points of {} orbit{}{}\n", grouped(result.points), grouped(result.orbits),
-                      result.orbits == 1 ? "" : "s",
-                      result.complete ? "" : "  (interrupted: those that were finished)");
-  if (!lines.empty()) {
-    std::vector<Column> columns{{"orbit", {}}, {"points", {}}, {"last time", {}}};
-    std::vector<std::string> from, to;
-    for (const OrbitLine& line : lines) {
-      columns[0].cells.push_back(fmt::format("{}", line.orbit));
-      columns[1].cells.push_back(grouped(line.points));
-      columns[2].cells.push_back(fmt::format("{:.6g}", line.last_time));
-      from.push_back(fmt::format("{:+.4f}", line.from));
-      to.push_back(fmt::format("{:+.4f}", line.to));
-    }
-    columns.push_back({"v_parallel", ranges(from, to), true});
-    text += "\n" + aligned(columns);
-    if (result.orbits > lines.size())
-      text += fmt::format("  of {} orbits\n", grouped(result.orbits));
-  }
-  const std::string ends = fates_text(result);
-  if (result.incomplete > 0)
-    text += fmt::format("\n{} with fewer than {} points until t = {:.6g}{}\n",
-                        grouped(result.incomplete), grouped(system.section.points),
-                        system.run.t_max, ends.empty() ? "" : " (" + ends + ")");
-  if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
-  const std::string steps = steps_text(system, result.steps);
-  text += fmt::format("\n{} collisions{}in {:.3g} s on {} thread{}: {}\n",
-                      grouped(result.collisions), steps.empty() ? " " : "\n" + steps + "\n",
-                      result.seconds, result.threads, result.threads == 1 ? "" : "s",
-                      pace_text(system, result.collisions, result.steps, result.seconds));
-  if (verbose)
-    text += fmt::format("{}\ndigest {:016x}\n", decisions_text(result.decisions), result.digest);
-  text += output.empty() ? "-o FILE.h5 stores the points\n" : fmt::format("archive: {}\n", output);
-  return text;
 }
 
 }  // namespace
@@ -133,10 +69,10 @@ int section(const Options& options) {
     archive = std::make_unique<SectionArchive>(options.output, loaded,
                                                provenance_of(options, system, how.threads),
                                                options.force, lock_output(options.output));
-  std::vector<OrbitLine> lines;
+  OrbitLines lines;
   how.points = [&](const std::vector<SectionPoint>& points) {
     if (archive) archive->append(points);
-    add(lines, points);
+    lines.add(points);
   };
   SectionResult result;
   {
@@ -156,7 +92,8 @@ int section(const Options& options) {
   warn_of(result.reports);
   const std::string archive_name = named_archive(options, options.output);
   print(options.json ? section_json(system, result, status, archive_name).text() + "\n"
-                     : section_text(system, result, lines, archive_name, options.verbose));
+                     : section_text(system, result, lines, archive_name, options.verbose) +
+                           (archive ? "" : "-o FILE.h5 stores the points\n"));
   return doubts_of(system, result).status(result.complete);
 }
 

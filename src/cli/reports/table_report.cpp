@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "carom/geometry/arc.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 
@@ -14,23 +15,27 @@ using io::Json;
 
 namespace {
 
-const char* kind_of(const geometry::Curve& curve) {
-  static constexpr const char* names[] = {"segment", "circular arc", "circle", "elliptic arc",
-                                          "ellipse"};
-  return names[curve.index()];
-}
-
 Json pair(geometry::Vector v) { return Json::array().push(v.x).push(v.y); }
+
+Json wall_json(const Wall& wall) {
+  Json json = Json::object();
+  json.set("name", wall.name).set("kind", geometry::kind_name(wall.curve));
+  json.set("length", geometry::length(wall.curve));
+  json.set("from", pair(geometry::start_point(wall.curve)));
+  json.set("to", pair(geometry::end_point(wall.curve)));
+  const auto arc = geometry::arc_of(wall.curve);
+  if (!arc) return json;
+  json.set("center", pair(arc->centre));
+  if (arc->a == arc->b)
+    json.set("radius", arc->a);
+  else
+    json.set("a", arc->a).set("b", arc->b).set("axis", arc->axis);
+  return json.set("angles", pair({arc->from, arc->to}));
+}
 
 Json walls_json(const Table& table) {
   Json walls = Json::array();
-  for (const Wall& wall : table.walls)
-    walls.push(Json::object()
-                   .set("name", wall.name)
-                   .set("kind", kind_of(wall.curve))
-                   .set("length", geometry::length(wall.curve))
-                   .set("from", pair(geometry::start_point(wall.curve)))
-                   .set("to", pair(geometry::end_point(wall.curve))));
+  for (const Wall& wall : table.walls) walls.push(wall_json(wall));
   return walls;
 }
 
@@ -76,7 +81,7 @@ std::string table_text(const System& system, const TableMeasure& measured,
     if (!verbose && columns.front().cells.size() == most_walls) break;
     const auto point = [](geometry::Vector p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); };
     const bool whole = geometry::is_closed(wall.curve);
-    const std::string cells[] = {wall.name, kind_of(wall.curve),
+    const std::string cells[] = {wall.name, geometry::kind_name(wall.curve),
                                  fmt::format("{:.9g}", geometry::length(wall.curve)),
                                  point(geometry::start_point(wall.curve)),
                                  whole ? "" : point(geometry::end_point(wall.curve))};

@@ -26,7 +26,6 @@ using hdf5::Handle;
 namespace {
 
 constexpr const char* running = "running";
-constexpr std::size_t status_length = 16;
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -146,11 +145,10 @@ void ArchiveFile::write_head(const char* kind, const LoadedSystem& loaded,
   hdf5::write_attribute(id(), "schema", std::int64_t{archive_schema}, name_);
   hdf5::write_attribute(id(), "kind", std::string_view(kind), name_);
   hdf5::write_attribute(id(), "complete", std::int64_t{0}, name_);
-  std::string status = running;
-  status.resize(status_length, '\0');
-  hdf5::write_attribute(id(), "status", std::string_view(status), name_);
+  hdf5::write_attribute(id(), "status", std::string_view(running), name_);
   hdf5::write_text(id(), "system", loaded.resolved_toml,
                    {"TOML", "The complete resolved system: carom runs it again"}, name_);
+  write_walls(*this, *loaded.system.table);
   const Handle provenance = group("provenance", "Where this result comes from");
   const hid_t to = provenance.get();
   hdf5::write_attribute(to, "system", std::string_view(loaded.system.name), name_);

@@ -46,11 +46,15 @@ class ArchiveFile {
   bool kept_ = false;
 };
 
+/// Group /walls: names, kinds, ends, centres, semi-axes and angles.
+void write_walls(const ArchiveFile&, const Table&);
+
 inline constexpr int archive_schema = 1;
 /// Opens an archive for reading. Throws InputError where there is no file, where HDF5 cannot read
 /// it (with this problem and what was expected), or where its schema is another one.
 hdf5::Handle open_archive(const std::string& name, const std::string& problem,
                           const std::string& expected);
-inline constexpr const char *run_archive_kind = "run", *section_archive_kind = "section";
+inline constexpr const char *run_archive_kind = "run", *section_archive_kind = "section",
+                            *certified_archive_kind = "certified";
 
 }  // namespace carom::io

@@ -6,7 +6,9 @@
 
 #include "carom/base/error.hpp"
 #include "io/archive/archive_file.hpp"
+#include "io/archive/checksums.hpp"
 #include "io/archive/columns.hpp"
+#include "io/archive/ensemble_columns.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 
 namespace carom {
@@ -109,7 +111,7 @@ class CertifiedArchive::Implementation {
         digits(task.digits),
         file(ArchiveFile::create(aside_of(path), path)),
         rows(path) {
-    file.write_head("certified", loaded, origin);
+    file.write_head(certified_archive_kind, loaded, origin);
     for (const Wall& w : loaded.system.table->walls) walls.push_back(w.name);
     for (const Hole& h : loaded.system.table->holes) holes.push_back(h.name);
     collisions = file.group("collisions", "Reflections in order of time: the states after them");
@@ -189,8 +191,8 @@ void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& ef
     hdf5::write_attribute(to, "digits", std::int64_t{a.digits}, a.target);
     hdf5::write_attribute(to, "bits", std::int64_t{effort.bits}, a.target);
     hdf5::write_attribute(to, "attempts", std::int64_t{effort.attempts}, a.target);
-    hdf5::write_attribute(to, "lost_bits", static_cast<std::int64_t>(effort.tangent_bits),
-                          a.target);
+    hdf5::write_attribute(to, "lost_bits", effort.tangent_bits, a.target);
+    hdf5::write_attribute(to, "rescaled", std::int64_t{effort.rescaled}, a.target);
     hdf5::write_attribute(to, "reason", std::string_view(end.reason), a.target);
     if (!end.ties.empty()) hdf5::write_attribute(to, "ties", end.ties, a.target);
     if (!a.holes.empty()) hdf5::write_attribute(to, "holes", a.holes, a.target);
@@ -199,6 +201,90 @@ void CertifiedArchive::finish(const CertifiedEnd& end, const CertifiedEffort& ef
   a.file.keep_as(a.target);
   give_up_checkpoint(a.target);
   a.lock.reset();
+}
+
+namespace {
+
+CertifiedFate fate_of(const std::string& status, const std::string& file) {
+  for (int i = 0; i <= static_cast<int>(CertifiedFate::interrupted); ++i)
+    if (status == name_of(static_cast<CertifiedFate>(i))) return static_cast<CertifiedFate>(i);
+  throw InputError(Place{file, 0, 0, ""}, "a certified run does not end as '" + status + "'",
+                   "an archive as carom wrote it");
+}
+
+void read_end(hid_t file, const std::string& name, StoredCertified& stored) {
+  const Handle group = open_group(file, "state", name);
+  const auto integer = [&](const char* column) {
+    return read_number<std::int64_t>(group.get(), column, column, name);
+  };
+  CertifiedEnd& end = stored.end;
+  end.fate = fate_of(hdf5::read_string_attribute(file, "status", name), name);
+  end.collisions = static_cast<std::uint64_t>(integer("hits"));
+  end.wall = static_cast<int>(integer("last_wall"));
+  end.hole = static_cast<int>(integer("hole"));
+  end.cell = {integer("cell_first"), integer("cell_second")};
+  if (H5Lexists(group.get(), coordinates.front().decimals, H5P_DEFAULT) <= 0) return;
+  for (const Coordinate& c : coordinates)
+    end.*c.value = CertifiedNumber::of_text(hdf5::read_text(group.get(), c.decimals, name),
+                                            stored.task.digits, Place{name, 0, 0, c.decimals});
+}
+
+void read_guarantee(hid_t file, const std::string& name, StoredCertified& stored) {
+  const Handle group = open_group(file, "guarantee", name);
+  const hid_t from = group.get();
+  const auto integer = [&](const char* key) {
+    return hdf5::read_integer_attribute(from, key, name);
+  };
+  stored.task.digits = static_cast<int>(integer("digits"));
+  stored.effort.bits = integer("bits");
+  stored.effort.attempts = static_cast<int>(integer("attempts"));
+  stored.effort.tangent_bits = hdf5::read_real_attribute(from, "lost_bits", name);
+  // Archives of earlier builds do not say it.
+  stored.effort.rescaled = H5Aexists(from, "rescaled") > 0 && integer("rescaled") != 0;
+  stored.end.reason = hdf5::read_string_attribute(from, "reason", name);
+  stored.end.ties = hdf5::read_string_list_attribute(from, "ties", name);
+}
+
+std::vector<CertifiedHit> read_collisions(hid_t file, const std::string& name, int digits) {
+  const Handle group = open_group(file, "collisions", name);
+  const hid_t from = group.get();
+  const auto number = hdf5::read_column<std::uint64_t>(from, "number", name);
+  const auto wall = hdf5::read_column<std::int32_t>(from, "wall", name);
+  const auto first = hdf5::read_column<std::int64_t>(from, "cell_first", name),
+             second = hdf5::read_column<std::int64_t>(from, "cell_second", name);
+  std::vector<CertifiedHit> hits(number.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    hits[i].number = number[i];
+    hits[i].wall = wall.at(i);
+    hits[i].cell = {first.at(i), second.at(i)};
+  }
+  for (const Coordinate& c : coordinates) {
+    const auto texts = hdf5::read_texts(from, c.decimals, name);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      hits[i].*c.value =
+          CertifiedNumber::of_text(texts.at(i), digits, Place{name, 0, 0, c.decimals});
+  }
+  return hits;
+}
+
+}  // namespace
+
+StoredCertified read_certified(const std::string& name) {
+  hdf5::silence();
+  const Handle file = open_archive(name, "the file is not an archive, or it is still being written",
+                                   "an archive of carom");
+  if (hdf5::read_string_attribute(file.get(), "kind", name) != certified_archive_kind)
+    throw InputError(Place{name, 0, 0, ""}, "the archive holds no certified run",
+                     "one written by carom run --precision certified -o");
+  hdf5::verify(file.get(), name);
+  StoredCertified stored;
+  stored.system_toml = hdf5::read_text(file.get(), "system", name);
+  stored.system_name =
+      hdf5::read_string_attribute(open_group(file.get(), "provenance", name).get(), "system", name);
+  read_guarantee(file.get(), name, stored);
+  read_end(file.get(), name, stored);
+  stored.hits = read_collisions(file.get(), name, stored.task.digits);
+  return stored;
 }
 
 }  // namespace carom

@@ -12,6 +12,7 @@
 
 #include "carom/base/error.hpp"
 #include "io/archive/hdf5.hpp"
+#include "io/archive/texts.hpp"
 
 namespace carom::io::hdf5 {
 
@@ -50,6 +51,8 @@ std::string line_of(const Entry& entry, const std::string& path) {
   return fmt::format("{:08x} {} {:015} {}\n", entry.sum, entry.type, entry.count, path);
 }
 
+bool is_variable(hid_t type) { return H5Tis_variable_str(type) > 0; }
+
 std::string type_name(hid_t type) {
   const std::size_t size = H5Tget_size(type);
   switch (H5Tget_class(type)) {
@@ -58,16 +61,15 @@ std::string type_name(hid_t type) {
     case H5T_FLOAT:
       return fmt::format("float{}", 8 * size);
     case H5T_STRING:
-      return fmt::format("text{}", size);
+      return is_variable(type) ? "text" : fmt::format("text{}", size);
     default:
       return "";
   }
 }
 
-// Carom writes numbers and texts of a fixed length, one or a row of them. Others may add anything
-// to an archive.
+// Carom writes numbers and texts, one or a row of them. Others may add anything to an archive.
 bool is_plain(hid_t type, hid_t space) {
-  const bool text = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+  const bool text = H5Tget_class(type) == H5T_STRING;
   const bool number = H5Tget_class(type) == H5T_INTEGER || H5Tget_class(type) == H5T_FLOAT;
   return (text || number) && H5Sget_simple_extent_ndims(space) <= 1;
 }
@@ -92,7 +94,17 @@ bool look(hid_t type, hid_t space, Entry& entry) {
   return true;
 }
 
+// Texts of variable length, each with a byte of zero after it.
+bool sum_texts(hid_t owner, Entry& entry) {
+  const auto texts = texts_of(owner);
+  if (!texts) return false;
+  for (const std::string& text : *texts)
+    entry.sum = crc32(text.c_str(), text.size() + 1, entry.sum);
+  return true;
+}
+
 bool sum_dataset(hid_t dataset, hid_t type, Entry& entry) {
+  if (is_variable(type)) return sum_texts(dataset, entry);
   const std::size_t size = H5Tget_size(type);
   const std::uint64_t batch = std::max<std::uint64_t>(batch_bytes / size, 1);
   const Handle all(H5Dget_space(dataset), H5Sclose);
@@ -113,6 +125,7 @@ bool sum_dataset(hid_t dataset, hid_t type, Entry& entry) {
 }
 
 bool sum_attribute(hid_t attribute, hid_t type, Entry& entry) {
+  if (is_variable(type)) return sum_texts(attribute, entry);
   std::vector<char> bytes(entry.count * H5Tget_size(type));
   if (entry.count > 0 && H5Aread(attribute, type, bytes.data()) < 0) return false;
   entry.sum = crc32(bytes.data(), bytes.size());
@@ -191,7 +204,7 @@ void write_list(hid_t file, const std::string& list, const std::string& name) {
       throw InternalError("something was added to an archive that others read");
     check(H5Adelete(group.get(), list_name) >= 0, name);
   }
-  write_attribute(group.get(), list_name, std::string_view(list), name);
+  write_fixed_attribute(group.get(), list_name, std::string_view(list), name);
 }
 
 // "1c291ca3 float64 000000000004096 /collisions/t"; false where it is none.

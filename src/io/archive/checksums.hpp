@@ -15,7 +15,8 @@ std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before = 
 /// Lists everything that the file holds in the attribute `checksums` of /provenance: a line with
 /// the CRC-32 of the lines that follow, then a line for each dataset and attribute with the CRC-32
 /// of its bytes, its type, number of values and path. All these have a fixed length: the attribute
-/// is written again in place as long as nothing new is in the file.
+/// is written again in place as long as nothing new is in the file. The bytes of a text of variable
+/// length are its UTF-8 and a zero.
 void write_checksums(hid_t file, const std::string& name);
 /// Makes room for that list before readers come (SWMR): nothing can be created afterwards. The sums
 /// are zeros.

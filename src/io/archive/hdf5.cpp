@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "carom/base/error.hpp"
+#include "io/archive/texts.hpp"
 
 namespace carom::io::hdf5 {
 
@@ -25,23 +26,28 @@ herr_t find_reason(unsigned, const H5E_error2_t* entry, void* data) {
   return 0;
 }
 
-Handle string_type(std::size_t size, const std::string& file) {
+// UTF-8; H5T_VARIABLE is a size, too.
+Handle text_type(std::size_t size, const std::string& file) {
   Handle type = checked(H5Tcopy(H5T_C_S1), H5Tclose, file);
+  const H5T_str_t end = size == H5T_VARIABLE ? H5T_STR_NULLTERM : H5T_STR_NULLPAD;
   check(H5Tset_size(type.get(), std::max<std::size_t>(size, 1)) >= 0 &&
-            H5Tset_cset(type.get(), H5T_CSET_UTF8) >= 0 &&
-            H5Tset_strpad(type.get(), H5T_STR_NULLPAD) >= 0,
+            H5Tset_cset(type.get(), H5T_CSET_UTF8) >= 0 && H5Tset_strpad(type.get(), end) >= 0,
         file);
   return type;
+}
+
+// One value or a row of them.
+Handle create_attribute(hid_t object, const char* name, hid_t type, const hsize_t* size,
+                        const std::string& file) {
+  const Handle space =
+      checked(size ? H5Screate_simple(1, size, nullptr) : H5Screate(H5S_SCALAR), H5Sclose, file);
+  return checked(H5Acreate2(object, name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                 file);
 }
 
 void describe(hid_t dataset, Description description, const std::string& file) {
   write_attribute(dataset, "units", description.units, file);
   write_attribute(dataset, "description", description.text, file);
-}
-
-std::string trimmed(std::string text) {
-  text.resize(std::strlen(text.c_str()));
-  return text;
 }
 
 [[noreturn]] void cannot_read(const std::string& file, const char* what) {
@@ -79,59 +85,57 @@ Handle checked(hid_t id, Handle::Closer closer, const std::string& file) {
 
 void write_attribute(hid_t object, const char* name, std::string_view value,
                      const std::string& file) {
-  const Handle type = string_type(value.size(), file);
-  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
-  const Handle attribute = checked(
-      H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, file);
-  const std::string padded(value.empty() ? std::string(1, '\0') : std::string(value));
-  check(H5Awrite(attribute.get(), type.get(), padded.data()) >= 0, file);
+  const Handle type = text_type(H5T_VARIABLE, file);
+  const Handle attribute = create_attribute(object, name, type.get(), nullptr, file);
+  const std::string text(value);
+  const char* start = text.c_str();
+  check(H5Awrite(attribute.get(), type.get(), &start) >= 0, file);
 }
 
 void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file) {
-  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
-  const Handle attribute =
-      checked(H5Acreate2(object, name, H5T_STD_I64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-              H5Aclose, file);
+  const Handle attribute = create_attribute(object, name, H5T_STD_I64LE, nullptr, file);
   check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
 }
 
 void write_attribute(hid_t object, const char* name, std::uint64_t value, const std::string& file) {
-  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
-  const Handle attribute =
-      checked(H5Acreate2(object, name, H5T_STD_U64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-              H5Aclose, file);
+  const Handle attribute = create_attribute(object, name, H5T_STD_U64LE, nullptr, file);
   check(H5Awrite(attribute.get(), H5T_NATIVE_UINT64, &value) >= 0, file);
 }
 
 void write_attribute(hid_t object, const char* name, double value, const std::string& file) {
-  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
-  const Handle attribute =
-      checked(H5Acreate2(object, name, H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-              H5Aclose, file);
+  const Handle attribute = create_attribute(object, name, H5T_IEEE_F64LE, nullptr, file);
   check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0, file);
 }
 
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
                      const std::string& file) {
-  std::size_t longest = 1;
-  for (const std::string& value : values) longest = std::max(longest, value.size());
-  std::string all;
-  for (const std::string& value : values) all += value + std::string(longest - value.size(), '\0');
-  const Handle type = string_type(longest, file);
+  const Handle type = text_type(H5T_VARIABLE, file);
   const hsize_t size = values.size();
-  const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
-  const Handle attribute = checked(
-      H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, file);
-  check(values.empty() || H5Awrite(attribute.get(), type.get(), all.data()) >= 0, file);
+  const Handle attribute = create_attribute(object, name, type.get(), &size, file);
+  std::vector<const char*> starts;
+  for (const std::string& value : values) starts.push_back(value.c_str());
+  check(values.empty() || H5Awrite(attribute.get(), type.get(), starts.data()) >= 0, file);
+}
+
+void write_fixed_attribute(hid_t object, const char* name, std::string_view value,
+                           const std::string& file) {
+  const Handle type = text_type(value.size(), file);
+  const Handle attribute = create_attribute(object, name, type.get(), nullptr, file);
+  const std::string padded(value.empty() ? std::string(1, '\0') : std::string(value));
+  check(H5Awrite(attribute.get(), type.get(), padded.data()) >= 0, file);
 }
 
 void change_attribute(hid_t object, const char* name, std::string_view value,
                       const std::string& file) {
   const Handle attribute = checked(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, file);
   const Handle type = checked(H5Aget_type(attribute.get()), H5Tclose, file);
-  std::string padded(value);
-  padded.resize(H5Tget_size(type.get()), '\0');
-  check(H5Awrite(attribute.get(), type.get(), padded.data()) >= 0, file);
+  std::string text(value);
+  if (H5Tis_variable_str(type.get()) > 0) {
+    const char* start = text.c_str();
+    return check(H5Awrite(attribute.get(), type.get(), &start) >= 0, file);
+  }
+  text.resize(H5Tget_size(type.get()), '\0');
+  check(H5Awrite(attribute.get(), type.get(), text.data()) >= 0, file);
 }
 
 void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file) {
@@ -139,32 +143,19 @@ void change_attribute(hid_t object, const char* name, std::int64_t value, const 
   check(H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) >= 0, file);
 }
 
-std::string read_string_attribute(hid_t object, const char* name, const std::string& file) {
-  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  if (!attribute) cannot_read(file, name);
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
-  std::string text(H5Tget_size(type.get()), '\0');
-  if (H5Aread(attribute.get(), type.get(), text.data()) < 0) cannot_read(file, name);
-  return trimmed(std::move(text));
-}
-
 std::vector<std::string> read_string_list_attribute(hid_t object, const char* name,
                                                     const std::string& file) {
   if (H5Aexists(object, name) <= 0) return {};
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  if (!attribute) cannot_read(file, name);
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose),
-      space(H5Aget_space(attribute.get()), H5Sclose);
-  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  const std::size_t length = H5Tget_size(type.get());
-  const bool texts = H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) == 0;
-  if (count < 0 || length == 0 || !texts) cannot_read(file, name);
-  std::string all(static_cast<std::size_t>(count) * length, '\0');
-  if (H5Aread(attribute.get(), type.get(), all.data()) < 0) cannot_read(file, name);
-  std::vector<std::string> values;
-  for (std::size_t at = 0; at < all.size(); at += length)
-    values.push_back(trimmed(all.substr(at, length)));
-  return values;
+  const auto texts = attribute ? texts_of(attribute.get()) : std::nullopt;
+  if (!texts) cannot_read(file, name);
+  return *texts;
+}
+
+std::string read_string_attribute(hid_t object, const char* name, const std::string& file) {
+  const std::vector<std::string> texts = read_string_list_attribute(object, name, file);
+  if (texts.size() != 1) cannot_read(file, name);
+  return texts.front();
 }
 
 std::int64_t read_integer_attribute(hid_t object, const char* name, const std::string& file) {
@@ -182,28 +173,44 @@ double read_real_attribute(hid_t object, const char* name, const std::string& fi
   return value;
 }
 
-void write_text(hid_t parent, const char* name, std::string_view text, Description description,
+void write_text(hid_t parent, const char* name, std::string_view value, Description description,
                 const std::string& file) {
-  const Handle type = string_type(text.size(), file);
-  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, file);
+  const Handle type = text_type(H5T_VARIABLE, file);
+  Handle dataset = create_scalar(parent, name, type.get(), description, file);
+  const std::string text(value);
+  const char* start = text.c_str();
+  check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &start) >= 0, file);
+  check(dataset.close(), file);
+}
+
+void write_texts(hid_t parent, const char* name, const std::vector<std::string>& texts,
+                 Description description, const std::string& file) {
+  const Handle type = text_type(H5T_VARIABLE, file);
+  const hsize_t size = texts.size();
+  const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
   Handle dataset = checked(
       H5Dcreate2(parent, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
       H5Dclose, file);
   describe(dataset.get(), description, file);
-  const std::string padded(text.empty() ? std::string(1, '\0') : std::string(text));
-  check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) >= 0,
+  std::vector<const char*> starts;
+  for (const std::string& text : texts) starts.push_back(text.c_str());
+  check(texts.empty() ||
+            H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, starts.data()) >= 0,
         file);
   check(dataset.close(), file);
 }
 
-std::string read_text(hid_t parent, const char* name, const std::string& file) {
+std::vector<std::string> read_texts(hid_t parent, const char* name, const std::string& file) {
   const Handle dataset(H5Dopen2(parent, name, H5P_DEFAULT), H5Dclose);
-  if (!dataset) cannot_read(file, name);
-  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
-  std::string text(H5Tget_size(type.get()), '\0');
-  if (H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
-    cannot_read(file, name);
-  return trimmed(std::move(text));
+  const auto texts = dataset ? texts_of(dataset.get()) : std::nullopt;
+  if (!texts) cannot_read(file, name);
+  return *texts;
+}
+
+std::string read_text(hid_t parent, const char* name, const std::string& file) {
+  const std::vector<std::string> texts = read_texts(parent, name, file);
+  if (texts.size() != 1) cannot_read(file, name);
+  return texts.front();
 }
 
 Handle create_scalar(hid_t parent, const char* name, hid_t type, Description description,

@@ -54,6 +54,7 @@ struct Description {
   const char* text;
 };
 
+/// Texts are UTF-8 of variable length.
 void write_attribute(hid_t object, const char* name, std::string_view value,
                      const std::string& file);
 void write_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
@@ -61,7 +62,10 @@ void write_attribute(hid_t object, const char* name, std::uint64_t value, const 
 void write_attribute(hid_t object, const char* name, double value, const std::string& file);
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& values,
                      const std::string& file);
-/// Overwrites the value of an existing attribute; a string is cut or padded to its length.
+/// A text whose place does not move when it is changed. h5py reads it as bytes.
+void write_fixed_attribute(hid_t object, const char* name, std::string_view value,
+                           const std::string& file);
+/// Overwrites the value of an existing attribute; a text of fixed length is cut or padded to it.
 void change_attribute(hid_t object, const char* name, std::string_view value,
                       const std::string& file);
 void change_attribute(hid_t object, const char* name, std::int64_t value, const std::string& file);
@@ -95,6 +99,10 @@ inline hid_t native_type<std::uint64_t>() {
 void write_text(hid_t parent, const char* name, std::string_view text, Description,
                 const std::string& file);
 std::string read_text(hid_t parent, const char* name, const std::string& file);
+/// A column of texts.
+void write_texts(hid_t parent, const char* name, const std::vector<std::string>& texts, Description,
+                 const std::string& file);
+std::vector<std::string> read_texts(hid_t parent, const char* name, const std::string& file);
 
 /// A single number as a scalar dataset.
 Handle create_scalar(hid_t parent, const char* name, hid_t type, Description,

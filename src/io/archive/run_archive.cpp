@@ -145,6 +145,20 @@ const std::pair<const char*, Description> energy_fields[] = {
      {"angular momentum", "Sum of m (x cross v + omega r^2 / 2), about the origin"}},
 };
 
+void add_sample_columns(hdf5::Columns& columns, hid_t to) {
+  columns.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
+  columns.add<double>(to, "t", {"time", "Time of the sample"});
+  columns.add<double>(to, "x", {"length", "Position, unwrapped"});
+  columns.add<double>(to, "y", {"length", "Position, unwrapped"});
+  columns.add<double>(to, "vx", {"length/time", "Velocity"});
+  columns.add<double>(to, "vy", {"length/time", "Velocity"});
+  columns.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
+  columns.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
+}
+void add_row(hdf5::Columns& columns, const SampleRow& row) {
+  columns.row(row.particle, row.t, row.x, row.y, row.vx, row.vy, row.cell_first, row.cell_second);
+}
+
 std::vector<std::string> fate_names() {
   std::vector<std::string> names;
   for (int i = 0; i <= static_cast<int>(last_fate); ++i)
@@ -162,6 +176,7 @@ class RunArchive::Implementation {
         table(loaded.system.table),
         hits(file.name()),
         samples(file.name()),
+        starts(file.name()),
         contacts(file.name()),
         of_discs(loaded.system.of_discs()),
         with_energies(EnergyRows(loaded.system).wanted()),
@@ -183,7 +198,7 @@ class RunArchive::Implementation {
   std::string target;
   std::shared_ptr<const Table> table;
   std::vector<geometry::CurveFrame> frames;
-  hdf5::Columns hits, samples;
+  hdf5::Columns hits, samples, starts;
   ContactColumns contacts;
   bool of_discs, with_energies;
   hdf5::Columns energies;
@@ -223,15 +238,11 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
   }
   {
     const Handle group = file.group("trajectory", "Samples at even times (run.sample)");
-    const hid_t to = group.get();
-    samples.add<std::int32_t>(to, "particle", {"1", "Index of the particle"});
-    samples.add<double>(to, "t", {"time", "Time of the sample"});
-    samples.add<double>(to, "x", {"length", "Position, unwrapped"});
-    samples.add<double>(to, "y", {"length", "Position, unwrapped"});
-    samples.add<double>(to, "vx", {"length/time", "Velocity"});
-    samples.add<double>(to, "vy", {"length/time", "Velocity"});
-    samples.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
-    samples.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
+    add_sample_columns(samples, group.get());
+  }
+  {
+    const Handle group = file.group("start", "The start of each particle");
+    add_sample_columns(starts, group.get());
   }
   if (of_discs) {
     const Handle group = file.group("contacts", "Contacts of hard discs in order of time");
@@ -346,6 +357,7 @@ RunArchive::~RunArchive() = default;
 std::unique_ptr<RunArchive> RunArchive::create(const std::string& file, const LoadedSystem& loaded,
                                                const Provenance& origin, bool force,
                                                std::uint64_t trajectory, ArchiveLock lock) {
+  hdf5::silence();
   if (!lock) lock = lock_archive(file);
   refuse_existing(file, force);
   auto made = std::make_unique<Implementation>(ArchiveFile::create(file, file), file, loaded);
@@ -375,6 +387,11 @@ std::unique_ptr<RunArchive> RunArchive::extend(const std::string& source, const 
   return std::unique_ptr<RunArchive>(new RunArchive(std::move(made)));
 }
 
+void RunArchive::start(const std::vector<SampleRow>& rows) {
+  for (const SampleRow& row : rows) add_row(implementation_->starts, row);
+  implementation_->starts.close();
+}
+
 void RunArchive::hit(const HitEvent& event) {
   const Implementation& a = *implementation_;
   append(hit_row(event, *a.table, a.frames));
@@ -390,10 +407,7 @@ void RunArchive::contact(const ContactEvent& event) {
   append(contact_row(event, *implementation_->table));
 }
 void RunArchive::append(const ContactRow& row) { implementation_->contacts.add(row); }
-void RunArchive::append(const SampleRow& row) {
-  implementation_->samples.row(row.particle, row.t, row.x, row.y, row.vx, row.vy, row.cell_first,
-                               row.cell_second);
-}
+void RunArchive::append(const SampleRow& row) { add_row(implementation_->samples, row); }
 void RunArchive::append(const EnergyRow& row) {
   implementation_->energies.row(row.t, row.kinetic, row.external, row.pair, row.total, row.px,
                                 row.py, row.angular_momentum);
@@ -426,6 +440,7 @@ void RunArchive::finish(const SingleRunResult& result, const std::string& status
   Implementation& a = *implementation_;
   a.hits.close();
   a.samples.close();
+  a.starts.close();
   a.contacts.close();
   a.energies.close();
   a.write_state(result.particles);

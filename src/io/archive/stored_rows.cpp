@@ -77,14 +77,6 @@ std::vector<HitRow> read_hits(const std::string& file) {
   return rows;
 }
 
-std::vector<SampleRow> read_samples(const std::string& file) {
-  const Group group(file, run_archive_kind, "trajectory");
-  std::vector<SampleRow> rows;
-  group.read_motion(rows);
-  group.read_cells(rows);
-  return rows;
-}
-
 namespace {
 
 // Archives have the group only where there can be rows.
@@ -92,7 +84,22 @@ bool has_group(const std::string& file, const char* group) {
   return H5Lexists(opened(file).get(), group, H5P_DEFAULT) > 0;
 }
 
+std::vector<SampleRow> sample_rows(const std::string& file, const char* of) {
+  const Group group(file, run_archive_kind, of);
+  std::vector<SampleRow> rows;
+  group.read_motion(rows);
+  group.read_cells(rows);
+  return rows;
+}
+
 }  // namespace
+
+std::vector<SampleRow> read_samples(const std::string& file) {
+  return sample_rows(file, "trajectory");
+}
+std::vector<SampleRow> read_starts(const std::string& file) {
+  return has_group(file, "start") ? sample_rows(file, "start") : std::vector<SampleRow>();
+}
 
 std::vector<ContactRow> read_contacts(const std::string& file) {
   std::vector<ContactRow> rows;

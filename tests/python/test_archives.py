@@ -1,0 +1,110 @@
+"""Archives: opened by the module, and read by h5py without it."""
+
+import os
+import pickle
+import signal
+import subprocess
+import threading
+
+import numpy
+import pytest
+
+import carom
+
+COMMANDS = {
+    "run": ("run", "henon-heiles", "--t-max", 2, "--set", "run.sample=0.5"),
+    "certified": ("run", "stadium", "--collisions", 12, "--precision", "certified", "--digits", 25),
+    "escape": ("escape", "stadium", "--trajectories", 300, "--t-max", 20, "--per-trajectory"),
+    "diffusion": ("diffusion", "lorentz-triangular", "--trajectories", 50, "--t-max", 5),
+    "section": ("section", "stadium", "--orbits", 3, "--points", 40),
+}
+
+
+@pytest.fixture(scope="module")
+def archives(tmp_path_factory):
+    """Of each kind one, written by the program."""
+    folder = tmp_path_factory.mktemp("archives")
+    for kind, command in COMMANDS.items():
+        words = [os.environ["CAROM_PROGRAM"], *map(str, command), "--quiet", "-o", f"{kind}.h5"]
+        subprocess.run(words, check=True, capture_output=True, cwd=folder)
+    return folder
+
+
+@pytest.mark.parametrize("kind", COMMANDS)
+def test_h5py_reads_texts_and_numbers(archives, kind):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(archives / f"{kind}.h5") as file:
+        assert file.attrs["kind"] == kind
+        assert file.attrs["status"] in ("completed", "escaped")
+        assert isinstance(file["provenance"].attrs["version"], str)
+        assert file["provenance"].attrs["seed"] == 1
+        assert carom.System(file["system"].asstr()[()], kind).to_toml()
+        others = []
+
+        def look(name, thing):
+            for key, value in thing.attrs.items():
+                values = [value] if numpy.ndim(value) == 0 else list(value)
+                if any(isinstance(one, (bytes, numpy.bytes_)) for one in values):
+                    others.append(f"{name}@{key}")
+
+        look("", file)
+        file.visititems(look)
+        assert others == ["provenance@checksums"]  # which is written again in place
+
+
+def lasting(result):
+    """The JSON of a result but for times."""
+    return {key: value for key, value in result.json.items() if key not in ("seconds", "cpu_seconds")}
+
+
+@pytest.mark.parametrize("kind", COMMANDS)
+def test_every_archive_is_opened_and_pickled(archives, kind):
+    opened = carom.open(archives / f"{kind}.h5")
+    assert repr(pickle.loads(pickle.dumps(opened))) == repr(opened)
+    assert str(opened).splitlines()[0] == opened.system.title
+    again = archives / f"again-{kind}.h5"
+    opened.save(again)
+    assert lasting(carom.open(again)) == lasting(opened)
+
+
+def test_a_certified_run_is_stored_with_all_digits(tmp_path):
+    exact = carom.run("siam-photon", collisions=20, precision="certified", digits=40)
+    exact.save(tmp_path / "exact.h5")
+    for again in (carom.open(tmp_path / "exact.h5"), pickle.loads(pickle.dumps(exact))):
+        assert isinstance(again, carom.Certified)
+        assert again.x == exact.x and again.x.interval == exact.x.interval
+        assert again.hits == exact.hits
+        assert lasting(again) == lasting(exact)
+
+
+def test_an_archive_has_what_pictures_need(archives):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(archives / "escape.h5") as file:
+        walls = file["walls"]
+        names = list(walls["name"].asstr()[:])
+        assert names == ["bottom", "right", "top", "left"]
+        assert numpy.isnan(walls["a"][names.index("top")])
+        right = names.index("right")
+        assert walls["kind"].asstr()[right] == "circular arc"
+        assert walls["a"][right] == walls["b"][right] == 1.0
+        assert (walls["from_angle"][right], walls["to_angle"][right]) == pytest.approx((-numpy.pi / 2, numpy.pi / 2))
+
+
+def test_a_run_is_opened_with_its_start(tmp_path, program):
+    program("run", "stadium", "--trajectory", 7, "--collisions", 5, "-o", tmp_path / "seventh.h5")
+    made = carom.run("stadium", trajectory=7, collisions=5)
+    opened = carom.open(tmp_path / "seventh.h5")
+    assert numpy.array_equal(opened.starts, made.starts)
+    assert not numpy.array_equal(carom.run("stadium", collisions=5).starts, made.starts)
+    assert numpy.array_equal(opened.path(), made.path())
+
+
+def test_ctrl_c_stops_saving_and_leaves_no_file(tmp_path):
+    run = carom.run(carom.circle(), collisions=3_000_000)
+    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        run.save(tmp_path / "large.h5")
+        timer.join()  # a fast machine was done before
+    timer.join()
+    assert not list(tmp_path.iterdir())
