@@ -4,6 +4,7 @@
 
 #include "carom/analysis/decay.hpp"
 #include "carom/analysis/escape_times.hpp"
+#include "carom/analysis/growth.hpp"
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/analysis/paired_survival.hpp"
 #include "carom/analysis/section.hpp"
@@ -28,6 +29,7 @@
 #include "carom/ensemble/engine.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/lyapunov.hpp"
 #include "carom/ensemble/paired_escape.hpp"
 #include "carom/ensemble/parts.hpp"
 #include "carom/ensemble/report_times.hpp"
@@ -71,6 +73,7 @@
 #include "carom/lanes/soft_lanes.hpp"
 #include "carom/motion/state.hpp"
 #include "carom/motion/tangent.hpp"
+#include "carom/motion/transverse.hpp"
 #include "carom/table/hole_names.hpp"
 #include "carom/table/make.hpp"
 #include "carom/table/table.hpp"

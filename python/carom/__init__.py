@@ -11,7 +11,7 @@ Every number is made by the same C++ as the program's `carom`, with the same dig
 
 from . import _carom, plot
 from .animation import animate
-from .commands import diffusion, escape, open, run, section, table, validate
+from .commands import diffusion, escape, lyapunov, open, run, section, table, validate
 from .errors import InputError, Place
 from .records import Record
 from .results import (
@@ -20,6 +20,7 @@ from .results import (
     Diffusion,
     Escape,
     Exact,
+    Lyapunov,
     Result,
     Run,
     Section,

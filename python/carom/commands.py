@@ -158,6 +158,19 @@ def diffusion(
     )
 
 
+def lyapunov(
+    system: Systems, *, progress: Progress = None, **keywords: Any
+) -> results.Lyapunov:
+    """Lyapunov exponents of an ensemble, and its chaotic share: a `carom.Lyapunov`.
+
+    Keywords as of `carom.escape`, and window=(from, to), the times (time) between which the growth
+    of deviations is taken.
+    """
+    return _compute(
+        results.Lyapunov, _carom.lyapunov, system, "lyapunov", keywords, progress, False
+    )
+
+
 def run(
     system: Systems, *, state_error: bool = True, progress: Progress = None, **keywords: Any
 ) -> Union[results.Run, results.Certified]:
@@ -212,6 +225,7 @@ def validate(
 _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = {
     "escape": (results.Escape, _carom.open_escape),
     "diffusion": (results.Diffusion, _carom.open_diffusion),
+    "lyapunov": (results.Lyapunov, _carom.open_lyapunov),
     "run": (results.Run, _carom.open_run),
     "section": (results.Section, _carom.open_section),
     "certified": (results.Certified, _carom.open_certified),

@@ -398,6 +398,29 @@ def diffusion(result, ax=None):
     return ax
 
 
+def lyapunov(result, ax=None):
+    """How the finite-time exponents of the orbits are distributed, and their mean."""
+    ax = _axes(ax)
+    bins = result.distribution
+    if len(bins):
+        width = bins["to"] - bins["from"]
+        ax.bar(
+            bins["from"], bins["count"] / (bins["count"].sum() * width), width, align="edge",
+            color=COLOURS[0],
+        )
+    if result.lambda_ is not None:
+        mean = result.lambda_[0]
+        ax.axvline(
+            mean["value"], color=COLOURS[1], linewidth=1,
+            label=f"λ = {mean['value']:.5g} ± {mean['stderr']:.1g}",
+        )
+        ax.legend(fontsize="small", frameon=False)
+    ax.set_xlabel("exponent of an orbit")
+    ax.set_ylabel("density")
+    _title(ax, result.system)
+    return ax
+
+
 def section(result, ax=None, x=None, y=None):
     """Points in colour by orbit: (s, v∥) over the walls, one after the other, or along a line or
     circle; (x, y) for a condition on the velocity. Other columns by `x` and `y`."""
@@ -444,11 +467,15 @@ def pictures(result):
         return {"survival": escape, "rate": rate} | more
     if isinstance(result, results.Table):
         return {"table": _of_table}
-    if isinstance(result, results.Diffusion):
-        return {"diffusion": diffusion}
-    if isinstance(result, results.Section):
-        return {"section": section}
-    return {"table": table} if isinstance(result, System) else {}
+    if isinstance(result, System):
+        return {"table": table}
+    others = {
+        results.Diffusion: diffusion,
+        results.Section: section,
+        results.Lyapunov: lyapunov,
+    }
+    draw = others.get(type(result))
+    return {draw.__name__: draw} if draw else {}
 
 
 def result(result, ax=None, what=None, **keywords):

@@ -193,6 +193,28 @@ class Diffusion(Result):
     per_trajectory.__doc__ = _PER_TRAJECTORY
 
 
+class Lyapunov(Result):
+    """Lyapunov exponents and chaotic orbits.
+
+    lambda_ (value, stderr: 1/time; the largest first) and per_collision (value, stderr: a hit) are
+    lists; chaotic_share (value, stderr, hidden), chaotic_lambda, regularity, window (time). Array:
+
+    distribution  (number of bins,): from, to (1/time), count: finite-time exponents of the orbits
+    """
+
+    @property
+    def lambda_(self):
+        """The key `lambda`, which is a word of Python."""
+        return getattr(self, "lambda")
+
+    def _summary(self):
+        largest = self.lambda_[0] if self.lambda_ is not None else None
+        return f"{self.orbits} orbits, lambda = {largest!r}"
+
+    def _main(self):
+        return self.distribution
+
+
 class Run(Result):
     """One trajectory, of one or several particles.
 

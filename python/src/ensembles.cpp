@@ -1,4 +1,4 @@
-// Escape and diffusion.
+// Escape, diffusion and Lyapunov exponents.
 #include <pybind11/stl.h>
 
 #include <functional>
@@ -9,11 +9,13 @@
 #include "beside.hpp"
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/lyapunov.hpp"
 #include "carom/io/archive.hpp"
 #include "cli/common.hpp"
 #include "cli/reports/diffusion_report.hpp"
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/escape_report.hpp"
+#include "cli/reports/lyapunov_report.hpp"
 #include "loaded.hpp"
 
 namespace py = pybind11;
@@ -73,6 +75,9 @@ EscapeResult run(const System& system, const EnsembleOptions<EscapeResult>& how)
 }
 DiffusionResult run(const System& system, const EnsembleOptions<DiffusionResult>& how) {
   return run_diffusion(system, how);
+}
+LyapunovResult run(const System& system, const EnsembleOptions<LyapunovResult>& how) {
+  return run_lyapunov(system, how);
 }
 
 // The outcome, and what ended it early or None.
@@ -186,6 +191,7 @@ void add_ensembles(py::module_& module) {
   module.attr("fates") = fates;
   add<EscapeResult>(module, "EscapeOutcome", "escape");
   add<DiffusionResult>(module, "DiffusionOutcome", "diffusion");
+  add<LyapunovResult>(module, "LyapunovOutcome", "lyapunov");
 }
 
 }  // namespace carom::python

@@ -42,9 +42,9 @@ int end_by_closed_pipe() {
 int (*command_of(const std::string& name))(const Options&) {
   using namespace carom::cli;
   static const std::pair<const char*, int (*)(const Options&)> commands[] = {
-      {"escape", escape},     {"run", run},     {"diffusion", diffusion},
-      {"section", section},   {"merge", merge}, {"table", table},
-      {"validate", validate}, {"plot", plot},   {"animate", animate}};
+      {"escape", escape},   {"run", run},          {"diffusion", diffusion}, {"section", section},
+      {"merge", merge},     {"table", table},      {"validate", validate},   {"plot", plot},
+      {"animate", animate}, {"lyapunov", lyapunov}};
   for (const auto& [known, command] : commands)
     if (name == known) return command;
   return systems;

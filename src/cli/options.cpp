@@ -219,6 +219,23 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .parts()
       .text("--window", o.window, "FROM,TO",
             "Range of report times from which D and the exponent are computed");
+  Command(
+      app, o, "lyapunov", "Lyapunov exponents of an ensemble, and its chaotic share",
+      "Examples:\n"
+      "  carom lyapunov stadium --closed\n"
+      "  carom lyapunov sinai --trajectories 1e4 --window 20,100 -o lambda.h5\n"
+      "\n"
+      "Two deviations of each orbit are followed by the exact tangent maps of flights and hits.\n"
+      "Checkpoints, --resume, --shard and mpirun as with carom escape.")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .settings()
+      .motion()
+      .ensemble()
+      .verbose()
+      .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
+      .parts()
+      .text("--window", o.window, "FROM,TO",
+            "Times between which the growth is taken (default: the last four fifths of the run)");
   Command(app, o, "section",
           "Boundary map, or section by a line, a circle or a velocity, of many orbits",
           "Examples:\n"

@@ -13,6 +13,14 @@ InLanes::InLanes(const System& system, const EngineOptions& options, const World
                                              const State& state) {
       listener_->sample(flight(tag).trajectory, static_cast<int>(particle_of(tag)), number, state);
     });
+  if (!options_.deviations.empty())
+    lanes_->follow_deviations(options_.deviations, options_.unit_length,
+                              [this](std::uint64_t tag, std::size_t number,
+                                     std::span<const double> logarithms, std::uint64_t hits) {
+                                listener_->stretched(flight(tag).trajectory,
+                                                     static_cast<int>(particle_of(tag)), number,
+                                                     logarithms, hits);
+                              });
   if (options_.hits)
     lanes_->report_hits([this](std::uint64_t tag, const State& state, std::uint64_t hits) {
       const Trajectory& trajectory = flight(tag).trajectory;

@@ -1,5 +1,7 @@
 #include "ensemble/one_by_one.hpp"
 
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "carom/ensemble/injection.hpp"
@@ -17,6 +19,19 @@ OneByOne::OneByOne(const System& system, const EngineOptions& options, World wor
     : system_(system), options_(options), world_(std::move(world)) {
   if (system.run.collisions > 0) world_.limit_hits(system.run.collisions);
   if (!options_.times.empty()) world_.sample_at(options_.times);
+  if (!options_.deviations.empty()) {
+    walls_ = motion::tangent_walls(system.table->walls, system.table->lattice);
+    if (const auto& forces = system.dynamics.forces; forces && !forces->empty()) {
+      std::vector<std::size_t> all;
+      for (std::size_t p = 0; p < system.particles.size(); ++p) {
+        if (forces->interacts())
+          all.push_back(p);
+        else
+          groups_.push_back(std::make_unique<ForceTangent>(system, std::vector{p}));
+      }
+      if (forces->interacts()) groups_.push_back(std::make_unique<ForceTangent>(system, all));
+    }
+  }
   if (options_.energy) world_.watch_energy();
   if (options_.surface) world_.watch(options_.surface, options_.most_crossings);
   if (options_.hits || options_.surface)
@@ -35,6 +50,8 @@ bool OneByOne::run(Starts& starts, Listener& listener, const std::function<bool(
     samples_ = 0;
     listener.begin(trajectory_);
     for (ParticleEnd& end : end_.particles) end.time = options_.t_end;
+    stopped_ = &stopped;
+    if (!options_.deviations.empty()) begin_deviations();
     world_.run_until(options_.t_end, *this, stopped);
     if (asked_to_stop()) return false;
     for (int p = 0; p < world_.size(); ++p) {
@@ -44,6 +61,8 @@ bool OneByOne::run(Starts& starts, Listener& listener, const std::function<bool(
       end.last_wall = world_.last_wall(p);
       end.energy = world_.energy_balance(p);
       if (is_failure(end.fate)) end.report = world_.report(p);
+      const bool stayed = end.fate == Fate::survived || end.fate == Fate::pinned;
+      if (stayed && !followed_.empty()) stretch(at(p), Time(options_.t_end), true);
     }
     end_.steps = world_.step_counts();
     listener.end(trajectory_, end_);
@@ -63,8 +82,54 @@ void OneByOne::add_particles() {
   }
 }
 
+void OneByOne::begin_deviations() {
+  followed_.assign(trajectory_.starts.size(), {});
+  for (std::size_t p = 0; p < followed_.size(); ++p)
+    followed_[p].tangent.begin(trajectory_.starts[p], trajectory_.particles[p],
+                               options_.unit_length);
+  for (const auto& group : groups_) {
+    const geometry::Vector v = trajectory_.starts[group->members().front()].velocity;
+    const double speed = std::sqrt(dot(v, v));
+    group->begin(trajectory_.starts, options_.unit_length / (speed > 0.0 ? speed : 1.0));
+    for (const std::size_t p : group->members()) followed_[p].forced = group.get();
+  }
+}
+
+void OneByOne::stretch(std::size_t particle, const Time& time, bool also_at) {
+  ForceTangent* const group = followed_[particle].forced;
+  const std::size_t told = group ? group->members().front() : particle;
+  Followed& mine = followed_[told];
+  for (; mine.marked < options_.deviations.size(); ++mine.marked) {
+    const double mark = options_.deviations[mine.marked];
+    if (also_at ? Time(mark) > time : !(Time(mark) < time)) return;
+    if (group) group->fly_to(mark, *stopped_);
+    // Of deviations that were made orthogonal the first one's length is that of both, as it is
+    // where all turn into one direction.
+    const auto lengths =
+        group ? std::array{group->logarithm(), group->logarithm()} : mine.tangent.logarithms(mark);
+    listener_->stretched(trajectory_, static_cast<int>(told), mine.marked, lengths, mine.hits);
+  }
+}
+
+void OneByOne::carry_over_hit(std::size_t particle, const State& state) {
+  stretch(particle, state.time, false);
+  ForceTangent* const group = followed_[particle].forced;
+  if (!group) {
+    followed_[particle].tangent.hit(walls_, state);
+    followed_[particle].hits = world_.hits(static_cast<int>(particle));
+    return;
+  }
+  group->fly_to(state.time, *stopped_);
+  // The path of a chaotic group leaves that of the world by its rounding: it is brought back.
+  for (const std::size_t p : group->members())
+    if (const State other = world_.state(static_cast<int>(p)); other.time == state.time)
+      group->put(p, other);
+  group->hit(particle, state);
+  ++followed_[group->members().front()].hits;
+}
+
 void OneByOne::hit(const HitEvent& event) {
-  if (!options_.hits) return;
+  if (!options_.hits && followed_.empty()) return;
   State state;
   state.wall = event.wall;
   state.u = event.u;
@@ -72,7 +137,9 @@ void OneByOne::hit(const HitEvent& event) {
   state.velocity = event.after;
   state.cell = event.cell;
   state.time = event.time;
-  listener_->hit(trajectory_, event.particle, state, world_.hits(event.particle));
+  if (!followed_.empty()) carry_over_hit(at(event.particle), state);
+  if (options_.hits)
+    listener_->hit(trajectory_, event.particle, state, world_.hits(event.particle));
 }
 
 void OneByOne::sample(int particle, Time, const State& state) {

@@ -29,7 +29,7 @@ TEST(Program, PrintsHelpWithoutArguments) {
     EXPECT_EQ(o.err, "");
   }
   for (const char* command :
-       {"escape", "run", "diffusion", "section", "table", "systems", "validate"}) {
+       {"escape", "run", "diffusion", "lyapunov", "section", "table", "systems", "validate"}) {
     const Outcome o = shell(std::string("$carom ") + command + " --help");
     EXPECT_EQ(o.status, 0);
     int examples = 0;

@@ -21,7 +21,8 @@ SMALLER = (
     (r"--population \S+", "--population 50"),
     (r"--certify-sample \S+", "--certify-sample 20"),
 )
-NEEDS = {"escape": "--trajectories 100", "diffusion": "--trajectories 100", "section": "--orbits 3 --points 20",
+NEEDS = {"escape": "--trajectories 100", "diffusion": "--trajectories 100", "lyapunov": "--trajectories 50",
+         "section": "--orbits 3 --points 20",
          "validate": "--scale 0.002"}  # fmt: skip
 
 

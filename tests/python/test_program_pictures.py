@@ -68,6 +68,7 @@ def test_a_certified_run_has_no_picture(carom, tmp_path):
         ("run", "ellipse-magnetic", "--collisions", 20),
         ("escape", "three-disc", "--trajectories", 1000),
         ("diffusion", "sinai", "--trajectories", 200, "--t-max", 20),
+        ("lyapunov", "sinai", "--trajectories", 200, "--t-max", 20),
         ("section", "ellipse-magnetic", "--points", 20, "--orbits", 5),
     ],
 )

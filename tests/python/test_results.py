@@ -132,6 +132,7 @@ def test_results_are_dataframes(escape):
     for result in (
         carom.run("stadium", collisions=5), carom.section("stadium", points=5, orbits=2),
         carom.diffusion("sinai", trajectories=200, t_max=10), carom.table("mushroom"),
+        carom.lyapunov("sinai", trajectories=200, t_max=10),
         carom.run("stadium", collisions=3, precision="certified"),
     ):  # fmt: skip
         assert len(result.to_dataframe()) > 0

@@ -33,6 +33,13 @@ def test_diffusion(program, name):
     same(result, program("diffusion", name, "--trajectories", 1000, "--t-max", 50))
 
 
+def test_lyapunov(program):
+    result = carom.lyapunov("sinai", trajectories=300, t_max=20)
+    same(result, program("lyapunov", "sinai", "--trajectories", 300, "--t-max", 20))
+    assert result.lambda_[0]["value"] == -result.lambda_[3]["value"] > 0
+    assert result.distribution["count"].sum() == result.orbits == 300
+
+
 @pytest.mark.parametrize(
     "name, keywords, options",
     [
@@ -63,7 +70,7 @@ def test_hits_are_those_of_the_archive(program, tmp_path):
     assert numpy.array_equal(run.hits, whole.hits[:20])
 
 
-@pytest.mark.parametrize("compute", [carom.escape, carom.diffusion])
+@pytest.mark.parametrize("compute", [carom.escape, carom.diffusion, carom.lyapunov])
 def test_an_archive_holds_the_same_result(program, tmp_path, compute):
     result = compute("lorentz-triangular", trajectories=500, t_max=10)
     result.save(tmp_path / "saved.h5")

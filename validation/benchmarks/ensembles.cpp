@@ -116,6 +116,47 @@ EscapeResult escapes(const System& system, bool lanes, int threads) {
   return run_escape(system, how);
 }
 
+bool same_bits(const LyapunovResult& a, const LyapunovResult& b) {
+  const GrowthSums::Totals &x = a.growth.totals(), &y = b.growth.totals();
+  return a.digest == b.digest && a.collisions == b.collisions &&
+         x.growth.state() == y.growth.state() && x.hits.state() == y.hits.state();
+}
+
+// Deviations beside the same orbits without: the ratio of CPU times of two runs, one after the
+// other. Other programs disturb both; the least of nine ratios is the best that is known.
+void lyapunov(Report& report, const char* name) {
+  System system = system_of(name, 1000.0, 4'000);
+  auto table = std::make_shared<Table>(*system.table);
+  table->holes.clear();
+  for (Wall& wall : table->walls) wall.holes.clear();
+  system.table = table;
+  double ratio = 1e300, each = 1e300;
+  LyapunovResult result;
+  for (int pair = 0; pair < 9; ++pair) {
+    const double begin = cpu_seconds();
+    const EscapeResult plain = escapes(system, true, 1);
+    const double middle = cpu_seconds();
+    LyapunovOptions how;
+    how.threads = 1;
+    result = run_lyapunov(system, how);
+    const double tangents = cpu_seconds() - middle;
+    if (tangents / (middle - begin) < ratio) ratio = tangents / (middle - begin);
+    each = std::min(each, tangents / static_cast<double>(plain.counts.collisions) * 1e9);
+  }
+  LyapunovOptions scalar;
+  scalar.threads = 1;
+  scalar.lanes = {};
+  const bool same = same_bits(result, run_lyapunov(system, scalar));
+  // Growth per time is that per hit over the mean flight pi A / L.
+  const LyapunovEstimate e = estimate_of(result.growth);
+  const double flights = e.per_time.value / e.per_hit.value * measure(*system.table).mean_flight;
+  report.add({fmt::format("lyapunov {}, a hit", name), name_of(widest_instruction_set()), each, 0.0,
+              "without deviations, about", 1.0 / ratio,
+              fmt::format("bits of lanes and scalar {}, lambda {:.4f}, hits {:.4f} of L / pi A",
+                          same ? "equal" : "DIFFER", e.per_time.value, flights),
+              same && std::fabs(flights - 1.0) < 0.01});
+}
+
 void magnetic_square(Report& report) {
   const System system = system_of("magnetic-square", 100.0, 100'000);
   const auto events = [](const EscapeResult& r) {
@@ -162,6 +203,8 @@ void whole_ensembles(Report& report) {
     if (report.wants(fmt::format("diffusion {}", name))) diffusion(report, name);
   if (report.wants("diffusion soft-lorentz")) soft_diffusion(report);
   if (report.wants("escape magnetic-square")) magnetic_square(report);
+  for (const char* name : {"stadium", "lorentz-triangular"})
+    if (report.wants(fmt::format("lyapunov {}", name))) lyapunov(report, name);
   if (report.wants("two threads")) two_threads(report);
 }
 

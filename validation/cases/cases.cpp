@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "carom/base/error.hpp"
 #include "carom/io/system_file.hpp"
 
 namespace carom::validation {
@@ -69,6 +70,14 @@ const char* two_discs = "[table]\nshape = \"discs\"\ncenters = [[0, 0], [6, 0]]\
 const char* three_discs =
     "[table]\nshape = \"discs\"\ncenters = [[0, 0], [6, 0], [3, \"3*sqrt(3)\"]]\nradius = 1\n";
 
+std::string table_of(const std::string& name) {
+  if (name == "square torus")
+    return "[table]\nshape = \"lorentz\"\nlattice = \"square\"\nspacing = 1\nradius = 0.4\n";
+  for (const ClosedTable& table : closed_tables)
+    if (table.name == name) return table.toml;
+  throw InternalError("no such table: " + name);
+}
+
 struct Size {
   double trajectories, hits;  ///< hits: cap of a trajectory
   std::uint64_t seed = 1;
@@ -94,6 +103,15 @@ class Planner {
                            "trajectories = {:.0f}\nseed = {}\n",
                            toml, size.hits, scaled(size.trajectories), size.seed),
                name)
+        .system;
+  }
+  /// Until a last time, from the invariant measure.
+  System timed(const std::string& name, const std::string& table, double trajectories,
+               double t_max) const {
+    return read_system(fmt::format("{}[initial]\nkind = \"uniform\"\n[particles]\nspeed = 1\n"
+                                   "[run]\nt_max = {}\ntrajectories = {:.0f}\n",
+                                   table, t_max, scaled(trajectories)),
+                       name)
         .system;
   }
   System builtin(const char* name, double trajectories,
@@ -214,12 +232,42 @@ void add_published(Planner& plan) {
            });
 }
 
+void add_exponents(Planner& plan) {
+  const struct {
+    const char* name;
+    double t_max, usual, soak;
+    Exponent what;
+    Estimate expected;
+  } exponents[] = {{"stadium", 1000, 1e4, 1e6, Exponent::per_time, {0.4297, 2e-4}},
+                   {"square torus", 200, 2e4, 1e6, Exponent::per_time, {2.73845, 4e-4}},
+                   {"square torus", 200, 2e4, 1e6, Exponent::per_hit, {1.7026, 3e-4}},
+                   {"lorentz-triangular", 200, 2e4, 1e6, Exponent::per_time, {2.1046, 1e-4}},
+                   {"mushroom", 2000, 1e4, 0, Exponent::regular_share, {0.2389084047}},
+                   {"mushroom", 1e4, 0, 5e6, Exponent::regular_share, {0.2389084047}}};
+  for (const auto& one : exponents) {
+    const double size = plan.pick(one.usual, one.soak);
+    if (size == 0) continue;
+    const System system = plan.timed(one.name, table_of(one.name), size, one.t_max);
+    const char* const what = one.what == Exponent::per_time  ? "Lyapunov exponent"
+                             : one.what == Exponent::per_hit ? "Lyapunov exponent per hit"
+                                                             : "regular share by SALI";
+    plan.add(fmt::format("{}: {}", one.name, what),
+             one.what == Exponent::regular_share
+                 ? "(acos k - k sqrt(1 - k^2))/(pi/2 + 1), k = 1/2 (Bunimovich 2001)"
+                 : "independent simulation",
+             {}, [system, one](const CheckOptions& options) {
+               return check_exponent(system, one.what, one.expected, options);
+             });
+  }
+}
+
 }  // namespace
 
 std::vector<Case> all_cases(bool soak, double scale) {
   Planner plan(soak, scale);
   add_closed_tables(plan);
   add_published(plan);
+  add_exponents(plan);
   return plan.take();
 }
 

@@ -13,6 +13,7 @@
 #include "carom/base/error.hpp"
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/lyapunov.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/ensemble/stopwatch.hpp"
@@ -295,6 +296,38 @@ Check check_displacement(const System& system, Estimate expected, const CheckOpt
     const Estimate square = DisplacementMoments(result.sums).points().back().square;
     c.value = square.value;
     c.error = square.error;
+  }
+  judge(c, {});
+  return c;
+}
+
+Check check_exponent(const System& system, Exponent what, Estimate expected,
+                     const CheckOptions& options) {
+  Check c;
+  c.expected = expected.value;
+  c.expected_error = expected.error;
+  c.seed = system.run.seed;
+  LyapunovOptions how;
+  how.threads = options.threads;
+  how.interrupted = options.interrupted;
+  const LyapunovResult result = run_lyapunov(system, how);
+  c.complete = result.complete;
+  c.hits = result.collisions;
+  c.unresolved = result.unresolved;
+  c.lost = result.lost;
+  c.singular = result.singular;
+  c.digest = result.digest;
+  c.threads = result.threads;
+  c.seconds = result.seconds;
+  c.cpu_seconds = result.cpu_seconds;
+  if (!result.reports.empty()) c.report = result.reports.front().second;
+  if (c.complete) {
+    const LyapunovEstimate e = estimate_of(result.growth);
+    const Estimate found = what == Exponent::per_time  ? e.per_time
+                           : what == Exponent::per_hit ? e.per_hit
+                                                       : e.chaotic_share;
+    c.value = what == Exponent::regular_share ? 1.0 - found.value : found.value;
+    c.error = found.error;
   }
   judge(c, {});
   return c;

@@ -67,6 +67,14 @@ Check check_survivors(const System&, double factor, Estimate expected, Allowance
 /// Mean square displacement at the last report time.
 Check check_displacement(const System&, Estimate expected, const CheckOptions& = {});
 
+/// What carom lyapunov tells of a system.
+enum class Exponent {
+  per_time,
+  per_hit,
+  regular_share  ///< 1 - the chaotic share
+};
+Check check_exponent(const System&, Exponent, Estimate expected, const CheckOptions& = {});
+
 /// Distance from the origin of the plane at t_max, of trajectory 0. It passes within `allowance`:
 /// rounding grows with every hit, so one orbit in double precision has no standard error.
 Check check_distance(const System&, double expected, Allowance);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,10 @@ class Listener {
   virtual void hit(const Trajectory&, int /*particle*/, const State&, std::uint64_t /*hits*/) {}
   /// The state (not its wall) at the time of that number (EngineOptions::times).
   virtual void sample(const Trajectory&, int /*particle*/, std::size_t /*number*/, const State&) {}
+  /// Logarithms of the lengths of two deviations at the time of that number, and the hits by then
+  /// (EngineOptions::deviations). A particle that leaves is not told of after its last hit.
+  virtual void stretched(const Trajectory&, int /*particle*/, std::size_t /*number*/,
+                         std::span<const double> /*logarithms*/, std::uint64_t /*hits*/) {}
   /// As Observer::crossing (EngineOptions::surface).
   virtual void crossing(const Trajectory&, int /*particle*/, const State&, int /*direction*/) {}
   /// A particle has ended; others may go on.
@@ -108,8 +113,12 @@ class DrawnStarts : public Starts {
 /// What a listener asks for.
 struct EngineOptions {
   double t_end = 0.0;
-  std::vector<double> times = {};         ///< of samples, increasing, up to t_end
-  bool hits = false;                      ///< are hits told?
+  std::vector<double> times = {};  ///< of samples, increasing, up to t_end
+  bool hits = false;               ///< are hits told?
+  /// Times, increasing, at which the lengths of deviations are told, and the length in which they
+  /// are measured beside velocities over the speed; none: no deviations are followed.
+  std::vector<double> deviations = {};
+  double unit_length = 1.0;
   const Surface* surface = nullptr;       ///< crossings of it are told
   std::size_t most_crossings = SIZE_MAX;  ///< of one flight
   bool energy = false;                    ///< as World::watch_energy

@@ -9,6 +9,7 @@
 
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/lyapunov.hpp"
 #include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
@@ -151,6 +152,7 @@ Shard shard_of(const std::string& text, const Place&);
 /// Kinds of ensembles that can be continued, parted and merged, as archives name them.
 inline const char* kind_of(const EscapeResult&) { return "escape"; }
 inline const char* kind_of(const DiffusionResult&) { return "diffusion"; }
+inline const char* kind_of(const LyapunovResult&) { return "lyapunov"; }
 
 /// An ensemble as its archive holds it, or the checkpoint of one that has not ended.
 struct StoredEnsemble {
@@ -246,6 +248,7 @@ class EnsembleArchive : public EnsembleJournal<Result> {
 };
 extern template class EnsembleArchive<EscapeResult>;
 extern template class EnsembleArchive<DiffusionResult>;
+extern template class EnsembleArchive<LyapunovResult>;
 
 /// The points of a section, orbit after orbit; written aside, and renamed when finished.
 class SectionArchive {

@@ -34,6 +34,7 @@ class FreeLanes : public Lanes {
   void limit_hits(std::uint64_t hits) override;
   void sample_at(std::vector<double> times, Sampled sampled) override;
   void report_hits(Hit) override;
+  void follow_deviations(std::vector<double> times, double unit_length, Stretched) override;
   void run_until(double t_end, const std::function<bool(LaneStart&)>& next,
                  const std::function<void(const LaneEnd&)>& ended,
                  const std::function<bool()>& interrupted = {}) override;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,15 @@ class Lanes {
   /// as one that survives.
   using Hit = std::function<bool(std::uint64_t tag, const State&, std::uint64_t hits)>;
   virtual void report_hits(Hit) = 0;
+  /// Increasing times; `stretched` is told of each trajectory the logarithms of the lengths of two
+  /// deviations across it at these times and the hits by then (motion/free_tangent.hpp). One that
+  /// leaves is not told of after its last hit.
+  using Stretched = std::function<void(std::uint64_t tag, std::size_t number,
+                                       std::span<const double> logarithms, std::uint64_t hits)>;
+  /// Free lanes alone can: others throw std::invalid_argument.
+  virtual void follow_deviations(std::vector<double> /*times*/, double /*unit_length*/, Stretched) {
+    throw std::invalid_argument("these lanes follow no deviations");
+  }
   /// Follows all trajectories that `next` gives (until it returns false) to their end or until
   /// `t_end`; `ended` receives each, in no particular order. `interrupted`, if set, is asked now
   /// and then; true returns early, and those under way are forgotten.

@@ -12,6 +12,7 @@ int escape(const Options&);
 int splitting(const Options&);
 int merge(const Options&);
 int diffusion(const Options&);
+int lyapunov(const Options&);
 int section(const Options&);
 int validate(const Options&);
 int plot(const Options&);

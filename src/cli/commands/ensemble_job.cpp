@@ -26,8 +26,13 @@ SystemOverrides overrides_of(const Options& options) {
   return overrides;
 }
 
-// Loads the system that is stored, and refuses another one. The window may be another: the report
-// alone asks for it.
+// The key that may differ from what is stored: a window that the report alone asks for. Exponents
+// are added up within theirs.
+const char* may_differ(const StoredEnsemble& stored) {
+  return stored.kind == kind_of(LyapunovResult()) ? "" : "run.window";
+}
+
+// Loads the system that is stored, and refuses another one.
 LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(Place{stored.file, 0, 0, ""},
@@ -38,7 +43,8 @@ LoadedSystem loaded_of(const StoredEnsemble& stored, const Options& options) {
       options.system.empty()
           ? read_system(stored.system_toml, stored.file + ": /system", overrides_of(options))
           : load_system(options.system, overrides_of(options));
-  const std::string differs = difference(stored.system_toml, loaded.resolved_toml, "run.window");
+  const std::string differs =
+      difference(stored.system_toml, loaded.resolved_toml, may_differ(stored));
   if (!differs.empty() && !options.system.empty() && options.system != stored.system_name)
     refuse(
         fmt::format("the system is {}, not {}: {}", options.system, stored.system_name, differs));
@@ -99,9 +105,11 @@ EnsembleJob<Result> job_of(const Options& options, Sharing sharing) {
 }
 template EnsembleJob<EscapeResult> job_of(const Options&, Sharing);
 template EnsembleJob<DiffusionResult> job_of(const Options&, Sharing);
+template EnsembleJob<LyapunovResult> job_of(const Options&, Sharing);
 
 bool is_plain_ensemble(const Options& options) {
-  const bool adds_up = options.command == "escape" || options.command == "diffusion";
+  const bool adds_up = options.command == "escape" || options.command == "diffusion" ||
+                       options.command == "lyapunov";
   return adds_up && options.splitting.empty() && options.certify_sample.empty();
 }
 

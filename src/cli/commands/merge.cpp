@@ -52,8 +52,11 @@ int merge(const Options& options) {
                      "OUT.h5 PART.h5 PART.h5 …");
   ArchiveLock lock = lock_output(output);
   refuse_existing(output, options.force);
-  if (kind_of_ensemble(files.front()) == kind_of(DiffusionResult()))
+  const std::string kind = kind_of_ensemble(files.front());
+  if (kind == kind_of(DiffusionResult()))
     return merge_parts<DiffusionResult>(options, output, files, std::move(lock));
+  if (kind == kind_of(LyapunovResult()))
+    return merge_parts<LyapunovResult>(options, output, files, std::move(lock));
   return merge_parts<EscapeResult>(options, output, files, std::move(lock));
 }
 

@@ -16,6 +16,7 @@
 #include "cli/reports/diffusion_report.hpp"
 #include "cli/reports/doubts.hpp"
 #include "cli/reports/escape_report.hpp"
+#include "cli/reports/lyapunov_report.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {

@@ -78,6 +78,10 @@ Doubts doubts_of(const System& system, const DiffusionResult& r) {
   return doubts(system, r.trajectories, "particle", r.unresolved, r.lost, r.reports,
                 r.energy_error);
 }
+Doubts doubts_of(const System& system, const LyapunovResult& r) {
+  return doubts(system, r.trajectories, "particle", r.unresolved, r.lost, r.reports,
+                r.energy_error);
+}
 Doubts doubts_of(const System& system, const SectionResult& r) {
   return doubts(system, r.orbits * system.particles.size(), "particle", r.unresolved, r.lost,
                 r.reports, r.energy_error);

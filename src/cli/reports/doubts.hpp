@@ -9,6 +9,7 @@
 
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/lyapunov.hpp"
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "io/json.hpp"
@@ -28,6 +29,7 @@ struct Doubts {
 };
 Doubts doubts_of(const System&, const EscapeResult&);
 Doubts doubts_of(const System&, const DiffusionResult&);
+Doubts doubts_of(const System&, const LyapunovResult&);
 Doubts doubts_of(const System&, const SectionResult&);
 Doubts doubts_of(const System&, const SingleRunResult&);
 /// "" or what is said of the energy.

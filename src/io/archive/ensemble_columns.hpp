@@ -6,6 +6,7 @@
 
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/lyapunov.hpp"
 #include "io/archive/archive_file.hpp"
 #include "io/archive/columns.hpp"
 
@@ -17,6 +18,7 @@ namespace carom::io {
 /// not.
 void check_stored(const StoredEnsemble&, const EscapeResult&, const System&);
 void check_stored(const StoredEnsemble&, const DiffusionResult&, const System&);
+void check_stored(const StoredEnsemble&, const LyapunovResult&, const System&);
 
 /// Trajectories that are counted, and reports of those that failed.
 void write_done(const ArchiveFile&, const EnsembleResult&);
@@ -27,6 +29,17 @@ void write_counts(const ArchiveFile&, const EscapeResult&, const System&);
 void read_counts(hid_t file, const std::string& name, EscapeResult&);
 void write_counts(const ArchiveFile&, const DiffusionResult&, const System&);
 void read_counts(hid_t file, const std::string& name, DiffusionResult&);
+void write_counts(const ArchiveFile&, const LyapunovResult&, const System&);
+void read_counts(hid_t file, const std::string& name, LyapunovResult&);
+
+/// What /fates holds of ensembles whose particles are counted one by one, besides the fates.
+struct EnsembleNumbers {
+  std::uint64_t particles = 0;  ///< of all trajectories
+  std::uint64_t collisions = 0, digest = 0;
+};
+void write_ends(const hdf5::Handle& fates, const FateCounts&, const EnsembleNumbers&,
+                const std::string& name);
+EnsembleNumbers read_ends(const hdf5::Handle& fates, const std::string& name, FateCounts&);
 
 /// Is motion integrated anywhere?
 inline bool is_integrated(const System& system) {

@@ -99,4 +99,24 @@ void check_stored(const StoredEnsemble& stored, const DiffusionResult& result,
   check_samples(stored, result);
 }
 
+void check_stored(const StoredEnsemble& stored, const LyapunovResult& result,
+                  const System& system) {
+  check_common(stored, result, result.trajectories, "/fates/trajectories", system);
+  const GrowthSums& sums = result.growth;
+  const GrowthSums::Totals& totals = sums.totals();
+  const TimeWindow window = growth_window(system);
+  if (sums.window().from != window.from || sums.window().to != window.to)
+    damaged(stored.file, "'/lyapunov/from' and 'to' are not the window of '/system'");
+  const bool together = interacts(system);
+  if ((together ? totals.orbits * system.particles.size() > result.survived
+                : totals.orbits != result.survived) ||
+      totals.chaotic > totals.orbits || totals.regular > totals.orbits - totals.chaotic)
+    damaged(stored.file, "'/lyapunov_sums/orbits' and '/fates' contradict each other");
+  const auto& bins = totals.distribution.counts();
+  if (std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}) != totals.orbits ||
+      std::accumulate(totals.chaotic_at.begin(), totals.chaotic_at.end(), std::uint64_t{0}) !=
+          totals.chaotic)
+    damaged(stored.file, "the bins of '/lyapunov_sums' do not add up to its orbits");
+}
+
 }  // namespace carom::io

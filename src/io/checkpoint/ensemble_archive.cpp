@@ -214,6 +214,7 @@ std::uint64_t EnsembleArchive<Result>::kept() const {
 
 template class EnsembleArchive<EscapeResult>;
 template class EnsembleArchive<DiffusionResult>;
+template class EnsembleArchive<LyapunovResult>;
 
 std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.k, shard.of); }
 

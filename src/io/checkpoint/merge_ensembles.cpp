@@ -185,9 +185,12 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
 
 template SumOfParts<EscapeResult> sum_of(const std::vector<std::string>&, const Shard&);
 template SumOfParts<DiffusionResult> sum_of(const std::vector<std::string>&, const Shard&);
+template SumOfParts<LyapunovResult> sum_of(const std::vector<std::string>&, const Shard&);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&,
                         const SumOfParts<EscapeResult>&, ArchiveLock);
 template void write_sum(const std::string&, const LoadedSystem&, const Provenance&,
                         const SumOfParts<DiffusionResult>&, ArchiveLock);
+template void write_sum(const std::string&, const LoadedSystem&, const Provenance&,
+                        const SumOfParts<LyapunovResult>&, ArchiveLock);
 
 }  // namespace carom

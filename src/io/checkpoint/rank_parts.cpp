@@ -89,6 +89,8 @@ template SumOfParts<EscapeResult> sum_of_ranks(const std::string&, const std::ve
                                                const Shard&);
 template SumOfParts<DiffusionResult> sum_of_ranks(const std::string&,
                                                   const std::vector<std::string>&, const Shard&);
+template SumOfParts<LyapunovResult> sum_of_ranks(const std::string&,
+                                                 const std::vector<std::string>&, const Shard&);
 
 template <class Result>
 void gather_parts(const std::string& file, bool whole, ArchiveLock lock) {
@@ -130,5 +132,6 @@ void gather_parts(const std::string& file, bool whole, ArchiveLock lock) {
 }
 template void gather_parts<EscapeResult>(const std::string&, bool, ArchiveLock);
 template void gather_parts<DiffusionResult>(const std::string&, bool, ArchiveLock);
+template void gather_parts<LyapunovResult>(const std::string&, bool, ArchiveLock);
 
 }  // namespace carom::io

@@ -203,9 +203,11 @@ void check_stored(const Stored<Result>& stored, const System& system) {
 }
 template void check_stored(const Stored<EscapeResult>&, const System&);
 template void check_stored(const Stored<DiffusionResult>&, const System&);
+template void check_stored(const Stored<LyapunovResult>&, const System&);
 
 template Stored<EscapeResult> read_ensemble(const std::string&);
 template Stored<DiffusionResult> read_ensemble(const std::string&);
+template Stored<LyapunovResult> read_ensemble(const std::string&);
 
 bool is_complete(const std::string& file) {
   hdf5::silence();
@@ -224,9 +226,10 @@ std::string kind_of_ensemble(const std::string& file) {
   else if (const std::vector<std::string> parts = parts_of_ranks(name); !parts.empty())
     return kind_of_ensemble(parts.front());
   const std::string kind = kind_in(open_ensemble(name), name);
-  if (kind != kind_of(EscapeResult()) && kind != kind_of(DiffusionResult()))
+  if (kind != kind_of(EscapeResult()) && kind != kind_of(DiffusionResult()) &&
+      kind != kind_of(LyapunovResult()))
     throw InputError(Place{name, 0, 0, ""}, "the archive does not hold an ensemble",
-                     "one written by carom escape or carom diffusion");
+                     "one written by carom escape, carom diffusion or carom lyapunov");
   return kind;
 }
 

@@ -9,6 +9,8 @@
 
 #include "carom/lanes/lanes.hpp"
 #include "lanes/free/lane_pack.hpp"
+#include "lanes/free/tangent_pack.hpp"
+#include "motion/free_tangent.hpp"
 
 namespace carom::lanes {
 
@@ -18,12 +20,15 @@ struct LaneTrajectory {
   std::uint64_t first_hits = 0;  ///< when it began
   std::size_t reported = 0;      ///< times
   std::uint64_t told = 0;        ///< hits that were reported, if they are
+  motion::FreeTangent tangent;   ///< where `start` is, if deviations are followed
+  std::size_t marked = 0;        ///< times at which their lengths were told
 
   int last_wall() const { return start.hits > first_hits ? start.state.wall : -1; }
 };
 
 struct FilledPack {
   LanePack pack;
+  TangentPack tangents;  ///< if deviations are followed
   LaneTrajectory trajectories[LanePack::lanes];
   int busy = 0;
 

@@ -10,6 +10,7 @@
 #include "lanes/free/filled_pack.hpp"
 #include "lanes/free/kernels.hpp"
 #include "lanes/free/lane_start.hpp"
+#include "lanes/free/lane_tangents.hpp"
 #include "lanes/free/make_lane_table.hpp"
 #include "lanes/free/next_disc_table.hpp"
 #include "lanes/free/scalar_event.hpp"
@@ -51,7 +52,8 @@ class FreeLanes::Implementation {
         scalar(std::move(world), pieces, turn),
         walls(scalar.walls()),
         next_discs(lanes::make_next_discs(pieces)),
-        kernels(lanes::kernels_for(set, pieces, turn)) {
+        kernels(lanes::kernels_for(set, pieces, turn)),
+        tangents(walls.table, pieces, lanes::tangent_kernels_for(set, pieces, turn)) {
     pieces.clockwise = turn == Turn::clockwise;
     if (turn != Turn::straight) lanes::leave_short_arcs(pieces);
     for (FilledPack* l : {&main, &entrance}) l->pack.search_pack = &search_pack;
@@ -80,6 +82,7 @@ class FreeLanes::Implementation {
       if (stopped || (sweep % 64 == 0 && asked_to_stop())) return;
       if (sweep % most_sweeps == 0) main.add_cells();
       kernels.on_walls(pieces, main.pack);
+      if (tangents.any()) tangents.sweep(main);
       main.cap();
       effort.steps += static_cast<std::uint64_t>(rounded_up(main.pack.used));
       effort.idle += static_cast<std::uint64_t>(rounded_up(main.pack.used) - main.busy);
@@ -107,6 +110,7 @@ class FreeLanes::Implementation {
   const events::PieceTable& walls;
   std::vector<std::uint32_t> next_discs;
   lanes::Kernels kernels;
+  lanes::LaneTangents tangents;
   std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
   std::vector<double> times;  ///< to report at
   Sampled sampled;
@@ -165,6 +169,7 @@ class FreeLanes::Implementation {
     waiting = 0;
     if (entrance.busy == 0) return;
     kernels.anywhere(pieces, entrance.pack);
+    if (tangents.any()) tangents.sweep(entrance);
     entrance.cap();
     effort.steps += LanePack::lanes;
     effort.idle += static_cast<std::uint64_t>(LanePack::lanes - entrance.busy);
@@ -199,6 +204,7 @@ class FreeLanes::Implementation {
       mine.first_hits = mine.start.hits;
       mine.reported = 0;
       mine.told = mine.start.hits;
+      if (tangents.any()) tangents.begin(mine);
       while (mine.reported < times.size() && Time(times[mine.reported]) < mine.start.state.time)
         ++mine.reported;
       if (!(mine.start.state.time > Time(main.pack.end)) &&
@@ -214,6 +220,7 @@ class FreeLanes::Implementation {
   void resume(FilledPack& lanes, int lane) {
     const LaneStart& start = lanes.trajectories[lane].start;
     lanes::put_into(lanes.pack, lane, pieces, start);
+    if (tangents.any()) tangents.put(lanes, lane);
     lanes.pack.until[lane] = until(lanes, lane);
     if (lanes.pack.active[lane] == 0.0) ++lanes.busy;
     lanes.pack.active[lane] = 1.0;
@@ -257,6 +264,11 @@ class FreeLanes::Implementation {
     const auto& [tag, particle, state, hits] = mine.start;
     (*sink)({tag, Fate::survived, state.time, state, -1, hits, mine.last_wall(), {}});
   }
+  void deliver(LaneTrajectory& mine, const LaneEnd& end) {
+    if (tangents.any() && (end.fate == Fate::survived || end.fate == Fate::pinned))
+      tangents.finish(mine);
+    (*sink)(end);
+  }
   State state_on_wall(const FilledPack& lanes, int lane) const {
     State s = lanes.last_event(lane);
     s.wall = static_cast<int>(pieces.wall[static_cast<int>(lanes.pack.piece[lane])]);
@@ -273,6 +285,7 @@ class FreeLanes::Implementation {
     if (hits == mine.start.hits) return;
     mine.start.hits = hits;
     mine.start.state = state_on_wall(lanes, lane);
+    if (tangents.any()) tangents.take(lanes, lane);
   }
 
   /// Answers a call; false if the trajectory has ended.
@@ -314,7 +327,7 @@ class FreeLanes::Implementation {
       end.fate = call == Call::capped ? Fate::capped : Fate::unbounded;
     }
     lanes.leave(lane);
-    (*sink)(end);
+    deliver(mine, end);
     return false;
   }
 
@@ -333,6 +346,7 @@ class FreeLanes::Implementation {
     for (const State& state : scalar.samples()) sampled(mine.start.tag, mine.reported++, state);
     scalar.learn();
     const bool has_hit = scalar.hits() > mine.start.hits;
+    if (has_hit && tangents.any()) tangents.hit(mine, scalar.state());
     mine.start.hits = mine.told = scalar.hits();
     mine.start.state = scalar.state();
     if (has_hit && hit && !hit(mine.start.tag, mine.start.state, mine.start.hits) &&
@@ -348,8 +362,8 @@ class FreeLanes::Implementation {
       return go_on(lanes, lane);  // from a joint
     }
     lanes.leave(lane);
-    (*sink)({mine.start.tag, scalar.fate(), scalar.time(), mine.start.state, scalar.hole(),
-             mine.start.hits, mine.last_wall(), scalar.report()});
+    deliver(mine, {mine.start.tag, scalar.fate(), scalar.time(), mine.start.state, scalar.hole(),
+                   mine.start.hits, mine.last_wall(), scalar.report()});
     return false;
   }
 
@@ -390,6 +404,10 @@ void FreeLanes::sample_at(std::vector<double> times, Sampled sampled) {
   implementation_->sampled = std::move(sampled);
 }
 void FreeLanes::report_hits(Hit hit) { implementation_->hit = std::move(hit); }
+void FreeLanes::follow_deviations(std::vector<double> times, double unit_length,
+                                  Stretched stretched) {
+  implementation_->tangents.follow(std::move(times), unit_length, std::move(stretched));
+}
 void FreeLanes::run_until(double t_end, const std::function<bool(LaneStart&)>& next,
                           const std::function<void(const LaneEnd&)>& ended,
                           const std::function<bool()>& interrupted) {

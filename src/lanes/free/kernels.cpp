@@ -1,6 +1,7 @@
 #include "lanes/free/kernels.hpp"
 
 #include "carom/base/fused_product.hpp"
+#include "lanes/free/tangent_pack.hpp"
 
 namespace carom::lanes {
 
@@ -34,6 +35,15 @@ Kernels kernels_for(InstructionSet set, const LaneTable& table, Turn turn) {
 #endif
   (void)set;
   return kernels_of<InstructionSet::baseline>(table, turn);
+}
+
+TangentKernels tangent_kernels_for(InstructionSet set, const LaneTable& table, Turn turn) {
+#if defined(CAROM_WIDE_LANES)
+  if (set == InstructionSet::avx512) return tangent_kernels<InstructionSet::avx512>(table, turn);
+  if (set == InstructionSet::avx2) return tangent_kernels<InstructionSet::avx2>(table, turn);
+#endif
+  (void)set;
+  return tangent_kernels<InstructionSet::baseline>(table, turn);
 }
 
 }  // namespace carom::lanes

@@ -1,0 +1,201 @@
+#include "cli/reports/lyapunov_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carom/ensemble/engine.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
+#include "cli/reports/doubts.hpp"
+
+namespace carom::cli {
+
+using io::Json;
+
+namespace {
+
+Json json_of(const Estimate& e) {
+  return Json::object().set("value", e.value).set("stderr", e.error);
+}
+
+// Of a particle: the flow's direction and the energy neither grow nor shrink, and areas are kept
+// across them. Of several that interact the largest alone is known.
+Json spectrum_of(const System& system, const Estimate& largest) {
+  Json list = Json::array();
+  list.push(json_of(largest));
+  if (interacts(system)) return list;
+  for (int i = 0; i < 2; ++i) list.push(json_of({0.0, 0.0}));
+  return list.push(json_of({0.0 - largest.value, largest.error}));
+}
+
+// Why there is no exponent, as a phrase; "" where there is one.
+std::string no_exponent(const LyapunovResult& result) {
+  if (result.growth.totals().orbits > 0) return {};
+  if (result.trajectories == 0) return "no trajectory was followed";
+  return fmt::format("all {} particles ended before t = {:.6g}, the end of the window",
+                     grouped(result.trajectories), result.growth.window().to);
+}
+
+// Doubts about the numbers, as phrases.
+std::vector<std::string> notes_of(const System& system, const LyapunovResult& result,
+                                  const LyapunovEstimate& e) {
+  std::vector<std::string> notes;
+  const GrowthSums::Totals& totals = result.growth.totals();
+  if (totals.orbits == 0) return notes;
+  if (totals.orbits < result.trajectories)
+    notes.push_back(fmt::format(
+        "{} particles ended before the end of the window: the numbers are those of the {} others",
+        grouped(result.trajectories - totals.orbits), grouped(totals.orbits)));
+  if (!e.long_enough)
+    notes.push_back(
+        "the error still grows with the length of the blocks: it is too small, and takes longer "
+        "runs or more trajectories");
+  if (!e.settled)
+    notes.push_back(
+        "many orbits showed only late that they are chaotic: the chaotic share is larger, and "
+        "takes "
+        "longer runs");
+  if (const std::string note = repeated_starts(system); !note.empty()) notes.push_back(note);
+  return notes;
+}
+
+Json regularity_json(const GrowthSums& sums) {
+  const GrowthSums::Totals& t = sums.totals();
+  Json at = Json::array();
+  std::uint64_t found = 0;
+  for (std::size_t look = 0; look < GrowthSums::looks; ++look) {
+    found += t.chaotic_at[look];
+    at.push(Json::object().set("t", sums.look_time(look)).set("chaotic", found));
+  }
+  return Json::object()
+      .set("chaotic", t.chaotic)
+      .set("regular", t.regular)
+      .set("undecided", t.orbits - t.chaotic - t.regular)
+      .set("found", std::move(at));
+}
+
+std::string exponents_text(const System& system, const GrowthSums& sums,
+                           const LyapunovEstimate& e) {
+  std::string text =
+      fmt::format("\nlambda = {} per unit time{}\n", with_error(e.per_time.value, e.per_time.error),
+                  interacts(system) ? ", the largest" : "; the spectrum is lambda, 0, 0, -lambda");
+  if (std::isfinite(e.per_hit.value))
+    text += fmt::format("         {} per hit\n", with_error(e.per_hit.value, e.per_hit.error));
+  text += fmt::format("growth of deviations in {:.6g} <= t <= {:.6g}\n", sums.window().from,
+                      sums.window().to);
+  if (e.block_errors.empty()) {
+    text += "too few orbits, or blocks of them, for an error\n";
+  } else if (const auto& last = e.block_errors.back(); last.count == sums.totals().orbits) {
+    text += fmt::format("errors by {} orbits\n", grouped(last.count));
+  } else {
+    text += "errors by blocks of length";
+    for (const auto& one : e.block_errors)
+      text += fmt::format("{} {:.6g}: {:.2g}", &one == &e.block_errors.front() ? "" : ",",
+                          one.length, one.error);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string distribution_text(const GrowthSums& sums) {
+  const auto bins = distribution_of(sums);
+  const auto n = static_cast<double>(sums.totals().orbits);
+  if (n < 2.0) return {};
+  // Quantiles, each at the end of its bin.
+  std::string text = "finite-time exponents, below which a share of the orbits lies:\n";
+  std::vector<std::string> shares, ends;
+  double below = 0.0;
+  auto bin = bins.begin();
+  for (const double share : {0.01, 0.1, 0.5, 0.9, 0.99}) {
+    for (; bin != bins.end() && below < share * n; ++bin) below += static_cast<double>(bin->count);
+    shares.push_back(fmt::format("{:g}", share));
+    ends.push_back(fmt::format("{:.4g}", bin == bins.begin() ? bin->from : std::prev(bin)->to));
+  }
+  return text + aligned({{"share", shares}, {"exponent", ends}});
+}
+
+std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
+  const GrowthSums::Totals& t = sums.totals();
+  std::string text =
+      fmt::format("\nchaotic share {}\n{} orbits are chaotic, {} regular, {} undecided",
+                  with_error(e.chaotic_share.value, e.chaotic_share.error), grouped(t.chaotic),
+                  grouped(t.regular), grouped(t.orbits - t.chaotic - t.regular));
+  if (e.hidden > 0.0)
+    text += fmt::format("; {:.2g} of all may be chaotic and have not shown it", e.hidden);
+  text += '\n';
+  if (t.chaotic > 1 && t.chaotic < t.orbits)
+    text += fmt::format("lambda of the chaotic ones = {}\n",
+                        with_error(e.chaotic.value, e.chaotic.error));
+  return text;
+}
+
+}  // namespace
+
+Json result_json(const System& system, const LyapunovResult& result,
+                 const EnsembleContext& context) {
+  const GrowthSums& sums = result.growth;
+  const LyapunovEstimate e = estimate_of(sums);
+  const std::string reason = no_exponent(result);
+  Json json = ensemble_json(system, result, context);
+  json.set("trajectories", result.trajectories).set("orbits", sums.totals().orbits);
+  json.set("survived", result.survived);
+  add_fates(json, result);
+  json.set("collisions", result.collisions);
+  add_reports(json, result.reports);
+  json.set("digest", fmt::format("{:016x}", result.digest));
+  json.set("decisions", decisions_json(result.decisions));
+  add_steps(json, system, result.steps);
+  if (const std::string none = why_one_by_one(system, {.deviations = {1.0}}); !none.empty())
+    json.set("no_lanes", none);
+  json.set("window", Json::object().set("from", sums.window().from).set("to", sums.window().to));
+  const bool known = reason.empty();
+  json.set("lambda", known ? spectrum_of(system, e.per_time) : Json());
+  json.set("per_collision",
+           known && std::isfinite(e.per_hit.value) ? spectrum_of(system, e.per_hit) : Json());
+  if (!known) json.set("reason", reason);
+  Json errors = Json::array(), bins = Json::array(), notes = Json::array();
+  for (const auto& one : e.block_errors)
+    errors.push(
+        Json::object().set("length", one.length).set("count", one.count).set("stderr", one.error));
+  json.set("block_errors", std::move(errors)).set("long_enough", e.long_enough);
+  for (const ExponentBin& bin : distribution_of(sums))
+    bins.push(Json::object().set("from", bin.from).set("to", bin.to).set("count", bin.count));
+  json.set("distribution", std::move(bins));
+  json.set("chaotic_share", known ? json_of(e.chaotic_share).set("hidden", e.hidden) : Json());
+  json.set("regularity", regularity_json(sums));
+  json.set("chaotic_lambda", std::isfinite(e.chaotic.value) ? json_of(e.chaotic) : Json());
+  for (const std::string& note : notes_of(system, result, e)) notes.push(note);
+  json.set("notes", std::move(notes));
+  if (!context.output.empty()) json.set("archive", context.output);
+  return json;
+}
+
+std::string result_text(const System& system, const LyapunovResult& result,
+                        const EnsembleContext& context) {
+  const GrowthSums& sums = result.growth;
+  const LyapunovEstimate e = estimate_of(sums);
+  std::string text =
+      doubts_of(system, result).text() +
+      head_text(system, result.trajectories, sums.window().to, result.complete, context);
+  if (const std::string reason = no_exponent(result); !reason.empty()) {
+    text += folded("\nThere is no exponent: " + reason + ".") + '\n';
+  } else {
+    text += exponents_text(system, sums, e);
+    text += distribution_text(sums);
+    text += regularity_text(sums, e);
+  }
+  for (const std::string& note : notes_of(system, result, e)) text += folded(note) + '\n';
+  if (const std::string ends = fates_text(result); !ends.empty())
+    text += "\nof the particles: " + ends + "\n";
+  text += "\n" + work_text(system, result.collisions, std::nullopt, result);
+  text += verbose_text(system, result, context);
+  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
+  return text;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,107 @@
+#include "ensemble/lyapunov_listener.hpp"
+
+#include <cmath>
+
+#include "carom/base/digest.hpp"
+
+namespace carom::ensemble {
+
+GrowthTimes::GrowthTimes(const GrowthSums& plan) {
+  marks_.push_back({plan.window().from, -1, -1, true});
+  for (std::size_t block = 0; block < plan.blocks(); ++block)
+    marks_.push_back({plan.block_end(block), static_cast<int>(block), -1, false});
+  for (std::size_t look = 0; look < GrowthSums::looks; ++look)
+    marks_.push_back({plan.look_time(look), -1, static_cast<int>(look), false});
+  std::stable_sort(marks_.begin(), marks_.end(),
+                   [](const Mark& a, const Mark& b) { return a.time < b.time; });
+}
+
+std::vector<double> GrowthTimes::times() const {
+  std::vector<double> list;
+  for (const Mark& mark : marks_) list.push_back(mark.time);
+  return list;
+}
+
+LyapunovListener::LyapunovListener(const System& system, const GrowthTimes& times,
+                                   const GrowthSums& plan, double unit_length, const Engine& engine,
+                                   Thread& thread)
+    : system_(system),
+      marks_(times.marks()),
+      blocks_(plan.blocks()),
+      unit_length_(unit_length),
+      together_(interacts(system)),
+      engine_(engine),
+      thread_(thread),
+      hash_(system) {}
+
+void LyapunovListener::begin(const Trajectory& t) {
+  if (under_way_.size() <= t.slot) under_way_.resize(t.slot + 1);
+  std::vector<Orbit>& orbits = under_way_[t.slot];
+  orbits.resize(t.starts.size());
+  for (std::size_t p = 0; p < orbits.size(); ++p) {
+    Orbit& mine = orbits[p];
+    const geometry::Vector v = t.starts[p].velocity;
+    mine.pace = std::sqrt(dot(v, v)) / unit_length_;
+    mine.hits_before = 0;
+    mine.chaotic = false;
+    mine.growth.growth.assign(blocks_, 0.0);
+    mine.growth.hits.assign(blocks_, 0);
+    mine.growth.regularity = Regularity::undecided;
+    mine.growth.look = 0;
+  }
+}
+
+void LyapunovListener::stretched(const Trajectory& t, int particle, std::size_t number,
+                                 std::span<const double> logarithms, std::uint64_t hits) {
+  Orbit& mine = under_way_[t.slot][static_cast<std::size_t>(particle)];
+  const GrowthTimes::Mark& mark = marks_[number];
+  if (mark.look >= 0 && !mine.chaotic) {
+    mine.growth.regularity = regularity_of(logarithms[0] + logarithms[1], mark.time * mine.pace);
+    mine.chaotic = mine.growth.regularity == Regularity::chaotic;
+    if (mine.chaotic) mine.growth.look = static_cast<std::size_t>(mark.look);
+  }
+  if (mark.look >= 0) return;
+  if (!mark.opens) {
+    const auto block = static_cast<std::size_t>(mark.block);
+    mine.growth.growth[block] = logarithms[0] - mine.length;
+    mine.growth.hits[block] = hits - mine.hits_before;
+  }
+  mine.length = logarithms[0];
+  mine.hits_before = hits;
+}
+
+void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
+  std::vector<Orbit>& orbits = under_way_[t.slot];
+  const DecisionCounts decisions = engine_.decisions();
+  const TrajectoryRange range{t.number, t.number + 1};
+  std::uint64_t hits = 0;
+  bool all = true;
+  for (const ParticleEnd& one : end.particles)
+    all = all && (one.fate == Fate::survived || one.fate == Fate::pinned);
+  thread_.deliver(range, [&](LyapunovResult& sum) {
+    for (std::size_t p = 0; p < end.particles.size(); ++p) {
+      Orbit& mine = orbits[p];
+      const ParticleEnd& particle = end.particles[p];
+      const std::uint64_t index = t.number * end.particles.size() + p;
+      hits += particle.hits;
+      ++sum.trajectories;
+      sum.count(particle.fate);
+      sum.collisions += particle.hits;
+      std::uint64_t hash = hash_(index, particle.fate, particle.time, particle.hits,
+                                 particle.last_wall, particle.state);
+      const bool stayed = particle.fate == Fate::survived || particle.fate == Fate::pinned;
+      if (together_ ? all && p == 0 : stayed) {
+        sum.growth.add(mine.growth);
+        for (const double growth : mine.growth.growth) hash = mix(hash, growth);
+      }
+      sum.digest += hash;
+      if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
+    }
+    sum.steps += end.steps;
+    sum.decisions += decisions - std::exchange(decisions_, decisions);
+    sum.done.add(range);
+  });
+  thread_.report(1, hits);
+}
+
+}  // namespace carom::ensemble

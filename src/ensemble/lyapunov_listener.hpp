@@ -1,0 +1,68 @@
+// Carries deviations along trajectories, and adds up how they grow.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "carom/ensemble/engine.hpp"
+#include "carom/ensemble/lyapunov.hpp"
+#include "ensemble/ensemble_run.hpp"
+#include "ensemble/first_reports.hpp"
+#include "ensemble/particle_hash.hpp"
+
+namespace carom::ensemble {
+
+/// The times at which lengths are taken, of all orbits the same.
+class GrowthTimes {
+ public:
+  explicit GrowthTimes(const GrowthSums&);
+  struct Mark {
+    double time = 0.0;
+    int block = -1;  ///< that ends there; the first one begins at the mark `opens`
+    int look = -1;
+    bool opens = false;
+  };
+  const std::vector<Mark>& marks() const { return marks_; }
+  std::vector<double> times() const;
+
+ private:
+  std::vector<Mark> marks_;
+};
+
+/// One thread's.
+class LyapunovListener : public Listener {
+ public:
+  using Thread = EnsembleRun<LyapunovResult>::Thread;
+  LyapunovListener(const System&, const GrowthTimes&, const GrowthSums& plan, double unit_length,
+                   const Engine&, Thread&);
+
+  void begin(const Trajectory&) override;
+  void stretched(const Trajectory&, int particle, std::size_t number,
+                 std::span<const double> logarithms, std::uint64_t hits) override;
+  void end(const Trajectory&, const TrajectoryEnd&) override;
+
+ private:
+  /// What is known of a particle.
+  struct Orbit {
+    double pace = 1.0;    ///< mean flights in a unit of time
+    double length = 0.0;  ///< ln|w| at the last mark of the window
+    std::uint64_t hits_before = 0;
+    bool chaotic = false;
+    OrbitGrowth growth;
+  };
+  const System& system_;
+  const std::vector<GrowthTimes::Mark>& marks_;
+  const std::size_t blocks_;
+  const double unit_length_;
+  const bool together_;  ///< particles that interact are one orbit
+  const Engine& engine_;
+  Thread& thread_;
+  const ParticleHash hash_;
+  std::vector<std::vector<Orbit>> under_way_;  ///< by slot, then by particle
+  DecisionCounts decisions_;                   ///< that were told
+};
+
+}  // namespace carom::ensemble

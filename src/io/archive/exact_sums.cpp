@@ -1,0 +1,61 @@
+#include "io/archive/exact_sums.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "io/archive/ensemble_columns.hpp"
+
+namespace carom::io {
+
+using hdf5::Description;
+using hdf5::Handle;
+
+namespace {
+using Digits = std::array<std::int64_t, ExactSum::digits>;
+}  // namespace
+
+void write_sums(const Handle& group, const char* name, const std::vector<const ExactSum*>& sums,
+                Description description, const std::string& file) {
+  std::vector<Digits> states;
+  for (const ExactSum* sum : sums) states.push_back(sum->state());
+  std::size_t first = ExactSum::digits, end = 0;
+  for (const Digits& digits : states)
+    for (std::size_t i = 0; i < digits.size(); ++i)
+      if (digits[i] != 0) first = std::min(first, i), end = std::max(end, i + 1);
+  first = std::min(first, end);
+  std::vector<std::int64_t> column;
+  for (const Digits& digits : states)
+    column.insert(column.end(), digits.begin() + static_cast<std::ptrdiff_t>(first),
+                  digits.begin() + static_cast<std::ptrdiff_t>(end));
+  hdf5::write_column(group.get(), name, std::span(std::as_const(column)), description, file);
+  const Handle dataset = hdf5::open_column(group.get(), name, file);
+  hdf5::write_attribute(dataset.get(), "first", static_cast<std::int64_t>(first), file);
+  hdf5::write_attribute(dataset.get(), "digits", static_cast<std::int64_t>(end - first), file);
+}
+
+std::vector<ExactSum> read_sums(const Handle& group, const std::string& path, const char* name,
+                                std::size_t count, const std::string& file) {
+  const auto column = hdf5::read_column<std::int64_t>(group.get(), name, file);
+  const Handle dataset = hdf5::open_column(group.get(), name, file);
+  const auto first =
+      static_cast<std::uint64_t>(hdf5::read_integer_attribute(dataset.get(), "first", file));
+  const auto each =
+      static_cast<std::uint64_t>(hdf5::read_integer_attribute(dataset.get(), "digits", file));
+  if (first > ExactSum::digits || each > ExactSum::digits - first || column.size() != each * count)
+    damaged(file, fmt::format("'/{}/{}' has lost digits", path, name));
+  std::vector<ExactSum> sums;
+  for (std::size_t i = 0; i < count; ++i) {
+    Digits digits{};
+    std::copy_n(column.begin() + static_cast<std::ptrdiff_t>(i * each), each,
+                digits.begin() + static_cast<std::ptrdiff_t>(first));
+    sums.push_back(ExactSum::from_state(digits));
+  }
+  return sums;
+}
+
+}  // namespace carom::io

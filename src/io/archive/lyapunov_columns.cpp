@@ -1,0 +1,139 @@
+// Lyapunov exponents as datasets, and the exact sums that they come from.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "io/archive/ensemble_columns.hpp"
+#include "io/archive/exact_sums.hpp"
+
+namespace carom::io {
+
+using hdf5::Description;
+using hdf5::Handle;
+
+namespace {
+
+constexpr const char* group_name = "lyapunov";
+constexpr const char* sums_name = "lyapunov_sums";
+
+template <class Points, class Get>
+void write_points(const Handle& group, const char* name, const Points& points, Get get,
+                  Description description, const std::string& file) {
+  std::vector<std::decay_t<decltype(get(points.front()))>> values;
+  for (const auto& point : points) values.push_back(get(point));
+  hdf5::write_column(group.get(), name, std::span(std::as_const(values)), description, file);
+}
+
+void write_estimates(const Handle& g, const GrowthSums& sums, const std::string& file) {
+  const LyapunovEstimate e = estimate_of(sums);
+  const auto number = [&](const char* name, double value, Description description) {
+    hdf5::write_number(g.get(), name, value, description, file);
+  };
+  number("lambda", e.per_time.value, {"1/time", "Largest exponent, mean over orbits"});
+  number("lambda_stderr", e.per_time.error, {"1/time", "Its standard error"});
+  number("per_collision", e.per_hit.value, {"1", "Largest exponent per hit"});
+  number("per_collision_stderr", e.per_hit.error, {"1", "Its standard error"});
+  number("chaotic_share", e.chaotic_share.value, {"1", "Share of the orbits that are chaotic"});
+  number("chaotic_share_stderr", e.chaotic_share.error, {"1", "Its standard error"});
+  number("from", sums.window().from, {"time", "Start of the window"});
+  number("to", sums.window().to, {"time", "End of the window"});
+  const auto bins = distribution_of(sums);
+  write_points(
+      g, "bin_from", bins, [](const auto& b) { return b.from; },
+      {"1/time", "Finite-time exponents: start of the bin"}, file);
+  write_points(
+      g, "bin_to", bins, [](const auto& b) { return b.to; }, {"1/time", "Its end"}, file);
+  write_points(
+      g, "bin_count", bins, [](const auto& b) { return b.count; },
+      {"1", "Orbits with an exponent in it"}, file);
+}
+
+}  // namespace
+
+void write_counts(const ArchiveFile& file, const LyapunovResult& result, const System& system) {
+  const std::string& name = file.name();
+  const GrowthSums& sums = result.growth;
+  const GrowthSums::Totals& t = sums.totals();
+  write_estimates(file.group(group_name, "Lyapunov exponents, their distribution, chaotic orbits"),
+                  sums, name);
+  const Handle g = file.group(
+      sums_name, "Sums over orbits of the growth of ln|deviation| in blocks of the window");
+  const auto count = [&](const char* column, std::uint64_t value, const char* text) {
+    hdf5::write_number(g.get(), column, value, {"1", text}, name);
+  };
+  count("orbits", t.orbits, "Particles that were followed to the end of the window");
+  count("chaotic", t.chaotic, "Of these, found chaotic");
+  count("regular", t.regular, "Of these, found regular; the others are undecided");
+  count("blocks", sums.blocks(), "Blocks of the window");
+  hdf5::write_column(g.get(), "chaotic_at", std::span<const std::uint64_t>(t.chaotic_at),
+                     {"1", "Found chaotic by the window's end / 2^7, / 2^6 ... and at the end"},
+                     name);
+  hdf5::write_number(g.get(), "bin_exponent", static_cast<std::int64_t>(t.distribution.exponent()),
+                     {"1", "The bins are 2^this wide, of growth"}, name);
+  hdf5::write_number(g.get(), "bin_first", t.distribution.first(),
+                     {"1", "The first begins at that many widths"}, name);
+  write_sums(
+      g, "totals", {&t.growth, &t.hits, &t.chaotic_growth, &t.chaotic_squares},
+      {"1",
+       "Sums of growth, hits, growth of chaotic orbits and its squares: in each row `digits` "
+       "numbers, the i-th of them times 2^(32 (first + i) - 1074)"},
+      name);
+  std::vector<const ExactSum*> squares;
+  for (const GrowthSums::Squares& level : t.levels)
+    for (const ExactSum* sum : {&level.growth, &level.product, &level.hits}) squares.push_back(sum);
+  write_sums(
+      g, "squares", squares,
+      {"1", "Sums of growth^2, growth hits and hits^2 over groups of 1, 2, 4 ... blocks, likewise"},
+      name);
+  const Handle ends =
+      file.group("fates", "Numbers of particles by their end before the end of the window");
+  write_ends(ends, result, {result.trajectories, result.collisions, result.digest}, name);
+  if (is_integrated(system)) write_integration(ends.get(), result, name);
+}
+
+void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
+  const Handle shown = open_group(file, group_name, name), g = open_group(file, sums_name, name),
+               ends = open_group(file, "fates", name);
+  const auto path = [](const char* column) { return fmt::format("/{}/{}", sums_name, column); };
+  const auto count = [&](const char* column) {
+    return read_number<std::uint64_t>(g.get(), column, path(column), name);
+  };
+  const auto edge = [&](const char* column) {
+    return read_number<double>(shown.get(), column, fmt::format("/{}/{}", group_name, column),
+                               name);
+  };
+  const TimeWindow window{edge("from"), edge("to")};
+  GrowthSums::Totals t;
+  t.orbits = count("orbits"), t.chaotic = count("chaotic"), t.regular = count("regular");
+  const auto at = hdf5::read_column<std::uint64_t>(g.get(), "chaotic_at", name);
+  if (at.size() != t.chaotic_at.size()) damaged(name, "'/lyapunov_sums/chaotic_at' has lost rows");
+  std::copy(at.begin(), at.end(), t.chaotic_at.begin());
+  const auto exponent =
+                 read_number<std::int64_t>(g.get(), "bin_exponent", path("bin_exponent"), name),
+             first = read_number<std::int64_t>(g.get(), "bin_first", path("bin_first"), name);
+  const std::uint64_t blocks = count("blocks");
+  if (exponent < GrowingHistogram::finest || exponent > 1023 || !GrowthSums::may_be_blocks(blocks))
+    damaged(name, "'/lyapunov_sums' has impossible blocks or bins");
+  t.distribution =
+      GrowingHistogram::from(static_cast<int>(exponent), first,
+                             hdf5::read_column<std::uint64_t>(shown.get(), "bin_count", name));
+  const auto totals = read_sums(g, sums_name, "totals", 4, name);
+  t.growth = totals[0], t.hits = totals[1], t.chaotic_growth = totals[2],
+  t.chaotic_squares = totals[3];
+  result.growth = GrowthSums::from(window, blocks, t);
+  const std::size_t levels = result.growth.totals().levels.size();
+  const auto squares = read_sums(g, sums_name, "squares", 3 * levels, name);
+  for (std::size_t i = 0; i < levels; ++i)
+    t.levels.push_back({squares[3 * i], squares[3 * i + 1], squares[3 * i + 2]});
+  result.growth = GrowthSums::from(window, blocks, std::move(t));
+  const EnsembleNumbers numbers = read_ends(ends, name, result);
+  result.trajectories = numbers.particles;
+  result.collisions = numbers.collisions;
+  result.digest = numbers.digest;
+  read_integration(ends.get(), name, result);
+}
+
+}  // namespace carom::io
