@@ -198,6 +198,24 @@ def section(system: Systems, *, progress: Progress = None, **keywords: Any) -> r
     return _compute(results.Section, _carom.section, system, "section", keywords, progress)
 
 
+def relax(
+    system: Systems,
+    *,
+    starts: Union[int, str] = 200,
+    saddles: bool = False,
+    progress: Progress = None,
+    **keywords: Any,
+) -> results.Equilibria:
+    """Equilibria of the potential energy and small oscillations about them: a `carom.Equilibria`.
+
+    starts: how many trajectories' starts go downhill; saddles: looks for saddles, too. Keywords:
+    keys of a system file (particles, initial, seed, …) and threads.
+    """
+    return _compute(
+        results.Equilibria, _carom.relax, system, "relax", keywords, progress, toml.bare(starts), saddles
+    )
+
+
 def table(system: Systems, **keywords: Any) -> results.Table:
     """Checks and measures a table: a `carom.Table` with area (length²), perimeter (length), walls
     and holes. Keywords: keys of a system file."""
@@ -229,6 +247,7 @@ _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = 
     "run": (results.Run, _carom.open_run),
     "section": (results.Section, _carom.open_section),
     "certified": (results.Certified, _carom.open_certified),
+    "relax": (results.Equilibria, _carom.open_relax),
 }
 
 

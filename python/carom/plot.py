@@ -455,6 +455,26 @@ def section(result, ax=None, x=None, y=None):
     return ax
 
 
+def equilibria(found, ax=None, most=4):
+    """The places of the particles at the lowest equilibria, over the level lines of the potential."""
+    ax = table(found.system, ax=ax, names=False, directions=False, starts=0)
+    shown = found.equilibria[:most]
+    for number, one in enumerate(shown):
+        x, y = numpy.array(one.positions).T
+        ax.plot(
+            x, y, "o", color=COLOURS[number % len(COLOURS)], markersize=8 - 1.5 * number, zorder=5 + number,
+            markeredgecolor="white", label=f"{one.kind}, {one.energy:.8g}",
+        )  # fmt: skip
+    if shown:
+        places = numpy.concatenate([numpy.array(one.positions) for one in shown])
+        room = 0.3 * max(numpy.ptp(places, axis=0).max(), 1e-300)
+        if not len(found.system.walls):
+            ax.set_xlim(places[:, 0].min() - room, places[:, 0].max() + room)
+            ax.set_ylim(places[:, 1].min() - room, places[:, 1].max() + room)
+        ax.legend(fontsize="x-small", title="energy", title_fontsize="x-small")
+    return ax
+
+
 def pictures(result):
     """The pictures that there are of a result or a system, by name; the first is the one that
     `result.plot()` draws."""
@@ -473,6 +493,7 @@ def pictures(result):
         results.Diffusion: diffusion,
         results.Section: section,
         results.Lyapunov: lyapunov,
+        results.Equilibria: equilibria,
     }
     draw = others.get(type(result))
     return {draw.__name__: draw} if draw else {}

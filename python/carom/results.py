@@ -373,3 +373,23 @@ class Section(Result):
 
     def _main(self):
         return self.points
+
+
+class Equilibria(Result):
+    """Where all forces vanish. starts, without (numbers of searches). A record each, by rising energy:
+
+    equilibria  energy, energy_error (energy), kind ("minimum", "saddle", "maximum"), descending,
+                neutral (numbers of directions), found (starts), position_error (length), positions
+                (length, two numbers a particle), walls (names or None), frequencies, growths (1/time)
+    """
+
+    def _summary(self):
+        return f"{len(self._json['equilibria'])} from {self.starts} starts"
+
+    def _main(self):
+        return self._json["equilibria"]
+
+    @property
+    def equilibria(self) -> list[Record]:
+        """The equilibria, by rising energy."""
+        return [Record(one) for one in self._json["equilibria"]]

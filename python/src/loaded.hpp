@@ -25,6 +25,7 @@ void add_runs(pybind11::module_&);
 void add_certified(pybind11::module_&);
 void add_rare(pybind11::module_&);
 void add_validation(pybind11::module_&);
+void add_equilibria(pybind11::module_&);
 void add_pictures(pybind11::module_&);
 
 }  // namespace carom::python

@@ -41,5 +41,6 @@ PYBIND11_MODULE(_carom, module) {
   carom::python::add_certified(module);
   carom::python::add_rare(module);
   carom::python::add_validation(module);
+  carom::python::add_equilibria(module);
   carom::python::add_pictures(module);
 }

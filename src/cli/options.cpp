@@ -257,6 +257,22 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .text("--points", o.points, "N", "Most points of an orbit (default 1000)")
       .text("--orbits", o.orbits, "N",
             "Number of orbits (default: the listed starts, else at most 50)");
+  Command(app, o, "relax", "Equilibria of the potential energy, and small oscillations about them",
+          "Examples:\n"
+          "  carom relax wigner\n"
+          "  carom relax wigner --set particles.count=9 --starts 1000 --json\n"
+          "  carom relax soft-lorentz --saddles -o equilibria.png\n"
+          "\n"
+          "Each start goes downhill from where a trajectory of `carom escape` begins. Symmetric "
+          "copies count once.")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .settings()
+      .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
+      .text("--starts", o.starts, "N", "Number of starts (default 200)")
+      .flag("--saddles", o.saddles, "Look for saddles, too")
+      .threads()
+      .verbose()
+      .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
   Command(
       app, o, "merge", "Merges the parts of an ensemble into one archive",
       "Examples:\n"

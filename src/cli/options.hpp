@@ -27,6 +27,8 @@ struct Options {
   std::string engine = "auto", isa = "auto", precision = "double", digits;
   std::string certify_sample;  ///< of carom escape
   SystemOverrides overrides;
+  std::string starts;    ///< of carom relax
+  bool saddles = false;  ///< of carom relax
 };
 
 /// Reads the command line. Prints help to standard output or a complaint to standard error itself;

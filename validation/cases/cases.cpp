@@ -268,7 +268,9 @@ std::vector<Case> all_cases(bool soak, double scale) {
   add_closed_tables(plan);
   add_published(plan);
   add_exponents(plan);
-  return plan.take();
+  std::vector<Case> cases = plan.take();
+  add_equilibria(cases);
+  return cases;
 }
 
 }  // namespace carom::validation

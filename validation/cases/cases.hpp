@@ -18,4 +18,7 @@ struct Case {
 /// `scale` multiplies the number of trajectories of each case.
 std::vector<Case> all_cases(bool soak, double scale);
 
+/// Equilibria of potential energies.
+void add_equilibria(std::vector<Case>&);
+
 }  // namespace carom::validation

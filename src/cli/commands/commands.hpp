@@ -14,6 +14,7 @@ int merge(const Options&);
 int diffusion(const Options&);
 int lyapunov(const Options&);
 int section(const Options&);
+int relax(const Options&);
 int validate(const Options&);
 int plot(const Options&);
 int animate(const Options&);

@@ -1,0 +1,56 @@
+// carom relax: equilibria of the potential energy, and small oscillations about them.
+#include "carom/ensemble/relax.hpp"
+
+#include <memory>
+#include <optional>
+
+#include "carom/io/relax_archive.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/relax_report.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+RelaxOptions relax_options(const Options& options) {
+  RelaxOptions how;
+  how.threads = threads_of(options);
+  how.saddles = options.saddles;
+  if (!options.starts.empty()) how.starts = whole_number(options.starts, "--starts", 1);
+  return how;
+}
+
+int relax(const Options& options) {
+  RelaxOptions how = relax_options(options);
+  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
+  const LoadedSystem loaded = load_system(options.system, options.overrides);
+  preparing.reset();
+  const System& system = loaded.system;
+  how.interrupted = &catch_interrupts();
+  ArchiveLock lock;
+  if (!options.output.empty()) {
+    lock = lock_output(options.output);
+    refuse_existing(options.output, options.force);
+  }
+  RelaxResult result;
+  {
+    io::Progress progress(!options.quiet);
+    if (progress.enabled())
+      how.progress = [&](std::uint64_t starts) {
+        if (progress.due())
+          progress.show(
+              static_cast<double>(starts) / static_cast<double>(how.starts),
+              io::with_prefix(static_cast<double>(starts) / progress.seconds()) + "starts/s");
+      };
+    result = run_relax(system, how);
+  }
+  if (!options.output.empty())
+    write_equilibria(options.output, loaded, provenance_of(options, system, result.threads), result,
+                     options.force, lock);
+  const std::string archive = named_archive(options, options.output);
+  print(options.json ? relax_json(system, result, archive).text() + "\n"
+                     : relax_text(system, result, archive, options.verbose));
+  return result.complete ? done : stopped;
+}
+
+}  // namespace carom::cli
