@@ -13,11 +13,23 @@ from . import _carom, plot
 from .animation import animate
 from .commands import diffusion, escape, lyapunov, open, run, section, table, validate
 from .commands import diffusion, escape, open, relax, run, section, table, validate
+from .commands import (
+    compare,
+    diffusion,
+    escape,
+    open,
+    run,
+    schemes,
+    section,
+    table,
+    validate,
+)
 from .errors import InputError, Place
 from .records import Record
 from .results import (
     Certified,
     CertifiedSample,
+    Comparison,
     Diffusion,
     Equilibria,
     Escape,

@@ -1,12 +1,15 @@
 """The commands of the program as functions. Every key of a system file and every option of the
 command is a keyword: `t_max=100`, `B=0.5`, `trajectories=10**6`, `integrator={"step": 0.01}`."""
 
+import json
 import os
 import sys
 import time
 from typing import Any, Callable, Union
 
-from . import _carom, results, toml
+import numpy
+
+from . import _carom, records, results, toml
 from .errors import InputError
 from .system import System, load, system
 
@@ -68,7 +71,7 @@ def _progress(progress):
 # What says how one command computes; the rest of the keywords describes the system.
 _OF_ONE_COMMAND = (
     "certify_sample", "splitting", "population", "repetitions", "kick", "lookback", "precision",
-    "digits",
+    "digits", "schemes", "steps", "tolerances", "error",
 )  # fmt: skip
 
 
@@ -189,6 +192,37 @@ def run(
     return _compute(results.Run, _carom.run, system, "run", keywords, progress, state_error)
 
 
+def compare(
+    system: Systems,
+    *,
+    schemes=None,
+    steps=None,
+    tolerances=None,
+    error=None,
+    progress: Progress = None,
+    **keywords: Any,
+) -> results.Comparison:
+    """Integrators compared on a system, error against work: a `carom.Comparison`.
+
+    schemes: names, "all", or None: a dozen, arkode and cvode. steps (time), tolerances (share):
+    lists, or text as "log:0.001:0.1:7"; None: chosen. error: the wanted one of the state (share,
+    1e-6). t_max (time): of the comparison; None: until small errors have grown 100 times.
+    """
+    keywords |= {"schemes": _words(schemes), "steps": _levels(steps), "error": error}
+    keywords["tolerances"] = _levels(tolerances)
+    return _compute(results.Comparison, _carom.compare, system, "compare", keywords, progress)
+
+
+def _words(names):
+    return names if names is None or isinstance(names, str) else ",".join(names)
+
+
+def schemes() -> numpy.ndarray:
+    """The integrators, (number of schemes,): name, order and stages (NaN: they vary), kind,
+    adaptive, symmetric, symplectic, quadratic (Runge–Kutta–Nyström), source."""
+    return records.table_of(json.loads(_carom.schemes())["schemes"])
+
+
 def section(system: Systems, *, progress: Progress = None, **keywords: Any) -> results.Section:
     """Where orbits meet walls, a line, a circle or a velocity: a `carom.Section`.
 
@@ -248,6 +282,7 @@ _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = 
     "section": (results.Section, _carom.open_section),
     "certified": (results.Certified, _carom.open_certified),
     "relax": (results.Equilibria, _carom.open_relax),
+    "compare": (results.Comparison, _carom.open_comparison),
 }
 
 

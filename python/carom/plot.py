@@ -1,4 +1,5 @@
-"""Pictures, by matplotlib: tables, orbits, energies, survival, rates, basins, diffusion, sections.
+"""Pictures, by matplotlib: tables, orbits, energies, survival, rates, basins, diffusion, sections,
+comparisons of integrators.
 
 `thing.plot()` chooses among these functions; all of them return the axes and take `ax`.
 Colours can be told apart by people who see few of them (Okabe and Ito).
@@ -455,6 +456,36 @@ def section(result, ax=None, x=None, y=None):
     return ax
 
 
+def comparison(result, ax=None, of="error_state"):
+    """Error against work: a line for each scheme, in colour by order; dashed: adaptive. Other
+    errors by `of`. A dotted line is the wanted error, the grey band what the reference cannot tell."""
+    ax = _axes(ax, (6.6, 4.6))
+    runs = result.schemes
+    orders = {row["scheme"]: row["stated"] for row in result.measured}
+    steps = sorted({order for order in orders.values() if order == order})
+    markers = "osD^vPX*"
+    used = {}
+    for name, order in orders.items():
+        rows = runs[(runs["scheme"] == name) & (runs[of] > 0)]
+        colour = COLOURS[steps.index(order) % len(COLOURS)] if order in steps else COLOURS[-1]
+        used[colour] = used.get(colour, -1) + 1
+        adaptive = "tolerance" in runs.dtype.names and (rows["tolerance"] > 0).any()
+        ax.plot(
+            rows["force_evaluations"], rows[of], "--" if adaptive else "-", color=colour, label=name,
+            marker=markers[used[colour] % len(markers)], markersize=3.5, linewidth=1,
+        )  # fmt: skip
+    if of == "error_state":
+        ax.axhline(result.error, color="0.5", linewidth=0.8, linestyle=":")
+        ax.axhspan(0, result.reference.error, color="0.92", linewidth=0)
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlabel("force evaluations")
+    ax.set_ylabel(of.replace("_", " of the ") if of.startswith("error_") else of)
+    ax.legend(fontsize="x-small", frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
+    _title(ax, result.system)
+    return ax
+
+
 def equilibria(found, ax=None, most=4):
     """The places of the particles at the lowest equilibria, over the level lines of the potential."""
     ax = table(found.system, ax=ax, names=False, directions=False, starts=0)
@@ -494,6 +525,7 @@ def pictures(result):
         results.Section: section,
         results.Lyapunov: lyapunov,
         results.Equilibria: equilibria,
+        results.Comparison: comparison,
     }
     draw = others.get(type(result))
     return {draw.__name__: draw} if draw else {}

@@ -57,6 +57,26 @@ def array_of(rows):
     return numpy.array(plain, dtype=kinds)
 
 
+def table_of(rows):
+    """A list of objects as a structured array of numbers and names: what is missing, or null, is
+    not a number. Objects among the entries are left out."""
+    keys = list(dict.fromkeys(key for row in rows for key in row))
+    columns = {key: [row.get(key) for row in rows] for key in keys}
+    kinds = {}
+    for key, column in columns.items():
+        known = [one for one in column if one is not None]
+        kind = _kind_of(known) if known else ("f8",)
+        if kind is None or any(isinstance(one, dict) for one in known):
+            continue
+        if len(known) < len(column):
+            kind = kind if kind[0].startswith("U") else ("f8",)
+            nothing = "" if kind[0].startswith("U") else float("nan")
+            columns[key] = [nothing if one is None else one for one in column]
+        kinds[key] = kind
+    dtype = [(key, *kind) for key, kind in kinds.items()]
+    return numpy.array([tuple(columns[key][i] for key in kinds) for i in range(len(rows))], dtype)
+
+
 def _kind_of(column):
     """What an array of these is made of; None: of too different things."""
     if all(isinstance(one, bool) for one in column):

@@ -10,7 +10,7 @@ import numpy
 
 from . import _carom
 from .errors import InputError
-from .records import Record, Report
+from .records import Record, Report, table_of
 from .system import System
 
 
@@ -299,6 +299,38 @@ class Run(Result):
 
     def _main(self):
         return self.hits
+
+
+class Comparison(Result):
+    """Integrators compared on a system.
+
+    t (time) of the comparison, growth (share) of small errors until then, size (length) and speed
+    (length/time), the units of error_state; reference; error (share) that is wanted, cheapest and
+    fastest for it.
+    """
+
+    @property
+    def schemes(self) -> numpy.ndarray:
+        """A row for each run, (runs,): scheme, step (time) or tolerance, order, error_state (share),
+        error_position (length), error_velocity (length/time), error_energy (share),
+        error_reversal (share), steps, force_evaluations, cpu_seconds (s), failure ("": none). What
+        is not known is NaN."""
+        return table_of(self._json["schemes"])
+
+    @property
+    def measured(self) -> numpy.ndarray:
+        """A row for each scheme, (schemes,): scheme, stated and measured order, order_error, from and
+        to (time, the steps that it rests on), reason, reversible, symplectic, areas and areas_error
+        (share) …"""
+        return table_of(self._json["measured"])
+
+    def _summary(self):
+        cheapest = self._json["cheapest"]
+        best = "none" if cheapest is None else cheapest["scheme"]
+        return f"{len(self._json['measured'])} schemes, cheapest for {self.error:.1g}: {best}"
+
+    def _main(self):
+        return self.schemes
 
 
 class Exact(decimal.Decimal):

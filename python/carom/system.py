@@ -12,6 +12,7 @@ _OPTIONS = (
     "engine", "isa", "threads", "trajectory", "seed", "trajectories", "t_max", "collisions",
     "trust_tolerance", "on", "direction", "points", "orbits", "precision", "digits",
     "certify_sample", "splitting", "population", "repetitions", "kick", "lookback",
+    "schemes", "steps", "tolerances", "error",
 )  # fmt: skip
 _PLAIN_SECTIONS = ("field", "particles", "integrator", "run", "section")
 _KEYS = _carom.keys()

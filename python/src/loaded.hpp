@@ -23,6 +23,7 @@ void add_loading(pybind11::module_&);
 void add_ensembles(pybind11::module_&);
 void add_runs(pybind11::module_&);
 void add_certified(pybind11::module_&);
+void add_comparisons(pybind11::module_&);
 void add_rare(pybind11::module_&);
 void add_validation(pybind11::module_&);
 void add_equilibria(pybind11::module_&);

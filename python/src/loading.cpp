@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carom/base/error.hpp"
+#include "cli/commands/compare.hpp"
 #include "cli/commands/escape_options.hpp"
 #include "cli/commands/run_certified.hpp"
 #include "cli/commands/section.hpp"
@@ -50,6 +51,10 @@ void set_option(cli::Options& options, const std::string& name, const std::strin
       {"repetitions", &options.repetitions},
       {"kick", &options.kick},
       {"lookback", &options.lookback},
+      {"schemes", &options.schemes},
+      {"steps", &options.steps},
+      {"tolerances", &options.tolerances},
+      {"error", &options.error},
       {"scale", &options.scale}};
   for (const auto& [key, field] : all)
     if (name == key) {
@@ -72,6 +77,10 @@ LoadedPointer load(const std::string& toml, const std::string& name, const std::
   const auto with = [&](const SystemOverrides& overrides) {
     return toml.empty() ? load_system(name, overrides) : read_system(toml, name, overrides);
   };
+  if (command == "compare") {
+    made->loaded = cli::load_compared(options, with);
+    return made;
+  }
   if (command == "section") {
     made->loaded = cli::load_section(options, with);
   } else if (command == "run") {

@@ -39,6 +39,7 @@ PYBIND11_MODULE(_carom, module) {
   carom::python::add_ensembles(module);
   carom::python::add_runs(module);
   carom::python::add_certified(module);
+  carom::python::add_comparisons(module);
   carom::python::add_rare(module);
   carom::python::add_validation(module);
   carom::python::add_equilibria(module);

@@ -48,6 +48,9 @@ int (*command_of(const std::string& name))(const Options&) {
       {"escape", escape}, {"run", run},        {"diffusion", diffusion}, {"section", section},
       {"relax", relax},   {"merge", merge},    {"table", table},         {"validate", validate},
       {"plot", plot},     {"animate", animate}};
+      {"escape", escape},   {"run", run},         {"diffusion", diffusion}, {"section", section},
+      {"merge", merge},     {"table", table},     {"validate", validate},   {"plot", plot},
+      {"animate", animate}, {"compare", compare}, {"schemes", schemes}};
   for (const auto& [known, command] : commands)
     if (name == known) return command;
   return systems;

@@ -15,6 +15,7 @@
 #include "carom/io/system_file.hpp"
 #include "carom_version.hpp"
 #include "cli/command_table.hpp"
+#include "cli/option_faults.hpp"
 
 namespace carom::cli {
 
@@ -273,6 +274,37 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .threads()
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
+  Command(app, o, "compare", "Compares integrators on a system: error against work",
+          "Examples:\n"
+          "  carom compare henon-heiles\n"
+          "  carom compare soft-lorentz --schemes velocity-verlet,blanes-moan-srkn6b --error 1e-4\n"
+          "  carom compare wigner --steps 0.1,0.05,0.025 --verbose -o compared.h5\n"
+          "  carom compare stadium --closed --json      free: against exact flights\n"
+          "\n"
+          "Without --t-max the comparison ends before small errors have grown 100 times.\n"
+          "carom schemes lists the schemes.")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .settings()
+      .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
+      .text("--t-max", o.overrides.t_max, "T", "Time of the comparison (default: chosen)")
+      .text("--position", o.overrides.position, "X,Y", "Start, in exact numbers: 1/10,-1/5")
+      .text("--velocity", o.overrides.velocity, "U,V",
+            "Velocity of the start; only its direction counts where a speed is set")
+      .text("--trajectory", o.trajectory, "I", "Whose start is taken (default 0)")
+      .text("--schemes", o.schemes, "A,B,…|all", "Schemes (default: a dozen, arkode and cvode)")
+      .text("--steps", o.steps, "STEPS",
+            "Steps, a,b,c or log:from:to:count (default: ten, halved from one to the next)")
+      .text("--tolerances", o.tolerances, "TOLERANCES",
+            "Tolerances of arkode and cvode, likewise (default: 1e-3 to 1e-13)")
+      .text("--error", o.error, "X", "Wanted error of the state (default 1e-6)")
+      .verbose()
+      .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
+  Command(app, o, "schemes", "Lists the integrators: order, kind, stages, source",
+          "Examples:\n"
+          "  carom schemes\n"
+          "  carom schemes --json\n"
+          "\n"
+          "[integrator] scheme, or --set integrator.scheme=NAME, chooses one of them.");
   Command(
       app, o, "merge", "Merges the parts of an ensemble into one archive",
       "Examples:\n"
@@ -340,62 +372,6 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .verbose();
 }
 
-bool is_system(const std::string& word) {
-  const auto& systems = builtin_systems();
-  return word.ends_with(".toml") ||
-         std::any_of(systems.begin(), systems.end(),
-                     [&](const BuiltinSystem& system) { return system.name == word; });
-}
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
-std::string unknown_word(const CLI::App& app) {
-  for (const std::string& word : app.remaining()) {
-    if (word.empty() || word[0] == '-') continue;
-    if (is_system(word))
-      return "'" + word + "' is a system, not a command: carom run " + word + ", carom escape " +
-             word + ", carom table " + word;
-    std::vector<std::string> names;
-    for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
-    const std::string near = nearest_name(word, names);
-    return "there is no command '" + word + "'" +
-           (near.empty() ? std::string() : "; did you mean '" + near + "'?");
-  }
-  return {};
-}
-
-// The first word that was typed and is not known, as a message. CLI11 tells them in another order.
-std::string unknown_option(const CLI::App& app, const CLI::App& command, int argc, char** argv) {
-  const std::vector<std::string> remaining = command.remaining();
-  const auto is_option = [](const std::string& word) {
-    return word.size() > 1 && word[0] == '-' &&
-           std::string("0123456789.").find(word[1]) == std::string::npos;
-  };
-  std::string first;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (std::find(remaining.begin(), remaining.end(), word) == remaining.end()) continue;
-    if (first.empty()) first = word;
-    if (!is_option(word)) continue;
-    const std::string name = word.substr(0, word.find('='));
-    std::vector<std::string> others;
-    for (const CLI::App* other : commands_of(app))
-      if (other->get_option_no_throw(name)) others.push_back(other->get_name());
-    if (!others.empty() && &app != &command)
-      return name + " means nothing to carom " + command.get_name() + ": it is an option of " +
-             fmt::format("{}", fmt::join(others, ", "));
-    std::vector<std::string> known;
-    for (const CLI::Option* option : command.get_options())
-      for (const std::string& one : option->get_lnames()) known.push_back("--" + one);
-    const std::string near = nearest_name(name, known);
-    return "there is no option '" + name + "'" +
-           (near.empty() ? std::string() : "; did you mean '" + near + "'?");
-  }
-  return "'" + (first.empty() ? remaining.front() : first) + "' is not expected";
-}
-
 CommandRow row_of(const CLI::App& app) {
   CommandRow row{app.get_name(), app.get_description(), app.get_footer(), {}, {}, false};
   for (const CLI::Option* option : app.get_options()) {
@@ -411,22 +387,6 @@ CommandRow row_of(const CLI::App& app) {
     row.options.push_back({names, value, option->get_description()});
   }
   return row;
-}
-
-// Two numbers of one option, typed with a blank between them: what to write instead; "" if there
-// are none.
-std::string parted_pair(int argc, char** argv) {
-  const auto is_number = [](const std::string& word) {
-    const std::size_t first = word.find_first_not_of("+-");
-    return first != std::string::npos && std::string("0123456789.").find(word[first]) < 11;
-  };
-  for (int i = 1; i + 2 < argc; ++i) {
-    const std::string option = argv[i], one = argv[i + 1], other = argv[i + 2];
-    if (option != "--position" && option != "--velocity" && option != "--window") continue;
-    if (is_number(one) && is_number(other) && one.find(',') == std::string::npos)
-      return option + " takes two numbers in one word: write " + option + " " + one + "," + other;
-  }
-  return {};
 }
 
 }  // namespace
@@ -503,8 +463,9 @@ Parsed parse(int argc, char** argv) {
   }
   options.command = app.get_subcommands().front()->get_name();
   const bool resumes = !options.resume.empty();
-  if (options.command != "systems" && options.command != "validate" && options.command != "merge" &&
-      options.system.empty() && !resumes)
+  if (options.command != "systems" && options.command != "schemes" &&
+      options.command != "validate" && options.command != "merge" && options.system.empty() &&
+      !resumes)
     complain("SYSTEM is missing: a built-in name (carom systems) or a TOML file");
   else if (options.command == "run" && resumes && !options.system.empty())
     complain("--resume takes the system from the archive: leave SYSTEM out");

@@ -25,7 +25,8 @@ struct Options {
   std::string output, threads, trajectory, resume, scale, report;
   std::string what;  ///< of carom plot
   std::string engine = "auto", isa = "auto", precision = "double", digits;
-  std::string certify_sample;  ///< of carom escape
+  std::string certify_sample;                     ///< of carom escape
+  std::string schemes, steps, tolerances, error;  ///< of carom compare
   SystemOverrides overrides;
   std::string starts;    ///< of carom relax
   bool saddles = false;  ///< of carom relax

@@ -3,18 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
-#include "carom/analysis/trust.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/world.hpp"
 #include "carom/integrators/scheme.hpp"
+#include "ensemble/displaced_orbit.hpp"
 
 namespace carom {
 
 using geometry::Vector;
 
 namespace {
+
+using ensemble::add_displaced;
+using ensemble::displacement;
+using ensemble::rounding_of_evaluation;
+using ensemble::size_of_positions;
 
 constexpr int looks = 64;
 /// Two runs have separated where they are further from each other than this share of the way that
@@ -28,12 +32,6 @@ constexpr int latest = 8;
 /// Both runs are rounded, by a few units a step: what they have in common of it is not seen in
 /// their distance.
 constexpr double rounding = 0x1p-51;
-/// How errors grow is seen from a start displaced by this share of positions and velocities: far
-/// above what rounding does to them, and far below what a run can be believed with.
-constexpr double displacement = 0x1p-40;
-/// Each evaluation of a force, and the sums made with it, displace a run by about so much of its
-/// size, in directions of their own.
-constexpr double rounding_of_evaluation = 0x1.8p-50;
 /// A pass through the outermost part of a bump, which is left out, turns a velocity v by this times
 /// tail/(m v^2) at most: a force of tail/w in units of the width w, times the distance in units of
 /// w (8.6), over a way of 2.5 w, for a Gaussian.
@@ -53,37 +51,6 @@ State state_of(const World& world, int particle, double t) {
 
 double length(Vector a) { return std::sqrt(dot(a, a)); }
 
-/// The size of positions; in the plane of that at the start.
-double size_of_positions(const System& system, const World& world, double t_end) {
-  if (!system.table->walls.empty() || system.table->lattice) return size_of(*system.table);
-  double size = 0.0, fastest = 0.0;
-  for (int i = 0; i < world.size(); ++i) {
-    size = std::max(size, length(world.state(i).position));
-    fastest = std::max(fastest, length(world.state(i).velocity));
-  }
-  if (size > 0.0) return size;
-  return fastest > 0.0 ? fastest * t_end / looks : 1.0;
-}
-
-/// Adds the particles of another world, displaced; as they are where there is no room.
-void add_displaced(World& world, const World& others, double size) {
-  for (int i = 0; i < others.size(); ++i) {
-    const State& start = others.state(i);
-    bool added = false;
-    for (const double share : {displacement, -displacement, 0.0}) {
-      State s = start;
-      if (s.wall < 0) s.position = s.position + (share * size) * Vector{0.6, 0.8};
-      s.velocity = s.velocity + share * geometry::left(s.velocity);
-      try {
-        world.add(others.particle(i), s);
-        added = true;
-      } catch (const std::invalid_argument&) {  // outside of the table, or out of the wall
-      }
-      if (added) break;
-    }
-  }
-}
-
 }  // namespace
 
 std::optional<StateError> state_error(const System& system, std::uint64_t trajectory, double t_end,
@@ -98,7 +65,7 @@ std::optional<StateError> state_error(const System& system, std::uint64_t trajec
   const Sampler sampler(system, stopped);
   add_starts(as_run, sampler, trajectory);
   add_starts(finely, sampler, trajectory);
-  const double size = size_of_positions(system, as_run, t_end),
+  const double size = size_of_positions(system, as_run, t_end / looks),
                tail = system.dynamics.forces->tail_bound();
   add_displaced(displaced, as_run, size);
   const int count = as_run.size();

@@ -48,7 +48,7 @@ PACKAGES = {
     r"gsl/": r"src/ensemble/relax/",
     r"Random123/": r"src/base/random\.cpp",
     r"toml\+\+/|hdf5": r"src/io/",
-    r"CLI/": r"src/cli/options\.cpp",
+    r"CLI/": r"src/cli/(options|option_faults)\.cpp",
     r"hwy/": r"src/lanes/simd/",
     r"pybind11|Python\.h": r"python/src/",
     r"omp\.h": r"src/ensemble/|validation/cases/",

@@ -15,6 +15,8 @@ int diffusion(const Options&);
 int lyapunov(const Options&);
 int section(const Options&);
 int relax(const Options&);
+int compare(const Options&);
+int schemes(const Options&);
 int validate(const Options&);
 int plot(const Options&);
 int animate(const Options&);

@@ -14,9 +14,9 @@
 #include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/number_list.hpp"
 #include "cli/reports/aligned.hpp"
 #include "io/progress.hpp"
-#include "io/toml/read.hpp"
 
 namespace carom::cli {
 
@@ -25,35 +25,6 @@ using io::Json;
 namespace {
 
 Place place_of(const char* option) { return Place{"command line", 0, 0, option}; }
-
-// "a,b,c", "lin:from:to:count" or "log:from:to:count".
-std::vector<double> numbers_of(const std::string& text, const char* option) {
-  const Place place = place_of(option);
-  const bool grid = text.find(':') != std::string::npos;
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(grid ? ':' : ',', start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  const auto number = [&](const std::string& part) { return ExactNumber(part, place).to_double(); };
-  std::vector<double> numbers;
-  if (!grid) {
-    for (const std::string& part : parts) numbers.push_back(number(part));
-    return numbers;
-  }
-  const bool log = parts[0] == "log";
-  if (parts.size() != 4 || (!log && parts[0] != "lin"))
-    throw InputError(
-        place, fmt::format("cannot read the levels '{}'", text),
-        "a,b,c or log:from:to:count or lin:from:to:count, with hits: before them for hits");
-  const double first = number(parts[1]), last = number(parts[2]);
-  const std::uint64_t count = whole_number(parts[3], option, 2);
-  if (!(first < last) || (log && !(first > 0.0)) || count > 1'000'000)
-    throw InputError(place, fmt::format("cannot read the levels '{}'", text),
-                     "from < to, at most 1e6 levels");
-  return io::spaced(first, last, count, log);
-}
 
 // Half of the reports, to be free of the start: -ln(P(last)/P(first)) / (last - first).
 struct Decay {
@@ -135,7 +106,9 @@ SplittingPlan plan_of(const Options& options) {
     plan.by = SplittingPlan::Level::hits;
     levels = levels.substr(5);
   }
-  plan.levels = numbers_of(levels, "--splitting");
+  plan.levels = numbers_of(
+      levels, "--splitting", "levels",
+      "a,b,c or log:from:to:count or lin:from:to:count, with hits: before them for hits");
   // A grid is spaced as evenly as whole hits allow; levels that were written are whole or
   // refused.
   const bool grid = levels.find(':') != std::string::npos;

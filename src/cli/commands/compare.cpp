@@ -1,0 +1,117 @@
+// carom compare: integrators on a user's system.
+#include "cli/commands/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "carom/base/exact_number.hpp"
+#include "carom/integrators/plan.hpp"
+#include "carom/integrators/scheme_list.hpp"
+#include "carom/io/comparison_archive.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/common.hpp"
+#include "cli/number_list.hpp"
+#include "cli/reports/compare_report.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+namespace {
+
+Place place_of(const char* option) { return {"command line", 0, 0, option}; }
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    words.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return words;
+}
+
+void check(const std::vector<double>& numbers, const char* option, double least, double below,
+           const char* expected) {
+  for (const double x : numbers)
+    if (!(x >= least && x > 0.0 && x < below))
+      throw InputError(place_of(option), fmt::format("{:.6g} is out of range", x), expected);
+}
+
+}  // namespace
+
+LoadedSystem load_compared(const Options& options,
+                           const std::function<LoadedSystem(const SystemOverrides&)>& load) {
+  SystemOverrides overrides = options.overrides;
+  overrides.t_max.clear();  // the time of the comparison, not of the system
+  LoadedSystem loaded = load(overrides);
+  Dynamics& dynamics = loaded.system.dynamics;
+  if (!dynamics.forces || dynamics.forces->empty()) dynamics.everywhere = true;
+  return loaded;
+}
+
+ComparePlan compare_plan(const Options& options) {
+  ComparePlan plan;
+  if (options.schemes == "all")
+    for (const SchemeDescription& one : scheme_descriptions()) plan.schemes.emplace_back(one.name);
+  else if (!options.schemes.empty())
+    plan.schemes = words_of(options.schemes);
+  if (!options.steps.empty()) plan.steps = numbers_of(options.steps, "--steps", "steps");
+  check(plan.steps, "--steps", 0.0, 1e300, "times > 0");
+  if (!options.tolerances.empty())
+    plan.tolerances = numbers_of(options.tolerances, "--tolerances", "tolerances");
+  check(plan.tolerances, "--tolerances", least_tolerance, 1.0, "numbers from 1e-15 to below 1");
+  const auto positive = [](const std::string& text, const char* option, const char* expected) {
+    const double x = ExactNumber(text, place_of(option)).to_double();
+    check({x}, option, 0.0, 1e300, expected);
+    return x;
+  };
+  if (!options.error.empty()) plan.error = positive(options.error, "--error", "a number > 0");
+  if (!options.overrides.t_max.empty())
+    plan.t_max = positive(options.overrides.t_max, "--t-max", "a time > 0");
+  if (!options.trajectory.empty())
+    plan.trajectory = whole_number(options.trajectory, "--trajectory", 0);
+  return plan;
+}
+
+int compare(const Options& options) {
+  ComparePlan plan = compare_plan(options);
+  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
+  const LoadedSystem loaded = load_compared(options, [&](const SystemOverrides& overrides) {
+    return load_system(options.system, overrides);
+  });
+  preparing.reset();
+  ArchiveLock lock;
+  if (!options.output.empty()) {
+    lock = lock_output(options.output);
+    refuse_existing(options.output, options.force);
+  }
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  plan.interrupted = [&] { return interrupted.load(std::memory_order_relaxed); };
+  Comparison result;
+  {
+    io::Progress progress(!options.quiet);
+    if (progress.enabled())
+      plan.progress = [&](std::size_t done, std::size_t all) {
+        if (progress.due())
+          progress.show(static_cast<double>(done) / static_cast<double>(all),
+                        fmt::format("{} of {} schemes", done, all));
+      };
+    result = carom::compare(loaded.system, plan);
+  }
+  const System& system = loaded.system;
+  if (!options.output.empty())
+    write_comparison(options.output, loaded, provenance_of(options, system, 1), result,
+                     options.force, lock);
+  const std::string archive = named_archive(options, options.output);
+  print(options.json ? compare_json(system, result, archive).text() + "\n"
+                     : compare_text(system, result, archive, options.verbose));
+  return result.complete ? done : stopped;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,42 @@
+#include "cli/number_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "carom/base/error.hpp"
+#include "carom/base/exact_number.hpp"
+#include "carom/ensemble/report_times.hpp"
+#include "cli/common.hpp"
+
+namespace carom::cli {
+
+std::vector<double> numbers_of(const std::string& text, const char* option, const char* what,
+                               const char* expected) {
+  const Place place{"command line", 0, 0, option};
+  const bool grid = text.find(':') != std::string::npos;
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(grid ? ':' : ',', start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  const auto number = [&](const std::string& part) { return ExactNumber(part, place).to_double(); };
+  std::vector<double> numbers;
+  if (!grid) {
+    for (const std::string& part : parts) numbers.push_back(number(part));
+    return numbers;
+  }
+  const bool log = parts[0] == "log";
+  if (parts.size() != 4 || (!log && parts[0] != "lin"))
+    throw InputError(place, fmt::format("cannot read the {} '{}'", what, text), expected);
+  const double first = number(parts[1]), last = number(parts[2]);
+  const std::uint64_t count = whole_number(parts[3], option, 2);
+  if (!(first < last) || (log && !(first > 0.0)) || count > 1'000'000)
+    throw InputError(place, fmt::format("cannot read the {} '{}'", what, text),
+                     fmt::format("from < to, at most 1e6 {}", what));
+  return spaced(first, last, count, log);
+}
+
+}  // namespace carom::cli

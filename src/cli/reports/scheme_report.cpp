@@ -1,0 +1,56 @@
+#include "cli/reports/scheme_report.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "carom/integrators/scheme_list.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
+
+namespace carom::cli {
+
+using io::Json;
+
+namespace {
+
+Json number_or_null(int number) { return number > 0 ? Json(number) : Json(); }
+
+}  // namespace
+
+std::string schemes_text() {
+  std::vector<Column> columns{{"scheme", {}, true},
+                              {"order", {}},
+                              {"forces\na step", {}},
+                              {"kind", {}, true},
+                              {"source", {}, true}};
+  for (const SchemeDescription& scheme : scheme_descriptions()) {
+    const auto number = [](int n) { return n > 0 ? fmt::format("{}", n) : std::string("-"); };
+    columns[0].cells.emplace_back(scheme.name);
+    columns[1].cells.push_back(number(scheme.order));
+    columns[2].cells.push_back(number(scheme.stages));
+    columns[3].cells.emplace_back(scheme.kind);
+    columns[4].cells.emplace_back(scheme.source);
+  }
+  return aligned(columns);
+}
+
+Json schemes_json() {
+  Json list = Json::array();
+  for (const SchemeDescription& scheme : scheme_descriptions())
+    list.push(Json::object()
+                  .set("name", scheme.name)
+                  .set("order", number_or_null(scheme.order))
+                  .set("stages", number_or_null(scheme.stages))
+                  .set("kind", scheme.kind)
+                  .set("adaptive", scheme.adaptive)
+                  .set("symmetric", scheme.symmetric)
+                  .set("symplectic", scheme.symplectic)
+                  .set("quadratic", scheme.quadratic)
+                  .set("source", scheme.source));
+  Json json = Json::object();
+  add_common_keys(json, System{}, 1, 0.0, 0.0);
+  return json.set("schemes", std::move(list));
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,222 @@
+#include "ensemble/compare/setting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "carom/ensemble/choose_step.hpp"
+#include "ensemble/displaced_orbit.hpp"
+
+namespace carom::ensemble {
+
+using geometry::Vector;
+
+namespace {
+
+/// Neighbouring orbits may separate by so much: their errors are then still in proportion to what
+/// schemes do in a step.
+constexpr double most_growth = 100.0;
+/// The comparison lasts as long as so many of the steps that would be chosen, at most.
+constexpr int most_steps = 1024, steps_between_looks = 4;
+/// An orbit that ends is compared until shortly before.
+constexpr double share_of_ending = 0.95;
+/// Free particles: steps in the time in which the fastest goes the table's size.
+constexpr double steps_a_size = 8.0;
+/// Longer steps than the chosen one that are tried, and halvings of the longest until the
+/// reference.
+constexpr int longer_steps = 6, most_halvings = 12;
+/// Halving the step changes an error of the reference's order 8 by 2^8: what is left after it is
+/// far below the change. Twice the change is as safe as what `carom run` states.
+constexpr double margin = 2.0;
+/// A flight to a wall is rounded by some units: of the hit's place, the time and the velocity.
+constexpr double rounding_of_flight = 0x1p-50;
+
+double length(Vector a) { return std::sqrt(dot(a, a)); }
+
+State state_of(const World& world, int particle, double t) {
+  return world.finished(particle) ? world.state(particle) : world.state_at(particle, t);
+}
+
+double largest_turn(const System& system) {
+  double omega = 0.0;
+  for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));
+  return omega;
+}
+
+/// May the field turn velocities by as much as in a step?
+bool turn_allowed(const System& system, double step) {
+  return largest_turn(system) * step <= (system.table->walls.empty() ? 2.0 : 1.0);
+}
+
+double first_step(const Runs& runs, double size, double speed) {
+  const System& system = runs.system();
+  if (runs.free()) {
+    double step = size / (steps_a_size * speed);
+    while (!turn_allowed(system, step)) step *= 0.5;
+    return step;
+  }
+  if (system.dynamics.integrator.step_chosen) return system.dynamics.integrator.step;
+  System without = system;
+  without.dynamics.integrator = IntegratorPlan{};
+  return choose_step(without,
+                     [&] {
+                       runs.stop_if_asked();
+                       return false;
+                     })
+      .step;
+}
+
+/// How far a displaced orbit is from the orbit, in units of the displacement, at equal times.
+struct Growth {
+  double between = 0.0;                                  ///< two times
+  std::vector<double> grown;                             ///< the largest until then
+  double end = std::numeric_limits<double>::infinity();  ///< of the first particle that ends
+};
+
+Growth growth_of(const Runs& runs, const Dynamics& dynamics, double between, double until,
+                 const ErrorUnits& units) {
+  const Table& table = *runs.system().table;
+  World orbit(table, dynamics), beside(table, dynamics);
+  runs.add_starts(orbit);
+  add_displaced(beside, orbit, units.size);
+  Growth result{between, {}};
+  double grown = 1.0;
+  for (int k = 1; (k - 1) * between < until; ++k) {
+    const double t = std::min(k * between, until);
+    orbit.run_until(t);
+    beside.run_until(t);
+    runs.stop_if_asked();
+    for (int i = 0; i < orbit.size(); ++i) {
+      if (orbit.finished(i) && orbit.fate(i) != Fate::pinned) {
+        result.end = std::min(result.end, orbit.state(i).time.value());
+        continue;
+      }
+      const PlaneState one = in_the_plane(table, state_of(orbit, i, t)),
+                       other = in_the_plane(table, state_of(beside, i, t));
+      grown = std::max({grown, length(one.position - other.position) / (displacement * units.size),
+                        length(one.velocity - other.velocity) / (displacement * units.speed)});
+    }
+    result.grown.push_back(grown);
+    if (std::isfinite(result.end)) break;
+  }
+  return result;
+}
+
+/// The latest of the times at which the growth is known until which it is below its limit; their
+/// number is one of three binary digits, so that times and their halves are short numbers.
+double time_of(const Growth& growth) {
+  int k = 1;
+  while (k < static_cast<int>(growth.grown.size()) &&
+         growth.grown[static_cast<std::size_t>(k)] <= most_growth)
+    ++k;
+  int unit = 1;
+  while (k / unit >= 8) unit *= 2;
+  return k / unit * unit * growth.between;
+}
+
+void set_growth(const Growth& growth, Setting& setting) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < growth.grown.size(); ++k) {
+    if (k > 0 && static_cast<double>(k + 1) * growth.between > 1.0001 * setting.t) break;
+    setting.growth = growth.grown[k];
+    sum += 1.0 / (growth.grown[k] * growth.grown[k]);
+    ++count;
+  }
+  setting.rounded = setting.growth * std::sqrt(sum / std::max(1, count));
+}
+
+/// The orbit by exact flights.
+void fly_exactly(const Runs& runs, Setting& setting) {
+  Dynamics dynamics = runs.system().dynamics;
+  dynamics.everywhere = false;
+  setting.reference = runs.fly(dynamics, setting.t, Runs::Part::orbit);
+  const double flights = static_cast<double>(setting.reference.hits.size()) + 1.0;
+  setting.reference_error = rounding_of_flight * std::sqrt(flights) * setting.rounded;
+}
+
+/// The orbit of the reference scheme with the step at which half of it changes least.
+void integrate(const Runs& runs, Setting& setting) {
+  Orbit before;
+  double least = std::numeric_limits<double>::infinity(), step = setting.longest_step;
+  for (int k = 0; k <= most_halvings; ++k, step *= 0.5) {
+    Orbit now = runs.fly(runs.by(reference_scheme, step, 0.0), setting.t, Runs::Part::orbit);
+    if (!now.failure.empty()) continue;
+    if (!before.states.empty()) {
+      const double change = distance(before, now).in(setting.units);
+      if (change < least) {
+        least = change;
+        setting.reference = now;
+        setting.reference_step = step;
+        setting.reference_error = margin * change;
+        setting.reference_evaluations = static_cast<double>(now.counts.force_evaluations);
+      }
+      // Rounding grows with the number of steps: from here on shorter ones help no more.
+      if (change > least) break;
+    }
+    before = std::move(now);
+    if (static_cast<double>(before.counts.force_evaluations) * runs.weight() > most_evaluations)
+      break;
+  }
+  if (!(setting.reference_step > 0.0))
+    throw InputError(Place{}, "no reference was found: " + before.failure,
+                     "a shorter time (--t-max), or softer forces");
+}
+
+}  // namespace
+
+double Setting::rounding(double evaluations) const {
+  return rounding_of_evaluation * std::sqrt(evaluations + 1.0) * rounded;
+}
+double Setting::noise(double evaluations) const {
+  if (!(reference_evaluations > 0.0)) return std::max(reference_error, rounding(evaluations));
+  return reference_error * std::sqrt(std::max(1.0, evaluations / reference_evaluations));
+}
+
+Setting setting_of(const Runs& runs, double wanted) {
+  const System& system = runs.system();
+  Setting setting;
+  double fastest = 0.0;
+  for (const State& s : runs.starts()) fastest = std::max(fastest, length(s.velocity));
+  World start(*system.table, runs.by("", 1.0, 0.0));
+  runs.add_starts(start);
+  for (int i = 0; i < start.size(); ++i)
+    fastest = std::max(fastest, length(start.state(i).velocity));
+  setting.units.speed = fastest > 0.0 ? fastest : 1.0;
+  setting.units.size = size_of_positions(system, start, 1.0);
+
+  const double step = first_step(runs, setting.units.size, setting.units.speed);
+  Dynamics dynamics = runs.free() ? system.dynamics : runs.by("", step, 0.0);
+  if (runs.free()) dynamics.everywhere = false;
+  const double between = steps_between_looks * step;
+  const double until =
+      wanted > 0.0 ? wanted : std::min(system.run.t_max, static_cast<double>(most_steps) * step);
+  const Growth growth = growth_of(runs, dynamics, std::min(between, until), until, setting.units);
+  setting.t = wanted > 0.0 ? wanted : std::min(time_of(growth), until);
+  if (setting.t >= share_of_ending * growth.end) setting.t = share_of_ending * growth.end;
+  if (!(setting.t > 0.0))
+    throw InputError(Place{}, "the trajectory ends where it starts: there is nothing to compare",
+                     "another start: --trajectory, --position and --velocity");
+  set_growth(growth, setting);
+
+  double longest = step;
+  if (!runs.free()) {
+    for (int k = 0; k < longer_steps; ++k) {
+      const double twice = 2.0 * longest;
+      if (twice > setting.t || !turn_allowed(system, twice) ||
+          !runs.fly(runs.by("", twice, 0.0), setting.t, Runs::Part::orbit).failure.empty())
+        break;
+      longest = twice;
+    }
+    setting.longest_resolved = longest;
+  }
+  setting.longest_step = setting.t;
+  while (setting.longest_step > longest) setting.longest_step *= 0.5;
+  if (runs.free())
+    fly_exactly(runs, setting);
+  else
+    integrate(runs, setting);
+  return setting;
+}
+
+}  // namespace carom::ensemble

@@ -1,0 +1,60 @@
+// carom compare and carom schemes as users call them.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "carom/integrators/scheme.hpp"
+#include "cli/program.hpp"
+
+namespace carom {
+namespace {
+
+const std::string compare =
+    "$carom compare henon-heiles --t-max 4 --schemes velocity-verlet,blanes-moan-srkn6b,arkode ";
+
+TEST(Comparisons, HaveTheKeysOfTheGuide) {
+  const Shell shell;
+  const Outcome o = shell(compare + "--json");
+  EXPECT_EQ(o.status, 0) << o.err;
+  ASSERT_TRUE(is_json_object(o.out));
+  for (const char* key : {"t", "growth", "size", "speed", "reference", "longest_resolved", "error",
+                          "cheapest", "fastest", "measured", "schemes"})
+    EXPECT_NE(json_value(o.out, key), "") << key;
+  EXPECT_EQ(json_value(o.out, "t"), "4");
+}
+
+TEST(Comparisons, AreStoredOnceAndWholly) {
+  const Shell shell;
+  EXPECT_EQ(shell(compare + "-o a.h5").status, 0);
+  EXPECT_TRUE(shell.exists("a.h5"));
+  expect_refused(shell(compare + "-o a.h5"), "a.h5");
+  EXPECT_EQ(shell(compare + "-o a.h5 --force").status, 0);
+  expect_refused(shell(compare + "--steps 0 -o b.h5"), "command line: --steps");
+  EXPECT_FALSE(shell.exists("b.h5"));
+}
+
+TEST(Comparisons, OfFreeParticlesHaveExactFlightsAsReference) {
+  const Shell shell;
+  const Outcome o = shell("$carom compare stadium --closed --schemes ruth-3 --json --trajectory 2");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(json_value(o.out, "reference").find("exact flights"), std::string::npos);
+  EXPECT_EQ(json_value(o.out, "longest_resolved"), "null");
+}
+
+TEST(Comparisons, SchemesAreListedALineEach) {
+  const Shell shell;
+  const Outcome text = shell("$carom schemes"), json = shell("$carom schemes --json");
+  EXPECT_TRUE(is_json_object(json.out));
+  std::size_t from = 0;
+  for (const Scheme& scheme : schemes()) {
+    const std::size_t at = text.out.find("  " + std::string(scheme.name) + " ", from);
+    ASSERT_NE(at, std::string::npos) << scheme.name;
+    const std::string line = text.out.substr(at, text.out.find('\n', at) - at);
+    EXPECT_NE(line.find(scheme.source), std::string::npos) << line;
+    from = at;
+  }
+  EXPECT_NE(text.out.find("cvode", from), std::string::npos);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,184 @@
+// Integrators compared: measured orders, reversal and areas are what the table of schemes states.
+#include "carom/ensemble/compare.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "carom/base/error.hpp"
+#include "carom/integrators/scheme.hpp"
+#include "systems.hpp"
+
+namespace carom {
+namespace {
+
+std::string henon_heiles(const char* omega) {
+  return std::string("[particles]\nenergy = 0.125\n[field]\nB = ") + omega + R"(
+[initial]
+kind = "point"
+position = [0.1, -0.2]
+velocity = [0.8, 0.6]
+[[potential]]
+kind = "henon-heiles"
+[integrator]
+step = 0.1
+)";
+}
+
+std::vector<std::string> fixed_schemes() {
+  std::vector<std::string> names;
+  for (const Scheme& scheme : schemes()) names.emplace_back(scheme.name);
+  return names;
+}
+
+class OfField : public testing::TestWithParam<const char*> {};
+
+TEST_P(OfField, EverySchemeIsMeasuredAsItIsStated) {
+  const System system = make_system(henon_heiles(GetParam()));
+  const Comparison result = compare(system, {.schemes = fixed_schemes(), .t_max = 16.0});
+  ASSERT_EQ(result.schemes.size(), schemes().size());
+  EXPECT_LT(result.reference_error, 1e-9);
+  for (const ComparedScheme& scheme : result.schemes) {
+    SCOPED_TRACE(scheme.name);
+    const Scheme& stated = find_scheme(scheme.name);
+    ASSERT_TRUE(scheme.measured.slope) << scheme.measured.reason;
+    EXPECT_NEAR(scheme.measured.slope->value, stated.order,
+                std::max(scheme.measured.slope->error, 0.02));
+    EXPECT_LT(scheme.measured.slope->error, 1.0);
+    ASSERT_TRUE(scheme.areas);
+    // Without a field the magnetic schemes are velocity Verlet, or made of it.
+    const bool field = std::string(GetParam()) != "0";
+    if (field && !stated.symplectic()) {
+      EXPECT_GT(scheme.areas->value, 100.0 * scheme.areas->error);
+    } else {
+      EXPECT_LE(scheme.areas->value, 4.0 * scheme.areas->error);
+    }
+    if (scheme.reversible && (field || stated.form != Scheme::Form::spreiter_walter)) {
+      EXPECT_EQ(*scheme.reversible, stated.symmetric());
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Compare, OfField, testing::Values("0", "1.5"));
+
+TEST(Compare, FreeParticlesAreComparedWithExactFlights) {
+  System system = make_system(magnetic_square);
+  const Comparison result =
+      compare(system, {.schemes = {"velocity-verlet", "blanes-moan-srkn11b"}, .trajectory = 3});
+  EXPECT_TRUE(result.exact);
+  EXPECT_GT(result.hits, 0u);
+  for (const ComparedScheme& scheme : result.schemes) {
+    EXPECT_FALSE(scheme.measured.slope);  // the drift is the exact flight
+    for (const ComparedRun& run : scheme.runs) {
+      EXPECT_LT(run.error_state, 1e-9);
+      EXPECT_TRUE(run.same_hits);
+      EXPECT_LT(run.error_hit_time, 1e-9);
+    }
+  }
+}
+
+TEST(Compare, HitsUnderForcesAreMetWithTheOrderOfTheScheme) {
+  const System system = make_system(R"(
+[table]
+shape = "circle"
+radius = 1
+[particles]
+energy = 2
+[initial]
+kind = "point"
+position = [0.2, 0.1]
+velocity = [0.3, 1]
+[[potential]]
+kind = "harmonic"
+omega = 1
+[integrator]
+step = 0.01
+)");
+  const Comparison result =
+      compare(system, {.schemes = {"velocity-verlet"}, .steps = {0.005, 0.02, 0.01}, .t_max = 6.0});
+  const ComparedScheme& scheme = result.schemes.front();
+  ASSERT_EQ(scheme.runs.size(), 3u);
+  EXPECT_EQ(scheme.runs.front().step, 0.02);  // the longest first
+  EXPECT_GT(result.hits, 3u);
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_TRUE(scheme.runs[k].same_hits);
+    EXPECT_NEAR(scheme.runs[k - 1].error_hit_time / scheme.runs[k].error_hit_time, 4.0, 1.0);
+    EXPECT_GT(scheme.runs[k].force_evaluations, scheme.runs[k - 1].force_evaluations);
+  }
+}
+
+TEST(Compare, TheCheapestNeedsTheLeastOfAll) {
+  const System system = make_system(henon_heiles("0"));
+  const Comparison result = compare(
+      system, {.schemes = {"velocity-verlet", "forest-ruth-4", "blanes-moan-srkn6b", "arkode"},
+               .t_max = 8.0,
+               .error = 1e-5});
+  ASSERT_TRUE(result.cheapest);
+  EXPECT_EQ(result.t, 8.0);
+  const double least = result.schemes[*result.cheapest].work->force_evaluations;
+  for (const ComparedScheme& scheme : result.schemes) {
+    if (!scheme.work) continue;
+    EXPECT_GE(scheme.work->force_evaluations, least);
+    // The work lies between that of two runs, whose errors are on both sides of the wanted one.
+    const auto good = std::find_if(scheme.runs.begin(), scheme.runs.end(),
+                                   [](const ComparedRun& run) { return run.error_state <= 1e-5; });
+    ASSERT_NE(good, scheme.runs.end());
+    EXPECT_LE(scheme.work->force_evaluations, static_cast<double>(good->force_evaluations));
+  }
+}
+
+TEST(Compare, StepsThatMissForcesAreNamed) {
+  const System system = make_system(R"(
+[table]
+shape = "rectangle"
+width = 2
+height = 2
+[particles]
+speed = 1
+[initial]
+kind = "point"
+position = [0.3, 1]
+velocity = [1, 0.02]
+[[potential]]
+kind = "gaussian"
+height = 0.3
+width = 0.05
+centers = [[1, 1]]
+[integrator]
+step = 0.005
+)");
+  const Comparison result =
+      compare(system, {.schemes = {"velocity-verlet"}, .steps = {0.005, 0.5}, .t_max = 1.5});
+  EXPECT_TRUE(result.schemes.front().runs.front().failed());
+  EXPECT_FALSE(result.schemes.front().runs.back().failed());
+}
+
+TEST(Compare, RefusesWhatHasNothingToCompare) {
+  const System system = make_system(henon_heiles("0"));
+  try {
+    compare(system, {.schemes = {"velocity-verlot"}});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.nearest(), "velocity-verlet");
+    EXPECT_EQ(error.place().key, "--schemes");
+  }
+  EXPECT_THROW(compare(system, {.schemes = {"ruth-3", "ruth-3"}}), InputError);
+  const System discs = make_system(R"(
+[table]
+shape = "rectangle"
+width = 4
+height = 4
+[particles]
+count = 2
+speed = 1
+[interaction]
+kind = "hard-discs"
+radius = 0.1
+)");
+  EXPECT_THROW(compare(discs, {}), InputError);
+}
+
+}  // namespace
+}  // namespace carom
