@@ -24,6 +24,7 @@ from .commands import (
     table,
     validate,
 )
+from .commands import diffusion, escape, open, orbits, run, section, table, validate
 from .errors import InputError, Place
 from .records import Record
 from .results import (
@@ -35,6 +36,7 @@ from .results import (
     Escape,
     Exact,
     Lyapunov,
+    Orbits,
     Result,
     Run,
     Section,

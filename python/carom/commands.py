@@ -72,6 +72,7 @@ def _progress(progress):
 _OF_ONE_COMMAND = (
     "certify_sample", "splitting", "population", "repetitions", "kick", "lookback", "precision",
     "digits", "schemes", "steps", "tolerances", "error",
+    "digits", "hits", "starts", "tries",
 )  # fmt: skip
 
 
@@ -248,6 +249,23 @@ def relax(
     return _compute(
         results.Equilibria, _carom.relax, system, "relax", keywords, progress, toml.bare(starts), saddles
     )
+def orbits(
+    system: Systems,
+    *,
+    zeta: bool = False,
+    certify: bool = False,
+    progress: Progress = None,
+    **keywords: Any,
+) -> results.Orbits:
+    """Periodic orbits of a free particle: a `carom.Orbits`.
+
+    hits: most of an orbit (6); starts: random orbits whose recurrences are looked at (20000);
+    tries: recurrences that are tried for each number of hits (2000). zeta: the escape rate of
+    discs in the open plane from their orbits. certify: proves each orbit, with `digits` (20)
+    decimals of its numbers as text; an archive does not hold them. Ctrl-C raises KeyboardInterrupt, whose `result`
+    holds what was found.
+    """
+    return _compute(results.Orbits, _carom.orbits, system, "orbit", keywords, progress, zeta, certify)
 
 
 def table(system: Systems, **keywords: Any) -> results.Table:
@@ -283,6 +301,7 @@ _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = 
     "certified": (results.Certified, _carom.open_certified),
     "relax": (results.Equilibria, _carom.open_relax),
     "compare": (results.Comparison, _carom.open_comparison),
+    "orbit": (results.Orbits, _carom.open_orbits),
 }
 
 

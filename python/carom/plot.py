@@ -456,6 +456,20 @@ def section(result, ax=None, x=None, y=None):
     return ax
 
 
+def orbits(result, ax=None, most=12):
+    """The table with periodic orbits, the first `most` of them; of families one member."""
+    ax = table(result.system, ax=ax, names=False, levels=False, directions=False, starts=0)
+    (omega,) = _carom.omegas(result._outcome.system)
+    for number, rows in enumerate(result.paths[:most]):
+        path = _carom.path(rows, omega)
+        family = result.json["orbits"][number]["family"]
+        ax.plot(
+            path["x"], path["y"], color=COLOURS[number % len(COLOURS)], linewidth=0.9, zorder=2,
+            linestyle="--" if family else "-",
+        )  # fmt: skip
+    return ax
+
+
 def comparison(result, ax=None, of="error_state"):
     """Error against work: a line for each scheme, in colour by order; dashed: adaptive. Other
     errors by `of`. A dotted line is the wanted error, the grey band what the reference cannot tell."""
@@ -526,6 +540,7 @@ def pictures(result):
         results.Lyapunov: lyapunov,
         results.Equilibria: equilibria,
         results.Comparison: comparison,
+        results.Orbits: orbits,
     }
     draw = others.get(type(result))
     return {draw.__name__: draw} if draw else {}

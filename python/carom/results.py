@@ -386,6 +386,31 @@ class Certified(Result):
         raise NotImplementedError("a certified run has no picture; draw carom.run(…) in doubles")
 
 
+class Orbits(Result):
+    """Periodic orbits, each once but for its start, reversal and the table's symmetries.
+
+    orbits  (number of orbits,): records with hits, period (time), length (length), action (mass ·
+            length²/time), trace, stability, multipliers, family, copies, reduced, walls, points;
+            points (hits,): wall, s (length), v_parallel, x, y, vx, vy, flight_time (time)
+    zeta    if asked for: escape_rate (1/time), error, orders
+
+    words, recurrences, unsolved, shadowed: numbers of starts of the search.
+    """
+
+    @property
+    def paths(self) -> list[numpy.ndarray]:
+        """The states of each orbit, (hits + 1, 5): t (time), x, y (length, in the plane), vx, vy
+        (length/time), from a hit to itself."""
+        return self._outcome.paths()
+
+    def _summary(self):
+        return f"{len(self.orbits)} orbits of at most {self.most_hits} hits"
+
+    def _main(self):
+        left_out = ("walls", "points", "multipliers", "reduced")
+        return [{k: v for k, v in o.items() if k not in left_out} for o in self._json["orbits"]]
+
+
 class Section(Result):
     """Points of many orbits on a surface: orbits, collisions, digest …"""
 

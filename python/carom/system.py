@@ -10,7 +10,7 @@ from .errors import InputError
 _PAIRS = ("position", "velocity", "window")
 _OPTIONS = (
     "engine", "isa", "threads", "trajectory", "seed", "trajectories", "t_max", "collisions",
-    "trust_tolerance", "on", "direction", "points", "orbits", "precision", "digits",
+    "trust_tolerance", "on", "direction", "points", "orbits", "hits", "starts", "tries", "precision", "digits",
     "certify_sample", "splitting", "population", "repetitions", "kick", "lookback",
     "schemes", "steps", "tolerances", "error",
 )  # fmt: skip

@@ -22,6 +22,7 @@ using LoadedPointer = std::shared_ptr<const Loaded>;
 void add_loading(pybind11::module_&);
 void add_ensembles(pybind11::module_&);
 void add_runs(pybind11::module_&);
+void add_orbits(pybind11::module_&);
 void add_certified(pybind11::module_&);
 void add_comparisons(pybind11::module_&);
 void add_rare(pybind11::module_&);

@@ -55,6 +55,9 @@ void set_option(cli::Options& options, const std::string& name, const std::strin
       {"steps", &options.steps},
       {"tolerances", &options.tolerances},
       {"error", &options.error},
+      {"hits", &options.hits},
+      {"starts", &options.starts},
+      {"tries", &options.tries},
       {"scale", &options.scale}};
   for (const auto& [key, field] : all)
     if (name == key) {

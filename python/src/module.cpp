@@ -38,6 +38,7 @@ PYBIND11_MODULE(_carom, module) {
   carom::python::add_loading(module);
   carom::python::add_ensembles(module);
   carom::python::add_runs(module);
+  carom::python::add_orbits(module);
   carom::python::add_certified(module);
   carom::python::add_comparisons(module);
   carom::python::add_rare(module);

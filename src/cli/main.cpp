@@ -51,6 +51,9 @@ int (*command_of(const std::string& name))(const Options&) {
       {"escape", escape},   {"run", run},         {"diffusion", diffusion}, {"section", section},
       {"merge", merge},     {"table", table},     {"validate", validate},   {"plot", plot},
       {"animate", animate}, {"compare", compare}, {"schemes", schemes}};
+      {"escape", escape},   {"run", run},     {"diffusion", diffusion}, {"section", section},
+      {"merge", merge},     {"table", table}, {"validate", validate},   {"plot", plot},
+      {"animate", animate}, {"orbit", orbit}};
   for (const auto& [known, command] : commands)
     if (name == known) return command;
   return systems;

@@ -305,6 +305,33 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "  carom schemes --json\n"
           "\n"
           "[integrator] scheme, or --set integrator.scheme=NAME, chooses one of them.");
+  Command(app, o, "orbit", "Periodic orbits of a free particle, with their stability",
+          "Examples:\n"
+          "  carom orbit three-disc --hits 8\n"
+          "  carom orbit three-disc --hits 11 --zeta\n"
+          "  carom orbit stadium --json\n"
+          "  carom orbit magnetic-square --hits 4 --tries 1e4\n"
+          "\n"
+          "Each orbit is given once, but for its start, reversal and the table's symmetries. Holes "
+          "are closed.\n"
+          "Between discs in the open plane every sequence of discs is tried. Elsewhere recurrences "
+          "of random orbits are:\n"
+          "orbits may be missed.")
+      .system("SYSTEM", "Built-in name or TOML file")
+      .settings()
+      .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
+      .threads()
+      .verbose()
+      .text("--hits", o.hits, "N", "Most hits of an orbit (default 6)")
+      .text("--starts", o.starts, "N",
+            "Random orbits whose recurrences are looked at (default 20000)")
+      .text("--tries", o.tries, "N",
+            "Recurrences that are tried for each number of hits (default 2000)")
+      .flag("--zeta", o.zeta,
+            "The escape rate of discs in the open plane, by cycle expansion of their orbits")
+      .flag("--certify", o.certify, "Prove that each orbit exists, and give its digits")
+      .text("--digits", o.digits, "D", "With --certify: guaranteed decimals (default 20)")
+      .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)");
   Command(
       app, o, "merge", "Merges the parts of an ensemble into one archive",
       "Examples:\n"

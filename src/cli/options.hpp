@@ -16,7 +16,7 @@ struct Options {
   /// `hidden_archive`: the output is aside and goes when its picture is drawn.
   bool hidden_archive = false;
   bool json = false, force = false, quiet = false, verbose = false, per_trajectory = false,
-       soak = false;
+       soak = false, zeta = false, certify = false;
   std::string window;                                              ///< of fits
   std::string on, direction, points, orbits;                       ///< of carom section
   std::string splitting, population, repetitions, kick, lookback;  ///< of carom escape
@@ -25,11 +25,12 @@ struct Options {
   std::string output, threads, trajectory, resume, scale, report;
   std::string what;  ///< of carom plot
   std::string engine = "auto", isa = "auto", precision = "double", digits;
-  std::string certify_sample;                     ///< of carom escape
   std::string schemes, steps, tolerances, error;  ///< of carom compare
+  std::string hits, tries;                        ///< of carom orbit
+  std::string certify_sample;                     ///< of carom escape
+  std::string starts;                             ///< of carom orbit and relax
+  bool saddles = false;                           ///< of carom relax
   SystemOverrides overrides;
-  std::string starts;    ///< of carom relax
-  bool saddles = false;  ///< of carom relax
 };
 
 /// Reads the command line. Prints help to standard output or a complaint to standard error itself;

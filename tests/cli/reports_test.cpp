@@ -118,6 +118,8 @@ TEST(Reports, FitTheScreen) {
   for (const char* gas : {"lorentz-triangular", "lorentz-square", "soft-lorentz"})
     expect_fit(std::string("diffusion ") + gas + " --trajectories 200 --t-max 20", 36);
   expect_fit("section ellipse-magnetic --points 20", 22);
+  expect_fit("orbit three-disc", 24);
+  expect_fit("orbit ellipse-magnetic --hits 3 --starts 500 --tries 50", 24);
   expect_fit(
       "escape magnetic-square --trajectories 300 --t-max 30 --collisions 5 --set "
       "field.larmor_radius=0.1",

@@ -18,11 +18,13 @@ SMALLER = (
     (r"--collisions \S+", "--collisions 300"),
     (r"--points \S+", "--points 20"),
     (r"--orbits \S+", "--orbits 3"),
+    (r"--tries \S+", "--tries 20"),
     (r"--population \S+", "--population 50"),
     (r"--certify-sample \S+", "--certify-sample 20"),
 )
 NEEDS = {"escape": "--trajectories 100", "diffusion": "--trajectories 100", "lyapunov": "--trajectories 50",
          "section": "--orbits 3 --points 20",
+         "orbit": "--starts 200 --tries 20",
          "validate": "--scale 0.002"}  # fmt: skip
 
 

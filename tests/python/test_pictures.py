@@ -32,6 +32,8 @@ def test_every_system_is_drawn(name, tmp_path):
         lambda: carom.escape("magnetic-square", trajectories=1000),
         lambda: carom.diffusion("lorentz-triangular", trajectories=500, t_max=30),
         lambda: carom.section("ellipse-magnetic", points=200, orbits=5),
+        lambda: carom.orbits("three-disc", hits=4),
+        lambda: carom.orbits("magnetic-square", hits=4, starts=500, tries=50),
         lambda: carom.section("henon-heiles", on="x=0", points=50, orbits=3, t_max=500),
     ],
 )

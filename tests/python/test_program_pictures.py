@@ -70,6 +70,7 @@ def test_a_certified_run_has_no_picture(carom, tmp_path):
         ("diffusion", "sinai", "--trajectories", 200, "--t-max", 20),
         ("lyapunov", "sinai", "--trajectories", 200, "--t-max", 20),
         ("section", "ellipse-magnetic", "--points", 20, "--orbits", 5),
+        ("orbit", "three-disc", "--hits", 3),
     ],
 )
 def test_a_command_draws_its_result(carom, tmp_path, command):

@@ -134,6 +134,7 @@ def test_results_are_dataframes(escape):
         carom.diffusion("sinai", trajectories=200, t_max=10), carom.table("mushroom"),
         carom.lyapunov("sinai", trajectories=200, t_max=10),
         carom.run("stadium", collisions=3, precision="certified"),
+        carom.orbits("three-disc", hits=3),
     ):  # fmt: skip
         assert len(result.to_dataframe()) > 0
 

@@ -60,6 +60,19 @@ def test_section(program):
     assert len(result.points) == same_counts["points"]
 
 
+def test_orbits(program, tmp_path):
+    result = carom.orbits("sinai", hits=3, starts=500, tries=50)
+    same(result, program("orbit", "sinai", "--hits", 3, "--starts", 500, "--tries", 50))
+    zeta = carom.orbits("three-disc", hits=5, zeta=True)
+    same(zeta, program("orbit", "three-disc", "--hits", 5, "--zeta"))
+    zeta.save(tmp_path / "saved.h5")
+    stored = carom.open(tmp_path / "saved.h5")
+    same(stored, {key: zeta.json[key] for key in zeta.json if key not in CHANGING})
+    start, end = result.paths[0][0], result.paths[0][-1]
+    assert end[0] == pytest.approx(result.orbits[0].period, rel=1e-14)
+    assert numpy.array_equal(start[3:], end[3:])
+
+
 def test_hits_are_those_of_the_archive(program, tmp_path):
     archive = tmp_path / "run.h5"
     run = carom.run("stadium", collisions=20)

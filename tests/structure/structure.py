@@ -25,12 +25,13 @@ DEPENDENCIES = {
     "events": ["forces", "geometry", "integrators", "motion", "table"],
     "certify": ["geometry", "motion", "table"],
     "analysis": ["certify", "events", "geometry", "motion", "table"],
+    "orbits": ["events", "geometry", "motion", "table"],
     "lanes": ["events", "forces", "geometry", "integrators", "motion", "table"],
-    "ensemble": ["analysis", "events", "forces", "geometry", "integrators", "lanes", "motion", "table"],
-    "io": ["analysis", "certify", "ensemble", "events", "forces", "geometry", "integrators", "table"],
-    "validation": ["analysis", "ensemble", "events", "io"],
-    "cli": ["certify", "ensemble", "events", "geometry", "integrators", "io", "lanes", "table", "validation"],
-    "python": ["analysis", "certify", "cli", "ensemble", "events", "forces", "geometry", "io", "motion", "table", "validation"],
+    "ensemble": ["analysis", "events", "forces", "geometry", "integrators", "lanes", "motion", "orbits", "table"],
+    "io": ["analysis", "certify", "ensemble", "events", "forces", "geometry", "integrators", "orbits", "table"],
+    "validation": ["analysis", "ensemble", "events", "io", "orbits"],
+    "cli": ["certify", "ensemble", "events", "geometry", "integrators", "io", "lanes", "orbits", "table", "validation"],
+    "python": ["analysis", "certify", "cli", "ensemble", "events", "forces", "geometry", "io", "motion", "orbits", "table", "validation"],
 }
 # The closed-form maps check the engine, so they share nothing with it.
 MAPS_MAY_INCLUDE = {"carom/maps/maps.hpp", "carom/base/error.hpp"}
@@ -45,7 +46,7 @@ PACKAGES = {
     r"gmp|mpfr": r"geometry/src/|src/base/|src/table/|src/certify/",
     r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
     r"sleef": r"src/base/elementary.*\.cpp",
-    r"gsl/": r"src/ensemble/relax/",
+    r"gsl/": r"src/ensemble/relax/|src/orbits/",
     r"Random123/": r"src/base/random\.cpp",
     r"toml\+\+/|hdf5": r"src/io/",
     r"CLI/": r"src/cli/(options|option_faults)\.cpp",
@@ -60,6 +61,8 @@ PACKAGES = {
 LIBM_FREE = (
     r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|lanes|ensemble)/"
     r"|src/analysis/(decay|growth|mean_square_displacement|survival|section)\.cpp"
+    r"include/carom/(?!maps/)|geometry/|src/(base|table|motion|forces|integrators|events|lanes|ensemble|orbits)/"
+    r"|src/analysis/(decay|mean_square_displacement|survival|section)\.cpp"
 )
 LIBM = (
     "sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p "

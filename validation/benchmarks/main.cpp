@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   Report report = help ? Report(Report::Aim::list) : Report(Report::Aim::measure, names);
   for (const auto& rows :
        {straight_and_larmor_flights, flights_in_lanes, steps_under_forces, questions_of_resolution,
-        contacts_of_hard_discs, certified_orbits, whole_ensembles})
+        contacts_of_hard_discs, certified_orbits, periodic_orbits, whole_ensembles})
     rows(report);
   return report.failed() ? 1 : 0;
 }

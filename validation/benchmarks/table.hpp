@@ -52,6 +52,7 @@ void steps_under_forces(Report&);       ///< the same for steps
 void questions_of_resolution(Report&);  ///< does a step resolve its forces?
 void contacts_of_hard_discs(Report&);
 void certified_orbits(Report&);  ///< beside plain MPFR
-void whole_ensembles(Report&);   ///< starts, sums and threads included
+void periodic_orbits(Report&);
+void whole_ensembles(Report&);  ///< starts, sums and threads included
 
 }  // namespace carom::bench

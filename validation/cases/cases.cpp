@@ -10,6 +10,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/io/system_file.hpp"
+#include "validation/cases/orbit_cases.hpp"
 
 namespace carom::validation {
 
@@ -270,6 +271,7 @@ std::vector<Case> all_cases(bool soak, double scale) {
   add_exponents(plan);
   std::vector<Case> cases = plan.take();
   add_equilibria(cases);
+  add_orbit_cases(cases);
   return cases;
 }
 

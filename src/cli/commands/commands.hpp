@@ -17,6 +17,7 @@ int section(const Options&);
 int relax(const Options&);
 int compare(const Options&);
 int schemes(const Options&);
+int orbit(const Options&);
 int validate(const Options&);
 int plot(const Options&);
 int animate(const Options&);

@@ -1,0 +1,67 @@
+// Periodic orbits of one free particle between walls, with or without a magnetic field.
+// docs/physics/periodic-orbits.md derives what is computed.
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "carom/geometry/lattice.hpp"
+#include "carom/geometry/vector.hpp"
+#include "carom/table/table.hpp"
+
+namespace carom {
+
+/// One reflection of a periodic orbit and the flight after it.
+struct OrbitHit {
+  int wall = 0;
+  double u = 0.0;             ///< parameter on the wall
+  double s = 0.0;             ///< arc length along the wall
+  double v_parallel = 0.0;    ///< in the direction of s
+  geometry::Vector position;  ///< rounded, in the home cell
+  geometry::Vector velocity;  ///< after the reflection
+  double flight_time = 0.0;   ///< until the next hit
+  geometry::Cell step;        ///< on a lattice: cells between this hit and the next
+  int hole = -1;              ///< the hole (index into Table::holes) that the point lies in
+};
+
+/// By the eigenvalues of the tangent map of one period: on the unit circle, real and positive, real
+/// and negative; both +1 or both -1 within the error of the trace.
+enum class Stability : unsigned char { elliptic, hyperbolic, inverse_hyperbolic, parabolic };
+const char* name_of(Stability);
+
+/// What a symmetry of the table leaves of an orbit that it maps onto itself: the orbit repeats
+/// after 1/order of its period but for the symmetry.
+struct SymmetryReduced {
+  int order = 1;
+  double period = 0.0;
+  double trace = 0.0;       ///< of the tangent map of that part, turned back by the symmetry
+  double multiplier = 0.0;  ///< the real eigenvalue of largest size; NaN if there is none
+};
+
+/// A closed orbit, run through once.
+struct PeriodicOrbit {
+  std::vector<OrbitHit> hits;
+  double period = 0.0, length = 0.0;
+  /// Closed integral of p dq = m (v length + omega area), with the signed area that the orbit runs
+  /// round, counter-clockwise positive. NaN if it is closed only but for a lattice vector and a
+  /// field acts: then it depends on the gauge.
+  double action = 0.0;
+  double trace = 0.0;                   ///< of the tangent map of one period, across the orbit
+  std::complex<double> multipliers[2];  ///< its eigenvalues, the larger one first
+  Stability stability = Stability::parabolic;
+  /// Its neighbours are periodic, too (bouncing balls): one member of a family of one length. As
+  /// far as doubles tell: the equations of the orbit lose rank.
+  bool family = false;
+  double position_error = 0.0, length_error = 0.0, trace_error = 0.0;  ///< bounds, to first order
+  geometry::Cell shift;  ///< on a lattice: cells between the start and the end of a period
+  int copies = 1;  ///< different orbits that symmetry and reversal make of it, itself included
+  SymmetryReduced reduced;
+  std::vector<double> half_turns;  ///< half the angle that each flight turns by; 0 without field
+};
+
+/// "disc_1 disc_2 …", wall after wall.
+std::string word_of(const PeriodicOrbit&, const Table&);
+
+}  // namespace carom

@@ -1,0 +1,99 @@
+// carom orbit: the periodic orbits of a free particle.
+#include "cli/commands/orbit.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "carom/base/error.hpp"
+#include "carom/io/orbit_archive.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/common.hpp"
+#include "cli/reports/orbit_report.hpp"
+#include "io/progress.hpp"
+
+namespace carom::cli {
+
+OrbitSearchOptions orbit_search_options(const Options& options) {
+  OrbitSearchOptions how;
+  how.threads = threads_of(options);
+  if (!options.hits.empty()) how.most_hits = whole_number(options.hits, "--hits", 2);
+  if (!options.starts.empty()) how.starts = whole_number(options.starts, "--starts", 1);
+  if (!options.tries.empty()) how.tries = whole_number(options.tries, "--tries", 1);
+  how.expand_cycles = options.zeta;
+  return how;
+}
+
+int digits_of_orbits(const Options& options, const Table& table) {
+  if (options.digits.empty()) return 20;
+  if (!options.certify)
+    throw InputError(Place{"command line", 0, 0, "--digits"}, "there are no digits to guarantee",
+                     "--certify as well");
+  const std::uint64_t digits = whole_number(options.digits, "--digits", 1);
+  check_digits(digits, table, Place{"command line", 0, 0, "--digits"});
+  return static_cast<int>(digits);
+}
+
+std::vector<CertifiedPeriodicOrbit> certified_orbits(const Options& options,
+                                                     const LoadedSystem& loaded,
+                                                     const OrbitSearchResult& result,
+                                                     const std::atomic<bool>& interrupted) {
+  std::vector<CertifiedPeriodicOrbit> all;
+  if (!options.certify) return all;
+  const int digits = digits_of_orbits(options, *loaded.system.table);
+  for (const PeriodicOrbit& orbit : result.orbits) {
+    if (interrupted.load(std::memory_order_relaxed)) break;
+    if (orbit.family) {
+      all.emplace_back();
+      all.back().reason = "its neighbours are periodic, too";
+      continue;
+    }
+    std::vector<NearHit> hits;
+    for (std::size_t i = 0; i < orbit.hits.size(); ++i) {
+      const OrbitHit& hit = orbit.hits[i];
+      hits.push_back({hit.wall, hit.position, orbit.half_turns[i], hit.step});
+    }
+    all.push_back(certify_orbit(loaded.exact, hits, digits));
+  }
+  return all;
+}
+
+int orbit(const Options& options) {
+  OrbitSearchOptions how = orbit_search_options(options);
+  std::optional<io::Progress> preparing(std::in_place, !options.quiet);
+  const LoadedSystem loaded = load_system(options.system, options.overrides);
+  preparing.reset();
+  const System& system = loaded.system;
+  const int digits = digits_of_orbits(options, *system.table);
+  ArchiveLock lock;
+  if (!options.output.empty()) {
+    lock = lock_output(options.output);
+    refuse_existing(options.output, options.force);
+  }
+  how.interrupted = &catch_interrupts();
+  OrbitSearchResult result;
+  {
+    io::Progress progress(!options.quiet);
+    if (progress.enabled())
+      how.progress = [&](std::uint64_t tried, std::uint64_t all) {
+        if (progress.due())
+          progress.show(
+              static_cast<double>(tried) / static_cast<double>(all),
+              io::with_prefix(static_cast<double>(tried) / progress.seconds()) + "starts/s");
+      };
+    result = find_orbits(system, how);
+  }
+  if (!options.output.empty())
+    write_orbits(options.output, loaded, provenance_of(options, system, result.threads), result,
+                 how.most_hits, options.force, std::move(lock));
+  const OrbitContext context{how.most_hits,
+                             result.complete ? "completed" : "interrupted",
+                             named_archive(options, options.output),
+                             options.verbose,
+                             certified_orbits(options, loaded, result, *how.interrupted),
+                             digits};
+  print(options.json ? orbit_json(system, result, context).text() + "\n"
+                     : orbit_text(system, result, context));
+  return result.complete ? done : stopped;
+}
+
+}  // namespace carom::cli

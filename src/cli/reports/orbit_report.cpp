@@ -1,0 +1,198 @@
+#include "cli/reports/orbit_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <complex>
+#include <vector>
+
+#include "cli/common.hpp"
+#include "cli/reports/aligned.hpp"
+
+namespace carom::cli {
+
+using io::Json;
+
+namespace {
+
+Json points_json(const Table& table, const PeriodicOrbit& orbit) {
+  Json points = Json::array();
+  for (const OrbitHit& hit : orbit.hits) {
+    Json point = Json::object();
+    point.set("wall", table.wall(hit.wall).name).set("s", hit.s).set("v_parallel", hit.v_parallel);
+    point.set("x", hit.position.x).set("y", hit.position.y);
+    point.set("vx", hit.velocity.x).set("vy", hit.velocity.y);
+    point.set("flight_time", hit.flight_time);
+    if (table.lattice) point.set("step", Json::array().push(hit.step.first).push(hit.step.second));
+    if (hit.hole >= 0) point.set("hole", table.holes[static_cast<std::size_t>(hit.hole)].name);
+    points.push(std::move(point));
+  }
+  return points;
+}
+
+Json one_json(const Table& table, const PeriodicOrbit& orbit) {
+  Json walls = Json::array(), multipliers = Json::array();
+  for (const OrbitHit& hit : orbit.hits) walls.push(table.wall(hit.wall).name);
+  for (const std::complex<double>& m : orbit.multipliers)
+    multipliers.push(Json::array().push(m.real()).push(m.imag()));
+  Json json = Json::object();
+  json.set("hits", orbit.hits.size()).set("period", orbit.period).set("length", orbit.length);
+  json.set("action", orbit.action).set("trace", orbit.trace).set("trace_error", orbit.trace_error);
+  json.set("stability", name_of(orbit.stability)).set("multipliers", std::move(multipliers));
+  json.set("family", orbit.family).set("position_error", orbit.position_error);
+  json.set("length_error", orbit.length_error).set("copies", orbit.copies);
+  json.set("reduced", Json::object()
+                          .set("order", orbit.reduced.order)
+                          .set("period", orbit.reduced.period)
+                          .set("trace", orbit.reduced.trace)
+                          .set("multiplier", orbit.reduced.multiplier));
+  if (table.lattice)
+    json.set("shift", Json::array().push(orbit.shift.first).push(orbit.shift.second));
+  json.set("walls", std::move(walls)).set("points", points_json(table, orbit));
+  return json;
+}
+
+Json certified_json(const CertifiedPeriodicOrbit& orbit, int digits) {
+  Json json = Json::object();
+  json.set("proven", orbit.proven);
+  if (!orbit.proven) return json.set("reason", orbit.reason);
+  json.set("digits", digits).set("period", orbit.period.text(digits));
+  json.set("length", orbit.length.text(digits)).set("trace", orbit.trace.text(digits));
+  if (orbit.multiplier.has_value()) json.set("multiplier", orbit.multiplier.text(digits));
+  Json x = Json::array(), y = Json::array();
+  for (const CertifiedNumber& number : orbit.x) x.push(number.text(digits));
+  for (const CertifiedNumber& number : orbit.y) y.push(number.text(digits));
+  return json.set("x", std::move(x)).set("y", std::move(y));
+}
+
+std::string certified_text(const std::vector<CertifiedPeriodicOrbit>& orbits, int digits) {
+  std::string text = fmt::format("\nproven, with {} decimals: period, multiplier\n", digits);
+  for (std::size_t i = 0; i < orbits.size(); ++i) {
+    const CertifiedPeriodicOrbit& orbit = orbits[i];
+    text += fmt::format("  {:3}  ", i + 1);
+    if (!orbit.proven)
+      text += "not proven: " + orbit.reason + "\n";
+    else
+      text += orbit.period.text(digits) + "  " +
+              (orbit.multiplier.has_value() ? orbit.multiplier.text(digits) : "not real") + "\n";
+  }
+  return text + "\n";
+}
+
+Json zeta_json(const CycleExpansion& cycles) {
+  Json orders = Json::array();
+  for (const CycleOrder& order : cycles.orders)
+    orders.push(Json::object()
+                    .set("hits", order.hits)
+                    .set("spectral", order.spectral)
+                    .set("dynamical", order.dynamical));
+  return Json::object()
+      .set("escape_rate", cycles.escape_rate)
+      .set("error", cycles.error)
+      .set("orders", std::move(orders));
+}
+
+std::string zeta_text(const CycleExpansion& cycles) {
+  std::vector<Column> columns{{"hits", {}}, {"spectral determinant", {}}, {"zeta function", {}}};
+  for (const CycleOrder& order : cycles.orders) {
+    columns[0].cells.push_back(fmt::format("{}", order.hits));
+    columns[1].cells.push_back(fmt::format("{:.14f}", order.spectral));
+    columns[2].cells.push_back(fmt::format("{:.14f}", order.dynamical));
+  }
+  return "\nescape rate, by cycle expansion\n" + aligned(columns) +
+         fmt::format("  {:.14f}, which the last order moved by {:.1e}\n\n", cycles.escape_rate,
+                     cycles.error);
+}
+
+constexpr std::size_t most_rows = 30, least_letters = 10;
+
+std::string multiplier_text(const PeriodicOrbit& orbit) {
+  const std::complex<double> m = orbit.multipliers[0];
+  if (m.imag() == 0.0) return fmt::format("{:.10g}", m.real());
+  return fmt::format("{:.6f} + {:.6f} i", m.real(), m.imag());
+}
+
+// The names of the walls as far as they fit.
+std::string walls_text(const PeriodicOrbit& orbit, const Table& table, std::size_t letters) {
+  std::string word = word_of(orbit, table);
+  if (word.size() > letters) word = word.substr(0, letters - 1) + "…";
+  return word;
+}
+
+}  // namespace
+
+Json orbit_json(const System& system, const OrbitSearchResult& result,
+                const OrbitContext& context) {
+  Json json = Json::object();
+  add_common_keys(json, system, result.threads, result.seconds, result.cpu_seconds);
+  json.set("status", context.status);
+  json.set("most_hits", context.most_hits);
+  json.set("words", result.words).set("recurrences", result.recurrences);
+  json.set("unsolved", result.unsolved).set("shadowed", result.shadowed);
+  json.set("symmetries", result.symmetries);
+  Json orbits = Json::array();
+  for (std::size_t i = 0; i < result.orbits.size(); ++i) {
+    Json one = one_json(*system.table, result.orbits[i]);
+    if (i < context.certified.size())
+      one.set("certified", certified_json(context.certified[i], context.digits));
+    orbits.push(std::move(one));
+  }
+  if (result.cycles) json.set("zeta", zeta_json(*result.cycles));
+  json.set("orbits", std::move(orbits));
+  if (!context.output.empty()) json.set("archive", context.output);
+  return json;
+}
+
+std::string orbit_text(const System& system, const OrbitSearchResult& result,
+                       const OrbitContext& context) {
+  const Table& table = *system.table;
+  std::string text = fmt::format("{}\n", system.title.empty() ? system.name : system.title);
+  text += fmt::format("{} periodic orbit{} with at most {} hits{}\n", grouped(result.orbits.size()),
+                      result.orbits.size() == 1 ? "" : "s", context.most_hits,
+                      result.complete ? "" : "  (interrupted: of the starts that were tried)");
+  std::vector<Column> columns{
+      {"hits", {}}, {"period", {}}, {"multiplier", {}}, {"stability", {}, true}, {"copies", {}}};
+  bool through_hole = false;
+  for (const PeriodicOrbit& orbit : result.orbits) {
+    through_hole = through_hole || std::any_of(orbit.hits.begin(), orbit.hits.end(),
+                                               [](const OrbitHit& hit) { return hit.hole >= 0; });
+    if (!context.verbose && columns[0].cells.size() == most_rows) continue;
+    columns[0].cells.push_back(fmt::format("{}", orbit.hits.size()));
+    columns[1].cells.push_back(fmt::format("{:.10g}", orbit.period));
+    columns[2].cells.push_back(multiplier_text(orbit));
+    columns[3].cells.push_back(std::string(name_of(orbit.stability)) +
+                               (orbit.family ? ", family" : ""));
+    columns[4].cells.push_back(orbit.family ? "" : fmt::format("{}", orbit.copies));
+  }
+  const std::size_t rows = columns[0].cells.size(), width = width_of(aligned(columns)) + 2;
+  const std::size_t letters =
+      context.verbose ? std::string::npos
+                      : std::max(least_letters, line_width - std::min(line_width, width));
+  columns.push_back({"walls", {}, true});
+  for (std::size_t i = 0; i < rows; ++i)
+    columns.back().cells.push_back(walls_text(result.orbits[i], table, letters));
+  if (rows > 0) text += "\n" + aligned(columns);
+  if (rows < result.orbits.size())
+    text += fmt::format("  of {}; --verbose prints all\n", grouped(result.orbits.size()));
+  text += "\n";
+  if (through_hole)
+    text += "holes were closed: some orbits hit the wall in a hole (--json: hole)\n";
+  std::string starts;
+  if (result.words > 0) starts = fmt::format("{} words of discs", grouped(result.words));
+  if (result.recurrences > 0)
+    starts += fmt::format("{}{} recurrences of random orbits", starts.empty() ? "" : " and ",
+                          grouped(result.recurrences));
+  text += folded(fmt::format("tried {}: {} led to no orbit, {} to one with a wall in its way",
+                             starts.empty() ? "nothing" : starts, grouped(result.unsolved),
+                             grouped(result.shadowed))) +
+          "\n";
+  if (result.cycles) text += zeta_text(*result.cycles);
+  if (!context.certified.empty()) text += certified_text(context.certified, context.digits);
+  text += fmt::format("{} symmetr{} of the table; {:.3g} s on {} thread{}\n", result.symmetries,
+                      result.symmetries == 1 ? "y" : "ies", result.seconds, result.threads,
+                      result.threads == 1 ? "" : "s");
+  if (!context.output.empty()) text += fmt::format("archive: {}\n", context.output);
+  return text;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,188 @@
+#include "orbits/describe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "carom/motion/tangent.hpp"
+
+namespace carom {
+
+const char* name_of(Stability stability) {
+  switch (stability) {
+    case Stability::elliptic:
+      return "elliptic";
+    case Stability::hyperbolic:
+      return "hyperbolic";
+    case Stability::inverse_hyperbolic:
+      return "inverse hyperbolic";
+    case Stability::parabolic:
+      break;
+  }
+  return "parabolic";
+}
+
+std::string word_of(const PeriodicOrbit& orbit, const Table& table) {
+  std::string word;
+  for (const OrbitHit& hit : orbit.hits)
+    word += (word.empty() ? "" : " ") + table.wall(hit.wall).name;
+  return word;
+}
+
+namespace orbits {
+
+using geometry::Vector;
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+AcrossMap absolute(const AcrossMap& m) {
+  return {std::abs(m.a), std::abs(m.b), std::abs(m.c), std::abs(m.d)};
+}
+
+// Deviations across an orbit of direction `from` (unit), carried by `map` to one of direction
+// `to`: what lies along the flow there is taken off.
+template <class Map>
+AcrossMap across(const Map& map, Vector from, Vector to, double speed, double omega) {
+  const auto seen = [&](const Deviation& before) {
+    Deviation after = map(before);
+    const double along = dot(to, after.position) / speed;
+    after = after + (-along) * Deviation{speed * to, (omega * speed) * right(to)};
+    return Vector{dot(left(to), after.position), dot(left(to), after.velocity) / speed};
+  };
+  const Vector distance = seen({left(from), {}});
+  const Vector angle = seen({{}, speed * left(from)});
+  return {distance.x, angle.x, distance.y, angle.y};
+}
+
+double duration_of(const Boundary& boundary, const Link& link, const ChainFlight& flight) {
+  const Particle& p = boundary.particle;
+  return p.omega == 0.0 ? flight.chord / p.speed : 2.0 * link.half_turn / std::abs(p.omega);
+}
+
+// The trace of the orbit through other places than the solution's.
+double trace_at(const Boundary& boundary, const Chain& chain) {
+  const ChainGeometry g = geometry_of(boundary, chain);
+  return tangent_map(boundary, chain, g, chain.size()).trace();
+}
+
+// How far the error of the unknowns moves the trace, to first order: differences over 2^-20 of the
+// shortest chord, whose own errors (2^-20 of the derivative, and 2^-33 of the trace) do not count.
+double trace_error_of_places(const Boundary& boundary, const Solution& solution) {
+  const double at = trace_at(boundary, solution.chain), h = 0x1p-20;
+  const std::size_t n = solution.chain.size(), m = equations(boundary, solution.chain);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < m; ++i) {
+    const double width = i < n ? h * solution.geometry.shortest : h;
+    std::vector<double> step(m, 0.0);
+    step[i] = width;
+    Chain moved = solution.chain;
+    move(boundary, moved, step, 1.0);
+    sum += std::abs(trace_at(boundary, moved) - at) / width;
+  }
+  return sum * solution.error;
+}
+
+void add_stability(PeriodicOrbit& orbit) {
+  const double t = orbit.trace, size = std::abs(t);
+  if (size - 2.0 > orbit.trace_error)
+    orbit.stability = t > 0.0 ? Stability::hyperbolic : Stability::inverse_hyperbolic;
+  else if (2.0 - size > orbit.trace_error)
+    orbit.stability = Stability::elliptic;
+  else
+    orbit.stability = Stability::parabolic;
+  if (orbit.stability == Stability::parabolic) {
+    orbit.multipliers[0] = orbit.multipliers[1] = t > 0.0 ? 1.0 : -1.0;
+  } else if (orbit.stability == Stability::elliptic) {
+    const double sine = std::sqrt((2.0 - size) * (2.0 + size)) / 2.0;
+    orbit.multipliers[0] = {0.5 * t, sine};
+    orbit.multipliers[1] = {0.5 * t, -sine};
+  } else {
+    const double large = leading_multiplier(t);
+    orbit.multipliers[0] = large;
+    orbit.multipliers[1] = 1.0 / large;
+  }
+}
+
+}  // namespace
+
+double leading_multiplier(double trace) {
+  const double square = 0.25 * trace * trace - 1.0;
+  if (square < 0.0) return none;
+  const double root = std::sqrt(square);
+  return trace < 0.0 ? 0.5 * trace - root : 0.5 * trace + root;
+}
+
+AcrossMap tangent_map(const Boundary& boundary, const Chain& chain, const ChainGeometry& g,
+                      std::size_t flights, AcrossMap* sizes) {
+  const double speed = boundary.particle.speed, omega = boundary.particle.omega;
+  AcrossMap whole;
+  if (sizes) *sizes = {};
+  for (std::size_t i = 0; i < flights; ++i) {
+    const ChainFlight& flight = g.flights[i % chain.size()];
+    const WallPoint& wall = g.points[(i + 1) % chain.size()];
+    const double duration = duration_of(boundary, chain[i % chain.size()], flight);
+    const AcrossMap flown =
+        across(flight_tangent(omega, duration), flight.departure, flight.arrival, speed, omega);
+    const ReflectionTangent reflection =
+        reflection_tangent(wall.normal, wall.curvature, speed * flight.arrival, omega);
+    const AcrossMap reflected =
+        across(reflection, flight.arrival, reflection.mirrored(flight.arrival), speed, omega);
+    whole = reflected * (flown * whole);
+    if (sizes) *sizes = absolute(reflected) * (absolute(flown) * *sizes);
+  }
+  return whole;
+}
+
+PeriodicOrbit describe(const Boundary& boundary, const Solution& solution) {
+  const Chain& chain = solution.chain;
+  const ChainGeometry& g = solution.geometry;
+  const Particle& p = boundary.particle;
+  const std::size_t n = chain.size();
+  PeriodicOrbit orbit;
+  double least_cosine = 1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    OrbitHit hit;
+    hit.wall = chain[i].wall;
+    hit.u = chain[i].u;
+    hit.s = geometry::arc_length_at(boundary.frames[static_cast<std::size_t>(hit.wall)], hit.u);
+    hit.position = g.points[i].position;
+    hit.velocity = p.speed * g.flights[i].departure;
+    hit.v_parallel = dot(g.points[i].tangent, hit.velocity);
+    hit.flight_time = duration_of(boundary, chain[i], g.flights[i]);
+    hit.step = chain[i].step;
+    least_cosine =
+        std::min(least_cosine, std::abs(dot(g.points[i].normal, g.flights[i].departure)));
+    orbit.shift.first += hit.step.first;
+    orbit.shift.second += hit.step.second;
+    orbit.half_turns.push_back(p.omega == 0.0 ? 0.0 : chain[i].half_turn);
+    orbit.hits.push_back(hit);
+  }
+  orbit.length = length_of(boundary, chain, g);
+  orbit.period = orbit.length / p.speed;
+  const bool closed = orbit.shift == geometry::Cell{};
+  orbit.action = p.omega == 0.0 ? p.mass * p.speed * orbit.length
+                 : closed
+                     ? p.mass * (p.speed * orbit.length + p.omega * area_of(boundary, chain, g))
+                     : none;
+  AcrossMap sizes;
+  orbit.trace = tangent_map(boundary, chain, g, n, &sizes).trace();
+  // Without field lengths are stationary: their error is the points' alone. With field each
+  // half-turn errs by the unknown's error.
+  const double count = static_cast<double>(n);
+  orbit.position_error = solution.error;
+  orbit.length_error = p.omega == 0.0
+                           ? unit_roundoff * count * (24.0 * boundary.size + 4.0 * orbit.length)
+                           : 2.0 * count * solution.error / std::abs(boundary.flight_curvature());
+  // Each factor's entries are sums of a few products of directions, curvature, length and 1/cos,
+  // of which the first and the last err as the equations do, over the cosine.
+  const double relative = 2.0 * count * residual_error(boundary, g) / least_cosine;
+  orbit.trace_error = relative * sizes.trace() + trace_error_of_places(boundary, solution);
+  orbit.family = solution.lost_rank > 0;
+  add_stability(orbit);
+  return orbit;
+}
+
+}  // namespace orbits
+}  // namespace carom

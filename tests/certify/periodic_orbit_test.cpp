@@ -1,0 +1,86 @@
+// Periodic orbits that are proven, with their digits.
+#include "carom/certify/certified_periodic_orbit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "carom/ensemble/orbit_search.hpp"
+#include "carom/io/system_file.hpp"
+
+namespace carom {
+namespace {
+
+std::vector<NearHit> near(const PeriodicOrbit& orbit) {
+  std::vector<NearHit> hits;
+  for (std::size_t i = 0; i < orbit.hits.size(); ++i)
+    hits.push_back(
+        {orbit.hits[i].wall, orbit.hits[i].position, orbit.half_turns[i], orbit.hits[i].step});
+  return hits;
+}
+
+const char* const systems[] = {
+    "[table]\nshape = \"discs\"\ncenters = [[0, 0], [6, 0], [3, \"3*sqrt(3)\"]]\nradius = "
+    "1\n[initial]\nkind = \"boundary\"\n",
+    "[table]\nshape = \"stadium\"\nhalf_length = 1\nradius = 1\n",
+    "[table]\nshape = \"ellipse\"\na = 1\nb = \"3/4\"\n[field]\nlarmor_radius = 3\n",
+    "[table]\nshape = \"rectangle\"\nwidth = 1\nheight = 1\n[field]\nlarmor_radius = 0.5075\n",
+    "[table]\nshape = \"sinai\"\nside = 1\nradius = 0.4\n[field]\nB = -0.7\n"};
+
+// Two ways to the same numbers: doubles with the tangent maps of flights and reflections, and balls
+// with the closed form across the orbit.
+TEST(CertifiedPeriodicOrbit, ProvesWhatDoublesFind) {
+  for (const char* toml : systems) {
+    const LoadedSystem loaded = read_system(toml, "test");
+    const OrbitSearchResult found =
+        find_orbits(loaded.system, {.most_hits = 4, .starts = 1000, .tries = 40});
+    int proven = 0;
+    for (const PeriodicOrbit& orbit : found.orbits) {
+      const CertifiedPeriodicOrbit certified = certify_orbit(loaded.exact, near(orbit), 30);
+      EXPECT_NE(certified.proven, orbit.family) << toml << certified.reason;
+      if (!certified.proven) continue;
+      ++proven;
+      EXPECT_LT(certified.length.log2_error(), -99.0);
+      EXPECT_NEAR(certified.length.to_double(), orbit.length, orbit.length_error);
+      EXPECT_NEAR(certified.trace.to_double(), orbit.trace, orbit.trace_error);
+      for (std::size_t i = 0; i < orbit.hits.size(); ++i) {
+        EXPECT_NEAR(certified.x[i].to_double(), orbit.hits[i].position.x, 2 * orbit.position_error);
+        EXPECT_NEAR(certified.y[i].to_double(), orbit.hits[i].position.y, 2 * orbit.position_error);
+      }
+      EXPECT_EQ(certified.multiplier.has_value(), orbit.stability != Stability::elliptic);
+    }
+    EXPECT_GT(proven, 1) << toml;
+  }
+}
+
+TEST(CertifiedPeriodicOrbit, HasTheDigitsOfClosedForms) {
+  const LoadedSystem discs = read_system(systems[0], "test");
+  const OrbitSearchResult found = find_orbits(discs.system, {.most_hits = 3});
+  ASSERT_EQ(found.orbits.size(), 2U);
+  const CertifiedPeriodicOrbit pair = certify_orbit(discs.exact, near(found.orbits[0]), 50);
+  ASSERT_TRUE(pair.proven) << pair.reason;
+  // Lambda of a flight is 5 + sqrt(24), of two its square, 49 + 20 sqrt(6).
+  EXPECT_EQ(pair.multiplier.text(50), "97.98979485566356196394568149411782783931894961313340");
+  const CertifiedPeriodicOrbit triangle = certify_orbit(discs.exact, near(found.orbits[1]), 30);
+  ASSERT_TRUE(triangle.proven) << triangle.reason;
+  // 18 - 3 sqrt(3).
+  EXPECT_EQ(triangle.period.text(30), "12.803847577293368119417660975482");
+}
+
+TEST(CertifiedPeriodicOrbit, RefusesWhatIsNone) {
+  const LoadedSystem loaded = read_system(systems[0], "test");
+  // Three discs in a row: the middle one stands in the way.
+  const LoadedSystem row = read_system(
+      "[table]\nshape = \"discs\"\ncenters = [[0, 0], [6, 0], [3, 0]]\nradius = 1\n[initial]\nkind "
+      "= \"boundary\"\n",
+      "test");
+  const std::vector<NearHit> hits{{0, {1.0, 0.0}, 0.0, {}}, {1, {5.0, 0.0}, 0.0, {}}};
+  EXPECT_TRUE(certify_orbit(loaded.exact, hits, 20).proven);
+  const CertifiedPeriodicOrbit none = certify_orbit(row.exact, hits, 20);
+  EXPECT_FALSE(none.proven);
+  EXPECT_NE(none.reason, "");
+}
+
+}  // namespace
+}  // namespace carom
