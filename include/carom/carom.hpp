@@ -42,6 +42,7 @@
 #include "carom/ensemble/section_run.hpp"
 #include "carom/ensemble/single_run.hpp"
 #include "carom/ensemble/splitting.hpp"
+#include "carom/ensemble/splitting_fit.hpp"
 #include "carom/ensemble/state_error.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/system.hpp"

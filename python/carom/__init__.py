@@ -44,6 +44,7 @@ from .results import (
     Table,
     Validation,
 )
+from .sweep import Sweep
 from .system import (
     System,
     annulus,

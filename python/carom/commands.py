@@ -11,6 +11,7 @@ import numpy
 
 from . import _carom, records, results, toml
 from .errors import InputError
+from .sweep import Sweep, Swept
 from .system import System, load, system
 
 
@@ -88,10 +89,37 @@ def _shown(progress, function, *arguments):
 
 def _compute(kind, function, thing, command, keywords, progress, *arguments):
     of = _as_system(thing)
+    if keywords.get("sweep") is not None:
+        return _sweep(kind, function, of, command, keywords, progress, *arguments)
     loaded = of._loaded(command, **keywords)
     outcome, error = _shown(progress, function, loaded, *arguments)
     kept = {key: value for key, value in keywords.items() if key not in _OF_ONE_COMMAND}
     result = kind(outcome, of.with_(**kept))
+    if error is not None:
+        error.result = result
+        raise error
+    return result
+
+
+def _sweep(kind, function, of, command, keywords, progress, *arguments):
+    keywords = dict(keywords)
+    swept = Swept(of, command, keywords, keywords.pop("sweep"))
+    kept = {key: value for key, value in keywords.items() if key not in _OF_ONE_COMMAND}
+    shown = _progress(progress)
+    results_, error = [], None
+    try:
+        for i, (system_, loaded) in enumerate(swept.systems):
+            part = None
+            if shown:
+                part = lambda share, done, i=i: shown((i + share) / len(swept.systems), done)  # noqa: E731
+            outcome, error = function(loaded, *arguments, progress=part)
+            results_.append(kind(outcome, system_.with_(**kept)))
+            if error is not None:
+                break
+    finally:
+        if hasattr(shown, "close"):
+            shown.close()
+    result = Sweep(swept.outcome(results_), of.with_(**kept), results_)
     if error is not None:
         error.result = result
         raise error
@@ -118,6 +146,10 @@ def escape(
     …) and threads, isa, engine. progress: True, False, a function of (share, number done), or
     None: on a terminal. per_trajectory: keeps the start and the end of each.
     window=(from, to): times (time) between which the decay is fitted.
+
+    sweep={"field.B": values}: a `carom.Sweep`, a result for each value of a key; values are numbers
+    or "lin:0:4:20", "log:1:1000:4"; two keys make a plane. Every value has the same seed. So with
+    diffusion, run and section.
 
     certify_sample=M, digits=D: a `carom.CertifiedSample`, the first M trajectories in doubles and
     certified. splitting="10,20,40" (times) or "hits:lin:0:30:31", with population, repetitions,
@@ -302,6 +334,7 @@ _KINDS: dict[str, tuple[Callable[..., results.Result], Callable[[str], Any]]] = 
     "relax": (results.Equilibria, _carom.open_relax),
     "compare": (results.Comparison, _carom.open_comparison),
     "orbit": (results.Orbits, _carom.open_orbits),
+    "sweep": (Sweep, _carom.open_sweep),
 }
 
 
@@ -313,6 +346,8 @@ def open(path) -> results.Result:  # noqa: A001: the name that users expect
         raise InputError(f"'{path}' holds a {kind}", (path, 0, 0, ""), " or ".join(_KINDS))
     made, function = _KINDS[kind]
     outcome = function(path)
-    result = made(outcome, System(outcome.system.toml, outcome.system.name))
+    of = outcome.system
+    toml_, name = of if isinstance(of, tuple) else (of.toml, of.name)
+    result = made(outcome, System(toml_, name))
     result._archive = path
     return result

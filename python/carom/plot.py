@@ -306,6 +306,36 @@ def rate(result, ax=None, scale=None):
     return ax
 
 
+def sweep(result, ax=None, y=None):
+    """A column of a sweep's table against its key, with error bars; of a plane a map. y: the column
+    (default: the first with errors)."""
+    table = result.table
+    keys = [one["key"] for one in result._json["keys"]]
+    numbers = [name for name in table.dtype.names if table[name].dtype.kind == "f"]
+    if y is None:
+        others = [name for name in numbers if name not in keys]
+        with_errors = [name for name in others if f"{name}_stderr" in numbers]
+        y = (with_errors or others)[0]
+    ax = _axes(ax)
+    if len(keys) == 1:
+        known = numpy.isfinite(table[y])
+        error = table[f"{y}_stderr"][known] if f"{y}_stderr" in numbers else None
+        ax.errorbar(
+            table[keys[0]][known], table[y][known], yerr=error, fmt="o-", markersize=4, linewidth=1,
+            capsize=2, color=COLOURS[0],
+        )  # fmt: skip
+        ax.set(xlabel=keys[0], ylabel=y)
+    else:
+        first, second = (numpy.unique(table[key]) for key in keys)
+        values = numpy.full((len(first), len(second)), numpy.nan)
+        values[numpy.searchsorted(first, table[keys[0]]), numpy.searchsorted(second, table[keys[1]])] = table[y]
+        colours = ax.pcolormesh(first, second, values.T, shading="nearest")
+        ax.figure.colorbar(colours, ax=ax, label=y)
+        ax.set(xlabel=keys[0], ylabel=keys[1])
+    _title(ax, result.system)
+    return ax
+
+
 def basins(result, ax=None, colour=None, x="x", y="y", size=None):
     """Starts of an escape with per_trajectory, coloured by what becomes of them: "hole", "time" (of
     the end) or "hits". x and y: columns of its rows, as "x", "y", "vx", "vy"."""

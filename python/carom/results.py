@@ -99,9 +99,9 @@ class CertifiedSample(OfSystem):
 class Splitting(OfSystem):
     """Survival far beyond what an ensemble reaches, by populations whose survivors are copied.
 
-    survival (levels in time) or survival_hits (levels in hits), rate and decay: a record or row
-    each has value, stderr, extrapolation, kick_error, low, high (95 %), at_kicks; t is a time, n a
-    number of hits, rates are shares per time.
+    survival (levels in time) or survival_hits (levels in hits), and rate: a row has value, stderr,
+    extrapolation, kick_error, low, high (95 %), at_kicks; t is a time, n a number of hits, rates are
+    shares per time. fit: the decay at late times or hits, as of `carom.Escape`.
     """
 
     def _summary(self):

@@ -30,7 +30,8 @@ def _changes(keywords):
         if given is None:
             continue
         if key in _PAIRS:
-            options.append((key, ",".join(toml.bare(one) for one in given)))
+            between = ":" if key == "window" else ","
+            options.append((key, between.join(toml.bare(one) for one in given)))
         elif key == "times":
             text = given if isinstance(given, str) else ",".join(toml.bare(t) for t in given)
             options.append((key, text))

@@ -42,6 +42,7 @@ PYBIND11_MODULE(_carom, module) {
   carom::python::add_certified(module);
   carom::python::add_comparisons(module);
   carom::python::add_rare(module);
+  carom::python::add_sweeps(module);
   carom::python::add_validation(module);
   carom::python::add_equilibria(module);
   carom::python::add_pictures(module);

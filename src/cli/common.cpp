@@ -154,8 +154,13 @@ void follow_links(Options& options) {
   for (std::string& name : options.files) name = followed(name);
 }
 
-ArchiveLock lock_output(const std::string& file) {
-  refuse_inside(file);
+LoadedSystem load(const Options& options, const SystemOverrides& overrides) {
+  if (!options.of_sweep) return load_system(options.system, overrides);
+  return read_system(options.of_sweep->system_toml, options.of_sweep->system_name);
+}
+
+ArchiveLock lock_output(const Options& options, const std::string& file) {
+  if (!options.of_sweep) refuse_inside(file);
   ArchiveLock lock = lock_archive(file);
   if (const std::string weakness = weakness_of(lock); !weakness.empty())
     warn(fmt::format(

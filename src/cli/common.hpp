@@ -11,6 +11,7 @@
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/io/archive.hpp"
+#include "carom/io/system_file.hpp"
 #include "carom/lanes/instruction_set.hpp"
 #include "carom/lanes/lane_effort.hpp"
 #include "cli/options.hpp"
@@ -40,8 +41,10 @@ inline constexpr const char* why_lost = "an internal error: please report it";
 std::string repeated_starts(const System&);
 /// Replaces links by the names of the files that they lead to.
 void follow_links(Options&);
+/// The system that is asked for: of a sweep that of its value.
+LoadedSystem load(const Options&, const SystemOverrides&);
 /// lock_archive; where others are not kept away, a warning says so.
-ArchiveLock lock_output(const std::string& file);
+ArchiveLock lock_output(const Options&, const std::string& file);
 /// Writes a file aside and then renames it: it is there whole or not at all.
 void write_file(const std::string& name, const std::string& text);
 Provenance provenance_of(const Options&, const System&, int threads);
@@ -64,9 +67,20 @@ std::size_t rows_of(const Options&);
 /// Writes to standard output. Throws OutputClosed, or InputError where it cannot be written
 /// otherwise.
 void print(const std::string& text);
-/// The archive that a report names: none where it goes when its picture is drawn.
+/// The archive that a report names: none where it goes when its picture is drawn, or into that of
+/// a sweep.
 inline std::string named_archive(const Options& options, const std::string& output) {
-  return options.hidden_archive ? std::string() : output;
+  return options.hidden_archive || options.of_sweep ? std::string() : output;
+}
+/// Prints a report as JSON or as text; that of a value goes to its sweep. `json` and `text` are
+/// functions that make them, `doubts` is why the result cannot be trusted.
+template <class MakeJson, class MakeText>
+void print_report(const Options& options, const MakeJson& json, const MakeText& text,
+                  const std::string& doubts = {}) {
+  if (options.of_sweep)
+    options.of_sweep->take(json(), doubts);
+  else
+    print(options.json ? json().text() + "\n" : text());
 }
 /// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing
 /// else.

@@ -15,6 +15,7 @@
 #include "carom/io/archive.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/ensemble_job.hpp"
+#include "cli/commands/sweep.hpp"
 #include "cli/common.hpp"
 #include "cli/mpi_ranks.hpp"
 #include "cli/picture.hpp"
@@ -42,27 +43,32 @@ int end_by_closed_pipe() {
 int (*command_of(const std::string& name))(const Options&) {
   using namespace carom::cli;
   static const std::pair<const char*, int (*)(const Options&)> commands[] = {
-      {"escape", escape},   {"run", run},          {"diffusion", diffusion}, {"section", section},
-      {"merge", merge},     {"table", table},      {"validate", validate},   {"plot", plot},
-      {"animate", animate}, {"lyapunov", lyapunov}};
-      {"escape", escape}, {"run", run},        {"diffusion", diffusion}, {"section", section},
-      {"relax", relax},   {"merge", merge},    {"table", table},         {"validate", validate},
-      {"plot", plot},     {"animate", animate}};
-      {"escape", escape},   {"run", run},         {"diffusion", diffusion}, {"section", section},
-      {"merge", merge},     {"table", table},     {"validate", validate},   {"plot", plot},
-      {"animate", animate}, {"compare", compare}, {"schemes", schemes}};
-      {"escape", escape},   {"run", run},     {"diffusion", diffusion}, {"section", section},
-      {"merge", merge},     {"table", table}, {"validate", validate},   {"plot", plot},
-      {"animate", animate}, {"orbit", orbit}};
+      {"escape", escape},   {"run", run},        {"diffusion", diffusion}, {"lyapunov", lyapunov},
+      {"section", section}, {"orbit", orbit},    {"relax", relax},         {"compare", compare},
+      {"schemes", schemes}, {"merge", merge},    {"table", table},         {"validate", validate},
+      {"plot", plot},       {"animate", animate}};
   for (const auto& [known, command] : commands)
     if (name == known) return command;
   return systems;
 }
 
+int call(const Options& options) {
+  using namespace carom::cli;
+  static const std::pair<const char*, SweptCommand> swept[] = {
+      {"escape", {escape, system_of_escape}},
+      {"run", {run, system_of_run}},
+      {"diffusion", {diffusion, load_ensemble}},
+      {"lyapunov", {lyapunov, load_ensemble}},
+      {"section", {section, system_of_section}}};
+  for (const auto& [name, command] : swept)
+    if (options.command == name && is_sweep(options)) return sweep(options, command);
+  return command_of(options.command)(options);
+}
+
 // Calls the command. Its text comes last: if its reader is gone, all else is done.
 int status_of(const Options& options, bool& closed) {
   try {
-    return command_of(options.command)(options);
+    return call(options);
   } catch (const carom::cli::OutputClosed&) {
     closed = true;
     return carom::cli::done;

@@ -79,9 +79,11 @@ std::string parted_pair(int argc, char** argv) {
   };
   for (int i = 1; i + 2 < argc; ++i) {
     const std::string option = argv[i], one = argv[i + 1], other = argv[i + 2];
-    if (option != "--position" && option != "--velocity" && option != "--window") continue;
-    if (is_number(one) && is_number(other) && one.find(',') == std::string::npos)
-      return option + " takes two numbers in one word: write " + option + " " + one + "," + other;
+    const bool window = option == "--window";
+    if (option != "--position" && option != "--velocity" && !window) continue;
+    if (is_number(one) && is_number(other) && one.find_first_of(",:") == std::string::npos)
+      return option + " takes two numbers in one word: write " + option + " " + one +
+             (window ? ":" : ",") + other;
   }
   return {};
 }

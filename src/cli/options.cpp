@@ -93,6 +93,17 @@ class Command {
     text("-o,--output", options_.output, type, help);
     return flag("--force", options_.force, "Replace an output file that exists");
   }
+  /// A command that can be repeated for values of a key.
+  Command& sweep() {
+    app_->add_option("--sweep", options_.sweep,
+                     "Values of a key of the system, a row each: KEY=lin:FROM:TO:COUNT, "
+                     "log:FROM:TO:COUNT or "
+                     "list:a,b,c; twice: a plane")
+        ->type_name("KEY=VALUES")
+        ->allow_extra_args(false)
+        ->take_all();
+    return *this;
+  }
   /// What changes the particles' motion.
   Command& motion() {
     SystemOverrides& o = options_.overrides;
@@ -160,13 +171,14 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "followed.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
+      .sweep()
       .motion()
       .ensemble()
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .flag("--per-trajectory", o.per_trajectory,
             "Store start, fate, hole, time and hits of each trajectory in the archive")
-      .text("--window", o.window, "FROM,TO", "Times between which the decay is fitted")
+      .text("--window", o.window, "FROM:TO", "Times between which the decay is fitted")
       .parts()
       .text("--splitting", o.splitting, "LEVELS",
             "Rare events: times, or hits:lin:0:50:51, at which survivors are copied")
@@ -191,6 +203,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "With --collisions and without --t-max the run has no last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
+      .sweep()
       .motion()
       .verbose()
       .output("FILE",
@@ -205,7 +218,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
   Command(app, o, "diffusion", "Mean square displacement and diffusion coefficient of an ensemble",
           "Examples:\n"
           "  carom diffusion lorentz-triangular\n"
-          "  carom diffusion lorentz-triangular --set field.B=0.5 --window 20,200 --json\n"
+          "  carom diffusion lorentz-triangular --set field.B=0.5 --window 20:200 --json\n"
           "  carom diffusion soft-lorentz --t-max 100 -o msd.h5\n"
           "\n"
           "D is a quarter of the slope of the MSD in a window of report times (default: the last "
@@ -213,29 +226,31 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "Checkpoints, --resume, --shard and mpirun as with carom escape.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
+      .sweep()
       .motion()
       .ensemble()
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .parts()
-      .text("--window", o.window, "FROM,TO",
+      .text("--window", o.window, "FROM:TO",
             "Range of report times from which D and the exponent are computed");
   Command(
       app, o, "lyapunov", "Lyapunov exponents of an ensemble, and its chaotic share",
       "Examples:\n"
       "  carom lyapunov stadium --closed\n"
-      "  carom lyapunov sinai --trajectories 1e4 --window 20,100 -o lambda.h5\n"
+      "  carom lyapunov sinai --trajectories 1e4 --window 20:100 -o lambda.h5\n"
       "\n"
       "Two deviations of each orbit are followed by the exact tangent maps of flights and hits.\n"
       "Checkpoints, --resume, --shard and mpirun as with carom escape.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
+      .sweep()
       .motion()
       .ensemble()
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .parts()
-      .text("--window", o.window, "FROM,TO",
+      .text("--window", o.window, "FROM:TO",
             "Times between which the growth is taken (default: the last four fifths of the run)");
   Command(app, o, "section",
           "Boundary map, or section by a line, a circle or a velocity, of many orbits",
@@ -249,6 +264,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
+      .sweep()
       .motion()
       .threads()
       .verbose()

@@ -1,13 +1,28 @@
 // What was typed, as plain text: options.cpp is the only file that knows how it is parsed.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "carom/io/system_overrides.hpp"
 
+namespace carom::io {
+class Json;
+}  // namespace carom::io
+
 namespace carom::cli {
+
+/// A value of a sweep, as its command computes it.
+struct ValueOfSweep {
+  std::size_t index = 0;
+  std::string system_name, system_toml;  ///< the system, which was read before
+  /// Takes the report in place of standard output, with its doubts as text.
+  std::function<void(const io::Json&, const std::string& doubts)> take;
+};
 
 struct Options {
   std::string command;  ///< subcommand, "" : none
@@ -31,6 +46,8 @@ struct Options {
   std::string starts;                             ///< of carom orbit and relax
   bool saddles = false;                           ///< of carom relax
   SystemOverrides overrides;
+  std::vector<std::string> sweep;                ///< KEY=lin:FROM:TO:COUNT …
+  std::shared_ptr<const ValueOfSweep> of_sweep;  ///< null: the command was typed
 };
 
 /// Reads the command line. Prints help to standard output or a complaint to standard error itself;

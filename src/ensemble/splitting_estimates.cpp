@@ -8,8 +8,11 @@
 #include "carom/analysis/survival.hpp"
 #include "carom/base/elementary.hpp"
 #include "carom/ensemble/splitting.hpp"
+#include "ensemble/splitting_means.hpp"
 
 namespace carom {
+
+using namespace ensemble;
 
 namespace {
 
@@ -27,9 +30,10 @@ Mean mean_of(const std::vector<double>& values) {
   return {mean, std::sqrt(squares / (n * (n - 1.0)))};
 }
 
-// `of(kick, r)`: the quantity in repetition r.
-Extrapolated extrapolated(const SplittingResult& result,
-                          const std::function<double(std::size_t, std::size_t)>& of) {
+}  // namespace
+
+Extrapolated ensemble::extrapolated(const SplittingResult& result,
+                                    const std::function<double(std::size_t, std::size_t)>& of) {
   Extrapolated out;
   std::size_t common = result.runs[0].size();
   for (std::size_t k = 0; k < kick_sizes; ++k) {
@@ -48,6 +52,8 @@ Extrapolated extrapolated(const SplittingResult& result,
   out.extrapolation = std::fabs(out.limit.value - out.at_kick.back().value);
   return out;
 }
+
+namespace {
 
 // Upper limit of the share that goes, where none of the trajectories has gone. Populations at the
 // three kicks share their starts, which count once.
@@ -122,17 +128,11 @@ bool is_certain(const Mean& cost, std::size_t repetitions) {
   return exceeds(cost, repetitions, 0.999);
 }
 
-namespace {
-
-// The error that kicks certainly make between two reports; `from` == `to`: since the start. Copies
-// show only the error of trajectories that go before the next level, measured to be half of all.
-double kick_error(const SplittingResult& result, std::size_t from, std::size_t to) {
+double ensemble::kick_error(const SplittingResult& result, std::size_t from, std::size_t to) {
   const Mean cost = cost_of_kicks(result, to);
   if (!is_certain(cost, result.runs.back().size())) return 0.0;
   return 2.0 * std::fabs(cost.value - (from < to ? cost_of_kicks(result, from).value : 0.0));
 }
-
-}  // namespace
 
 double Extrapolated::band() const {
   if (repetitions < 2) return std::nan("");
@@ -201,26 +201,6 @@ std::vector<SplitRate> escape_rate(const SplittingResult& result) {
     there = shares[i].p.limit.value;
   }
   return points;
-}
-
-Extrapolated decay_rate(const SplittingResult& result, std::size_t first, std::size_t last) {
-  // Logarithms of means, and to first order the part of each repetition in them: a mean of
-  // logarithms would be off by the variance of a population.
-  const auto at = [&](std::size_t i) {
-    return extrapolated(
-        result, [&](std::size_t k, std::size_t r) { return result.runs[k][r].survival[i]; });
-  };
-  const Extrapolated a = at(first), b = at(last);
-  const double width = result.at[last] - result.at[first];
-  Extrapolated out = extrapolated(result, [&](std::size_t k, std::size_t r) {
-    const PopulationRun& run = result.runs[k][r];
-    const double mean_a = a.at_kick[k].value, mean_b = b.at_kick[k].value;
-    return (elementary::log(mean_a / mean_b) + run.survival[first] / mean_a -
-            run.survival[last] / mean_b) /
-           width;
-  });
-  out.kick_error = kick_error(result, first, last) / width;
-  return out;
 }
 
 }  // namespace carom

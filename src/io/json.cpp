@@ -57,6 +57,11 @@ Json& Json::set(std::string_view key, Json value) {
   return *this;
 }
 
+Json& Json::add(const Json& object) {
+  members_.insert(members_.end(), object.members_.begin(), object.members_.end());
+  return *this;
+}
+
 Json& Json::push(Json value) {
   members_.emplace_back(std::string(), std::move(value));
   return *this;

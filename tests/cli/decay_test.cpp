@@ -43,10 +43,10 @@ TEST(Decay, OfPartsIsThatOfTheWhole) {
 
 TEST(Decay, TakesAWindowAlsoOfAnArchive) {
   const Shell shell;
-  const std::string asked = fit_of(shell(circle + "--window 20,200 -o a.h5").out);
+  const std::string asked = fit_of(shell(circle + "--window 20:200 -o a.h5").out);
   EXPECT_NE(asked.find("\"window\": [20, 200"), std::string::npos) << asked;
   EXPECT_EQ(fit_of(shell("$carom escape --resume a.h5 --json --quiet").out), asked);
-  const std::string other = fit_of(shell("$carom escape --resume a.h5 --window 16,128 --json").out);
+  const std::string other = fit_of(shell("$carom escape --resume a.h5 --window 16:128 --json").out);
   EXPECT_NE(other.find("\"window\": [16, 128]"), std::string::npos) << other;
 }
 
@@ -61,8 +61,8 @@ TEST(Decay, SaysWhyThereIsNone) {
 
 TEST(Decay, RefusesAWindowWithoutAUse) {
   const Shell shell;
-  EXPECT_EQ(shell("$carom escape circle --window 5,2").status, 1);
-  EXPECT_EQ(shell("$carom escape circle --window 5,9 --splitting 1,2").status, 1);
+  EXPECT_EQ(shell("$carom escape circle --window 5:2").status, 1);
+  EXPECT_EQ(shell("$carom escape circle --window 5:9 --certify-sample 2").status, 1);
 }
 
 }  // namespace

@@ -54,17 +54,17 @@ TEST(DiffusionResume, TakesAnotherWindow) {
   const Shell shell;
   const std::string ensemble =
       "lorentz-triangular --trajectories 2000 --t-max 50 --times lin:1:50:50 --quiet --json";
-  const Outcome whole = shell("$carom diffusion " + ensemble + " --window 5,50 -o a.h5");
+  const Outcome whole = shell("$carom diffusion " + ensemble + " --window 5:50 -o a.h5");
   ASSERT_EQ(whole.status, 0) << whole.err;
   const std::string before = shell.read("a.h5");
   const Outcome as_it_was = shell("$carom diffusion --resume a.h5 --json"),
-                other = shell("$carom diffusion --resume a.h5 --window 20,40 --json");
+                other = shell("$carom diffusion --resume a.h5 --window 20:40 --json");
   EXPECT_EQ(as_it_was.status, 0) << as_it_was.err;
   EXPECT_EQ(json_value(as_it_was.out, "window"), json_value(whole.out, "window"));
   EXPECT_EQ(other.status, 0) << other.err;
   EXPECT_EQ(json_value(other.out, "digest"), json_value(whole.out, "digest"));
   EXPECT_EQ(json_value(other.out, "window"),
-            json_value(shell("$carom diffusion " + ensemble + " --window 20,40").out, "window"));
+            json_value(shell("$carom diffusion " + ensemble + " --window 20:40").out, "window"));
   EXPECT_NE(json_value(other.out, "window"), json_value(whole.out, "window"));
   EXPECT_TRUE(shell.read("a.h5") == before);
   // A system without one: that of the archive.
@@ -73,9 +73,9 @@ TEST(DiffusionResume, TakesAnotherWindow) {
   // On the way, too: the archive is that of the first command.
   const auto contents = datasets(shell, "a.h5");
   shell("$carom diffusion " + ensemble +
-        " --window 5,50 -o b.h5 --checkpoint blocks:1 & pid=$!; until_there "
+        " --window 5:50 -o b.h5 --checkpoint blocks:1 & pid=$!; until_there "
         "b.h5.part/checkpoint.h5; kill -INT $pid; wait $pid; "
-        "$carom diffusion --resume b.h5 --window 20,40");
+        "$carom diffusion --resume b.h5 --window 20:40");
   expect_same_datasets(shell.folder() + "/b.h5", contents);
 }
 

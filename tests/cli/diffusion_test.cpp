@@ -50,17 +50,17 @@ TEST(Diffusion, TakesTheWindowItIsTold) {
   const Shell shell;
   const std::string command =
       "$carom diffusion lorentz-triangular --trajectories 300 --times lin:1:10:10 --json ";
-  const Outcome option = shell(command + "--window 2,5"),
+  const Outcome option = shell(command + "--window 2:5"),
                 key = shell(command + "--set run.window=[2,5]");
   EXPECT_EQ(option.status, 0) << option.err;
   EXPECT_NE(json_value(option.out, "window").find("4"), std::string::npos) << "2, 3, 4, 5";
   EXPECT_EQ(json_value(option.out, "D"), json_value(key.out, "D"));
-  for (const char* bad : {"5,2", "1", "a,b", "-1,3"}) {
+  for (const char* bad : {"5:2", "1", "a:b", "-1:3", "2,5"}) {
     const Outcome o = shell(command + "--window=" + bad);
     expect_refused(o, "command line: --window: ");
   }
   // Numbers are read as everywhere.
-  const std::string exact = json_value(shell(command + "--window '5/2,sqrt(36)'").out, "window");
+  const std::string exact = json_value(shell(command + "--window '5/2:sqrt(36)'").out, "window");
   EXPECT_NE(exact.find("\"from\": 3"), std::string::npos) << exact;
   EXPECT_NE(exact.find("\"to\": 6"), std::string::npos) << exact;
 }
@@ -109,7 +109,7 @@ TEST(Diffusion, TellsLackOfDataFromPhysics) {
     EXPECT_EQ(json_value(o.out, "horizon"), "\"finite\"") << few;
     EXPECT_NE(json_value(o.out, "reason"), "") << few;
   }
-  for (const char* window : {"30,40", "19.9,20", "0,0.01"}) {
+  for (const char* window : {"30:40", "19.9:20", "0:0.01"}) {
     const Outcome o = shell(command + "-o a.h5 --window " + window);
     expect_refused(o, "run.window: ");
   }

@@ -42,7 +42,7 @@ TEST(Lyapunov, PartsOnTheDiskAddUpToTheWhole) {
     EXPECT_EQ(json_value(again.out, key), json_value(whole.out, key)) << key;
   }
   // The window belongs to the sums.
-  EXPECT_EQ(shell("$carom lyapunov --resume whole.h5 --window 50,100").status, 1);
+  EXPECT_EQ(shell("$carom lyapunov --resume whole.h5 --window 50:100").status, 1);
 }
 
 TEST(Lyapunov, AKilledRunEndsAsTheUndisturbedOne) {
@@ -55,7 +55,7 @@ TEST(Lyapunov, SaysWhyThereIsNone) {
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(json_value(o.out, "lambda"), "null");
   EXPECT_GT(json_value(o.out, "reason").size(), 2u);
-  expect_refused(shell("$carom lyapunov stadium --window 5,20 --t-max 10"), "run.window");
+  expect_refused(shell("$carom lyapunov stadium --window 5:20 --t-max 10"), "run.window");
 }
 
 }  // namespace

@@ -15,12 +15,12 @@ TEST(SplittingCommand, PrintsItsKeysAndOneDigest) {
   EXPECT_TRUE(is_json_object(one.out));
   for (const char* key :
        {"version", "seconds", "levels", "population", "repetitions", "kick", "lookback", "rejected",
-        "kick_cost", "lost", "collisions", "digest", "survival_hits", "decay"})
+        "kick_cost", "lost", "collisions", "digest", "survival_hits", "fit"})
     EXPECT_NE(json_value(one.out, key), "") << key;
-  for (const char* key : {"digest", "kick", "survival_hits", "decay"})
+  for (const char* key : {"digest", "kick", "survival_hits", "fit"})
     EXPECT_EQ(json_value(one.out, key), json_value(two.out, key)) << key;
   EXPECT_EQ(json_value(one.out, "levels"), "\"hits\"");
-  EXPECT_NE(json_value(one.out, "decay").find("stderr"), std::string::npos);
+  EXPECT_NE(json_value(one.out, "fit").find("stderr"), std::string::npos);
   EXPECT_TRUE(shell.files().empty());
 }
 
@@ -53,7 +53,7 @@ TEST(SplittingCommand, SaysThatItsPopulationsDiedOut) {
   EXPECT_NE(after.find("\"value\": null"), std::string::npos) << points;
   EXPECT_NE(points.find("\"value\": 0."), std::string::npos) << "after the first hit some are left";
   EXPECT_NE(json_value(json.out, "note"), "") << json.out;
-  EXPECT_EQ(json_value(json.out, "decay"), "null") << json.out;
+  EXPECT_NE(json_value(json.out, "fit").find("\"model\": null"), std::string::npos) << json.out;
   EXPECT_NE(json.err, "") << "populations of 10 are small";
   EXPECT_EQ(text.out.find("0.0000e+00"), std::string::npos) << text.out;
   const Outcome by_time = shell(
@@ -61,7 +61,8 @@ TEST(SplittingCommand, SaysThatItsPopulationsDiedOut) {
       "--repetitions 2 --t-max 350 --json");
   EXPECT_EQ(by_time.status, 0) << by_time.err;
   EXPECT_NE(json_value(by_time.out, "rate").find("null"), std::string::npos) << by_time.out;
-  EXPECT_EQ(json_value(by_time.out, "decay"), "null") << by_time.out;
+  EXPECT_NE(json_value(by_time.out, "fit").find("\"model\": null"), std::string::npos)
+      << by_time.out;
 }
 
 TEST(SplittingCommand, RefusesWhatItCannotDo) {

@@ -150,9 +150,9 @@ TEST(Overrides, AnAngleThatIsSetGoesWithThePosition) {
 
 TEST(Overrides, WindowIsAPairOfNumbers) {
   SystemOverrides o;
-  o.window = "1/3,pi";
+  o.window = "1/3:pi";
   EXPECT_EQ(read(square(), o).run.window, (std::pair{1.0 / 3, 3.141592653589793}));
-  for (const char* bad : {"1", "1,2,3", "2,1", "a,b", "-1,3"}) {
+  for (const char* bad : {"1", "1:2:3", "2:1", "a:b", "-1:3", "1,2"}) {
     o.window = bad;
     expect_blamed(o, "--window");
   }

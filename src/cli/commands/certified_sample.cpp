@@ -201,7 +201,7 @@ int certified_sample(const Options& options) {
   const std::uint64_t wanted = whole_number(options.certify_sample, "--certify-sample", 1);
   threads_of(options);
   digits_of(options);
-  LoadedSystem loaded = load_system(options.system, options.overrides);
+  LoadedSystem loaded = load(options, options.overrides);
   choose_engine(options.engine, loaded.system);
   CertifiedSample sample;
   {
@@ -214,8 +214,9 @@ int certified_sample(const Options& options) {
             io::with_prefix(static_cast<double>(done) / progress.seconds()) + "certified orbits/s");
     });
   }
-  print(options.json ? sample_json(loaded.system, sample).text() + "\n"
-                     : sample_text(loaded.system, sample, rows_of(options)));
+  print_report(
+      options, [&] { return sample_json(loaded.system, sample); },
+      [&] { return sample_text(loaded.system, sample, rows_of(options)); });
   const PairedEscapeResult& result = sample.result;
   if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;

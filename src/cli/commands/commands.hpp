@@ -1,6 +1,7 @@
 // The subcommands; each returns the exit status.
 #pragma once
 
+#include "carom/io/system_file.hpp"
 #include "cli/options.hpp"
 
 namespace carom::cli {
@@ -21,5 +22,11 @@ int orbit(const Options&);
 int validate(const Options&);
 int plot(const Options&);
 int animate(const Options&);
+
+/// The system that a command would compute, of commands that can be swept. Those of diffusion are
+/// load_ensemble's.
+LoadedSystem system_of_escape(const Options&);
+LoadedSystem system_of_run(const Options&);
+LoadedSystem system_of_section(const Options&);
 
 }  // namespace carom::cli

@@ -74,7 +74,7 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
   job.output = archive_named(options.resume);
   // A complete archive is only shown.
   if (sharing != Sharing::other && !(is_complete(job.output) && !io::has_work_folder(job.output))) {
-    job.lock = lock_output(job.output);
+    job.lock = lock_output(options, job.output);
     io::gather_parts<Result>(job.output, sharing == Sharing::first, job.lock);
   }
   job.stored = read_ensemble<Result>(job.output);
@@ -90,16 +90,21 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
 
 }  // namespace
 
+LoadedSystem load_ensemble(const Options& options) {
+  LoadedSystem loaded = load(options, overrides_of(options));
+  choose_engine(options.engine, loaded.system);
+  return loaded;
+}
+
 template <class Result>
 EnsembleJob<Result> job_of(const Options& options, Sharing sharing) {
   if (!options.resume.empty()) return job_to_go_on<Result>(options, sharing);
   EnsembleJob<Result> job;
   job.output = options.output;
   job.shard = shard_of(options);
-  job.loaded = load_system(options.system, overrides_of(options));
-  choose_engine(options.engine, job.loaded.system);
+  job.loaded = load_ensemble(options);
   if (job.output.empty() || sharing == Sharing::other) return job;
-  job.lock = lock_output(job.output);
+  job.lock = lock_output(options, job.output);
   refuse_existing(job.output, options.force);
   return job;
 }

@@ -24,6 +24,9 @@ enum class Sharing { alone, first, other };
 template <class Result>
 EnsembleJob<Result> job_of(const Options&, Sharing = Sharing::alone);
 
+/// The system of a new ensemble.
+LoadedSystem load_ensemble(const Options&);
+
 /// Does the command only add up trajectories? Then it can be divided, continued and shared.
 bool is_plain_ensemble(const Options&);
 void refuse_parts_of_others(const Options&);

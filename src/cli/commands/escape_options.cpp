@@ -40,8 +40,9 @@ void check_escape_options(const Options& options) {
     if (given->empty()) continue;
     refuse_beside(options.block, "--block", other);
     refuse_beside(options.checkpoint, "--checkpoint", other);
-    refuse_beside(options.window, "--window", other);
   }
+  if (!options.certify_sample.empty())
+    refuse_beside(options.window, "--window", "--certify-sample");
   if (!options.splitting.empty()) {
     refuse_beside(options.certify_sample, "--certify-sample", "--splitting");
     refuse_beside(options.overrides.trajectories, "--trajectories",

@@ -1,12 +1,19 @@
 // carom merge: parts of an ensemble become one archive.
 #include <fmt/format.h>
 
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "carom/base/error.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/run_ensemble.hpp"
+#include "cli/commands/sweep.hpp"
+#include "cli/commands/sweep_plan.hpp"
 #include "cli/common.hpp"
+#include "cli/temporary_folder.hpp"
+#include "io/archive/sweep_archive.hpp"
+#include "io/checkpoint/work_folder.hpp"
 
 namespace carom::cli {
 
@@ -24,10 +31,12 @@ void say_what_is_missing(const TrajectoryRanges& done, const System& system) {
 
 template <class Result>
 int merge_parts(const Options& options, const std::string& output,
-                const std::vector<std::string>& files, ArchiveLock lock) {
+                const std::vector<std::string>& files, const std::vector<std::string>& names,
+                ArchiveLock lock) {
   SumOfParts<Result> sum = sum_of<Result>(files);
-  sum.merged.clear();
-  for (const EnsemblePart& part : sum.parts) sum.merged.push_back(part.file);
+  sum.merged = names;
+  if (names.empty())
+    for (const EnsemblePart& part : sum.parts) sum.merged.push_back(part.file);
   const LoadedSystem loaded = system_of(sum);
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
@@ -35,7 +44,67 @@ int merge_parts(const Options& options, const std::string& output,
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);
   return report(options, loaded.system, sum.result,
-                context_of(options, sum.status, output, sum.shard), true);
+                context_of(options, sum.status, named_archive(options, output), sum.shard), true);
+}
+
+io::SweepPlan common_plan(const std::vector<std::string>& files) {
+  io::SweepPlan common;
+  for (const std::string& file : files) {
+    io::SweepPlan plan = io::read_sweep(file).plan;
+    std::erase_if(plan.options, [](const auto& option) { return option.first == "shard"; });
+    if (file != files.front()) refuse_another(common, plan, file);
+    common = std::move(plan);
+  }
+  return common;
+}
+
+// Parts of a sweep: value after value.
+template <class Result>
+void merge_values(const Options& options, const std::string& output,
+                  const std::vector<std::string>& files, SweepResult& merged) {
+  Options one = options;
+  one.command = merged.plan.command;
+  merged.status = "completed";
+  for (std::size_t i = 0; i < merged.plan.systems.size(); ++i) {
+    const TemporaryFolder folder;
+    std::vector<std::string> parts, names;
+    for (std::size_t k = 0; k < files.size(); ++k)
+      if (io::extract_value(files[k], i, folder.file(fmt::format("{}.h5", k)))) {
+        parts.push_back(folder.file(fmt::format("{}.h5", k)));
+        names.push_back(files[k]);
+      }
+    auto value = std::make_shared<ValueOfSweep>();
+    value->take = [&](const io::Json& report, const std::string&) {
+      merged.rows.push_back({i, report});
+    };
+    one.of_sweep = value;
+    if (parts.empty()) continue;
+    merge_parts<Result>(one, io::value_of_sweep(output, i), parts, names, nullptr);
+    io::keep_report(output, i, merged.rows.back().report.text());
+    if (!is_complete(io::value_of_sweep(output, i))) merged.status = "incomplete";
+  }
+  if (merged.rows.size() < merged.plan.systems.size()) merged.status = "incomplete";
+}
+
+int merge_sweeps(const Options& options, const std::string& output,
+                 const std::vector<std::string>& files) {
+  SweepResult merged;
+  merged.plan = common_plan(files);
+  io::give_up_checkpoint(output);
+  io::keep_plan(output, merged.plan);
+  try {
+    if (merged.plan.command == kind_of(DiffusionResult()))
+      merge_values<DiffusionResult>(options, output, files, merged);
+    else if (merged.plan.command == kind_of(LyapunovResult()))
+      merge_values<LyapunovResult>(options, output, files, merged);
+    else
+      merge_values<EscapeResult>(options, output, files, merged);
+    end_sweep(options, merged, output, {});
+  } catch (...) {
+    io::remove_sweep(output);
+    throw;
+  }
+  return done;
 }
 
 }  // namespace
@@ -50,14 +119,15 @@ int merge(const Options& options) {
   if (files.empty())
     throw InputError(Place{"command line", 0, 0, "merge"}, "there is nothing to merge",
                      "OUT.h5 PART.h5 PART.h5 …");
-  ArchiveLock lock = lock_output(output);
+  ArchiveLock lock = lock_output(options, output);
   refuse_existing(output, options.force);
+  if (io::is_sweep_archive(files.front())) return merge_sweeps(options, output, files);
   const std::string kind = kind_of_ensemble(files.front());
   if (kind == kind_of(DiffusionResult()))
-    return merge_parts<DiffusionResult>(options, output, files, std::move(lock));
+    return merge_parts<DiffusionResult>(options, output, files, {}, std::move(lock));
   if (kind == kind_of(LyapunovResult()))
-    return merge_parts<LyapunovResult>(options, output, files, std::move(lock));
-  return merge_parts<EscapeResult>(options, output, files, std::move(lock));
+    return merge_parts<LyapunovResult>(options, output, files, {}, std::move(lock));
+  return merge_parts<EscapeResult>(options, output, files, {}, std::move(lock));
 }
 
 }  // namespace carom::cli

@@ -94,6 +94,12 @@ void say_if_ended(const StoredRun& stored) {
 
 }  // namespace
 
+LoadedSystem system_of_run(const Options& options) {
+  LoadedSystem loaded = load(options, run_overrides(options));
+  choose_engine(options.engine, loaded.system);
+  return loaded;
+}
+
 int run(const Options& options) {
   if (options.precision != "double" || !options.digits.empty()) {
     return run_certified(options);
@@ -108,7 +114,7 @@ int run(const Options& options) {
   std::unique_ptr<RunArchive> archive;
   std::string output = options.output;
   if (options.resume.empty()) {
-    loaded = load_system(options.system, run_overrides(options));
+    loaded = load(options, run_overrides(options));
     choose_engine(options.engine, loaded.system);
     // Of a picture: where forces act, hits alone would be joined by straight lines.
     RunPlan& plan = loaded.system.run;
@@ -121,10 +127,10 @@ int run(const Options& options) {
     catch_interrupts();
     if (!output.empty())
       archive = RunArchive::create(output, loaded, provenance_of(options, loaded.system, 1),
-                                   options.force, how.trajectory, lock_output(output));
+                                   options.force, how.trajectory, lock_output(options, output));
   } else {
     if (output.empty()) output = options.resume;
-    const ArchiveLock lock = lock_output(output);
+    const ArchiveLock lock = lock_output(options, output);
     const StoredRun stored = read_run(options.resume);
     loaded = read_system(stored.system_toml, options.resume + ": /system", run_overrides(options));
     loaded.system.name = stored.system_name;
@@ -179,9 +185,12 @@ int run(const Options& options) {
 
   warn_of(result);
   const std::string archive_name = named_archive(options, output);
-  print(options.json ? run_json(system, result, status, archive_name).text() + "\n"
-                     : run_text(system, result, status, archive_name, options.verbose));
-  return doubts_of(system, result).status(!result.interrupted);
+  const Doubts doubts = doubts_of(system, result);
+  print_report(
+      options, [&] { return run_json(system, result, status, archive_name); },
+      [&] { return run_text(system, result, status, archive_name, options.verbose); },
+      doubts.text());
+  return doubts.status(!result.interrupted);
 }
 
 }  // namespace carom::cli

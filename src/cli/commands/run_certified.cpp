@@ -182,7 +182,7 @@ CertifiedTask certified_task(const Options& options, LoadedSystem& loaded) {
 }
 
 int run_certified(const Options& options) {
-  LoadedSystem loaded = load_system(options.system, run_overrides(options));
+  LoadedSystem loaded = load(options, run_overrides(options));
   const CertifiedTask task = certified_task(options, loaded);
   const Stopwatch watch;
   const std::atomic<bool>& signal = catch_interrupts();
@@ -190,20 +190,22 @@ int run_certified(const Options& options) {
                        [&signal] { return signal.load(std::memory_order_relaxed); });
   std::unique_ptr<CertifiedArchive> archive;
   if (!options.output.empty())
-    archive = std::make_unique<CertifiedArchive>(options.output, loaded,
-                                                 provenance_of(options, loaded.system, 1), task,
-                                                 options.force, lock_output(options.output));
+    archive = std::make_unique<CertifiedArchive>(
+        options.output, loaded, provenance_of(options, loaded.system, 1), task, options.force,
+        lock_output(options, options.output));
   follow(orbit, options, task, archive.get());
   const CertifiedEnd& end = orbit.end_state();
   const bool interrupted = end.fate == CertifiedFate::interrupted;
   const double seconds = watch.seconds(), cpu_seconds = watch.cpu_seconds();
   if (archive) archive->finish(end, orbit.effort(), name_of(end.fate), !interrupted);
   const CertifiedEffort& effort = orbit.effort();
-  print(options.json
-            ? certified_json(loaded.system, end, task, effort, options.output, seconds, cpu_seconds)
-                      .text() +
-                  "\n"
-            : certified_text(loaded.system, end, task, effort, options.output, seconds));
+  const std::string archive_name = named_archive(options, options.output);
+  print_report(
+      options,
+      [&] {
+        return certified_json(loaded.system, end, task, effort, archive_name, seconds, cpu_seconds);
+      },
+      [&] { return certified_text(loaded.system, end, task, effort, archive_name, seconds); });
   return interrupted ? stopped : done;
 }
 

@@ -72,9 +72,11 @@ template <class Result>
 int report(const Options& options, const System& system, const Result& result,
            const EnsembleContext& context, bool complete) {
   warn_of(result.reports);
-  print(options.json ? result_json(system, result, context).text() + "\n"
-                     : result_text(system, result, context));
-  return doubts_of(system, result).status(complete);
+  const Doubts doubts = doubts_of(system, result);
+  print_report(
+      options, [&] { return result_json(system, result, context); },
+      [&] { return result_text(system, result, context); }, doubts.text());
+  return doubts.status(complete);
 }
 
 template <class Result>
@@ -97,7 +99,8 @@ void say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job, st
 template <class Result>
 int report_and_say_how_to_go_on(const Options& options, const EnsembleJob<Result>& job,
                                 const Result& result, const std::string& status) {
-  if (options.isa != "auto" && !result.lanes)
+  const bool said = options.of_sweep && options.of_sweep->index > 0;
+  if (options.isa != "auto" && !result.lanes && !said)
     warn("--isa changed nothing: these particles fly one after the other, in no lanes");
   const auto go_on = [&] {
     if (!result.complete) say_how_to_go_on(options, job, result.done.size());

@@ -51,16 +51,20 @@ LoadedSystem load_section(const Options& options, const Load& load) {
   return load(overrides);
 }
 
+LoadedSystem system_of_section(const Options& options) {
+  LoadedSystem loaded = load_section(
+      options, [&](const SystemOverrides& overrides) { return load(options, overrides); });
+  choose_engine(options.engine, loaded.system);
+  return loaded;
+}
+
 int section(const Options& options) {
   check_engine(options);
   SectionOptions how;
   how.threads = threads_of(options);
   std::optional<io::Progress> preparing(std::in_place, !options.quiet);
-  LoadedSystem loaded = load_section(options, [&](const SystemOverrides& overrides) {
-    return load_system(options.system, overrides);
-  });
+  const LoadedSystem loaded = system_of_section(options);
   preparing.reset();
-  choose_engine(options.engine, loaded.system);
   const System& system = loaded.system;
 
   how.interrupted = &catch_interrupts();  // before there is an archive
@@ -68,7 +72,7 @@ int section(const Options& options) {
   if (!options.output.empty())
     archive = std::make_unique<SectionArchive>(options.output, loaded,
                                                provenance_of(options, system, how.threads),
-                                               options.force, lock_output(options.output));
+                                               options.force, lock_output(options, options.output));
   OrbitLines lines;
   how.points = [&](const std::vector<SectionPoint>& points) {
     if (archive) archive->append(points);
@@ -91,10 +95,15 @@ int section(const Options& options) {
   if (archive) archive->finish(result, status);
   warn_of(result.reports);
   const std::string archive_name = named_archive(options, options.output);
-  print(options.json ? section_json(system, result, status, archive_name).text() + "\n"
-                     : section_text(system, result, lines, archive_name, options.verbose) +
-                           (archive ? "" : "-o FILE.h5 stores the points\n"));
-  return doubts_of(system, result).status(result.complete);
+  const Doubts doubts = doubts_of(system, result);
+  print_report(
+      options, [&] { return section_json(system, result, status, archive_name); },
+      [&] {
+        return section_text(system, result, lines, archive_name, options.verbose) +
+               (archive ? "" : "-o FILE.h5 stores the points\n");
+      },
+      doubts.text());
+  return doubts.status(result.complete);
 }
 
 }  // namespace carom::cli

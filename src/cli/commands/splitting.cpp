@@ -6,16 +6,17 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "carom/base/error.hpp"
 #include "carom/base/exact_number.hpp"
 #include "carom/events/report.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/ensemble_job.hpp"
 #include "cli/common.hpp"
 #include "cli/number_list.hpp"
 #include "cli/reports/aligned.hpp"
+#include "cli/reports/decay_report.hpp"
 #include "io/progress.hpp"
 
 namespace carom::cli {
@@ -25,19 +26,6 @@ using io::Json;
 namespace {
 
 Place place_of(const char* option) { return Place{"command line", 0, 0, option}; }
-
-// Half of the reports, to be free of the start: -ln(P(last)/P(first)) / (last - first).
-struct Decay {
-  double from = 0.0, to = 0.0;
-  Extrapolated rate;
-};
-std::optional<Decay> decay_of(const SplittingResult& result) {
-  const std::size_t first = result.at.size() / 2, last = result.at.size() - 1;
-  if (result.at.size() < 4 || result.runs.front().size() < 2) return {};
-  const Decay decay{result.at[first], result.at[last], decay_rate(result, first, last)};
-  if (!std::isfinite(decay.rate.limit.value)) return {};
-  return decay;
-}
 
 // No particle was left in any population. How rare survival is, the populations do not say.
 bool died_out(const Extrapolated& p) {
@@ -177,10 +165,7 @@ Json splitting_json(const System& system, const SplittingResult& result) {
     json.set("note", fmt::format("{} by {} = {:.6g}", all_died_out, variable, extinction));
   json.set(by_time ? "survival" : "survival_hits", std::move(points));
   if (by_time) json.set("rate", std::move(rates));
-  const auto decay = decay_of(result);
-  json.set("decay", decay ? json_of(decay->rate,
-                                    Json::object().set("from", decay->from).set("to", decay->to))
-                          : Json());
+  json.set("fit", split_fit_json(fit_decay(result, system.run.window)));
   return json;
 }
 
@@ -225,12 +210,7 @@ std::string splitting_text(const System& system, const SplittingResult& result, 
                      {"std error", rate_table.error},
                      {"extrapolation", rate_table.extrapolation}}) +
             "  -dP/dt between the times before and after t\n";
-  if (const auto decay = decay_of(result))
-    text += fmt::format(
-        "\nFrom {0} = {1:.6g} to {2:.6g} p decays as exp(-k {0}):\nk = {3}, extrapolation "
-        "{4:.1e}\n",
-        variable, decay->from, decay->to,
-        with_error(decay->rate.limit.value, decay->rate.limit.error), decay->rate.extrapolation);
+  text += split_fit_text(fit_decay(result, system.run.window), variable);
   text += fmt::format(
       "\n{} collisions in {:.3g} s on {} thread{}\n"
       "{:.0f} % of the kicked copies kept their way\n",
@@ -244,8 +224,7 @@ int splitting(const Options& options) {
   check_engine(options);
   if (!options.output.empty())
     throw InputError(place_of("--output"), "splitting writes no archive", "--json, or no -o");
-  LoadedSystem loaded = load_system(options.system, options.overrides);
-  choose_engine(options.engine, loaded.system);
+  const LoadedSystem loaded = load_ensemble(options);
   const System& system = loaded.system;
   SplittingOptions how;
   how.threads = threads_of(options);
@@ -261,8 +240,9 @@ int splitting(const Options& options) {
     result = run_splitting(system, plan_of(options), how);
   }
   for (const std::string& line : warnings_of(result)) warn(line);
-  print(options.json ? splitting_json(system, result).text() + "\n"
-                     : splitting_text(system, result, options.verbose, rows_of(options)));
+  print_report(
+      options, [&] { return splitting_json(system, result); },
+      [&] { return splitting_text(system, result, options.verbose, rows_of(options)); });
   if (result.lost + result.unresolved > 0) return untrusted;
   return result.complete ? done : stopped;
 }

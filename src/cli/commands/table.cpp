@@ -18,7 +18,7 @@ int table(const Options& options) {
     if (!options.output.ends_with(".svg"))
       throw InputError(Place{options.output, 0, 0, ""}, "a table is drawn as SVG",
                        "a name ending in .svg");
-    lock = lock_output(options.output);
+    lock = lock_output(options, options.output);
     refuse_existing(options.output, options.force);
   }
   std::optional<io::Progress> preparing(std::in_place, !options.quiet);

@@ -132,7 +132,7 @@ std::string summary_of(const Validation& all) {
 int validate(const Options& options) {
   ArchiveLock lock;
   if (!options.report.empty()) {
-    lock = lock_output(options.report);
+    lock = lock_output(options, options.report);
     refuse_existing(options.report, options.force);
   }
   validation::CheckOptions how;

@@ -4,11 +4,17 @@
 #include <string>
 
 #include "carom/ensemble/escape.hpp"
+#include "carom/ensemble/splitting_fit.hpp"
 #include "io/json.hpp"
 
 namespace carom::cli {
 
 io::Json decay_json(const DecayFit&);
-std::string decay_text(const DecayFit&);
+/// `variable`: "t", or "n" of hits.
+std::string decay_text(const DecayFit&, const char* variable = "t");
+
+/// The same of populations that were split; `variable`: "t" or "n".
+io::Json split_fit_json(const SplitFit&);
+std::string split_fit_text(const SplitFit&, const char* variable);
 
 }  // namespace carom::cli

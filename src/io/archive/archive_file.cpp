@@ -17,6 +17,7 @@
 #include "io/archive/checksums.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 #include "io/checkpoint/rank_parts.hpp"
+#include "io/checkpoint/sweep_files.hpp"
 
 namespace carom {
 
@@ -82,10 +83,10 @@ void refuse_existing(const std::string& file, bool force) {
   if (!force && exists(file))
     throw InputError(Place{file, 0, 0, ""}, "the output file exists already",
                      "another name, or --force");
-  if (force || (!has_checkpoint(file) && parts_of_ranks(file).empty())) return;
+  if (force || (!has_checkpoint(file) && parts_of_ranks(file).empty() && !has_sweep(file))) return;
   std::string command = "carom";
   try {
-    command += " " + kind_of_ensemble(file);
+    command += " " + (has_sweep(file) ? kept_plan(file).command : kind_of_ensemble(file));
   } catch (const InputError&) {  // it is damaged: --resume says in what
   }
   throw InputError(

@@ -16,6 +16,7 @@
 #include "carom/base/error.hpp"
 #include "carom/io/archive.hpp"
 #include "io/checkpoint/rank_parts.hpp"
+#include "io/checkpoint/sweep_files.hpp"
 
 namespace carom {
 
@@ -188,6 +189,7 @@ void remove_checkpoint(const std::string& file) {
 
 void io::give_up_checkpoint(const std::string& file) {
   remove_checkpoint(file);
+  remove_sweep(file);
   std::error_code ignored;
   for (const std::string& part : parts_of_ranks(file)) {
     const ArchiveLock lock = lock_archive(part);

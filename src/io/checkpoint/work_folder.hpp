@@ -39,8 +39,8 @@ class WorkFolder {
 /// Is FILE.part such a folder? It holds a lock, or nothing.
 bool has_work_folder(const std::string& file);
 
-/// Called by the process that holds the lock of FILE: removes its checkpoint, and the shares of
-/// ranks.
+/// Called by the process that holds the lock of FILE: removes its checkpoint, the shares of
+/// ranks, and what a sweep has left.
 void give_up_checkpoint(const std::string& file);
 
 bool exists(const std::string& file);

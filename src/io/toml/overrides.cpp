@@ -59,17 +59,25 @@ void drop_rival(Value& section, const std::string& key) {
   }
 }
 
-// "x,y" of --position and --velocity, "from,to" of --window.
-Value pair_of(const std::string& text, const Place& place,
-              const char* expected = "x,y such as 0.5,1/3") {
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos) {
+// "x,y" of --position and --velocity, "from:to" of --window.
+Value pair_of(const std::string& text, const Place& place, char between = ',',
+              const std::string& expected = "x,y such as 0.5,1/3") {
+  const std::size_t middle = text.find(between);
+  if (middle == std::string::npos || text.find(between, middle + 1) != std::string::npos) {
     throw InputError(place, "'" + text + "' is not a pair of numbers", expected);
   }
   Value value = empty(Value::Kind::list, place);
-  value.items = {parse_value(text.substr(0, comma), place),
-                 parse_value(text.substr(comma + 1), place)};
+  value.items = {parse_value(text.substr(0, middle), place),
+                 parse_value(text.substr(middle + 1), place)};
   return value;
+}
+
+Value window_of(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const bool with_comma = comma != std::string::npos && text.find(':') == std::string::npos;
+  return pair_of(
+      text, command_line("--window"), ':',
+      with_comma ? text.substr(0, comma) + ":" + text.substr(comma + 1) : "from:to such as 20:200");
 }
 
 void place_start(const SystemOverrides& overrides, Value& root) {
@@ -179,9 +187,7 @@ void apply(const SystemOverrides& overrides, Value& root) {
   if (!old_t_max.text.empty() && has_default_times(root, old_t_max) &&
       root.find("run")->find("t_max")->text != old_t_max.text)
     root.find("run")->erase("times");
-  if (!overrides.window.empty())
-    set_path(root, "run.window",
-             pair_of(overrides.window, command_line("--window"), "from,to such as 20,200"));
+  if (!overrides.window.empty()) set_path(root, "run.window", window_of(overrides.window));
   place_start(overrides, root);
 }
 

@@ -1,0 +1,144 @@
+// Sweeps: their values as numbers that are written, their table, their archive.
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carom/base/error.hpp"
+#include "carom/io/archive.hpp"
+#include "cli/commands/sweep.hpp"
+#include "cli/commands/sweep_plan.hpp"
+#include "cli/common.hpp"
+#include "io/archive/sweep_archive.hpp"
+#include "loaded.hpp"
+
+namespace py = pybind11;
+
+namespace carom::python {
+
+namespace {
+
+using Keys = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+struct SweepOutcome {
+  cli::SweepResult result;
+  std::string file;  ///< that it was read from, or ""
+};
+
+Keys swept_keys(const std::string& command, const std::vector<std::string>& typed) {
+  cli::Options options;
+  options.command = command;
+  options.sweep = typed;
+  Keys keys;
+  for (io::SweptKey& key : cli::swept_keys(options))
+    keys.emplace_back(std::move(key.key), std::move(key.values));
+  return keys;
+}
+
+// `systems` and `reports`: of the values that were computed; `all` of all values.
+SweepOutcome make_sweep(const std::string& command, const Keys& keys, const std::string& base,
+                        const std::string& name, const std::vector<std::string>& all,
+                        const std::vector<std::pair<std::string, std::string>>& reports) {
+  SweepOutcome made;
+  cli::SweepResult& result = made.result;
+  result.plan.command = command;
+  result.plan.system_name = name;
+  result.plan.system_toml = base;
+  for (const auto& [key, values] : keys) result.plan.keys.push_back({key, values});
+  result.plan.systems = all;
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const auto& [report, doubts] = reports[i];
+    io::Json row = io::Json::parse(report, "report");
+    if (!doubts.empty()) row.set("doubts", doubts);
+    result.rows.push_back({i, std::move(row)});
+  }
+  result.status = reports.size() == all.size() ? "completed" : "interrupted";
+  result.title = read_system(base, name).system.title;
+  return made;
+}
+
+SweepOutcome open_sweep(const std::string& file) {
+  const io::StoredSweep stored = io::read_sweep(file);
+  SweepOutcome opened{{stored.plan, {}, "", stored.status, ""}, file};
+  for (std::size_t i = 0; i < stored.reports.size(); ++i)
+    if (!stored.reports[i].empty())
+      opened.result.rows.push_back({i, io::Json::parse(stored.reports[i], file)});
+  opened.result.title = read_system(stored.plan.system_toml, stored.plan.system_name).system.title;
+  return opened;
+}
+
+// `archives`: of the values that were computed; "" where there is none.
+void save(const SweepOutcome& self, const std::string& name, bool force,
+          const std::vector<std::string>& archives) {
+  const std::string file = followed(name);
+  const ArchiveLock lock = lock_archive(file);
+  refuse_existing(file, force);
+  io::keep_plan(file, self.result.plan);
+  try {
+    for (std::size_t i = 0; i < self.result.rows.size(); ++i) {
+      const cli::SweepRow& row = self.result.rows[i];
+      if (!archives[i].empty())
+        std::filesystem::copy_file(archives[i], io::value_of_sweep(file, row.index),
+                                   std::filesystem::copy_options::overwrite_existing);
+      io::keep_report(file, row.index, row.report.text());
+    }
+    cli::Options options;
+    options.command = self.result.plan.command;
+    options.line = "carom." + self.result.plan.command + " (Python)";
+    cli::keep_sweep(options, self.result, file, {});
+  } catch (...) {
+    io::remove_sweep(file);
+    throw;
+  }
+}
+
+py::dict table_of(const SweepOutcome& self) {
+  py::dict table;
+  for (const cli::SweepColumn& column : cli::sweep_table(self.result.plan, self.result.rows))
+    table[column.name.c_str()] =
+        column.texts.empty() ? py::cast(column.numbers) : py::cast(column.texts);
+  return table;
+}
+
+}  // namespace
+
+void add_sweeps(py::module_& module) {
+  py::class_<SweepOutcome>(module, "SweepOutcome")
+      .def_property_readonly("command",
+                             [](const SweepOutcome& self) { return self.result.plan.command; })
+      .def_property_readonly("system",
+                             [](const SweepOutcome& self) {
+                               return std::pair(self.result.plan.system_toml,
+                                                self.result.plan.system_name);
+                             })
+      .def_property_readonly("indices",
+                             [](const SweepOutcome& self) {
+                               std::vector<std::size_t> indices;
+                               for (const cli::SweepRow& row : self.result.rows)
+                                 indices.push_back(row.index);
+                               return indices;
+                             })
+      .def("json", [](const SweepOutcome& self) { return cli::sweep_json(self.result).text(); })
+      .def("text", [](const SweepOutcome& self) { return cli::sweep_text(self.result); })
+      .def("doubts",
+           [](const SweepOutcome& self) {
+             std::vector<std::string> doubts;
+             for (const cli::SweepRow& row : self.result.rows)
+               if (const std::string one = row.doubts(); !one.empty()) doubts.push_back(one);
+             return doubts;
+           })
+      .def("table", &table_of)
+      .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
+           py::arg("force"), py::arg("archives"))
+      .def("extract", [](const SweepOutcome& self, std::size_t index, const std::string& target) {
+        return io::extract_value(self.file, index, target);
+      });
+  module.def("swept_keys", &swept_keys, py::arg("command"), py::arg("typed"));
+  module.def("make_sweep", &make_sweep, py::arg("command"), py::arg("keys"), py::arg("base"),
+             py::arg("name"), py::arg("all"), py::arg("reports"));
+  module.def("open_sweep", &open_sweep, py::call_guard<py::gil_scoped_release>(), py::arg("file"));
+}
+
+}  // namespace carom::python

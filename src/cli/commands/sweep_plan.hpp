@@ -1,0 +1,23 @@
+// What --sweep asks for, read and checked before anything is computed.
+#pragma once
+
+#include <vector>
+
+#include "cli/commands/sweep.hpp"
+#include "io/checkpoint/sweep_files.hpp"
+
+namespace carom::cli {
+
+/// The keys that --sweep gives. Throws InputError for one that means nothing to the command.
+std::vector<io::SweptKey> swept_keys(const Options&);
+/// The plan of the options. Reads the system of every value: throws InputError for one that is bad
+/// input, and for a key that means nothing to the command.
+io::SweepPlan plan_of_sweep(const Options&, const SweptCommand&);
+/// Throws InputError, with `file` as its place, where two plans differ, and says in what. Windows
+/// may differ.
+void refuse_another(const io::SweepPlan& stored, const io::SweepPlan& asked,
+                    const std::string& file);
+/// Options that are no part of a system, as the plan keeps them.
+void restore_options(const io::SweepPlan&, Options&);
+
+}  // namespace carom::cli

@@ -1,0 +1,46 @@
+// The table of a sweep: a row for each value, for scripts and for readers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/archive/sweep_archive.hpp"
+#include "io/json.hpp"
+
+namespace carom::cli {
+
+/// A value that was computed.
+struct SweepRow {
+  std::size_t index = 0;
+  io::Json report;  ///< as the command prints it with --json, with `doubts` if there are any
+  /// Why it cannot be trusted, a line each; "" if it can.
+  std::string doubts() const;
+};
+
+/// A sweep with what was computed of it.
+struct SweepResult {
+  io::SweepPlan plan;
+  std::vector<SweepRow> rows;  ///< in the order of their index
+  std::string title;
+  std::string status;   ///< "completed" or "interrupted"
+  std::string archive;  ///< or ""
+};
+
+/// A column of the table: numbers, NaN where there is none, or texts.
+struct SweepColumn {
+  std::string name;
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+};
+/// The keys, then what the command's reports have of value and error ("rate", "rate_stderr"). A row
+/// for each of `rows`.
+std::vector<SweepColumn> sweep_table(const io::SweepPlan&, const std::vector<SweepRow>& rows);
+/// The numbers of the same for archives: a row for each value of the plan, NaN where it was not
+/// computed.
+std::vector<io::SweepNumbers> sweep_numbers(const SweepResult&);
+
+io::Json sweep_json(const SweepResult&);
+std::string sweep_text(const SweepResult&);
+
+}  // namespace carom::cli

@@ -1,0 +1,172 @@
+// --sweep: rows equal the runs that it stands for, bad values are named before anything is
+// computed, and what was computed survives.
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace carom {
+namespace {
+
+const std::string escape = "$carom escape magnetic-square --trajectories 3000 --quiet ";
+const std::string sweep = "--sweep field.B=lin:0.5:1.5:3 ";
+
+// The rows of a sweep, as text.
+std::vector<std::string> rows_of(const std::string& json) {
+  std::vector<std::string> rows;
+  for (std::size_t at = json.find("{\"values\": "); at != std::string::npos;) {
+    const std::size_t next = json.find("{\"values\": ", at + 1);
+    rows.push_back(json.substr(at, next - at));
+    at = next;
+  }
+  return rows;
+}
+std::string digest_in(const std::string& text) {
+  const std::size_t at = text.find("\"digest\": \"");
+  return at == std::string::npos ? "" : text.substr(at + 11, 16);
+}
+std::vector<std::string> digests_of(const std::string& json) {
+  std::vector<std::string> digests;
+  for (const std::string& row : rows_of(json)) digests.push_back(digest_in(row));
+  return digests;
+}
+
+TEST(Sweep, RowsAreTheRunsOfTheirValues) {
+  const Shell shell;
+  for (const std::string command :
+       {escape, std::string("$carom diffusion lorentz-triangular --trajectories 200 --t-max 20 "
+                            "--set table.radius=0.4 --quiet ")}) {
+    const Outcome all = shell(command + "--sweep field.B=list:1/3,0.5 --json");
+    ASSERT_EQ(all.status, 0) << all.err;
+    EXPECT_TRUE(is_json_object(all.out));
+    const std::vector<std::string> digests = digests_of(all.out);
+    ASSERT_EQ(digests.size(), 2u) << all.out;
+    EXPECT_NE(digests[0], digests[1]);
+    EXPECT_EQ(digests[0], digest_in(shell(command + "--set 'field.B=1/3' --json").out));
+    EXPECT_EQ(digests[1], digest_in(shell(command + "--set field.B=0.5 --json").out));
+  }
+}
+
+TEST(Sweep, OfTwoKeysIsAPlane) {
+  const Shell shell;
+  const Outcome o = shell(escape + sweep + "--sweep run.seed=list:1,2 --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::vector<std::string> rows = rows_of(o.out);
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_NE(rows[1].find("{\"values\": {\"field.B\": 0.5, \"run.seed\": 2}"), std::string::npos);
+  EXPECT_NE(rows[2].find("{\"values\": {\"field.B\": 1, \"run.seed\": 1}"), std::string::npos);
+}
+
+TEST(Sweep, GivesEveryCommandARowAValue) {
+  const Shell shell;
+  for (const char* command :
+       {"run stadium --closed --collisions 20 --sweep table.half_length=list:1,2",
+        "section stadium --closed --orbits 2 --points 20 --sweep table.half_length=list:1,2",
+        "run stadium --closed --precision certified --collisions 5 --sweep "
+        "table.half_length=list:1,2",
+        "escape three-disc --splitting 2,4 --population 200 --repetitions 2 --sweep "
+        "table.radius=list:1,0.9",
+        "escape stadium --certify-sample 3 --t-max 5 --sweep table.half_length=list:1,2"}) {
+    const Outcome o = shell(std::string("$carom ") + command + " --json --quiet");
+    EXPECT_EQ(o.status, 0) << command << o.err;
+    EXPECT_EQ(rows_of(o.out).size(), 2u) << command;
+    const Outcome text = shell(std::string("$carom ") + command + " --quiet");
+    EXPECT_EQ(text.status, 0) << command << text.err;
+  }
+}
+
+TEST(Sweep, NamesWhatIsBadBeforeItComputes) {
+  const Shell shell;
+  const std::pair<const char*, const char*> bad[] = {
+      {"--sweep field.larmor_radius=lin:1:0:3", "command line: field.larmor_radius"},
+      {"--sweep field.C=lin:0:1:3", "command line: field.C"},
+      {"--sweep feld.B=lin:0:1:3", "command line: feld"},
+      {"--sweep table.shape=lin:0:1:3", "command line: table.shape"},
+      {"--sweep table.shape=list:circle,stadium", "command line: --sweep table.shape"},
+      {"--sweep field.B", "command line: --sweep"},
+      {"--sweep section.points=list:1,2", "command line: --sweep section.points"},
+      {"--sweep run.sample=list:1,2", "command line: --sweep run.sample"},
+      {"--sweep integrator.step=list:1,2", "command line: --sweep integrator.step"},
+      {"--sweep run.seed=list:1,2 --seed 3", "command line: --sweep run.seed"},
+      {"--sweep field.B=list:1,2 --set field.B=1", "command line: --sweep field.B"},
+      {"--sweep field.B=list:1,2 --sweep field.B=list:3,4", "command line: --sweep field.B"},
+  };
+  for (const auto& [words, place] : bad) {
+    expect_refused(shell(escape + words + " -o a.h5"), place);
+    EXPECT_TRUE(shell.files().empty()) << words;
+  }
+}
+
+TEST(Sweep, IsOneArchive) {
+  const Shell shell;
+  const Outcome made = shell(escape + sweep + "-o a.h5 --json");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"a.h5"});
+  const Outcome shown = shell("$carom escape --resume a.h5 --json");
+  EXPECT_EQ(rows_of(shown.out), rows_of(made.out)) << shown.err;
+  EXPECT_EQ(shell(escape + sweep + "-o a.h5").status, 1) << "it exists";
+  // Another window asks for other fits, and computes nothing.
+  const Outcome other = shell("$carom escape --resume a.h5 --window 2:50 --json");
+  EXPECT_EQ(digests_of(other.out), digests_of(made.out)) << other.err;
+  EXPECT_NE(rows_of(other.out), rows_of(made.out));
+  EXPECT_EQ(shell("$carom diffusion --resume a.h5").status, 1) << "another command";
+  EXPECT_EQ(shell("$carom escape magnetic-square --sweep field.B=lin:0:1:3 --resume a.h5").status,
+            1);
+}
+
+// Killed in the middle, a sweep goes on with what it has, and ends with the same rows.
+TEST(Sweep, GoesOnAfterAKill) {
+  const Shell shell;
+  const std::string command =
+      "$carom escape magnetic-square --quiet --json --trajectories 200000 "
+      "--sweep field.B=lin:0.5:1.5:5 ";
+  const std::vector<std::string> whole = digests_of(shell(command).out);
+  ASSERT_EQ(whole.size(), 5u);
+  shell(command +
+        "--checkpoint blocks:1 -o a.h5 & pid=$!; until_there a.h5.part/value-2.report; "
+        "kill -9 $pid; wait $pid");
+  EXPECT_EQ(shell(command + "-o a.h5").status, 1) << "there is one to go on with";
+  const Outcome rest = shell("$carom escape --resume a.h5 --json");
+  EXPECT_EQ(digests_of(rest.out), whole) << rest.err;
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"a.h5"});
+}
+
+TEST(Sweep, GoesOnAfterAnInterrupt) {
+  const Shell shell;
+  const std::string command =
+      "$carom escape magnetic-square --quiet --json --trajectories 200000 "
+      "--sweep field.B=lin:0.5:1.5:5 ";
+  const std::vector<std::string> whole = digests_of(shell(command).out);
+  const Outcome cut = shell(command +
+                            "-o a.h5 & pid=$!; until_there a.h5.part/value-1.report; "
+                            "kill $pid; wait $pid");
+  EXPECT_EQ(cut.status, 130);
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"a.h5"});
+  EXPECT_LT(rows_of(cut.out).size(), 5u);
+  const Outcome rest = shell("$carom escape --resume a.h5 --json");
+  EXPECT_EQ(digests_of(rest.out), whole) << rest.err;
+}
+
+TEST(Sweep, OfRunsGoesOnValueAfterValue) {
+  const Shell shell;
+  const std::string command =
+      "$carom run stadium --closed --quiet --json --collisions 300000 "
+      "--sweep table.half_length=lin:1:2:5 ";
+  shell(command +
+        "-o a.h5 & pid=$!; until_there a.h5.part/value-1.report; kill -9 $pid; wait $pid");
+  const Outcome rest = shell("$carom run --resume a.h5 --json");
+  EXPECT_EQ(rest.status, 0) << rest.err;
+  EXPECT_EQ(rows_of(rest.out).size(), 5u);
+  EXPECT_EQ(shell.files(), std::vector<std::string>{"a.h5"});
+}
+
+TEST(Sweep, TableFitsATerminal) {
+  const Shell shell;
+  const Outcome o = shell(escape + sweep + "--sweep table.width=lin:1:2:3");
+  ASSERT_EQ(o.status, 0) << o.err;
+  std::size_t from = 0;
+  for (std::size_t end; (end = o.out.find('\n', from)) != std::string::npos; from = end + 1)
+    EXPECT_LE(end - from, 80u) << o.out.substr(from, end - from);
+}
+
+}  // namespace
+}  // namespace carom
