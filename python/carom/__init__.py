@@ -11,20 +11,20 @@ Every number is made by the same C++ as the program's `carom`, with the same dig
 
 from . import _carom, plot
 from .animation import animate
-from .commands import diffusion, escape, lyapunov, open, run, section, table, validate
-from .commands import diffusion, escape, open, relax, run, section, table, validate
 from .commands import (
     compare,
     diffusion,
     escape,
+    lyapunov,
     open,
+    orbits,
+    relax,
     run,
     schemes,
     section,
     table,
     validate,
 )
-from .commands import diffusion, escape, open, orbits, run, section, table, validate
 from .errors import InputError, Place
 from .records import Record
 from .results import (

@@ -281,6 +281,8 @@ def relax(
     return _compute(
         results.Equilibria, _carom.relax, system, "relax", keywords, progress, toml.bare(starts), saddles
     )
+
+
 def orbits(
     system: Systems,
     *,

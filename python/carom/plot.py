@@ -1,43 +1,23 @@
-"""Pictures, by matplotlib: tables, orbits, energies, survival, rates, basins, diffusion, sections,
-comparisons of integrators.
+"""Pictures, by matplotlib: tables, orbits, energies, survival, rates, basins, diffusion, sections
+(analyses.py: sweeps, exponents, periodic orbits, equilibria, integrators).
 
 `thing.plot()` chooses among these functions; all of them return the axes and take `ax`.
 Colours can be told apart by people who see few of them (Okabe and Ito).
 """
 
-import textwrap
-
 import numpy
 
 from . import _carom
+from .analyses import comparison, equilibria, lyapunov, orbits, sweep
+from .axes import COLOURS
+from .axes import new_axes as _new_axes
+from .axes import pyplot as _pyplot
+from .axes import title as _title
+from .axes import title_of as _title_of
 from .errors import InputError
 from .system import System
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _WALL = "#222222"
-
-
-def _pyplot():
-    try:
-        import matplotlib.pyplot as pyplot
-    except ImportError as error:
-        raise ImportError("pictures need matplotlib (Debian: python3-matplotlib)") from error
-    return pyplot
-
-
-def _axes(ax, size=(5.0, 4.2)):
-    if ax is not None:
-        return ax
-    _, ax = _pyplot().subplots(figsize=size, layout="constrained")
-    return ax
-
-
-def _title_of(system, width=56):
-    return textwrap.fill(system.title or system.name, width)
-
-
-def _title(ax, system):
-    ax.set_title(_title_of(system), fontsize="small")
 
 
 def table(
@@ -47,7 +27,7 @@ def table(
     the field, level lines of the potentials; of a lattice these cells. starts: this many
     trajectories' starts as dots with their directions; None: those that the system lists."""
     made = ax is None
-    ax = _axes(ax)
+    ax = _new_axes(ax)
     loaded = system._loaded("table")
     walls = _carom.walls(loaded)
     for shift in _carom.translations(loaded, list(cells)):
@@ -177,7 +157,7 @@ def orbit(run, ax=None, most_hits=2000, colour=None, names=False, by="particle")
     cells = {(0, 0), *zip(hits["cell_first"].tolist(), hits["cell_second"].tolist())}
     cells = cells if len(cells) <= 400 else [(0, 0)]
     made = ax is None
-    ax = table(run.system, ax=_axes(ax), names=names, cells=cells, levels=False, directions=False, starts=0)
+    ax = table(run.system, ax=_new_axes(ax), names=names, cells=cells, levels=False, directions=False, starts=0)
     particles = sorted(set(run.starts["particle"].tolist()))
     drawn = False
     lines = []
@@ -260,7 +240,7 @@ def energy(run, ax=None):
 def survival(result, ax=None, scale="log"):
     """p(t) with its 95 % interval, and the decay that was fitted, in its window; scale of time: "log"
     (for tails) or "linear" (for rates)."""
-    ax = _axes(ax)
+    ax = _new_axes(ax)
     points = result.survival
     seen = points[(points["p"] > 0) & ((points["t"] > 0) | (scale == "linear"))]
     low = numpy.maximum(seen["low"], seen["p"].min() * 1e-3 if len(seen) else 1e-300)
@@ -284,16 +264,17 @@ def _decay(ax, fit):
     law = numpy.exp(-fit.rate * t) if exponential else t**-fit.exponent
     p = fit.amplitude * law + (fit.plateau if "plateau" in fit.model else 0.0)
     name, value = ("κ", fit.rate) if exponential else ("exponent", fit.exponent)
-    label = fit.model + ("" if fit.decided else " (undecided)")
-    label += f"\n{name} = {value:.4g} ± {fit.stderr:.1g}"
+    label = f"{fit.model}: {name} = {value:.4g} ± {fit.stderr:.1g}"
+    if not fit.decided:
+        label += "\n(undecided)"
     ax.plot(t, p, color=COLOURS[1], linewidth=1.5, zorder=3, label=label)
-    ax.legend(fontsize="small", frameon=False)
+    ax.legend(fontsize="x-small", frameon=False)
 
 
 def rate(result, ax=None, scale=None):
     """The escape rate −dp/dt with its 95 % interval; scale of time: "log" or "linear", if not given
     what its range asks for."""
-    ax = _axes(ax)
+    ax = _new_axes(ax)
     seen = result.rate[result.rate["value"] > 0]
     seen = seen[seen["t"] > 0]
     if scale is None:
@@ -302,36 +283,6 @@ def rate(result, ax=None, scale=None):
     ax.fill_between(seen["t"], low, seen["high"], color=COLOURS[0], alpha=0.25, linewidth=0)
     ax.plot(seen["t"], seen["value"], "o-", color=COLOURS[0], markersize=3, linewidth=1)
     ax.set(xscale=scale, yscale="log", xlabel="t", ylabel="−dp/dt")
-    _title(ax, result.system)
-    return ax
-
-
-def sweep(result, ax=None, y=None):
-    """A column of a sweep's table against its key, with error bars; of a plane a map. y: the column
-    (default: the first with errors)."""
-    table = result.table
-    keys = [one["key"] for one in result._json["keys"]]
-    numbers = [name for name in table.dtype.names if table[name].dtype.kind == "f"]
-    if y is None:
-        others = [name for name in numbers if name not in keys]
-        with_errors = [name for name in others if f"{name}_stderr" in numbers]
-        y = (with_errors or others)[0]
-    ax = _axes(ax)
-    if len(keys) == 1:
-        known = numpy.isfinite(table[y])
-        error = table[f"{y}_stderr"][known] if f"{y}_stderr" in numbers else None
-        ax.errorbar(
-            table[keys[0]][known], table[y][known], yerr=error, fmt="o-", markersize=4, linewidth=1,
-            capsize=2, color=COLOURS[0],
-        )  # fmt: skip
-        ax.set(xlabel=keys[0], ylabel=y)
-    else:
-        first, second = (numpy.unique(table[key]) for key in keys)
-        values = numpy.full((len(first), len(second)), numpy.nan)
-        values[numpy.searchsorted(first, table[keys[0]]), numpy.searchsorted(second, table[keys[1]])] = table[y]
-        colours = ax.pcolormesh(first, second, values.T, shading="nearest")
-        ax.figure.colorbar(colours, ax=ax, label=y)
-        ax.set(xlabel=keys[0], ylabel=keys[1])
     _title(ax, result.system)
     return ax
 
@@ -345,7 +296,7 @@ def basins(result, ax=None, colour=None, x="x", y="y", size=None):
     in_plane = (x, y) == ("x", "y")
     colour = colour or ("hole" if len(result.system.holes) > 1 else "time")
     made = ax is None
-    ax = _axes(ax)
+    ax = _new_axes(ax)
     if in_plane:
         table(result.system, ax=ax, names=False, levels=False, directions=False, starts=0)
     from matplotlib.colors import ListedColormap, LogNorm, Normalize
@@ -406,7 +357,7 @@ def escape(result, ax=None):
 
 def diffusion(result, ax=None):
     """The mean square displacement with its errors, and 4Dt where there is a D without a doubt."""
-    ax = _axes(ax)
+    ax = _new_axes(ax)
     points = result.msd
     seen = points[(points["t"] > 0) & (points["value"] > 0)]
     ax.errorbar(
@@ -429,33 +380,10 @@ def diffusion(result, ax=None):
     return ax
 
 
-def lyapunov(result, ax=None):
-    """How the finite-time exponents of the orbits are distributed, and their mean."""
-    ax = _axes(ax)
-    bins = result.distribution
-    if len(bins):
-        width = bins["to"] - bins["from"]
-        ax.bar(
-            bins["from"], bins["count"] / (bins["count"].sum() * width), width, align="edge",
-            color=COLOURS[0],
-        )
-    if result.lambda_ is not None:
-        mean = result.lambda_[0]
-        ax.axvline(
-            mean["value"], color=COLOURS[1], linewidth=1,
-            label=f"λ = {mean['value']:.5g} ± {mean['stderr']:.1g}",
-        )
-        ax.legend(fontsize="small", frameon=False)
-    ax.set_xlabel("exponent of an orbit")
-    ax.set_ylabel("density")
-    _title(ax, result.system)
-    return ax
-
-
 def section(result, ax=None, x=None, y=None):
     """Points in colour by orbit: (s, v∥) over the walls, one after the other, or along a line or
     circle; (x, y) for a condition on the velocity. Other columns by `x` and `y`."""
-    ax = _axes(ax, (6.0, 4.2))
+    ax = _new_axes(ax, (6.0, 4.2))
     points = result.points
     at_walls = len(points) == 0 or (points["wall"] >= 0).all()
     if x is None and at_walls:
@@ -486,74 +414,11 @@ def section(result, ax=None, x=None, y=None):
     return ax
 
 
-def orbits(result, ax=None, most=12):
-    """The table with periodic orbits, the first `most` of them; of families one member."""
-    ax = table(result.system, ax=ax, names=False, levels=False, directions=False, starts=0)
-    (omega,) = _carom.omegas(result._outcome.system)
-    for number, rows in enumerate(result.paths[:most]):
-        path = _carom.path(rows, omega)
-        family = result.json["orbits"][number]["family"]
-        ax.plot(
-            path["x"], path["y"], color=COLOURS[number % len(COLOURS)], linewidth=0.9, zorder=2,
-            linestyle="--" if family else "-",
-        )  # fmt: skip
-    return ax
-
-
-def comparison(result, ax=None, of="error_state"):
-    """Error against work: a line for each scheme, in colour by order; dashed: adaptive. Other
-    errors by `of`. A dotted line is the wanted error, the grey band what the reference cannot tell."""
-    ax = _axes(ax, (6.6, 4.6))
-    runs = result.schemes
-    orders = {row["scheme"]: row["stated"] for row in result.measured}
-    steps = sorted({order for order in orders.values() if order == order})
-    markers = "osD^vPX*"
-    used = {}
-    for name, order in orders.items():
-        rows = runs[(runs["scheme"] == name) & (runs[of] > 0)]
-        colour = COLOURS[steps.index(order) % len(COLOURS)] if order in steps else COLOURS[-1]
-        used[colour] = used.get(colour, -1) + 1
-        adaptive = "tolerance" in runs.dtype.names and (rows["tolerance"] > 0).any()
-        ax.plot(
-            rows["force_evaluations"], rows[of], "--" if adaptive else "-", color=colour, label=name,
-            marker=markers[used[colour] % len(markers)], markersize=3.5, linewidth=1,
-        )  # fmt: skip
-    if of == "error_state":
-        ax.axhline(result.error, color="0.5", linewidth=0.8, linestyle=":")
-        ax.axhspan(0, result.reference.error, color="0.92", linewidth=0)
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlabel("force evaluations")
-    ax.set_ylabel(of.replace("_", " of the ") if of.startswith("error_") else of)
-    ax.legend(fontsize="x-small", frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
-    _title(ax, result.system)
-    return ax
-
-
-def equilibria(found, ax=None, most=4):
-    """The places of the particles at the lowest equilibria, over the level lines of the potential."""
-    ax = table(found.system, ax=ax, names=False, directions=False, starts=0)
-    shown = found.equilibria[:most]
-    for number, one in enumerate(shown):
-        x, y = numpy.array(one.positions).T
-        ax.plot(
-            x, y, "o", color=COLOURS[number % len(COLOURS)], markersize=8 - 1.5 * number, zorder=5 + number,
-            markeredgecolor="white", label=f"{one.kind}, {one.energy:.8g}",
-        )  # fmt: skip
-    if shown:
-        places = numpy.concatenate([numpy.array(one.positions) for one in shown])
-        room = 0.3 * max(numpy.ptp(places, axis=0).max(), 1e-300)
-        if not len(found.system.walls):
-            ax.set_xlim(places[:, 0].min() - room, places[:, 0].max() + room)
-            ax.set_ylim(places[:, 1].min() - room, places[:, 1].max() + room)
-        ax.legend(fontsize="x-small", title="energy", title_fontsize="x-small")
-    return ax
-
-
 def pictures(result):
     """The pictures that there are of a result or a system, by name; the first is the one that
     `result.plot()` draws."""
     from . import results
+    from .sweep import Sweep
 
     if isinstance(result, results.Run):
         return {"orbit": orbit} | ({"energy": energy} if len(result.energies) else {})
@@ -571,6 +436,7 @@ def pictures(result):
         results.Equilibria: equilibria,
         results.Comparison: comparison,
         results.Orbits: orbits,
+        Sweep: sweep,
     }
     draw = others.get(type(result))
     return {draw.__name__: draw} if draw else {}

@@ -69,8 +69,9 @@ def table_of(rows):
         if kind is None or any(isinstance(one, dict) for one in known):
             continue
         if len(known) < len(column):
-            kind = kind if kind[0].startswith("U") else ("f8",)
+            kind = kind if kind[0].startswith("U") else ("f8", *kind[1:])
             nothing = "" if kind[0].startswith("U") else float("nan")
+            nothing = [nothing] * kind[1][0] if len(kind) > 1 else nothing
             columns[key] = [nothing if one is None else one for one in column]
         kinds[key] = kind
     dtype = [(key, *kind) for key, kind in kinds.items()]

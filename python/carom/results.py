@@ -55,9 +55,15 @@ class Table(OfSystem):
     area (length²; of one cell of a lattice, "inf" in the open plane), perimeter and mean_flight
     (length; π·area/perimeter), shape. Arrays:
 
-    walls   (number of walls,): name, kind, length (length), from and to (length, two numbers each)
+    walls   (number of walls,): name, kind, length (length), from and to (length, two numbers each);
+            of arcs center and radius (length; of ellipses a, b and the direction axis), angles
     holes   (number of holes,): name, wall, center and width (length, along the wall)
     """
+
+    @property
+    def walls(self) -> numpy.ndarray:
+        """(number of walls,): as above; NaN where a wall has no such number (length, radians)."""
+        return table_of(self._json["walls"])
 
     def _summary(self):
         return f"{self.shape}, {len(self.walls)} walls, {len(self.holes)} holes"

@@ -69,6 +69,8 @@ class Sweep(Result):
 
     @property
     def table(self) -> numpy.ndarray:
+        """A row for each value, (values,): the keys, then each number of the result with its
+        `_stderr`, in the units of the command's own results; NaN: there is none."""
         columns = self._outcome.table()
         arrays = [numpy.asarray(column) for column in columns.values()]
         rows = numpy.empty(

@@ -132,9 +132,12 @@ void add_sweeps(py::module_& module) {
       .def("table", &table_of)
       .def("save", &save, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
            py::arg("force"), py::arg("archives"))
-      .def("extract", [](const SweepOutcome& self, std::size_t index, const std::string& target) {
-        return io::extract_value(self.file, index, target);
-      });
+      .def(
+          "extract",
+          [](const SweepOutcome& self, std::size_t index, const std::string& target) {
+            return io::extract_value(self.file, index, target);
+          },
+          py::arg("index"), py::arg("target"));
   module.def("swept_keys", &swept_keys, py::arg("command"), py::arg("typed"));
   module.def("make_sweep", &make_sweep, py::arg("command"), py::arg("keys"), py::arg("base"),
              py::arg("name"), py::arg("all"), py::arg("reports"));

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "carom/base/error.hpp"
 #include "carom/ensemble/system.hpp"
 #include "carom/events/decisions.hpp"
 #include "carom/io/archive.hpp"
@@ -85,6 +86,8 @@ void print_report(const Options& options, const MakeJson& json, const MakeText& 
 /// A line on standard error: "carom: text". Where it cannot be written it is lost, and nothing
 /// else.
 void warn(const std::string& text);
+/// Where an error in an option is.
+inline Place place_of(const char* option) { return {"command line", 0, 0, option}; }
 
 /// From now on Ctrl-C, SIGTERM and SIGHUP (unless it was ignored) set a flag; a second one ends the
 /// program at once. So does SIGXCPU, however often it comes.

@@ -14,6 +14,7 @@
 #include "carom/base/error.hpp"
 #include "carom/io/system_file.hpp"
 #include "carom_version.hpp"
+#include "cli/command_options.hpp"
 #include "cli/command_table.hpp"
 #include "cli/option_faults.hpp"
 
@@ -37,112 +38,6 @@ constexpr const char* examples =
     "SYSTEM is a built-in name (carom systems) or a TOML file (my.toml, ./my). Any key of it can "
     "be\n"
     "changed: --set table.width=2 --set \"field.B=1/3\". carom COMMAND --help explains a command.";
-
-constexpr const char* times_help = "Report times: a,b,c or log:from:to:count or lin:from:to:count";
-
-// The options of one subcommand, all of them text: CLI11 itself would read -5 as 2^64 - 5.
-class Command {
- public:
-  Command(CLI::App& app, Options& options, const char* name, const char* text, const char* details)
-      : app_(app.add_subcommand(name, text)), options_(options) {
-    app_->footer(details);
-    app_->add_flag("--json", options_.json, "Print one JSON object and nothing else");
-    app_->add_flag("--quiet", options_.quiet, "No progress on standard error");
-  }
-
-  Command& text(const char* name, std::string& value, const char* type, const char* help) {
-    // A value of no characters would be dropped without a word.
-    app_->add_option(name, value, help)->type_name(type)->check([name](const std::string& typed) {
-      return typed.empty() ? std::string(name) + " needs a value" : std::string();
-    });
-    return *this;
-  }
-  Command& flag(const char* name, bool& value, const char* help) {
-    app_->add_flag(name, value, help);
-    return *this;
-  }
-  Command& system(const char* name, const char* help) {
-    app_->add_option(name, options_.system, help);
-    return *this;
-  }
-  Command& files(const char* name, const char* help) {
-    app_->add_option(name, options_.files, help);
-    return *this;
-  }
-  Command& settings() {
-    SystemOverrides& o = options_.overrides;
-    app_->add_option_function<std::vector<std::string>>(
-            "--set",
-            [&o](const std::vector<std::string>& typed) {
-              for (const std::string& one : typed) {
-                const std::size_t equals = one.find('=');
-                if (equals == 0 || equals == std::string::npos)
-                  throw CLI::ValidationError("--set", "'" + one + "' is not path.to.key=value");
-                o.set.emplace_back(one.substr(0, equals), one.substr(equals + 1));
-              }
-            },
-            "Change a key of the system; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false)
-        ->take_all();
-    app_->add_flag_callback(
-        "--closed", [&o] { o.set.emplace_back("table.hole", "[]"); }, "Without the holes");
-    return *this;
-  }
-  Command& output(const char* type, const char* help) {
-    text("-o,--output", options_.output, type, help);
-    return flag("--force", options_.force, "Replace an output file that exists");
-  }
-  /// A command that can be repeated for values of a key.
-  Command& sweep() {
-    app_->add_option("--sweep", options_.sweep,
-                     "Values of a key of the system, a row each: KEY=lin:FROM:TO:COUNT, "
-                     "log:FROM:TO:COUNT or "
-                     "list:a,b,c; twice: a plane")
-        ->type_name("KEY=VALUES")
-        ->allow_extra_args(false)
-        ->take_all();
-    return *this;
-  }
-  /// What changes the particles' motion.
-  Command& motion() {
-    SystemOverrides& o = options_.overrides;
-    text("--seed", o.seed, "N", "Seed of the random numbers");
-    text("--t-max", o.t_max, "T", "Last time");
-    text("--collisions", o.collisions, "N", "Most collisions of a trajectory");
-    text("--position", o.position, "X,Y", "Start, in exact numbers: 1/10,-1/5");
-    text("--velocity", o.velocity, "U,V",
-         "Velocity of the start; only its direction counts where a speed is set");
-    return text("--engine", options_.engine, "auto|events|steps", "What moves the particles");
-  }
-  Command& threads() { return text("--threads", options_.threads, "N", "Threads (default: all)"); }
-  Command& verbose() {
-    return flag("--verbose", options_.verbose,
-                "All rows of tables; what decisions took, lanes, the digest");
-  }
-  Command& ensemble() {
-    SystemOverrides& o = options_.overrides;
-    text("--times", o.times, "TIMES", times_help);
-    text("--trajectories", o.trajectories, "N", "Size of the ensemble (1e6 is a number)");
-    threads();
-    return text("--isa", options_.isa, "auto|baseline|avx2|avx512", "Instruction set of lanes");
-  }
-  /// Options of ensembles that can be continued, divided and shared between processes.
-  Command& parts() {
-    text("--resume", options_.resume, "FILE.h5",
-         "Go on with a stored ensemble; SYSTEM may be left out");
-    text("--checkpoint", options_.checkpoint, "SECONDS|blocks:N",
-         "Time, or number of blocks, between checkpoints of an archive (default 10 s)");
-    text("--shard", options_.shard, "K/N", "Only part K (from 1) of N parts of the trajectories");
-    text("--block", options_.block, "N",
-         "Trajectories a block (default 1024); the result does not depend on it");
-    return *this;
-  }
-
- private:
-  CLI::App* app_;
-  Options& options_;
-};
 
 std::string quoted(const std::string& word) {
   const bool plain =
@@ -238,6 +133,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       app, o, "lyapunov", "Lyapunov exponents of an ensemble, and its chaotic share",
       "Examples:\n"
       "  carom lyapunov stadium --closed\n"
+      "  carom lyapunov mushroom --closed --t-max 1e4 --json\n"
       "  carom lyapunov sinai --trajectories 1e4 --window 20:100 -o lambda.h5\n"
       "\n"
       "Two deviations of each orbit are followed by the exact tangent maps of flights and hits.\n"
@@ -246,7 +142,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .settings()
       .sweep()
       .motion()
-      .ensemble()
+      .ensemble(false)
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .parts()
@@ -277,11 +173,9 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
   Command(app, o, "relax", "Equilibria of the potential energy, and small oscillations about them",
           "Examples:\n"
           "  carom relax wigner\n"
-          "  carom relax wigner --set particles.count=9 --starts 1000 --json\n"
           "  carom relax soft-lorentz --saddles -o equilibria.png\n"
           "\n"
-          "Each start goes downhill from where a trajectory of `carom escape` begins. Symmetric "
-          "copies count once.")
+          "Starts are those of the system's trajectories. Symmetric copies count once.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
       .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
@@ -377,8 +271,8 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "\n"
           "Without -o the picture is NAME.png in this folder. It needs Python with matplotlib.")
       .system("SOURCE", "Archive, TOML file or built-in name")
-      .text("--what", o.what, "PICTURE",
-            "Of a run: orbit, energy; of an escape: survival, rate, basins (default: the first)")
+      .text("--what", o.what, "orbit|energy|survival|rate|basins",
+            "Which picture: the first two of a run, the others of an escape")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(
       app, o, "animate", "The film of a run or of a system's particles",

@@ -41,7 +41,8 @@ bool all_discs(const Table& table) {
 
 void check(const System& system, const OrbitSearchOptions& options) {
   const auto refuse = [](const char* key, const char* problem, const char* expected) {
-    throw InputError(Place{{}, 0, 0, key}, problem, expected);
+    const bool option = key[0] == '-';
+    throw InputError(Place{option ? "command line" : "", 0, 0, key}, problem, expected);
   };
   if (system.table->walls.empty())
     refuse("table", "no orbit of a free particle closes without walls", "a table with walls");
@@ -73,13 +74,20 @@ std::shared_ptr<const Table> closed(const Table& table) {
 std::vector<Chain> chains_of_words(const Boundary& boundary, const OrbitSearchOptions& options) {
   std::vector<Chain> chains;
   const int letters = static_cast<int>(boundary.frames.size());
+  // Closed words of n letters without equal neighbours: (k-1)^n + (-1)^n (k-1); n of them at most
+  // are one cycle.
+  double count = 0.0, power = letters - 1.0;
+  for (std::size_t n = 2; n <= options.most_hits && count <= most_words; ++n) {
+    power *= letters - 1.0;
+    count += (power + (n % 2 == 0 ? 1.0 : -1.0) * (letters - 1.0)) / static_cast<double>(n);
+  }
+  if (count > most_words)
+    throw InputError(Place{"command line", 0, 0, "--hits"},
+                     fmt::format("more than {} words of discs have up to {} hits", most_words,
+                                 options.most_hits),
+                     "a smaller number");
   for (std::size_t n = 2; n <= options.most_hits; ++n)
     orbits::for_each_word(letters, n, [&](const std::vector<int>& word) {
-      if (chains.size() == most_words)
-        throw InputError(Place{{}, 0, 0, "--hits"},
-                         fmt::format("more than {} words of discs have up to {} hits", most_words,
-                                     options.most_hits),
-                         "a smaller number");
       Chain chain = orbits::chain_of_word(boundary, word);
       if (!chain.empty()) chains.push_back(std::move(chain));
       return true;

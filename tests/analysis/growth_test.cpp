@@ -45,8 +45,9 @@ TEST(GrowingHistogram, IsAFunctionOfTheNumbersAlone) {
                                     [&](double x) { return x >= from && x < from + width; });
       EXPECT_EQ(whole.counts()[i], static_cast<std::uint64_t>(in));
     }
-    if (whole.exponent() > GrowingHistogram::finest)
+    if (whole.exponent() > GrowingHistogram::finest) {
       EXPECT_GT(whole.counts().size(), GrowingHistogram::most / 2);
+    }
   }
 }
 
@@ -149,7 +150,9 @@ TEST(Regularity, ShearIsRegularAndExponentialsAreNot) {
     const double n = hits;
     for (const double constant : {0.01, 1.0, 100.0})
       EXPECT_EQ(regularity_of(2 * std::log(constant * hits + 1), n), Regularity::regular);
-    if (hits > 50) EXPECT_EQ(regularity_of(2 * 0.5 * hits, n), Regularity::chaotic);
+    if (hits > 50) {
+      EXPECT_EQ(regularity_of(2 * 0.5 * hits, n), Regularity::chaotic);
+    }
     EXPECT_EQ(regularity_of(20 + 2 * std::log(hits), n), Regularity::undecided);
   }
 }

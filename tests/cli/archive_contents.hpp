@@ -20,7 +20,7 @@ struct Contents {
   int complete = -1;
 };
 
-/// The values as bytes; texts of variable length each with a zero after it.
+/// The values as bytes; texts of variable length with a zero between them.
 inline std::string bytes_of(hid_t type, hid_t space, const std::function<void(void*)>& read) {
   const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
   std::string bytes(count * H5Tget_size(type), '\0');
@@ -33,6 +33,7 @@ inline std::string bytes_of(hid_t type, hid_t space, const std::function<void(vo
       bytes.append(text ? text : "").push_back('\0');
       H5free_memory(text);
     }
+    if (count > 0) bytes.pop_back();
   }
   H5Sclose(space);
   H5Tclose(type);

@@ -124,7 +124,7 @@ TEST(RunArchive, SaysThatThereIsNothingToGoOnWith) {
 TEST(RunArchive, SurvivesCtrlC) {
   const Shell shell;
   const Outcome o = shell(
-      "$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; until_there a.h5; sleep 0.2; "
+      "$carom run sinai --collisions 1e12 -o a.h5 --json & pid=$!; until_there a.h5; sleep 1; "
       "kill -INT $pid; wait $pid");
   EXPECT_EQ(o.status, 130);
   EXPECT_EQ(json_value(o.out, "status"), "\"interrupted\"");
@@ -241,16 +241,11 @@ std::vector<T> numbers(const Contents& contents, const std::string& name) {
 std::vector<std::string> names_of(const std::string& path, const char* dataset) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
               at = H5Dopen2(file, dataset, H5P_DEFAULT);
-  const hid_t attribute = H5Aopen(at, "names", H5P_DEFAULT), type = H5Aget_type(attribute),
-              space = H5Aget_space(attribute);
-  const std::size_t length = H5Tget_size(type),
-                    count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
-  std::string text(length * count, '\0');
-  H5Aread(attribute, type, text.data());
+  const std::string texts = read_attribute(at, "names");
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < count; ++i)
-    names.emplace_back(text.substr(i * length, length).c_str());
-  H5Sclose(space), H5Tclose(type), H5Aclose(attribute), H5Dclose(at), H5Fclose(file);
+  for (std::size_t i = 0; i < texts.size(); i += names.back().size() + 1)
+    names.emplace_back(texts.c_str() + i);
+  H5Dclose(at), H5Fclose(file);
   return names;
 }
 

@@ -4,16 +4,15 @@
 
 #include <cstdlib>
 
+#include "archive_contents.hpp"
 #include "cli/program.hpp"
 
 namespace carom {
 namespace {
 
 std::string text_of(hid_t file, const char* name) {
-  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(dataset);
-  std::string text(H5Tget_size(type), '\0');
-  H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
-  H5Tclose(type);
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+  const std::string text = read_all(dataset);
   H5Dclose(dataset);
   return text.c_str();
 }

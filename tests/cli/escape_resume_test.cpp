@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "io/archive/checksums.hpp"
+#include "io/archive/hdf5.hpp"
 #include "kill_and_resume.hpp"
 
 namespace carom {
@@ -218,7 +219,7 @@ TEST(EscapeResume, ARunGoesOnAfterAFullDisk) {
   EXPECT_EQ(shell.files().size(), 2u);
 }
 
-TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk(mushroom, "", 128); }
+TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNothing) { fill_the_disk(mushroom, "", 256); }
 
 TEST(EscapeResume, ADiskThatIsFullForAWhileCostsNoRecords) {
   fill_the_disk(mushroom, " --per-trajectory", 32 << 10);

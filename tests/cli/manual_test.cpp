@@ -136,7 +136,7 @@ TEST(Completion, OfBashOffersWhatFits) {
   shell("mkdir sub; touch my.toml orbit.h5 note.txt 'two words.toml'");
   const std::pair<const char*, const char*> cases[] = {
       {"carom es", "escape"},
-      {"carom s", "schemes section systems"},
+      {"carom s", "section schemes systems"},
       {"carom --v", "--version"},
       {"carom help di", "diffusion"},
       {"carom escape mu", "mushroom"},

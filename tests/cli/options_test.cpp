@@ -31,8 +31,9 @@ TEST(OptionNames, EveryCommandMayBeQuiet) {
       "all.h5 part.h5 --quiet");
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");
-  for (const char* command : {"escape", "run", "diffusion", "lyapunov", "section", "relax", "compare", "schemes", "orbit", "merge", "table",
-                              "systems", "validate"})
+  for (const char* command :
+       {"escape", "run", "diffusion", "lyapunov", "section", "relax", "compare", "schemes", "orbit",
+        "merge", "table", "systems", "validate"})
     EXPECT_NE(shell(std::string("$carom ") + command + " --help").out.find("--quiet"),
               std::string::npos)
         << command;

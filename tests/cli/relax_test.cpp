@@ -16,12 +16,16 @@ TEST(RelaxCommand, PrintsItsKeysAndStoresItsEquilibria) {
   EXPECT_TRUE(is_json_object(o.out));
   EXPECT_EQ(json_value(o.out, "starts"), "20");
   EXPECT_EQ(json_value(o.out, "without"), "0");
-  EXPECT_EQ(json_value(o.out, "kind"), "\"minimum\"");
+  EXPECT_NE(o.out.find("\"kind\": \"minimum\""), std::string::npos);
   for (const char* key : {"version", "seed", "seconds", "status", "energy", "energy_error",
                           "positions", "walls", "frequencies", "growths", "found", "archive"})
-    EXPECT_NE(json_value(o.out, key), "") << key;
+    EXPECT_NE(o.out.find('"' + std::string(key) + "\": "), std::string::npos) << key;
   const Outcome two = shell(command + "--threads 2 -o b.h5");
-  EXPECT_EQ(json_value(o.out, "energy"), json_value(two.out, "energy"));
+  const auto equilibria = [](const Outcome& of) {
+    const std::size_t from = of.out.find("\"equilibria\"");
+    return of.out.substr(from, of.out.find("\"archive\"") - from);
+  };
+  EXPECT_EQ(equilibria(o), equilibria(two));
   const Outcome same = shell("h5diff --exclude-path /provenance a.h5 b.h5 2>&1 || echo differ");
   if (same.out.find("not found") == std::string::npos) {
     EXPECT_EQ(same.out, "");

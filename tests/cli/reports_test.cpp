@@ -127,7 +127,7 @@ TEST(Reports, FitTheScreen) {
   expect_fit("escape stadium --splitting lin:0:50:11 --population 200", 40);
   expect_fit("escape stadium --certify-sample 20 --t-max 20", 30);
   expect_fit("run magnetic-square --closed --collisions 1000 --set particles.count=40", 30);
-  expect_fit("validate --scale 0.001", 200);
+  expect_fit("validate --scale 0.001", 300);
 }
 
 // Decisions, lanes and the digest are printed with --verbose alone; the JSON always has them.

@@ -32,9 +32,9 @@ std::vector<std::string> digests_of(const std::string& json) {
 
 TEST(Sweep, RowsAreTheRunsOfTheirValues) {
   const Shell shell;
-  for (const std::string command :
-       {escape, std::string("$carom diffusion lorentz-triangular --trajectories 200 --t-max 20 "
-                            "--set table.radius=0.4 --quiet ")}) {
+  for (const std::string& command : std::vector<std::string>{
+           escape, std::string("$carom diffusion lorentz-triangular --trajectories 200 --t-max 20 "
+                               "--set table.radius=0.4 --quiet ")}) {
     const Outcome all = shell(command + "--sweep field.B=list:1/3,0.5 --json");
     ASSERT_EQ(all.status, 0) << all.err;
     EXPECT_TRUE(is_json_object(all.out));
@@ -65,7 +65,7 @@ TEST(Sweep, GivesEveryCommandARowAValue) {
         "table.half_length=list:1,2",
         "escape three-disc --splitting 2,4 --population 200 --repetitions 2 --sweep "
         "table.radius=list:1,0.9",
-        "escape stadium --certify-sample 3 --t-max 5 --sweep table.half_length=list:1,2"}) {
+        "escape stadium --certify-sample 3 --t-max 5 --sweep table.half_length=list:2,3"}) {
     const Outcome o = shell(std::string("$carom ") + command + " --json --quiet");
     EXPECT_EQ(o.status, 0) << command << o.err;
     EXPECT_EQ(rows_of(o.out).size(), 2u) << command;

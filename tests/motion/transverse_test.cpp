@@ -47,7 +47,9 @@ TEST(Transverse, FlightsAreThoseOfTheWholeMap) {
       EXPECT_NEAR(w.place, expected.place, 1e-13) << i;
       EXPECT_NEAR(w.rate, expected.rate, 1e-13) << i;
     }
-    if (omega == 0.0) EXPECT_NEAR(flown(before, t).place, expected.place, 1e-13);
+    if (omega == 0.0) {
+      EXPECT_NEAR(flown(before, t).place, expected.place, 1e-13);
+    }
   }
 }
 
@@ -77,11 +79,12 @@ TEST(Transverse, ReflectionsAreThoseOfTheWholeMapButForOneSign) {
     const Transverse w = reflected(before, g);
     EXPECT_NEAR(-w.place, expected.place, 1e-13) << i;
     EXPECT_NEAR(-w.rate, expected.rate, 1e-12 * size) << i;
-    if (i % 6 < 4)
+    if (i % 6 < 4) {
       EXPECT_EQ(
           kick_of_circle_or_line<double>({form.center_x, form.center_y}, form.xx,
                                          {form.normal_x, form.normal_y}, x, after, square, omega),
           g);
+    }
   }
 }
 

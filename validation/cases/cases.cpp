@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "carom/base/error.hpp"
+#include "carom/ensemble/compare.hpp"
+#include "carom/integrators/scheme.hpp"
 #include "carom/io/system_file.hpp"
 #include "validation/cases/orbit_cases.hpp"
 
@@ -119,7 +121,8 @@ class Planner {
                  std::vector<std::pair<std::string, std::string>> set = {}) const {
     SystemOverrides overrides;
     overrides.set = std::move(set);
-    overrides.trajectories = fmt::format("{:.0f}", scaled(trajectories));
+    overrides.trajectories =
+        fmt::format("{:.0f}", trajectories > 1 ? scaled(trajectories) : trajectories);
     return load_system(name, overrides).system;
   }
   std::vector<Case> take() { return std::move(cases_); }
@@ -239,16 +242,14 @@ void add_exponents(Planner& plan) {
     double t_max, usual, soak;
     Exponent what;
     Estimate expected;
-  } exponents[] = {{"stadium", 1000, 1e4, 1e6, Exponent::per_time, {0.4297, 2e-4}},
-                   {"square torus", 200, 2e4, 1e6, Exponent::per_time, {2.73845, 4e-4}},
-                   {"square torus", 200, 2e4, 1e6, Exponent::per_hit, {1.7026, 3e-4}},
-                   {"lorentz-triangular", 200, 2e4, 1e6, Exponent::per_time, {2.1046, 1e-4}},
-                   {"mushroom", 2000, 1e4, 0, Exponent::regular_share, {0.2389084047}},
-                   {"mushroom", 1e4, 0, 5e6, Exponent::regular_share, {0.2389084047}}};
+  } exponents[] = {{"stadium", 1000, 1e5, 1e6, Exponent::per_time, {0.4297, 2e-4}},
+                   {"square torus", 200, 1e5, 1e6, Exponent::per_time, {2.73845, 4e-4}},
+                   {"square torus", 200, 1e5, 1e6, Exponent::per_hit, {1.7026, 3e-4}},
+                   {"lorentz-triangular", 200, 1e5, 1e6, Exponent::per_time, {2.1046, 1e-4}},
+                   {"mushroom", 2000, 1e5, 5e6, Exponent::regular_share, {0.2389084047}}};
   for (const auto& one : exponents) {
-    const double size = plan.pick(one.usual, one.soak);
-    if (size == 0) continue;
-    const System system = plan.timed(one.name, table_of(one.name), size, one.t_max);
+    const System system =
+        plan.timed(one.name, table_of(one.name), plan.pick(one.usual, one.soak), one.t_max);
     const char* const what = one.what == Exponent::per_time  ? "Lyapunov exponent"
                              : one.what == Exponent::per_hit ? "Lyapunov exponent per hit"
                                                              : "regular share by SALI";
@@ -260,6 +261,28 @@ void add_exponents(Planner& plan) {
                return check_exponent(system, one.what, one.expected, options);
              });
   }
+  // One orbit, which stays near islands for some 10^4 at a time: shorter runs say little.
+  if (plan.pick(0, 1) == 0) return;
+  const System henon_heiles = plan.builtin("henon-heiles", 1, {{"run.t_max", "2e6"}});
+  plan.add("henon-heiles: Lyapunov exponent", "independent simulation from (0, -1/4, 0)", {},
+           [henon_heiles](const CheckOptions& options) {
+             return check_exponent(henon_heiles, Exponent::per_time, {0.044, 0.001}, options);
+           });
+}
+
+// Stated orders by slopes of errors, with and without a field.
+void add_orders(Planner& plan) {
+  for (const char* field : {"0", "1.5"}) {
+    SystemOverrides overrides;
+    overrides.set = {{"field.B", field}};
+    const System system = load_system("henon-heiles", overrides).system;
+    for (const std::string& scheme : default_comparison(system)) {
+      if (is_adaptive(scheme)) continue;
+      plan.add(fmt::format("order of {}, B = {}", scheme, field),
+               "the scheme's order conditions, on the Hénon–Heiles potential", {},
+               [system, scheme](const CheckOptions&) { return check_order(system, scheme); });
+    }
+  }
 }
 
 }  // namespace
@@ -269,6 +292,7 @@ std::vector<Case> all_cases(bool soak, double scale) {
   add_closed_tables(plan);
   add_published(plan);
   add_exponents(plan);
+  add_orders(plan);
   std::vector<Case> cases = plan.take();
   add_equilibria(cases);
   add_orbit_cases(cases);

@@ -11,6 +11,7 @@
 
 #include "carom/base/elementary.hpp"
 #include "carom/base/error.hpp"
+#include "carom/ensemble/compare.hpp"
 #include "carom/ensemble/diffusion.hpp"
 #include "carom/ensemble/escape.hpp"
 #include "carom/ensemble/lyapunov.hpp"
@@ -348,6 +349,25 @@ Check check_distance(const System& system, double expected, Allowance allowance)
   c.seconds = result.seconds;
   c.cpu_seconds = result.cpu_seconds;
   judge(c, allowance);
+  return c;
+}
+
+Check check_order(const System& system, const std::string& scheme) {
+  Check c;
+  c.seed = system.run.seed;
+  const Comparison result = compare(system, {.schemes = {scheme}});
+  const ComparedScheme& one = result.schemes.front();
+  c.expected = one.order;
+  c.complete = result.complete;
+  c.seconds = result.seconds;
+  c.cpu_seconds = result.cpu_seconds;
+  if (one.measured.slope) {
+    c.value = one.measured.slope->value;
+    c.error = one.measured.slope->error;
+  } else {
+    c.report = one.measured.reason;
+  }
+  judge(c, {});
   return c;
 }
 

@@ -79,4 +79,7 @@ Check check_exponent(const System&, Exponent, Estimate expected, const CheckOpti
 /// rounding grows with every hit, so one orbit in double precision has no standard error.
 Check check_distance(const System&, double expected, Allowance);
 
+/// The measured order of a scheme with fixed steps on trajectory 0, beside the stated one.
+Check check_order(const System&, const std::string& scheme);
+
 }  // namespace carom::validation

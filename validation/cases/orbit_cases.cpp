@@ -81,10 +81,9 @@ const PeriodicOrbit* reduced_of(const OrbitSearchResult& found, std::size_t hits
 void add_orbit_cases(std::vector<Case>& cases) {
   const auto add = [&](const std::string& name, const char* source, const char* toml,
                        std::uint64_t hits, double expected, Look look, bool zeta = false) {
-    cases.push_back(
-        {"orbits: " + name, source, Allowance{digits, digits}, [=](const CheckOptions& options) {
-           return check(toml, hits, zeta, expected, look, options);
-         }});
+    cases.push_back({"orbits: " + name, source, Allowance{}, [=](const CheckOptions& options) {
+                       return check(toml, hits, zeta, expected, look, options);
+                     }});
   };
   const struct {
     const char* word;

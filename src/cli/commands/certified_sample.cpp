@@ -21,8 +21,6 @@ using io::Json;
 
 namespace {
 
-Place place_of(const char* option) { return {"command line", 0, 0, option}; }
-
 OtherFlight certified_flight(const LoadedSystem& loaded, int digits,
                              const std::atomic<bool>& stop) {
   ExactSystem system = loaded.exact;

@@ -24,8 +24,6 @@ namespace carom::cli {
 
 namespace {
 
-Place place_of(const char* option) { return {"command line", 0, 0, option}; }
-
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
   for (std::size_t start = 0; start <= text.size();) {
@@ -88,7 +86,7 @@ int compare(const Options& options) {
   preparing.reset();
   ArchiveLock lock;
   if (!options.output.empty()) {
-    lock = lock_output(options.output);
+    lock = lock_output(options, options.output);
     refuse_existing(options.output, options.force);
   }
   const std::atomic<bool>& interrupted = catch_interrupts();

@@ -14,8 +14,6 @@ namespace carom::cli {
 
 namespace {
 
-Place place_of(const char* option) { return Place{"command line", 0, 0, option}; }
-
 Shard shard_of(const Options& options) {
   return options.shard.empty() ? Shard{} : carom::shard_of(options.shard, place_of("--shard"));
 }

@@ -14,8 +14,6 @@ namespace {
 // Each pair of a sample takes memory, and a certified orbit milliseconds at least.
 constexpr std::uint64_t largest_sample = 100'000'000;
 
-Place place_of(const char* option) { return {"command line", 0, 0, option}; }
-
 }  // namespace
 
 void check_escape_options(const Options& options) {

@@ -66,7 +66,7 @@ int orbit(const Options& options) {
   const int digits = digits_of_orbits(options, *system.table);
   ArchiveLock lock;
   if (!options.output.empty()) {
-    lock = lock_output(options.output);
+    lock = lock_output(options, options.output);
     refuse_existing(options.output, options.force);
   }
   how.interrupted = &catch_interrupts();

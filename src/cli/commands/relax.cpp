@@ -29,7 +29,7 @@ int relax(const Options& options) {
   how.interrupted = &catch_interrupts();
   ArchiveLock lock;
   if (!options.output.empty()) {
-    lock = lock_output(options.output);
+    lock = lock_output(options, options.output);
     refuse_existing(options.output, options.force);
   }
   RelaxResult result;

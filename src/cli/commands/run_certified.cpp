@@ -21,8 +21,6 @@ using io::Json;
 
 namespace {
 
-Place place_of(const char* option) { return {"command line", 0, 0, option}; }
-
 void check_options(const Options& options) {
   if (!options.resume.empty())
     throw InputError(place_of("--resume"), "certified runs start at the beginning",

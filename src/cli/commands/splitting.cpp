@@ -25,8 +25,6 @@ using io::Json;
 
 namespace {
 
-Place place_of(const char* option) { return Place{"command line", 0, 0, option}; }
-
 // No particle was left in any population. How rare survival is, the populations do not say.
 bool died_out(const Extrapolated& p) {
   return std::all_of(p.at_kick.begin(), p.at_kick.end(),

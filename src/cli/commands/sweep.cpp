@@ -257,30 +257,6 @@ int Sweep::run() {
 
 }  // namespace
 
-void print_sweep(const Options& options, SweepResult& result, const std::string& file) {
-  const System base = read_system(result.plan.system_toml, result.plan.system_name).system;
-  result.title = base.title.empty() ? base.name : base.title;
-  result.archive = named_archive(options, file);
-  print_report(
-      options, [&] { return sweep_json(result); }, [&] { return sweep_text(result); });
-}
-
-void keep_sweep(const Options& options, const SweepResult& result, const std::string& file,
-                const std::vector<Origin>& before) {
-  LoadedSystem base = read_system(result.plan.system_toml, result.plan.system_name);
-  choose_engine(options.engine, base.system);
-  Provenance origin = provenance_of(options, base.system, threads_of(options));
-  origin.before = before;
-  io::write_sweep(file, base, result.plan, sweep_numbers(result), origin, result.status,
-                  result.status == "completed");
-}
-
-void end_sweep(const Options& options, SweepResult& result, const std::string& file,
-               const std::vector<Origin>& before) {
-  if (!file.empty()) keep_sweep(options, result, file, before);
-  print_sweep(options, result, file);
-}
-
 bool is_sweep(const Options& options) {
   if (!options.sweep.empty()) return true;
   if (options.resume.empty()) return false;

@@ -60,9 +60,10 @@ std::string head_text(const System& system, const Comparison& result) {
 }
 
 std::string schemes_table(const Comparison& result) {
-  std::vector<Column> columns{{"\nscheme", {}, true},     {"order\nstated", {}}, {"\nmeasured", {}},
-                              {"step or\ntolerance", {}}, {"force\nevals", {}},  {"CPU\ntime", {}},
-                              {"rever-\nsible", {}},      {"areas\nkept", {}}};
+  std::vector<Column> columns{{"\nscheme", {}, true},   {"sta-\nted", {}},
+                              {"order\nmeasured", {}},  {"step or\ntolerance", {}},
+                              {"force\nevals", {}},     {"CPU\ntime", {}},
+                              {"re-\nver-\nsible", {}}, {"area\nkept", {}}};
   for (const ComparedScheme& scheme : result.schemes) {
     columns[0].cells.push_back(scheme.name);
     columns[1].cells.push_back(scheme.order > 0 ? fmt::format("{}", scheme.order) : "-");
@@ -72,7 +73,7 @@ std::string schemes_table(const Comparison& result) {
     };
     const WorkForError work = scheme.work.value_or(WorkForError{});
     columns[3].cells.push_back(of_work(fmt::format("{:.2g}", control(work))));
-    columns[4].cells.push_back(of_work(fmt::format("{:.4g}", std::round(work.force_evaluations))));
+    columns[4].cells.push_back(of_work(fmt::format("{:.3g}", std::round(work.force_evaluations))));
     columns[5].cells.push_back(of_work(short_duration(work.cpu_seconds)));
     columns[6].cells.emplace_back(yes_or_no(scheme.reversible));
     columns[7].cells.emplace_back(yes_or_no(symplectic(scheme)));

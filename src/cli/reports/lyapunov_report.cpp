@@ -19,7 +19,7 @@ using io::Json;
 
 namespace {
 
-Json json_of(const Estimate& e) {
+Json estimate_json(const Estimate& e) {
   return Json::object().set("value", e.value).set("stderr", e.error);
 }
 
@@ -27,10 +27,10 @@ Json json_of(const Estimate& e) {
 // across them. Of several that interact the largest alone is known.
 Json spectrum_of(const System& system, const Estimate& largest) {
   Json list = Json::array();
-  list.push(json_of(largest));
+  list.push(estimate_json(largest));
   if (interacts(system)) return list;
-  for (int i = 0; i < 2; ++i) list.push(json_of({0.0, 0.0}));
-  return list.push(json_of({0.0 - largest.value, largest.error}));
+  for (int i = 0; i < 2; ++i) list.push(estimate_json({0.0, 0.0}));
+  return list.push(estimate_json({0.0 - largest.value, largest.error}));
 }
 
 // Why there is no exponent, as a phrase; "" where there is one.
@@ -81,11 +81,11 @@ Json regularity_json(const GrowthSums& sums) {
 
 std::string exponents_text(const System& system, const GrowthSums& sums,
                            const LyapunovEstimate& e) {
-  std::string text =
-      fmt::format("\nlambda = {} per unit time{}\n", with_error(e.per_time.value, e.per_time.error),
-                  interacts(system) ? ", the largest" : "; the spectrum is lambda, 0, 0, -lambda");
+  std::string text = fmt::format(
+      "\nlambda = {} per unit time{}\n", cli::with_error(e.per_time.value, e.per_time.error),
+      interacts(system) ? ", the largest" : "; the spectrum is lambda, 0, 0, -lambda");
   if (std::isfinite(e.per_hit.value))
-    text += fmt::format("         {} per hit\n", with_error(e.per_hit.value, e.per_hit.error));
+    text += fmt::format("         {} per hit\n", cli::with_error(e.per_hit.value, e.per_hit.error));
   text += fmt::format("growth of deviations in {:.6g} <= t <= {:.6g}\n", sums.window().from,
                       sums.window().to);
   if (e.block_errors.empty()) {
@@ -123,14 +123,14 @@ std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
   const GrowthSums::Totals& t = sums.totals();
   std::string text =
       fmt::format("\nchaotic share {}\n{} orbits are chaotic, {} regular, {} undecided",
-                  with_error(e.chaotic_share.value, e.chaotic_share.error), grouped(t.chaotic),
+                  cli::with_error(e.chaotic_share.value, e.chaotic_share.error), grouped(t.chaotic),
                   grouped(t.regular), grouped(t.orbits - t.chaotic - t.regular));
   if (e.hidden > 0.0)
     text += fmt::format("; {:.2g} of all may be chaotic and have not shown it", e.hidden);
   text += '\n';
   if (t.chaotic > 1 && t.chaotic < t.orbits)
     text += fmt::format("lambda of the chaotic ones = {}\n",
-                        with_error(e.chaotic.value, e.chaotic.error));
+                        cli::with_error(e.chaotic.value, e.chaotic.error));
   return text;
 }
 
@@ -166,9 +166,10 @@ Json result_json(const System& system, const LyapunovResult& result,
   for (const ExponentBin& bin : distribution_of(sums))
     bins.push(Json::object().set("from", bin.from).set("to", bin.to).set("count", bin.count));
   json.set("distribution", std::move(bins));
-  json.set("chaotic_share", known ? json_of(e.chaotic_share).set("hidden", e.hidden) : Json());
+  json.set("chaotic_share",
+           known ? estimate_json(e.chaotic_share).set("hidden", e.hidden) : Json());
   json.set("regularity", regularity_json(sums));
-  json.set("chaotic_lambda", std::isfinite(e.chaotic.value) ? json_of(e.chaotic) : Json());
+  json.set("chaotic_lambda", std::isfinite(e.chaotic.value) ? estimate_json(e.chaotic) : Json());
   for (const std::string& note : notes_of(system, result, e)) notes.push(note);
   json.set("notes", std::move(notes));
   if (!context.output.empty()) json.set("archive", context.output);

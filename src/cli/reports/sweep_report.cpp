@@ -25,7 +25,7 @@ struct Quantity {
   const char *name, *value;
   const char* error = "";            ///< a standard error, or
   const char *low = "", *high = "";  ///< a 95 % interval
-  int digits = 6;  ///< of a number without an error
+  int digits = 6;                    ///< of a number without an error
 };
 /// A column of the text: the first quantity that a row has.
 struct Shown {
@@ -43,7 +43,8 @@ const std::vector<Shown>& shown_of(const std::string& command) {
       {"P(t_max)",
        {{"survival", "survival.-1.p", "", "survival.-1.low", "survival.-1.high"},
         {"survival", "survival.-1.value", "survival.-1.stderr"}}},
-      {"p-value", {{"p_value", "fit.p_value", "", "", "", 2}}},
+      {"p-value",
+       {{"p_value", "fit.p_value", "", "", "", 2}, {"p_value", "p_value", "", "", "", 2}}},
       {"P_infinity", {{"plateau", "fit.plateau", "fit.plateau_stderr"}}}};
   static const std::vector<Shown> diffusion{
       {"D", {{"D", "D.value", "D.stderr"}}},

@@ -273,9 +273,9 @@ class CrossingSearch {
     if (gap(b, i, to) > Real(0)) return nullptr;
     if (!inside(b, i, from)) return from_the_wall(b, i, from, to);
     Knot *inside = &from, *outside = &to, *newest = &to;
-    // A knot is a step of the whole group, the arc one particle's. At the edge of a support no
-    // force is left that would bend the path.
-    if (wall_) {
+    // A knot is a step of the whole group, the arc one particle's: to one alone it saves nothing.
+    // At the edge of a support no force is left that would bend the path.
+    if (wall_ && path_.start().phase.position.size() > 1) {
       const Real about = guess(b, i, from, to);
       if (from.time < about && about < to.time) {
         newest = &path_.at(about);

@@ -303,6 +303,8 @@ template std::vector<std::int32_t> read_column<std::int32_t>(hid_t, const char*,
                                                              const std::string&);
 template std::vector<std::int64_t> read_column<std::int64_t>(hid_t, const char*,
                                                              const std::string&);
+template std::vector<std::uint8_t> read_column<std::uint8_t>(hid_t, const char*,
+                                                             const std::string&);
 template std::vector<std::uint64_t> read_column<std::uint64_t>(hid_t, const char*,
                                                                const std::string&);
 

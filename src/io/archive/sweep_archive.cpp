@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "carom/base/error.hpp"
 #include "io/archive/archive_file.hpp"
@@ -51,6 +54,13 @@ void write_table(const ArchiveFile& file, const SweepPlan& plan,
                        {"as in the report", column.description.c_str()}, name);
 }
 
+std::vector<std::uint8_t> bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  hdf5::check(in.good(), file);
+  return bytes;
+}
+
 void write_value(const ArchiveFile& file, std::size_t index) {
   const std::string &name = file.name(), path = path_of(index);
   const Handle group = file.group(path.c_str(), "A value: its report, its archive");
@@ -59,52 +69,21 @@ void write_value(const ArchiveFile& file, std::size_t index) {
                      {"JSON", "What the command prints of it with --json"}, name);
   const std::string archive = value_of_sweep(name, index);
   if (!exists(archive)) return;
-  const Handle source =
-      hdf5::checked(H5Fopen(archive.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, name);
-  hdf5::check(H5Ocopy(source.get(), "/", group.get(), archive_name, H5P_DEFAULT, H5P_DEFAULT) >= 0,
-              name);
-}
-
-struct Copied {
-  hid_t from, to;
-};
-
-herr_t copy_attribute(hid_t, const char* name, const H5A_info_t*, void* both) {
-  const auto [from, to] = *static_cast<Copied*>(both);
-  const Handle attribute(H5Aopen(from, name, H5P_DEFAULT), H5Aclose);
-  if (!attribute) return -1;
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose),
-      space(H5Aget_space(attribute.get()), H5Sclose);
-  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  if (!type || !space || count < 0) return -1;
-  std::vector<char> bytes(H5Tget_size(type.get()) * static_cast<std::size_t>(count) + 1);
-  if (H5Aread(attribute.get(), type.get(), bytes.data()) < 0) return -1;
-  const Handle copy(H5Acreate2(to, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                    H5Aclose);
-  const bool ok = copy && H5Awrite(copy.get(), type.get(), bytes.data()) >= 0;
-  H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, bytes.data());  // texts, if it holds any
-  return ok ? 0 : -1;
-}
-
-herr_t copy_object(hid_t, const char* name, const H5L_info_t*, void* both) {
-  const auto [from, to] = *static_cast<Copied*>(both);
-  return H5Ocopy(from, name, to, name, H5P_DEFAULT, H5P_DEFAULT);
+  // Its bytes: H5Ocopy of HDF5 1.10 crashes on texts of variable length among many attributes.
+  const std::vector<std::uint8_t> bytes = bytes_of(archive);
+  hdf5::write_column(group.get(), archive_name, std::span<const std::uint8_t>(bytes),
+                     {"bytes", "The archive that this value alone would have"}, name);
 }
 
 bool extract(hid_t file, const std::string& name, std::size_t index, const std::string& target) {
   const Handle value = open_group(file, path_of(index).c_str(), name);
   if (!has(value.get(), archive_name)) return false;
-  const Handle archive = open_group(value.get(), archive_name, name);
-  Handle made = hdf5::checked(H5Fcreate(target.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                              H5Fclose, target);
-  Copied both{archive.get(), made.get()};
-  hdf5::check(
-      H5Aiterate2(archive.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &both) >= 0,
-      target);
-  hdf5::check(
-      H5Literate(archive.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_object, &both) >= 0,
-      target);
-  hdf5::check(made.close(), target);
+  const auto bytes = hdf5::read_column<std::uint8_t>(value.get(), archive_name, name);
+  std::ofstream made(target, std::ios::binary);
+  made.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  made.close();
+  hdf5::check(made.good(), target);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -84,7 +85,22 @@ class GlobalHeap {
     std::uint64_t address, size;
   };
 
-  bool read(std::uint64_t address, char* bytes, std::size_t size) const {
+  // Most collections are small: one reading gets all of their headers.
+  static constexpr std::size_t window_size = std::size_t{1} << 16;
+  bool read(std::uint64_t address, char* bytes, std::size_t size) {
+    if (address < window_start_ || address - window_start_ > window_.size() ||
+        size > window_.size() - (address - window_start_))
+      return read_file(address, bytes, size);
+    std::memcpy(bytes, window_.data() + (address - window_start_), size);
+    return true;
+  }
+  void look_from(std::uint64_t address) {
+    window_start_ = address;
+    window_.resize(std::min<std::uint64_t>(
+        window_size, address < file_size_ ? file_size_ - address : std::uint64_t{0}));
+    if (!read_file(address, window_.data(), window_.size())) window_.clear();
+  }
+  bool read_file(std::uint64_t address, char* bytes, std::size_t size) const {
     return address <= file_size_ && size <= file_size_ - address &&
            ::pread(descriptor_, bytes, size, static_cast<off_t>(address)) ==
                static_cast<ssize_t>(size);
@@ -95,6 +111,7 @@ class GlobalHeap {
   bool list(std::uint64_t collection) {
     collection_ = 0;  // no collection: the file begins there
     objects_.clear();
+    look_from(collection);
     std::array<char, header> bytes;
     if (!read(collection, bytes.data(), header)) return false;
     constexpr std::string_view signature("GCOL\1\0\0\0", 8);
@@ -121,7 +138,8 @@ class GlobalHeap {
   }
 
   int descriptor_;
-  std::uint64_t file_size_ = 0, collection_ = 0;
+  std::uint64_t file_size_ = 0, collection_ = 0, window_start_ = 0;
+  std::string window_;
   std::unordered_map<std::uint32_t, Object> objects_;
 };
 

@@ -1,0 +1,128 @@
+"""Pictures of analyses: sweeps, Lyapunov exponents, periodic orbits, equilibria, integrators."""
+
+import numpy
+
+from . import _carom
+from .axes import COLOURS, new_axes, title
+
+
+def sweep(result, ax=None, y=None):
+    """A column of a sweep's table against its key, with error bars; of a plane a map. y: the column
+    (default: the first with errors)."""
+    table = result.table
+    keys = [one["key"] for one in result._json["keys"]]
+    numbers = [name for name in table.dtype.names if table[name].dtype.kind == "f"]
+    if y is None:
+        others = [name for name in numbers if name not in keys]
+        with_errors = [name for name in others if f"{name}_stderr" in numbers]
+        y = (with_errors or others)[0]
+    ax = new_axes(ax)
+    if len(keys) == 1:
+        known = numpy.isfinite(table[y])
+        error = table[f"{y}_stderr"][known] if f"{y}_stderr" in numbers else None
+        ax.errorbar(
+            table[keys[0]][known], table[y][known], yerr=error, fmt="o-", markersize=4, linewidth=1,
+            capsize=2, color=COLOURS[0],
+        )  # fmt: skip
+        ax.set(xlabel=keys[0], ylabel=y)
+    else:
+        first, second = (numpy.unique(table[key]) for key in keys)
+        values = numpy.full((len(first), len(second)), numpy.nan)
+        values[numpy.searchsorted(first, table[keys[0]]), numpy.searchsorted(second, table[keys[1]])] = table[y]
+        colours = ax.pcolormesh(first, second, values.T, shading="nearest")
+        ax.figure.colorbar(colours, ax=ax, label=y)
+        ax.set(xlabel=keys[0], ylabel=keys[1])
+    title(ax, result.system)
+    return ax
+
+
+def lyapunov(result, ax=None):
+    """How the finite-time exponents of the orbits are distributed, and their mean."""
+    ax = new_axes(ax)
+    bins = result.distribution
+    if len(bins):
+        width = bins["to"] - bins["from"]
+        ax.bar(
+            bins["from"], bins["count"] / (bins["count"].sum() * width), width, align="edge",
+            color=COLOURS[0],
+        )
+    if result.lambda_ is not None:
+        mean = result.lambda_[0]
+        ax.axvline(
+            mean["value"], color=COLOURS[1], linewidth=1,
+            label=f"λ = {mean['value']:.5g} ± {mean['stderr']:.1g}",
+        )
+        ax.legend(fontsize="small", frameon=False)
+    ax.set_xlabel("exponent of an orbit")
+    ax.set_ylabel("density")
+    title(ax, result.system)
+    return ax
+
+
+def orbits(result, ax=None, most=12):
+    """The table with periodic orbits, the first `most` of them; of families one member."""
+    from .plot import table
+
+    ax = table(result.system, ax=ax, names=False, levels=False, directions=False, starts=0)
+    (omega,) = _carom.omegas(result._outcome.system)
+    for number, rows in enumerate(result.paths[:most]):
+        path = _carom.path(rows, omega)
+        family = result.json["orbits"][number]["family"]
+        ax.plot(
+            path["x"], path["y"], color=COLOURS[number % len(COLOURS)], linewidth=0.9, zorder=2,
+            linestyle="--" if family else "-",
+        )  # fmt: skip
+    return ax
+
+
+def comparison(result, ax=None, of="error_state"):
+    """Error against work: a line for each scheme, in colour by order; dashed: adaptive. Other
+    errors by `of`. A dotted line is the wanted error, the grey band what the reference cannot tell."""
+    ax = new_axes(ax, (6.6, 4.6))
+    runs = result.schemes
+    orders = {row["scheme"]: row["stated"] for row in result.measured}
+    steps = sorted({order for order in orders.values() if order == order})
+    markers = "osD^vPX*"
+    used = {}
+    for name, order in orders.items():
+        rows = runs[(runs["scheme"] == name) & (runs[of] > 0)]
+        colour = COLOURS[steps.index(order) % len(COLOURS)] if order in steps else COLOURS[-1]
+        used[colour] = used.get(colour, -1) + 1
+        adaptive = "tolerance" in runs.dtype.names and (rows["tolerance"] > 0).any()
+        ax.plot(
+            rows["force_evaluations"], rows[of], "--" if adaptive else "-", color=colour, label=name,
+            marker=markers[used[colour] % len(markers)], markersize=3.5, linewidth=1,
+        )  # fmt: skip
+    if of == "error_state":
+        ax.axhline(result.error, color="0.5", linewidth=0.8, linestyle=":")
+        ax.axhspan(0, result.reference.error, color="0.92", linewidth=0)
+        ax.set_ylim(bottom=result.reference.error / 10)
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlabel("force evaluations")
+    ax.set_ylabel(of.replace("_", " of the ") if of.startswith("error_") else of)
+    ax.legend(fontsize="x-small", frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
+    title(ax, result.system)
+    return ax
+
+
+def equilibria(found, ax=None, most=4):
+    """The places of the particles at the lowest equilibria, over the level lines of the potential."""
+    from .plot import table
+
+    ax = table(found.system, ax=ax, names=False, directions=False, starts=0)
+    shown = found.equilibria[:most]
+    for number, one in enumerate(shown):
+        x, y = numpy.array(one.positions).T
+        ax.plot(
+            x, y, "o", color=COLOURS[number % len(COLOURS)], markersize=8 - 1.5 * number, zorder=5 + number,
+            markeredgecolor="white", label=f"{one.kind}, {one.energy:.8g}",
+        )  # fmt: skip
+    if shown:
+        places = numpy.concatenate([numpy.array(one.positions) for one in shown])
+        room = 0.3 * max(numpy.ptp(places, axis=0).max(), 1e-300)
+        if not len(found.system.walls):
+            ax.set_xlim(places[:, 0].min() - room, places[:, 0].max() + room)
+            ax.set_ylim(places[:, 1].min() - room, places[:, 1].max() + room)
+        ax.legend(fontsize="x-small", title="energy", title_fontsize="x-small")
+    return ax
