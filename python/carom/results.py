@@ -55,8 +55,8 @@ class Table(OfSystem):
     area (length²; of one cell of a lattice, "inf" in the open plane), perimeter and mean_flight
     (length; π·area/perimeter), shape. Arrays:
 
-    walls   (number of walls,): name, kind, length (length), from and to (length, two numbers each);
-            of arcs center and radius (length; of ellipses a, b and the direction axis), angles
+    walls   (number of walls,): name, kind, length (length), from and to (length, two numbers each),
+    of arcs center and radius (length; of ellipses a, b and the direction axis) and angles
     holes   (number of holes,): name, wall, center and width (length, along the wall)
     """
 
@@ -202,7 +202,7 @@ class Diffusion(Result):
 class Lyapunov(Result):
     """Lyapunov exponents and chaotic orbits.
 
-    lambda_ (value, stderr: 1/time; the largest first) and per_collision (value, stderr: a hit) are
+    ``lambda_`` (value, stderr: 1/time; the largest first) and per_collision (value, stderr: a hit) are
     lists; chaotic_share (value, stderr, hidden), chaotic_lambda, regularity, window (time). Array:
 
     distribution  (number of bins,): from, to (1/time), count: finite-time exponents of the orbits
@@ -210,7 +210,7 @@ class Lyapunov(Result):
 
     @property
     def lambda_(self):
-        """The key `lambda`, which is a word of Python."""
+        """The key ``lambda``, which is a word of Python."""
         return getattr(self, "lambda")
 
     def _summary(self):
@@ -395,10 +395,11 @@ class Certified(Result):
 class Orbits(Result):
     """Periodic orbits, each once but for its start, reversal and the table's symmetries.
 
-    orbits  (number of orbits,): records with hits, period (time), length (length), action (mass ·
-            length²/time), trace, stability, multipliers, family, copies, reduced, walls, points;
-            points (hits,): wall, s (length), v_parallel, x, y, vx, vy, flight_time (time)
-    zeta    if asked for: escape_rate (1/time), error, orders
+    orbits (number of orbits,): records with hits, period (time), length (length), action (mass ·
+    length²/time), trace, stability, multipliers, family, copies, reduced, walls, points; of these
+    (hits,): wall, s (length), v_parallel, x, y, vx, vy, flight_time (time)
+
+    zeta, if asked for: escape_rate (1/time), error, orders
 
     words, recurrences, unsolved, shadowed: numbers of starts of the search.
     """
@@ -441,9 +442,9 @@ class Section(Result):
 class Equilibria(Result):
     """Where all forces vanish. starts, without (numbers of searches). A record each, by rising energy:
 
-    equilibria  energy, energy_error (energy), kind ("minimum", "saddle", "maximum"), descending,
-                neutral (numbers of directions), found (starts), position_error (length), positions
-                (length, two numbers a particle), walls (names or None), frequencies, growths (1/time)
+    equilibria: energy, energy_error (energy), kind ("minimum", "saddle", "maximum"), descending,
+    neutral (numbers of directions), found (starts), position_error (length), positions (length, two
+    numbers a particle), walls (names or None), frequencies, growths (1/time)
     """
 
     def _summary(self):
