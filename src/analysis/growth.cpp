@@ -17,7 +17,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // On an invariant curve deviations grow by shear, |w1| |w2| = (C flights)^2. C is of order one but
 // near a separatrix: there an orbit at the distance d of it may pass for chaotic if 1/d^2 > C^2.
-// Both bounds leave room for that; an orbit between them is undecided.
+// Both bounds allow for that; an orbit between them is undecided.
 constexpr double most_of_regular = 13.815510557964274;   // ln 10^6
 constexpr double least_of_chaotic = 27.631021115928547;  // ln 10^12
 
@@ -44,7 +44,7 @@ void GrowingHistogram::widen() {
   ++exponent_;
 }
 
-// Makes room for the bins from … to of the present width.
+// Adds counters for the bins from … to of the present width.
 void GrowingHistogram::reach(std::int64_t from, std::int64_t to) {
   if (counts_.empty()) first_ = from;
   const auto size = static_cast<std::int64_t>(counts_.size());

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "carom/base/elementary.hpp"
 #include "carom/certify/certified_periodic_orbit.hpp"
 #include "certify/flight/larmor_flight.hpp"
 #include "certify/flight/scene.hpp"
@@ -72,7 +73,7 @@ class Path {
       const geometry::Vector v{axis.x.to_double(), axis.y.to_double()};
       return dot(e, v) / dot(v, v);
     };
-    return straight_ ? part(a_) : std::atan2(part(b_), part(a_));
+    return straight_ ? part(a_) : elementary::atan2(part(b_), part(a_));
   }
 
   double turn = 1.0;  ///< -1: arc length runs against t

@@ -17,7 +17,7 @@ inline constexpr double rounding_of_evaluation = 0x1.8p-50;
 /// world's particles now, and where all are at the origin the way of the fastest in `time`.
 double size_of_positions(const System&, const World&, double time);
 
-/// Adds the particles of another world, displaced; as they are where there is no room.
+/// Adds the particles of another world, displaced; undisplaced where walls are too near.
 void add_displaced(World&, const World& others, double size);
 
 }  // namespace carom::ensemble

@@ -274,15 +274,11 @@ Check check_survivors(const System& system, double factor, Estimate expected, Al
   return c;
 }
 
-Check check_displacement(const System& system, Estimate expected, const CheckOptions& options) {
-  Check c;
-  c.expected = expected.value;
-  c.expected_error = expected.error;
-  c.seed = system.run.seed;
-  DiffusionOptions how;
-  how.threads = options.threads;
-  how.interrupted = options.interrupted;
-  const DiffusionResult result = run_diffusion(system, how);
+namespace {
+
+// What an ensemble says of itself beside its estimate.
+template <class Result>
+void note_run(Check& c, const Result& result) {
   c.complete = result.complete;
   c.hits = result.collisions;
   c.unresolved = result.unresolved;
@@ -293,6 +289,20 @@ Check check_displacement(const System& system, Estimate expected, const CheckOpt
   c.seconds = result.seconds;
   c.cpu_seconds = result.cpu_seconds;
   if (!result.reports.empty()) c.report = result.reports.front().second;
+}
+
+}  // namespace
+
+Check check_displacement(const System& system, Estimate expected, const CheckOptions& options) {
+  Check c;
+  c.expected = expected.value;
+  c.expected_error = expected.error;
+  c.seed = system.run.seed;
+  DiffusionOptions how;
+  how.threads = options.threads;
+  how.interrupted = options.interrupted;
+  const DiffusionResult result = run_diffusion(system, how);
+  note_run(c, result);
   if (c.complete) {
     const Estimate square = DisplacementMoments(result.sums).points().back().square;
     c.value = square.value;
@@ -312,16 +322,7 @@ Check check_exponent(const System& system, Exponent what, Estimate expected,
   how.threads = options.threads;
   how.interrupted = options.interrupted;
   const LyapunovResult result = run_lyapunov(system, how);
-  c.complete = result.complete;
-  c.hits = result.collisions;
-  c.unresolved = result.unresolved;
-  c.lost = result.lost;
-  c.singular = result.singular;
-  c.digest = result.digest;
-  c.threads = result.threads;
-  c.seconds = result.seconds;
-  c.cpu_seconds = result.cpu_seconds;
-  if (!result.reports.empty()) c.report = result.reports.front().second;
+  note_run(c, result);
   if (c.complete) {
     const LyapunovEstimate e = estimate_of(result.growth);
     const Estimate found = what == Exponent::per_time  ? e.per_time

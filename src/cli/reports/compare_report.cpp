@@ -20,7 +20,8 @@ namespace {
 std::string in_brackets(const MeasuredNumber& number) {
   int decimals = number.error > 0.0 ? static_cast<int>(std::ceil(-std::log10(number.error))) : 3;
   decimals = std::clamp(decimals, 0, 3);
-  const double unit = std::pow(10.0, -decimals);
+  constexpr double units[] = {1.0, 0.1, 0.01, 0.001};
+  const double unit = units[decimals];
   return fmt::format("{:.{}f}({:.0f})", number.value, decimals,
                      std::max(1.0, std::ceil(number.error / unit)));
 }

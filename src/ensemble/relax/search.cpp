@@ -130,6 +130,9 @@ std::optional<Rest> refined(const Landscape& landscape, Sites sites, const Sites
     const std::vector<double> step = newton_step(shape, around);
     const double length = largest(step);
     if (!std::isfinite(length)) return {};
+    // Below the root of rounding the next step, about its square, is rounding alone: from there on
+    // steps that no longer halve say that rounding is reached. A larger bound would only look
+    // sooner.
     const bool small = length <= 0x1p-26 * extent(sites, start);
     const bool all = curvature_of_turns(shape, around) <= shape.curvature_error;
     if (length == 0.0 && !all) return {};

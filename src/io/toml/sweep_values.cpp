@@ -71,7 +71,7 @@ std::vector<std::string> linear(const ExactNumber& from, const ExactNumber& to,
 // The factor between neighbours where it is a short decimal, as of log:1:1000:4.
 std::optional<std::string> exact_factor(const ExactNumber& from, const ExactNumber& to,
                                         std::uint64_t count) {
-  constexpr std::uint64_t most_exact = 64;  // of a higher power digits are many, and nobody asks
+  constexpr std::uint64_t most_exact = 64;  // a higher power has more digits than a double can use
   if (count > most_exact || !from.to_rational() || !to.to_rational()) return {};
   const double ratio = to.to_double() / from.to_double();
   const double near = elementary::exp(elementary::log(ratio) / static_cast<double>(count - 1));
