@@ -2,8 +2,10 @@
 /// The whole library: `#include <carom/carom.hpp>`. For geometry alone take <carom/geometry/…>.
 #pragma once
 
+#include "carom/analysis/binary_bins.hpp"
 #include "carom/analysis/decay.hpp"
 #include "carom/analysis/escape_times.hpp"
+#include "carom/analysis/free_paths.hpp"
 #include "carom/analysis/growth.hpp"
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/analysis/paired_survival.hpp"
@@ -36,6 +38,7 @@
 #include "carom/ensemble/paired_escape.hpp"
 #include "carom/ensemble/parts.hpp"
 #include "carom/ensemble/relax.hpp"
+#include "carom/ensemble/repeller.hpp"
 #include "carom/ensemble/report_times.hpp"
 #include "carom/ensemble/run_rows.hpp"
 #include "carom/ensemble/sampler.hpp"

@@ -41,17 +41,17 @@ def lyapunov(result, ax=None):
     ax = new_axes(ax)
     bins = result.distribution
     if len(bins):
-        width = bins["to"] - bins["from"]
-        ax.bar(
-            bins["from"], bins["count"] / (bins["count"].sum() * width), width, align="edge",
-            color=COLOURS[0],
-        )
+        edges, counts = _coarser(bins)
+        ax.stairs(counts / (counts.sum() * numpy.diff(edges)), edges, fill=True, color=COLOURS[0])
+        ax.ticklabel_format(useOffset=False)
     if result.lambda_ is not None:
-        mean = result.lambda_[0]
+        value, error = (result.lambda_[0][key] for key in ("value", "stderr"))
+        known = error is not None and error == error
         ax.axvline(
-            mean["value"], color=COLOURS[1], linewidth=1,
-            label=f"λ = {mean['value']:.5g} ± {mean['stderr']:.1g}",
-        )
+            value, color=COLOURS[1], linewidth=1,
+            label=f"λ = {value:.5g}" + (f" ± {error:.1g}" if known else ""),
+        )  # fmt: skip
+        ax.margins(y=0.15)
         ax.legend(fontsize="small", frameon=False)
     ax.set_xlabel("exponent of an orbit")
     ax.set_ylabel("density")
@@ -59,11 +59,27 @@ def lyapunov(result, ax=None):
     return ax
 
 
+def _coarser(bins):
+    """Edges and counts of bins, so many taken together that about twice the cube root of the number
+    of orbits are left (Rice's rule)."""
+    together = max(1, round(len(bins) / max(4.0, 2 * bins["count"].sum() ** (1 / 3))))
+    starts = numpy.arange(0, len(bins), together)
+    edges = numpy.append(bins["from"][starts], bins["to"][-1])
+    return edges, numpy.add.reduceat(bins["count"], starts)
+
+
 def orbits(result, ax=None, most=12):
-    """The table with periodic orbits, the first `most` of them; of families one member."""
+    """The table with periodic orbits, the first `most` of them; of families one member. Of a lattice
+    all cells that they cross."""
     from .plot import table
 
-    ax = table(result.system, ax=ax, names=False, levels=False, directions=False, starts=0)
+    cells = {(0, 0)}
+    for one in result.json["orbits"][:most]:
+        steps = [point.get("step", (0, 0)) for point in one["points"]]
+        cells |= {tuple(cell) for cell in numpy.cumsum([(0, 0), *steps], axis=0).tolist()}
+    ax = table(
+        result.system, ax=ax, names=False, levels=False, directions=False, starts=0, cells=sorted(cells)
+    )
     (omega,) = _carom.omegas(result._outcome.system)
     for number, rows in enumerate(result.paths[:most]):
         path = _carom.path(rows, omega)
@@ -124,5 +140,8 @@ def equilibria(found, ax=None, most=4):
         if not len(found.system.walls):
             ax.set_xlim(places[:, 0].min() - room, places[:, 0].max() + room)
             ax.set_ylim(places[:, 1].min() - room, places[:, 1].max() + room)
-        ax.legend(fontsize="x-small", title="energy", title_fontsize="x-small")
+        ax.legend(
+            fontsize="x-small", title="energy", title_fontsize="x-small", loc="upper left",
+            bbox_to_anchor=(1.0, 1.0), frameon=False,
+        )  # fmt: skip
     return ax

@@ -149,7 +149,7 @@ def escape(
 
     sweep={"field.B": values}: a `carom.Sweep`, a result for each value of a key; values are numbers
     or "lin:0:4:20", "log:1:1000:4"; two keys make a plane. Every value has the same seed. So with
-    diffusion, run and section.
+    all commands that move particles, relax, orbits and compare.
 
     certify_sample=M, digits=D: a `carom.CertifiedSample`, the first M trajectories in doubles and
     certified. splitting="10,20,40" (times) or "hits:lin:0:30:31", with population, repetitions,
@@ -187,7 +187,7 @@ def diffusion(
     """Mean square displacement and diffusion coefficient of an ensemble: a `carom.Diffusion`.
 
     Keywords as of `carom.escape`, and window=(from, to), the report times (time) from which D and
-    the exponent are taken.
+    the exponent are taken; free_paths=True counts the lengths of flights.
     """
     return _compute(
         results.Diffusion, _carom.diffusion, system, "diffusion", keywords, progress, per_trajectory
@@ -195,15 +195,15 @@ def diffusion(
 
 
 def lyapunov(
-    system: Systems, *, progress: Progress = None, **keywords: Any
+    system: Systems, *, per_trajectory: bool = False, progress: Progress = None, **keywords: Any
 ) -> results.Lyapunov:
     """Lyapunov exponents of an ensemble, and its chaotic share: a `carom.Lyapunov`.
 
     Keywords as of `carom.escape`, and window=(from, to), the times (time) between which the growth
-    of deviations is taken.
+    of deviations is taken. per_trajectory: keeps start, end, exponent and SALI of each.
     """
     return _compute(
-        results.Lyapunov, _carom.lyapunov, system, "lyapunov", keywords, progress, False
+        results.Lyapunov, _carom.lyapunov, system, "lyapunov", keywords, progress, per_trajectory
     )
 
 
@@ -296,8 +296,8 @@ def orbits(
     hits: most of an orbit (6); starts: random orbits whose recurrences are looked at (20000);
     tries: recurrences that are tried for each number of hits (2000). zeta: the escape rate of
     discs in the open plane from their orbits. certify: proves each orbit, with `digits` (20)
-    decimals of its numbers as text; an archive does not hold them. Ctrl-C raises KeyboardInterrupt, whose `result`
-    holds what was found.
+    decimals of its numbers as text. Ctrl-C raises KeyboardInterrupt, whose `result` holds what
+    was found.
     """
     return _compute(results.Orbits, _carom.orbits, system, "orbit", keywords, progress, zeta, certify)
 

@@ -1,5 +1,5 @@
 """Pictures, by matplotlib: tables, orbits, energies, survival, rates, basins, diffusion, sections
-(analyses.py: sweeps, exponents, periodic orbits, equilibria, integrators).
+(analyses.py: sweeps, exponents, periodic orbits, equilibria, integrators; transport.py: diffusion).
 
 `thing.plot()` chooses among these functions; all of them return the axes and take `ax`.
 Colours can be told apart by people who see few of them (Okabe and Ito).
@@ -16,6 +16,7 @@ from .axes import title as _title
 from .axes import title_of as _title_of
 from .errors import InputError
 from .system import System
+from .transport import correlation, diffusion, free_paths
 
 _WALL = "#222222"
 
@@ -287,12 +288,18 @@ def rate(result, ax=None, scale=None):
     return ax
 
 
-def basins(result, ax=None, colour=None, x="x", y="y", size=None):
-    """Starts of an escape with per_trajectory, coloured by what becomes of them: "hole", "time" (of
-    the end) or "hits". x and y: columns of its rows, as "x", "y", "vx", "vy"."""
+def basins(result, ax=None, colour=None, x=None, y=None, size=None):
+    """Starts with per_trajectory, coloured by what becomes of them: "hole", "time" (of the end) or
+    "hits"; of exponents also "lambda" or "sali". x and y: columns of its rows, as "x", "y", "vx",
+    "vy"; if not given s and v_parallel of starts on one wall in a grid, else the plane."""
     rows = result.per_trajectory
     if rows is None:
         raise ValueError("no starts are stored: carom.escape(…, per_trajectory=True)")
+    if x is None and y is None:
+        at_wall = len(rows) and rows["wall"][0] >= 0 and (rows["wall"] == rows["wall"][0]).all()
+        grid = at_wall and result.system.to_toml().count('kind = "birkhoff"') > 0
+        x, y = ("s", "v_parallel") if grid else ("x", "y")
+    x, y = x or "x", y or "y"
     in_plane = (x, y) == ("x", "y")
     colour = colour or ("hole" if len(result.system.holes) > 1 else "time")
     made = ax is None
@@ -311,13 +318,14 @@ def basins(result, ax=None, colour=None, x="x", y="y", size=None):
                 ax.scatter([], [], color=shades[number + 1], s=20, label=name)
         ax.legend(fontsize="small", frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
     else:
+        rows = rows[numpy.isfinite(rows[colour])]
         values = rows[colour]
-        seen = values[values > 0]
+        seen = values[values > 0] if colour != "lambda" else values[:0]
         wide = len(seen) and seen.max() > 20 * seen.min()
         norm = LogNorm(seen.min(), seen.max()) if wide else Normalize()
         values = numpy.maximum(values, seen.min()) if wide else values
         drawn = _cover(ax, rows[x], rows[y], values, norm, "viridis", size)
-        label = {"time": "time of the end", "hits": "hits"}[colour]
+        label = {"time": "time of the end", "hits": "hits", "lambda": "λ", "sali": "SALI"}[colour]
         ax.figure.colorbar(drawn, ax=ax, label=label, shrink=0.9)
     _title(ax, result.system)
     if not in_plane:
@@ -328,10 +336,28 @@ def basins(result, ax=None, colour=None, x="x", y="y", size=None):
     return ax
 
 
+def times(result, ax=None, **keywords):
+    """Starts coloured by the time of their end: `basins` with colour="time"."""
+    return basins(result, ax=ax, colour="time", **keywords)
+
+
+def exponents(result, ax=None, **keywords):
+    """Starts coloured by the exponents of their orbits: `basins` with colour="lambda"."""
+    return basins(result, ax=ax, colour="lambda", **keywords)
+
+
+def _lines_of(places):
+    """Places without their rounding, and which of them each is."""
+    span = numpy.ptp(places) if len(places) else 0.0
+    step = span * 1e-9 if span > 0 else 1.0
+    steps, which = numpy.unique(numpy.round(places / step), return_inverse=True)
+    return steps * step, which
+
+
 def _cover(ax, x, y, values, norm, cmap, size):
     """Colours at points: cells where these are a grid, else dots."""
-    columns, i = numpy.unique(x, return_inverse=True)
-    lines, j = numpy.unique(y, return_inverse=True)
+    columns, i = _lines_of(x)
+    lines, j = _lines_of(y)
     if len(columns) * len(lines) == len(x) and len(columns) > 1 and len(lines) > 1:
         cells = numpy.full((len(lines), len(columns)), numpy.nan)
         cells[j, i] = values
@@ -353,31 +379,6 @@ def escape(result, ax=None):
         survival(result, one, scale).set_title("")
     figure.suptitle(_title_of(result.system, 90), fontsize="small")
     return axes
-
-
-def diffusion(result, ax=None):
-    """The mean square displacement with its errors, and 4Dt where there is a D without a doubt."""
-    ax = _new_axes(ax)
-    points = result.msd
-    seen = points[(points["t"] > 0) & (points["value"] > 0)]
-    ax.errorbar(
-        seen["t"], seen["value"], yerr=seen["stderr"], fmt="o", markersize=3, linewidth=1,
-        color=COLOURS[0], label="MSD",
-    )
-    if result.D is not None and "note" not in result.json:
-        ax.plot(
-            seen["t"], 4 * result.D.value * seen["t"], color=COLOURS[1], linewidth=1,
-            label=f"4 D t, D = {result.D.value:.4g} ± {result.D.stderr:.1g}",
-        )
-    if result.exponent is not None:
-        ax.plot([], [], " ", label=f"exponent {result.exponent.value:.4g} ± {result.exponent.stderr:.1g}")
-    ax.set_xscale("log")
-    ax.set_yscale("log")
-    ax.set_xlabel("t")
-    ax.set_ylabel("⟨|x(t) − x(0)|²⟩")
-    ax.legend(fontsize="small", frameon=False)
-    _title(ax, result.system)
-    return ax
 
 
 def section(result, ax=None, x=None, y=None):
@@ -423,16 +424,20 @@ def pictures(result):
     if isinstance(result, results.Run):
         return {"orbit": orbit} | ({"energy": energy} if len(result.energies) else {})
     if isinstance(result, results.Escape):
-        more = {"basins": basins} if result.per_trajectory is not None else {}
+        more = {"basins": basins, "times": times} if result.per_trajectory is not None else {}
         return {"survival": escape, "rate": rate} | more
+    if isinstance(result, results.Diffusion):
+        more = {"free_paths": free_paths} if "free_paths" in result.json else {}
+        return {"diffusion": diffusion, "correlation": correlation} | more
+    if isinstance(result, results.Lyapunov):
+        more = {"exponents": exponents, "times": times} if result.per_trajectory is not None else {}
+        return {"lyapunov": lyapunov} | more
     if isinstance(result, results.Table):
         return {"table": _of_table}
     if isinstance(result, System):
         return {"table": table}
     others = {
-        results.Diffusion: diffusion,
         results.Section: section,
-        results.Lyapunov: lyapunov,
         results.Equilibria: equilibria,
         results.Comparison: comparison,
         results.Orbits: orbits,

@@ -149,7 +149,8 @@ class Result(OfSystem):
 _PER_TRAJECTORY = """One row a particle, None unless asked for.
 
         (trajectories × particles,): index; x, y (length) and vx, vy (length/time) of the start;
-        fate (its name is carom.fates[fate]); hole (−1: none); time of the end (time); hits."""
+        fate (its name is carom.fates[fate]); hole (−1: none); time of the end (time); hits; wall
+        (−1: none), s (length) and v_parallel (length/time) of a start on a wall, else NaN."""
 
 
 class Escape(Result):
@@ -160,7 +161,7 @@ class Escape(Result):
     rate           (number of times,): t, from, to (time), value, low, high (1/time): −dp/dt
     holes          (number of holes,): name, escaped
 
-    fit: the likeliest decay at late times. model, rate (1/time) or exponent, stderr, amplitude,
+    fit, fit_hits: the likeliest decay at late times, and by number of hits. model, rate (1/time) or exponent, stderr, amplitude,
     plateau, p_value, window (time), decided, alternatives; model is None where `reason` says why.
     """
 
@@ -181,9 +182,15 @@ class Diffusion(Result):
     """Mean square displacements.
 
     D (value, stderr: length²/time; None where it does not exist), exponent and local_exponent
-    (value, stderr), window (time). Array:
+    (value, stderr), window (time). Arrays, (number of times,) each:
 
-    msd  (number of times,): t (time), value, stderr (length²), fourth, fourth_stderr (length⁴) …
+    msd            t (time), value, stderr (length²)
+    fourth_moment  t (time), value, stderr (length⁴)
+    correlation    t (time), value, stderr (length²/time²): ⟨v(t)·v(0)⟩
+    green_kubo     t (time), value, stderr (length²/time): half its integral from 0 to t
+
+    free_paths (with free_paths=True): mean (length: value, stderr), limit, between_hits and at_start
+    with bins, (number of bins,): from, to (length), count, density (1/length), longer (share) …
     """
 
     def _summary(self):
@@ -203,7 +210,8 @@ class Lyapunov(Result):
     """Lyapunov exponents and chaotic orbits.
 
     ``lambda_`` (value, stderr: 1/time; the largest first) and per_collision (value, stderr: a hit) are
-    lists; chaotic_share (value, stderr, hidden), chaotic_lambda, regularity, window (time). Array:
+    lists; chaotic_share (value, stderr, hidden), chaotic_lambda, regularity, window (time). Of an open
+    table they are those of the orbits that never leave, and repeller says how they were measured. Array:
 
     distribution  (number of bins,): from, to (1/time), count: finite-time exponents of the orbits
     """
@@ -212,6 +220,17 @@ class Lyapunov(Result):
     def lambda_(self):
         """The key ``lambda``, which is a word of Python."""
         return getattr(self, "lambda")
+
+    @property
+    def per_trajectory(self) -> Optional[numpy.ndarray]:
+        return self._outcome.trajectories()
+
+    per_trajectory.__doc__ = _PER_TRAJECTORY.replace(
+        "else NaN.",
+        """else NaN;
+        lambda (1/time): its finite-time exponent, NaN where it ended before it was looked at; sali:
+        the angle between two deviations; regularity: 0 regular, 1 chaotic, 2 undecided.""",
+    )
 
     def _summary(self):
         largest = self.lambda_[0] if self.lambda_ is not None else None
@@ -399,7 +418,7 @@ class Orbits(Result):
     length²/time), trace, stability, multipliers, family, copies, reduced, walls, points; of these
     (hits,): wall, s (length), v_parallel, x, y, vx, vy, flight_time (time)
 
-    zeta, if asked for: escape_rate (1/time), error, orders
+    zeta, if asked for: escape_rate (1/time), error, lambda (1/time), lambda_error, orders
 
     words, recurrences, unsolved, shadowed: numbers of starts of the search.
     """

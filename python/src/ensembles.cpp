@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <functional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,23 @@ struct ParticleRow {
   std::int32_t hole;
   double time;
   std::uint64_t hits;
+  std::int32_t wall;
+  double s, v_parallel;
 };
+// With its exponent.
+struct ExponentRow {
+  std::uint64_t index;
+  double x, y, vx, vy;
+  std::int8_t fate;
+  std::int32_t hole;
+  double time;
+  std::uint64_t hits;
+  std::int32_t wall;
+  double s, v_parallel, lambda, sali;
+  std::int8_t regularity;
+};
+template <class Result>
+using RowOf = std::conditional_t<std::is_same_v<Result, LyapunovResult>, ExponentRow, ParticleRow>;
 
 template <class Result>
 struct EnsembleOutcome {
@@ -40,15 +57,21 @@ struct EnsembleOutcome {
   Result result;
   std::string status;
   std::shared_ptr<std::vector<TrajectoryRecord>> records;  ///< null: not asked for
-  std::shared_ptr<const std::vector<ParticleRow>> rows;    ///< the same, as Python has them
+  std::shared_ptr<const std::vector<RowOf<Result>>> rows;  ///< the same, as Python has them
 
   void make_rows() {
     if (!records) return;
-    auto made = std::make_shared<std::vector<ParticleRow>>();
+    auto made = std::make_shared<std::vector<RowOf<Result>>>();
     made->reserve(records->size());
-    for (const TrajectoryRecord& r : *records)
-      made->push_back({r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int8_t>(r.fate), r.hole,
-                       r.time, r.hits});
+    for (const TrajectoryRecord& r : *records) {
+      const auto fate = static_cast<std::int8_t>(r.fate);
+      if constexpr (std::is_same_v<Result, LyapunovResult>)
+        made->push_back({r.index, r.x, r.y, r.vx, r.vy, fate, r.hole, r.time, r.hits, r.wall, r.s,
+                         r.v_parallel, r.lambda, r.sali, static_cast<std::int8_t>(r.regularity)});
+      else
+        made->push_back({r.index, r.x, r.y, r.vx, r.vy, fate, r.hole, r.time, r.hits, r.wall, r.s,
+                         r.v_parallel});
+    }
     rows = std::move(made);
   }
 };
@@ -171,7 +194,7 @@ void add(py::module_& module, const char* name, const char* function) {
       .def("trajectories",
            [](const Outcome& self) -> py::object {
              if (!self.rows) return py::none();
-             return array_of<ParticleRow>(self.rows);
+             return array_of<RowOf<Result>>(self.rows);
            })
       .def("save", &save<Result>, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
            py::arg("force"));
@@ -184,7 +207,10 @@ void add(py::module_& module, const char* name, const char* function) {
 }  // namespace
 
 void add_ensembles(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(ParticleRow, index, x, y, vx, vy, fate, hole, time, hits);
+  PYBIND11_NUMPY_DTYPE(ParticleRow, index, x, y, vx, vy, fate, hole, time, hits, wall, s,
+                       v_parallel);
+  PYBIND11_NUMPY_DTYPE(ExponentRow, index, x, y, vx, vy, fate, hole, time, hits, wall, s,
+                       v_parallel, lambda, sali, regularity);
   py::list fates;
   for (int i = 0; i <= static_cast<int>(last_fate); ++i)
     fates.append(name_of(static_cast<Fate>(i)));

@@ -81,6 +81,7 @@ LoadedPointer load(const std::string& toml, const std::string& name, const std::
     return toml.empty() ? load_system(name, overrides) : read_system(toml, name, overrides);
   };
   if (command == "compare") {
+    options.comparison_time = std::exchange(options.overrides.t_max, "");
     made->loaded = cli::load_compared(options, with);
     return made;
   }
@@ -92,7 +93,8 @@ LoadedPointer load(const std::string& toml, const std::string& name, const std::
     if (command == "escape") cli::check_escape_options(options);
     SystemOverrides overrides = options.overrides;
     overrides.window = options.window;
-    made->loaded = with(overrides);
+    made->loaded =
+        command == "lyapunov" ? cli::load_without_repeats(overrides, with) : with(overrides);
   }
   cli::choose_engine(options.engine, made->loaded.system);
   return made;

@@ -24,11 +24,10 @@ struct OrbitsOutcome {
   LoadedPointer system;
   std::uint64_t most_hits = 0;
   OrbitSearchResult result;
-  std::vector<CertifiedPeriodicOrbit> certified;
-  int digits = 20;
+  ProofsOfOrbits proofs;
 
   cli::OrbitContext context() const {
-    return {most_hits, result.complete ? "completed" : "interrupted", "", false, certified, digits};
+    return {most_hits, result.complete ? "completed" : "interrupted", "", false, proofs};
   }
 };
 
@@ -47,10 +46,10 @@ py::tuple orbits(const std::shared_ptr<Loaded>& loaded, bool zeta, bool certify,
     course.share = static_cast<double>(tried) / static_cast<double>(all);
   };
   const std::exception_ptr interruption = run_beside(course, progress, [&] {
-    outcome.digits = cli::digits_of_orbits(loaded->options, *loaded->system().table);
+    cli::digits_of_orbits(loaded->options, *loaded->system().table);  // refused at once
     outcome.result = find_orbits(loaded->system(), how);
-    outcome.certified =
-        cli::certified_orbits(loaded->options, loaded->loaded, outcome.result, course.stop);
+    outcome.proofs =
+        cli::proofs_of_orbits(loaded->options, loaded->loaded, outcome.result, course.stop);
   });
   return py::make_tuple(std::move(outcome), error_of(interruption));
 }
@@ -65,6 +64,7 @@ OrbitsOutcome open_orbits(const std::string& file) {
   outcome.system = std::move(loaded);
   outcome.most_hits = stored.most_hits;
   outcome.result = std::move(stored.result);
+  outcome.proofs = std::move(stored.proofs);
   return outcome;
 }
 
@@ -72,7 +72,7 @@ void save(const OrbitsOutcome& self, const std::string& file, bool force) {
   const LoadedSystem& loaded = self.system->loaded;
   write_orbits(followed(file), loaded,
                cli::provenance_of(self.system->options, loaded.system, self.result.threads),
-               self.result, self.most_hits, force);
+               self.result, self.proofs, self.most_hits, force);
 }
 
 // (t, x, y, vx, vy) at each hit and at the end of the period, in the plane.

@@ -12,13 +12,18 @@ namespace carom {
 
 namespace {
 
-/// exp(x) - 1 without a loss of digits near 0: the rounding of exp(x) is also in its logarithm, and
-/// the quotient is free of it (Higham, Accuracy and Stability of Numerical
-/// Algorithms, 2002, section 1.14.1).
+/// exp(x) - 1 without a loss of digits near 0. Beyond 1/2 the difference is exact and the rounding
+/// of exp(x) at most half an ulp of 4 |exp(x) - 1|. Before, eight terms of the series at x / 8
+/// leave out less than 2^-54 of it, and e^2x - 1 = g (2 + g) with g = e^x - 1 is doubled back.
 double growth_of(double x) {
-  const double y = elementary::exp(x);
-  if (y == 1.0) return x;
-  return std::isinf(y) || y == 0.0 ? y - 1.0 : (y - 1.0) * (x / elementary::log(y));
+  if (!(std::fabs(x) < 0.5)) return elementary::exp(x) - 1.0;
+  const double h = 0.125 * x;
+  double growth = 1.0;
+  for (const double inverse : {1.0 / 9, 1.0 / 8, 1.0 / 7, 1.0 / 6, 1.0 / 5, 1.0 / 4, 1.0 / 3, 0.5})
+    growth = 1.0 + h * inverse * growth;
+  growth *= h;
+  for (int doubled = 0; doubled < 3; ++doubled) growth *= 2.0 + growth;
+  return growth;
 }
 
 // With u = t - a, or ln(t / a), from the start a of the window, both laws are
@@ -134,7 +139,8 @@ double drift(const Seen& seen, bool truncated) {
   double gone = 0.0;
   std::size_t half = 0;
   while (half < seen.cells.size() && gone < 0.5 * seen.gone) gone += seen.cells[half++].count;
-  if (half == 0 || half >= seen.cells.size()) return 0.0;
+  // A single cell has no rate.
+  if (half < 2 || half + 2 > seen.cells.size()) return 0.0;
   const double middle = seen.cells[half].u;
   const std::span<const Cell> all(seen.cells);
   const auto early = most_likely_rate(all.first(half), 0.0, middle, 0.0, true);
@@ -147,14 +153,20 @@ double drift(const Seen& seen, bool truncated) {
 
 double square(double x) { return x * x; }
 
+constexpr double least_p = 0.1;
+constexpr double largest_drift = 1.0;
+
 struct Candidate {
   Decay decay;
-  double drift;
+  double drift;  ///< infinite where the test of the decay has failed anyway
 };
+
+/// What is asked of a fit: whether it describes the escapes, or also its evidence beside others.
+enum class Asked : unsigned char { description, evidence };
 
 /// `at_start`: share of all that is there at the start a of the window.
 std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, double a,
-                             double at_start) {
+                             double at_start, Asked asked) {
   if (with_plateau && seen.there == 0.0) return {};
   const auto rate = most_likely_rate(seen.cells, 0.0, seen.length, seen.there, with_plateau);
   if (!rate) return {};
@@ -172,8 +184,10 @@ std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, 
       seen.there == 0.0
           ? 0.0
           : seen.there * (with_plateau ? elementary::log(s) : -rate->value * seen.length);
-  for (const Cell& cell : seen.cells)
-    log_likelihood += cell.count * (elementary::log(1.0 - c) - rate->value * cell.u +
+  const double log_not_there = elementary::log(1.0 - c);
+  for (const Cell& cell :
+       asked == Asked::evidence ? std::span<const Cell>(seen.cells) : std::span<const Cell>())
+    log_likelihood += cell.count * (log_not_there - rate->value * cell.u +
                                     elementary::log(-growth_of(-rate->value * cell.width)));
   d.evidence = log_likelihood - 0.5 * elementary::log(seen.gone) * (with_plateau ? 2.0 : 1.0);
   // Errors by first order: the share at the start, s and the rate are independent.
@@ -191,11 +205,14 @@ std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, 
     d.plateau_error = d.plateau * std::sqrt(start_variance + variance / square(c));
   }
   d.p_value = p_value(seen, d.rate, c, stay, 1);
-  return Candidate{d, drift(seen, with_plateau)};
+  const bool may_describe = d.p_value >= least_p;  // two more fits tell whether it drifts
+  return Candidate{
+      d, may_describe ? drift(seen, with_plateau) : std::numeric_limits<double>::infinity()};
 }
 
+/// Where evidence is asked for, the best first.
 std::vector<Candidate> all_fits(std::span<const EscapeTimes::Bin> bins, double end, double there,
-                                double particles) {
+                                double particles, Asked asked) {
   const double a = bins.front().from;
   std::vector<Candidate> found;
   for (const DecayLaw law : {DecayLaw::exponential, DecayLaw::power}) {
@@ -205,16 +222,20 @@ std::vector<Candidate> all_fits(std::span<const EscapeTimes::Bin> bins, double e
     };
     seen.length = coordinate(end);
     seen.there = there;
+    double until = std::numeric_limits<double>::quiet_NaN(), last = 0.0;  // of the bin before
     for (const EscapeTimes::Bin& bin : bins) {
       if (bin.count == 0) continue;
-      const double u = coordinate(bin.from), count = static_cast<double>(bin.count);
-      seen.cells.push_back({u, coordinate(std::min(bin.to, end)) - u, count});
-      seen.gone += count;
+      const double u = bin.from == until ? last : coordinate(bin.from);
+      until = std::min(bin.to, end);
+      last = coordinate(until);
+      seen.cells.push_back({u, last - u, static_cast<double>(bin.count)});
+      seen.gone += static_cast<double>(bin.count);
     }
     for (const bool with_plateau : {false, true})
-      if (const auto one = fit(law, with_plateau, seen, a, (seen.gone + there) / particles))
+      if (const auto one = fit(law, with_plateau, seen, a, (seen.gone + there) / particles, asked))
         found.push_back(*one);
   }
+  if (asked == Asked::description) return found;
   std::stable_sort(found.begin(), found.end(), [](const Candidate& x, const Candidate& y) {
     return x.decay.evidence > y.decay.evidence;
   });
@@ -223,9 +244,7 @@ std::vector<Candidate> all_fits(std::span<const EscapeTimes::Bin> bins, double e
 
 // Fewer escapes tell no law from another.
 constexpr double fewest = 100.0;
-constexpr double share_of_escapes = 0.3;
-constexpr double least_p = 0.1;
-constexpr double largest_drift = 1.0;
+constexpr double share_of_escapes = 0.2;
 // ln 20
 constexpr double decisive = 2.995732273553991;
 // Starts that are tried lie a factor of 2^(1/4) apart.
@@ -247,7 +266,8 @@ std::size_t latest_start(std::span<const EscapeTimes::Bin> bins, double end, dou
   for (std::size_t i = 0; i < bins.size(); i += between_starts) {
     const double escapes = count_of(bins.subspan(i));
     if (escapes < fewest) break;
-    const std::vector<Candidate> fits = all_fits(bins.subspan(i), end, there, particles);
+    const std::vector<Candidate> fits =
+        all_fits(bins.subspan(i), end, there, particles, Asked::description);
     if (std::none_of(fits.begin(), fits.end(), describes)) continue;
     const double wanted = std::max(fewest, share_of_escapes * escapes);
     double left = escapes;
@@ -269,10 +289,11 @@ std::string name_of(const Decay& decay) {
          (decay.with_plateau ? " + plateau" : "");
 }
 
-DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint64_t still_there,
-                   double until, std::optional<DecayWindow> window) {
+namespace {
+
+DecayFit fit_bins(std::vector<EscapeTimes::Bin> bins, std::uint64_t particles,
+                  std::uint64_t still_there, double until, std::optional<DecayWindow> window) {
   DecayFit result;
-  std::vector<EscapeTimes::Bin> bins = times.bins();
   double there = static_cast<double>(still_there), end = until;
   if (window) {
     while (!bins.empty() && !(bins.back().from < window->second)) {
@@ -297,7 +318,8 @@ DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint6
   }
   const std::span<const EscapeTimes::Bin> used(bins.begin() + static_cast<std::ptrdiff_t>(first),
                                                bins.end());
-  for (const Candidate& one : all_fits(used, end, there, all)) result.decays.push_back(one.decay);
+  for (const Candidate& one : all_fits(used, end, there, all, Asked::evidence))
+    result.decays.push_back(one.decay);
   if (result.decays.empty()) {
     result.why_none = "the escapes do not become rarer";
     return result;
@@ -308,6 +330,38 @@ DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint6
   result.decided =
       result.decays.size() == 1 || result.decays[0].evidence - result.decays[1].evidence > decisive;
   return result;
+}
+
+/// Hits are whole numbers: bins begin and end at them. Those between two whole numbers are empty.
+EscapeTimes::Bin whole(const EscapeTimes::Bin& bin) {
+  return {std::ceil(bin.from), std::ceil(bin.to), bin.count};
+}
+/// The last number of hits up to which it is known of all when they are gone, or a little less.
+double known_until(const SurvivalCounts& counts) {
+  if (counts.survived == counts.pinned) return std::numeric_limits<double>::infinity();
+  const std::uint64_t last = counts.fewest_hits_of_survivor;
+  return last == 0 ? 0.0 : whole(EscapeTimes::bin_of(static_cast<double>(last))).from;
+}
+
+}  // namespace
+
+DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint64_t still_there,
+                   double until, std::optional<DecayWindow> window) {
+  return fit_bins(times.bins(), particles, still_there, until, window);
+}
+
+DecayFit fit_decay_by_hits(const SurvivalCounts& counts) {
+  const double until = known_until(counts);
+  std::vector<EscapeTimes::Bin> bins;
+  std::uint64_t there = counts.survived;
+  for (const EscapeTimes::Bin& bin : counts.gone_after.bins()) {
+    if (bin.from < until)
+      bins.push_back(whole(bin));
+    else
+      there += bin.count;
+  }
+  const double end = bins.empty() ? 0.0 : std::min(until, bins.back().to);
+  return fit_bins(std::move(bins), counts.followed(), there, end, {});
 }
 
 DecayFit fit_decay(const SurvivalCounts& counts, double until, std::optional<DecayWindow> window) {

@@ -96,6 +96,13 @@ Regularity regularity_of(double spread, double flights) {
                                     : Regularity::regular;
 }
 
+double sali_of(double spread) {
+  // The area that is kept is the product of the lengths and the sine of the angle.
+  const double sine = std::min(1.0, elementary::exp(-std::max(0.0, spread)));
+  const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+  return sine * std::sqrt(2.0 / (1.0 + cosine));
+}
+
 GrowthSums::GrowthSums(TimeWindow window, std::uint64_t orbits)
     : window_(window), blocks_(static_cast<std::size_t>(blocks_for(orbits))) {
   totals_.levels.resize(static_cast<std::size_t>(std::bit_width(blocks_)));
@@ -222,14 +229,15 @@ LyapunovEstimate estimate_of(const GrowthSums& sums) {
                (m / (m - 1.0))) /
           hits;
   }
-  // Whole orbits are independent. Blocks of few orbits may not be: their error is believed if the
-  // last doubling of their length has not moved it by more than twice its own uncertainty.
+  // Whole orbits are independent. Blocks of few orbits may not be: their error is believed if it
+  // does not grow with their length. From the shortest blocks to the longest that of independent
+  // ones moves by about its own uncertainty; beyond 1.5 of these it is doubted (7 % of noise is).
   if (sums.blocks() > 1 && out.block_errors.size() > 1 &&
       out.block_errors.back().count > t.orbits) {
     const auto& last = out.block_errors.back();
-    const auto& before = out.block_errors[out.block_errors.size() - 2];
+    const auto& first = out.block_errors.front();
     const double uncertain = 1.0 / root(2.0 * static_cast<double>(last.count - 1));
-    out.long_enough = last.error <= before.error * (1.0 + 2.0 * uncertain);
+    out.long_enough = last.error <= first.error * (1.0 + 1.5 * uncertain);
   }
   if (t.chaotic > 1) {
     const auto m = static_cast<double>(t.chaotic);

@@ -82,11 +82,14 @@ double exponent_beyond_offset(const std::vector<double>& log_t, const std::vecto
 DisplacementSums::DisplacementSums(std::vector<double> times)
     : times_(std::move(times)), sums_(groups * times_.size()) {}
 
-void DisplacementSums::add(std::uint64_t trajectory, std::size_t k, double square) {
+void DisplacementSums::add(std::uint64_t trajectory, std::size_t k,
+                           const DisplacementSample& sample) {
   Sum& sum = sums_[static_cast<std::size_t>(trajectory % groups) * times_.size() + k];
   ++sum.count;
-  sum.square.add(square);
-  sum.fourth.add(square * square);
+  sum.square.add(sample.square);
+  sum.fourth.add(sample.square * sample.square);
+  sum.velocities.add(sample.velocities);
+  sum.along.add(sample.along);
 }
 
 void DisplacementSums::merge(const DisplacementSums& other) {
@@ -96,41 +99,54 @@ void DisplacementSums::merge(const DisplacementSums& other) {
 }
 
 void DisplacementSums::merge(std::size_t group, std::size_t k, const Sum& other) {
-  if (other.count == 0) return;
-  Sum& sum = sums_[group * times_.size() + k];
-  sum.count += other.count;
-  sum.square.merge(other.square);
-  sum.fourth.merge(other.fourth);
+  if (other.count > 0) sums_[group * times_.size() + k] += other;
+}
+
+void DisplacementSums::Sum::operator+=(const Sum& other) {
+  count += other.count;
+  square.merge(other.square);
+  fourth.merge(other.fourth);
+  velocities.merge(other.velocities);
+  along.merge(other.along);
+}
+
+// Sums as doubles.
+struct DisplacementMoments::Rounded {
+  Rounded() = default;
+  explicit Rounded(const DisplacementSums::Sum& sum)
+      : count(sum.count),
+        square(sum.square.value()),
+        fourth(sum.fourth.value()),
+        velocities(sum.velocities.value()),
+        along(sum.along.value()) {}
+  std::uint64_t count = 0;
+  double square = 0, fourth = 0, velocities = 0, along = 0;
+};
+
+// The means of all but `out` at a further time.
+void DisplacementMoments::Means::add(const Rounded& all, const Rounded& out) {
+  const auto rest = static_cast<double>(all.count - out.count);
+  square.push_back((all.square - out.square) / rest);
+  fourth.push_back((all.fourth - out.fourth) / rest);
+  velocities.push_back((all.velocities - out.velocities) / rest);
+  along.push_back((all.along - out.along) / rest);
 }
 
 DisplacementMoments::DisplacementMoments(const DisplacementSums& sums, std::size_t particles)
     : times_(sums.times()), particles_(particles) {
   const std::size_t n = times_.size();
-  counts_.assign(n, 0);
-  std::vector<double> square(n), fourth(n);
+  std::vector<Rounded> all(n);
   for (std::size_t k = 0; k < n; ++k) {
-    ExactSum all_square, all_fourth;
-    for (std::size_t g = 0; g < DisplacementSums::groups; ++g) {
-      const auto& sum = sums.of(g, k);
-      counts_[k] += sum.count;
-      all_square.merge(sum.square);
-      all_fourth.merge(sum.fourth);
-    }
-    square[k] = all_square.value();
-    fourth[k] = all_fourth.value();
-    const auto count = static_cast<double>(counts_[k]);
-    whole_.square.push_back(square[k] / count);
-    whole_.fourth.push_back(fourth[k] / count);
+    DisplacementSums::Sum sum;
+    for (std::size_t g = 0; g < DisplacementSums::groups; ++g) sum += sums.of(g, k);
+    counts_.push_back(sum.count);
+    all[k] = Rounded(sum);
+    whole_.add(all[k], Rounded());
   }
   for (std::size_t g = 0; g < DisplacementSums::groups; ++g) {
     if (n == 0 || sums.of(g, 0).count == 0) continue;
     Means means;
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto& out = sums.of(g, k);
-      const auto rest = static_cast<double>(counts_[k] - out.count);
-      means.square.push_back((square[k] - out.square.value()) / rest);
-      means.fourth.push_back((fourth[k] - out.fourth.value()) / rest);
-    }
+    for (std::size_t k = 0; k < n; ++k) means.add(all[k], Rounded(sums.of(g, k)));
     without_.push_back(std::move(means));
   }
 }
@@ -164,7 +180,13 @@ std::vector<MomentPoint> DisplacementMoments::points() const {
                              ? error_of([k](const Means& m) { return m.square[k]; }, square)
                          : counts_[k] > 1 ? std::sqrt(variance / (count - 1))
                                           : nan;
-    point.fourth = {fourth, error_of([k](const Means& m) { return m.fourth[k]; }, fourth)};
+    const auto estimate = [&](auto statistic) {
+      const double value = statistic(whole_);
+      return Estimate{value, error_of(statistic, value)};
+    };
+    point.fourth = estimate([k](const Means& m) { return m.fourth[k]; });
+    point.correlation = estimate([k](const Means& m) { return m.velocities[k]; });
+    point.green_kubo = estimate([k](const Means& m) { return m.along[k] / 2; });
     point.middle = nan;
     point.exponent = {nan, nan};
     if (k > 0 && times_[k - 1] > 0) {

@@ -26,9 +26,16 @@ Share share(std::uint64_t still_there, std::uint64_t trials) {
 
 template <class Value>
 void count_in(std::vector<std::uint64_t>& bins, const std::vector<Value>& ends, Value value) {
-  // The first end at or after the value: a bin holds its end, not its start.
-  const auto end = std::lower_bound(ends.begin(), ends.end(), value);
-  if (end != ends.end()) ++bins[static_cast<std::size_t>(end - ends.begin())];
+  // The first end at or after the value: a bin holds its end, not its start. The halves are chosen
+  // without a branch, which would be foretold wrongly every other time.
+  const Value* first = ends.data();
+  for (std::size_t left = ends.size(); left > 0;) {
+    const std::size_t half = (left + 1) / 2;
+    first += half & (std::size_t{0} - static_cast<std::size_t>(first[half - 1] < value));
+    left -= half;
+  }
+  const auto bin = static_cast<std::size_t>(first - ends.data());
+  if (bin < ends.size()) ++bins[bin];
 }
 
 void add_each(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& other) {
@@ -78,17 +85,22 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole) {
   most_hits = std::max(most_hits, hits);
   count(fate);
   if (fate == Fate::capped) ++survived;
+  if (fate == Fate::capped || fate == Fate::survived)
+    fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
   if (fate != Fate::escaped && fate != Fate::unbounded) return;
   if (fate == Fate::escaped && hole >= 0) ++hole_escapes.at(static_cast<std::size_t>(hole));
   count_in(gone_in, times, time);
   gone_at.add(time);
   count_in(gone_in_hits, reported_hits(), hits);
+  gone_after.add(static_cast<double>(hits) - 1.0);
 }
 
 void SurvivalCounts::merge(const SurvivalCounts& other) {
   add_fates(other);
   add_each(gone_in, other.gone_in);
   gone_at.merge(other.gone_at);
+  gone_after.merge(other.gone_after);
+  fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, other.fewest_hits_of_survivor);
   add_each(gone_in_hits, other.gone_in_hits);
   add_each(hole_escapes, other.hole_escapes);
   trajectories += other.trajectories;

@@ -48,10 +48,9 @@ class CertifiedOrbit::Implementation {
       return;
     }
     hits_ = static_cast<double>(task_.collisions > 0 ? task_.collisions : forecast.hits);
-    rounding_loss_ = scout.rounding_loss(hits_);
     // Behind a hole that the orbit may miss it goes on as before.
     const double more = forecast.hits > 0 ? hits_ / static_cast<double>(forecast.hits) : 1.0;
-    const double lost = forecast.bits * more + rounding_loss_;
+    const double lost = forecast.bits * more + scout.rounding_loss(hits_);
     if (forecast.hits > 0) {
       const auto seen = static_cast<double>(forecast.hits);
       loss_a_hit_ = forecast.bits / seen;
@@ -59,7 +58,7 @@ class CertifiedOrbit::Implementation {
     }
     reading_bits_ =
         usual_reading_bits + static_cast<long>(std::ceil(scout.size_bits(forecast, more)));
-    restart(static_cast<long>(lost + margin(lost, forecast.spread * std::sqrt(more)) +
+    restart(static_cast<long>(lost + margin(forecast.spread * std::sqrt(more)) +
                               static_cast<double>(task_.digits) * 3.3219280948873626 + 3.0 +
                               scout.size_bits()));
   }
@@ -173,16 +172,11 @@ class CertifiedOrbit::Implementation {
                           std::to_string(attempt_->hits()));
   }
 
-  // Bits beyond those that a forecast expects to be lost. Too few mean that the attempt is
-  // repeated, too many make it slow. The limit asked for is 1.03 times the logarithm of the tangent
-  // map's norm and 30 + log2 n bits.
-  double margin(double lost, double spread) const {
-    const double all = std::sqrt(16.0 + spread * spread);
-    const double room = 0.03 * lost + 28.0 + std::log2(hits_ + 1.0) - rounding_loss_;
-    // An earlier attempt had too few: this one gets more than the forecast says.
-    return std::clamp(room - 1.65 * all, effort_.attempts > 0 ? 0.5 * all : -0.5 * all,
-                      3.0 * all + 4.0);
-  }
+  // Bits beyond those that a forecast expects to be lost: two standard deviations of the forecast,
+  // and of what its own roundings may miss. Too few mean that nearly all is flown again, too many
+  // make each hit a little slower: an attempt of 2 sigma more bits costs a tenth more, a second one
+  // twice as much.
+  static double margin(double spread) { return 2.0 * std::sqrt(16.0 + spread * spread) + 4.0; }
 
   // Will the bits of this attempt probably not last? Giving it up must be likely to save time: its
   // hits must be flown again.
@@ -206,9 +200,7 @@ class CertifiedOrbit::Implementation {
       const auto unseen = static_cast<double>(task_.collisions - forecast.hits) - flown;
       rest += std::max(0.0, unseen) * lost / flown;
     }
-    return static_cast<long>(lacks + rest +
-                             margin(lost + rest, rest > 0.0 ? forecast.spread : 0.0)) +
-           1;
+    return static_cast<long>(lacks + rest + margin(rest > 0.0 ? forecast.spread : 0.0)) + 1;
   }
 
   // Lists what rational numbers have told, up to the event that the orbit has come to: all of it,
@@ -372,7 +364,6 @@ class CertifiedOrbit::Implementation {
   std::vector<WaitingTie> waiting_;
   int ties_found_ = 0;
   double hits_ = 0.0;  ///< expected
-  double rounding_loss_ = 0.0;
   double loss_a_hit_ = 0.0,
          spread_a_hit_ = 0.0;  ///< by the first forecast, bits; of n hits sqrt(n) times the latter
   static constexpr double hopeless_spreads = 1.0;

@@ -62,6 +62,13 @@ class Command {
         "--closed", [&o] { o.set.emplace_back("table.hole", "[]"); }, "Without the holes");
     return *this;
   }
+  Command& free_paths() {
+    SystemOverrides& o = options_.overrides;
+    app_->add_flag_callback(
+        "--free-paths", [&o] { o.set.emplace_back("run.free_paths", "true"); },
+        "Count the lengths of flights, between hits and from the start");
+    return *this;
+  }
   Command& output(const char* type, const char* help) {
     text("-o,--output", options_.output, type, help);
     return flag("--force", options_.force, "Replace an output file that exists");
@@ -76,6 +83,12 @@ class Command {
         ->allow_extra_args(false)
         ->take_all();
     return *this;
+  }
+  /// Of a command of which only a sweep can go on.
+  Command& sweep_that_goes_on() {
+    sweep();
+    return text("--resume", options_.resume, "FILE.h5",
+                "Go on with a stored sweep instead of SYSTEM");
   }
   /// What changes the particles' motion.
   Command& motion() {

@@ -159,6 +159,17 @@ LoadedSystem load(const Options& options, const SystemOverrides& overrides) {
   return read_system(options.of_sweep->system_toml, options.of_sweep->system_name);
 }
 
+LoadedSystem load_without_repeats(SystemOverrides overrides,
+                                  const std::function<LoadedSystem(const SystemOverrides&)>& load) {
+  LoadedSystem loaded = load(overrides);
+  if (repeated_starts(loaded.system).empty()) return loaded;
+  std::erase_if(overrides.set, [](const auto& one) { return one.first == "run.trajectories"; });
+  overrides.trajectories = std::to_string(listed_trajectories(loaded.system));
+  return load(overrides);
+}
+
+LoadedSystem load_typed(const Options& options) { return load(options, options.overrides); }
+
 ArchiveLock lock_output(const Options& options, const std::string& file) {
   if (!options.of_sweep) refuse_inside(file);
   ArchiveLock lock = lock_archive(file);
@@ -166,6 +177,13 @@ ArchiveLock lock_output(const Options& options, const std::string& file) {
     warn(fmt::format(
         "no other process is kept from writing '{}': its file system gives no locks ({})", file,
         weakness));
+  return lock;
+}
+
+ArchiveLock claim_output(const Options& options) {
+  if (options.output.empty()) return nullptr;
+  ArchiveLock lock = lock_output(options, options.output);
+  refuse_existing(options.output, options.force);
   return lock;
 }
 

@@ -59,7 +59,10 @@ int call(const Options& options) {
       {"run", {run, system_of_run}},
       {"diffusion", {diffusion, load_ensemble}},
       {"lyapunov", {lyapunov, load_ensemble}},
-      {"section", {section, system_of_section}}};
+      {"section", {section, system_of_section}},
+      {"orbit", {orbit, load_typed}},
+      {"relax", {relax, load_typed}},
+      {"compare", {compare, system_of_compare}}};
   for (const auto& [name, command] : swept)
     if (options.command == name && is_sweep(options)) return sweep(options, command);
   return command_of(options.command)(options);

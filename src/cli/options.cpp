@@ -115,6 +115,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "  carom diffusion lorentz-triangular\n"
           "  carom diffusion lorentz-triangular --set field.B=0.5 --window 20:200 --json\n"
           "  carom diffusion soft-lorentz --t-max 100 -o msd.h5\n"
+          "  carom diffusion lorentz-square --free-paths\n"
           "\n"
           "D is a quarter of the slope of the MSD in a window of report times (default: the last "
           "decade).\n"
@@ -128,13 +129,15 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
       .parts()
       .text("--window", o.window, "FROM:TO",
-            "Range of report times from which D and the exponent are computed");
+            "Range of report times from which D and the exponent are computed")
+      .free_paths();
   Command(
       app, o, "lyapunov", "Lyapunov exponents of an ensemble, and its chaotic share",
       "Examples:\n"
       "  carom lyapunov stadium --closed\n"
       "  carom lyapunov mushroom --closed --t-max 1e4 --json\n"
       "  carom lyapunov sinai --trajectories 1e4 --window 20:100 -o lambda.h5\n"
+      "  carom lyapunov mushroom --closed --per-trajectory -o map.h5\n"
       "\n"
       "Two deviations of each orbit are followed by the exact tangent maps of flights and hits.\n"
       "Checkpoints, --resume, --shard and mpirun as with carom escape.")
@@ -145,6 +148,8 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .ensemble(false)
       .verbose()
       .output("FILE", "Write an archive (.h5), or draw a picture (.png, .svg, .pdf)")
+      .flag("--per-trajectory", o.per_trajectory,
+            "Store start, fate, time, hits, exponent and SALI of each trajectory in the archive")
       .parts()
       .text("--window", o.window, "FROM:TO",
             "Times between which the growth is taken (default: the last four fifths of the run)");
@@ -160,7 +165,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "last time.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
-      .sweep()
+      .sweep_that_goes_on()
       .motion()
       .threads()
       .verbose()
@@ -178,6 +183,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "Starts are those of the system's trajectories. Symmetric copies count once.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
+      .sweep_that_goes_on()
       .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
       .text("--starts", o.starts, "N", "Number of starts (default 200)")
       .flag("--saddles", o.saddles, "Look for saddles, too")
@@ -195,8 +201,9 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "carom schemes lists the schemes.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
+      .sweep_that_goes_on()
       .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
-      .text("--t-max", o.overrides.t_max, "T", "Time of the comparison (default: chosen)")
+      .text("--t-max", o.comparison_time, "T", "Time of the comparison (default: chosen)")
       .text("--position", o.overrides.position, "X,Y", "Start, in exact numbers: 1/10,-1/5")
       .text("--velocity", o.overrides.velocity, "U,V",
             "Velocity of the start; only its direction counts where a speed is set")
@@ -229,6 +236,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "orbits may be missed.")
       .system("SYSTEM", "Built-in name or TOML file")
       .settings()
+      .sweep_that_goes_on()
       .text("--seed", o.overrides.seed, "N", "Seed of the random numbers")
       .threads()
       .verbose()
@@ -271,8 +279,10 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
           "\n"
           "Without -o the picture is NAME.png in this folder. It needs Python with matplotlib.")
       .system("SOURCE", "Archive, TOML file or built-in name")
-      .text("--what", o.what, "orbit|energy|survival|rate|basins",
-            "Which picture: the first two of a run, the others of an escape")
+      .text("--what", o.what,
+            "orbit|energy|survival|rate|basins|times|diffusion|correlation|free_paths|lyapunov|"
+            "exponents",
+            "Which picture of a result (default: the first that it has)")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(
       app, o, "animate", "The film of a run or of a system's particles",

@@ -40,11 +40,11 @@ struct Options {
   std::string output, threads, trajectory, resume, scale, report;
   std::string what;  ///< of carom plot
   std::string engine = "auto", isa = "auto", precision = "double", digits;
-  std::string schemes, steps, tolerances, error;  ///< of carom compare
-  std::string hits, tries;                        ///< of carom orbit
-  std::string certify_sample;                     ///< of carom escape
-  std::string starts;                             ///< of carom orbit and relax
-  bool saddles = false;                           ///< of carom relax
+  std::string schemes, steps, tolerances, error, comparison_time;  ///< of carom compare
+  std::string hits, tries;                                         ///< of carom orbit
+  std::string certify_sample;                                      ///< of carom escape
+  std::string starts;                                              ///< of carom orbit and relax
+  bool saddles = false;                                            ///< of carom relax
   SystemOverrides overrides;
   std::vector<std::string> sweep;                ///< KEY=lin:FROM:TO:COUNT …
   std::shared_ptr<const ValueOfSweep> of_sweep;  ///< null: the command was typed

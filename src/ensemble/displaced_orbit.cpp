@@ -10,11 +10,7 @@ namespace carom::ensemble {
 
 using geometry::Vector;
 
-namespace {
-
-double length(Vector a) { return std::sqrt(dot(a, a)); }
-
-}  // namespace
+namespace {}  // namespace
 
 double size_of_positions(const System& system, const World& world, double time) {
   if (!system.table->walls.empty() || system.table->lattice) return size_of(*system.table);

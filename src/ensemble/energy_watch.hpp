@@ -43,8 +43,9 @@ class EnergyWatch {
     of_all_ = shared && system.injections.empty();
   }
 
+  bool watches() const { return of_each_ || of_all_; }
   void begin(const Trajectory& t) {
-    if (!of_each_ && !of_all_) return;
+    if (!watches()) return;
     const std::size_t count = of_each_ ? t.starts.size() : of_all_ ? 1 : 0;
     start_.resize(count);
     largest_.assign(count, 0.0);

@@ -15,6 +15,7 @@
 #include "ensemble/ensemble_run.hpp"
 #include "ensemble/first_reports.hpp"
 #include "ensemble/particle_hash.hpp"
+#include "ensemble/record_of.hpp"
 
 namespace carom::ensemble {
 
@@ -32,7 +33,8 @@ class EscapeListener : public Listener {
         thread_(thread),
         order_(order),
         wants_records_(order || thread.wants_records()),
-        hash_(system) {}
+        hash_(system),
+        record_of_(system) {}
 
   /// The next block, as DrawnStarts asks for it.
   bool claim(TrajectoryRange& block) {
@@ -64,21 +66,23 @@ class EscapeListener : public Listener {
     UnderWay& mine = under_way_[t.slot];
     Block& block = *mine.block;
     EscapeResult& sum = block.part;
-    const EnergiesSeen energies = mine.energies.end(t, end);
-    sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
-    sum.energy_error += energies.error;
+    if (mine.energies.watches()) {
+      const EnergiesSeen energies = mine.energies.end(t, end);
+      sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
+      sum.energy_error += energies.error;
+    }
     sum.counts.contacts += end.contacts;
     sum.steps += end.steps;
     std::uint64_t hits = 0;
     for (std::size_t p = 0; p < end.particles.size(); ++p) {
       const ParticleEnd& particle = end.particles[p];
       const std::uint64_t index = particle_index(system_, t.number, p);
-      const int hole = particle.hole < 0 ? -1 : holes_[static_cast<std::size_t>(particle.hole)];
+      const int hole = record_of_.hole_of(particle);
       sum.counts.add(particle.fate, particle.time, particle.hits, hole);
       sum.digest += hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall,
                           particle.state);
       if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
-      if (wants_records_) block.records.push_back(record_of(index, t.starts[p], particle, hole));
+      if (wants_records_) block.records.push_back(record_of_(index, t.starts[p], particle));
       hits += particle.hits;
     }
     thread_.report(1, hits);
@@ -100,15 +104,6 @@ class EscapeListener : public Listener {
     EnergyWatch energies;
   };
 
-  TrajectoryRecord record_of(std::uint64_t index, const State& start, const ParticleEnd& end,
-                             int hole) const {
-    geometry::Vector position = start.position;
-    if (system_.table->lattice)
-      position = position + system_.table->lattice->translation(start.cell);
-    return {index,    position.x, position.y, start.velocity.x, start.velocity.y,
-            end.fate, hole,       end.time,   end.hits};
-  }
-
   void deliver(Block& block) {
     std::sort(block.records.begin(), block.records.end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
@@ -128,7 +123,7 @@ class EscapeListener : public Listener {
   BlockOrder* const order_;
   const bool wants_records_;
   const ParticleHash hash_;
-  const std::vector<int> holes_ = hole_numbers(*system_.table);
+  const RecordMaker record_of_;
   std::list<Block> blocks_;
   std::vector<UnderWay> under_way_;  ///< by slot
   bool pause_ = false, exhausted_ = false;

@@ -1,10 +1,13 @@
 #include "carom/ensemble/lyapunov.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/trajectories.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "ensemble/lyapunov_listener.hpp"
@@ -51,6 +54,8 @@ bool interacts(const System& system) {
 
 bool LyapunovResult::add(const LyapunovResult& other) {
   if (!add_common(other)) return false;
+  repeller.reset();  // it is the whole ensemble's
+  no_repeller.reset();
   growth.merge(other.growth);
   trajectories += other.trajectories;
   add_fates(other);
@@ -64,6 +69,41 @@ TimeWindow growth_window(const System& system) {
   return {0.2 * system.run.t_max, system.run.t_max};
 }
 
+void add_repeller(const System& system, LyapunovResult& result, const SplittingOptions& how) {
+  const bool whole = result.complete && result.done.size() == system.run.trajectories;
+  const std::uint64_t stay = result.growth.totals().orbits;
+  if (!whole || !is_open(system) || 2 * stay >= result.trajectories) return;
+  const Stopwatch watch;
+  try {
+    result.repeller =
+        measure_repeller(system, growth_window(system), unit_length_of(*system.table), how);
+    if (!result.repeller) result.complete = false;
+  } catch (const InputError& error) {
+    result.no_repeller = error;
+  }
+  result.seconds += watch.seconds();
+  result.cpu_seconds += watch.cpu_seconds();
+}
+
+std::optional<InputError> why_nothing(const System& system, const LyapunovResult& result) {
+  if (!result.complete || result.done.size() != system.run.trajectories || result.repeller ||
+      result.lost + result.unresolved > 0)
+    return std::nullopt;
+  if (result.growth.totals().orbits > 0) {
+    // Those that stay are then not those that never leave, and their error would be of no use; of a
+    // few trajectories they are what was asked for.
+    if (!result.no_repeller || result.trajectories < least_of_repeller()) return std::nullopt;
+    return result.no_repeller;
+  }
+  const std::string ended =
+      fmt::format("all {} particles ended before t = {:.6g}, the end of the window",
+                  result.trajectories, result.growth.window().to);
+  if (const auto& error = result.no_repeller)
+    return InputError(error->place(), ended + ", and " + error->problem(), error->expected());
+  return InputError(Place{"", 0, 0, "run.t_max"}, ended,
+                    "a run (--t-max) or a window (--window) that some of them outlive");
+}
+
 LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options) {
   refuse_impossible(system);
   check_start(system, options.interrupted);
@@ -75,7 +115,7 @@ LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options
   const double unit_length = unit_length_of(*system.table);
   EnsembleRun<LyapunovResult> run(system, options, nothing);
   if (why_one_by_one(system, {.deviations = times.times()}).empty()) run.lanes = options.lanes;
-  return run.run([&](LyapunovListener::Thread& thread) {
+  LyapunovResult result = run.run([&](LyapunovListener::Thread& thread) {
     const auto engine = make_engine(system, {.t_end = nothing.growth.window().to,
                                              .deviations = times.times(),
                                              .unit_length = unit_length,
@@ -89,6 +129,13 @@ LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options
     });
     engine->run(starts, listener, stopped);
   });
+  SplittingOptions how;
+  how.threads = options.threads;
+  how.decisions = options.decisions;
+  how.lanes = options.lanes;
+  how.interrupted = options.interrupted;
+  add_repeller(system, result, how);
+  return result;
 }
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "carom/base/digest.hpp"
+#include "carom/ensemble/injection.hpp"
 
 namespace carom::ensemble {
 
@@ -32,7 +33,8 @@ LyapunovListener::LyapunovListener(const System& system, const GrowthTimes& time
       together_(interacts(system)),
       engine_(engine),
       thread_(thread),
-      hash_(system) {}
+      hash_(system),
+      record_of_(system) {}
 
 void LyapunovListener::begin(const Trajectory& t) {
   if (under_way_.size() <= t.slot) under_way_.resize(t.slot + 1);
@@ -43,6 +45,7 @@ void LyapunovListener::begin(const Trajectory& t) {
     const geometry::Vector v = t.starts[p].velocity;
     mine.pace = std::sqrt(dot(v, v)) / unit_length_;
     mine.hits_before = 0;
+    mine.told = mine.told_length = mine.spread = 0.0;
     mine.chaotic = false;
     mine.growth.growth.assign(blocks_, 0.0);
     mine.growth.hits.assign(blocks_, 0);
@@ -55,6 +58,9 @@ void LyapunovListener::stretched(const Trajectory& t, int particle, std::size_t 
                                  std::span<const double> logarithms, std::uint64_t hits) {
   Orbit& mine = under_way_[t.slot][static_cast<std::size_t>(particle)];
   const GrowthTimes::Mark& mark = marks_[number];
+  mine.told = mark.time;
+  mine.told_length = logarithms[0];
+  mine.spread = logarithms[0] + logarithms[1];
   if (mark.look >= 0 && !mine.chaotic) {
     mine.growth.regularity = regularity_of(logarithms[0] + logarithms[1], mark.time * mine.pace);
     mine.chaotic = mine.growth.regularity == Regularity::chaotic;
@@ -70,37 +76,62 @@ void LyapunovListener::stretched(const Trajectory& t, int particle, std::size_t 
   mine.hits_before = hits;
 }
 
+// The exponent over the window, or, of a particle that ended before, since its start until the last
+// time at which its deviations were looked at.
+TrajectoryRecord LyapunovListener::record(const Trajectory& t, const TrajectoryEnd& end,
+                                          std::size_t p) const {
+  TrajectoryRecord r =
+      record_of_(particle_index(system_, t.number, p), t.starts[p], end.particles[p]);
+  // Those that interact are one orbit, whose deviations are told of the first.
+  const Orbit& mine = under_way_[t.slot][together_ ? 0 : p];
+  if (!(mine.told > 0.0)) return r;
+  const TimeWindow window = growth_window(system_);
+  double growth = 0.0;
+  for (const double block : mine.growth.growth) growth += block;
+  r.lambda =
+      mine.told >= window.to ? growth / (window.to - window.from) : mine.told_length / mine.told;
+  r.sali = sali_of(mine.spread);
+  r.regularity = static_cast<unsigned char>(mine.growth.regularity);
+  return r;
+}
+
 void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
   std::vector<Orbit>& orbits = under_way_[t.slot];
   const DecisionCounts decisions = engine_.decisions();
   const TrajectoryRange range{t.number, t.number + 1};
   std::uint64_t hits = 0;
   bool all = true;
+  std::vector<TrajectoryRecord> records;
+  if (thread_.wants_records())
+    for (std::size_t p = 0; p < end.particles.size(); ++p) records.push_back(record(t, end, p));
   for (const ParticleEnd& one : end.particles)
     all = all && (one.fate == Fate::survived || one.fate == Fate::pinned);
-  thread_.deliver(range, [&](LyapunovResult& sum) {
-    for (std::size_t p = 0; p < end.particles.size(); ++p) {
-      Orbit& mine = orbits[p];
-      const ParticleEnd& particle = end.particles[p];
-      const std::uint64_t index = t.number * end.particles.size() + p;
-      hits += particle.hits;
-      ++sum.trajectories;
-      sum.count(particle.fate);
-      sum.collisions += particle.hits;
-      std::uint64_t hash = hash_(index, particle.fate, particle.time, particle.hits,
-                                 particle.last_wall, particle.state);
-      const bool stayed = particle.fate == Fate::survived || particle.fate == Fate::pinned;
-      if (together_ ? all && p == 0 : stayed) {
-        sum.growth.add(mine.growth);
-        for (const double growth : mine.growth.growth) hash = mix(hash, growth);
-      }
-      sum.digest += hash;
-      if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
-    }
-    sum.steps += end.steps;
-    sum.decisions += decisions - std::exchange(decisions_, decisions);
-    sum.done.add(range);
-  });
+  thread_.deliver(
+      range,
+      [&](LyapunovResult& sum) {
+        for (std::size_t p = 0; p < end.particles.size(); ++p) {
+          Orbit& mine = orbits[p];
+          const ParticleEnd& particle = end.particles[p];
+          const std::uint64_t index = t.number * end.particles.size() + p;
+          hits += particle.hits;
+          ++sum.trajectories;
+          sum.count(particle.fate);
+          sum.collisions += particle.hits;
+          std::uint64_t hash = hash_(index, particle.fate, particle.time, particle.hits,
+                                     particle.last_wall, particle.state);
+          const bool stayed = particle.fate == Fate::survived || particle.fate == Fate::pinned;
+          if (together_ ? all && p == 0 : stayed) {
+            sum.growth.add(mine.growth);
+            for (const double growth : mine.growth.growth) hash = mix(hash, growth);
+          }
+          sum.digest += hash;
+          if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);
+        }
+        sum.steps += end.steps;
+        sum.decisions += decisions - std::exchange(decisions_, decisions);
+        sum.done.add(range);
+      },
+      std::move(records));
   thread_.report(1, hits);
 }
 

@@ -12,6 +12,7 @@
 #include "ensemble/ensemble_run.hpp"
 #include "ensemble/first_reports.hpp"
 #include "ensemble/particle_hash.hpp"
+#include "ensemble/record_of.hpp"
 
 namespace carom::ensemble {
 
@@ -45,11 +46,14 @@ class LyapunovListener : public Listener {
   void end(const Trajectory&, const TrajectoryEnd&) override;
 
  private:
+  TrajectoryRecord record(const Trajectory&, const TrajectoryEnd&, std::size_t particle) const;
+
   /// What is known of a particle.
   struct Orbit {
     double pace = 1.0;    ///< mean flights in a unit of time
     double length = 0.0;  ///< ln|w| at the last mark of the window
     std::uint64_t hits_before = 0;
+    double told = 0.0, told_length = 0.0, spread = 0.0;  ///< at the last mark: time, ln|w|, of both
     bool chaotic = false;
     OrbitGrowth growth;
   };
@@ -61,6 +65,7 @@ class LyapunovListener : public Listener {
   const Engine& engine_;
   Thread& thread_;
   const ParticleHash hash_;
+  const RecordMaker record_of_;
   std::vector<std::vector<Orbit>> under_way_;  ///< by slot, then by particle
   DecisionCounts decisions_;                   ///< that were told
 };

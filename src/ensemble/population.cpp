@@ -23,8 +23,8 @@ constexpr std::uint64_t stages_of_population = std::uint64_t{1} << 24;
 
 }  // namespace
 
-void Population::Memory::keep(const State& state, std::uint64_t hits) {
-  ring[next] = {state, hits};
+void Population::Memory::keep(const State& state, std::uint64_t hits, const Stretch& stretch) {
+  ring[next] = {state, hits, stretch};
   next = (next + 1) % ring.size();
   size = std::min(size + 1, ring.size());
   ++since_start;
@@ -56,6 +56,7 @@ class Population::Flights : public Starts, public Listener {
         t.number = mine.number;
         t.particles = population_.system_.particles;
         t.starts.assign(1, mine.member->state);
+        if (population_.plan_.deviations) population_.begin_deviation(mine.tangent, *mine.member);
         return true;
       }
       mine.member->way = Way::reached;
@@ -66,7 +67,8 @@ class Population::Flights : public Starts, public Listener {
   void hit(const Trajectory& t, int, const State& state, std::uint64_t hits) override {
     OnItsWay& mine = under_way_[t.slot];
     hits += mine.member->hits;
-    mine.member->memory.keep(state, hits);
+    if (population_.plan_.deviations) mine.tangent.hit(population_.walls_, state);
+    mine.member->memory.keep(state, hits, {mine.tangent.deviation[0], mine.tangent.shrunk[0]});
     mine.there = is_there(hits, state.time);
   }
   bool enough(const Trajectory& t) override { return under_way_[t.slot].there; }
@@ -87,6 +89,7 @@ class Population::Flights : public Starts, public Listener {
     std::size_t number = 0;
     Member* member = nullptr;  ///< its state and hits at the start, its memory at the latest hit
     Member copy;
+    motion::FreeTangent tangent;
     bool there = false;
   };
   /// A corner may have counted several hits, a long flight have passed several times.
@@ -134,6 +137,7 @@ Population::Population(const System& system, const Sampler& sampler, const World
     asked.hits = false;  // no copy is made of what reaches it
     to_the_end_ = make_engine(system, asked);
   }
+  if (plan.deviations) walls_ = motion::tangent_walls(system.table->walls, system.table->lattice);
   // Where the start is fewer hits away than a copy goes back, a kick there has fewer to grow in and
   // is larger. Starts by the cosine law bear a kick of any size; others one as small as is chosen
   // elsewhere.
@@ -178,11 +182,57 @@ bool Population::fly_members(const Stage& stage, bool first, std::uint64_t repet
     Member& member = members_[index];
     if (first) {
       member.state = sampler_.draw(world, repetition * plan_.population + index, 0);
-      if (member.state.wall >= 0) member.memory.keep(member.state, 0);
+      if (member.state.wall >= 0) {
+        motion::FreeTangent tangent;
+        if (plan_.deviations) begin_deviation(tangent, member);
+        member.memory.keep(member.state, 0, {tangent.deviation[0], tangent.shrunk[0]});
+      }
     }
     return &member;
   };
   return fly(stage, next, [](std::size_t, const Member&) {});
+}
+
+/// It goes on with the deviation that the member has, if it has any.
+void Population::begin_deviation(motion::FreeTangent& tangent, const Member& member) const {
+  tangent.begin(member.state, system_.particles.front(), plan_.deviations->unit_length);
+  if (member.memory.size == 0) return;
+  const Stretch& stretch = member.memory.ago(0).stretch;
+  if (stretch.deviation.place == 0.0 && stretch.deviation.rate == 0.0) return;
+  tangent.deviation[0] = stretch.deviation;
+  tangent.shrunk[0] = stretch.shrunk;
+}
+
+GrowthAtLevel Population::growth_of_survivors() const {
+  GrowthAtLevel at;
+  at.number = survivors_.size();
+  at.log_share = log_share_;
+  if (survivors_.empty()) return at;
+  const auto n = static_cast<double>(survivors_.size());
+  double mean = 0.0;
+  for (const std::size_t i : survivors_) mean += members_[i].state.time.value() / n;
+  double weights = 0.0;
+  std::vector<std::array<double, 3>> all;  // weight, time since the mean, growth
+  motion::FreeTangent tangent;
+  for (const std::size_t i : survivors_) {
+    const double time = members_[i].state.time.value();
+    begin_deviation(tangent, members_[i]);
+    const double weight = elementary::exp(plan_.deviations->tilt * (time - mean));
+    all.push_back({weight, time - mean, tangent.logarithms(time)[0]});
+    weights += weight;
+  }
+  double later = 0.0;
+  for (const auto& [weight, time, growth] : all) {
+    later += weight * time / weights;
+    at.growth += weight * growth / weights;
+  }
+  for (const auto& [weight, time, growth] : all) {
+    at.time_variance += weight * (time - later) * (time - later) / weights;
+    at.covariance += weight * (time - later) * (growth - at.growth) / weights;
+  }
+  at.time = mean + later;
+  at.log_weight = plan_.deviations->tilt * mean + elementary::log(weights / n);
+  return at;
 }
 
 /// The report at which a member that is gone has gone, or the stage's own by hits.
@@ -233,6 +283,10 @@ void Population::count(const Stage& stage, std::size_t number) {
     result_.survival[number] = share(survivors_.size()) + for_ever_;
   before_ = stage.level;
   share_of_stage_ = share(survivors_.size());
+  if (!plan_.deviations) return;
+  log_share_ += elementary::log(static_cast<double>(survivors_.size()) /
+                                static_cast<double>(plan_.population));
+  result_.growth.push_back(growth_of_survivors());
 }
 
 /// Fills the population again: as many copies of each survivor as of any other, by a comb with one
@@ -277,7 +331,7 @@ bool Population::separate_copies(const Stage& stage, double shrink) {
     copy.memory.forget(hits + 1);
     copy.state = kick_(before.state, speed, shrink * kicks_[hits], random);
     copy.hits = before.hits;
-    copy.memory.keep(copy.state, copy.hits);
+    copy.memory.keep(copy.state, copy.hits, before.stretch);
     ++result_.tried;
     return &copy;
   };
@@ -312,6 +366,7 @@ void Population::finish() {
   }
   if (by_time()) result_.gone.assign(gone_by_.begin(), gone_by_.end() - 1);
   for (double& p : result_.gone) p /= followed;
+  result_.for_ever = for_ever_;
   result_.done = true;
 }
 
@@ -325,6 +380,7 @@ PopulationRun Population::run(std::uint64_t repetition, std::size_t kick_number,
   result_.survival.assign(reports_.size(), 0.0);
   gone_by_.assign(reports_.size() + 1, 0.0);
   share_of_stage_ = 1.0;
+  log_share_ = 0.0;
   for_ever_ = 0.0;
   before_ = -1.0;
   first_loss_ = reports_.size();

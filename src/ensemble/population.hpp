@@ -12,6 +12,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/splitting.hpp"
 #include "kick.hpp"
+#include "motion/free_tangent.hpp"
 
 namespace carom::ensemble {
 
@@ -33,16 +34,22 @@ class Population {
   static std::size_t bytes_each() { return 2 * sizeof(Member) + sizeof(std::size_t); }
 
  private:
+  /// A deviation across the orbit, as motion::FreeTangent has it.
+  struct Stretch {
+    Transverse deviation;
+    double shrunk = 0.0;
+  };
   struct Moment {
     State state;
     std::uint64_t hits = 0;
+    Stretch stretch;
   };
   /// The last hits of a trajectory.
   struct Memory {
     std::array<Moment, SplittingPlan::most_lookback + 1> ring;
     std::size_t size = 0, next = 0;
     std::uint64_t since_start = 0;  ///< moments of the whole orbit, forgotten ones too
-    void keep(const State&, std::uint64_t hits);
+    void keep(const State&, std::uint64_t hits, const Stretch&);
     void forget(std::size_t newest);
     /// The moment `back` hits ago (0: the last one), or the oldest there is. Not of an empty
     /// memory.
@@ -74,6 +81,8 @@ class Population {
   void note(const ParticleEnd&);
   bool fly_members(const Stage&, bool first, std::uint64_t repetition);
   void count(const Stage&, std::size_t number);
+  void begin_deviation(motion::FreeTangent&, const Member&) const;
+  GrowthAtLevel growth_of_survivors() const;
   void report_times(double to);
   void copy_survivors(const Stage&);
   bool separate_copies(const Stage&, double shrink);
@@ -91,6 +100,7 @@ class Population {
   const Kick& kick_;
   const SplittingPlan& plan_;
   const std::vector<double>& reports_;
+  motion::TangentWalls walls_;                      // if deviations go along
   std::unique_ptr<Engine> to_levels_, to_the_end_;  // the latter by time only
   std::function<bool()> stopped_;
   PopulationRun result_;
@@ -99,6 +109,7 @@ class Population {
   std::vector<Member> members_, copies_;
   std::vector<std::size_t> survivors_;  // of a stage, among its members
   double share_of_stage_ = 1.0;         // that all trajectories of the stage stand for
+  double log_share_ = 0.0;              // its logarithm, which does not underflow
   double for_ever_ = 0.0;               // share that cannot go any more
   double before_ = -1.0;                // the level where the stage began
   std::size_t first_loss_ = 0;          // the first report by which a trajectory has gone

@@ -40,6 +40,8 @@ void check(const System& system, const SplittingPlan& plan) {
     if (!by_time && levels[i] != std::floor(levels[i]))
       refuse("splitting", "a number of hits is not whole", "whole numbers of hits");
   }
+  if (by_time && plan.deviations)
+    refuse("splitting", "deviations go along from hit to hit", "levels in hits");
   if (by_time && (system.run.times.empty() || !(levels.back() < system.run.times.back())))
     refuse("splitting", "the last level is not below the last report time",
            "levels below --t-max and --times");

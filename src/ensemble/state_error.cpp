@@ -49,8 +49,6 @@ State state_of(const World& world, int particle, double t) {
   return world.finished(particle) ? world.state(particle) : world.state_at(particle, t);
 }
 
-double length(Vector a) { return std::sqrt(dot(a, a)); }
-
 }  // namespace
 
 std::optional<StateError> state_error(const System& system, std::uint64_t trajectory, double t_end,

@@ -21,6 +21,12 @@ Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
 }
 
+void Progress::count(std::uint64_t done, std::uint64_t all, const char* name) {
+  if (!due()) return;
+  show(static_cast<double>(done) / static_cast<double>(all),
+       with_prefix(static_cast<double>(done) / seconds()) + name + "/s");
+}
+
 bool Progress::due() const {
   return enabled_ && Clock::now() - last_ >= std::chrono::milliseconds(200);
 }

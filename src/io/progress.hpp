@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -21,6 +22,8 @@ class Progress {
   bool enabled() const { return enabled_; }
   /// `share` of the work done in [0, 1]; `rate` is shown beside it, e.g. "12.3 M hits/s".
   void show(double share, const std::string& rate);
+  /// The same where it is time to: `done` of `all` that are called `name`, as "starts".
+  void count(std::uint64_t done, std::uint64_t all, const char* name);
   /// Is it time to show again? Cheap enough to ask often.
   bool due() const;
   double seconds() const;

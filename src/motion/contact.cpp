@@ -76,7 +76,6 @@ class Gap {
   }
 
  private:
-  static double length(Vector v) { return std::sqrt(dot(v, v)); }
   const PairFlight& pair_;
   double reach2_, acceleration_;
 };
@@ -126,8 +125,6 @@ bool clear(const Gap& gap, double a, double b, int depth) {
   if (depth == 0 || !(middle > a && middle < b)) return false;
   return clear(gap, a, middle, depth - 1) && clear(gap, middle, b, depth - 1);
 }
-
-double length(Vector v) { return std::sqrt(dot(v, v)); }
 
 /// What bounds say of a pair whose omegas differ, so that most strides need not be looked at. Each
 /// disc is |v/omega| away from its guiding centre, which rests; one without omega is its own centre

@@ -19,6 +19,20 @@ struct Cycle {
   double period, multiplier, copies;
 };
 
+// A number and its derivatives by gamma and beta.
+struct Term {
+  double value = 0.0, by_gamma = 0.0, by_beta = 0.0;
+  void add(double factor, const Term& o) {
+    value += factor * o.value;
+    by_gamma += factor * o.by_gamma;
+    by_beta += factor * o.by_beta;
+  }
+  friend Term operator*(const Term& a, const Term& b) {
+    return {a.value * b.value, a.by_gamma * b.value + a.value * b.by_gamma,
+            a.by_beta * b.value + a.value * b.by_beta};
+  }
+};
+
 // The series in z, cut after z^hits.
 struct Series {
   const std::vector<Cycle>* cycles;
@@ -30,36 +44,41 @@ struct Series {
     return 1.0 / std::abs(spectral ? (1.0 - power) * (1.0 - 1.0 / power) : power);
   }
 
-  double operator()(double gamma) const {
+  // At beta = 0.
+  Term operator()(double gamma) const {
     // F = exp(-sum of c_n z^n / n) = sum of q_n z^n, whose derivative by z gives
     // n q_n = - sum over k of c_k q_(n - k).
-    std::vector<double> c(hits + 1, 0.0), q(hits + 1, 0.0);
+    std::vector<Term> c(hits + 1), q(hits + 1);
     for (const Cycle& cycle : *cycles) {
+      const double stretching = elementary::log(std::abs(cycle.multiplier));
       double power = 1.0;
       for (std::size_t r = 1; r * cycle.hits <= hits; ++r) {
         power *= cycle.multiplier;
-        const double time = static_cast<double>(r) * cycle.period;
-        c[r * cycle.hits] += static_cast<double>(cycle.hits) * cycle.copies *
-                             elementary::exp(gamma * time) * weight(power);
+        const auto repeats = static_cast<double>(r);
+        const double time = repeats * cycle.period;
+        c[r * cycle.hits].add(static_cast<double>(cycle.hits) * cycle.copies *
+                                  elementary::exp(gamma * time) * weight(power),
+                              {1.0, time, repeats * stretching});
       }
     }
-    double sum = q[0] = 1.0;
+    Term sum = q[0] = {1.0, 0.0, 0.0};
     for (std::size_t n = 1; n <= hits; ++n) {
-      for (std::size_t k = 1; k <= n; ++k) q[n] -= c[k] * q[n - k];
-      q[n] /= static_cast<double>(n);
-      sum += q[n];
+      for (std::size_t k = 1; k <= n; ++k) q[n].add(-1.0 / static_cast<double>(n), c[k] * q[n - k]);
+      sum.add(1.0, q[n]);
     }
     return sum;
   }
 };
 
-double value_of(double gamma, void* series) { return (*static_cast<const Series*>(series))(gamma); }
+double value_of(double gamma, void* series) {
+  return (*static_cast<const Series*>(series))(gamma).value;
+}
 
 // The least zero above 0, by steps to its first change of sign and Brent's method.
 double first_zero(Series series, double step, int steps) {
   double low = 0.0, high = step;
-  if (!(series(low) > 0.0)) return std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; series(high) > 0.0; ++i, low = high, high += step)
+  if (!(series(low).value > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; series(high).value > 0.0; ++i, low = high, high += step)
     if (i == steps) return std::numeric_limits<double>::quiet_NaN();
   gsl_function function{&value_of, &series};
   const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
@@ -88,14 +107,24 @@ CycleExpansion expand_cycles(const std::vector<PeriodicOrbit>& orbits, std::size
   }
   // The system loses no faster than its most unstable orbit: 200 steps to there.
   constexpr int steps = 200;
+  const double step = fastest / steps;
   CycleExpansion result;
-  for (std::size_t hits = 2; hits <= most_hits; ++hits)
-    result.orders.push_back({hits, first_zero({&cycles, hits, true}, fastest / steps, steps),
-                             first_zero({&cycles, hits, false}, fastest / steps, steps)});
-  const std::size_t last = result.orders.size() - 1;
-  result.escape_rate = result.orders[last].spectral;
-  result.error = last == 0 ? std::numeric_limits<double>::quiet_NaN()
-                           : std::abs(result.escape_rate - result.orders[last - 1].spectral);
+  for (std::size_t hits = 2; hits <= most_hits; ++hits) {
+    const Series spectral{&cycles, hits, true};
+    const double rate = first_zero(spectral, step, steps);
+    const Term there = spectral(rate);
+    result.orders.push_back({hits, rate, first_zero({&cycles, hits, false}, step, steps),
+                             there.by_beta / there.by_gamma});
+  }
+  const CycleOrder& last = result.orders.back();
+  result.escape_rate = last.spectral;
+  result.lambda = last.lambda;
+  result.error = result.lambda_error = std::numeric_limits<double>::quiet_NaN();
+  if (result.orders.size() > 1) {
+    const CycleOrder& before = result.orders[result.orders.size() - 2];
+    result.error = std::abs(last.spectral - before.spectral);
+    result.lambda_error = std::abs(last.lambda - before.lambda);
+  }
   return result;
 }
 

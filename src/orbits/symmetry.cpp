@@ -12,8 +12,6 @@ using geometry::Vector;
 
 namespace {
 
-double norm(Vector v) { return std::sqrt(dot(v, v)); }
-
 // Points of a wall that tell where it lies; the first `ends` of them change their order when the
 // wall is mirrored.
 struct Shape {
@@ -46,7 +44,7 @@ Shape shape_of(const CurveFrame& frame) {
 bool is_image(const Isometry& map, const Shape& from, const Shape& to, double error) {
   if (from.closed != to.closed || from.circle != to.circle) return false;
   if (std::abs(from.length - to.length) > 8.0 * error) return false;
-  const auto near = [&](Vector a, Vector b) { return norm(map(a) - b) <= error; };
+  const auto near = [&](Vector a, Vector b) { return length(map(a) - b) <= error; };
   if (!near(from.middle, to.middle)) return false;
   if (from.closed)
     return std::all_of(from.marks.begin(), from.marks.end(), [&](Vector mark) {
@@ -76,7 +74,7 @@ bool cell_of(const geometry::Lattice& lattice, Vector image, double error, geome
   const double a = std::nearbyint(cross(image, lattice.second) / area);
   const double b = std::nearbyint(cross(lattice.first, image) / area);
   cell = {static_cast<std::int64_t>(a), static_cast<std::int64_t>(b)};
-  return norm(image - lattice.translation(cell)) <= error;
+  return length(image - lattice.translation(cell)) <= error;
 }
 bool maps_lattice(Isometry& map, const std::optional<geometry::Lattice>& lattice, double error) {
   if (!lattice) return true;
@@ -86,7 +84,7 @@ bool maps_lattice(Isometry& map, const std::optional<geometry::Lattice>& lattice
 
 bool is_new(const std::vector<Isometry>& known, const Isometry& map, Vector mark, double error) {
   return std::none_of(known.begin(), known.end(), [&](const Isometry& other) {
-    return other.mirrors == map.mirrors && norm(other(mark) - map(mark)) <= 4.0 * error;
+    return other.mirrors == map.mirrors && length(other(mark) - map(mark)) <= 4.0 * error;
   });
 }
 
@@ -127,15 +125,15 @@ std::vector<Isometry> isometries(const Boundary& boundary) {
   // image; the origin is their mean; turns and sums add 8 u D.
   const double error = 48.0 * unit_roundoff * boundary.size;
   const std::vector<Vector> seen = seen_from(boundary, origin, marks);
-  const auto farther = [](Vector a, Vector b) { return norm(a) < norm(b); };
+  const auto farther = [](Vector a, Vector b) { return length(a) < length(b); };
   const Vector mark = *std::max_element(seen.begin(), seen.end(), farther);
-  const double radius = norm(mark);
+  const double radius = length(mark);
   if (radius <= error) return found;
   for (const Vector to : seen) {
-    if (std::abs(norm(to) - radius) > 2.0 * error) continue;
+    if (std::abs(length(to) - radius) > 2.0 * error) continue;
     for (const bool mirrors : {false, true}) {
       const Vector from = mirrors ? Vector{mark.x, -mark.y} : mark;
-      const double both = norm(from) * norm(to);
+      const double both = length(from) * length(to);
       Isometry map{origin, dot(from, to) / both, cross(from, to) / both, mirrors, {}, {1, 0},
                    {0, 1}};
       if (is_new(found, map, origin + mark, error) && maps_walls(map, shapes, 2.0 * error) &&
@@ -169,7 +167,7 @@ std::vector<Match> matches(const Boundary& boundary, const std::vector<Isometry>
           if (image.first != sign * step.first || image.second != sign * step.second) return false;
           if (one.family) return true;
           const double half = reversed ? other.half_turns[(j + n - 1) % n] : other.half_turns[j];
-          return norm(maps[m](a.position) - b.position) <= error &&
+          return length(maps[m](a.position) - b.position) <= error &&
                  std::abs(one.half_turns[i] - half) <= error;
         };
         bool all = true;
@@ -189,7 +187,7 @@ bool repeats(const PeriodicOrbit& orbit) {
     bool same = true;
     for (std::size_t i = 0; i < n && same; ++i) {
       const OrbitHit &a = orbit.hits[i], &b = orbit.hits[(i + part) % n];
-      same = a.wall == b.wall && a.step == b.step && norm(a.position - b.position) <= error &&
+      same = a.wall == b.wall && a.step == b.step && length(a.position - b.position) <= error &&
              std::abs(orbit.half_turns[i] - orbit.half_turns[(i + part) % n]) <= error;
     }
     if (same) return true;

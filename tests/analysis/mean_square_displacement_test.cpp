@@ -15,7 +15,7 @@ template <class F>
 DisplacementMoments moments_of(F f, std::uint64_t trajectories = 300) {
   DisplacementSums sums(times);
   for (std::uint64_t i = 0; i < trajectories; ++i)
-    for (std::size_t k = 0; k < times.size(); ++k) sums.add(i, k, f(times[k]));
+    for (std::size_t k = 0; k < times.size(); ++k) sums.add(i, k, {f(times[k])});
   return DisplacementMoments(sums);
 }
 
@@ -62,8 +62,8 @@ TEST(Moments, DoNotDependOnTheOrderOfMerging) {
   for (std::uint64_t i = 0; i < 500; ++i)
     for (std::size_t k = 0; k < times.size(); ++k) {
       const double d = square(random) * std::exp2(static_cast<double>(random() % 60));
-      whole.add(i, k, d);
-      (random() % 2 ? one : other).add(i, k, d);
+      whole.add(i, k, {d});
+      (random() % 2 ? one : other).add(i, k, {d});
     }
   DisplacementSums merged(times);
   merged.merge(other);
@@ -83,7 +83,7 @@ TEST(Moments, ErrorsAreTheScatterOfBrownianPaths) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
   constexpr int ensembles = 300, paths = 400;
-  double z_D = 0, z_exponent = 0, z_square = 0, sum_D = 0;
+  double z_D = 0, z_exponent = 0, z_square = 0, z_correlation = 0, z_green_kubo = 0, sum_D = 0;
   for (int e = 0; e < ensembles; ++e) {
     DisplacementSums sums(times);
     for (std::uint64_t i = 0; i < paths; ++i) {
@@ -92,7 +92,7 @@ TEST(Moments, ErrorsAreTheScatterOfBrownianPaths) {
         const double step = k == 0 ? 0 : std::sqrt(times[k] - times[k - 1]);
         x += step * normal(random);
         y += step * normal(random);
-        sums.add(i, k, x * x + y * y);
+        sums.add(i, k, {x * x + y * y, 0.3 + normal(random), 2 + x});
       }
     }
     const DisplacementMoments moments(sums);
@@ -102,12 +102,17 @@ TEST(Moments, ErrorsAreTheScatterOfBrownianPaths) {
     z_exponent += std::pow((fit->local_exponent.value - 1) / fit->local_exponent.error, 2);
     z_square += std::pow(
         (moments.points().back().square.value - 128) / moments.points().back().square.error, 2);
+    const MomentPoint last = moments.points().back();
+    z_correlation += std::pow((last.correlation.value - 0.3) / last.correlation.error, 2);
+    z_green_kubo += std::pow((last.green_kubo.value - 1) / last.green_kubo.error, 2);
   }
   // Mean of 300 squares of normal numbers: 1 +- 0.08; the error's own error and skewness add to
   // that.
   EXPECT_NEAR(z_D / ensembles, 1.0, 0.3);
   EXPECT_NEAR(z_exponent / ensembles, 1.0, 0.3);
   EXPECT_NEAR(z_square / ensembles, 1.0, 0.3);
+  EXPECT_NEAR(z_correlation / ensembles, 1.0, 0.3);
+  EXPECT_NEAR(z_green_kubo / ensembles, 1.0, 0.3);
   EXPECT_NEAR(sum_D / ensembles, 0.5, 0.01);
 }
 
@@ -126,8 +131,8 @@ TEST(Moments, ErrorsCountTrajectoriesNotTheirParticles) {
   for (std::uint64_t i = 0; i < 1280; ++i)
     for (std::size_t k = 0; k < times.size(); ++k) {
       const double d = times[k] * square(random);
-      one.add(i, k, d);
-      for (int particle = 0; particle < 4; ++particle) four.add(i, k, d);
+      one.add(i, k, {d});
+      for (int particle = 0; particle < 4; ++particle) four.add(i, k, {d});
     }
   const auto a = DisplacementMoments(one).points(), b = DisplacementMoments(four, 4).points();
   for (std::size_t k = 1; k < times.size(); ++k) {

@@ -114,14 +114,16 @@ TEST(CertifiedPrecision, LosesWhatTheTangentMapStretches) {
       }
     }
   }
-  // What was chosen rests on a forecast; some orbits stretch less.
+  // What was chosen rests on a forecast and covers orbits that stretch more, so that few are flown
+  // twice.
   std::sort(beyond.begin(), beyond.end());
   const auto within = std::upper_bound(beyond.begin(), beyond.end(), 0.0) - beyond.begin();
   std::printf(
       "%ld of %zu orbits within the bound, the worst by %.0f bits beyond; %.2f attempts an orbit\n",
       static_cast<long>(within), beyond.size(), beyond.back(),
       static_cast<double>(attempts) / static_cast<double>(beyond.size()));
-  EXPECT_LE(beyond[beyond.size() * 8 / 10], 0.0);
+  EXPECT_LE(beyond[beyond.size() / 2], 10.0);
+  EXPECT_LE(attempts, 1.1 * static_cast<double>(beyond.size()));
 }
 
 }  // namespace

@@ -227,7 +227,8 @@ TEST(Damaged, RecordsAreOneOfEachParticleInOrder) {
   const auto told = [](const std::string& text, const char* what) {
     return text.find(what) != std::string::npos;
   };
-  const char* columns[] = {"index", "x", "y", "vx", "vy", "fate", "hole", "t", "hits"};
+  const char* columns[] = {"index", "x",          "y",    "vx",   "vy", "wall",
+                           "s",     "v_parallel", "fate", "hole", "t",  "hits"};
   const std::string cut = message([&](Damage&& d) {
     for (const char* column : columns)
       d.resize((std::string("trajectories/") + column).c_str(), 10);

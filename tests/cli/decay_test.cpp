@@ -6,9 +6,9 @@
 namespace carom {
 namespace {
 
-// From "fit" to the end of its list of alternatives.
-std::string fit_of(const std::string& json) {
-  const std::size_t begin = json.find("\"fit\": ");
+// From "fit", or another key, to the end of its list of alternatives.
+std::string fit_of(const std::string& json, const std::string& key = "fit") {
+  const std::size_t begin = json.find("\"" + key + "\": ");
   return begin == std::string::npos
              ? ""
              : json.substr(begin, json.find(']', json.find("alt", begin)) - begin);
@@ -31,14 +31,19 @@ TEST(Decay, OfTheCircleIsAPower) {
 
 TEST(Decay, OfPartsIsThatOfTheWhole) {
   const Shell shell;
-  const std::string whole = fit_of(shell(circle).out);
+  const std::string report = shell(circle).out;
+  const std::string whole = fit_of(report), by_hits = fit_of(report, "fit_hits");
   ASSERT_NE(whole, "");
+  ASSERT_NE(by_hits, "");
   const Outcome parts = shell(circle + "--shard 1/2 -o a.h5 && " + circle +
                               "--shard 2/2 -o b.h5 && $carom merge b.h5 a.h5 -o c.h5 --json");
   ASSERT_EQ(parts.status, 0) << parts.err;
-  EXPECT_EQ(fit_of(parts.out.substr(parts.out.rfind("\"system\""))), whole);
+  const std::string merged = parts.out.substr(parts.out.rfind("\"system\""));
+  EXPECT_EQ(fit_of(merged), whole);
+  EXPECT_EQ(fit_of(merged, "fit_hits"), by_hits);
   const Outcome again = shell("$carom escape --resume c.h5 --json --quiet");
   EXPECT_EQ(fit_of(again.out), whole);
+  EXPECT_EQ(fit_of(again.out, "fit_hits"), by_hits);
 }
 
 TEST(Decay, TakesAWindowAlsoOfAnArchive) {

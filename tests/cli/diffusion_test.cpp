@@ -14,10 +14,11 @@ TEST(Diffusion, PrintsItsKeysAndOneDigest) {
   EXPECT_EQ(one.status, 0) << one.err;
   EXPECT_TRUE(is_json_object(one.out));
   for (const char* key : {"version", "seconds", "trajectories", "lost", "collisions", "digest",
-                          "msd", "fourth_moment", "D", "exponent", "local_exponents", "window",
-                          "horizon", "corridors", "machta_zwanzig"})
+                          "msd", "fourth_moment", "correlation", "green_kubo", "D", "exponent",
+                          "local_exponents", "window", "horizon", "corridors", "machta_zwanzig"})
     EXPECT_NE(json_value(one.out, key), "") << key;
-  for (const char* key : {"digest", "msd", "fourth_moment", "D", "exponent"})
+  for (const char* key :
+       {"digest", "msd", "fourth_moment", "correlation", "green_kubo", "D", "exponent"})
     EXPECT_EQ(json_value(one.out, key), json_value(two.out, key)) << key;
   EXPECT_EQ(json_value(one.out, "horizon"), "\"finite\"");
   EXPECT_NE(json_value(one.out, "D").find("stderr"), std::string::npos);
@@ -127,6 +128,20 @@ TEST(Diffusion, WritesAnArchiveThatReadsAlike) {
     EXPECT_EQ(same.out, "");
   }
   EXPECT_FALSE(shell.exists("a.h5.part"));
+}
+
+// Free paths are part of the system, so archives, parts and sums of parts have them.
+TEST(Diffusion, KeepsFreePathsInArchives) {
+  const Shell shell;
+  const std::string command =
+      "$carom diffusion lorentz-square --trajectories 300 --t-max 20 --free-paths --json ";
+  const std::string paths = json_value(shell(command + "-o a.h5").out, "free_paths");
+  EXPECT_NE(paths.find("expected_mean"), std::string::npos);
+  EXPECT_EQ(json_value(shell("$carom diffusion --resume a.h5 --json").out, "free_paths"), paths);
+  shell(command + "--shard 1/2 -o b.h5");
+  shell(command + "--shard 2/2 -o c.h5");
+  EXPECT_EQ(json_value(shell("$carom merge c.h5 b.h5 -o d.h5 --json").out, "free_paths"), paths);
+  expect_refused(shell("$carom diffusion soft-lorentz --free-paths --json"), "run.free_paths");
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // carom lyapunov as a user sees it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kill_and_resume.hpp"
 #include "program.hpp"
 
@@ -49,13 +51,53 @@ TEST(Lyapunov, AKilledRunEndsAsTheUndisturbedOne) {
   kill_and_resume({"lyapunov", "stadium --closed --trajectories 6000 --t-max 2e3"}, "", 2, 5);
 }
 
-TEST(Lyapunov, SaysWhyThereIsNone) {
+// Of a system that ends before anything can be measured there is no number: nothing is written.
+TEST(Lyapunov, RefusesWhatEndsTooEarly) {
   const Shell shell;
-  const Outcome o = shell("$carom lyapunov three-disc --trajectories 50 --t-max 1e4 --json");
-  EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(json_value(o.out, "lambda"), "null");
-  EXPECT_GT(json_value(o.out, "reason").size(), 2u);
+  const std::string typed = "$carom lyapunov three-disc --json -o none.h5 ";
+  expect_refused(shell(typed + "--trajectories 50"), "run.trajectories");
+  expect_refused(shell(typed + "--trajectories 20000 --t-max 5"), "run.t_max");
+  expect_refused(shell(typed + "--trajectories 20000 --set 'table.centers=[[0,0]]'"), "table");
+  EXPECT_TRUE(shell.files().empty());
   expect_refused(shell("$carom lyapunov stadium --window 5:20 --t-max 10"), "run.window");
+}
+
+// Three discs let go of all: the exponent is that of the orbits that never leave.
+TEST(Lyapunov, OfTheRepellerIsTheSameOnThreadsAndFromParts) {
+  const Shell shell;
+  const std::string typed = "$carom lyapunov three-disc --trajectories 20000 --json ";
+  const Outcome one = shell(typed + "--threads 1 -o whole.h5"), two = shell(typed + "--threads 2");
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_NE(json_value(one.out, "repeller"), "null");
+  for (const char* part : {"1", "2"})
+    EXPECT_EQ(shell(typed + "--shard " + part + "/2 -o part" + part + ".h5").status, 0);
+  const Outcome sum = shell("$carom merge sum.h5 part2.h5 part1.h5 --json");
+  const Outcome stored = shell("$carom lyapunov --resume whole.h5 --json");
+  for (const char* key : {"digest", "lambda", "per_collision", "repeller", "notes"})
+    for (const Outcome* other : {&two, &sum, &stored})
+      EXPECT_EQ(json_value(one.out, key), json_value(other->out, key)) << key << other->err;
+}
+
+// Around islands populations have no slope: what survives late is not what survived early.
+TEST(Lyapunov, OfATableWithIslandsIsThatOfOrbitsThatStay) {
+  const Shell shell;
+  const Outcome o = shell("$carom lyapunov magnetic-square --trajectories 2e4 --t-max 200 --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(json_value(o.out, "repeller").find("\"drifts\": true"), std::string::npos);
+  const std::string lambda = json_value(o.out, "lambda");
+  EXPECT_LT(std::fabs(std::stod(lambda.substr(lambda.find("value") + 8))), 0.03) << lambda;
+}
+
+// Repeated they would scatter by nothing at all.
+TEST(Lyapunov, TakesEachListedStartOnce) {
+  const Shell shell;
+  const std::string henon_heiles = "$carom lyapunov henon-heiles --t-max 300 --json --quiet ";
+  const Outcome many = shell(henon_heiles + "--trajectories 50 -o a.h5");
+  EXPECT_EQ(json_value(many.out, "trajectories"), "1") << many.err;
+  const Outcome one = shell(henon_heiles + "--trajectories 1");
+  EXPECT_EQ(json_value(one.out, "digest"), json_value(many.out, "digest"));
+  EXPECT_EQ(json_value(shell("$carom lyapunov --resume a.h5 --json").out, "digest"),
+            json_value(one.out, "digest"));
 }
 
 }  // namespace

@@ -78,19 +78,19 @@ void expect_one_result(const std::string& command, const std::string& options, s
 
 TEST(OneResult, EscapesHaveOneResult) {
   expect_one_result("escape", "magnetic-square --trajectories 2000 --t-max 1e5 --per-trajectory",
-                    7);
+                    13);
 }
 
 TEST(OneResult, EscapesUnderForcesHaveOneResult) {
-  expect_one_result("escape", "soft-lorentz --trajectories 200 --t-max 50 --per-trajectory", 13);
+  expect_one_result("escape", "soft-lorentz --trajectories 200 --t-max 50 --per-trajectory", 19);
 }
 
 TEST(OneResult, DiffusionHasOneResult) {
-  expect_one_result("diffusion", "lorentz-triangular --trajectories 600 --t-max 4e4", 13);
+  expect_one_result("diffusion", "lorentz-triangular --trajectories 600 --t-max 4e4", 19);
 }
 
 TEST(OneResult, DiffusionUnderForcesHasOneResult) {
-  expect_one_result("diffusion", "soft-lorentz --trajectories 200 --t-max 50", 13);
+  expect_one_result("diffusion", "soft-lorentz --trajectories 200 --t-max 50", 19);
 }
 
 }  // namespace

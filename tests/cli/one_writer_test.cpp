@@ -91,7 +91,7 @@ TEST(OneWriter, TheSecondOfTwoRunsIsRefused) {
   const Shell shell;
   const Outcome o = shell(
       "$carom run stadium --set 'table.hole=[]' --collisions 1e9 -o r.h5 --quiet & pid=$!; "
-      "until_there r.h5; "
+      "until_there r.h5; while [ $(stat -c %s r.h5) -lt 1000000 ]; do sleep 0.01; done; "
       "$carom run stadium --t-max 3 --force -o r.h5; status=$?; kill -INT $pid; wait $pid; exit "
       "$status");
   EXPECT_EQ(o.status, 1);

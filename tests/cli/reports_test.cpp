@@ -116,7 +116,7 @@ TEST(Reports, FitTheScreen) {
     expect_fit("table " + name, 26);
   }
   for (const char* gas : {"lorentz-triangular", "lorentz-square", "soft-lorentz"})
-    expect_fit(std::string("diffusion ") + gas + " --trajectories 200 --t-max 20", 36);
+    expect_fit(std::string("diffusion ") + gas + " --trajectories 200 --t-max 20", 38);
   expect_fit("section ellipse-magnetic --points 20", 22);
   expect_fit("orbit three-disc", 24);
   expect_fit("orbit ellipse-magnetic --hits 3 --starts 500 --tries 50", 24);

@@ -65,7 +65,14 @@ TEST(Sweep, GivesEveryCommandARowAValue) {
         "table.half_length=list:1,2",
         "escape three-disc --splitting 2,4 --population 200 --repetitions 2 --sweep "
         "table.radius=list:1,0.9",
-        "escape stadium --certify-sample 3 --t-max 5 --sweep table.half_length=list:2,3"}) {
+        "escape stadium --certify-sample 3 --t-max 5 --sweep table.half_length=list:2,3",
+        "diffusion lorentz-triangular --trajectories 50 --t-max 9 --sweep "
+        "table.spacing=list:2.1,2.2",
+        "lyapunov stadium --closed --trajectories 9 --t-max 20 --sweep table.half_length=list:1,2",
+        "relax wigner --starts 5 --sweep particles.count=list:2,3",
+        "orbit three-disc --hits 3 --zeta --sweep table.radius=list:1,0.9",
+        "compare henon-heiles --schemes velocity-verlet --steps 0.2,0.1 --t-max 2 --sweep "
+        "particles.energy=list:0.05,0.1"}) {
     const Outcome o = shell(std::string("$carom ") + command + " --json --quiet");
     EXPECT_EQ(o.status, 0) << command << o.err;
     EXPECT_EQ(rows_of(o.out).size(), 2u) << command;
@@ -157,6 +164,24 @@ TEST(Sweep, OfRunsGoesOnValueAfterValue) {
   EXPECT_EQ(rest.status, 0) << rest.err;
   EXPECT_EQ(rows_of(rest.out).size(), 5u);
   EXPECT_EQ(shell.files(), std::vector<std::string>{"a.h5"});
+}
+
+// Each value as its command alone, with the same options; a stored sweep is printed again.
+TEST(Sweep, OfAnAnalysisKeepsItsOptions) {
+  const Shell shell;
+  const std::string command =
+      "$carom compare henon-heiles --schemes velocity-verlet --steps 0.2,0.1 --t-max 3 --json ";
+  const Outcome made = shell(command + "--sweep particles.energy=list:0.05,0.1 -o a.h5");
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::vector<std::string> rows = rows_of(made.out);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NE(rows[1].find("\"t\": 3,"), std::string::npos) << rows[1];
+  EXPECT_NE(rows[1].find("\"step\": 0.1,"), std::string::npos) << rows[1];
+  const Outcome again = shell("$carom compare --resume a.h5 --json");
+  EXPECT_EQ(rows_of(again.out), rows) << again.err;
+  expect_refused(shell("$carom relax --resume a.h5"), "a.h5");
+  ASSERT_EQ(shell("$carom compare henon-heiles --schemes velocity-verlet -o b.h5").status, 0);
+  expect_refused(shell("$carom compare --resume b.h5"), "b.h5");
 }
 
 TEST(Sweep, TableFitsATerminal) {

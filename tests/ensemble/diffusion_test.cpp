@@ -32,6 +32,10 @@ void expect_equal(const DiffusionResult& a, const DiffusionResult& b) {
     EXPECT_EQ(p[k].square.value, q[k].square.value);
     EXPECT_EQ(p[k].square.error, q[k].square.error);
     EXPECT_EQ(p[k].fourth.error, q[k].fourth.error);
+    EXPECT_EQ(p[k].correlation.value, q[k].correlation.value);
+    EXPECT_EQ(p[k].correlation.error, q[k].correlation.error);
+    EXPECT_EQ(p[k].green_kubo.value, q[k].green_kubo.value);
+    EXPECT_EQ(p[k].green_kubo.error, q[k].green_kubo.error);
   }
 }
 
@@ -67,17 +71,22 @@ TEST(Diffusion, IsTheSumOfTheFlights) {
   system.run.times = {200};
   const DiffusionResult result = run_diffusion(system);
   const Sampler sampler(system);
-  double sum = 0;
+  double sum = 0, along = 0, correlation = 0;
   for (std::uint64_t trajectory = 0; trajectory < 20; ++trajectory) {
     World world(*system.table);
     Flights flights;
     add_start(world, sampler, trajectory, 0);
-    flights.velocity = world.state(0).velocity;
+    const geometry::Vector first = flights.velocity = world.state(0).velocity;
     world.run_until(200, flights);
     const geometry::Vector all = flights.sum + (Time(200) - flights.last) * flights.velocity;
     sum += dot(all, all);
+    along += dot(first, all);
+    correlation += dot(first, flights.velocity);
   }
-  EXPECT_NEAR(DisplacementMoments(result.sums).points().back().square.value, sum / 20, 1e-10 * sum);
+  const MomentPoint point = DisplacementMoments(result.sums).points().back();
+  EXPECT_NEAR(point.square.value, sum / 20, 1e-10 * sum);
+  EXPECT_NEAR(point.green_kubo.value, along / 40, 1e-10);
+  EXPECT_NEAR(point.correlation.value, correlation / 20, 1e-12);
 }
 
 TEST(Diffusion, StartsBallistic) {

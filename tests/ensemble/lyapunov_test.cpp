@@ -129,6 +129,44 @@ TEST(Lyapunov, PartsAddUpToTheWhole) {
   expect_same(sum, whole);
 }
 
+// Keeps records as they come.
+class Kept : public LyapunovJournal {
+ public:
+  bool wants_records() const override { return true; }
+  void block(TrajectoryRange, std::vector<TrajectoryRecord>&& records) override {
+    all.insert(all.end(), records.begin(), records.end());
+  }
+  void save(const LyapunovResult&) override {}
+  std::vector<TrajectoryRecord> all;
+};
+
+// The mean of the records is the result, and each says what became of its particle.
+TEST(Lyapunov, RecordsAddUpToTheResult) {
+  const System system =
+      make_system("[table]\n" + std::string(mushroom) +
+                  "\n[initial]\nkind = \"boundary\"\n[run]\nt_max = 500\ntrajectories = 100\n");
+  Kept kept;
+  LyapunovOptions how;
+  how.threads = 2;
+  how.journal = &kept;
+  const LyapunovResult result = run_lyapunov(system, how);
+  ASSERT_EQ(kept.all.size(), 100u);
+  double sum = 0.0;
+  std::uint64_t chaotic = 0;
+  for (const TrajectoryRecord& r : kept.all) {
+    sum += r.lambda;
+    const bool is_chaotic = r.regularity == static_cast<unsigned char>(Regularity::chaotic);
+    chaotic += is_chaotic;
+    EXPECT_TRUE(!is_chaotic || r.sali < 1e-8) << r.sali;
+    EXPECT_TRUE(is_chaotic || r.sali > 1e-16) << r.sali;
+    EXPECT_GE(r.wall, 0);
+    EXPECT_LE(std::fabs(r.v_parallel), 1.0);
+    EXPECT_GE(r.s, 0.0);
+  }
+  EXPECT_NEAR(sum / 100.0, estimate_of(result.growth).per_time.value, 1e-12);
+  EXPECT_EQ(chaotic, result.growth.totals().chaotic);
+}
+
 // Orbits that leave before the window's end say nothing of it.
 TEST(Lyapunov, CountsOrbitsThatStay) {
   const LyapunovResult r = run(make_system(magnetic_square));

@@ -1,4 +1,4 @@
-// Escape rates from periodic orbits.
+// Escape rates and Lyapunov exponents from periodic orbits.
 #include "carom/orbits/cycle_expansion.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ System between(const MadeTable& table) {
   return system;
 }
 
-// Of two discs one orbit is all there is: N(t) falls by Lambda a flight (exact).
+// Of two discs one orbit is all there is: N(t) falls by Lambda a flight, and deviations grow by it
+// (exact).
 TEST(CycleExpansion, IsExactForTwoDiscs) {
   const double distance = 5.0;
   const OrbitSearchResult found =
@@ -29,18 +30,23 @@ TEST(CycleExpansion, IsExactForTwoDiscs) {
   const double rate = std::log(multiplier) / (distance - 2.0);
   EXPECT_NEAR(expansion.escape_rate, rate, 1e-13);
   EXPECT_NEAR(expansion.orders.front().dynamical, rate, 1e-13);
+  EXPECT_NEAR(expansion.lambda, rate, 1e-13);
 }
 
 // P. Cvitanovic et al., ChaosBook; 26 digits in validation/.
-TEST(CycleExpansion, GivesTheEscapeRateOfThreeDiscs) {
+TEST(CycleExpansion, GivesEscapeRateAndExponentOfThreeDiscs) {
   const OrbitSearchResult found = find_orbits(
       between(discs({{0.0, 0.0}, {6.0, 0.0}, {3.0, "3*sqrt(3)"_exact}}, 1.0)), {.most_hits = 11});
   const CycleExpansion expansion = expand_cycles(found.orbits, 11);
   EXPECT_NEAR(expansion.escape_rate, 0.41033840776934648, 1e-12);
   EXPECT_LT(std::abs(expansion.escape_rate - 0.41033840776934648), expansion.error);
   EXPECT_NEAR(expansion.orders.back().dynamical, 0.41033840776934648, 1e-5);
-  for (const CycleOrder& o : expansion.orders)
-    printf("%zu %.16g %.16g\n", o.hits, o.spectral, o.dynamical);
+  constexpr double lambda = 0.577552578771878598;
+  EXPECT_NEAR(expansion.lambda, lambda, 1e-12);
+  for (std::size_t i = 2; i < expansion.orders.size(); ++i) {
+    const double before = expansion.orders[i - 1].lambda, now = expansion.orders[i].lambda;
+    EXPECT_LT(std::abs(now - lambda), 2.0 * std::abs(now - before)) << expansion.orders[i].hits;
+  }
 }
 
 }  // namespace

@@ -53,6 +53,8 @@ def smaller(command):
                 option = "--population 50"
             missing = [f"{key} {value}" for key, value in re.findall(r"(--\S+) (\S+)", option) if key not in command]
             command = re.sub(rf"^carom {name}", " ".join([f"carom {name}", *missing]), command)
+    if command.startswith("carom lyapunov three-disc"):  # populations that do not die out
+        command = re.sub(r"--trajectories \S+", "--trajectories 15000", command)
     return command
 
 

@@ -125,6 +125,21 @@ def test_basins_are_a_grid_where_the_starts_are():
         carom.plot.basins(carom.escape(table, trajectories=5))
 
 
+def test_exponents_over_a_grid_at_the_wall(tmp_path):
+    grid = {"from": "-0.9", "to": "0.9", "count": 4}
+    start = {"kind": "birkhoff", "wall": "circle", "s": {"from": 0, "to": 5, "count": 3}, "v_parallel": grid}
+    table = carom.circle(1).obstacle("circle", center=[0.3, 0], radius=0.2)
+    result = carom.lyapunov(table, initial=start, trajectories=12, t_max=50, per_trajectory=True)
+    rows = result.per_trajectory
+    mesh = result.plot(what="exponents").collections[0]
+    assert numpy.array_equal(numpy.sort(mesh.get_array().ravel()), numpy.sort(rows["lambda"]))
+    assert numpy.allclose(numpy.unique(rows["s"].round(9)), [0, 2.5, 5])
+    assert (rows["sali"] <= 2**0.5).all() and abs(result.lambda_[0]["value"] - rows["lambda"].mean()) < 1e-12
+    result.save(tmp_path / "map.h5")
+    again = carom.open(tmp_path / "map.h5").per_trajectory
+    assert all(numpy.array_equal(again[name], rows[name]) for name in rows.dtype.names)
+
+
 @pytest.mark.parametrize("name", ["stadium", "wigner"])
 def test_films_are_made(name, tmp_path):
     carom.animate(name, tmp_path / "film.gif", frames=4, t_max=1)
@@ -165,3 +180,13 @@ def test_no_decay_is_drawn_where_the_data_tell_none():
     result = carom.escape("circle", trajectories=1000, collisions=5)
     assert result.fit.model is None and "cap on hits" in result.fit.reason
     assert not carom.plot.survival(result).get_legend()
+
+
+def test_every_picture_of_a_diffusion_is_drawn(tmp_path):
+    result = carom.diffusion("lorentz-square", trajectories=500, t_max=30, free_paths=True)
+    names = list(carom.plot.pictures(result))
+    assert names == ["diffusion", "correlation", "free_paths"]
+    for name in names:
+        result.plot(what=name)
+        pyplot.gcf().savefig(tmp_path / f"{name}.png", dpi=60)
+        assert result.plot(what=name, ax=pyplot.figure().gca()).lines

@@ -63,8 +63,10 @@ def test_section(program):
 def test_orbits(program, tmp_path):
     result = carom.orbits("sinai", hits=3, starts=500, tries=50)
     same(result, program("orbit", "sinai", "--hits", 3, "--starts", 500, "--tries", 50))
-    zeta = carom.orbits("three-disc", hits=5, zeta=True)
-    same(zeta, program("orbit", "three-disc", "--hits", 5, "--zeta"))
+    zeta = carom.orbits("three-disc", hits=4, zeta=True, certify=True, digits=25)
+    options = ("--hits", 4, "--zeta", "--certify", "--digits", 25)
+    same(zeta, program("orbit", "three-disc", *options))
+    assert zeta.json["orbits"][0]["certified"]["period"] == "8." + 25 * "0"
     zeta.save(tmp_path / "saved.h5")
     stored = carom.open(tmp_path / "saved.h5")
     same(stored, {key: zeta.json[key] for key in zeta.json if key not in CHANGING})

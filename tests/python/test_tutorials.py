@@ -38,6 +38,8 @@ def sh(code, folder):
     program = pathlib.Path(os.environ["CAROM_PROGRAM"])
     path = f"{program.parent}:{os.environ['PATH']}"
     for line in code.replace("\\\n", " ").splitlines():
+        if line.startswith("carom lyapunov three-disc"):  # populations that do not die out
+            line = re.sub(r"--trajectories \S+", "--trajectories 15000", line)
         options = "--trajectories 200" if re.match(r"carom diffusion", line) else ""
         done = subprocess.run(
             ["sh", "-c", f"{line} {options}"], cwd=folder, env={**os.environ, "PATH": path},

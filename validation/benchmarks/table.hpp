@@ -53,6 +53,8 @@ void questions_of_resolution(Report&);  ///< does a step resolve its forces?
 void contacts_of_hard_discs(Report&);
 void certified_orbits(Report&);  ///< beside plain MPFR
 void periodic_orbits(Report&);
+void comparisons(Report&);      ///< of integrators, beside their runs alone
 void whole_ensembles(Report&);  ///< starts, sums and threads included
+void records_of_runs(Report&);  ///< each hit of an orbit stored
 
 }  // namespace carom::bench

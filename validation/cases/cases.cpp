@@ -10,6 +10,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/ensemble/compare.hpp"
+#include "carom/ensemble/repeller.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "carom/io/system_file.hpp"
 #include "validation/cases/orbit_cases.hpp"
@@ -192,6 +193,18 @@ void add_published(Planner& plan) {
   add_survivors(plan, "circle: t P(t), t = 400",
                 "limit of Bunimovich & Dettmann 2005; about 1 % more at t = 400",
                 plan.builtin("circle", plan.pick(2e6, 1e8)), 400.0, {1.328601}, {0.0, 0.027});
+  const System recurring =
+      read_system(
+          fmt::format("{}[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.2\n"
+                      "[initial]\nkind = \"hole\"\nhole = \"hole_1\"\n[particles]\nspeed = 1\n"
+                      "[run]\nt_max = 1e6\ntrajectories = {:.0f}\n",
+                      table_of("sinai-in-walls"), plan.scaled(plan.pick(1e5, 1e7))),
+          "sinai-in-walls")
+          .system;
+  plan.add("sinai-in-walls: mean time of recurrence", "pi A/(w v) (Kac 1947)", {},
+           [recurring](const CheckOptions& options) {
+             return check_recurrence(recurring, pi * (1.0 - pi * 0.4 * 0.4) / 0.2, options);
+           });
   const struct {
     const char* t;
     double usual, soak;
@@ -226,6 +239,13 @@ void add_published(Planner& plan) {
                return check_displacement(system, expected, options);
              });
   }
+  const System gas = plan.builtin("lorentz-triangular", plan.pick(1e6, 2e7),
+                                  {{"run.t_max", "8"}, {"run.times", "[8]"}});
+  plan.add("lorentz-triangular: Green-Kubo D(8)",
+           "independent simulation, from the slope of the MSD", {},
+           [gas](const CheckOptions& options) {
+             return check_green_kubo(gas, {0.1699, 3e-4}, options);
+           });
   const System photon = load_system("siam-photon").system;
   // Rounding grows by about exp(2.07) a hit (Dahlqvist's exponent), to some 10^-3 after 14 hits.
   const Allowance rounding{0.02, 0.02};
@@ -261,6 +281,12 @@ void add_exponents(Planner& plan) {
                return check_exponent(system, one.what, one.expected, options);
              });
   }
+  System three_disc = plan.builtin("three-disc", plan.pick(1e5, 1e6));
+  three_disc.run.trajectories = std::max(three_disc.run.trajectories, least_of_repeller());
+  plan.add("three-disc: Lyapunov exponent", "cycle expansion, 18 digits (ChaosBook)", {},
+           [three_disc](const CheckOptions& options) {
+             return check_exponent(three_disc, Exponent::per_time, {0.577552578771878598}, options);
+           });
   // One orbit, which stays near islands for some 10^4 at a time: shorter runs say little.
   if (plan.pick(0, 1) == 0) return;
   const System henon_heiles = plan.builtin("henon-heiles", 1, {{"run.t_max", "2e6"}});

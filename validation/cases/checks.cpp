@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <vector>
 
@@ -40,9 +41,13 @@ void judge(Check& c, Allowance allowance) {
   c.passed = c.complete && c.lost == 0 && c.unresolved == 0 && agrees(c, error, allowance);
 }
 
+using Records = std::vector<TrajectoryRecord>;
+
 // Runs the ensemble and fills in everything but the value.
-EscapeResult run(const System& system, const CheckOptions& options, Check& c) {
+EscapeResult run(const System& system, const CheckOptions& options, Check& c,
+                 const std::function<void(const Records&)>& records = {}) {
   EscapeOptions how;
+  how.records = records;
   how.threads = options.threads;
   how.interrupted = options.interrupted;
   EscapeResult result = run_escape(system, how);
@@ -291,9 +296,9 @@ void note_run(Check& c, const Result& result) {
   if (!result.reports.empty()) c.report = result.reports.front().second;
 }
 
-}  // namespace
-
-Check check_displacement(const System& system, Estimate expected, const CheckOptions& options) {
+// What the displacements say at the last report time.
+Check check_last_point(const System& system, Estimate MomentPoint::*what, Estimate expected,
+                       const CheckOptions& options) {
   Check c;
   c.expected = expected.value;
   c.expected_error = expected.error;
@@ -304,12 +309,39 @@ Check check_displacement(const System& system, Estimate expected, const CheckOpt
   const DiffusionResult result = run_diffusion(system, how);
   note_run(c, result);
   if (c.complete) {
-    const Estimate square = DisplacementMoments(result.sums).points().back().square;
-    c.value = square.value;
-    c.error = square.error;
+    const Estimate found = DisplacementMoments(result.sums).points().back().*what;
+    c.value = found.value;
+    c.error = found.error;
   }
   judge(c, {});
   return c;
+}
+
+}  // namespace
+
+Check check_recurrence(const System& system, double expected, const CheckOptions& options) {
+  Check c;
+  c.expected = expected;
+  double sum = 0.0, squares = 0.0;
+  run(system, options, c, [&](const Records& records) {
+    for (const TrajectoryRecord& one : records) {
+      sum += one.time;
+      squares += one.time * one.time;
+    }
+  });
+  const double n = static_cast<double>(system.run.trajectories);
+  c.value = sum / n;
+  c.error = std::sqrt((squares / n - c.value * c.value) / n);
+  judge(c, {});
+  return c;
+}
+
+Check check_displacement(const System& system, Estimate expected, const CheckOptions& options) {
+  return check_last_point(system, &MomentPoint::square, expected, options);
+}
+
+Check check_green_kubo(const System& system, Estimate expected, const CheckOptions& options) {
+  return check_last_point(system, &MomentPoint::green_kubo, expected, options);
 }
 
 Check check_exponent(const System& system, Exponent what, Estimate expected,
@@ -330,6 +362,10 @@ Check check_exponent(const System& system, Exponent what, Estimate expected,
                                                        : e.chaotic_share;
     c.value = what == Exponent::regular_share ? 1.0 - found.value : found.value;
     c.error = found.error;
+    if (result.repeller) {
+      c.value = result.repeller->estimate().value;
+      c.error = result.repeller->estimate().error;
+    }
   }
   judge(c, {});
   return c;

@@ -64,8 +64,16 @@ Check check_escape_rate(const System&, double expected, const CheckOptions& = {}
 Check check_survivors(const System&, double factor, Estimate expected, Allowance,
                       const CheckOptions& = {});
 
+/// Mean time from a start on a hole to the escape through it, of a chaotic table with that hole
+/// alone. Starts enter by the cosine law, the invariant measure on the hole, so these are times of
+/// recurrence to it, and their mean is pi A / (w v) for a hole of width w (Kac 1947).
+Check check_recurrence(const System&, double expected, const CheckOptions& = {});
+
 /// Mean square displacement at the last report time.
 Check check_displacement(const System&, Estimate expected, const CheckOptions& = {});
+
+/// D of Green and Kubo at the last report time.
+Check check_green_kubo(const System&, Estimate expected, const CheckOptions& = {});
 
 /// What carom lyapunov tells of a system.
 enum class Exponent {

@@ -72,20 +72,24 @@ void add_equilibria(std::vector<Case>& cases) {
                [n](const Equilibrium& e) { return std::pair(e.energy / n, e.energy_error / n); },
                options);
          }});
-  cases.push_back(
-      {"wigner: breathing mode", "sqrt(3) omega, omega^2 = 2", {}, [](const CheckOptions& options) {
-         const double expected = std::sqrt(6.0);
-         return lowest(
-             wigner(5), expected, 0.0,
-             [&](const Equilibrium& e) {
-               double nearest = 0.0;
-               for (const NormalMode& m : e.modes)
-                 if (std::fabs(m.frequency - expected) < std::fabs(nearest - expected))
-                   nearest = m.frequency;
-               return std::pair(nearest, e.position_error);
-             },
-             options);
-       }});
+  // In a harmonic well pairs change neither the motion of the centre of mass nor the breathing.
+  const std::tuple<const char*, const char*, double> modes[] = {
+      {"wigner: breathing mode", "sqrt(3) omega, omega^2 = 2", std::sqrt(6.0)},
+      {"wigner: centre of mass", "omega, omega^2 = 2", std::sqrt(2.0)}};
+  for (const auto& [name, source, expected] : modes)
+    cases.push_back({name, source, {}, [expected = expected](const CheckOptions& options) {
+                       return lowest(
+                           wigner(5), expected, 0.0,
+                           [&](const Equilibrium& e) {
+                             double nearest = 0.0;
+                             for (const NormalMode& m : e.modes)
+                               if (std::fabs(m.frequency - expected) <
+                                   std::fabs(nearest - expected))
+                                 nearest = m.frequency;
+                             return std::pair(nearest, e.position_error);
+                           },
+                           options);
+                     }});
   double on_ring = 0.0;
   for (int k = 1; k < 7; ++k) on_ring += 7 / 4.0 / std::sin(std::numbers::pi * k / 7);
   cases.push_back({"seven charges in a circle: energy",

@@ -123,6 +123,13 @@ void add_orbit_cases(std::vector<Case>& cases) {
         return Number{found.cycles->escape_rate, found.cycles->error};
       },
       true);
+  add(
+      "three-disc, Lyapunov exponent", "cycle expansion, 18 digits (ChaosBook)", three_discs, 11,
+      0.577552578771878598,
+      [](const OrbitSearchResult& found) {
+        return Number{found.cycles->lambda, found.cycles->lambda_error};
+      },
+      true);
   const char* two_bounces = "trace 4g^2 - 2, g = 1 - L/R, of two hits between equal walls";
   add("stadium, long axis", two_bounces, stadium, 2, 34.0, trace_of(2, 8.0));
   add("stadium, bouncing balls", two_bounces, stadium, 2, 2.0, trace_of(2, 4.0));

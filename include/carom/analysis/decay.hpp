@@ -51,11 +51,16 @@ using DecayWindow = std::pair<double, double>;
 /// Of `particles` in all, `still_there` at `until`; the times of the others are `times`. Particles
 /// are independent. Without a window it begins as late as the data allow and ends at `until`: the
 /// earliest start is sought at which a law describes all that follows and its rate does not change
-/// between the earlier and the later half of the escapes; the fit takes the last 0.3 of these
+/// between the earlier and the later half of the escapes; the fit takes the last 0.2 of these
 /// escapes, so that what was too weak to be seen has died away further. A window is widened to
 /// whole bins.
 DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint64_t still_there,
                    double until, std::optional<DecayWindow> window = {});
+
+/// The same by number of hits: of P(n), the share that is not gone within n hits. It ends before
+/// the fewest hits of a trajectory that is still there at the end, for it is not known when that
+/// one goes.
+DecayFit fit_decay_by_hits(const SurvivalCounts&);
 
 /// The same of an ensemble that was followed until that time. Particles that were ended by a cap on
 /// hits leave unknown how long they would have stayed: then there is no fit.

@@ -49,6 +49,8 @@ enum class Regularity : unsigned char { regular, chaotic, undecided };
 /// or other natural times. On an invariant curve it grows as 2 ln flights, and in the chaotic sea
 /// as twice the exponent times the time.
 Regularity regularity_of(double spread, double flights);
+/// SALI itself: the shorter of sum and difference of the two deviations, each of length 1.
+double sali_of(double spread);
 
 /// What one orbit gave.
 struct OrbitGrowth {

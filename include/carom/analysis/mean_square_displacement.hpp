@@ -1,4 +1,4 @@
-// Mean square displacement, its growth, and the diffusion coefficient.
+// Mean square displacement and its growth, velocity autocorrelation, diffusion coefficient.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,14 @@ struct Estimate {
   double value = 0.0, error = 0.0;
 };
 
-/// Sums of |r(t) - r(0)|^2 and |r(t) - r(0)|^4 at given times. Sums are exact and kept apart by
+/// What a particle says at a report time.
+struct DisplacementSample {
+  double square = 0.0;      ///< |r(t) - r(0)|^2
+  double velocities = 0.0;  ///< v(t) . v(0)
+  double along = 0.0;       ///< v(0) . (r(t) - r(0)), the integral of v(t) . v(0) from 0 to t
+};
+
+/// Sums of these, and of |r(t) - r(0)|^4, at given times. Sums are exact and kept apart by
 /// group of trajectories (index modulo the number of groups), so that neither threads nor the order
 /// of merging change a bit.
 class DisplacementSums {
@@ -26,15 +33,16 @@ class DisplacementSums {
   /// `times` increase.
   explicit DisplacementSums(std::vector<double> times);
 
-  /// |r(t_k) - r(0)|^2 of a particle of a trajectory.
-  void add(std::uint64_t trajectory, std::size_t k, double square);
+  /// A particle of a trajectory at t_k.
+  void add(std::uint64_t trajectory, std::size_t k, const DisplacementSample&);
   void merge(const DisplacementSums& other);
 
   const std::vector<double>& times() const { return times_; }
   /// Particles of the group that were there at t_k, and their sums.
   struct Sum {
     std::uint64_t count = 0;
-    ExactSum square, fourth;
+    ExactSum square, fourth, velocities, along;
+    void operator+=(const Sum&);
   };
   const Sum& of(std::size_t group, std::size_t k) const { return sums_[group * times_.size() + k]; }
   /// Adds what was kept of one group at t_k.
@@ -50,6 +58,10 @@ struct MomentPoint {
   double t = 0.0;
   std::uint64_t count = 0;
   Estimate square, fourth;
+  Estimate correlation;  ///< C(t) = <v(t) . v(0)>
+  /// Half of <v(0) . (r(t) - r(0))>, which is half the integral of C from 0 to t, without
+  /// quadrature: tends to D.
+  Estimate green_kubo;
   /// d ln MSD / d ln t from the report time before to this one, at their geometric mean; NaN for
   /// the first and for t = 0.
   double middle = 0.0;
@@ -92,8 +104,10 @@ class DisplacementMoments {
   std::optional<DiffusionFit> fit(const TimeWindow&) const;
 
  private:
+  struct Rounded;
   struct Means {
-    std::vector<double> square, fourth;
+    std::vector<double> square, fourth, velocities, along;
+    void add(const Rounded& all, const Rounded& out);
   };
   template <class Statistic>
   double error_of(Statistic, double whole) const;

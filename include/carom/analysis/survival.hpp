@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "carom/analysis/escape_times.hpp"
@@ -28,6 +29,12 @@ struct SurvivalCounts : FateCounts {
   std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
   std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
   EscapeTimes gone_at;                      ///< the same in fine bins, at all times
+  /// Hits of those that are gone, less one: a bin from a to b, both rounded up, counts those that
+  /// were gone after more than a hits and at most b. One that is gone after one hit or none is in
+  /// no bin.
+  EscapeTimes gone_after;
+  /// The fewest hits of one that is still there at the end, but for pinned ones.
+  std::uint64_t fewest_hits_of_survivor = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t trajectories = 0, collisions = 0;
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; set by the ensemble
   std::uint64_t most_hits = 0;  ///< of a single trajectory

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "carom/analysis/fate_counts.hpp"
+#include "carom/analysis/free_paths.hpp"
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/ensemble/parts.hpp"
 #include "carom/ensemble/system.hpp"
@@ -36,6 +37,7 @@ std::string no_diffusion(const Horizon&);
 /// What a diffusion run adds up; of an interrupted one, whole trajectories.
 struct DiffusionResult : EnsembleResult, FateCounts {
   DisplacementSums sums;
+  FreePathSums free_paths;  ///< with RunPlan::free_paths
   /// Particles of all trajectories; the fates are those before the last report time.
   std::uint64_t trajectories = 0;
   std::uint64_t collisions = 0;

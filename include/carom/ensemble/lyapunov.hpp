@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "carom/analysis/fate_counts.hpp"
 #include "carom/analysis/growth.hpp"
+#include "carom/base/error.hpp"
 #include "carom/ensemble/parts.hpp"
+#include "carom/ensemble/repeller.hpp"
 #include "carom/ensemble/system.hpp"
 
 namespace carom {
@@ -18,6 +21,10 @@ struct LyapunovResult : EnsembleResult, FateCounts {
   /// Particles of all trajectories; the fates are those before the end of the window.
   std::uint64_t trajectories = 0;
   std::uint64_t collisions = 0;
+  /// Where most orbits leave before the end of the window: of those that never would.
+  std::optional<RepellerExponent> repeller;
+  /// Why there is no `repeller` although it was looked for; not kept in archives.
+  std::optional<InputError> no_repeller;
 
   /// Adds another part of the same ensemble. In any order the sum is the same, bit for bit. False,
   /// and no change, where a trajectory is in both.
@@ -31,6 +38,13 @@ using LyapunovOptions = EnsembleOptions<LyapunovResult>;
 bool interacts(const System&);
 /// Times between which the growth is taken: run.window, or the last four fifths of the run.
 TimeWindow growth_window(const System&);
+
+/// Of a whole ensemble that leaves through holes or into the open plane, so that fewer than half of
+/// the orbits stay to the end of the window: adds `repeller`. A run does it at its end; where parts
+/// of one are added up it is to be called after the last.
+void add_repeller(const System&, LyapunovResult&, const SplittingOptions& = {});
+/// What is wrong with a whole ensemble of which nothing could be measured; empty: nothing.
+std::optional<InputError> why_nothing(const System&, const LyapunovResult&);
 
 /// Follows two deviations along each trajectory until the end of the window: exactly where
 /// particles are free, and under forces by the derivative of the scheme's steps. Throws InputError

@@ -18,7 +18,7 @@ struct OrbitSearchOptions {
   std::uint64_t most_hits = 6;   ///< of an orbit, from 2
   std::uint64_t starts = 20000;  ///< trajectories whose recurrences are looked at
   std::uint64_t tries = 2000;    ///< recurrences that are tried for each number of hits
-  bool expand_cycles = false;    ///< escape rate from the orbits: of discs in the open plane
+  bool expand_cycles = false;    ///< rate and exponent from the orbits: discs in the open plane
   int threads = 0;               ///< 0: as many as OpenMP gives
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(std::uint64_t tried, std::uint64_t all)> progress = {};

@@ -19,15 +19,26 @@
 
 namespace carom {
 
-/// One particle of one trajectory, for archives and exit basins. `index` is
+/// One particle of one trajectory, for archives, exit basins and maps of exponents. `index` is
 /// trajectory * (number of particles) + particle; with injections see particle_index().
 struct TrajectoryRecord {
   std::uint64_t index = 0;
   double x = 0, y = 0, vx = 0, vy = 0;  ///< start, unwrapped
   Fate fate = Fate::survived;
-  std::int32_t hole = -1;  ///< index into hole_names()
-  double time = 0;         ///< end: escape, last hit of an unbounded one, else t_max
+  /// Of exponents, as Regularity: 0 regular, 1 chaotic, 2 undecided.
+  unsigned char regularity = 2;
+  std::uint16_t unused = 0;  // no byte of a record is without a value
+  std::int32_t hole = -1;    ///< index into hole_names()
+  std::int32_t wall = -1;    ///< of the start; -1: it lies off the walls
+  std::int32_t unused_too = 0;
+  double time = 0;  ///< end: escape, last hit of an unbounded one, else t_max
   std::uint64_t hits = 0;
+  /// Of a start on a wall; else NaN: arc length along it, component of the velocity along it.
+  double s = std::numeric_limits<double>::quiet_NaN(),
+         v_parallel = std::numeric_limits<double>::quiet_NaN();
+  /// Of exponents, else NaN: that of the time of which it is known, and SALI at its end.
+  double lambda = std::numeric_limits<double>::quiet_NaN(),
+         sali = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Besides what a kind of ensemble adds up.

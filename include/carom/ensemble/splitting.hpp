@@ -41,6 +41,13 @@ struct SplittingPlan {
   /// goes there, and the kick is larger.
   std::uint64_t lookback = 6;
   static constexpr std::uint64_t most_lookback = 8;
+  /// Deviations go along, and are copied with their trajectories; by hits only. At each level their
+  /// growth is averaged with the weights e^(tilt t) of trajectories that come there at t.
+  struct Deviations {
+    double unit_length = 1.0;  ///< as of EngineOptions
+    double tilt = 0.0;
+  };
+  std::optional<Deviations> deviations = {};
 };
 
 /// How to run, without influence on the result.
@@ -64,6 +71,15 @@ struct CopiesOfStage {
   Staying first, kicked;
 };
 
+/// Trajectories at a level, by SplittingPlan::deviations.
+struct GrowthAtLevel {
+  std::uint64_t number = 0;
+  double log_share = 0.0;           ///< ln of the share of all starts that they stand for
+  double log_weight = 0.0;          ///< ln of their mean weight
+  double time = 0.0, growth = 0.0;  ///< means of the time and of ln|deviation|
+  double time_variance = 0.0, covariance = 0.0;
+};
+
 /// What one population gives, at each reported time or number of hits.
 struct PopulationRun {
   bool done = false;
@@ -71,6 +87,8 @@ struct PopulationRun {
   std::vector<double> gone;            ///< share gone since the report before; by time only
   std::vector<std::uint64_t> reached;  ///< trajectories that reached each level
   std::vector<CopiesOfStage> copies;   ///< of each stage; none are kicked before the first
+  std::vector<GrowthAtLevel> growth;   ///< at each level, if deviations go along
+  double for_ever = 0.0;               ///< share that can never go
   double singular = 0.0;  ///< share that ended without a continuation; taken out of the others
   std::uint64_t collisions = 0, unresolved = 0, lost = 0, digest = 0;
   std::uint64_t tried = 0,

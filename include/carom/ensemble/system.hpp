@@ -50,7 +50,8 @@ struct RunPlan {
   double trust_tolerance = 1e-3;  ///< of errors, relative to the table's size (analysis/trust.hpp)
   std::vector<double> times = {};
   std::optional<std::pair<double, double>> window =
-      {};  ///< of fits: of a decay, and report times of D
+      {};                   ///< of fits: of a decay, and report times of D
+  bool free_paths = false;  ///< are the lengths of flights counted (carom diffusion)?
 };
 
 /// Particles that enter through a hole during a run: the cosine law over its opening, inwards.

@@ -28,5 +28,6 @@ int animate(const Options&);
 LoadedSystem system_of_escape(const Options&);
 LoadedSystem system_of_run(const Options&);
 LoadedSystem system_of_section(const Options&);
+LoadedSystem system_of_compare(const Options&);
 
 }  // namespace carom::cli

@@ -45,9 +45,7 @@ void check(const std::vector<double>& numbers, const char* option, double least,
 
 LoadedSystem load_compared(const Options& options,
                            const std::function<LoadedSystem(const SystemOverrides&)>& load) {
-  SystemOverrides overrides = options.overrides;
-  overrides.t_max.clear();  // the time of the comparison, not of the system
-  LoadedSystem loaded = load(overrides);
+  LoadedSystem loaded = load(options.overrides);
   Dynamics& dynamics = loaded.system.dynamics;
   if (!dynamics.forces || dynamics.forces->empty()) dynamics.everywhere = true;
   return loaded;
@@ -70,25 +68,24 @@ ComparePlan compare_plan(const Options& options) {
     return x;
   };
   if (!options.error.empty()) plan.error = positive(options.error, "--error", "a number > 0");
-  if (!options.overrides.t_max.empty())
-    plan.t_max = positive(options.overrides.t_max, "--t-max", "a time > 0");
+  if (!options.comparison_time.empty())
+    plan.t_max = positive(options.comparison_time, "--t-max", "a time > 0");
   if (!options.trajectory.empty())
     plan.trajectory = whole_number(options.trajectory, "--trajectory", 0);
   return plan;
 }
 
+LoadedSystem system_of_compare(const Options& options) {
+  return load_compared(options,
+                       [&](const SystemOverrides& overrides) { return load(options, overrides); });
+}
+
 int compare(const Options& options) {
   ComparePlan plan = compare_plan(options);
   std::optional<io::Progress> preparing(std::in_place, !options.quiet);
-  const LoadedSystem loaded = load_compared(options, [&](const SystemOverrides& overrides) {
-    return load_system(options.system, overrides);
-  });
+  const LoadedSystem loaded = system_of_compare(options);
   preparing.reset();
-  ArchiveLock lock;
-  if (!options.output.empty()) {
-    lock = lock_output(options, options.output);
-    refuse_existing(options.output, options.force);
-  }
+  const ArchiveLock lock = claim_output(options);
   const std::atomic<bool>& interrupted = catch_interrupts();
   plan.interrupted = [&] { return interrupted.load(std::memory_order_relaxed); };
   Comparison result;
@@ -107,8 +104,9 @@ int compare(const Options& options) {
     write_comparison(options.output, loaded, provenance_of(options, system, 1), result,
                      options.force, lock);
   const std::string archive = named_archive(options, options.output);
-  print(options.json ? compare_json(system, result, archive).text() + "\n"
-                     : compare_text(system, result, archive, options.verbose));
+  print_report(
+      options, [&] { return compare_json(system, result, archive); },
+      [&] { return compare_text(system, result, archive, options.verbose); });
   return result.complete ? done : stopped;
 }
 

@@ -89,7 +89,11 @@ EnsembleJob<Result> job_to_go_on(const Options& options, Sharing sharing) {
 }  // namespace
 
 LoadedSystem load_ensemble(const Options& options) {
-  LoadedSystem loaded = load(options, overrides_of(options));
+  const auto from = [&](const SystemOverrides& overrides) { return load(options, overrides); };
+  const SystemOverrides overrides = overrides_of(options);
+  LoadedSystem loaded = options.command == "lyapunov" && !options.of_sweep
+                            ? load_without_repeats(overrides, from)
+                            : from(overrides);
   choose_engine(options.engine, loaded.system);
   return loaded;
 }

@@ -33,18 +33,17 @@ int digits_of_orbits(const Options& options, const Table& table) {
   return static_cast<int>(digits);
 }
 
-std::vector<CertifiedPeriodicOrbit> certified_orbits(const Options& options,
-                                                     const LoadedSystem& loaded,
-                                                     const OrbitSearchResult& result,
-                                                     const std::atomic<bool>& interrupted) {
-  std::vector<CertifiedPeriodicOrbit> all;
+ProofsOfOrbits proofs_of_orbits(const Options& options, const LoadedSystem& loaded,
+                                const OrbitSearchResult& result,
+                                const std::atomic<bool>& interrupted) {
+  ProofsOfOrbits all;
   if (!options.certify) return all;
-  const int digits = digits_of_orbits(options, *loaded.system.table);
+  all.digits = digits_of_orbits(options, *loaded.system.table);
   for (const PeriodicOrbit& orbit : result.orbits) {
     if (interrupted.load(std::memory_order_relaxed)) break;
     if (orbit.family) {
-      all.emplace_back();
-      all.back().reason = "its neighbours are periodic, too";
+      all.orbits.emplace_back();
+      all.orbits.back().reason = "its neighbours are periodic, too";
       continue;
     }
     std::vector<NearHit> hits;
@@ -52,7 +51,7 @@ std::vector<CertifiedPeriodicOrbit> certified_orbits(const Options& options,
       const OrbitHit& hit = orbit.hits[i];
       hits.push_back({hit.wall, hit.position, orbit.half_turns[i], hit.step});
     }
-    all.push_back(certify_orbit(loaded.exact, hits, digits));
+    all.orbits.push_back(proof_of(certify_orbit(loaded.exact, hits, all.digits), all.digits));
   }
   return all;
 }
@@ -60,39 +59,30 @@ std::vector<CertifiedPeriodicOrbit> certified_orbits(const Options& options,
 int orbit(const Options& options) {
   OrbitSearchOptions how = orbit_search_options(options);
   std::optional<io::Progress> preparing(std::in_place, !options.quiet);
-  const LoadedSystem loaded = load_system(options.system, options.overrides);
+  const LoadedSystem loaded = load_typed(options);
   preparing.reset();
   const System& system = loaded.system;
-  const int digits = digits_of_orbits(options, *system.table);
-  ArchiveLock lock;
-  if (!options.output.empty()) {
-    lock = lock_output(options, options.output);
-    refuse_existing(options.output, options.force);
-  }
+  digits_of_orbits(options, *system.table);  // refused before anything is computed
+  ArchiveLock lock = claim_output(options);
   how.interrupted = &catch_interrupts();
   OrbitSearchResult result;
   {
     io::Progress progress(!options.quiet);
     if (progress.enabled())
       how.progress = [&](std::uint64_t tried, std::uint64_t all) {
-        if (progress.due())
-          progress.show(
-              static_cast<double>(tried) / static_cast<double>(all),
-              io::with_prefix(static_cast<double>(tried) / progress.seconds()) + "starts/s");
+        progress.count(tried, all, "starts");
       };
     result = find_orbits(system, how);
   }
+  const ProofsOfOrbits proofs = proofs_of_orbits(options, loaded, result, *how.interrupted);
   if (!options.output.empty())
     write_orbits(options.output, loaded, provenance_of(options, system, result.threads), result,
-                 how.most_hits, options.force, std::move(lock));
-  const OrbitContext context{how.most_hits,
-                             result.complete ? "completed" : "interrupted",
-                             named_archive(options, options.output),
-                             options.verbose,
-                             certified_orbits(options, loaded, result, *how.interrupted),
-                             digits};
-  print(options.json ? orbit_json(system, result, context).text() + "\n"
-                     : orbit_text(system, result, context));
+                 proofs, how.most_hits, options.force, std::move(lock));
+  const OrbitContext context{how.most_hits, result.complete ? "completed" : "interrupted",
+                             named_archive(options, options.output), options.verbose, proofs};
+  print_report(
+      options, [&] { return orbit_json(system, result, context); },
+      [&] { return orbit_text(system, result, context); });
   return result.complete ? done : stopped;
 }
 

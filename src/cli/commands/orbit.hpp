@@ -2,10 +2,9 @@
 #pragma once
 
 #include <atomic>
-#include <vector>
 
-#include "carom/certify/certified_periodic_orbit.hpp"
 #include "carom/ensemble/orbit_search.hpp"
+#include "carom/io/orbit_archive.hpp"
 #include "carom/io/system_file.hpp"
 #include "cli/options.hpp"
 
@@ -15,9 +14,8 @@ namespace carom::cli {
 OrbitSearchOptions orbit_search_options(const Options&);
 
 /// With --certify: each orbit proven, or why not, to --digits; else none. Fewer where interrupted.
-std::vector<CertifiedPeriodicOrbit> certified_orbits(const Options&, const LoadedSystem&,
-                                                     const OrbitSearchResult&,
-                                                     const std::atomic<bool>& interrupted);
+ProofsOfOrbits proofs_of_orbits(const Options&, const LoadedSystem&, const OrbitSearchResult&,
+                                const std::atomic<bool>& interrupted);
 /// --digits, or its default. Throws InputError, also where it goes without --certify.
 int digits_of_orbits(const Options&, const Table&);
 

@@ -23,33 +23,25 @@ RelaxOptions relax_options(const Options& options) {
 int relax(const Options& options) {
   RelaxOptions how = relax_options(options);
   std::optional<io::Progress> preparing(std::in_place, !options.quiet);
-  const LoadedSystem loaded = load_system(options.system, options.overrides);
+  const LoadedSystem loaded = load_typed(options);
   preparing.reset();
   const System& system = loaded.system;
   how.interrupted = &catch_interrupts();
-  ArchiveLock lock;
-  if (!options.output.empty()) {
-    lock = lock_output(options, options.output);
-    refuse_existing(options.output, options.force);
-  }
+  const ArchiveLock lock = claim_output(options);
   RelaxResult result;
   {
     io::Progress progress(!options.quiet);
     if (progress.enabled())
-      how.progress = [&](std::uint64_t starts) {
-        if (progress.due())
-          progress.show(
-              static_cast<double>(starts) / static_cast<double>(how.starts),
-              io::with_prefix(static_cast<double>(starts) / progress.seconds()) + "starts/s");
-      };
+      how.progress = [&](std::uint64_t starts) { progress.count(starts, how.starts, "starts"); };
     result = run_relax(system, how);
   }
   if (!options.output.empty())
     write_equilibria(options.output, loaded, provenance_of(options, system, result.threads), result,
                      options.force, lock);
   const std::string archive = named_archive(options, options.output);
-  print(options.json ? relax_json(system, result, archive).text() + "\n"
-                     : relax_text(system, result, archive, options.verbose));
+  print_report(
+      options, [&] { return relax_json(system, result, archive); },
+      [&] { return relax_text(system, result, archive, options.verbose); });
   return result.complete ? done : stopped;
 }
 

@@ -135,6 +135,26 @@ Result fly(const Options& options, const Fly<Result>& run, const System& system,
   return run(system, how);
 }
 
+// What a whole ensemble says beyond the sum of its parts: of exponents alone.
+template <class Result>
+void complete_sum(const Options&, const System&, Result&) {}
+inline void complete_sum(const Options& options, const System& system, LyapunovResult& result) {
+  SplittingOptions how;
+  how.threads = threads_of(options);
+  how.lanes = instruction_set_of(options);
+  how.interrupted = &catch_interrupts();
+  add_repeller(system, result, how);
+}
+
+// Refuses a system of which nothing could be measured. A value of a sweep has none then.
+template <class Result>
+void refuse_nothing(const Options&, const EnsembleJob<Result>&, const Result&) {}
+inline void refuse_nothing(const Options& options, const EnsembleJob<LyapunovResult>& job,
+                           const LyapunovResult& result) {
+  if (options.of_sweep) return;
+  if (const auto error = why_nothing(job.loaded.system, result)) throw *error;
+}
+
 template <class Result>
 int run_alone(const Options& options, const Fly<Result>& run) {
   check_engine(options);
@@ -157,6 +177,19 @@ int run_alone(const Options& options, const Fly<Result>& run) {
   Result result;
   try {
     result = fly(options, run, job.loaded.system, how);
+  } catch (...) {
+    if (archive) say_how_to_go_on(options, job, archive->kept());
+    throw;
+  }
+  try {
+    refuse_nothing(options, job, result);
+  } catch (...) {
+    const bool written = archive != nullptr;
+    archive.reset();
+    if (written) remove_checkpoint(job.output);
+    throw;
+  }
+  try {
     if (archive) archive->finish(result, status_of(result.complete));
   } catch (...) {
     if (archive) say_how_to_go_on(options, job, archive->kept());

@@ -87,6 +87,7 @@ int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
     if (job.stored) files.push_back(job.output);
     for (int rank = 0; rank < ranks.size(); ++rank) files.push_back(io::part_of_rank(file, rank));
     sum = io::sum_of_ranks<Result>(job.output, files, job.shard);
+    complete_sum(options, job.loaded.system, sum->result);
     sum->status = status_of(sum->result.complete);
     sum->result.ranks = ranks.size();
     Provenance origin = origin_of(options, job);

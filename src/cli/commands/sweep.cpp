@@ -261,7 +261,11 @@ bool is_sweep(const Options& options) {
   if (!options.sweep.empty()) return true;
   if (options.resume.empty()) return false;
   const std::string file = archive_named(options.resume);
-  return io::has_sweep(file) || io::is_sweep_archive(file);
+  if (io::has_sweep(file) || io::is_sweep_archive(file)) return true;
+  if (!is_plain_ensemble(options) && options.command != "run" && options.command != "escape")
+    throw InputError(Place{file, 0, 0, ""}, "there is no sweep to go on with",
+                     fmt::format("an archive of carom {} --sweep", options.command));
+  return false;
 }
 
 int sweep(const Options& options, const SweptCommand& command) {

@@ -19,24 +19,45 @@ Place place_of(const std::string& key) { return {"command line", 0, 0, "--sweep 
 
 // Options of a command beside its system: a sweep that goes on needs them again.
 constexpr std::pair<const char*, std::string Options::*> kept_options[] = {
-    {"engine", &Options::engine},           {"shard", &Options::shard},
-    {"trajectory", &Options::trajectory},   {"precision", &Options::precision},
-    {"digits", &Options::digits},           {"certify_sample", &Options::certify_sample},
-    {"splitting", &Options::splitting},     {"population", &Options::population},
-    {"repetitions", &Options::repetitions}, {"kick", &Options::kick},
-    {"lookback", &Options::lookback}};
+    {"engine", &Options::engine},
+    {"shard", &Options::shard},
+    {"trajectory", &Options::trajectory},
+    {"precision", &Options::precision},
+    {"digits", &Options::digits},
+    {"certify_sample", &Options::certify_sample},
+    {"splitting", &Options::splitting},
+    {"population", &Options::population},
+    {"repetitions", &Options::repetitions},
+    {"kick", &Options::kick},
+    {"lookback", &Options::lookback},
+    {"starts", &Options::starts},
+    {"hits", &Options::hits},
+    {"tries", &Options::tries},
+    {"schemes", &Options::schemes},
+    {"steps", &Options::steps},
+    {"tolerances", &Options::tolerances},
+    {"error", &Options::error},
+    {"t_max", &Options::comparison_time}};
+constexpr std::pair<const char*, bool Options::*> kept_flags[] = {
+    {"per_trajectory", &Options::per_trajectory},
+    {"saddles", &Options::saddles},
+    {"zeta", &Options::zeta},
+    {"certify", &Options::certify}};
 
 // Keys that only some commands use; the others would give the same row again and again.
 void refuse_without_use(const std::string& key, const std::string& command) {
   struct Use {
     const char *key, *commands;
   };
+  static constexpr const char* trajectories = "escape, diffusion, lyapunov, run, section";
   static constexpr Use uses[] = {{"section.", "section"},
                                  {"title", ""},
                                  {"run.sample", "run"},
                                  {"run.trust_tolerance", "run"},
                                  {"run.times", "escape, diffusion"},
-                                 {"run.window", "escape, diffusion"},
+                                 {"run.t_max", trajectories},
+                                 {"run.collisions", trajectories},
+                                 {"run.window", "escape, diffusion, lyapunov"},
                                  {"run.trajectories", "escape, diffusion, lyapunov"}};
   for (const Use& use : uses)
     if (key.starts_with(use.key) && std::string(use.commands).find(command) == std::string::npos)
@@ -131,7 +152,8 @@ io::SweepPlan plan_of_sweep(const Options& options, const SweptCommand& command)
   }
   for (const auto& [name, field] : kept_options)
     if (!(options.*field).empty()) plan.options.emplace_back(name, options.*field);
-  if (options.per_trajectory) plan.options.emplace_back("per_trajectory", "true");
+  for (const auto& [name, flag] : kept_flags)
+    if (options.*flag) plan.options.emplace_back(name, "true");
   return plan;
 }
 
@@ -151,7 +173,8 @@ void refuse_another(const io::SweepPlan& stored, const io::SweepPlan& asked,
 
 void restore_options(const io::SweepPlan& plan, Options& options) {
   for (const auto& [name, text] : plan.options) {
-    if (name == "per_trajectory") options.per_trajectory = true;
+    for (const auto& [known, flag] : kept_flags)
+      if (name == known) options.*flag = true;
     for (const auto& [known, field] : kept_options)
       if (name == known) options.*field = text;
   }

@@ -83,6 +83,14 @@ std::string decay_text(const DecayFit& fit, const char* variable) {
   return text;
 }
 
+std::string decay_by_hits_text(const DecayFit& fit) {
+  if (fit.decays.empty()) return "";
+  const Decay& decay = fit.decays.front();
+  return fmt::format("By number of hits from n = {:.4g} to {:.4g}{}\n  {}\n    {}\n", fit.from,
+                     fit.to, fit.decided ? "" : ", not decided",
+                     formula_of(decay.law, decay.with_plateau, "n"), numbers_of(decay));
+}
+
 namespace {
 
 std::string name_of(const SplitDecay& decay) {

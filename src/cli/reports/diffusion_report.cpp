@@ -9,6 +9,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
+#include "cli/reports/free_paths_report.hpp"
 
 namespace carom::cli {
 
@@ -36,12 +37,6 @@ const char* name_of(Kind kind) {
   return "unknown";
 }
 
-Json json_of(const Estimate& e) {
-  return Json::object().set("value", e.value).set("stderr", e.error);
-}
-
-std::string with_error(const Estimate& e) { return cli::with_error(e.value, e.error); }
-
 std::string moments_table(const std::vector<MomentPoint>& points, const EnsembleContext& context) {
   std::vector<double> times;
   std::vector<std::string> square, slope, exponent;
@@ -60,6 +55,22 @@ std::string moments_table(const std::vector<MomentPoint>& points, const Ensemble
                   {"MSD/4t", slope},
                   {"local exponent", exponent}}) +
          rows_text(points.size(), context);
+}
+
+// Correlations of the velocity at the same times, and their integral. Where not all times are
+// shown, a third as many: both tables fit a screen.
+std::string velocity_table(const std::vector<MomentPoint>& points, EnsembleContext context) {
+  if (context.rows < points.size()) context.rows /= 3;
+  std::vector<double> times;
+  std::vector<std::string> correlation, green_kubo;
+  for (const std::size_t row : every_kth(points.size(), context.rows)) {
+    const MomentPoint& p = points[row];
+    times.push_back(p.t);
+    correlation.push_back(with_error(p.correlation));
+    green_kubo.push_back(with_error(p.green_kubo));
+  }
+  return "\nC(t) = <v(t).v(0)>, and Green and Kubo's D(t), half its integral from 0 to t\n" +
+         aligned({{"t", times_text(times)}, {"C(t)", correlation}, {"D(t)", green_kubo}});
 }
 
 std::string horizon_text(const Horizon& horizon) {
@@ -111,6 +122,12 @@ std::string fit_text(const DiffusionSummary& summary) {
 }
 
 }  // namespace
+
+Json moment_json(const Estimate& e) {
+  return Json::object().set("value", e.value).set("stderr", e.error);
+}
+
+std::string with_error(const Estimate& e) { return with_error(e.value, e.error); }
 
 DiffusionSummary summary_of(const System& system, const DiffusionResult& result) {
   const auto add = [](std::string& note, const std::string& more) {
@@ -173,28 +190,29 @@ Json result_json(const System& system, const DiffusionResult& result,
   json.set("decisions", decisions_json(result.decisions));
   if (const std::string none = why_one_by_one(system); !none.empty()) json.set("no_lanes", none);
   Json msd = Json::array(), fourth = Json::array(), local = Json::array(),
-       corridors = Json::array();
+       correlation = Json::array(), green_kubo = Json::array(), corridors = Json::array();
+  const auto at = [](double t, const Estimate& e) {
+    return Json::object().set("t", t).set("value", e.value).set("stderr", e.error);
+  };
   for (const MomentPoint& p : summary.points) {
-    msd.push(
-        Json::object().set("t", p.t).set("value", p.square.value).set("stderr", p.square.error));
-    fourth.push(
-        Json::object().set("t", p.t).set("value", p.fourth.value).set("stderr", p.fourth.error));
-    if (std::isfinite(p.exponent.value))
-      local.push(Json::object()
-                     .set("t", p.middle)
-                     .set("value", p.exponent.value)
-                     .set("stderr", p.exponent.error));
+    msd.push(at(p.t, p.square));
+    fourth.push(at(p.t, p.fourth));
+    correlation.push(at(p.t, p.correlation));
+    green_kubo.push(at(p.t, p.green_kubo));
+    if (std::isfinite(p.exponent.value)) local.push(at(p.middle, p.exponent));
   }
   json.set("msd", std::move(msd));
   json.set("fourth_moment", std::move(fourth));
-  json.set("D", summary.no_D.empty() ? json_of(summary.fit->D) : Json());
+  json.set("correlation", std::move(correlation));
+  json.set("green_kubo", std::move(green_kubo));
+  json.set("D", summary.no_D.empty() ? moment_json(summary.fit->D) : Json());
   if (!summary.no_D.empty()) json.set("reason", summary.no_D);
   if (!summary.note.empty()) json.set("note", summary.note);
-  json.set("exponent", summary.fit ? json_of(summary.fit->exponent) : Json());
-  json.set("local_exponent", summary.fit ? json_of(summary.fit->local_exponent) : Json());
+  json.set("exponent", summary.fit ? moment_json(summary.fit->exponent) : Json());
+  json.set("local_exponent", summary.fit ? moment_json(summary.fit->local_exponent) : Json());
   json.set("local_exponents", std::move(local));
   if (summary.fit) {
-    json.set("offset", json_of(summary.fit->offset));
+    json.set("offset", moment_json(summary.fit->offset));
     json.set("window", Json::object()
                            .set("from", summary.fit->window.from)
                            .set("to", summary.fit->window.to)
@@ -214,6 +232,7 @@ Json result_json(const System& system, const DiffusionResult& result,
   }
   json.set("corridors", std::move(corridors));
   if (horizon.kind == Kind::infinite) json.set("flight_tail", horizon.flight_tail);
+  if (result.free_paths.counted()) json.set("free_paths", free_paths_json(system, result));
   if (horizon.machta_zwanzig) json.set("machta_zwanzig", *horizon.machta_zwanzig);
   if (!context.output.empty()) json.set("archive", context.output);
   return json;
@@ -226,8 +245,10 @@ std::string result_text(const System& system, const DiffusionResult& result,
       doubts_of(system, result).text() +
       head_text(system, result.trajectories, system.run.times.back(), result.complete, context);
   text += moments_table(summary.points, context);
+  text += velocity_table(summary.points, context);
   text += fit_text(summary);
   text += horizon_text(summary.horizon);
+  text += free_paths_text(system, result, summary.horizon, context);
   if (const std::string ends = fates_text(result); !ends.empty())
     text += "\nof the particles: " + ends + "\n";
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);

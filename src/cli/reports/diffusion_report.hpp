@@ -21,6 +21,10 @@ struct DiffusionSummary {
 };
 DiffusionSummary summary_of(const System&, const DiffusionResult&);
 
+/// {value, stderr}, and "value +- error".
+io::Json moment_json(const Estimate&);
+std::string with_error(const Estimate&);
+
 io::Json result_json(const System&, const DiffusionResult&, const EnsembleContext&);
 std::string result_text(const System&, const DiffusionResult&, const EnsembleContext&);
 

@@ -41,7 +41,7 @@ std::string work_text(const System& system, std::uint64_t collisions,
 
 std::string rows_text(std::size_t all, const EnsembleContext& context) {
   if (all <= context.rows) return {};
-  return fmt::format("  of {} times; --verbose prints all\n", grouped(all));
+  return fmt::format("  of {} rows; --verbose prints all\n", grouped(all));
 }
 
 std::string verbose_text(const System& system, const EnsembleResult& result,

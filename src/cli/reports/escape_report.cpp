@@ -140,6 +140,7 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
   json.set("survival_hits", std::move(by_hits));
   json.set("rate", std::move(rates));
   json.set("fit", decay_json(decay_of(system, result)));
+  json.set("fit_hits", decay_json(fit_decay_by_hits(counts)));
   if (const std::string note = repeated_starts(system); !note.empty()) json.set("note", note);
   if (!context.output.empty()) json.set("archive", context.output);
   return json;
@@ -154,6 +155,7 @@ std::string result_text(const System& system, const EscapeResult& result,
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   text += survival_table(counts, context);
   text += decay_text(decay_of(system, result));
+  text += decay_by_hits_text(fit_decay_by_hits(counts));
   text += fates(system, counts);
   if (engine_of(system) != "events") text += "\n" + energy_text(system, result.energy_error);
   text +=

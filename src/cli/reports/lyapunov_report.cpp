@@ -33,12 +33,86 @@ Json spectrum_of(const System& system, const Estimate& largest) {
   return list.push(estimate_json({0.0 - largest.value, largest.error}));
 }
 
+// Is the exponent that of the repeller? Where it drifts, orbits that stay tell more, if there are
+// any.
+bool of_repeller(const LyapunovResult& result) {
+  return result.repeller && (!result.repeller->drifts() || result.growth.totals().orbits == 0);
+}
+
 // Why there is no exponent, as a phrase; "" where there is one.
 std::string no_exponent(const LyapunovResult& result) {
-  if (result.growth.totals().orbits > 0) return {};
+  if (result.growth.totals().orbits > 0 || result.repeller) return {};
   if (result.trajectories == 0) return "no trajectory was followed";
   return fmt::format("all {} particles ended before t = {:.6g}, the end of the window",
                      grouped(result.trajectories), result.growth.window().to);
+}
+
+void add_notes_of(const RepellerExponent& r, std::vector<std::string>& notes) {
+  if (r.drifts())
+    notes.push_back(fmt::format(
+        "populations that are kept alive have no exponent yet: {} in the first half of the window "
+        "and {} in the second. The orbits that never leave are regular, or take longer runs",
+        cli::with_error(r.early.limit.value, r.early.limit.error),
+        cli::with_error(r.late.limit.value, r.late.limit.error)));
+  if (r.kicks_cost())
+    notes.push_back(
+        fmt::format("kicked copies do not stay as long as others: the share that is left is off by "
+                    "{:.2g}({:.1g}"
+                    ") %, and the exponent by an unknown part of that",
+                    100.0 * r.kick_cost.value, 100.0 * r.kick_cost.error));
+  if (r.for_ever > 0.0)
+    notes.push_back(
+        fmt::format("a share {:.2g} of the starts can never leave: it is not among the populations",
+                    r.for_ever));
+}
+
+Json repeller_json(const RepellerExponent& r) {
+  const auto json_of = [](const Extrapolated& e) {
+    Json kicks = Json::array();
+    for (const Mean& mean : e.at_kick)
+      kicks.push(Json::object().set("value", mean.value).set("stderr", mean.error));
+    return Json::object()
+        .set("value", e.limit.value)
+        .set("stderr", e.limit.error)
+        .set("extrapolation", e.extrapolation)
+        .set("low", e.low())
+        .set("high", e.high())
+        .set("at_kicks", std::move(kicks));
+  };
+  return Json::object()
+      .set("lambda", json_of(r.per_time))
+      .set("per_collision", json_of(r.per_hit))
+      .set("early", json_of(r.early))
+      .set("late", json_of(r.late))
+      .set("drifts", r.drifts())
+      .set("population", r.population)
+      .set("repetitions", r.per_time.repetitions)
+      .set("hits", Json::object().set("from", r.hits_from).set("to", r.hits))
+      .set("time", Json::object().set("from", r.time_from).set("to", r.time))
+      .set("kick", r.kick)
+      .set("kick_cost",
+           Json::object().set("value", r.kick_cost.value).set("stderr", r.kick_cost.error))
+      .set("for_ever", r.for_ever);
+}
+
+std::string repeller_text(const RepellerExponent& r) {
+  const Estimate per_time = r.estimate();
+  std::string text = fmt::format(
+      "\nlambda = {} per unit time, of the repeller; the spectrum is lambda, 0, 0, "
+      "-lambda\n         {} per hit\n",
+      cli::with_error(per_time.value, per_time.error),
+      cli::with_error(r.per_hit.limit.value,
+                      std::hypot(r.per_hit.limit.error, r.per_hit.extrapolation)));
+  return text +
+         folded(fmt::format(
+             "The repeller are the orbits that never leave. {} populations of {} "
+             "trajectories at each of three kicks, {:.3g} and its half and quarter, were "
+             "kept alive for {} hits (t = {:.6g}); growth between hits {} and {} (t = "
+             "{:.6g}). 95 %: {:.6g} to {:.6g}.",
+             r.per_time.repetitions, grouped(r.population), r.kick, grouped(r.hits), r.time,
+             grouped(r.hits_from), grouped(r.hits), r.time_from, r.per_time.low(),
+             r.per_time.high())) +
+         '\n';
 }
 
 // Doubts about the numbers, as phrases.
@@ -46,6 +120,13 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
                                   const LyapunovEstimate& e) {
   std::vector<std::string> notes;
   const GrowthSums::Totals& totals = result.growth.totals();
+  if (result.repeller)
+    add_notes_of(*result.repeller, notes);
+  else if (is_open(system) && 2 * totals.orbits < result.trajectories)
+    notes.push_back(fmt::format(
+        "orbits that leave soon after the window are among those that stay: the exponent of the "
+        "orbits that never leave is measured by whole runs of at least {} trajectories",
+        grouped(least_of_repeller())));
   if (totals.orbits == 0) return notes;
   if (totals.orbits < result.trajectories)
     notes.push_back(fmt::format(
@@ -154,9 +235,16 @@ Json result_json(const System& system, const LyapunovResult& result,
     json.set("no_lanes", none);
   json.set("window", Json::object().set("from", sums.window().from).set("to", sums.window().to));
   const bool known = reason.empty();
-  json.set("lambda", known ? spectrum_of(system, e.per_time) : Json());
+  Estimate per_time = e.per_time, per_hit = e.per_hit;
+  if (const auto& r = result.repeller; of_repeller(result)) {
+    per_time = r->estimate();
+    per_hit = {r->per_hit.limit.value,
+               std::hypot(r->per_hit.limit.error, r->per_hit.extrapolation)};
+  }
+  json.set("lambda", known ? spectrum_of(system, per_time) : Json());
   json.set("per_collision",
-           known && std::isfinite(e.per_hit.value) ? spectrum_of(system, e.per_hit) : Json());
+           known && std::isfinite(per_hit.value) ? spectrum_of(system, per_hit) : Json());
+  json.set("repeller", result.repeller ? repeller_json(*result.repeller) : Json());
   if (!known) json.set("reason", reason);
   Json errors = Json::array(), bins = Json::array(), notes = Json::array();
   for (const auto& one : e.block_errors)
@@ -166,8 +254,9 @@ Json result_json(const System& system, const LyapunovResult& result,
   for (const ExponentBin& bin : distribution_of(sums))
     bins.push(Json::object().set("from", bin.from).set("to", bin.to).set("count", bin.count));
   json.set("distribution", std::move(bins));
-  json.set("chaotic_share",
-           known ? estimate_json(e.chaotic_share).set("hidden", e.hidden) : Json());
+  json.set("chaotic_share", sums.totals().orbits > 0
+                                ? estimate_json(e.chaotic_share).set("hidden", e.hidden)
+                                : Json());
   json.set("regularity", regularity_json(sums));
   json.set("chaotic_lambda", std::isfinite(e.chaotic.value) ? estimate_json(e.chaotic) : Json());
   for (const std::string& note : notes_of(system, result, e)) notes.push(note);
@@ -185,8 +274,12 @@ std::string result_text(const System& system, const LyapunovResult& result,
       head_text(system, result.trajectories, sums.window().to, result.complete, context);
   if (const std::string reason = no_exponent(result); !reason.empty()) {
     text += folded("\nThere is no exponent: " + reason + ".") + '\n';
+  } else if (of_repeller(result)) {
+    text += repeller_text(*result.repeller);
   } else {
     text += exponents_text(system, sums, e);
+  }
+  if (sums.totals().orbits > 0) {
     text += distribution_text(sums);
     text += regularity_text(sums, e);
   }

@@ -52,29 +52,29 @@ Json one_json(const Table& table, const PeriodicOrbit& orbit) {
   return json;
 }
 
-Json certified_json(const CertifiedPeriodicOrbit& orbit, int digits) {
+Json proof_json(const ProofOfOrbit& proof, int digits) {
   Json json = Json::object();
-  json.set("proven", orbit.proven);
-  if (!orbit.proven) return json.set("reason", orbit.reason);
-  json.set("digits", digits).set("period", orbit.period.text(digits));
-  json.set("length", orbit.length.text(digits)).set("trace", orbit.trace.text(digits));
-  if (orbit.multiplier.has_value()) json.set("multiplier", orbit.multiplier.text(digits));
+  json.set("proven", proof.proven);
+  if (!proof.proven) return json.set("reason", proof.reason);
+  json.set("digits", digits).set("period", proof.period);
+  json.set("length", proof.length).set("trace", proof.trace);
+  if (!proof.multiplier.empty()) json.set("multiplier", proof.multiplier);
   Json x = Json::array(), y = Json::array();
-  for (const CertifiedNumber& number : orbit.x) x.push(number.text(digits));
-  for (const CertifiedNumber& number : orbit.y) y.push(number.text(digits));
+  for (const std::string& number : proof.x) x.push(number);
+  for (const std::string& number : proof.y) y.push(number);
   return json.set("x", std::move(x)).set("y", std::move(y));
 }
 
-std::string certified_text(const std::vector<CertifiedPeriodicOrbit>& orbits, int digits) {
-  std::string text = fmt::format("\nproven, with {} decimals: period, multiplier\n", digits);
-  for (std::size_t i = 0; i < orbits.size(); ++i) {
-    const CertifiedPeriodicOrbit& orbit = orbits[i];
+std::string proofs_text(const ProofsOfOrbits& proofs) {
+  std::string text = fmt::format("\nproven, with {} decimals: period, multiplier\n", proofs.digits);
+  for (std::size_t i = 0; i < proofs.orbits.size(); ++i) {
+    const ProofOfOrbit& proof = proofs.orbits[i];
     text += fmt::format("  {:3}  ", i + 1);
-    if (!orbit.proven)
-      text += "not proven: " + orbit.reason + "\n";
+    if (!proof.proven)
+      text += "not proven: " + proof.reason + "\n";
     else
-      text += orbit.period.text(digits) + "  " +
-              (orbit.multiplier.has_value() ? orbit.multiplier.text(digits) : "not real") + "\n";
+      text +=
+          proof.period + "  " + (proof.multiplier.empty() ? "not real" : proof.multiplier) + "\n";
   }
   return text + "\n";
 }
@@ -85,23 +85,30 @@ Json zeta_json(const CycleExpansion& cycles) {
     orders.push(Json::object()
                     .set("hits", order.hits)
                     .set("spectral", order.spectral)
-                    .set("dynamical", order.dynamical));
+                    .set("dynamical", order.dynamical)
+                    .set("lambda", order.lambda));
   return Json::object()
       .set("escape_rate", cycles.escape_rate)
       .set("error", cycles.error)
+      .set("lambda", cycles.lambda)
+      .set("lambda_error", cycles.lambda_error)
       .set("orders", std::move(orders));
 }
 
 std::string zeta_text(const CycleExpansion& cycles) {
-  std::vector<Column> columns{{"hits", {}}, {"spectral determinant", {}}, {"zeta function", {}}};
+  std::vector<Column> columns{
+      {"hits", {}}, {"spectral determinant", {}}, {"zeta function", {}}, {"Lyapunov exponent", {}}};
   for (const CycleOrder& order : cycles.orders) {
     columns[0].cells.push_back(fmt::format("{}", order.hits));
     columns[1].cells.push_back(fmt::format("{:.14f}", order.spectral));
     columns[2].cells.push_back(fmt::format("{:.14f}", order.dynamical));
+    columns[3].cells.push_back(fmt::format("{:.14f}", order.lambda));
   }
-  return "\nescape rate, by cycle expansion\n" + aligned(columns) +
-         fmt::format("  {:.14f}, which the last order moved by {:.1e}\n\n", cycles.escape_rate,
-                     cycles.error);
+  return "\nescape rate and exponent of the repeller, by cycle expansion\n" + aligned(columns) +
+         fmt::format("  escape rate        {:.14f}, which the last order moved by {:.1e}\n",
+                     cycles.escape_rate, cycles.error) +
+         fmt::format("  Lyapunov exponent  {:.14f}, which the last order moved by {:.1e}\n\n",
+                     cycles.lambda, cycles.lambda_error);
 }
 
 constexpr std::size_t most_rows = 30, least_letters = 10;
@@ -129,12 +136,12 @@ Json orbit_json(const System& system, const OrbitSearchResult& result,
   json.set("most_hits", context.most_hits);
   json.set("words", result.words).set("recurrences", result.recurrences);
   json.set("unsolved", result.unsolved).set("shadowed", result.shadowed);
-  json.set("symmetries", result.symmetries);
+  json.set("symmetries", result.symmetries).set("number", result.orbits.size());
   Json orbits = Json::array();
   for (std::size_t i = 0; i < result.orbits.size(); ++i) {
     Json one = one_json(*system.table, result.orbits[i]);
-    if (i < context.certified.size())
-      one.set("certified", certified_json(context.certified[i], context.digits));
+    if (i < context.proofs.orbits.size())
+      one.set("certified", proof_json(context.proofs.orbits[i], context.proofs.digits));
     orbits.push(std::move(one));
   }
   if (result.cycles) json.set("zeta", zeta_json(*result.cycles));
@@ -187,7 +194,7 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
                              grouped(result.shadowed))) +
           "\n";
   if (result.cycles) text += zeta_text(*result.cycles);
-  if (!context.certified.empty()) text += certified_text(context.certified, context.digits);
+  if (!context.proofs.orbits.empty()) text += proofs_text(context.proofs);
   text += fmt::format("{} symmetr{} of the table; {:.3g} s on {} thread{}\n", result.symmetries,
                       result.symmetries == 1 ? "y" : "ies", result.seconds, result.threads,
                       result.threads == 1 ? "" : "s");

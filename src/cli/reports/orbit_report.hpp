@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "carom/certify/certified_periodic_orbit.hpp"
 #include "carom/ensemble/orbit_search.hpp"
 #include "carom/ensemble/system.hpp"
+#include "carom/io/orbit_archive.hpp"
 #include "io/json.hpp"
 
 namespace carom::cli {
@@ -15,9 +15,7 @@ struct OrbitContext {
   std::uint64_t most_hits = 0;
   std::string status, output;
   bool verbose = false;
-  /// One an orbit, in their order; fewer after an interrupt, none if it was not asked for.
-  std::vector<CertifiedPeriodicOrbit> certified = {};
-  int digits = 20;  ///< of these
+  ProofsOfOrbits proofs = {};
 };
 
 io::Json orbit_json(const System&, const OrbitSearchResult&, const OrbitContext&);

@@ -57,6 +57,7 @@ Json relax_json(const System& system, const RelaxResult& result, const std::stri
   json.set("status", result.complete ? "completed" : "interrupted");
   json.set("starts", result.starts);
   json.set("without", result.without);
+  json.set("number", result.equilibria.size());
   Json equilibria = Json::array();
   for (const Equilibrium& e : result.equilibria) {
     Json positions = Json::array(), walls = Json::array(), frequencies = Json::array(),

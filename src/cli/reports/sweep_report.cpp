@@ -60,8 +60,28 @@ const std::vector<Shown>& shown_of(const std::string& command) {
                                           {"orbits", {{"orbits", "orbits"}}},
                                           {"collisions", {{"collisions", "collisions"}}},
                                           {"status", {{"status", "status"}}}};
+  static const std::vector<Shown> lyapunov{
+      {"lambda", {{"lambda", "lambda.0.value", "lambda.0.stderr"}}},
+      {"lambda a hit", {{"per_collision", "per_collision.0.value", "per_collision.0.stderr"}}},
+      {"chaotic share", {{"chaotic_share", "chaotic_share.value", "chaotic_share.stderr"}}}};
+  static const std::vector<Shown> relax{
+      {"lowest energy", {{"energy", "equilibria.0.energy", "", "", "", 10}}},
+      {"it is a", {{"kind", "equilibria.0.kind"}}},
+      {"highest frequency", {{"frequency", "equilibria.0.frequencies.0"}}},
+      {"equilibria", {{"number", "number"}}}};
+  static const std::vector<Shown> orbit{
+      {"escape rate", {{"escape_rate", "zeta.escape_rate", "zeta.error"}}},
+      {"orbits", {{"number", "number"}}},
+      {"shortest period", {{"period", "orbits.0.period"}}},
+      {"its trace", {{"trace", "orbits.0.trace"}}}};
+  static const std::vector<Shown> compare{
+      {"cheapest", {{"scheme", "cheapest.scheme"}}},
+      {"step", {{"step", "cheapest.step"}, {"tolerance", "cheapest.tolerance"}}},
+      {"evaluations", {{"force_evaluations", "cheapest.force_evaluations"}}},
+      {"compared at t", {{"t", "t"}}}};
   static const std::vector<std::pair<std::string, const std::vector<Shown>*>> all{
-      {"escape", &escape}, {"diffusion", &diffusion}, {"run", &run}, {"section", &section}};
+      {"escape", &escape},     {"diffusion", &diffusion}, {"run", &run},     {"section", &section},
+      {"lyapunov", &lyapunov}, {"relax", &relax},         {"orbit", &orbit}, {"compare", &compare}};
   for (const auto& [name, shown] : all)
     if (name == command) return *shown;
   throw InternalError("no table for a sweep of " + command);

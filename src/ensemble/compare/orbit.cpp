@@ -25,8 +25,6 @@ constexpr int fewest_repetitions = 3, most_repetitions = 16;
 /// Means over so many parts of the run are independent but for oscillations that last longer.
 constexpr int blocks = 8;
 
-double length(Vector a) { return std::sqrt(dot(a, a)); }
-
 class HitList : public Observer {
  public:
   HitList(const Table& table, std::vector<ComparedHit>& hits) : table_(table), hits_(hits) {}
@@ -40,10 +38,6 @@ class HitList : public Observer {
   const Table& table_;
   std::vector<ComparedHit>& hits_;
 };
-
-State state_of(const World& world, int particle, double t) {
-  return world.finished(particle) ? world.state(particle) : world.state_at(particle, t);
-}
 
 std::string failure_of(const World& world) {
   for (int i = 0; i < world.size(); ++i)
@@ -78,6 +72,10 @@ MeasuredNumber trend(const std::vector<double>& values, double t) {
 }
 
 }  // namespace
+
+State state_of(const World& world, int particle, double t) {
+  return world.finished(particle) ? world.state(particle) : world.state_at(particle, t);
+}
 
 PlaneState in_the_plane(const Table& table, const State& state) {
   Vector position = state.position;

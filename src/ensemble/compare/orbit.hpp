@@ -24,6 +24,9 @@ struct ComparedHit {
   geometry::Vector place;  ///< in the plane
 };
 
+/// At t; of one that has ended the last.
+State state_of(const World&, int particle, double t);
+
 /// Lengths and velocities by which errors are divided.
 struct ErrorUnits {
   double size = 1.0, speed = 1.0;

@@ -31,12 +31,6 @@ constexpr double margin = 2.0;
 /// A flight to a wall is rounded by some units: of the hit's place, the time and the velocity.
 constexpr double rounding_of_flight = 0x1p-50;
 
-double length(Vector a) { return std::sqrt(dot(a, a)); }
-
-State state_of(const World& world, int particle, double t) {
-  return world.finished(particle) ? world.state(particle) : world.state_at(particle, t);
-}
-
 double largest_turn(const System& system) {
   double omega = 0.0;
   for (const Particle& p : system.particles) omega = std::max(omega, std::fabs(p.omega));

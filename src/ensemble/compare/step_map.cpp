@@ -28,8 +28,6 @@ constexpr double finer = 0.5;
 
 using Displacement = std::vector<PlaneState>;  // or a derivative; one entry a particle
 
-double length(Vector a) { return std::sqrt(dot(a, a)); }
-
 /// Numbers without relation between -1 and 1.
 double entry(int vector, std::size_t particle, int component) {
   const double k = static_cast<double>(vector), i = static_cast<double>(particle);

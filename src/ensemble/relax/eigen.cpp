@@ -5,20 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <tuple>
 
 #include "carom/base/error.hpp"
+#include "ensemble/relax/gsl_pointer.hpp"
 
 namespace carom::ensemble {
 
 namespace {
 
-template <class T, void (*release)(T*)>
-struct Release {
-  void operator()(T* p) const { release(p); }
-};
-using MatrixPointer = std::unique_ptr<gsl_matrix, Release<gsl_matrix, gsl_matrix_free>>;
+using MatrixPointer = GslPointer<gsl_matrix, gsl_matrix_free>;
 
 MatrixPointer copy_of(const Matrix& m) {
   MatrixPointer copy(gsl_matrix_alloc(m.n, m.n));
@@ -53,12 +49,11 @@ std::vector<NormalMode> modes_in_field(const Matrix& d, const Matrix& g, double 
     }
   }
   const MatrixPointer matrix = copy_of(all);
-  const std::unique_ptr<gsl_eigen_nonsymm_workspace,
-                        Release<gsl_eigen_nonsymm_workspace, gsl_eigen_nonsymm_free>>
-      space(gsl_eigen_nonsymm_alloc(2 * n));
+  const GslPointer<gsl_eigen_nonsymm_workspace, gsl_eigen_nonsymm_free> space(
+      gsl_eigen_nonsymm_alloc(2 * n));
   gsl_eigen_nonsymm_params(0, 1, space.get());  // balanced
-  const std::unique_ptr<gsl_vector_complex, Release<gsl_vector_complex, gsl_vector_complex_free>>
-      values(gsl_vector_complex_alloc(2 * n));
+  const GslPointer<gsl_vector_complex, gsl_vector_complex_free> values(
+      gsl_vector_complex_alloc(2 * n));
   if (gsl_eigen_nonsymm(matrix.get(), values.get(), space.get()) != 0)
     throw InternalError("the eigenvalues of an equilibrium in a field did not converge");
   // A double zero (a symmetry: rest and drift) is a Jordan block, which an error splits by its
@@ -83,11 +78,9 @@ Eigen eigen_of(const Matrix& m) {
   eigen.vectors = Matrix(m.n);
   if (m.n == 0) return eigen;
   const MatrixPointer matrix = copy_of(m), vectors(gsl_matrix_alloc(m.n, m.n));
-  const std::unique_ptr<gsl_vector, Release<gsl_vector, gsl_vector_free>> values(
-      gsl_vector_alloc(m.n));
-  const std::unique_ptr<gsl_eigen_symmv_workspace,
-                        Release<gsl_eigen_symmv_workspace, gsl_eigen_symmv_free>>
-      space(gsl_eigen_symmv_alloc(m.n));
+  const GslPointer<gsl_vector, gsl_vector_free> values(gsl_vector_alloc(m.n));
+  const GslPointer<gsl_eigen_symmv_workspace, gsl_eigen_symmv_free> space(
+      gsl_eigen_symmv_alloc(m.n));
   if (gsl_eigen_symmv(matrix.get(), values.get(), vectors.get(), space.get()) != 0 ||
       gsl_eigen_symmv_sort(values.get(), vectors.get(), GSL_EIGEN_SORT_VAL_ASC) != 0)
     throw InternalError("the eigenvalues of a symmetric matrix did not converge");

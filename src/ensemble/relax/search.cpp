@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "ensemble/relax/eigen.hpp"
+#include "ensemble/relax/gsl_pointer.hpp"
 #include "ensemble/relax/walls.hpp"
 
 namespace carom::ensemble {
@@ -19,11 +19,7 @@ using geometry::Vector;
 
 namespace {
 
-template <class T, void (*release)(T*)>
-struct Release {
-  void operator()(T* p) const { release(p); }
-};
-using VectorPointer = std::unique_ptr<gsl_vector, Release<gsl_vector, gsl_vector_free>>;
+using VectorPointer = GslPointer<gsl_vector, gsl_vector_free>;
 
 double largest(const std::vector<double>& v) {
   double size = 0.0;
@@ -168,9 +164,8 @@ Ended minimise(const Landscape& landscape, const World& world, Sites& sites,
   Problem problem{landscape, base};
   gsl_multimin_function_fdf function{energy_at, slope_at, both_at, n, &problem};
   const VectorPointer x(gsl_vector_calloc(n));
-  const std::unique_ptr<gsl_multimin_fdfminimizer,
-                        Release<gsl_multimin_fdfminimizer, gsl_multimin_fdfminimizer_free>>
-      minimiser(gsl_multimin_fdfminimizer_alloc(gsl_multimin_fdfminimizer_vector_bfgs2, n));
+  const GslPointer<gsl_multimin_fdfminimizer, gsl_multimin_fdfminimizer_free> minimiser(
+      gsl_multimin_fdfminimizer_alloc(gsl_multimin_fdfminimizer_vector_bfgs2, n));
   // The first trial step is a hundredth of what is there; 0.1: GSL's advice for its line search.
   double size = 0.0;
   for (const Site& p : base)
@@ -244,9 +239,8 @@ std::optional<Rest> level(const Landscape& landscape, const World& world, Sites 
   gsl_multiroot_function_fdf function{slopes_at, curvature_at, slopes_and_curvature_at, n,
                                       &problem};
   const VectorPointer x(gsl_vector_calloc(n));
-  const std::unique_ptr<gsl_multiroot_fdfsolver,
-                        Release<gsl_multiroot_fdfsolver, gsl_multiroot_fdfsolver_free>>
-      solver(gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n));
+  const GslPointer<gsl_multiroot_fdfsolver, gsl_multiroot_fdfsolver_free> solver(
+      gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n));
   const double first = largest(landscape.slope(start));
   if (!std::isfinite(first)) return {};
   gsl_multiroot_fdfsolver_set(solver.get(), &function, x.get());

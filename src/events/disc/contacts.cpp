@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double infinity = std::numeric_limits<double>::infinity();
-double length(Vector v) { return std::sqrt(dot(v, v)); }
 double norm_1(Vector v) { return std::fabs(v.x) + std::fabs(v.y); }
 
 }  // namespace

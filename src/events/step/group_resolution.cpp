@@ -12,11 +12,7 @@ namespace carom::events {
 using forces::ForceBound;
 using geometry::Vector;
 
-namespace {
-
-double length(const Vector& a) { return std::sqrt(dot(a, a)); }
-
-}  // namespace
+namespace {}  // namespace
 
 void Group::find_maps() {
   maps_.clear();

@@ -101,6 +101,7 @@ ArchiveFile::ArchiveFile(ArchiveFile&& other) noexcept
     : file_(std::move(other.file_)),
       path_(std::move(other.path_)),
       name_(std::move(other.name_)),
+      sums_(std::move(other.sums_)),
       kept_(std::exchange(other.kept_, true)) {}
 
 ArchiveFile::~ArchiveFile() {
@@ -217,7 +218,7 @@ void ArchiveFile::add_decisions(const DecisionCounts& counts) const {
 }
 
 void ArchiveFile::keep_as(const std::string& target) {
-  hdf5::write_checksums(id(), name_);
+  hdf5::write_checksums(id(), name_, sums_);
   hdf5::check(H5Fflush(id(), H5F_SCOPE_GLOBAL) >= 0, name_);
   hdf5::check(file_.close(), name_);
   sync(path_, O_RDONLY, name_);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "carom/io/archive.hpp"
+#include "io/archive/checksums.hpp"
 #include "io/archive/hdf5.hpp"
 
 namespace carom::io {
@@ -38,11 +39,14 @@ class ArchiveFile {
   /// Writes the checksums of all it holds, closes, syncs and renames to `target` (may be the path
   /// itself).
   void keep_as(const std::string& target);
+  /// Columns that are closed with it need not be read again for their checksums.
+  hdf5::KnownSums* sums() { return &sums_; }
 
  private:
   ArchiveFile(hdf5::Handle file, std::string path, std::string name);
   hdf5::Handle file_;
   std::string path_, name_;
+  hdf5::KnownSums sums_;
   bool kept_ = false;
 };
 

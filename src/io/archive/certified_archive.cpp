@@ -223,7 +223,7 @@ void read_end(hid_t file, const std::string& name, StoredCertified& stored) {
   end.wall = static_cast<int>(integer("last_wall"));
   end.hole = static_cast<int>(integer("hole"));
   end.cell = {integer("cell_first"), integer("cell_second")};
-  if (H5Lexists(group.get(), coordinates.front().decimals, H5P_DEFAULT) <= 0) return;
+  if (!hdf5::has(group.get(), coordinates.front().decimals)) return;
   for (const Coordinate& c : coordinates)
     end.*c.value = CertifiedNumber::of_text(hdf5::read_text(group.get(), c.decimals, name),
                                             stored.task.digits, Place{name, 0, 0, c.decimals});

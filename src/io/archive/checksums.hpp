@@ -5,19 +5,33 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 
 namespace carom::io::hdf5 {
 
 /// CRC-32 as zlib has it, so that others can compute it. Goes on from the sum of the bytes before.
 std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before = 0);
+/// The same of up to four rows of bytes of one length side by side, which is faster than one after
+/// the other: each sum goes on from what `sums` holds.
+void crc32_of_several(const std::byte* const* bytes, std::size_t size, std::uint32_t* sums,
+                      std::size_t count);
+/// The sum of HDF5's filter Fletcher-32 of a chunk of a multiple of eight bytes.
+std::uint32_t fletcher32(const void* bytes, std::size_t size);
+
+/// Checksums of datasets that were taken while they were written, by path.
+struct KnownSum {
+  std::uint32_t sum;
+  std::uint64_t count;
+};
+using KnownSums = std::map<std::string, KnownSum>;
 
 /// Lists everything that the file holds in the attribute `checksums` of /provenance: a line with
 /// the CRC-32 of the lines that follow, then a line for each dataset and attribute with the CRC-32
 /// of its bytes, its type, number of values and path. All these have a fixed length: the attribute
 /// is written again in place as long as nothing new is in the file. The bytes of a text of variable
-/// length are its UTF-8 and a zero.
-void write_checksums(hid_t file, const std::string& name);
+/// length are its UTF-8 and a zero. Datasets whose sum is known are not read again.
+void write_checksums(hid_t file, const std::string& name, const KnownSums& known = {});
 /// Makes room for that list before readers come (SWMR): nothing can be created afterwards. The sums
 /// are zeros.
 void reserve_checksums(hid_t file, const std::string& name);

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "io/archive/checksums.hpp"
 #include "io/archive/hdf5.hpp"
 
 namespace carom::io::hdf5 {
@@ -13,61 +16,57 @@ namespace carom::io::hdf5 {
 class Columns {
  public:
   Columns() = default;
-  explicit Columns(std::string file) : file_(std::move(file)) {}
+  /// Few rows are stored in small chunks, so that short runs make small files; where very many are
+  /// expected, HDF5 is called less often.
+  explicit Columns(std::string file, double expected_rows = 0.0)
+      : file_(std::move(file)),
+        chunk_(expected_rows < 4.0 * long_chunk ? short_chunk : long_chunk) {}
 
-  /// Adds a column; rows are pushed in the order in which columns were added.
+  /// Adds a column; rows are pushed in the order in which columns were added. Chunks in which each
+  /// value is `usual` are not stored: HDF5 knows them by the dataset's fill value.
   template <class T>
-  hid_t add(hid_t group, const char* name, Description description) {
-    return take(create_growing(group, name, native_type<T>(), chunk, description, file_),
-                native_type<T>());
+  hid_t add(hid_t group, const char* name, Description description, T usual = {}) {
+    return take(create_growing(group, name, native_type<T>(), chunk_, description, file_, &usual),
+                native_type<T>(), &usual);
   }
   /// The same for a column that is in the file already; new rows follow the old ones.
   template <class T>
-  void open(hid_t group, const char* name) {
-    take(checked(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, file_), native_type<T>());
-    rows_ = rows_of(columns_.back().dataset.get(), file_);
+  void open(hid_t group, const char* name, T usual = {}) {
+    open(checked(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, file_), native_type<T>(), &usual);
   }
 
   template <class... Values>
   void row(Values... values) {
     std::size_t column = 0;
     (push(columns_[column++], values), ...);
-    if ((rows_ + ++pending_) % batch == 0) flush();
+    if (++pending_ == until_full_) flush();
   }
 
   /// Writes what is pending and makes it visible to readers.
-  void flush() {
-    if (pending_ == 0) return;
-    for (Column& column : columns_) {
-      append_rows(column.dataset.get(), column.type, rows_, pending_, column.values.data(), file_);
-      check(H5Dflush(column.dataset.get()) >= 0, file_);
-    }
-    rows_ += pending_;
-    pending_ = 0;
-  }
-
-  void close() {
-    flush();
-    for (Column& column : columns_) check(column.dataset.close(), file_);
-    columns_.clear();
-  }
+  void flush();
+  /// `sums`: takes the checksums of columns that were written from their first row on.
+  void close(KnownSums* sums = nullptr);
 
  private:
-  // Rows written at a time, and rows stored together: short runs make small files. A batch fills
-  // its chunks, so that a reader never meets a chunk that is being written again.
-  static constexpr std::size_t batch = 4096, chunk = 1024;
-  static_assert(batch % chunk == 0);
+  // Rows written at a time, and rows stored together. A batch fills its chunks, so that a reader
+  // never meets a chunk that is being written again.
+  static constexpr std::size_t short_batch = 4096, short_chunk = 1024, long_chunk = 16384;
+  static_assert(short_batch % short_chunk == 0 && long_chunk % short_batch == 0);
   struct Column {
     Handle dataset;
     hid_t type;
+    std::size_t size;               ///< of a value
+    bool raw;                       ///< its chunks are stored as they are, with a checksum
+    std::vector<std::byte> usual;   ///< a chunk of the usual value
     std::vector<std::byte> values;  ///< of the rows that are pending
+    std::uint32_t sum = 0;          ///< of the rows that were written
   };
 
-  hid_t take(Handle dataset, hid_t type) {
-    columns_.push_back(
-        {std::move(dataset), type, std::vector<std::byte>(batch * H5Tget_size(type))});
-    return columns_.back().dataset.get();
-  }
+  hid_t take(Handle dataset, hid_t type, const void* usual);
+  void open(Handle dataset, hid_t type, const void* usual);
+  void write(Column& column);
+  void add_to_sums();
+  std::size_t batch() const { return chunk_ < short_batch ? short_batch : chunk_; }
   template <class T>
   void push(Column& column, T value) {
     std::memcpy(column.values.data() + pending_ * sizeof value, &value, sizeof value);
@@ -75,7 +74,10 @@ class Columns {
 
   std::string file_;
   std::vector<Column> columns_;
+  std::size_t chunk_ = short_chunk;
   std::size_t rows_ = 0, pending_ = 0;
+  std::size_t until_full_ = batch();  ///< pending rows that end a batch
+  bool whole_ = true;                 ///< all rows went through here
 };
 
 }  // namespace carom::io::hdf5

@@ -9,6 +9,7 @@
 
 #include "io/archive/ensemble_columns.hpp"
 #include "io/archive/exact_sums.hpp"
+#include "io/archive/free_path_columns.hpp"
 
 namespace carom::io {
 
@@ -35,6 +36,14 @@ void write_moments(const ArchiveFile& file, const DisplacementSums& sums, std::s
          {"length^4", "Mean fourth power of the displacement"});
   column("fourth_stderr", [](Point p) { return p.fourth.error; },
          {"length^4", "Its standard error"});
+  column("correlation", [](Point p) { return p.correlation.value; },
+         {"length^2/time^2", "Velocity autocorrelation <v(t).v(0)>"});
+  column("correlation_stderr", [](Point p) { return p.correlation.error; },
+         {"length^2/time^2", "Its standard error"});
+  column("green_kubo", [](Point p) { return p.green_kubo.value; },
+         {"length^2/time", "Half the integral of the velocity autocorrelation from 0 to t"});
+  column("green_kubo_stderr", [](Point p) { return p.green_kubo.error; },
+         {"length^2/time", "Its standard error"});
   column("exponent", [](Point p) { return p.exponent.value; },
          {"1", "d ln MSD / d ln t since the time before; NaN where there is none"});
   column("exponent_stderr", [](Point p) { return p.exponent.error; }, {"1", "Its standard error"});
@@ -44,7 +53,7 @@ void write_moments(const ArchiveFile& file, const DisplacementSums& sums, std::s
 void write_groups(const ArchiveFile& file, const DisplacementSums& sums) {
   std::vector<std::uint64_t> counts;
   std::vector<double> rounded;
-  std::vector<const ExactSum*> squares, fourths;
+  std::vector<const ExactSum*> squares, fourths, velocities, along;
   for (std::size_t group = 0; group < DisplacementSums::groups; ++group)
     for (std::size_t k = 0; k < sums.times().size(); ++k) {
       const Sum& sum = sums.of(group, k);
@@ -52,6 +61,8 @@ void write_groups(const ArchiveFile& file, const DisplacementSums& sums) {
       rounded.push_back(sum.square.value());
       squares.push_back(&sum.square);
       fourths.push_back(&sum.fourth);
+      velocities.push_back(&sum.velocities);
+      along.push_back(&sum.along);
     }
   const Handle by = file.group(
       "msd_groups", "Sums by group of trajectories (index modulo 128): row group * times + time");
@@ -67,6 +78,10 @@ void write_groups(const ArchiveFile& file, const DisplacementSums& sums) {
   write_sums(by, "fourth_digits", fourths,
              {"length^4", "Sum of the fourth powers of their displacements, likewise"},
              file.name());
+  write_sums(by, "velocities_digits", velocities, {"length^2/time^2", "Sum of v(t).v(0), likewise"},
+             file.name());
+  write_sums(by, "along_digits", along, {"length^2/time", "Sum of v(0).(r(t) - r(0)), likewise"},
+             file.name());
 }
 
 constexpr const char* energy_change = "energy_change";
@@ -76,6 +91,7 @@ constexpr const char* energy_change = "energy_change";
 void write_counts(const ArchiveFile& file, const DiffusionResult& result, const System& system) {
   write_moments(file, result.sums, system.particles.size());
   write_groups(file, result.sums);
+  write_free_paths(file, result.free_paths);
   const Handle ends =
       file.group("fates", "Numbers of particles by their end before the last report time");
   write_ends(ends, result, {result.trajectories, result.collisions, result.digest}, file.name());
@@ -93,10 +109,19 @@ void read_counts(hid_t file, const std::string& name, DiffusionResult& result) {
   const std::size_t times = result.sums.times().size();
   if (counts.size() != DisplacementSums::groups * times)
     damaged(name, "'/msd_groups/count' has not one row a group and time of '/msd/t'");
-  const auto squares = read_sums(by, "msd_groups", "square_digits", counts.size(), name),
-             fourths = read_sums(by, "msd_groups", "fourth_digits", counts.size(), name);
+  if (!hdf5::has(by.get(), "velocities_digits"))
+    throw InputError(Place{name, 0, 0, ""},
+                     "the archive has no velocity autocorrelation: an earlier build wrote it",
+                     "an archive of this build; its datasets can still be read by other programs");
+  const auto sums = [&](const char* dataset) {
+    return read_sums(by, "msd_groups", dataset, counts.size(), name);
+  };
+  const auto squares = sums("square_digits"), fourths = sums("fourth_digits"),
+             velocities = sums("velocities_digits"), along = sums("along_digits");
   for (std::size_t i = 0; i < counts.size(); ++i)
-    result.sums.merge(i / times, i % times, {counts[i], squares[i], fourths[i]});
+    result.sums.merge(i / times, i % times,
+                      {counts[i], squares[i], fourths[i], velocities[i], along[i]});
+  result.free_paths = read_free_paths(file, name);
   const EnsembleNumbers numbers = read_ends(ends, name, result);
   result.trajectories = numbers.particles;
   result.collisions = numbers.collisions;

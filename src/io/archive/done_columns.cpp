@@ -52,7 +52,7 @@ void read_done(hid_t file, const std::string& name, EnsembleResult& result) {
     if (!result.done.add(TrajectoryRange{first[i], last[i]}))
       damaged(name, "'/done' counts trajectories twice");
   }
-  if (H5Lexists(file, "lost", H5P_DEFAULT) <= 0) return;
+  if (!hdf5::has(file, "lost")) return;
   std::istringstream lines(hdf5::read_text(file, "lost", name));
   for (std::string line; std::getline(lines, line);) {
     const std::size_t tab = line.find('\t');
@@ -66,8 +66,6 @@ void read_done(hid_t file, const std::string& name, EnsembleResult& result) {
 }
 
 namespace {
-
-bool has(hid_t group, const char* column) { return H5Lexists(group, column, H5P_DEFAULT) > 0; }
 
 struct RealNumber {
   const char* name;
@@ -98,7 +96,7 @@ void write_integration(hid_t fates, const EnsembleResult& result, const std::str
 }
 
 void read_integration(hid_t fates, const std::string& name, EnsembleResult& result) {
-  if (!has(fates, step_numbers[0].name)) return;
+  if (!hdf5::has(fates, step_numbers[0].name)) return;
   for (const StepNumber& number : step_numbers)
     result.steps.*number.value =
         read_number<std::uint64_t>(fates, number.name, fmt::format("/fates/{}", number.name), name);
@@ -108,7 +106,7 @@ void read_integration(hid_t fates, const std::string& name, EnsembleResult& resu
 }
 
 std::uint64_t read_unresolved(hid_t fates, const std::string& name) {
-  return has(fates, "unresolved")
+  return hdf5::has(fates, "unresolved")
              ? read_number<std::uint64_t>(fates, "unresolved", "/fates/unresolved", name)
              : 0;
 }

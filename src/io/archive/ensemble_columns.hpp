@@ -63,8 +63,9 @@ T read_number(hid_t group, const char* column, const std::string& path, const st
   return values.front();
 }
 
-hdf5::Columns create_records(const ArchiveFile&, const System&);
-void append_records(hdf5::Columns&, const std::vector<TrajectoryRecord>&);
+/// `exponents`: with the columns of these.
+hdf5::Columns create_records(const ArchiveFile&, const System&, bool exponents);
+void append_records(hdf5::Columns&, const std::vector<TrajectoryRecord>&, bool exponents);
 
 /// Reads /trajectories in batches.
 class RecordReader {
@@ -79,6 +80,7 @@ class RecordReader {
   std::string name_;
   hdf5::Handle file_;
   std::vector<hdf5::Handle> columns_;
+  bool starts_ = false, exponents_ = false;  ///< are there the later columns?
   std::size_t row_ = 0, left_ = 0;
   std::uint64_t last_ = 0;  ///< index of the last that was read
 };

@@ -40,15 +40,21 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
     column(group, "gone", counts.gone_in, [](std::uint64_t n) { return n; },
            {"1", "Trajectories gone after the time before and by t"});
   }
-  {
-    const auto bins = counts.gone_at.bins();
-    const Handle group =
-        file.group("escape_times", "Trajectories gone in fine bins of time, 64 to a factor of two");
-    column(group, "from", bins, [](const auto& bin) { return bin.from; },
-           {"time", "Start of the bin, in it; it ends where the next one starts"});
+  const auto fine_bins = [&](const char* name, const char* text, const EscapeTimes& gone,
+                             Description from) {
+    const auto bins = gone.bins();
+    const Handle group = file.group(name, text);
+    column(
+        group, "from", bins, [](const auto& bin) { return bin.from; }, from);
     column(group, "gone", bins, [](const auto& bin) { return bin.count; },
            {"1", "Trajectories gone in it"});
-  }
+  };
+  fine_bins("escape_times", "Trajectories gone in fine bins of time, 64 to a factor of two",
+            counts.gone_at, {"time", "Start of the bin, in it; it ends where the next one starts"});
+  fine_bins(
+      "escape_hits", "Trajectories gone in fine bins of hits, 64 to a factor of two",
+      counts.gone_after,
+      {"1", "Start of the bin, in it; it holds hits less one, and ends where the next one starts"});
   {
     const auto points = survival_by_hits(counts);
     const Handle group = file.group(
@@ -97,6 +103,8 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
   number("lost", counts.lost, "Internal errors: always 0");
   number("collisions", counts.collisions, "Reflections of all trajectories");
   number("most_hits", counts.most_hits, "Most reflections of a single trajectory");
+  number("fewest_hits_of_survivor", counts.fewest_hits_of_survivor,
+         "Fewest reflections of one that is still there, not pinned; 2^64 - 1: there is none");
   if (system.of_discs())
     number("contacts", counts.contacts, "Contacts of hard discs, each pair once");
   if (is_integrated(system)) write_integration(group.get(), result, target);
@@ -145,20 +153,24 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
     return read_number<std::uint64_t>(fates.get(), what, fmt::format("/fates/{}", what), name);
   };
   std::vector<std::uint64_t> by_hole;
-  if (H5Lexists(fates.get(), "holes", H5P_DEFAULT) > 0) by_hole = integers(fates, "holes");
+  if (hdf5::has(fates.get(), "holes")) by_hole = integers(fates, "holes");
   counts = SurvivalCounts(hdf5::read_column<double>(survival.get(), "t", name), by_hole.size());
   counts.hole_escapes = by_hole;
   counts.gone_in = integers(survival, "gone");
-  const Handle fine = open_group(file, "escape_times", name);
-  const auto from = hdf5::read_column<double>(fine.get(), "from", name);
-  const std::vector<std::uint64_t> gone_at = integers(fine, "gone");
-  if (from.size() != gone_at.size())
-    damaged(name, "'/escape_times/from' and '/escape_times/gone' differ in length");
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    if (!(from[i] > 0.0) || EscapeTimes::bin_of(from[i]).from != from[i])
-      damaged(name, "'/escape_times/from' is not the start of a bin");
-    counts.gone_at.add(from[i], gone_at[i]);
-  }
+  const auto read_bins = [&](const char* what, EscapeTimes& gone_in) {
+    const Handle fine = open_group(file, what, name);
+    const auto from = hdf5::read_column<double>(fine.get(), "from", name);
+    const std::vector<std::uint64_t> gone = integers(fine, "gone");
+    if (from.size() != gone.size())
+      damaged(name, fmt::format("'/{0}/from' and '/{0}/gone' differ in length", what));
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      if (!(from[i] > 0.0) || EscapeTimes::bin_of(from[i]).from != from[i])
+        damaged(name, fmt::format("'/{}/from' is not the start of a bin", what));
+      gone_in.add(from[i], gone[i]);
+    }
+  };
+  read_bins("escape_times", counts.gone_at);
+  read_bins("escape_hits", counts.gone_after);
   const std::vector<std::uint64_t> gone_in_hits = integers(hits, "gone");
   if (counts.gone_in.size() != counts.times.size())
     damaged(name, "'/survival/t' and '/survival/gone' differ in length");
@@ -176,8 +188,9 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   counts.lost = number("lost");
   counts.collisions = number("collisions");
   counts.most_hits = number("most_hits");
-  if (H5Lexists(fates.get(), "contacts", H5P_DEFAULT) > 0) counts.contacts = number("contacts");
-  if (H5Lexists(fates.get(), "energy_change", H5P_DEFAULT) > 0)
+  counts.fewest_hits_of_survivor = number("fewest_hits_of_survivor");
+  if (hdf5::has(fates.get(), "contacts")) counts.contacts = number("contacts");
+  if (hdf5::has(fates.get(), "energy_change"))
     counts.energy_change =
         read_number<double>(fates.get(), "energy_change", "/fates/energy_change", name);
   if (counts.escaped + counts.survived + counts.singular + counts.unresolved + counts.lost !=
@@ -188,6 +201,7 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   const std::uint64_t gone = counts.escaped;
   if (total(counts.gone_in) > gone) damaged(name, "'/survival/gone' has more than '/fates'");
   if (counts.gone_at.total() > gone) damaged(name, "'/escape_times/gone' has more than '/fates'");
+  if (counts.gone_after.total() > gone) damaged(name, "'/escape_hits/gone' has more than '/fates'");
   if (total(counts.gone_in_hits) > gone)
     damaged(name, "'/survival_hits/gone' has more than '/fates'");
   result.digest = number("digest");

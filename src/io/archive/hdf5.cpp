@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "carom/base/error.hpp"
+#include "io/archive/checksums.hpp"
 #include "io/archive/texts.hpp"
 
 namespace carom::io::hdf5 {
@@ -243,11 +244,15 @@ Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows
 }
 
 Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk,
-                      Description description, const std::string& file) {
+                      Description description, const std::string& file, const void* usual) {
   const hsize_t none = 0, unlimited = H5S_UNLIMITED, rows = chunk;
   const Handle space = checked(H5Screate_simple(1, &none, &unlimited), H5Sclose, file);
   const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
-  check(H5Pset_chunk(layout.get(), 1, &rows) >= 0 && H5Pset_fletcher32(layout.get()) >= 0, file);
+  check(H5Pset_chunk(layout.get(), 1, &rows) >= 0, file);
+  if (H5Tget_class(type) == H5T_INTEGER && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0)
+    check(H5Pset_shuffle(layout.get()) >= 0 && H5Pset_deflate(layout.get(), 1) >= 0, file);
+  check(H5Pset_fletcher32(layout.get()) >= 0, file);  // the last: it guards the others' input
+  if (usual) check(H5Pset_fill_value(layout.get(), type, usual) >= 0, file);
   Handle dataset =
       checked(H5Dcreate2(parent, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
               H5Dclose, file);
@@ -262,14 +267,59 @@ std::size_t rows_of(hid_t dataset, const std::string& file) {
   return static_cast<std::size_t>(points);
 }
 
-void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
-                 const std::string& file) {
-  const hsize_t start = row, size = count, end = row + count;
+std::size_t chunk_of(hid_t dataset, const std::string& file) {
+  const Handle layout = checked(H5Dget_create_plist(dataset), H5Pclose, file);
+  hsize_t rows = 0;
+  check(H5Pget_chunk(layout.get(), 1, &rows) == 1 && rows > 0, file);
+  return rows;
+}
+
+std::string path_of(hid_t dataset, const std::string& file) {
+  const ssize_t length = H5Iget_name(dataset, nullptr, 0);
+  check(length > 0, file);
+  std::string path(static_cast<std::size_t>(length), '\0');
+  check(H5Iget_name(dataset, path.data(), path.size() + 1) == length, file);
+  return path;
+}
+
+bool is_raw(hid_t dataset, const std::string& file) {
+  const Handle layout = checked(H5Dget_create_plist(dataset), H5Pclose, file);
+  unsigned flags = 0;
+  std::size_t none = 0;
+  return H5Pget_nfilters(layout.get()) == 1 &&
+         H5Pget_filter2(layout.get(), 0, &flags, &none, nullptr, 0, nullptr, nullptr) ==
+             H5Z_FILTER_FLETCHER32;
+}
+
+void extend(hid_t dataset, std::size_t rows, const std::string& file) {
+  const hsize_t end = rows;
   check(H5Dset_extent(dataset, &end) >= 0, file);
+}
+
+void write_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
+                const std::string& file) {
+  const hsize_t start = row, size = count;
   const Handle all = checked(H5Dget_space(dataset), H5Sclose, file);
   check(H5Sselect_hyperslab(all.get(), H5S_SELECT_SET, &start, nullptr, &size, nullptr) >= 0, file);
   const Handle memory = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, file);
   check(H5Dwrite(dataset, type, memory.get(), all.get(), H5P_DEFAULT, values) >= 0, file);
+}
+
+void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
+                 const std::string& file) {
+  extend(dataset, row + count, file);
+  write_rows(dataset, type, row, count, values, file);
+}
+
+void write_raw_chunk(hid_t dataset, std::size_t row, const void* values, std::size_t size,
+                     const std::string& file) {
+  std::vector<unsigned char> chunk(size + 4);
+  std::memcpy(chunk.data(), values, size);
+  const std::uint32_t sum = fletcher32(values, size);
+  for (int i = 0; i < 4; ++i)
+    chunk[size + static_cast<std::size_t>(i)] = static_cast<unsigned char>(sum >> (8 * i));
+  const hsize_t start = row;
+  check(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, &start, chunk.size(), chunk.data()) >= 0, file);
 }
 
 Handle open_column(hid_t parent, const char* name, const std::string& file) {

@@ -99,6 +99,9 @@ inline hid_t native_type<std::uint64_t>() {
   return H5T_NATIVE_UINT64;
 }
 
+/// Is there a link of this name?
+inline bool has(hid_t group, const char* name) { return H5Lexists(group, name, H5P_DEFAULT) > 0; }
+
 /// A text as a scalar dataset.
 void write_text(hid_t parent, const char* name, std::string_view text, Description,
                 const std::string& file);
@@ -125,12 +128,25 @@ void write_number(hid_t parent, const char* name, T value, Description descripti
 /// checksums.hpp.
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description,
                     const std::string& file);
-/// A dataset that grows by rows, with the same.
+/// A dataset that grows by rows, with the same. Integers are compressed besides: nearly all of
+/// their bytes are alike. Of doubles that would take five times as long as all the rest of a run.
+/// `usual`: the value of rows that are never written; 0 where it is null.
 Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk, Description,
-                      const std::string& file);
+                      const std::string& file, const void* usual = nullptr);
 std::size_t rows_of(hid_t dataset, const std::string& file);
+/// Rows that are stored together.
+std::size_t chunk_of(hid_t dataset, const std::string& file);
+std::string path_of(hid_t dataset, const std::string& file);
+/// Is Fletcher-32 the only filter of a dataset?
+bool is_raw(hid_t dataset, const std::string& file);
+void extend(hid_t dataset, std::size_t rows, const std::string& file);
+void write_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
+                const std::string& file);
 void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
                  const std::string& file);
+/// A whole chunk of a raw dataset, from its first row on, past HDF5's cache of chunks.
+void write_raw_chunk(hid_t dataset, std::size_t row, const void* values, std::size_t size,
+                     const std::string& file);
 
 template <class T>
 void write_column(hid_t parent, const char* name, std::span<const T> values,

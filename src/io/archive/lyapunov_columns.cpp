@@ -18,6 +18,7 @@ namespace {
 
 constexpr const char* group_name = "lyapunov";
 constexpr const char* sums_name = "lyapunov_sums";
+constexpr const char* repeller_name = "repeller";
 
 template <class Points, class Get>
 void write_points(const Handle& group, const char* name, const Points& points, Get get,
@@ -25,6 +26,91 @@ void write_points(const Handle& group, const char* name, const Points& points, G
   std::vector<std::decay_t<decltype(get(points.front()))>> values;
   for (const auto& point : points) values.push_back(get(point));
   hdf5::write_column(group.get(), name, std::span(std::as_const(values)), description, file);
+}
+
+// The numbers of a quantity that populations measured, by name.
+template <class Repeller, class Visit>
+void visit_quantities(Repeller& r, Visit visit) {
+  visit("lambda", "1/time", "Exponent of the orbits that never leave", r.per_time);
+  visit("per_collision", "1", "The same per hit", r.per_hit);
+  visit("early", "1/time", "Exponent in the first half of the window", r.early);
+  visit("late", "1/time", "Exponent in the second half", r.late);
+  visit("change", "1/time", "Their difference", r.change);
+}
+template <class Repeller, class Visit>
+void visit_numbers(Repeller& r, Visit visit) {
+  visit("kick", "1", "The largest kick of copies, of v_parallel / v", r.kick);
+  visit("kick_cost", "1", "Share of those left that kicks add", r.kick_cost.value);
+  visit("kick_cost_stderr", "1", "Its standard error", r.kick_cost.error);
+  visit("time_from", "time", "Mean time at the start of the window", r.time_from);
+  visit("time_to", "time", "Mean time at its end", r.time);
+  visit("for_ever", "1", "Share of the starts that can never leave", r.for_ever);
+}
+template <class Repeller, class Visit>
+void visit_counts(Repeller& r, Visit visit) {
+  visit("population", "Trajectories of each population", r.population);
+  visit("hits_from", "Hits at the start of the window", r.hits_from);
+  visit("hits_to", "Hits at its end", r.hits);
+}
+
+void write_repeller(const ArchiveFile& file, const RepellerExponent& r) {
+  const std::string& name = file.name();
+  const Handle g = file.group(repeller_name,
+                              "Exponent of the orbits that never leave, by populations that are "
+                              "kept alive by splitting");
+  visit_quantities(r, [&](const std::string& key, const char* unit, const std::string& what,
+                          const Extrapolated& e) {
+    const auto number = [&](const std::string& column, double value, const std::string& text) {
+      hdf5::write_number(g.get(), column.c_str(), value, {unit, text.c_str()}, name);
+    };
+    number(key, e.limit.value, what);
+    number(key + "_stderr", e.limit.error, "Its standard error, by repetitions");
+    number(key + "_extrapolation", e.extrapolation, "Its distance from that at the smallest kick");
+    std::vector<double> values, errors;
+    for (const Mean& mean : e.at_kick) values.push_back(mean.value), errors.push_back(mean.error);
+    hdf5::write_column(g.get(), (key + "_at_kicks").c_str(), std::span<const double>(values),
+                       {unit, "It at each kick"}, name);
+    hdf5::write_column(g.get(), (key + "_at_kicks_stderr").c_str(), std::span<const double>(errors),
+                       {unit, "Their standard errors"}, name);
+  });
+  visit_numbers(r, [&](const char* key, const char* unit, const char* what, double value) {
+    hdf5::write_number(g.get(), key, value, {unit, what}, name);
+  });
+  visit_counts(r, [&](const char* key, const char* what, std::uint64_t value) {
+    hdf5::write_number(g.get(), key, value, {"1", what}, name);
+  });
+  hdf5::write_number(g.get(), "repetitions", static_cast<std::uint64_t>(r.per_time.repetitions),
+                     {"1", "Independent populations at each of three kicks"}, name);
+}
+
+std::optional<RepellerExponent> read_repeller(hid_t file, const std::string& name) {
+  if (!hdf5::has(file, repeller_name)) return std::nullopt;
+  const Handle g = open_group(file, repeller_name, name);
+  const auto path = [](const std::string& key) {
+    return fmt::format("/{}/{}", repeller_name, key);
+  };
+  const auto number = [&](const std::string& key) {
+    return read_number<double>(g.get(), key.c_str(), path(key), name);
+  };
+  const auto count = [&](const std::string& key) {
+    return read_number<std::uint64_t>(g.get(), key.c_str(), path(key), name);
+  };
+  RepellerExponent r;
+  visit_quantities(r, [&](const std::string& key, const char*, const char*, Extrapolated& e) {
+    e.limit = {number(key), number(key + "_stderr")};
+    e.extrapolation = number(key + "_extrapolation");
+    const auto values = hdf5::read_column<double>(g.get(), (key + "_at_kicks").c_str(), name),
+               errors =
+                   hdf5::read_column<double>(g.get(), (key + "_at_kicks_stderr").c_str(), name);
+    if (values.size() != kick_sizes || errors.size() != kick_sizes)
+      damaged(name, fmt::format("'{}' has lost rows", path(key + "_at_kicks")));
+    for (std::size_t i = 0; i < kick_sizes; ++i) e.at_kick[i] = {values[i], errors[i]};
+    e.repetitions = count("repetitions");
+  });
+  visit_numbers(
+      r, [&](const char* key, const char*, const char*, double& value) { value = number(key); });
+  visit_counts(r, [&](const char* key, const char*, std::uint64_t& value) { value = count(key); });
+  return r;
 }
 
 void write_estimates(const Handle& g, const GrowthSums& sums, const std::string& file) {
@@ -59,6 +145,7 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
   const GrowthSums::Totals& t = sums.totals();
   write_estimates(file.group(group_name, "Lyapunov exponents, their distribution, chaotic orbits"),
                   sums, name);
+  if (result.repeller) write_repeller(file, *result.repeller);
   const Handle g = file.group(
       sums_name, "Sums over orbits of the growth of ln|deviation| in blocks of the window");
   const auto count = [&](const char* column, std::uint64_t value, const char* text) {
@@ -132,6 +219,7 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   const EnsembleNumbers numbers = read_ends(ends, name, result);
   result.trajectories = numbers.particles;
   result.collisions = numbers.collisions;
+  result.repeller = read_repeller(file, name);
   result.digest = numbers.digest;
   read_integration(ends.get(), name, result);
 }

@@ -7,6 +7,7 @@
 #include "carom/base/error.hpp"
 #include "io/archive/archive_file.hpp"
 #include "io/archive/checksums.hpp"
+#include "io/archive/ensemble_columns.hpp"
 #include "io/checkpoint/ensemble_files.hpp"
 
 namespace carom {
@@ -121,6 +122,18 @@ struct Extra {
   std::vector<std::int64_t> step_first, step_second;
 };
 
+struct ProofColumn {
+  const char* name;
+  std::string ProofOfOrbit::*value;
+  hdf5::Description what;
+};
+constexpr ProofColumn proof_columns[] = {
+    {"reason", &ProofOfOrbit::reason, {"", "Why there is no proof"}},
+    {"period", &ProofOfOrbit::period, {"time", "Period"}},
+    {"length", &ProofOfOrbit::length, {"length", "Length"}},
+    {"trace", &ProofOfOrbit::trace, {"1", "Trace of the tangent map"}},
+    {"multiplier", &ProofOfOrbit::multiplier, {"1", "Its larger eigenvalue, if that is real"}}};
+
 struct Count {
   const char* name;
   std::uint64_t OrbitSearchResult::*value;
@@ -165,14 +178,83 @@ Extra extra_of(const std::vector<PeriodicOrbit>& orbits) {
   return extra;
 }
 
+void write_proofs(const ArchiveFile& file, const ProofsOfOrbits& proofs) {
+  const std::string& name = file.name();
+  std::vector<std::int32_t> proven, orbit;
+  std::vector<std::string> x, y;
+  for (std::size_t i = 0; i < proofs.orbits.size(); ++i) {
+    const ProofOfOrbit& one = proofs.orbits[i];
+    proven.push_back(one.proven);
+    orbit.insert(orbit.end(), one.x.size(), static_cast<std::int32_t>(i));
+    x.insert(x.end(), one.x.begin(), one.x.end());
+    y.insert(y.end(), one.y.begin(), one.y.end());
+  }
+  const Handle group = file.group("proofs", "Proofs of the rows of /orbits, in decimals");
+  const hid_t to = group.get();
+  hdf5::write_attribute(to, "digits", std::int64_t{proofs.digits}, name);
+  hdf5::write_column<std::int32_t>(to, "proven", proven, {"1", "1: the orbit exists"}, name);
+  for (const auto& [column, field, what] : proof_columns) {
+    std::vector<std::string> texts;
+    for (const ProofOfOrbit& one : proofs.orbits) texts.push_back(one.*field);
+    hdf5::write_texts(to, column, texts, what, name);
+  }
+  const Handle hits = file.group("proof_hits", "Proven places of hits, orbit after orbit");
+  hdf5::write_column<std::int32_t>(hits.get(), "orbit", orbit, {"1", "Row of /proofs"}, name);
+  hdf5::write_texts(hits.get(), "x", x, {"length", "Position, in the home cell"}, name);
+  hdf5::write_texts(hits.get(), "y", y, {"length", "Position, in the home cell"}, name);
+}
+
+ProofsOfOrbits read_proofs(hid_t file, const std::string& name) {
+  ProofsOfOrbits proofs;
+  if (!hdf5::has(file, "proofs")) return proofs;
+  const auto damaged = [&] {
+    throw InputError(Place{name, 0, 0, "proofs"}, "the archive is damaged");
+  };
+  const Handle group = open_group(file, "proofs", name),
+               hits = open_group(file, "proof_hits", name);
+  proofs.digits = static_cast<int>(hdf5::read_integer_attribute(group.get(), "digits", name));
+  for (const std::int32_t one : hdf5::read_column<std::int32_t>(group.get(), "proven", name)) {
+    proofs.orbits.emplace_back();
+    proofs.orbits.back().proven = one != 0;
+  }
+  for (const auto& [column, field, what] : proof_columns) {
+    const std::vector<std::string> texts = hdf5::read_texts(group.get(), column, name);
+    if (texts.size() != proofs.orbits.size()) damaged();
+    for (std::size_t i = 0; i < texts.size(); ++i) proofs.orbits[i].*field = texts[i];
+  }
+  const auto orbit = hdf5::read_column<std::int32_t>(hits.get(), "orbit", name);
+  const auto x = hdf5::read_texts(hits.get(), "x", name),
+             y = hdf5::read_texts(hits.get(), "y", name);
+  if (x.size() != orbit.size() || y.size() != orbit.size()) damaged();
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const auto row = static_cast<std::size_t>(orbit[i]);
+    if (orbit[i] < 0 || row >= proofs.orbits.size()) damaged();
+    proofs.orbits[row].x.push_back(x[i]);
+    proofs.orbits[row].y.push_back(y[i]);
+  }
+  return proofs;
+}
+
 const char* const names_of_stability[] = {"elliptic", "hyperbolic", "inverse hyperbolic",
                                           "parabolic"};
 
 }  // namespace
 
+ProofOfOrbit proof_of(const CertifiedPeriodicOrbit& orbit, int digits) {
+  ProofOfOrbit proof{orbit.proven, orbit.reason, "", "", "", "", {}, {}};
+  if (!orbit.proven) return proof;
+  proof.period = orbit.period.text(digits);
+  proof.length = orbit.length.text(digits);
+  proof.trace = orbit.trace.text(digits);
+  if (orbit.multiplier.has_value()) proof.multiplier = orbit.multiplier.text(digits);
+  for (const CertifiedNumber& x : orbit.x) proof.x.push_back(x.text(digits));
+  for (const CertifiedNumber& y : orbit.y) proof.y.push_back(y.text(digits));
+  return proof;
+}
+
 void write_orbits(const std::string& name, const LoadedSystem& loaded, const Provenance& origin,
-                  const OrbitSearchResult& found, std::uint64_t most_hits, bool force,
-                  ArchiveLock lock) {
+                  const OrbitSearchResult& found, const ProofsOfOrbits& proofs,
+                  std::uint64_t most_hits, bool force, ArchiveLock lock) {
   if (!lock) lock = lock_archive(name);
   refuse_existing(name, force);
   hdf5::silence();
@@ -222,6 +304,7 @@ void write_orbits(const std::string& name, const LoadedSystem& loaded, const Pro
     for (const Wall& wall : loaded.system.table->walls) walls.push_back(wall.name);
     hdf5::write_attribute(to, "names", walls, name);
   }
+  if (!proofs.orbits.empty()) write_proofs(file, proofs);
   file.set_status(found.complete ? "completed" : "interrupted", found.complete);
   file.keep_as(name);
   give_up_checkpoint(name);
@@ -283,6 +366,7 @@ StoredOrbits read_orbits(const std::string& name) {
   // The expansion is made of the orbits again: the same bits.
   if (hdf5::read_integer_attribute(from, "zeta", name) != 0)
     stored.result.cycles = expand_cycles(orbits, stored.most_hits);
+  stored.proofs = read_proofs(file.get(), name);
   stored.result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) != 0;
   stored.status = stored.result.complete ? "completed" : "interrupted";
   stored.system_toml = hdf5::read_text(file.get(), "system", name);

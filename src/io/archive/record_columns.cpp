@@ -10,7 +10,7 @@ namespace carom::io {
 
 using hdf5::Handle;
 
-hdf5::Columns create_records(const ArchiveFile& file, const System& system) {
+hdf5::Columns create_records(const ArchiveFile& file, const System& system, bool exponents) {
   const std::string& target = file.name();
   const std::vector<std::string> holes = hole_names(*system.table);
   hdf5::Columns trajectories(target);
@@ -35,20 +35,44 @@ hdf5::Columns create_records(const ArchiveFile& file, const System& system) {
   trajectories.add<double>(
       to, "t", {"time", "End: escape, last hit of an unbounded one, else the time reached"});
   trajectories.add<std::uint64_t>(to, "hits", {"1", "Reflections"});
+  trajectories.add<std::int32_t>(to, "wall", {"1", "Of the start, -1: it lies off the walls"});
+  trajectories.add<double>(to, "s", {"length", "Start: arc length along its wall, NaN: off walls"});
+  trajectories.add<double>(to, "v_parallel",
+                           {"length/time", "Start: velocity along its wall, NaN: off walls"});
+  if (!exponents) return trajectories;
+  trajectories.add<double>(to, "lambda",
+                           {"1/time", "Finite-time exponent, NaN: ended before it was looked at"});
+  trajectories.add<double>(to, "sali", {"1", "Angle between two deviations (SALI)"});
+  const hid_t regularity =
+      trajectories.add<std::int32_t>(to, "regularity", {"1", "Index into the attribute `names`"});
+  hdf5::write_attribute(regularity, "names",
+                        std::vector<std::string>{"regular", "chaotic", "undecided"}, target);
   return trajectories;
 }
 
-void append_records(hdf5::Columns& trajectories, const std::vector<TrajectoryRecord>& records) {
-  for (const TrajectoryRecord& r : records)
-    trajectories.row(r.index, r.x, r.y, r.vx, r.vy, static_cast<std::int32_t>(r.fate), r.hole,
-                     r.time, r.hits);
+void append_records(hdf5::Columns& trajectories, const std::vector<TrajectoryRecord>& records,
+                    bool exponents) {
+  for (const TrajectoryRecord& r : records) {
+    const auto fate = static_cast<std::int32_t>(r.fate);
+    if (exponents)
+      trajectories.row(r.index, r.x, r.y, r.vx, r.vy, fate, r.hole, r.time, r.hits, r.wall, r.s,
+                       r.v_parallel, r.lambda, r.sali, static_cast<std::int32_t>(r.regularity));
+    else
+      trajectories.row(r.index, r.x, r.y, r.vx, r.vy, fate, r.hole, r.time, r.hits, r.wall, r.s,
+                       r.v_parallel);
+  }
 }
 
 RecordReader::RecordReader(const std::string& file) : name_(file) {
   file_ = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   const Handle group(H5Gopen2(file_.get(), "trajectories", H5P_DEFAULT), H5Gclose);
   if (!group) throw InputError(Place{file, 0, 0, ""}, "it holds no records of trajectories");
-  const char* names[] = {"index", "x", "y", "vx", "vy", "fate", "hole", "t", "hits"};
+  std::vector<const char*> names = {"index", "x", "y", "vx", "vy", "fate", "hole", "t", "hits"};
+  // Archives of earlier builds have none of these, those of escapes not the last ones.
+  const auto there = [&](const char* column) { return hdf5::has(group.get(), column); };
+  if (starts_ = there("s"); starts_) names.insert(names.end(), {"wall", "s", "v_parallel"});
+  if (exponents_ = starts_ && there("lambda"); exponents_)
+    names.insert(names.end(), {"lambda", "sali", "regularity"});
   for (const char* column : names) columns_.push_back(hdf5::open_column(group.get(), column, file));
   left_ = hdf5::rows_of(columns_.front().get(), file);
   for (std::size_t i = 1; i < columns_.size(); ++i)
@@ -79,6 +103,17 @@ bool RecordReader::next(std::vector<TrajectoryRecord>& records) {
   column(6, std::int32_t{}, [](Record& r, std::int32_t value) { r.hole = value; });
   column(7, double{}, [](Record& r, double value) { r.time = value; });
   column(8, std::uint64_t{}, [](Record& r, std::uint64_t value) { r.hits = value; });
+  if (starts_) {
+    column(9, std::int32_t{}, [](Record& r, std::int32_t value) { r.wall = value; });
+    column(10, double{}, [](Record& r, double value) { r.s = value; });
+    column(11, double{}, [](Record& r, double value) { r.v_parallel = value; });
+  }
+  if (exponents_) {
+    column(12, double{}, [](Record& r, double value) { r.lambda = value; });
+    column(13, double{}, [](Record& r, double value) { r.sali = value; });
+    column(14, std::int32_t{},
+           [](Record& r, std::int32_t value) { r.regularity = static_cast<unsigned char>(value); });
+  }
   for (std::size_t i = 0; i < count; ++i) {
     const TrajectoryRecord& r = records[i];
     if (row_ + i > 0 && r.index <= last_) damaged(name_, "'/trajectories/index' is not in order");

@@ -159,6 +159,14 @@ void add_row(hdf5::Columns& columns, const SampleRow& row) {
   columns.row(row.particle, row.t, row.x, row.y, row.vx, row.vy, row.cell_first, row.cell_second);
 }
 
+double expected_hits(const System& system) {
+  return static_cast<double>(system.run.collisions) * static_cast<double>(system.particles.size());
+}
+double expected_samples(const System& system) {
+  const double each = system.run.sample > 0.0 ? system.run.t_max / system.run.sample : 0.0;
+  return each * static_cast<double>(system.particles.size());
+}
+
 std::vector<std::string> fate_names() {
   std::vector<std::string> names;
   for (int i = 0; i <= static_cast<int>(last_fate); ++i)
@@ -174,8 +182,8 @@ class RunArchive::Implementation {
       : file(std::move(opened)),
         target(std::move(final_path)),
         table(loaded.system.table),
-        hits(file.name()),
-        samples(file.name()),
+        hits(file.name(), expected_hits(loaded.system)),
+        samples(file.name(), expected_samples(loaded.system)),
         starts(file.name()),
         contacts(file.name()),
         of_discs(loaded.system.of_discs()),
@@ -234,7 +242,7 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     hits.add<std::int64_t>(to, "cell_first", {"1", "Cell of the lattice"});
     hits.add<std::int64_t>(to, "cell_second", {"1", "Cell of the lattice"});
     hits.add<std::int32_t>(to, "reflections",
-                           {"1", "Reflections counted: n at a corner of angle pi/n"});
+                           {"1", "Reflections counted: n at a corner of angle pi/n"}, 1);
   }
   {
     const Handle group = file.group("trajectory", "Samples at even times (run.sample)");
@@ -285,7 +293,7 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
       hits.open<double>(from, name);
     hits.open<std::int64_t>(from, "cell_first");
     hits.open<std::int64_t>(from, "cell_second");
-    hits.open<std::int32_t>(from, "reflections");
+    hits.open<std::int32_t>(from, "reflections", 1);
   }
   const Handle group = file.open_group("trajectory");
   const hid_t from = group.get();
@@ -305,8 +313,7 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
 void RunArchive::Implementation::write_state(const std::vector<RunEnd>& particles) {
   const Handle group = file.open_group("state");
   for (const StateField& field : state_fields) {
-    if (H5Lexists(group.get(), field.name, H5P_DEFAULT) <= 0)
-      continue;  // of an archive of an earlier build
+    if (!hdf5::has(group.get(), field.name)) continue;  // of an archive of an earlier build
     Handle dataset =
         hdf5::checked(H5Dopen2(group.get(), field.name, H5P_DEFAULT), H5Dclose, file.name());
     herr_t written = -1;
@@ -337,7 +344,7 @@ void RunArchive::Implementation::create_steps() {
 }
 
 void RunArchive::Implementation::write_steps(const StepCounts& steps) {
-  if (H5Lexists(file.id(), "steps", H5P_DEFAULT) <= 0) return;
+  if (!hdf5::has(file.id(), "steps")) return;
   const Handle group = file.open_group("steps");
   const auto write = [&](const char* name, hid_t type, const void* value) {
     Handle dataset = hdf5::checked(H5Dopen2(group.get(), name, H5P_DEFAULT), H5Dclose, file.name());
@@ -438,8 +445,8 @@ void RunArchive::listen(std::function<bool()> interrupted) {
 
 void RunArchive::finish(const SingleRunResult& result, const std::string& status) {
   Implementation& a = *implementation_;
-  a.hits.close();
-  a.samples.close();
+  a.hits.close(a.file.sums());
+  a.samples.close(a.file.sums());
   a.starts.close();
   a.contacts.close();
   a.energies.close();

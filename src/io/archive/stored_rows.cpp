@@ -81,7 +81,7 @@ namespace {
 
 // Archives have the group only where there can be rows.
 bool has_group(const std::string& file, const char* group) {
-  return H5Lexists(opened(file).get(), group, H5P_DEFAULT) > 0;
+  return hdf5::has(opened(file).get(), group);
 }
 
 std::vector<SampleRow> sample_rows(const std::string& file, const char* of) {

@@ -45,7 +45,7 @@ StoredRun read_run(const std::string& name) {
              high = reals("t_high"), low = reals("t_low"), end_high = reals("end_high"),
              end_low = reals("end_low");
   const auto energies = [&](const char* field) {
-    const bool there = H5Lexists(state.get(), field, H5P_DEFAULT) > 0;
+    const bool there = hdf5::has(state.get(), field);
     return there ? reals(field) : std::vector<double>(wall.size(), 0.0);
   };
   const auto change = energies("energy_change"), largest = energies("energy_largest"),
@@ -67,7 +67,7 @@ StoredRun read_run(const std::string& name) {
     p.energy = {change.at(i), largest.at(i), kinetic.at(i)};
     run.particles.push_back(p);
   }
-  if (H5Lexists(file.get(), "steps", H5P_DEFAULT) > 0) {
+  if (hdf5::has(file.get(), "steps")) {
     const Handle steps(H5Gopen2(file.get(), "steps", H5P_DEFAULT), H5Gclose);
     for (const StepNumber& number : step_numbers)
       run.steps.*number.value =
@@ -75,7 +75,7 @@ StoredRun read_run(const std::string& name) {
     run.steps.first_unresolved =
         hdf5::read_column<double>(steps.get(), first_unresolved, name).at(0);
   }
-  if (H5Lexists(file.get(), "trust", H5P_DEFAULT) > 0)
+  if (hdf5::has(file.get(), "trust"))
     read_trust(Handle(H5Gopen2(file.get(), "trust", H5P_DEFAULT), H5Gclose).get(), run.particles,
                name);
   return run;

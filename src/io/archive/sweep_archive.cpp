@@ -30,8 +30,6 @@ Handle opened(const std::string& file) {
 
 std::string path_of(std::size_t index) { return fmt::format("values/{}", index); }
 
-bool has(hid_t group, const char* name) { return H5Lexists(group, name, H5P_DEFAULT) > 0; }
-
 void write_table(const ArchiveFile& file, const SweepPlan& plan,
                  const std::vector<SweepNumbers>& table) {
   const std::string& name = file.name();
@@ -77,7 +75,7 @@ void write_value(const ArchiveFile& file, std::size_t index) {
 
 bool extract(hid_t file, const std::string& name, std::size_t index, const std::string& target) {
   const Handle value = open_group(file, path_of(index).c_str(), name);
-  if (!has(value.get(), archive_name)) return false;
+  if (!hdf5::has(value.get(), archive_name)) return false;
   const auto bytes = hdf5::read_column<std::uint8_t>(value.get(), archive_name, name);
   std::ofstream made(target, std::ios::binary);
   made.write(reinterpret_cast<const char*>(bytes.data()),
@@ -121,7 +119,7 @@ StoredSweep read_sweep(const std::string& file) {
   stored.plan = SweepPlan::of(Json::parse(hdf5::read_text(sweep.get(), "plan", file), file), file);
   for (std::size_t i = 0; i < stored.plan.systems.size(); ++i) {
     const Handle value = open_group(from, path_of(i).c_str(), file);
-    stored.reports.push_back(has(value.get(), report_name)
+    stored.reports.push_back(hdf5::has(value.get(), report_name)
                                  ? hdf5::read_text(value.get(), report_name, file)
                                  : std::string());
   }

@@ -46,11 +46,25 @@ void check_samples(const StoredEnsemble& stored, const DiffusionResult& result) 
     damaged(stored.file, "'/msd_groups/count' and '/fates' contradict each other");
 }
 
+// Every flight between hits began at one, and every flight from a start is a particle's.
+void check_free_paths(const StoredEnsemble& stored, const DiffusionResult& result,
+                      const System& system) {
+  const FreePathSums& sums = result.free_paths;
+  if (sums.counted() != system.run.free_paths)
+    damaged(stored.file, "'/free_path_groups' and '/system' contradict each other");
+  if (!sums.counted()) return;
+  FreePathSums::Sum all;
+  for (std::size_t g = 0; g < FreePathSums::groups; ++g) all += sums.of(g);
+  if (all.hits != result.collisions || all.between.bins.total() + all.between.longer > all.hits ||
+      all.at_start.bins.total() + all.at_start.longer > result.trajectories)
+    damaged(stored.file, "'/free_path_groups' and '/fates' contradict each other");
+}
+
 // A finished ensemble has a record of each particle that it counts; one that is under way keeps
 // them elsewhere.
 void check_rows(const StoredEnsemble& stored, std::uint64_t particles) {
   const hdf5::Handle file(H5Fopen(stored.file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file || H5Lexists(file.get(), "trajectories", H5P_DEFAULT) <= 0) return;
+  if (!file || !hdf5::has(file.get(), "trajectories")) return;
   if (RecordReader(stored.file).rows() != particles)
     damaged(stored.file, "'/trajectories' has not one row a particle of '/fates'");
 }
@@ -97,6 +111,7 @@ void check_stored(const StoredEnsemble& stored, const DiffusionResult& result,
   if (result.pinned > result.survived)
     damaged(stored.file, "'/fates/pinned' is more than '/fates/survived'");
   check_samples(stored, result);
+  check_free_paths(stored, result, system);
 }
 
 void check_stored(const StoredEnsemble& stored, const LyapunovResult& result,

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "carom/base/error.hpp"
@@ -96,12 +97,13 @@ void EnsembleArchive<Result>::Implementation::write(const Result& result, const 
   if (!merged.empty())
     hdf5::write_attribute(file.open_group("provenance").get(), "merged", merged, target);
   write_counts(file, result, loaded.system);
+  constexpr bool of_exponents = std::is_same_v<Result, LyapunovResult>;
   if (log && last) {
-    hdf5::Columns columns = create_records(file, loaded.system);
+    hdf5::Columns columns = create_records(file, loaded.system, of_exponents);
     std::optional<std::uint64_t> before;
     log->read([&](const RecordLog::Piece& piece, const std::vector<TrajectoryRecord>& records) {
       check_records(piece, records, before, loaded.system, target);
-      append_records(columns, records);
+      append_records(columns, records, of_exponents);
     });
     columns.close();
   } else if (log) {

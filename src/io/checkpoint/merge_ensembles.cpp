@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "carom/base/error.hpp"
@@ -97,8 +98,9 @@ class Source {
   std::ptrdiff_t at_ = 0;
 };
 
-void write_records(const ArchiveFile& file, const System& system, std::vector<Source>& sources) {
-  hdf5::Columns columns = create_records(file, system);
+void write_records(const ArchiveFile& file, const System& system, bool exponents,
+                   std::vector<Source>& sources) {
+  hdf5::Columns columns = create_records(file, system, exponents);
   constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
   for (;;) {
     Source* lowest = nullptr;
@@ -114,7 +116,7 @@ void write_records(const ArchiveFile& file, const System& system, std::vector<So
     if (!lowest || lowest->head() == none) break;
     std::vector<TrajectoryRecord> records;
     lowest->take(others, records);
-    append_records(columns, records);
+    append_records(columns, records, exponents);
   }
   columns.close();
 }
@@ -176,7 +178,7 @@ void write_sum(const std::string& path, const LoadedSystem& loaded, const Proven
   if (sum.per_trajectory) {
     std::vector<Source> sources;
     for (const EnsemblePart& part : sum.parts) sources.emplace_back(part.file, part.done, system);
-    write_records(file, system, sources);
+    write_records(file, system, std::is_same_v<Result, LyapunovResult>, sources);
   }
   file.set_status(sum.status, sum.result.complete);
   file.keep_as(path);

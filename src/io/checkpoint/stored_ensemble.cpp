@@ -62,8 +62,7 @@ Stored<Result> read_one(const std::string& name) {
   stored.origins = ArchiveFile::read_origins(from, name);
   stored.version = stored.origins.back().version;
   stored.merged = hdf5::read_string_list_attribute(from, "merged", name);
-  stored.per_trajectory = H5Lexists(file.get(), "trajectories", H5P_DEFAULT) > 0 ||
-                          H5Lexists(file.get(), "records", H5P_DEFAULT) > 0;
+  stored.per_trajectory = hdf5::has(file.get(), "trajectories") || hdf5::has(file.get(), "records");
   read_counts(file.get(), name, result);
   read_done(file.get(), name, result);
   result.complete = hdf5::read_integer_attribute(file.get(), "complete", name) == 1;

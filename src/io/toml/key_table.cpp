@@ -216,6 +216,8 @@ const std::vector<KeyDescription>& key_table() {
       {"run", "", "window", "list of two numbers", "",
        "times between which a decay is fitted, or report times between which the diffusion "
        "coefficient is taken; chosen if not given"},
+      {"run", "", "free_paths", "true or false", "",
+       "carom diffusion: are the lengths of flights counted? false if not given"},
       {"run.times", "", "from", "number", "", "the first time"},
       {"run.times", "", "to", "number", "", "the last time, at most t_max"},
       {"run.times", "", "count", "whole number", "31", "number of times, from 2 to 100000"},

@@ -1,6 +1,7 @@
 // The sections of a system, read one by one. Each fills in its defaults.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "io/toml/value.hpp"
 
 namespace carom::io {
+
+/// In a trajectory, those that enter later included.
+inline constexpr std::uint64_t most_particles = 1000000;
 
 /// [table] with its holes and loops, and [lattice].
 TableSpec read_table(Value& root);
@@ -41,6 +45,9 @@ SectionPlan read_section(Value& root, const Table& table);
 
 /// Speed, field and start of the first particle, as they were written; after the other sections.
 ExactSystem read_exact(Value& root, bool free);
+
+/// "(1/3)": as a part of a longer expression.
+inline std::string in_brackets(const ExactNumber& n) { return "(" + n.text() + ")"; }
 
 using carom::spaced;
 

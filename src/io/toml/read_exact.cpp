@@ -9,8 +9,6 @@ ExactNumber first_of(const Value& value) {
   return value.kind == Value::Kind::list ? as_number(value.items.front()) : as_number(value);
 }
 
-std::string in_brackets(const ExactNumber& n) { return "(" + n.text() + ")"; }
-
 ExactNumber speed_of(const Value& particles, const Value& initial) {
   if (const Value* speed = particles.find("speed")) return first_of(*speed);
   if (const Value* energy = particles.find("energy"))

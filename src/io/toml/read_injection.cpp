@@ -5,8 +5,6 @@
 namespace carom::io {
 namespace {
 
-constexpr double most_particles = 1e6;
-
 std::vector<double> read_times(const Value& list, double t_max) {
   std::vector<double> times;
   for (const Value& item : as_list(list).items) {
@@ -61,7 +59,7 @@ std::vector<Injection> read_injections(Value& root, const Table& table,
     const Injection& injection = injections.back();
     expected +=
         injection.rate > 0.0 ? injection.rate * t_max : static_cast<double>(injection.times.size());
-    if (!(expected <= most_particles))
+    if (!(expected <= static_cast<double>(most_particles)))
       throw InputError(
           one.place,
           "too many particles enter: " + shown(expected) + " until t_max = " + shown(t_max),

@@ -7,8 +7,6 @@
 namespace carom::io {
 namespace {
 
-constexpr std::uint64_t most_particles = 1000000;
-
 /// A quantity of the particles: one number for all, or a list with one each.
 class Quantity {
  public:
@@ -50,8 +48,6 @@ class Quantity {
   bool list_ = false;
   std::vector<ExactNumber> numbers_;
 };
-
-std::string in_brackets(const ExactNumber& n) { return "(" + n.text() + ")"; }
 
 struct Speed {
   ExactNumber exact;

@@ -161,6 +161,7 @@ RunPlan read_run(Value& root, std::uint64_t starts) {
       throw InputError(window->place, "the window is empty", "0 <= from < to");
     plan.window = {from, to};
   }
+  if (const Value* paths = section.find("free_paths")) plan.free_paths = as_flag(*paths);
   return plan;
 }
 

@@ -24,23 +24,32 @@ class Source {
 
   std::string cut(const toml::source_region& region) const {
     const std::string_view line = lines_.at(region.begin.line - 1);
-    const std::size_t begin = byte_of(line, region.begin.column);
+    const std::size_t begin = byte_of(region.begin);
     const std::size_t end =
-        region.end.line == region.begin.line ? byte_of(line, region.end.column) : line.size();
+        region.end.line == region.begin.line ? byte_of(region.end) : line.size();
     return std::string(line.substr(begin, end - begin));
   }
 
  private:
-  static std::size_t byte_of(std::string_view line, std::size_t column) {
-    std::size_t at = 0;
-    for (std::size_t passed = 1; passed < column && at < line.size(); ++passed) {
-      ++at;
-      while (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80) ++at;
+  // Values come in order: from the last place on, so that a line of a million numbers is passed
+  // once.
+  std::size_t byte_of(const toml::source_position& place) const {
+    const std::string_view line = lines_.at(place.line - 1);
+    if (place.line != last_.line || place.column < last_.column) last_ = {place.line, 1, 0};
+    for (; last_.column < place.column && last_.byte < line.size(); ++last_.column) {
+      ++last_.byte;
+      while (last_.byte < line.size() &&
+             (static_cast<unsigned char>(line[last_.byte]) & 0xc0) == 0x80)
+        ++last_.byte;
     }
-    return at;
+    return last_.byte;
   }
 
+  struct Last {
+    std::size_t line = 0, column = 1, byte = 0;
+  };
   std::vector<std::string_view> lines_;
+  mutable Last last_;
 };
 
 class Converter {

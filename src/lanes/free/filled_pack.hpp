@@ -23,6 +23,20 @@ struct LaneTrajectory {
   motion::FreeTangent tangent;   ///< where `start` is, if deviations are followed
   std::size_t marked = 0;        ///< times at which their lengths were told
 
+  /// Goes on with another's, whose deviations are of no interest where none are followed.
+  void take(const LaneTrajectory& other, bool with_deviations) {
+    if (with_deviations) {
+      *this = other;
+      return;
+    }
+    start.tag = other.start.tag;
+    start.particle = other.start.particle;
+    start.state = other.start.state;
+    start.hits = other.start.hits;
+    first_hits = other.first_hits;
+    reported = other.reported;
+    told = other.told;
+  }
   int last_wall() const { return start.hits > first_hits ? start.state.wall : -1; }
 };
 

@@ -138,9 +138,15 @@ class FreeLanes::Implementation {
       if (waiting == LanePack::lanes || entrance.busy == 0) enter_several();
       for (; waiting < LanePack::lanes; ++waiting) {
         if (entrance.pack.active[waiting] == 0.0) continue;
-        main.trajectories[lane] = entrance.trajectories[waiting];
-        entrance.leave(waiting++);
-        return resume(main, lane);
+        main.trajectories[lane].take(entrance.trajectories[waiting], tangents.any());
+        entrance.leave(waiting);
+        if (moves_on())
+          lanes::move_into(main.pack, lane, pieces, main.trajectories[lane].start.particle,
+                           entrance.pack, waiting);
+        else
+          lanes::put_into(main.pack, lane, pieces, main.trajectories[lane].start);
+        ++waiting;
+        return activate(main, lane);
       }
     }
   }
@@ -187,9 +193,11 @@ class FreeLanes::Implementation {
       take_out(entrance, lane);
       end_after_hit(entrance, lane);
     }
-    for (int lane = 0; lane < LanePack::lanes; ++lane)
+    for (int lane = 0; lane < LanePack::lanes && !moves_on(); ++lane)
       if (entrance.pack.active[lane] != 0.0) take_out(entrance, lane);
   }
+  /// From the entrance into a lane without being taken out between.
+  bool moves_on() const { return pieces.edges == 0 && !tangents.any(); }
 
   /// Begins the next trajectory that lasts; false if there is none.
   bool begin(FilledPack& lanes, int lane) {
@@ -218,8 +226,10 @@ class FreeLanes::Implementation {
 
   /// The numbers of a lane's trajectory.
   void resume(FilledPack& lanes, int lane) {
-    const LaneStart& start = lanes.trajectories[lane].start;
-    lanes::put_into(lanes.pack, lane, pieces, start);
+    lanes::put_into(lanes.pack, lane, pieces, lanes.trajectories[lane].start);
+    activate(lanes, lane);
+  }
+  void activate(FilledPack& lanes, int lane) {
     if (tangents.any()) tangents.put(lanes, lane);
     lanes.pack.until[lane] = until(lanes, lane);
     if (lanes.pack.active[lane] == 0.0) ++lanes.busy;
@@ -317,8 +327,14 @@ class FreeLanes::Implementation {
     if (call == Call::undecided || (call == Call::over && !survives)) return go_on(lanes, lane);
     const State& s = mine.start.state;
     ++filter;
-    LaneEnd end{mine.start.tag,  Fate::survived,   s.time, s, -1,
-                mine.start.hits, mine.last_wall(), {}};
+    LaneEnd& end = end_in_lanes;  // used again: it has no report and no steps
+    end.tag = mine.start.tag;
+    end.fate = Fate::survived;
+    end.time = s.time;
+    end.state = s;
+    end.hole = -1;
+    end.hits = mine.start.hits;
+    end.last_wall = mine.last_wall();
     if (call == Call::escaped) {
       end.fate = Fate::escaped;
       end.time = {met.high, met.low};
@@ -375,7 +391,8 @@ class FreeLanes::Implementation {
   /// Used where particles are not born on walls and `on_walls` cannot fly them.
   FilledPack entrance;
   LanePack search_pack;
-  int waiting = 0;  ///< the next lane of the entrance that may wait
+  LaneEnd end_in_lanes;  ///< of the latest trajectory that did not end by the scalar engine
+  int waiting = 0;       ///< the next lane of the entrance that may wait
   bool exhausted = false;
 };
 

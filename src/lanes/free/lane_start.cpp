@@ -34,8 +34,10 @@ bool in_cell(const LaneTable& t, Vector p) {
   return true;
 }
 
-/// What margins are made of: the particle's speed and, on Larmor circles, its turn.
+/// What margins are made of: the particle's speed and, on Larmor circles, its turn. The lane's last
+/// particle has often left the same behind.
 void put_particle(LanePack& pack, int lane, const LaneTable& t, const Particle& p) {
+  if (pack.speed[lane] == p.speed && pack.omega[lane] == p.omega) return;
   pack.speed[lane] = p.speed;
   pack.directions[lane] = t.directions_per_unit / p.speed;
   pack.offsets[lane] = t.offsets_per_length / p.speed;
@@ -50,9 +52,9 @@ void put_particle(LanePack& pack, int lane, const LaneTable& t, const Particle& 
   pack.order[lane] = t.order_margin * t.size / p.speed;
   pack.shortest[lane] = 2.0 * pack.sides[lane] / pack.square_speed[lane];
   pack.roots[lane] = pack.sides[lane] * t.size * p.speed;
+  pack.omega[lane] = p.omega;
   if (turn_of(p.omega) == Turn::straight) return;
   const double turned = std::fabs(p.omega) * t.size, pace = p.speed + turned;
-  pack.omega[lane] = p.omega;
   pack.inverse_half[lane] = 1.0 / (0.5 * std::fabs(p.omega));
   // Where the table has no size to measure by, no lane decides anything.
   pack.pace[lane] = std::isfinite(pace) ? std::ldexp(1.0, std::ilogb(pace) + 1) : HUGE_VAL;
@@ -96,6 +98,24 @@ void put_into(LanePack& pack, int lane, const LaneTable& t, const LaneStart& sta
   const unsigned long long bit = 1ULL << lane;
   pack.searching = s.wall < 0 ? pack.searching | bit : pack.searching & ~bit;
   put_particle(pack, lane, t, start.particle);
+}
+
+void move_into(LanePack& pack, int lane, const LaneTable& t, const Particle& particle,
+               const LanePack& from, int other) {
+  pack.x[lane] = from.x[other];
+  pack.y[lane] = from.y[other];
+  pack.vx[lane] = from.vx[other];
+  pack.vy[lane] = from.vy[other];
+  pack.high[lane] = from.high[other];
+  pack.low[lane] = from.low[other];
+  pack.piece[lane] = from.piece[other];
+  pack.born[lane] = pack.sweep - from.hits(other);
+  pack.next_cap = std::min(pack.next_cap, pack.born[lane] + pack.limit);
+  pack.home_first[lane] = pack.home_second[lane] = 0.0;
+  pack.cell_first[lane] = pack.cell_second[lane] = 0.0;
+  pack.cells[2 * lane] = pack.cells[2 * lane + 1] = 0;
+  pack.searching &= ~(1ULL << lane);
+  put_particle(pack, lane, t, particle);
 }
 
 }  // namespace carom::lanes

@@ -32,4 +32,8 @@ inline void look_again(LanePack& pack, int lane) {
 /// All numbers of a lane but whether it is active.
 void put_into(LanePack&, int lane, const LaneTable&, const LaneStart&);
 
+/// The same of the particle in a lane of another pack, after its last hit there. Not on a lattice.
+void move_into(LanePack&, int lane, const LaneTable&, const Particle&, const LanePack& from,
+               int other);
+
 }  // namespace carom::lanes

@@ -1,6 +1,8 @@
 // Vectors of the plane.
 #pragma once
 
+#include <cmath>
+
 namespace carom::geometry {
 
 /// A vector or point of the plane over any arithmetic.
@@ -32,6 +34,7 @@ template <class Number>
 constexpr Number cross(const BasicVector<Number>& a, const BasicVector<Number>& b) {
   return a.x * b.y - a.y * b.x;
 }
+inline double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 /// A quarter turn counter-clockwise.
 template <class Number>
 constexpr BasicVector<Number> left(const BasicVector<Number>& a) {

@@ -1,0 +1,44 @@
+// The Lyapunov exponent of the orbits that never leave an open table, from populations that are
+// kept alive by splitting.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "carom/analysis/mean_square_displacement.hpp"
+#include "carom/ensemble/splitting.hpp"
+
+namespace carom {
+
+/// What populations say of the repeller, by its natural measure (docs/physics/lyapunov.md).
+struct RepellerExponent {
+  Extrapolated per_time, per_hit;
+  /// per_time in the first and in the second half of the window, and their difference.
+  Extrapolated early, late, change;
+  std::uint64_t population = 0;        ///< trajectories of each
+  std::uint64_t hits_from = 0;         ///< where the window begins
+  std::uint64_t hits = 0;              ///< where it ends: so long populations were kept
+  double time_from = 0.0, time = 0.0;  ///< the mean times of both
+  double kick = 0.0;                   ///< the largest
+  Mean kick_cost;                      ///< as cost_of_kicks, at the last level
+  double for_ever = 0.0;               ///< share of the starts that can never leave
+
+  /// Standard error, extrapolation included.
+  Estimate estimate() const;
+  /// Do the halves of the window differ by more than chance and kicks explain?
+  bool drifts() const;
+  bool kicks_cost() const { return is_certain(kick_cost, per_time.repetitions); }
+};
+
+/// Can a particle leave this system, and is it one that is free?
+bool is_open(const System&);
+/// How many trajectories populations take at least.
+std::uint64_t least_of_repeller();
+
+/// Keeps populations of run.trajectories in all, at most 20 000 each, until `window.to`; their
+/// growth counts from `window.from` on. Empty: it was interrupted. Throws InputError where no
+/// trajectory stays long enough.
+std::optional<RepellerExponent> measure_repeller(const System&, TimeWindow window,
+                                                 double unit_length, const SplittingOptions& = {});
+
+}  // namespace carom

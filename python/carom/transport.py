@@ -1,0 +1,90 @@
+"""Pictures of diffusion: mean square displacements, correlations of the velocity, free paths."""
+
+from .axes import COLOURS, new_axes, pyplot, title, title_of
+
+
+def diffusion(result, ax=None):
+    """The mean square displacement with its errors, and 4Dt where there is a D without a doubt."""
+    ax = new_axes(ax)
+    points = result.msd
+    seen = points[(points["t"] > 0) & (points["value"] > 0)]
+    ax.errorbar(
+        seen["t"], seen["value"], yerr=seen["stderr"], fmt="o", markersize=3, linewidth=1,
+        color=COLOURS[0], label="MSD",
+    )
+    if result.D is not None and "note" not in result.json:
+        ax.plot(
+            seen["t"], 4 * result.D.value * seen["t"], color=COLOURS[1], linewidth=1,
+            label=f"4 D t, D = {result.D.value:.4g} ± {result.D.stderr:.1g}",
+        )
+    if result.exponent is not None:
+        ax.plot([], [], " ", label=f"exponent {result.exponent.value:.4g} ± {result.exponent.stderr:.1g}")
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlabel("t")
+    ax.set_ylabel("⟨|x(t) − x(0)|²⟩")
+    ax.legend(fontsize="small", frameon=False)
+    title(ax, result.system)
+    return ax
+
+
+def correlation(result, ax=None):
+    """The velocity autocorrelation against t, and D(t) of Green and Kubo beside it."""
+    if ax is not None:
+        return _against_time(ax, result, result.correlation, "⟨v(t)·v(0)⟩")
+    figure, axes = pyplot().subplots(1, 2, figsize=(8.0, 3.6), layout="constrained")
+    correlation(result, ax=axes[0]).set_title("")
+    _against_time(axes[1], result, result.green_kubo, "½ ∫ ⟨v(t′)·v(0)⟩ dt′ from 0 to t").set_title("")
+    if result.D is not None and "note" not in result.json:
+        D = result.D
+        axes[1].axhspan(D.value - D.stderr, D.value + D.stderr, color=COLOURS[1], alpha=0.3, linewidth=0)
+        axes[1].axhline(D.value, color=COLOURS[1], linewidth=1, label=f"D of the MSD, {D.value:.4g} ± {D.stderr:.1g}")
+        axes[1].legend(fontsize="small", frameon=False)
+    figure.suptitle(title_of(result.system, 90), fontsize="small")
+    return axes
+
+
+def _against_time(ax, result, points, label):
+    """Points with errors against log t, and where they are zero."""
+    seen = points[points["t"] > 0]
+    ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
+    ax.errorbar(
+        seen["t"], seen["value"], yerr=seen["stderr"], fmt="o", markersize=3, linewidth=1, color=COLOURS[0]
+    )
+    ax.set_xscale("log")
+    ax.set_xlabel("t")
+    ax.set_ylabel(label)
+    title(ax, result.system)
+    return ax
+
+
+def free_paths(result, ax=None):
+    """The share of flights that are at least so long: between hits, and from the start."""
+    ax = new_axes(ax)
+    paths = result.free_paths
+    kinds = (("between hits", paths.between_hits), ("from the start", paths.at_start))
+    for colour, (label, flights) in zip(COLOURS, kinds):
+        seen = flights.bins[(flights.bins["from"] > 0) & (flights.bins["longer"] > 0)]
+        ax.errorbar(
+            seen["from"], seen["longer"], yerr=seen["longer_stderr"], fmt="o", markersize=3, linewidth=1,
+            color=colour, label=label,
+        )
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    # What the corridors say of long flights from uniform starts: t P(no hit until t) at speed 1.
+    if "flight_tail" in result.json:
+        left, right = ax.get_xlim()
+        ax.autoscale(False)
+        for colour, power, c in (
+            (COLOURS[0], 2, result.flight_tail * paths.mean.value), (COLOURS[1], 1, result.flight_tail)
+        ):
+            lengths = [max(left, 3 * paths.mean.value), right]
+            ax.plot(
+                lengths, [c / one**power for one in lengths], color=colour, linewidth=1,
+                label=f"{c:.3g} / l{'²' if power == 2 else ''}, from the corridors",
+            )
+    ax.set_xlabel("l")
+    ax.set_ylabel("share of flights of l or longer")
+    ax.legend(fontsize="small", frameon=False)
+    title(ax, result.system)
+    return ax
