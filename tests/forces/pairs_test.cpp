@@ -18,7 +18,6 @@ namespace {
 
 using geometry::Vector;
 
-double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 
 State state_of(const Vector& position, const Vector& velocity) {
   State s;
