@@ -18,7 +18,6 @@ namespace {
 
 using geometry::Vector;
 
-
 State state_of(const Vector& position, const Vector& velocity) {
   State s;
   s.position = position;
