@@ -15,6 +15,7 @@
 #include "carom/events/world.hpp"
 #include "ensemble/parallel_blocks.hpp"
 #include "ensemble/recurrences.hpp"
+#include "orbits/across.hpp"
 #include "orbits/confirm.hpp"
 #include "orbits/describe.hpp"
 #include "orbits/shortest.hpp"

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "carom/motion/tangent.hpp"
+#include "orbits/across.hpp"
+#include "orbits/maslov.hpp"
 
 namespace carom {
 
@@ -36,30 +37,6 @@ using geometry::Vector;
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-AcrossMap absolute(const AcrossMap& m) {
-  return {std::abs(m.a), std::abs(m.b), std::abs(m.c), std::abs(m.d)};
-}
-
-// Deviations across an orbit of direction `from` (unit), carried by `map` to one of direction
-// `to`: what lies along the flow there is taken off.
-template <class Map>
-AcrossMap across(const Map& map, Vector from, Vector to, double speed, double omega) {
-  const auto seen = [&](const Deviation& before) {
-    Deviation after = map(before);
-    const double along = dot(to, after.position) / speed;
-    after = after + (-along) * Deviation{speed * to, (omega * speed) * right(to)};
-    return Vector{dot(left(to), after.position), dot(left(to), after.velocity) / speed};
-  };
-  const Vector distance = seen({left(from), {}});
-  const Vector angle = seen({{}, speed * left(from)});
-  return {distance.x, angle.x, distance.y, angle.y};
-}
-
-double duration_of(const Boundary& boundary, const Link& link, const ChainFlight& flight) {
-  const Particle& p = boundary.particle;
-  return p.omega == 0.0 ? flight.chord / p.speed : 2.0 * link.half_turn / std::abs(p.omega);
-}
 
 // The trace of the orbit through other places than the solution's.
 double trace_at(const Boundary& boundary, const Chain& chain) {
@@ -107,34 +84,6 @@ void add_stability(PeriodicOrbit& orbit) {
 
 }  // namespace
 
-double leading_multiplier(double trace) {
-  const double square = 0.25 * trace * trace - 1.0;
-  if (square < 0.0) return none;
-  const double root = std::sqrt(square);
-  return trace < 0.0 ? 0.5 * trace - root : 0.5 * trace + root;
-}
-
-AcrossMap tangent_map(const Boundary& boundary, const Chain& chain, const ChainGeometry& g,
-                      std::size_t flights, AcrossMap* sizes) {
-  const double speed = boundary.particle.speed, omega = boundary.particle.omega;
-  AcrossMap whole;
-  if (sizes) *sizes = {};
-  for (std::size_t i = 0; i < flights; ++i) {
-    const ChainFlight& flight = g.flights[i % chain.size()];
-    const WallPoint& wall = g.points[(i + 1) % chain.size()];
-    const double duration = duration_of(boundary, chain[i % chain.size()], flight);
-    const AcrossMap flown =
-        across(flight_tangent(omega, duration), flight.departure, flight.arrival, speed, omega);
-    const ReflectionTangent reflection =
-        reflection_tangent(wall.normal, wall.curvature, speed * flight.arrival, omega);
-    const AcrossMap reflected =
-        across(reflection, flight.arrival, reflection.mirrored(flight.arrival), speed, omega);
-    whole = reflected * (flown * whole);
-    if (sizes) *sizes = absolute(reflected) * (absolute(flown) * *sizes);
-  }
-  return whole;
-}
-
 PeriodicOrbit describe(const Boundary& boundary, const Solution& solution) {
   const Chain& chain = solution.chain;
   const ChainGeometry& g = solution.geometry;
@@ -181,6 +130,7 @@ PeriodicOrbit describe(const Boundary& boundary, const Solution& solution) {
   orbit.trace_error = relative * sizes.trace() + trace_error_of_places(boundary, solution);
   orbit.family = solution.lost_rank > 0;
   add_stability(orbit);
+  orbit.maslov = maslov_index(flights_across(boundary, chain, g), orbit.stability);
   return orbit;
 }
 

@@ -1,35 +1,12 @@
 // From a solved chain to the numbers of its orbit.
 #pragma once
 
-#include <cstddef>
-
 #include "carom/orbits/periodic_orbit.hpp"
 #include "orbits/newton.hpp"
 
 namespace carom::orbits {
 
-/// A map of deviations across the orbit: (distance to its left, angle to its left).
-struct AcrossMap {
-  double a = 1.0, b = 0.0, c = 0.0, d = 1.0;
-
-  double trace() const { return a + d; }
-  /// This map after the other one.
-  friend AcrossMap operator*(const AcrossMap& m, const AcrossMap& o) {
-    return {m.a * o.a + m.b * o.c, m.a * o.b + m.b * o.d, m.c * o.a + m.d * o.c,
-            m.c * o.b + m.d * o.d};
-  }
-};
-
-/// The tangent map of the first `flights` flights, each with the reflection after it. `sizes`, if
-/// set, becomes the product of the factors' absolute values, which bounds what rounding may do.
-AcrossMap tangent_map(const Boundary&, const Chain&, const ChainGeometry&, std::size_t flights,
-                      AcrossMap* sizes = nullptr);
-
 /// All of an orbit but holes, copies and what symmetry leaves of it.
 PeriodicOrbit describe(const Boundary&, const Solution&);
-
-/// The eigenvalue of largest size of a map of determinant 1 with that trace; NaN where they are
-/// complex.
-double leading_multiplier(double trace);
 
 }  // namespace carom::orbits

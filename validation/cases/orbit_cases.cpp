@@ -66,6 +66,12 @@ Look trace_of(std::size_t hits, double length) {
     return orbit ? Number{orbit->trace, orbit->trace_error} : Number{};
   };
 }
+Look index_of(std::size_t hits, double length) {
+  return [=](const OrbitSearchResult& found) {
+    const PeriodicOrbit* orbit = orbit_of(found, hits, length);
+    return orbit && orbit->maslov ? Number{static_cast<double>(*orbit->maslov), 0.0} : Number{};
+  };
+}
 
 // The orbit of three discs of which the symmetry leaves this many hits and this period.
 const PeriodicOrbit* reduced_of(const OrbitSearchResult& found, std::size_t hits, double period) {
@@ -136,6 +142,10 @@ void add_orbit_cases(std::vector<Case>& cases) {
   add("ellipse, long axis", two_bounces, ellipse, 2, 4.0 * std::pow(1.0 - 32.0 / 9.0, 2) - 2.0,
       trace_of(2, 4.0));
   add("ellipse, short axis", two_bounces, ellipse, 2, -1.9375, trace_of(2, 3.0));
+  add("ellipse, Maslov index of the short axis", "a beam between mirrors: 2 a reflection, and 1",
+      ellipse, 2, 5.0, index_of(2, 3.0));
+  add("ellipse, Maslov index of the long axis", "2 a reflection, and 1 at each focus", ellipse, 2,
+      6.0, index_of(2, 4.0));
   add("sinai, along the side", two_bounces, sinai, 2, 7.0, trace_of(2, 0.4));
   const double diagonal = std::sqrt(2.0) - 0.8;
   add("sinai, along the diagonal", two_bounces, sinai, 2,

@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ struct PeriodicOrbit {
   double trace = 0.0;                   ///< of the tangent map of one period, across the orbit
   std::complex<double> multipliers[2];  ///< its eigenvalues, the larger one first
   Stability stability = Stability::parabolic;
+  /// Index sigma of the phase exp(-i pi sigma / 2) in Gutzwiller's trace formula, for waves that
+  /// vanish at the walls; each of these has a part of 2 in it. None of a parabolic orbit.
+  std::optional<int> maslov;
   /// Its neighbours are periodic, too (bouncing balls): one member of a family of one length. As
   /// far as doubles tell: the equations of the orbit lose rank.
   bool family = false;

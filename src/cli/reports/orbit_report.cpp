@@ -39,6 +39,7 @@ Json one_json(const Table& table, const PeriodicOrbit& orbit) {
   json.set("hits", orbit.hits.size()).set("period", orbit.period).set("length", orbit.length);
   json.set("action", orbit.action).set("trace", orbit.trace).set("trace_error", orbit.trace_error);
   json.set("stability", name_of(orbit.stability)).set("multipliers", std::move(multipliers));
+  json.set("maslov", orbit.maslov ? Json(*orbit.maslov) : Json());
   json.set("family", orbit.family).set("position_error", orbit.position_error);
   json.set("length_error", orbit.length_error).set("copies", orbit.copies);
   json.set("reduced", Json::object()
@@ -159,6 +160,7 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
                       result.complete ? "" : "  (interrupted: of the starts that were tried)");
   std::vector<Column> columns{
       {"hits", {}}, {"period", {}}, {"multiplier", {}}, {"stability", {}, true}, {"copies", {}}};
+  Column indices{"Maslov index", {}};
   bool through_hole = false;
   for (const PeriodicOrbit& orbit : result.orbits) {
     through_hole = through_hole || std::any_of(orbit.hits.begin(), orbit.hits.end(),
@@ -169,8 +171,10 @@ std::string orbit_text(const System& system, const OrbitSearchResult& result,
     columns[2].cells.push_back(multiplier_text(orbit));
     columns[3].cells.push_back(std::string(name_of(orbit.stability)) +
                                (orbit.family ? ", family" : ""));
+    indices.cells.push_back(orbit.maslov ? fmt::format("{}", *orbit.maslov) : "");
     columns[4].cells.push_back(orbit.family ? "" : fmt::format("{}", orbit.copies));
   }
+  if (context.verbose) columns.push_back(indices);
   const std::size_t rows = columns[0].cells.size(), width = width_of(aligned(columns)) + 2;
   const std::size_t letters =
       context.verbose ? std::string::npos

@@ -18,6 +18,7 @@ using hdf5::Handle;
 namespace {
 
 constexpr const char* orbit_archive_kind = "orbit";
+constexpr std::int32_t no_index = -1;
 
 // Columns of /orbits and /orbit_hits, where writing and reading meet: `table.column` is called for
 // each with its name, what it is, and the place of its value in a row.
@@ -117,7 +118,7 @@ struct Reader {
 
 // What has no place of its own in an orbit's or hit's row.
 struct Extra {
-  std::vector<std::int32_t> hits, stability, family, orbit;
+  std::vector<std::int32_t> hits, stability, maslov, family, orbit;
   std::vector<double> real, imaginary, half_turn;
   std::vector<std::int64_t> step_first, step_second;
 };
@@ -165,6 +166,7 @@ Extra extra_of(const std::vector<PeriodicOrbit>& orbits) {
     const PeriodicOrbit& o = orbits[i];
     extra.hits.push_back(static_cast<std::int32_t>(o.hits.size()));
     extra.stability.push_back(static_cast<std::int32_t>(o.stability));
+    extra.maslov.push_back(o.maslov.value_or(no_index));
     extra.family.push_back(o.family);
     extra.real.push_back(o.multipliers[0].real());
     extra.imaginary.push_back(o.multipliers[0].imag());
@@ -272,6 +274,8 @@ void write_orbits(const std::string& name, const LoadedSystem& loaded, const Pro
     hdf5::write_column<std::int32_t>(to, "stability", extra.stability,
                                      {"1", "Index into the attribute `stabilities` of the group"},
                                      name);
+    hdf5::write_column<std::int32_t>(to, "maslov", extra.maslov, {"1", "Maslov index; -1: none"},
+                                     name);
     hdf5::write_column<std::int32_t>(to, "family", extra.family, {"1", "1: one member of a family"},
                                      name);
     hdf5::write_column<double>(to, "multiplier_real", extra.real,
@@ -334,6 +338,7 @@ StoredOrbits read_orbits(const std::string& name) {
   Reader<PeriodicOrbit> reader{from, rows, name};
   orbit_columns(reader);
   const auto stability = hdf5::read_column<std::int32_t>(from, "stability", name);
+  const auto maslov = hdf5::read_column<std::int32_t>(from, "maslov", name);
   const auto family = hdf5::read_column<std::int32_t>(from, "family", name);
   const auto real = hdf5::read_column<double>(from, "multiplier_real", name);
   const auto imaginary = hdf5::read_column<double>(from, "multiplier_imaginary", name);
@@ -348,6 +353,7 @@ StoredOrbits read_orbits(const std::string& name) {
   for (std::size_t i = 0; i < orbits.size(); ++i) {
     PeriodicOrbit& o = orbits[i];
     o.stability = static_cast<Stability>(stability.at(i));
+    if (maslov.at(i) != no_index) o.maslov = maslov.at(i);
     o.family = family.at(i) != 0;
     const std::complex<double> large(real.at(i), imaginary.at(i));
     o.multipliers[0] = large;
