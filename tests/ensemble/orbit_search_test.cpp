@@ -63,6 +63,30 @@ TEST(OrbitSearch, FindsTheOrbitsOfThreeDiscs) {
   }
 }
 
+// From the top of a disc to that of the next one: chord a, curvature k = B, tangent to the lattice
+// vector.
+TEST(OrbitSearch, FindsRunawayOrbitsOfOneHit) {
+  const double a = 1.0, k = 1.0, r = 0.4, alpha = std::asin(0.5 * k * a);
+  const OrbitSearchResult result = found(make_system(R"(
+[table]
+shape = "lorentz"
+lattice = "square"
+spacing = 1
+radius = 0.4
+[field]
+B = 1
+)"),
+                                         {.most_hits = 2, .starts = 2000, .tries = 50});
+  const PeriodicOrbit* orbit = near_length(result, 1, 2.0 * alpha / k);
+  ASSERT_TRUE(orbit);
+  EXPECT_EQ(std::abs(orbit->shift.first) + std::abs(orbit->shift.second), 1);
+  EXPECT_EQ(orbit->copies, 4);
+  EXPECT_NEAR(
+      orbit->trace,
+      -2.0 * std::cos(2.0 * alpha) - 4.0 * std::cos(alpha) / k * (1.0 / r - k * std::cos(alpha)),
+      orbit->trace_error);
+}
+
 TEST(OrbitSearch, TracesOfTwoBounceOrbitsHaveAClosedForm) {
   const OrbitSearchResult stadium = found(make_system(R"(
 [table]
