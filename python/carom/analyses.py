@@ -4,6 +4,7 @@ import numpy
 
 from . import _carom
 from .axes import COLOURS, new_axes, title
+from .errors import InputError
 
 
 def sweep(result, ax=None, y=None):
@@ -15,6 +16,8 @@ def sweep(result, ax=None, y=None):
     if y is None:
         others = [name for name in numbers if name not in keys]
         with_errors = [name for name in others if f"{name}_stderr" in numbers]
+        if not others:
+            raise InputError("no value of the sweep has a number to draw; its reports say why")
         y = (with_errors or others)[0]
     ax = new_axes(ax)
     if len(keys) == 1:

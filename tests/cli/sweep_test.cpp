@@ -81,6 +81,16 @@ TEST(Sweep, GivesEveryCommandARowAValue) {
   }
 }
 
+TEST(Sweep, SaysWhyValuesHaveNoResult) {
+  const Shell shell;
+  const Outcome o =
+      shell("$carom lyapunov stadium --trajectories 20 --sweep table.radius=list:1,2");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("table.radius = 1 and 1 more: all 20 particles ended before"),
+            std::string::npos)
+      << o.out;
+}
+
 TEST(Sweep, NamesWhatIsBadBeforeItComputes) {
   const Shell shell;
   const std::pair<const char*, const char*> bad[] = {

@@ -62,6 +62,12 @@ def test_a_certified_run_has_no_picture(carom, tmp_path):
     assert "Traceback" not in carom("plot", "exact.h5", status=1).stderr
 
 
+def test_a_sweep_without_results_has_no_picture(carom, tmp_path):
+    carom("lyapunov", "stadium", "--trajectories", 20, "--sweep", "table.radius=list:1,2", "-o", "none.h5", "--quiet")
+    said = carom("plot", "none.h5", status=1).stderr
+    assert "no value of the sweep" in said and "Traceback" not in said
+
+
 @pytest.mark.parametrize(
     "command",
     [

@@ -187,6 +187,36 @@ std::string table(const SweepResult& result) {
   return aligned(columns);
 }
 
+// Why rows lack what a command is run for, each reason once.
+std::string reasons(const SweepResult& result) {
+  constexpr std::size_t most = 5;
+  struct Reason {
+    std::string text, first;
+    std::size_t rows;
+  };
+  std::vector<Reason> all;
+  for (const SweepRow& row : result.rows)
+    for (const char* path : {"reason", "fit.reason"}) {
+      const Json* found = row.report.find(path);
+      const std::string text = found ? found->string().value_or("") : "";
+      if (text.empty()) continue;
+      const auto same = std::find_if(all.begin(), all.end(),
+                                     [&](const Reason& reason) { return reason.text == text; });
+      if (same != all.end())
+        ++same->rows;
+      else
+        all.push_back({text, named(result.plan, row.index), 1});
+    }
+  std::string text;
+  for (std::size_t i = 0; i < all.size() && i < most; ++i)
+    text += folded(fmt::format("{}{}: {}", all[i].first,
+                               all[i].rows > 1 ? fmt::format(" and {} more", all[i].rows - 1) : "",
+                               all[i].text)) +
+            "\n";
+  if (all.size() > most) text += fmt::format("and {} other reasons: --json\n", all.size() - most);
+  return text;
+}
+
 }  // namespace
 
 std::string SweepRow::doubts() const {
@@ -282,6 +312,7 @@ std::string sweep_text(const SweepResult& result) {
         return decided && !decided->is_true();
       });
   if (doubtful) text += "  ?: the data do not tell this law from the next\n";
+  if (const std::string why = reasons(result); !why.empty()) text += "\n" + why;
   text += fmt::format("\ncomputed in {:.3g} s\n", sum_of(result, "seconds"));
   if (!result.archive.empty()) text += fmt::format("archive: {}\n", result.archive);
   return text;

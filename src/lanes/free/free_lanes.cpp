@@ -313,10 +313,9 @@ class FreeLanes::Implementation {
       // A first flight that ends when the run does must not be flown by the kernel of particles
       // that stand on walls.
       if (&lanes == &main && call == Call::over && !survives && mine.reported > before) {
+        // On a lattice a particle that began off the discs must find its first one again.
         if (lanes.pack.hits(lane) == static_cast<double>(mine.start.hits))
-          resume(lanes,
-                 lane);  // on a lattice, a particle that began off the discs must find its first
-                         // one again
+          resume(lanes, lane);
         else
           lanes::look_again(lanes.pack, lane);
         return true;
