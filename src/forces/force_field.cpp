@@ -155,6 +155,7 @@ std::shared_ptr<const ForceField> ForceField::build(
     const ForceSpec& spec, const std::vector<Particle>& particles,
     const std::optional<geometry::Lattice>& lattice) {
   auto field = std::make_shared<ForceField>();
+  field->spec_ = spec;
   for (const PotentialSpec& s : spec.potentials) {
     check(s, particles, lattice.has_value());
     field->potentials_.push_back(make_potential(s, lattice));

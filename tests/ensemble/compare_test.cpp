@@ -9,6 +9,7 @@
 
 #include "carom/base/error.hpp"
 #include "carom/integrators/scheme.hpp"
+#include "ensemble/compare/precise_orbit.hpp"
 #include "systems.hpp"
 
 namespace carom {
@@ -59,6 +60,46 @@ TEST_P(OfField, EverySchemeIsMeasuredAsItIsStated) {
       EXPECT_EQ(*scheme.reversible, stated.symmetric());
     }
   }
+}
+
+// A harmonic well in a field: the modes turn with omega/2 +- sqrt(omega^2/4 + 1), and the state is
+// known in closed form.
+TEST(Compare, TheReferenceHasMoreDigitsThanDoubles) {
+  const System system = make_system(R"(
+[particles]
+energy = 0.625
+[field]
+B = 1.5
+[initial]
+kind = "point"
+position = [1, 0]
+velocity = [0, 0.5]
+[[potential]]
+kind = "harmonic"
+omega = 1
+[integrator]
+step = 0.05
+)");
+  const double t = 8.0;
+  const ensemble::Runs runs(system, 0, {});
+  const auto orbit =
+      ensemble::precise_orbit(runs, "mclachlan-ss17", 0.05, t, {.size = 1.0, .speed = 0.5});
+  ASSERT_TRUE(orbit);
+  EXPECT_LT(orbit->error, 1e-15);
+  // x + i y = a exp(i p t) + b exp(i q t); p and q of z'' = -z - i B z'.
+  const long double fast = -0.75L + std::sqrt(0.75L * 0.75L + 1.0L),
+                    slow = -0.75L - std::sqrt(0.75L * 0.75L + 1.0L);
+  const long double a = (0.5L - slow) / (fast - slow), b = 1.0L - a;
+  for (int k = 0; k < 8; ++k) {
+    const long double now = t * (9 + k) / 16;
+    const ensemble::PlaneState& state = orbit->states[static_cast<std::size_t>(k)].front();
+    EXPECT_NEAR(state.position.x,
+                static_cast<double>(a * std::cos(fast * now) + b * std::cos(slow * now)), 3e-16);
+    EXPECT_NEAR(state.position.y,
+                static_cast<double>(a * std::sin(fast * now) + b * std::sin(slow * now)), 3e-16);
+  }
+  const Comparison result = compare(system, {.schemes = {"velocity-verlet"}, .t_max = t});
+  EXPECT_EQ(result.reference, "mclachlan-ss17 in 34 digits");
 }
 
 INSTANTIATE_TEST_SUITE_P(Compare, OfField, testing::Values("0", "1.5"));

@@ -42,7 +42,7 @@ UMBRELLA = "include/carom/carom.hpp"
 # Where a package may be included: pattern of the header, pattern of the file.
 PACKAGES = {
     r"CGAL/": r"geometry/src/cgal/",
-    r"boost/": r"geometry/src/|src/base/",
+    r"boost/": r"geometry/src/|src/base/|src/forces/quad\.hpp",
     r"gmp|mpfr": r"geometry/src/|src/base/|src/table/|src/certify/",
     r"(arb|acb|arf|mag)(_\w+)?\.h|flint": r"src/certify/",
     r"sleef": r"src/base/elementary.*\.cpp",

@@ -77,6 +77,8 @@ class ForceField {
   double potential_energy(std::span<const Particle> particles, std::span<const geometry::Vector> x,
                           const geometry::Lattice* lattice) const;
 
+  /// What it was built from.
+  const ForceSpec& spec() const { return spec_; }
   const std::vector<std::unique_ptr<const forces::Potential>>& potentials() const {
     return potentials_;
   }
@@ -101,6 +103,7 @@ class ForceField {
                                                  const std::optional<geometry::Lattice>& lattice);
 
  private:
+  ForceSpec spec_;
   std::vector<std::unique_ptr<const forces::Potential>> potentials_;
   std::unique_ptr<const forces::Interaction> interaction_;
   std::vector<Support> supports_;

@@ -49,12 +49,13 @@ struct PotentialSpec {
   std::shared_ptr<const TypedExpression> expression;
 };
 
-/// An interaction of pairs ([interaction]). r is their distance.
-///   coulomb        W = strength q_1 q_2 / r                                   (Bill2d,
-///   section 2.2) yukawa         W = strength q_1 q_2 exp(-r/range) / r lennard_jones  W = 4 depth
-///   ((diameter/r)^12 - (diameter/r)^6) soft_sphere    W = strength (diameter/r)^exponent, a whole
-///   exponent hard_discs     no potential: contacts at the sum of the radii expression     W(r) as
-///   typed
+/// An interaction of pairs ([interaction]). r is their distance (Bill2d, section 2.2).
+///   coulomb        W = strength q_1 q_2 / r
+///   yukawa         W = strength q_1 q_2 exp(-r/range) / r
+///   lennard_jones  W = 4 depth ((diameter/r)^12 - (diameter/r)^6)
+///   soft_sphere    W = strength (diameter/r)^exponent, a whole exponent
+///   hard_discs     no potential: contacts at the sum of the radii
+///   expression     W(r) as typed
 struct InteractionSpec {
   enum class Kind {
     coulomb,

@@ -257,7 +257,9 @@ Comparison compare(const System& system, const ComparePlan& plan) {
   result.speed = setting.units.speed;
   result.error = plan.error;
   result.exact = comparing.free();
-  if (!result.exact) result.reference = reference_scheme;
+  if (!result.exact)
+    result.reference =
+        std::string(reference_scheme) + (setting.in_34_digits ? " in 34 digits" : "");
   result.reference_step = setting.reference_step;
   result.reference_error = setting.reference_error;
   result.hits = setting.reference.hits.size();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "carom/ensemble/choose_step.hpp"
+#include "ensemble/compare/precise_orbit.hpp"
 #include "ensemble/displaced_orbit.hpp"
 
 namespace carom::ensemble {
@@ -155,6 +156,26 @@ void integrate(const Runs& runs, Setting& setting) {
   if (!(setting.reference_step > 0.0))
     throw InputError(Place{}, "no reference was found: " + before.failure,
                      "a shorter time (--t-max), or softer forces");
+  setting.rounding_error = setting.reference_error;
+}
+
+/// The same orbit in 34 digits, where it meets no wall. How far the orbit in doubles is from it is
+/// what rounding has made of that.
+void integrate_precisely(const Runs& runs, Setting& setting) {
+  if (!setting.reference.hits.empty()) return;
+  const std::optional<PreciseOrbit> precise =
+      precise_orbit(runs, reference_scheme, 4.0 * setting.reference_step, setting.t, setting.units);
+  if (!precise || !(precise->error < setting.reference_error)) return;
+  Orbit orbit = setting.reference;
+  orbit.states = precise->states;
+  const double rounding = distance(setting.reference, orbit).in(setting.units);
+  // Twice the stated error: then both are orbits of the same system.
+  if (!(rounding <= 2.0 * setting.reference_error)) return;
+  setting.reference = std::move(orbit);
+  setting.reference_step = precise->step;
+  setting.reference_error = precise->error;
+  setting.rounding_error = rounding;
+  setting.in_34_digits = true;
 }
 
 }  // namespace
@@ -164,7 +185,8 @@ double Setting::rounding(double evaluations) const {
 }
 double Setting::noise(double evaluations) const {
   if (!(reference_evaluations > 0.0)) return std::max(reference_error, rounding(evaluations));
-  return reference_error * std::sqrt(std::max(1.0, evaluations / reference_evaluations));
+  return std::max(reference_error,
+                  rounding_error * std::sqrt(std::max(1.0, evaluations / reference_evaluations)));
 }
 
 Setting setting_of(const Runs& runs, double wanted) {
@@ -206,10 +228,12 @@ Setting setting_of(const Runs& runs, double wanted) {
   }
   setting.longest_step = setting.t;
   while (setting.longest_step > longest) setting.longest_step *= 0.5;
-  if (runs.free())
+  if (runs.free()) {
     fly_exactly(runs, setting);
-  else
+  } else {
     integrate(runs, setting);
+    integrate_precisely(runs, setting);
+  }
   return setting;
 }
 

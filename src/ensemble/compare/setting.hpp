@@ -17,7 +17,9 @@ struct Setting {
   Orbit reference;
   double reference_step = 0.0;  ///< 0: exact flights
   double reference_error = 0.0;
-  double reference_evaluations = 0.0;  ///< 0: exact flights
+  bool in_34_digits = false;           ///< the reference
+  double rounding_error = 0.0;         ///< of the reference scheme in doubles
+  double reference_evaluations = 0.0;  ///< its own; 0: exact flights
 
   /// What rounding may have made of an orbit's error with so many evaluations of forces.
   double rounding(double evaluations) const;
