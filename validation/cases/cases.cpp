@@ -302,12 +302,13 @@ void add_orders(Planner& plan) {
     SystemOverrides overrides;
     overrides.set = {{"field.B", field}};
     const System system = load_system("henon-heiles", overrides).system;
-    for (const std::string& scheme : default_comparison(system)) {
-      if (is_adaptive(scheme)) continue;
+    std::vector<std::string> schemes = default_comparison(system);
+    std::erase_if(schemes, [](const std::string& name) { return is_adaptive(name); });
+    const auto orders = std::make_shared<Orders>(system, schemes);
+    for (const std::string& scheme : schemes)
       plan.add(fmt::format("order of {}, B = {}", scheme, field),
                "the scheme's order conditions, on the Hénon–Heiles potential", {},
-               [system, scheme](const CheckOptions&) { return check_order(system, scheme); });
-    }
+               [orders, scheme](const CheckOptions&) { return orders->check(scheme); });
   }
 }
 

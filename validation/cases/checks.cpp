@@ -389,15 +389,16 @@ Check check_distance(const System& system, double expected, Allowance allowance)
   return c;
 }
 
-Check check_order(const System& system, const std::string& scheme) {
+Check Orders::check(const std::string& scheme) {
+  // All at once: they share the orbit that they are compared with.
+  if (!result_) result_ = compare(system_, {.schemes = schemes_});
   Check c;
-  c.seed = system.run.seed;
-  const Comparison result = compare(system, {.schemes = {scheme}});
-  const ComparedScheme& one = result.schemes.front();
+  c.seed = system_.run.seed;
+  const auto number = std::find(schemes_.begin(), schemes_.end(), scheme) - schemes_.begin();
+  const ComparedScheme& one = result_->schemes[static_cast<std::size_t>(number)];
   c.expected = one.order;
-  c.complete = result.complete;
-  c.seconds = result.seconds;
-  c.cpu_seconds = result.cpu_seconds;
+  c.seconds = result_->seconds / static_cast<double>(schemes_.size());
+  c.cpu_seconds = result_->cpu_seconds / static_cast<double>(schemes_.size());
   if (one.measured.slope) {
     c.value = one.measured.slope->value;
     c.error = one.measured.slope->error;

@@ -3,9 +3,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "carom/analysis/mean_square_displacement.hpp"
+#include "carom/ensemble/compare.hpp"
 #include "carom/ensemble/system.hpp"
 
 namespace carom::validation {
@@ -87,7 +91,17 @@ Check check_exponent(const System&, Exponent, Estimate expected, const CheckOpti
 /// rounding grows with every hit, so one orbit in double precision has no standard error.
 Check check_distance(const System&, double expected, Allowance);
 
-/// The measured order of a scheme with fixed steps on trajectory 0, beside the stated one.
-Check check_order(const System&, const std::string& scheme);
+/// The measured orders of schemes with fixed steps on trajectory 0, beside the stated ones.
+class Orders {
+ public:
+  Orders(System system, std::vector<std::string> schemes)
+      : system_(std::move(system)), schemes_(std::move(schemes)) {}
+  Check check(const std::string& scheme);
+
+ private:
+  System system_;
+  std::vector<std::string> schemes_;
+  std::optional<Comparison> result_;
+};
 
 }  // namespace carom::validation
