@@ -40,56 +40,6 @@ inline bool stays(double speed, double acceleration, const Span& span, double rh
   return span.growth * span.time * (speed + 0.5 * acceleration * span.time) <= rho;
 }
 
-/// What is known of the steps that follow each other without an event.
-struct Chain {
-  int known = 0;  ///< ends of steps to come that are known to be resolved
-  int level = 0;  ///< which of Checks::spans made it known
-  int wait = 0;   ///< ends of steps until a longer span is tried again
-};
-
-/// Checks at the ends of steps of one length. A motion that is analytic for longer complex times
-/// than a step asks for is so at the ends of the next steps, too; these are then not asked for.
-/// docs/physics/resolution.md shows that each of them would be found resolved, so that this saves
-/// time and changes no answer.
-class Checks {
- public:
-  Checks() = default;
-  Checks(double step, double omega) : step_(step), omega_(omega) {
-    for (int k = 0; k < levels; ++k) spans_[k] = span_of((0.5 + ahead[k]) * step, omega);
-  }
-  bool made_for(double step, double omega) const { return step_ == step && omega_ == omega; }
-  const Span& half_a_step() const { return spans_[0]; }
-
-  /// `resolves(span, ahead)` asks for a span, with a margin if it is to hold for steps ahead.
-  template <class Resolves>
-  bool at_end(Chain& chain, const Resolves& resolves) const {
-    if (chain.known > 0) {
-      --chain.known;
-      return true;
-    }
-    if (chain.wait == 0) {
-      const int first = chain.level + 1 < levels ? chain.level + 1 : levels - 1;
-      for (int k = first; k > 0; --k)
-        if (resolves(spans_[k], true)) {
-          chain.level = k;
-          chain.known = ahead[k];
-          return true;
-        }
-      chain.level = 0;
-      chain.wait = ends_between_trials;
-    } else {
-      --chain.wait;
-    }
-    return resolves(spans_[0], false);
-  }
-
- private:
-  static constexpr int levels = 3, ends_between_trials = 16;
-  static constexpr int ahead[levels] = {0, 3, 12};
-  double step_ = 0.0, omega_ = 0.0;
-  Span spans_[levels];
-};
-
 }  // namespace resolution
 
 /// Bounds of the external force on one kind of particle, over the meshes of grids and displacements

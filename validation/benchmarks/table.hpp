@@ -50,6 +50,7 @@ void straight_and_larmor_flights(
 void flights_in_lanes(Report&);         ///< lanes of every instruction set of this machine
 void steps_under_forces(Report&);       ///< the same for steps
 void questions_of_resolution(Report&);  ///< does a step resolve its forces?
+void groups_at_walls(Report&);          ///< charges that hit walls, beside their forces alone
 void contacts_of_hard_discs(Report&);
 void certified_orbits(Report&);  ///< beside plain MPFR
 void periodic_orbits(Report&);

@@ -341,10 +341,12 @@ void Group::remove(std::size_t member) {
 void Group::fold(std::size_t member) {
   if (!in_.lattice) return;
   Vector& x = phase_.position[member];
+  const Vector before = x;
   // The forces have the lattice's period: what is known of them about a point holds for its copies.
   const bool checked = member < checked_.position.size() && checked_.position[member] == x;
   fold_towards_centre(*in_.lattice, in_.centre, x, places_[member].cell);
   if (checked) checked_.position[member] = x;
+  if (member < far_.centre.size()) far_.centre[member] = far_.centre[member] + (x - before);
 }
 
 bool Group::supported(Vector x, const Barrier<double>* except) const {

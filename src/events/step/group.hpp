@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/interrupt.hpp"
@@ -21,6 +22,7 @@
 #include "events/step/barrier.hpp"
 #include "events/step/crossing_in_step.hpp"
 #include "events/step/step_path.hpp"
+#include "forces/force_bound.hpp"
 #include "forces/resolution.hpp"
 
 namespace carom::events {
@@ -124,9 +126,21 @@ class Group final : public ForceLaw<double> {
     return listens_ && in_.interrupt && in_.interrupt->after(work);
   }
   void find_maps();
-  bool resolves(const Phase<double>& from, const Phase<double>* to, const forces::resolution::Span&,
-                bool ahead) const;
-  bool resolves_pairs(const Phase<double>& from, const forces::resolution::Span&, bool ahead) const;
+  bool resolves(const Phase<double>& from, const Phase<double>* to,
+                const forces::resolution::Span&) const;
+  bool resolves_pairs(const Phase<double>& from, const forces::resolution::Span&) const;
+  bool near_pairs_resolve(const Phase<double>& from, const forces::resolution::Span&) const;
+  double force_there(const Phase<double>& at, std::size_t member) const;
+  void find_far_pairs(const Phase<double>& from, const forces::resolution::Span&);
+  bool resolves_at(const Phase<double>& at, const Phase<double>& other,
+                   const forces::resolution::Span&);
+  geometry::Vector separation(const Phase<double>& at, std::size_t i, std::size_t j) const;
+  void add_pair_bound(std::size_t i, std::size_t j, double distance, double rho,
+                      std::vector<forces::ForceBound>& sums) const;
+  void add_external_bounds(const Phase<double>& at, const std::vector<double>& rho,
+                           std::vector<forces::ForceBound>& sums) const;
+  bool bound_all(const Phase<double>& at, const std::vector<double>& rho,
+                 std::vector<forces::ForceBound>& sums) const;
   std::string check_resolution();
   std::string describe_unresolved(const Phase<double>& at, double step, double radius);
   void find_next(const Time& limit);
@@ -185,8 +199,15 @@ class Group final : public ForceLaw<double> {
   std::unique_ptr<StepPath<double>> path_;
   std::vector<forces::ForceMap*> maps_;  ///< one a member
   double largest_omega_ = 0.0;           ///< in size
-  forces::resolution::Checks checks_;
-  forces::resolution::Chain chain_;
+  forces::resolution::Span span_;  ///< of half of the step that was checked last
+  /// Bounds of the accelerations by pairs that are far from each other, wherever within `radius` of
+  /// `centre` each particle is, at complex places too; and the pairs that are not far.
+  struct FarPairs {
+    std::vector<geometry::Vector> centre;
+    std::vector<double> radius;
+    std::vector<forces::ForceBound> force;
+    std::vector<std::pair<std::size_t, std::size_t>> near;
+  } far_;
   Phase<double>
       checked_;  ///< a step has ended there and resolved what lies about it; empty: none has
 };

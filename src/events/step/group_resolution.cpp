@@ -12,8 +12,6 @@ namespace carom::events {
 using forces::ForceBound;
 using geometry::Vector;
 
-namespace {}  // namespace
-
 void Group::find_maps() {
   maps_.clear();
   if (in_.maps == nullptr) return;
@@ -23,13 +21,14 @@ void Group::find_maps() {
     largest_omega_ = std::max(largest_omega_, std::fabs(p.omega));
   }
   checked_.position.clear();
+  span_ = {};
+  far_ = {};
 }
 
 /// Is the motion from there analytic over the span? `to`: where a step has led from it, a hint.
-/// `ahead`: with the margin of forces::resolution::Checks.
 bool Group::resolves(const Phase<double>& from, const Phase<double>* to,
-                     const forces::resolution::Span& span, bool ahead) const {
-  if (in_.forces->interacts() && bodies_.size() > 1) return resolves_pairs(from, span, ahead);
+                     const forces::resolution::Span& span) const {
+  if (in_.forces->interacts() && bodies_.size() > 1) return resolves_pairs(from, span);
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     Vector way{};
     if (to) {
@@ -45,47 +44,151 @@ bool Group::resolves(const Phase<double>& from, const Phase<double>* to,
   return true;
 }
 
-/// Of particles that interact, each one is displaced while the others are.
-bool Group::resolves_pairs(const Phase<double>& from, const forces::resolution::Span& span,
-                           bool ahead) const {
-  const ForceField& forces = *in_.forces;
-  const std::size_t n = maps_.size();
-  std::vector<double> rho(n, 0.0), acceleration(n), jump(n), speed(n);
-  const auto bound = [&] {
-    for (std::size_t i = 0; i < n; ++i) {
-      const ForceBound external =
-          forces.external() ? maps_[i]->about(from.position[i], rho[i]) : ForceBound{};
-      acceleration[i] = external.force;
-      jump[i] = external.jump;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (interrupted(20.0 * static_cast<double>(i))) return;
-      for (std::size_t j = 0; j < i; ++j) {
-        Vector d = from.position[i] - from.position[j];
-        if (in_.lattice) d = forces::nearest_copy(d, *in_.lattice);
-        const ForceBound pair =
-            forces.pair_bound(particles_[i], particles_[j], length(d), rho[i] + rho[j]);
-        acceleration[i] += pair.force / particles_[i].mass;
-        acceleration[j] += pair.force / particles_[j].mass;
-        jump[i] += pair.jump / particles_[i].mass;
-        jump[j] += pair.jump / particles_[j].mass;
-      }
-    }
-  };
-  bound();  // of the forces at the real positions
-  const double share = ahead ? 0.5 : 1.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    speed[i] = length(from.velocity[i]);
-    rho[i] = 2.0 / share * span.growth * span.time * (speed[i] + 0.5 * acceleration[i] * span.time);
+namespace {
+
+/// How many times the way of half a step the bounds of far pairs hold for, and how many times as
+/// far as two particles may come by then a pair is that counts as far. Both choose what is
+/// computed, and when; any bound proves what it proves.
+constexpr double far_ways = 6.0, far_pairs = 2.0;
+
+/// The displacement within which a motion is looked for: twice what the acceleration, as far as it
+/// is known, asks for.
+double room(double speed, double acceleration, const forces::resolution::Span& span) {
+  return 2.0 * span.growth * span.time * (speed + 0.5 * acceleration * span.time);
+}
+
+}  // namespace
+
+Vector Group::separation(const Phase<double>& at, std::size_t i, std::size_t j) const {
+  const Vector d = at.position[i] - at.position[j];
+  return in_.lattice ? forces::nearest_copy(d, *in_.lattice) : d;
+}
+
+/// Adds the bounds of one pair to those of both.
+void Group::add_pair_bound(std::size_t i, std::size_t j, double distance, double rho,
+                           std::vector<ForceBound>& sums) const {
+  const ForceBound pair = in_.forces->pair_bound(particles_[i], particles_[j], distance, rho);
+  for (const std::size_t k : {i, j})
+    sums[k] += {pair.force / particles_[k].mass, pair.jump / particles_[k].mass};
+}
+
+/// Adds those of the external forces within rho, one a member; none: at the positions themselves.
+void Group::add_external_bounds(const Phase<double>& at, const std::vector<double>& rho,
+                                std::vector<ForceBound>& sums) const {
+  if (!in_.forces->external()) return;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    sums[i] += maps_[i]->about(at.position[i], rho.empty() ? 0.0 : rho[i]);
+}
+
+/// Bounds of all accelerations, displaced by rho.
+bool Group::bound_all(const Phase<double>& at, const std::vector<double>& rho,
+                      std::vector<ForceBound>& sums) const {
+  sums.assign(maps_.size(), {});
+  add_external_bounds(at, rho, sums);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (interrupted(20.0 * static_cast<double>(i))) return false;
+    for (std::size_t j = 0; j < i; ++j)
+      add_pair_bound(i, j, length(separation(at, i, j)), rho.empty() ? 0.0 : rho[i] + rho[j], sums);
   }
-  bound();
+  return true;
+}
+
+/// Of particles that interact, each one is displaced while the others are.
+bool Group::resolves_pairs(const Phase<double>& from, const forces::resolution::Span& span) const {
+  const std::size_t n = maps_.size();
+  std::vector<ForceBound> sums;
+  std::vector<double> rho;
+  if (!bound_all(from, {}, sums)) return true;
+  for (std::size_t i = 0; i < n; ++i)
+    rho.push_back(room(length(from.velocity[i]), sums[i].force, span));
+  if (!bound_all(from, rho, sums)) return true;
   for (std::size_t i = 0; i < n; ++i) {
-    if (!forces::resolution::stays(speed[i], acceleration[i], span, share * rho[i])) return false;
-    if (jump[i] > 0.0 && !(!ahead && jump[i] * forces::resolution::steps_a_radius * span.time <=
-                                         forces::resolution::kick_share * speed[i]))
+    const double speed = length(from.velocity[i]);
+    if (!forces::resolution::stays(speed, sums[i].force, span, rho[i])) return false;
+    if (sums[i].jump > 0.0 && !(sums[i].jump * forces::resolution::steps_a_radius * span.time <=
+                                forces::resolution::kick_share * speed))
       return false;
   }
   return true;
+}
+
+/// True is the answer of resolves_pairs(), false is none: by bounds of far pairs that hold about
+/// where the group was some steps ago, and those of near pairs as they are now. No bound is smaller
+/// than that function's, and `known` no larger than what it takes for the forces at the positions.
+bool Group::near_pairs_resolve(const Phase<double>& from,
+                               const forces::resolution::Span& span) const {
+  const std::size_t n = maps_.size();
+  if (far_.force.size() != n) return false;
+  std::vector<ForceBound> known(n);
+  add_external_bounds(from, {}, known);
+  std::vector<double> distance, rho(n);
+  for (const auto& [i, j] : far_.near) {
+    distance.push_back(length(separation(from, i, j)));
+    add_pair_bound(i, j, distance.back(), 0.0, known);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    rho[i] = room(length(from.velocity[i]), far_.force[i].force + known[i].force, span);
+    if (!(length(from.position[i] - far_.centre[i]) + rho[i] <= far_.radius[i])) return false;
+  }
+  std::vector<ForceBound> sums = far_.force;
+  add_external_bounds(from, rho, sums);
+  for (std::size_t k = 0; k < far_.near.size(); ++k) {
+    const auto& [i, j] = far_.near[k];
+    add_pair_bound(i, j, distance[k], rho[i] + rho[j], sums);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double speed = length(from.velocity[i]);
+    const auto stays = [&](double least) {
+      return forces::resolution::stays(speed, sums[i].force, span, room(speed, least, span));
+    };
+    if (sums[i].jump > 0.0 || !(stays(known[i].force) || stays(force_there(from, i)))) return false;
+  }
+  return true;
+}
+
+/// The bound of one member's acceleration at the positions themselves.
+double Group::force_there(const Phase<double>& at, std::size_t i) const {
+  double sum = in_.forces->external() ? maps_[i]->about(at.position[i], 0.0).force : 0.0;
+  for (std::size_t j = 0; j < maps_.size(); ++j)
+    if (j != i)
+      sum += in_.forces
+                 ->pair_bound(particles_[i], particles_[j], length(separation(at, i, j)), 0.0)
+                 .force /
+             particles_[i].mass;
+  return sum;
+}
+
+/// Bounds the far pairs anew, about that phase.
+void Group::find_far_pairs(const Phase<double>& from, const forces::resolution::Span& span) {
+  const std::size_t n = maps_.size();
+  FarPairs found;
+  std::vector<ForceBound> here;
+  if (!bound_all(from, {}, here)) return;
+  for (std::size_t i = 0; i < n; ++i)
+    found.radius.push_back(far_ways * room(length(from.velocity[i]), here[i].force, span));
+  found.centre = from.position;
+  found.force.assign(n, {});
+  for (std::size_t i = 0; i < n; ++i) {
+    if (interrupted(20.0 * static_cast<double>(i))) return;
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance = length(separation(from, i, j)),
+                   reach = found.radius[i] + found.radius[j];
+      if (distance > far_pairs * reach)
+        add_pair_bound(i, j, distance, reach, found.force);
+      else
+        found.near.emplace_back(i, j);
+    }
+  }
+  far_ = std::move(found);
+}
+
+/// Near pairs first, and all of them where these cannot tell.
+bool Group::resolves_at(const Phase<double>& at, const Phase<double>& other,
+                        const forces::resolution::Span& span) {
+  if (!in_.forces->interacts() || bodies_.size() == 1) return resolves(at, &other, span);
+  if (near_pairs_resolve(at, span)) return true;
+  find_far_pairs(at, span);
+  return near_pairs_resolve(at, span) || resolves_pairs(at, span);
 }
 
 /// The longest of asked, asked/2, asked/4, ... that resolves the forces from there on; 0 if none
@@ -96,7 +199,7 @@ double Group::longest_step(const Phase<double>& from, const double& asked) const
   constexpr double work = 1e6;  // of a halving: many meshes are new
   double time = asked;
   for (int k = 0; k < most_halvings && !interrupted(k > 0 ? work : 0.0); ++k, time *= 0.5)
-    if (resolves(from, nullptr, forces::resolution::span_of(time, largest_omega_), false))
+    if (resolves(from, nullptr, forces::resolution::span_of(time, largest_omega_)))
       return time;
   return 0.0;
 }
@@ -109,29 +212,21 @@ std::string Group::check_resolution() {
   if (!(step > 0.0)) return {};
   if (is_adaptive(in_.plan.scheme))
     return {};  // these ask for the longest step before they take it
-  if (!checks_.made_for(step, largest_omega_)) {
-    checks_ = forces::resolution::Checks(step, largest_omega_);
+  const double radius = step / forces::resolution::steps_a_radius;
+  if (span_.time != radius) {
+    span_ = forces::resolution::span_of(radius, largest_omega_);
     checked_.position.clear();
   }
-  const forces::resolution::Span& half = checks_.half_a_step();
   const bool goes_on = checked_.position == from.position && checked_.velocity == from.velocity;
-  if (!goes_on) {
-    chain_ = {};
-    if (!resolves(from, &to, half, false)) return describe_unresolved(from, step, half.time);
-  }
-  const auto at_end = [&](const forces::resolution::Span& span, bool ahead) {
-    return resolves(to, &from, span, ahead);
-  };
-  const bool alone = !in_.forces->interacts() || bodies_.size() == 1;
-  if (!(alone ? at_end(half, false) : checks_.at_end(chain_, at_end))) {
-    checked_.position.clear();
-    return describe_unresolved(to, step, half.time);
-  }
+  checked_.position.clear();
+  if (!goes_on && !resolves_at(from, to, span_)) return describe_unresolved(from, step, radius);
+  if (!resolves_at(to, from, span_)) return describe_unresolved(to, step, radius);
   checked_ = to;
   return {};
 }
 
 std::string Group::describe_unresolved(const Phase<double>& at, double step, double radius) {
+  if (in_.plan.count_unresolved) return "not resolved";  // it is counted, and not told
   const double shorter = step / radius * longest_step(at, radius);
   // The member that is to blame, where particles do not interact.
   std::size_t member = 0;
