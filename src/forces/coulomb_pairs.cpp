@@ -69,32 +69,61 @@ struct One {
   }
 }
 
+[[gnu::always_inline]] inline double sum_energies(double strength, const Arrays& a) {
+  double all = 0.0;
+  for (std::size_t i = 0; i < a.size; ++i) {
+    const std::size_t next = i + 1, partners = a.size - next;
+    if (a.interrupt && a.interrupt->after(static_cast<double>(partners))) return all;
+    const One one{a.x[i], a.y[i], strength * a.charge[i]};
+    const double *x = a.x + next, *y = a.y + next, *charge = a.charge + next;
+    double* __restrict const energy = a.pull_x;
+#pragma GCC ivdep
+    for (std::size_t j = 0; j < partners; ++j) {
+      const double dx = one.x - x[j], dy = one.y - y[j];
+      energy[j] = (one.charge * charge[j]) / std::sqrt(dx * dx + dy * dy);
+    }
+    all += sum_of(energy, partners);
+  }
+  return all;
+}
+
 #if defined(__x86_64__) && defined(__GNUC__)
 [[gnu::target("avx2")]] void sum_pairs_avx2(double strength, const Arrays& a) {
   sum_pairs(strength, a);
+}
+[[gnu::target("avx2")]] double sum_energies_avx2(double strength, const Arrays& a) {
+  return sum_energies(strength, a);
 }
 [[gnu::target("avx512f,prefer-vector-width=512")]] void sum_pairs_avx512(double strength,
                                                                          const Arrays& a) {
   sum_pairs(strength, a);
 }
+[[gnu::target("avx512f,prefer-vector-width=512")]] double sum_energies_avx512(double strength,
+                                                                              const Arrays& a) {
+  return sum_energies(strength, a);
+}
 #endif
 void sum_pairs_baseline(double strength, const Arrays& a) { sum_pairs(strength, a); }
+double sum_energies_baseline(double strength, const Arrays& a) { return sum_energies(strength, a); }
 
-using Sum = void (*)(double, const Arrays&);
-Sum widest() {
+struct Sums {
+  void (*pairs)(double, const Arrays&);
+  double (*energies)(double, const Arrays&);
+};
+const Sums& widest() {
+  static const Sums found = [] {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx512f")) return sum_pairs_avx512;
-  if (__builtin_cpu_supports("avx2")) return sum_pairs_avx2;
+    if (__builtin_cpu_supports("avx512f")) return Sums{sum_pairs_avx512, sum_energies_avx512};
+    if (__builtin_cpu_supports("avx2")) return Sums{sum_pairs_avx2, sum_energies_avx2};
 #endif
-  return sum_pairs_baseline;
+    return Sums{sum_pairs_baseline, sum_energies_baseline};
+  }();
+  return found;
 }
 
-}  // namespace
-
-void add_coulomb_pairs(double strength, std::span<const Particle> particles,
-                       std::span<const geometry::Vector> x, std::span<geometry::Vector> force,
-                       base::Interrupt* interrupt) {
-  static const Sum sum = widest();
+/// Places and charges in columns; those of forces are 0.
+Arrays columns_of(std::span<const Particle> particles, std::span<const geometry::Vector> x,
+                  base::Interrupt* interrupt) {
   thread_local std::vector<double> columns;
   const std::size_t n = x.size();
   columns.assign(7 * n, 0.0);
@@ -104,10 +133,31 @@ void add_coulomb_pairs(double strength, std::span<const Particle> particles,
     column[n + i] = x[i].y;
     column[2 * n + i] = particles[i].charge;
   }
-  sum(strength, {n, column, column + n, column + 2 * n, column + 3 * n, column + 4 * n,
-                 column + 5 * n, column + 6 * n, interrupt});
-  for (std::size_t i = 0; i < n; ++i)
-    force[i] = force[i] + geometry::Vector{column[3 * n + i], column[4 * n + i]};
+  return {n,
+          column,
+          column + n,
+          column + 2 * n,
+          column + 3 * n,
+          column + 4 * n,
+          column + 5 * n,
+          column + 6 * n,
+          interrupt};
+}
+
+}  // namespace
+
+void add_coulomb_pairs(double strength, std::span<const Particle> particles,
+                       std::span<const geometry::Vector> x, std::span<geometry::Vector> force,
+                       base::Interrupt* interrupt) {
+  const Arrays a = columns_of(particles, x, interrupt);
+  widest().pairs(strength, a);
+  for (std::size_t i = 0; i < a.size; ++i)
+    force[i] = force[i] + geometry::Vector{a.force_x[i], a.force_y[i]};
+}
+
+double coulomb_energy(double strength, std::span<const Particle> particles,
+                      std::span<const geometry::Vector> x, base::Interrupt* interrupt) {
+  return widest().energies(strength, columns_of(particles, x, interrupt));
 }
 
 }  // namespace carom::forces

@@ -1,4 +1,4 @@
-// The forces of all Coulomb pairs at once.
+// The forces of all Coulomb pairs at once, and their energy.
 #pragma once
 
 #include <span>
@@ -19,5 +19,8 @@ namespace carom::forces {
 void add_coulomb_pairs(double strength, std::span<const Particle> particles,
                        std::span<const geometry::Vector> x, std::span<geometry::Vector> force,
                        base::Interrupt* interrupt = nullptr);
+/// The sum of strength q_i q_j / |d| over every pair, in such an order.
+double coulomb_energy(double strength, std::span<const Particle> particles,
+                      std::span<const geometry::Vector> x, base::Interrupt* interrupt = nullptr);
 
 }  // namespace carom::forces

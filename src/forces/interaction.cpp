@@ -83,6 +83,8 @@ class Central final : public Interaction {
   }
   double energy(std::span<const Particle> particles, std::span<const Vector> x,
                 const geometry::Lattice* lattice, base::Interrupt* interrupt) const override {
+    if (!lattice && coulomb_strength_ && x.size() >= worth_lanes)
+      return coulomb_energy(*coulomb_strength_, particles, x, interrupt);
     double all = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (interrupt && interrupt->after(10.0 * static_cast<double>(x.size() - i))) return all;
