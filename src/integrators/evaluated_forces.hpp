@@ -52,6 +52,12 @@ class EvaluatedForces {
     if (matches(start_, position)) return start_.acceleration;
     return {};
   }
+  /// The same, also at the ends.
+  std::span<const Vector> remembered_anywhere(std::span<const Vector> position) const {
+    for (const Known* known : {&start_, &whole_, &part_})
+      if (matches(*known, position)) return known->acceleration;
+    return {};
+  }
 
  private:
   struct Known {

@@ -65,6 +65,13 @@ class SplittingStepper final : public Stepper<Real> {
     return time;
   }
 
+  std::span<const Vector> at_start(std::span<const Vector> position) override {
+    if (stages_.front().kind != Kind::kick) return {};
+    return known_.at_start(position);
+  }
+  std::span<const Vector> remembered(std::span<const Vector> position) const override {
+    return known_.remembered_anywhere(position);
+  }
   void forget() override { known_.forget(); }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "carom/io/system_file.hpp"
 #include "systems.hpp"
 
 namespace carom {
@@ -72,6 +73,27 @@ TEST_P(SingleRun, SamplesChangeNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, SingleRun, testing::ValuesIn(tables));
+
+// Several hits a step: the stored state may be that after a hit within one.
+TEST(SingleRunEnd, ChargesGoOnBitForBit) {
+  SystemOverrides set;
+  set.set = {{"particles.count", "6"},
+             {"integrator.step", "0.008"},
+             {"integrator.unresolved", "\"count\""},
+             {"run.t_max", "1.5"}};
+  System system = load_system("coulomb-circle", set).system;
+  Trace whole, parts;
+  run_single(system, whole, {});
+  ASSERT_GT(whole.hits.size(), 15u);
+  SingleRunOptions options;
+  for (const double stop : {0.01, 0.3333, 0.4, 0.77, 1.2222, 1.5}) {
+    system.run.t_max = stop;
+    const SingleRunResult part = run_single(system, parts, options);
+    options.resume.clear();
+    for (const RunEnd& p : part.particles) options.resume.push_back(p.progress);
+  }
+  expect_same_hits(whole.hits, parts.hits);
+}
 
 TEST(SingleRunEnd, EndsAfterSoManyHitsAndGoesOn) {
   System system = make_system(tables[2]);

@@ -60,9 +60,10 @@ int main(int argc, char** argv) {
   });
   if (help) fmt::print("bench [NAME...]: measures the rows whose names begin so, or all of\n");
   Report report = help ? Report(Report::Aim::list) : Report(Report::Aim::measure, names);
-  for (const auto& rows : {straight_and_larmor_flights, flights_in_lanes, steps_under_forces,
-                           questions_of_resolution, groups_at_walls, contacts_of_hard_discs,
-                           certified_orbits, periodic_orbits, comparisons, whole_ensembles, records_of_runs})
+  for (const auto& rows :
+       {straight_and_larmor_flights, flights_in_lanes, steps_under_forces, questions_of_resolution,
+        groups_at_walls, contacts_of_hard_discs, certified_orbits, periodic_orbits, comparisons,
+        whole_ensembles, records_of_runs})
     rows(report);
   return report.failed() ? 1 : 0;
 }

@@ -51,6 +51,17 @@ class Stepper {
   /// the time it moved: `at_most` itself for fixed schemes; less where an adaptive one needs a
   /// smaller step.
   virtual Real step(const Phase<Real>& from, Real at_most, Phase<Real>& to) = 0;
+  /// The accelerations at positions that the next step begins with, which need not be evaluated
+  /// again then; nothing if the scheme does not begin with them.
+  virtual std::span<const geometry::BasicVector<Real>> at_start(
+      std::span<const geometry::BasicVector<Real>> /*position*/) {
+    return {};
+  }
+  /// Those at these positions if it remembers them, or nothing.
+  virtual std::span<const geometry::BasicVector<Real>> remembered(
+      std::span<const geometry::BasicVector<Real>> /*position*/) const {
+    return {};
+  }
   /// Forgets the forces that it remembers, which changes nothing but the cost.
   virtual void forget() {}
   /// Why the last step could not be taken ("": it could). Its phase is then no number.

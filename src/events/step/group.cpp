@@ -158,7 +158,16 @@ const Group::Next& Group::predict(const Time& limit) {
 void Group::find_next(const Time& limit) {
   path_end_ = step_end(limit);
   const double rest = std::clamp(path_end_ - time_, 0.0, std::numeric_limits<double>::max());
-  next_.duration = path_->begin(phase_, rest);
+  const double way = way_to_hit(rest);
+  search(way, rest);
+  if (!(way < rest) || next_.member >= 0 || interrupted(0.0)) return;
+  next_ = {};  // no hit, though one was expected
+  search(rest, rest);
+}
+
+/// Takes a step of a length, of what is left of the step under way, and finds what comes first.
+void Group::search(double way, double rest) {
+  next_.duration = path_->begin(phase_, way);
   whole_step_ = !(next_.duration < rest);
   next_.fault = fault_at(path_->end().phase);
   if (!next_.fault.empty()) return;

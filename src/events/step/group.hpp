@@ -1,6 +1,7 @@
 // Particles that are integrated together: one that a potential acts on, or several that interact.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -129,21 +130,25 @@ class Group final : public ForceLaw<double> {
   bool resolves(const Phase<double>& from, const Phase<double>* to,
                 const forces::resolution::Span&) const;
   bool resolves_pairs(const Phase<double>& from, const forces::resolution::Span&) const;
-  bool near_pairs_resolve(const Phase<double>& from, const forces::resolution::Span&) const;
+  bool near_pairs_resolve(const Phase<double>& from, const forces::resolution::Span&);
   double force_there(const Phase<double>& at, std::size_t member) const;
   void find_far_pairs(const Phase<double>& from, const forces::resolution::Span&);
   bool resolves_at(const Phase<double>& at, const Phase<double>& other,
                    const forces::resolution::Span&);
-  geometry::Vector separation(const Phase<double>& at, std::size_t i, std::size_t j) const;
+  double distance(const Phase<double>& at, std::size_t i, std::size_t j) const;
   void add_pair_bound(std::size_t i, std::size_t j, double distance, double rho,
                       std::vector<forces::ForceBound>& sums) const;
-  void add_external_bounds(const Phase<double>& at, const std::vector<double>& rho,
-                           std::vector<forces::ForceBound>& sums) const;
+  forces::ForceBound with_external(const Phase<double>& at, std::size_t member, double rho,
+                                   const forces::ForceBound& pairs) const;
   bool bound_all(const Phase<double>& at, const std::vector<double>& rho,
                  std::vector<forces::ForceBound>& sums) const;
   std::string check_resolution();
   std::string describe_unresolved(const Phase<double>& at, double step, double radius);
   void find_next(const Time& limit);
+  double way_to_hit(double rest);
+  double refined_hit(std::size_t member, const Barrier<double>&, double about,
+                     std::span<const geometry::Vector> acceleration) const;
+  void search(double way, double rest);
   void accelerations(std::span<const geometry::Vector> x,
                      std::span<geometry::Vector> a) const override;
   std::span<const double> masses() const override { return masses_; }
@@ -199,14 +204,15 @@ class Group final : public ForceLaw<double> {
   std::unique_ptr<StepPath<double>> path_;
   std::vector<forces::ForceMap*> maps_;  ///< one a member
   double largest_omega_ = 0.0;           ///< in size
-  forces::resolution::Span span_;  ///< of half of the step that was checked last
-  /// Bounds of the accelerations by pairs that are far from each other, wherever within `radius` of
+  forces::resolution::Span span_;        ///< of half of the step that was checked last
+  /// Bounds of the forces of pairs that are far from each other, wherever within `radius` of
   /// `centre` each particle is, at complex places too; and the pairs that are not far.
   struct FarPairs {
     std::vector<geometry::Vector> centre;
     std::vector<double> radius;
     std::vector<forces::ForceBound> force;
-    std::vector<std::pair<std::size_t, std::size_t>> near;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
+    std::vector<double> here;  ///< about what bounds the accelerations where the group is
   } far_;
   Phase<double>
       checked_;  ///< a step has ended there and resolved what lies about it; empty: none has

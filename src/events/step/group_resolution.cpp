@@ -59,36 +59,35 @@ double room(double speed, double acceleration, const forces::resolution::Span& s
 
 }  // namespace
 
-Vector Group::separation(const Phase<double>& at, std::size_t i, std::size_t j) const {
+double Group::distance(const Phase<double>& at, std::size_t i, std::size_t j) const {
   const Vector d = at.position[i] - at.position[j];
-  return in_.lattice ? forces::nearest_copy(d, *in_.lattice) : d;
+  return length(in_.lattice ? forces::nearest_copy(d, *in_.lattice) : d);
 }
 
-/// Adds the bounds of one pair to those of both.
+/// Adds the bound of a pair's force to those of both.
 void Group::add_pair_bound(std::size_t i, std::size_t j, double distance, double rho,
                            std::vector<ForceBound>& sums) const {
   const ForceBound pair = in_.forces->pair_bound(particles_[i], particles_[j], distance, rho);
-  for (const std::size_t k : {i, j})
-    sums[k] += {pair.force / particles_[k].mass, pair.jump / particles_[k].mass};
+  sums[i] += pair;
+  sums[j] += pair;
 }
 
-/// Adds those of the external forces within rho, one a member; none: at the positions themselves.
-void Group::add_external_bounds(const Phase<double>& at, const std::vector<double>& rho,
-                                std::vector<ForceBound>& sums) const {
-  if (!in_.forces->external()) return;
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    sums[i] += maps_[i]->about(at.position[i], rho.empty() ? 0.0 : rho[i]);
+/// The bound of a member's acceleration, of that of the forces of its pairs.
+ForceBound Group::with_external(const Phase<double>& at, std::size_t i, double rho,
+                                const ForceBound& pairs) const {
+  ForceBound sum{pairs.force / particles_[i].mass, pairs.jump / particles_[i].mass};
+  if (in_.forces->external()) sum += maps_[i]->about(at.position[i], rho);
+  return sum;
 }
 
-/// Bounds of all accelerations, displaced by rho.
+/// Bounds of the forces of all pairs, displaced by rho; none: at the positions themselves.
 bool Group::bound_all(const Phase<double>& at, const std::vector<double>& rho,
                       std::vector<ForceBound>& sums) const {
   sums.assign(maps_.size(), {});
-  add_external_bounds(at, rho, sums);
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (interrupted(20.0 * static_cast<double>(i))) return false;
     for (std::size_t j = 0; j < i; ++j)
-      add_pair_bound(i, j, length(separation(at, i, j)), rho.empty() ? 0.0 : rho[i] + rho[j], sums);
+      add_pair_bound(i, j, distance(at, i, j), rho.empty() ? 0.0 : rho[i] + rho[j], sums);
   }
   return true;
 }
@@ -100,13 +99,14 @@ bool Group::resolves_pairs(const Phase<double>& from, const forces::resolution::
   std::vector<double> rho;
   if (!bound_all(from, {}, sums)) return true;
   for (std::size_t i = 0; i < n; ++i)
-    rho.push_back(room(length(from.velocity[i]), sums[i].force, span));
+    rho.push_back(room(length(from.velocity[i]), with_external(from, i, 0.0, sums[i]).force, span));
   if (!bound_all(from, rho, sums)) return true;
   for (std::size_t i = 0; i < n; ++i) {
     const double speed = length(from.velocity[i]);
-    if (!forces::resolution::stays(speed, sums[i].force, span, rho[i])) return false;
-    if (sums[i].jump > 0.0 && !(sums[i].jump * forces::resolution::steps_a_radius * span.time <=
-                                forces::resolution::kick_share * speed))
+    const ForceBound all = with_external(from, i, rho[i], sums[i]);
+    if (!forces::resolution::stays(speed, all.force, span, rho[i])) return false;
+    if (all.jump > 0.0 && !(all.jump * forces::resolution::steps_a_radius * span.time <=
+                            forces::resolution::kick_share * speed))
       return false;
   }
   return true;
@@ -114,70 +114,76 @@ bool Group::resolves_pairs(const Phase<double>& from, const forces::resolution::
 
 /// True is the answer of resolves_pairs(), false is none: by bounds of far pairs that hold about
 /// where the group was some steps ago, and those of near pairs as they are now. No bound is smaller
-/// than that function's, and `known` no larger than what it takes for the forces at the positions.
-bool Group::near_pairs_resolve(const Phase<double>& from,
-                               const forces::resolution::Span& span) const {
+/// than that function's, and `least` no larger than what it takes for the forces at the positions.
+bool Group::near_pairs_resolve(const Phase<double>& from, const forces::resolution::Span& span) {
   const std::size_t n = maps_.size();
-  if (far_.force.size() != n) return false;
-  std::vector<ForceBound> known(n);
-  add_external_bounds(from, {}, known);
-  std::vector<double> distance, rho(n);
+  if (far_.force.size() != n || interrupted(20.0 * static_cast<double>(n + far_.near.size())))
+    return false;
+  std::vector<ForceBound> near(n), sums = far_.force;
+  std::vector<double> distances, least, rho;
   for (const auto& [i, j] : far_.near) {
-    distance.push_back(length(separation(from, i, j)));
-    add_pair_bound(i, j, distance.back(), 0.0, known);
+    distances.push_back(distance(from, i, j));
+    add_pair_bound(i, j, distances.back(), 0.0, near);
   }
+  bool holds = true;
   for (std::size_t i = 0; i < n; ++i) {
-    rho[i] = room(length(from.velocity[i]), far_.force[i].force + known[i].force, span);
-    if (!(length(from.position[i] - far_.centre[i]) + rho[i] <= far_.radius[i])) return false;
+    least.push_back(with_external(from, i, 0.0, near[i]).force);
+    far_.here[i] = least[i] + far_.force[i].force / particles_[i].mass;
+    rho.push_back(room(length(from.velocity[i]), far_.here[i], span));
+    holds = holds && length(from.position[i] - far_.centre[i]) + rho[i] <= far_.radius[i];
   }
-  std::vector<ForceBound> sums = far_.force;
-  add_external_bounds(from, rho, sums);
+  if (!holds) return false;
   for (std::size_t k = 0; k < far_.near.size(); ++k) {
     const auto& [i, j] = far_.near[k];
-    add_pair_bound(i, j, distance[k], rho[i] + rho[j], sums);
+    add_pair_bound(i, j, distances[k], rho[i] + rho[j], sums);
   }
   for (std::size_t i = 0; i < n; ++i) {
     const double speed = length(from.velocity[i]);
-    const auto stays = [&](double least) {
-      return forces::resolution::stays(speed, sums[i].force, span, room(speed, least, span));
+    const ForceBound all = with_external(from, i, rho[i], sums[i]);
+    const auto stays = [&](double real) {
+      return forces::resolution::stays(speed, all.force, span, room(speed, real, span));
     };
-    if (sums[i].jump > 0.0 || !(stays(known[i].force) || stays(force_there(from, i)))) return false;
+    if (all.jump > 0.0 || !(stays(least[i]) || stays(force_there(from, i)))) return false;
   }
   return true;
 }
 
 /// The bound of one member's acceleration at the positions themselves.
 double Group::force_there(const Phase<double>& at, std::size_t i) const {
-  double sum = in_.forces->external() ? maps_[i]->about(at.position[i], 0.0).force : 0.0;
+  ForceBound sum;
+  if (interrupted(20.0 * static_cast<double>(maps_.size()))) return 0.0;
   for (std::size_t j = 0; j < maps_.size(); ++j)
     if (j != i)
-      sum += in_.forces
-                 ->pair_bound(particles_[i], particles_[j], length(separation(at, i, j)), 0.0)
-                 .force /
-             particles_[i].mass;
-  return sum;
+      sum += in_.forces->pair_bound(particles_[i], particles_[j], distance(at, i, j), 0.0);
+  return with_external(at, i, 0.0, sum).force;
 }
 
 /// Bounds the far pairs anew, about that phase.
 void Group::find_far_pairs(const Phase<double>& from, const forces::resolution::Span& span) {
   const std::size_t n = maps_.size();
   FarPairs found;
-  std::vector<ForceBound> here;
-  if (!bound_all(from, {}, here)) return;
+  found.here = far_.here;
+  if (found.here.size() != n) {
+    std::vector<ForceBound> pairs;
+    if (!bound_all(from, {}, pairs)) return;
+    for (std::size_t i = 0; i < n; ++i)
+      found.here.push_back(with_external(from, i, 0.0, pairs[i]).force);
+  }
   for (std::size_t i = 0; i < n; ++i)
-    found.radius.push_back(far_ways * room(length(from.velocity[i]), here[i].force, span));
+    found.radius.push_back(far_ways * room(length(from.velocity[i]), found.here[i], span));
   found.centre = from.position;
   found.force.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
     if (interrupted(20.0 * static_cast<double>(i))) return;
     for (std::size_t j = 0; j < i; ++j) {
-      const double distance = length(separation(from, i, j)),
-                   reach = found.radius[i] + found.radius[j];
-      if (distance > far_pairs * reach)
-        add_pair_bound(i, j, distance, reach, found.force);
+      const double apart = distance(from, i, j), reach = found.radius[i] + found.radius[j];
+      if (apart > far_pairs * reach)
+        add_pair_bound(i, j, apart, reach, found.force);
       else
-        found.near.emplace_back(i, j);
+        found.near.emplace_back(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
     }
+    constexpr std::size_t most_near = std::size_t{1} << 22;  // some tens of megabytes
+    if (found.near.size() > most_near) return void(far_ = {});
   }
   far_ = std::move(found);
 }
@@ -199,8 +205,7 @@ double Group::longest_step(const Phase<double>& from, const double& asked) const
   constexpr double work = 1e6;  // of a halving: many meshes are new
   double time = asked;
   for (int k = 0; k < most_halvings && !interrupted(k > 0 ? work : 0.0); ++k, time *= 0.5)
-    if (resolves(from, nullptr, forces::resolution::span_of(time, largest_omega_)))
-      return time;
+    if (resolves(from, nullptr, forces::resolution::span_of(time, largest_omega_))) return time;
   return 0.0;
 }
 

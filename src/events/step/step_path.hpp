@@ -4,11 +4,16 @@
 // start. Between two such knots the path is seen as the quintic that has their positions,
 // velocities and accelerations; by how much a cubic without the accelerations differs from it
 // bounds what it errs, as the quintic's own error is of a higher order.
+//
+// Of several particles a step costs a sum over all pairs for each of its stages. So a knot that is
+// very near another one is reached from there by a step of second order, if what that one errs by
+// is below the rounding of the scheme's own.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -59,9 +64,10 @@ class StepPath {
   Knot& at(Real time) {
     for (std::size_t i = 0; i < used_; ++i)
       if (knots_[i]->time == time) return *knots_[i];
+    Knot* const near = nearest(time);
     Knot& knot = fresh();
     knot.time = time;
-    move(time, knot.phase);
+    if (!near || !reach(*near, knot)) move(time, knot.phase);
     return knot;
   }
   /// Keeps the start, the end and this knot alone where all of them together are large.
@@ -90,8 +96,7 @@ class StepPath {
   /// Acceleration of particle i at a knot, with the magnetic part.
   const Vector& acceleration(Knot& knot, std::size_t i) const {
     if (knot.acceleration.empty()) {
-      knot.acceleration.resize(knot.phase.position.size());
-      law_.accelerations(knot.phase.position, knot.acceleration);
+      evaluate(knot);
       for (std::size_t k = 0; k < omega_.size(); ++k)
         knot.acceleration[k] = knot.acceleration[k] + omega_[k] * right(knot.phase.velocity[k]);
     }
@@ -99,6 +104,78 @@ class StepPath {
   }
 
  private:
+  bool several() const { return knots_.front()->phase.position.size() > 1; }
+
+  void evaluate(Knot& knot) const {
+    const std::vector<Vector>& x = knot.phase.position;
+    const std::span<const Vector> known =
+        several() ? stepper_.remembered(x) : std::span<const Vector>{};
+    if (!known.empty()) return knot.acceleration.assign(known.begin(), known.end());
+    knot.acceleration.resize(x.size());
+    law_.accelerations(x, knot.acceleration);
+  }
+
+  /// Of several particles: the knot that is nearest to a time and is no start.
+  Knot* nearest(const Real& time) const {
+    Knot* best = nullptr;
+    const auto apart = [&](const Knot& k) { return k.time < time ? time - k.time : k.time - time; };
+    if (several())
+      for (std::size_t i = 1; i < used_; ++i)
+        if (!best || apart(*knots_[i]) < apart(*best)) best = knots_[i].get();
+    return best;
+  }
+
+  /// Goes from one knot to one a time d later, or earlier: x += d v + d^2 a/2 + d^3 j/6, and v by
+  /// the trapezoid of accelerations, j being the mean rate of change of a since the start. A
+  /// velocity has been rounded at each kick of the step that led to the knot, in all by more than
+  /// eps/2 (|v| + t |a|). To know the acceleration at the new place only by a and j, which saves
+  /// its evaluation, errs by less than d^2 J/2, J being the sum of both accelerations over t, which
+  /// does not vanish where their difference happens to. Otherwise the new acceleration differs from
+  /// a + d j by s d (d + t)/2 if its second derivative is s, and the trapezoid errs by s d^3/12.
+  /// False where that is not below the rounding.
+  bool reach(Knot& from, Knot& to) const {
+    const Real t = from.time, d = to.time - t;
+    if (!((d < Real(0) ? -d : d) * Real(64) < t)) return false;  // far too large
+    acceleration(*knots_.front(), 0);
+    acceleration(from, 0);
+    const std::size_t n = from.phase.position.size();
+    const std::vector<Vector>&before = knots_.front()->acceleration, &a = from.acceleration;
+    const Real epsilon = std::numeric_limits<Real>::epsilon();
+    std::vector<Vector> expected(n);
+    const auto is_below_rounding = [&](std::size_t i, const Real& error) {
+      const auto norm = [](const Vector& e) { return step_hull::norm(e); };
+      return !(Real(2) * error > epsilon * (norm(from.phase.velocity[i]) + t * norm(a[i])));
+    };
+    bool known = true;
+    to.phase.position.resize(n);
+    to.phase.velocity.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vector &v = from.phase.velocity[i], change = (d / t) * (a[i] - before[i]);
+      known = known && is_below_rounding(
+                           i, d * d / t * (step_hull::norm(a[i]) + step_hull::norm(before[i])));
+      expected[i] = a[i] + change;
+      to.phase.position[i] =
+          from.phase.position[i] +
+          d * (v + d * ((Real(1) / Real(2)) * a[i] + (Real(1) / Real(6)) * change));
+      to.phase.velocity[i] = v + (d / Real(2)) * (a[i] + expected[i]);
+    }
+    if (known) {
+      to.acceleration = std::move(expected);
+      return true;
+    }
+    acceleration(to, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vector missed = to.acceleration[i] - expected[i];
+      const Real error = d * d / (Real(6) * (d + t)) * step_hull::norm(missed);
+      if (!is_below_rounding(i, error)) {
+        to.acceleration.clear();
+        return false;
+      }
+      to.phase.velocity[i] = from.phase.velocity[i] + (d / Real(2)) * (a[i] + to.acceleration[i]);
+    }
+    return true;
+  }
+
   Knot& fresh() {
     if (used_ == knots_.size()) knots_.push_back(std::make_unique<Knot>());
     knots_[used_]->acceleration.clear();
