@@ -79,10 +79,10 @@ TEST(SlowInputs, EndByASignalBeforeThereIsAnArchive) {
 // Long steps of many particles that hit walls; samples far shorter than a flight.
 TEST(SlowInputs, EndByASignalInTheMiddleOfAStepAndBetweenSamples) {
   const Shell shell;
-  write(shell,
-        coulomb +
-            "[particles]\ncount = 4000\nspeed = 1\n[integrator]\nstep = "
-            "1e-4\nunresolved = \"count\"\n[initial]\nkind = \"uniform\"\n[run]\nt_max = 1\n");
+  write(shell, coulomb +
+                   "[particles]\ncount = 4000\nspeed = 1\n[integrator]\nstep = "
+                   "1e-4\nunresolved = \"count\"\nenergy_tolerance = 1e9\n[initial]\nkind = "
+                   "\"uniform\"\n[run]\nt_max = 1\n");
   EXPECT_EQ(status_when_terminated(shell, "run ./slow.toml"), 130);
   EXPECT_EQ(status_when_terminated(shell, "escape ./slow.toml --trajectories 1 -o b.h5"), 130);
   write(shell,
