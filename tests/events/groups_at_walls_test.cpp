@@ -111,8 +111,8 @@ TEST(GroupsAtWalls, FlyBackTheWayTheyCame) {
   };
   const std::vector<State> back = fly(fly(starts));
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    EXPECT_LT(length(back[i].position - starts[i].position), 1e-11);
-    EXPECT_LT(length(back[i].velocity + (-1.0) * starts[i].velocity), 1e-10);
+    EXPECT_LT(length(back[i].position - starts[i].position), 1e-13);
+    EXPECT_LT(length(back[i].velocity + (-1.0) * starts[i].velocity), 1e-12);
   }
 }
 
