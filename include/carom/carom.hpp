@@ -10,6 +10,7 @@
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/analysis/paired_survival.hpp"
 #include "carom/analysis/section.hpp"
+#include "carom/analysis/spectrum.hpp"
 #include "carom/analysis/survival.hpp"
 #include "carom/analysis/trust.hpp"
 #include "carom/base/digest.hpp"

@@ -69,6 +69,13 @@ class Command {
         "Count the lengths of flights, between hits and from the start");
     return *this;
   }
+  Command& spectrum() {
+    SystemOverrides& o = options_.overrides;
+    app_->add_flag_callback(
+        "--spectrum", [&o] { o.set.emplace_back("run.spectrum", "true"); },
+        "All exponents of all particles together, and their entropy");
+    return *this;
+  }
   Command& output(const char* type, const char* help) {
     text("-o,--output", options_.output, type, help);
     return flag("--force", options_.force, "Replace an output file that exists");

@@ -138,6 +138,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       "  carom lyapunov mushroom --closed --t-max 1e4 --json\n"
       "  carom lyapunov sinai --trajectories 1e4 --window 20:100 -o lambda.h5\n"
       "  carom lyapunov mushroom --closed --per-trajectory -o map.h5\n"
+      "  carom lyapunov wigner --spectrum --trajectories 10\n"
       "\n"
       "Two deviations of each orbit are followed by the exact tangent maps of flights and hits.\n"
       "Checkpoints, --resume, --shard and mpirun as with carom escape.")
@@ -152,7 +153,8 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
             "Store start, fate, time, hits, exponent and SALI of each trajectory in the archive")
       .parts()
       .text("--window", o.window, "FROM:TO",
-            "Times between which the growth is taken (default: the last four fifths of the run)");
+            "Times between which the growth is taken (default: the last four fifths of the run)")
+      .spectrum();
   Command(app, o, "section",
           "Boundary map, or section by a line, a circle or a velocity, of many orbits",
           "Examples:\n"
@@ -281,7 +283,7 @@ void define(CLI::App& app, Options& o, bool& version_wanted) {
       .system("SOURCE", "Archive, TOML file or built-in name")
       .text("--what", o.what,
             "orbit|energy|survival|rate|basins|times|diffusion|correlation|free_paths|lyapunov|"
-            "exponents",
+            "spectrum|exponents",
             "Which picture of a result (default: the first that it has)")
       .output("PICTURE", "A name ending in .png, .svg or .pdf");
   Command(

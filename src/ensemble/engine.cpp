@@ -63,8 +63,10 @@ std::string why_one_by_one(const System& system, const EngineOptions& options) {
   if (!system.injections.empty()) return "particles enter later ([[injection]])";
   if (options.surface) return "crossings of a surface are looked for";
   if (options.energy && !is_free(system)) return "energies are looked at after each step";
+  if (options.frame) return "a frame of deviations is followed";
   if (!options.deviations.empty() && !is_free(system))
-    return "deviations are followed under forces";
+    return system.of_discs() ? "deviations of discs are followed"
+                             : "deviations are followed under forces";
   if (is_free(system)) return FreeLanes::hindrance(*system.table, system.particles);
   return SoftLanes::hindrance(*system.table, system.dynamics, system.particles);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "carom/base/error.hpp"
@@ -9,6 +10,7 @@
 #include "carom/ensemble/sampler.hpp"
 #include "carom/ensemble/stopwatch.hpp"
 #include "carom/ensemble/trajectories.hpp"
+#include "carom/geometry/curve_frame.hpp"
 #include "carom/integrators/scheme.hpp"
 #include "ensemble/lyapunov_listener.hpp"
 
@@ -32,24 +34,69 @@ GrowthSums plan_of(const System& system) {
 
 void refuse_impossible(const System& system) {
   const Dynamics& d = system.dynamics;
-  if (system.of_discs())
-    throw InputError(Place{"", 0, 0, "interaction.kind"}, "deviations of discs are not followed",
-                     "points, free or under forces");
   const bool forces = d.everywhere || (d.forces && !d.forces->empty());
   if (forces && is_adaptive(d.integrator.scheme))
     throw InputError(Place{"", 0, 0, "integrator.scheme"},
                      "deviations are not followed by adaptive schemes", "a scheme of fixed steps");
   refuse_injections(system, "an ensemble whose deviations grow");
+  if (system.run.spectrum && system.particles.size() > most_particles_of_spectrum)
+    throw InputError(
+        Place{"", 0, 0, "run.spectrum"},
+        fmt::format("{} particles have {} exponents, and the work grows as the cube of that",
+                    system.particles.size(), 4 * system.particles.size()),
+        fmt::format("{} particles at most, or the largest exponent alone",
+                    most_particles_of_spectrum));
   const TimeWindow window = growth_window(system);
   if (!(window.from >= 0.0 && window.from < window.to && window.to <= system.run.t_max))
     throw InputError(Place{"", 0, 0, "run.window"}, "deviations grow during the run",
                      "0 <= from < to <= run.t_max");
 }
 
+bool act_on_each_other(const System& system) {
+  return system.of_discs() || (system.dynamics.forces && system.dynamics.forces->interacts());
+}
+
+// Circles about one centre, or no walls at all.
+bool is_round(const Table& table) {
+  if (table.lattice) return false;
+  std::optional<geometry::Vector> centre;
+  for (const Wall& wall : table.walls) {
+    const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
+    if (!frame.circular) return false;
+    if (centre && !(*centre == frame.middle)) return false;
+    centre = frame.middle;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool interacts(const System& system) {
-  return system.dynamics.forces && system.dynamics.forces->interacts();
+  return system.run.spectrum || act_on_each_other(system);
+}
+
+VanishingExponents vanishing_exponents(const System& system) {
+  const std::vector<Particle>& particles = system.particles;
+  const auto& forces = system.dynamics.forces;
+  const Table& table = *system.table;
+  const bool together = act_on_each_other(system), pushed = forces && forces->external();
+  VanishingExponents v;
+  v.count = 2 * (together ? 1 : particles.size());
+  v.laws.push_back(together || particles.size() == 1 ? "energy" : "energy of each particle");
+  const std::size_t each = together ? 1 : particles.size();
+  // Positions of a pair change neither its forces nor, where all turn alike, how its centre moves.
+  if (table.walls.empty() && !pushed &&
+      std::all_of(particles.begin(), particles.end(),
+                  [&](const Particle& p) { return p.omega == particles.front().omega; })) {
+    v.count += 4 * each;
+    v.laws.push_back("momentum");
+  }
+  if (is_round(table) && !pushed) {
+    v.count += 2 * each;
+    v.laws.push_back("angular momentum");
+  }
+  v.count = std::min(v.count, 4 * particles.size());
+  return v;
 }
 
 bool LyapunovResult::add(const LyapunovResult& other) {
@@ -57,6 +104,7 @@ bool LyapunovResult::add(const LyapunovResult& other) {
   repeller.reset();  // it is the whole ensemble's
   no_repeller.reset();
   growth.merge(other.growth);
+  spectrum.merge(other.spectrum);
   trajectories += other.trajectories;
   add_fates(other);
   collisions += other.collisions;
@@ -72,7 +120,7 @@ TimeWindow growth_window(const System& system) {
 void add_repeller(const System& system, LyapunovResult& result, const SplittingOptions& how) {
   const bool whole = result.complete && result.done.size() == system.run.trajectories;
   const std::uint64_t stay = result.growth.totals().orbits;
-  if (!whole || !is_open(system) || 2 * stay >= result.trajectories) return;
+  if (!whole || system.run.spectrum || !is_open(system) || 2 * stay >= result.trajectories) return;
   const Stopwatch watch;
   try {
     result.repeller =
@@ -111,14 +159,19 @@ LyapunovResult run_lyapunov(const System& system, const LyapunovOptions& options
   const World world = make_world(system, options.decisions);  // threads share its table
   LyapunovResult nothing;
   nothing.growth = plan_of(system);
+  if (system.run.spectrum)
+    nothing.spectrum = {nothing.growth, 4 * system.particles.size(),
+                        vanishing_exponents(system).count};
   const GrowthTimes times(nothing.growth);
   const double unit_length = unit_length_of(*system.table);
   EnsembleRun<LyapunovResult> run(system, options, nothing);
-  if (why_one_by_one(system, {.deviations = times.times()}).empty()) run.lanes = options.lanes;
+  if (why_one_by_one(system, {.deviations = times.times(), .frame = system.run.spectrum}).empty())
+    run.lanes = options.lanes;
   LyapunovResult result = run.run([&](LyapunovListener::Thread& thread) {
     const auto engine = make_engine(system, {.t_end = nothing.growth.window().to,
                                              .deviations = times.times(),
                                              .unit_length = unit_length,
+                                             .frame = system.run.spectrum,
                                              .lanes = options.lanes,
                                              .like = &world});
     LyapunovListener listener(system, times, nothing.growth, unit_length, *engine, thread);

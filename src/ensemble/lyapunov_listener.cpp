@@ -51,6 +51,7 @@ void LyapunovListener::begin(const Trajectory& t) {
     mine.growth.hits.assign(blocks_, 0);
     mine.growth.regularity = Regularity::undecided;
     mine.growth.look = 0;
+    mine.frame.clear();
   }
 }
 
@@ -60,9 +61,11 @@ void LyapunovListener::stretched(const Trajectory& t, int particle, std::size_t 
   const GrowthTimes::Mark& mark = marks_[number];
   mine.told = mark.time;
   mine.told_length = logarithms[0];
-  mine.spread = logarithms[0] + logarithms[1];
+  // Of a frame the growth of the first tells: that of the second may be another particle's.
+  const bool frame = system_.run.spectrum;
+  mine.spread = logarithms[0] + logarithms[frame ? 0 : 1];
   if (mark.look >= 0 && !mine.chaotic) {
-    mine.growth.regularity = regularity_of(logarithms[0] + logarithms[1], mark.time * mine.pace);
+    mine.growth.regularity = regularity_of(mine.spread, mark.time * mine.pace);
     mine.chaotic = mine.growth.regularity == Regularity::chaotic;
     if (mine.chaotic) mine.growth.look = static_cast<std::size_t>(mark.look);
   }
@@ -71,9 +74,12 @@ void LyapunovListener::stretched(const Trajectory& t, int particle, std::size_t 
     const auto block = static_cast<std::size_t>(mark.block);
     mine.growth.growth[block] = logarithms[0] - mine.length;
     mine.growth.hits[block] = hits - mine.hits_before;
+    for (std::size_t i = 0; frame && i < logarithms.size(); ++i)
+      mine.frame.push_back(logarithms[i] - mine.frame_before[i]);
   }
   mine.length = logarithms[0];
   mine.hits_before = hits;
+  if (frame) mine.frame_before.assign(logarithms.begin(), logarithms.end());
 }
 
 // The exponent over the window, or, of a particle that ended before, since its start until the last
@@ -123,6 +129,8 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
           if (together_ ? all && p == 0 : stayed) {
             sum.growth.add(mine.growth);
             for (const double growth : mine.growth.growth) hash = mix(hash, growth);
+            if (sum.spectrum.counted()) sum.spectrum.add(mine.frame);
+            for (const double growth : mine.frame) hash = mix(hash, growth);
           }
           sum.digest += hash;
           if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);

@@ -56,6 +56,7 @@ class LyapunovListener : public Listener {
     double told = 0.0, told_length = 0.0, spread = 0.0;  ///< at the last mark: time, ln|w|, of both
     bool chaotic = false;
     OrbitGrowth growth;
+    std::vector<double> frame, frame_before;  ///< growth in each block; logarithms at the last mark
   };
   const System& system_;
   const std::vector<GrowthTimes::Mark>& marks_;

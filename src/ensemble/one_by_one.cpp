@@ -2,10 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "carom/ensemble/injection.hpp"
 #include "carom/ensemble/sampler.hpp"
+#include "ensemble/force_tangent.hpp"
+#include "ensemble/free_group_tangent.hpp"
 
 namespace carom::ensemble {
 
@@ -21,21 +24,27 @@ OneByOne::OneByOne(const System& system, const EngineOptions& options, World wor
   if (!options_.times.empty()) world_.sample_at(options_.times);
   if (!options_.deviations.empty()) {
     walls_ = motion::tangent_walls(system.table->walls, system.table->lattice);
-    if (const auto& forces = system.dynamics.forces; forces && !forces->empty()) {
-      std::vector<std::size_t> all;
-      for (std::size_t p = 0; p < system.particles.size(); ++p) {
-        if (forces->interacts())
-          all.push_back(p);
-        else
-          groups_.push_back(std::make_unique<ForceTangent>(system, std::vector{p}));
-      }
-      if (forces->interacts()) groups_.push_back(std::make_unique<ForceTangent>(system, all));
-    }
+    make_groups();
   }
   if (options_.energy) world_.watch_energy();
   if (options_.surface) world_.watch(options_.surface, options_.most_crossings);
   if (options_.hits || options_.surface)
     world_.stop_when([this] { return listener_->enough(trajectory_); });
+}
+
+void OneByOne::make_groups() {
+  const auto& forces = system_.dynamics.forces;
+  const bool forced = forces && !forces->empty();
+  const Deviations kind = options_.frame ? Deviations::frame : Deviations::two;
+  std::vector<std::size_t> all(system_.particles.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (forced && (options_.frame || forces->interacts()))
+    groups_.push_back(std::make_unique<ForceTangent>(system_, all, kind));
+  else if (options_.frame || system_.of_discs())
+    groups_.push_back(std::make_unique<FreeGroupTangent>(system_, all, kind));
+  else if (forced)
+    for (const std::size_t p : all)
+      groups_.push_back(std::make_unique<ForceTangent>(system_, std::vector{p}));
 }
 
 bool OneByOne::run(Starts& starts, Listener& listener, const std::function<bool()>& stopped) {
@@ -91,12 +100,12 @@ void OneByOne::begin_deviations() {
     const geometry::Vector v = trajectory_.starts[group->members().front()].velocity;
     const double speed = std::sqrt(dot(v, v));
     group->begin(trajectory_.starts, options_.unit_length / (speed > 0.0 ? speed : 1.0));
-    for (const std::size_t p : group->members()) followed_[p].forced = group.get();
+    for (const std::size_t p : group->members()) followed_[p].group = group.get();
   }
 }
 
 void OneByOne::stretch(std::size_t particle, const Time& time, bool also_at) {
-  ForceTangent* const group = followed_[particle].forced;
+  GroupTangent* const group = followed_[particle].group;
   const std::size_t told = group ? group->members().front() : particle;
   Followed& mine = followed_[told];
   for (; mine.marked < options_.deviations.size(); ++mine.marked) {
@@ -105,21 +114,23 @@ void OneByOne::stretch(std::size_t particle, const Time& time, bool also_at) {
     if (group) group->fly_to(mark, *stopped_);
     // Of deviations that were made orthogonal the first one's length is that of both, as it is
     // where all turn into one direction.
-    const auto lengths =
-        group ? std::array{group->logarithm(), group->logarithm()} : mine.tangent.logarithms(mark);
-    listener_->stretched(trajectory_, static_cast<int>(told), mine.marked, lengths, mine.hits);
+    const auto lengths = group ? std::array{group->logarithms()[0], group->logarithms()[0]}
+                               : mine.tangent.logarithms(mark);
+    listener_->stretched(trajectory_, static_cast<int>(told), mine.marked,
+                         options_.frame ? group->logarithms() : std::span<const double>(lengths),
+                         mine.hits);
   }
 }
 
 void OneByOne::carry_over_hit(std::size_t particle, const State& state) {
   stretch(particle, state.time, false);
-  ForceTangent* const group = followed_[particle].forced;
+  GroupTangent* const group = followed_[particle].group;
   if (!group) {
     followed_[particle].tangent.hit(walls_, state);
     followed_[particle].hits = world_.hits(static_cast<int>(particle));
     return;
   }
-  group->fly_to(state.time, *stopped_);
+  group->arrive(particle, state.time, *stopped_);
   // The path of a chaotic group leaves that of the world by its rounding: it is brought back.
   for (const std::size_t p : group->members())
     if (const State other = world_.state(static_cast<int>(p)); other.time == state.time)
@@ -140,6 +151,17 @@ void OneByOne::hit(const HitEvent& event) {
   if (!followed_.empty()) carry_over_hit(at(event.particle), state);
   if (options_.hits)
     listener_->hit(trajectory_, event.particle, state, world_.hits(event.particle));
+}
+
+void OneByOne::contact(const ContactEvent& event) {
+  ++end_.contacts;
+  if (followed_.empty()) return;
+  GroupTangent* const group = followed_[at(event.first)].group;
+  for (const int p : {event.first, event.second}) {
+    stretch(at(p), event.time, false);
+    group->arrive(at(p), event.time, *stopped_);
+  }
+  group->contact(event);
 }
 
 void OneByOne::sample(int particle, Time, const State& state) {

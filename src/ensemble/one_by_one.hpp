@@ -4,7 +4,7 @@
 
 #include "carom/ensemble/engine.hpp"
 #include "carom/events/world.hpp"
-#include "ensemble/force_tangent.hpp"
+#include "ensemble/group_tangent.hpp"
 #include "motion/free_tangent.hpp"
 
 namespace carom::ensemble {
@@ -21,7 +21,7 @@ class OneByOne : public Engine, private Observer {
  private:
   void add_particles();
   void hit(const HitEvent&) override;
-  void contact(const ContactEvent&) override { ++end_.contacts; }
+  void contact(const ContactEvent&) override;
   void sample(int particle, Time, const State&) override;
   bool sampled(Time) override {
     ++samples_;
@@ -29,16 +29,17 @@ class OneByOne : public Engine, private Observer {
   }
   void crossing(int particle, Time, const State&, int direction) override;
   void end(const EndEvent&) override;
+  void make_groups();
   void begin_deviations();
   /// The lengths of deviations at times before `time`, or also at it.
   void stretch(std::size_t particle, const Time& time, bool also_at);
   void carry_over_hit(std::size_t particle, const State&);
 
-  /// Deviations of a particle: across its orbit where it is free; under forces those of its group,
-  /// which are told of the group's first member.
+  /// Deviations of a particle: across its orbit where it is free and alone; else those of its
+  /// group, which are told of the group's first member.
   struct Followed {
     motion::FreeTangent tangent;
-    ForceTangent* forced = nullptr;
+    GroupTangent* group = nullptr;
     std::size_t marked = 0;  ///< times that are told
     std::uint64_t hits = 0;
   };
@@ -50,7 +51,7 @@ class OneByOne : public Engine, private Observer {
   TrajectoryEnd end_;
   std::size_t samples_ = 0;  ///< times of this trajectory that are sampled
   motion::TangentWalls walls_;
-  std::vector<std::unique_ptr<ForceTangent>> groups_;  ///< under forces
+  std::vector<std::unique_ptr<GroupTangent>> groups_;
   std::vector<Followed> followed_;  ///< one a particle, if deviations are followed
   const std::function<bool()>* stopped_ = nullptr;
 };

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "carom/analysis/fate_counts.hpp"
 #include "carom/analysis/growth.hpp"
+#include "carom/analysis/spectrum.hpp"
 #include "carom/base/error.hpp"
 #include "carom/ensemble/parts.hpp"
 #include "carom/ensemble/repeller.hpp"
@@ -18,6 +20,7 @@ namespace carom {
 struct LyapunovResult : EnsembleResult, FateCounts {
   /// Of the particles that were followed to the end of the window.
   GrowthSums growth;
+  SpectrumSums spectrum;  ///< with RunPlan::spectrum
   /// Particles of all trajectories; the fates are those before the end of the window.
   std::uint64_t trajectories = 0;
   std::uint64_t collisions = 0;
@@ -34,8 +37,17 @@ struct LyapunovResult : EnsembleResult, FateCounts {
 using LyapunovJournal = EnsembleJournal<LyapunovResult>;
 using LyapunovOptions = EnsembleOptions<LyapunovResult>;
 
-/// Are all particles one orbit, because they interact?
+/// Are all particles one orbit, because they interact or their spectrum is asked for?
 bool interacts(const System&);
+/// How many of the 4 N exponents vanish for certain, and why: the time and each conserved quantity
+/// make two of them 0 (docs/physics/lyapunov.md).
+struct VanishingExponents {
+  std::size_t count = 0;
+  std::vector<std::string> laws;
+};
+VanishingExponents vanishing_exponents(const System&);
+/// Particles whose spectrum is computed: the work grows as the cube of their number.
+inline constexpr std::size_t most_particles_of_spectrum = 64;
 /// Times between which the growth is taken: run.window, or the last four fifths of the run.
 TimeWindow growth_window(const System&);
 
@@ -46,9 +58,10 @@ void add_repeller(const System&, LyapunovResult&, const SplittingOptions& = {});
 /// What is wrong with a whole ensemble of which nothing could be measured; empty: nothing.
 std::optional<InputError> why_nothing(const System&, const LyapunovResult&);
 
-/// Follows two deviations along each trajectory until the end of the window: exactly where
-/// particles are free, and under forces by the derivative of the scheme's steps. Throws InputError
-/// for adaptive schemes, where discs meet, and where particles enter later.
+/// Follows two deviations along each trajectory until the end of the window, or with
+/// RunPlan::spectrum a frame of 4 N: exactly where particles are free or discs, and under forces by
+/// the derivative of the scheme's steps. Throws InputError for adaptive schemes, where particles
+/// enter later, and for the spectrum of too many particles.
 LyapunovResult run_lyapunov(const System&, const LyapunovOptions& = {});
 
 }  // namespace carom

@@ -52,6 +52,7 @@ struct RunPlan {
   std::optional<std::pair<double, double>> window =
       {};                   ///< of fits: of a decay, and report times of D
   bool free_paths = false;  ///< are the lengths of flights counted (carom diffusion)?
+  bool spectrum = false;    ///< are all exponents of all particles computed (carom lyapunov)?
 };
 
 /// Particles that enter through a hole during a run: the cosine law over its opening, inwards.

@@ -66,6 +66,52 @@ constexpr ReflectionTangent reflection_tangent(const geometry::Vector& normal, d
   return map;
 }
 
+/// An elastic contact of two smooth discs, as a map of the deviations of both. Of nearby orbits at
+/// the same time, as that of a reflection.
+struct ContactTangent {
+  geometry::Vector separation;  ///< from the second's centre to the first's
+  geometry::Vector approach;    ///< of the velocities before, first - second
+  geometry::Vector bend;        ///< of the accelerations by the field before, likewise
+  geometry::Vector push;        ///< first_share of it changes the first's velocity
+  double first_share = 0.5, second_share = -0.5;
+  double first_omega = 0.0, second_omega = 0.0;
+
+  constexpr void operator()(Deviation& first, Deviation& second) const {
+    const geometry::Vector& d = separation;
+    const double rate = dot(d, approach);
+    const geometry::Vector apart = first.position - second.position;
+    const double delay = -dot(d, apart) / rate;
+    // As they are at the contact of the nearby orbit.
+    const geometry::Vector turned = apart + delay * approach,
+                           faster = first.velocity - second.velocity + delay * bend;
+    const geometry::Vector change =
+        (-2.0 / dot(d, d)) * ((dot(d, faster) + dot(turned, approach)) * d + rate * turned);
+    const auto carry = [&](Deviation& one, double share, double omega) {
+      one.position = one.position - (share * delay) * push;
+      one.velocity = one.velocity + share * (change - (omega * delay) * right(push));
+    };
+    carry(first, first_share, first_omega);
+    carry(second, second_share, second_omega);
+  }
+};
+/// Velocities are those before.
+constexpr ContactTangent contact_tangent(const geometry::Vector& separation,
+                                         const geometry::Vector& first,
+                                         const geometry::Vector& second, double first_mass,
+                                         double second_mass, double first_omega,
+                                         double second_omega) {
+  ContactTangent map;
+  map.separation = separation;
+  map.approach = first - second;
+  map.bend = first_omega * right(first) - second_omega * right(second);
+  map.push = (-2.0 * dot(separation, map.approach) / dot(separation, separation)) * separation;
+  map.first_share = second_mass / (first_mass + second_mass);
+  map.second_share = -first_mass / (first_mass + second_mass);
+  map.first_omega = first_omega;
+  map.second_omega = second_omega;
+  return map;
+}
+
 /// A deviation as it is seen at the wall, where the nearby orbit hits it earlier or later:
 /// functionals of a deviation from the velocity v that the reference has there, before or after the
 /// reflection.

@@ -12,6 +12,7 @@
 #include "cli/common.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/doubts.hpp"
+#include "cli/reports/spectrum_report.hpp"
 
 namespace carom::cli {
 
@@ -19,16 +20,19 @@ using io::Json;
 
 namespace {
 
+// Do several particles make one orbit?
+bool together(const System& system) { return system.particles.size() > 1 && interacts(system); }
+
 Json estimate_json(const Estimate& e) {
   return Json::object().set("value", e.value).set("stderr", e.error);
 }
 
 // Of a particle: the flow's direction and the energy neither grow nor shrink, and areas are kept
-// across them. Of several that interact the largest alone is known.
+// across them. Of several that are one orbit the largest alone is known without their spectrum.
 Json spectrum_of(const System& system, const Estimate& largest) {
   Json list = Json::array();
   list.push(estimate_json(largest));
-  if (interacts(system)) return list;
+  if (together(system)) return list;
   for (int i = 0; i < 2; ++i) list.push(estimate_json({0.0, 0.0}));
   return list.push(estimate_json({0.0 - largest.value, largest.error}));
 }
@@ -128,10 +132,12 @@ std::vector<std::string> notes_of(const System& system, const LyapunovResult& re
         "orbits that never leave is measured by whole runs of at least {} trajectories",
         grouped(least_of_repeller())));
   if (totals.orbits == 0) return notes;
-  if (totals.orbits < result.trajectories)
+  // Those that are one orbit are followed only as long as none of them ends.
+  const std::uint64_t each = together(system) ? system.particles.size() : 1;
+  if (const std::uint64_t followed = each * totals.orbits; followed < result.trajectories)
     notes.push_back(fmt::format(
         "{} particles ended before the end of the window: the numbers are those of the {} others",
-        grouped(result.trajectories - totals.orbits), grouped(totals.orbits)));
+        grouped(result.trajectories - followed), grouped(followed)));
   if (!e.long_enough)
     notes.push_back(
         "the error still grows with the length of the blocks: it is too small, and takes longer "
@@ -164,7 +170,7 @@ std::string exponents_text(const System& system, const GrowthSums& sums,
                            const LyapunovEstimate& e) {
   std::string text = fmt::format(
       "\nlambda = {} per unit time{}\n", cli::with_error(e.per_time.value, e.per_time.error),
-      interacts(system) ? ", the largest" : "; the spectrum is lambda, 0, 0, -lambda");
+      together(system) ? ", the largest" : "; the spectrum is lambda, 0, 0, -lambda");
   if (std::isfinite(e.per_hit.value))
     text += fmt::format("         {} per hit\n", cli::with_error(e.per_hit.value, e.per_hit.error));
   text += fmt::format("growth of deviations in {:.6g} <= t <= {:.6g}\n", sums.window().from,
@@ -231,7 +237,9 @@ Json result_json(const System& system, const LyapunovResult& result,
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
   add_steps(json, system, result.steps);
-  if (const std::string none = why_one_by_one(system, {.deviations = {1.0}}); !none.empty())
+  if (const std::string none = why_one_by_one(
+          system, {.deviations = {1.0}, .frame = system.run.spectrum});
+      !none.empty())
     json.set("no_lanes", none);
   json.set("window", Json::object().set("from", sums.window().from).set("to", sums.window().to));
   const bool known = reason.empty();
@@ -244,6 +252,7 @@ Json result_json(const System& system, const LyapunovResult& result,
   json.set("lambda", known ? spectrum_of(system, per_time) : Json());
   json.set("per_collision",
            known && std::isfinite(per_hit.value) ? spectrum_of(system, per_hit) : Json());
+  add_spectrum(json, system, result);
   json.set("repeller", result.repeller ? repeller_json(*result.repeller) : Json());
   if (!known) json.set("reason", reason);
   Json errors = Json::array(), bins = Json::array(), notes = Json::array();
@@ -278,6 +287,7 @@ std::string result_text(const System& system, const LyapunovResult& result,
     text += repeller_text(*result.repeller);
   } else {
     text += exponents_text(system, sums, e);
+    text += spectrum_text(system, result, context);
   }
   if (sums.totals().orbits > 0) {
     text += distribution_text(sums);

@@ -137,14 +137,66 @@ void write_estimates(const Handle& g, const GrowthSums& sums, const std::string&
       {"1", "Orbits with an exponent in it"}, file);
 }
 
+void write_spectrum(const Handle& shown, const Handle& kept, const SpectrumSums& sums,
+                    const std::string& file) {
+  const SpectrumEstimate e = estimate_of(sums);
+  write_points(
+      shown, "spectrum", e.exponents, [](const Estimate& one) { return one.value; },
+      {"1/time", "All exponents, the largest first"}, file);
+  write_points(
+      shown, "spectrum_stderr", e.exponents, [](const Estimate& one) { return one.error; },
+      {"1/time", "Their standard errors"}, file);
+  hdf5::write_number(shown.get(), "entropy", e.entropy.value,
+                     {"1/time", "Entropy of Kolmogorov and Sinai"}, file);
+  hdf5::write_number(shown.get(), "entropy_stderr", e.entropy.error,
+                     {"1/time", "Its standard error"}, file);
+  hdf5::write_number(kept.get(), "spectrum_zeros", static_cast<std::uint64_t>(sums.zeros()),
+                     {"1", "Exponents that vanish by conservation laws"}, file);
+  std::vector<const ExactSum*> totals, squares;
+  for (const GrowthSums& one : sums.sums()) {
+    totals.push_back(&one.totals().growth);
+    for (const GrowthSums::Squares& level : one.totals().levels) squares.push_back(&level.growth);
+  }
+  write_sums(kept, "spectrum_totals", totals,
+             {"1", "Growth of each length of the frame, and that of the entropy, likewise"}, file);
+  write_sums(kept, "spectrum_squares", squares,
+             {"1", "Of each, growth^2 over groups of 1, 2, 4 ... blocks, likewise"}, file);
+}
+
+// None where none was kept. `like`: sums over the same orbits.
+SpectrumSums read_spectrum(const Handle& shown, const Handle& kept, const GrowthSums& like,
+                           const std::string& file) {
+  if (!hdf5::has(kept.get(), "spectrum_totals")) return {};
+  const std::string path = fmt::format("/{}/", sums_name);
+  const auto zeros = read_number<std::uint64_t>(kept.get(), "spectrum_zeros",
+                                                path + "spectrum_zeros", file);
+  const std::size_t count =
+      hdf5::read_column<double>(shown.get(), "spectrum", file).size() + 1;
+  const std::size_t levels = like.totals().levels.size();
+  const auto totals = read_sums(kept, sums_name, "spectrum_totals", count, file),
+             squares = read_sums(kept, sums_name, "spectrum_squares", count * levels, file);
+  std::vector<GrowthSums> sums;
+  for (std::size_t i = 0; i < count; ++i) {
+    GrowthSums::Totals t;
+    t.orbits = like.totals().orbits;
+    t.regular = t.orbits;
+    t.growth = totals[i];
+    for (std::size_t level = 0; level < levels; ++level)
+      t.levels.push_back({squares[i * levels + level], {}, {}});
+    sums.push_back(GrowthSums::from(like.window(), like.blocks(), std::move(t)));
+  }
+  return SpectrumSums::from(std::move(sums), zeros);
+}
+
 }  // namespace
 
 void write_counts(const ArchiveFile& file, const LyapunovResult& result, const System& system) {
   const std::string& name = file.name();
   const GrowthSums& sums = result.growth;
   const GrowthSums::Totals& t = sums.totals();
-  write_estimates(file.group(group_name, "Lyapunov exponents, their distribution, chaotic orbits"),
-                  sums, name);
+  const Handle shown =
+      file.group(group_name, "Lyapunov exponents, their distribution, chaotic orbits");
+  write_estimates(shown, sums, name);
   if (result.repeller) write_repeller(file, *result.repeller);
   const Handle g = file.group(
       sums_name, "Sums over orbits of the growth of ln|deviation| in blocks of the window");
@@ -175,6 +227,7 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
       g, "squares", squares,
       {"1", "Sums of growth^2, growth hits and hits^2 over groups of 1, 2, 4 ... blocks, likewise"},
       name);
+  if (result.spectrum.counted()) write_spectrum(shown, g, result.spectrum, name);
   const Handle ends =
       file.group("fates", "Numbers of particles by their end before the end of the window");
   write_ends(ends, result, {result.trajectories, result.collisions, result.digest}, name);
@@ -216,6 +269,7 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   for (std::size_t i = 0; i < levels; ++i)
     t.levels.push_back({squares[3 * i], squares[3 * i + 1], squares[3 * i + 2]});
   result.growth = GrowthSums::from(window, blocks, std::move(t));
+  result.spectrum = read_spectrum(shown, g, result.growth, name);
   const EnsembleNumbers numbers = read_ends(ends, name, result);
   result.trajectories = numbers.particles;
   result.collisions = numbers.collisions;

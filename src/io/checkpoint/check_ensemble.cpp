@@ -127,6 +127,10 @@ void check_stored(const StoredEnsemble& stored, const LyapunovResult& result,
                 : totals.orbits != result.survived) ||
       totals.chaotic > totals.orbits || totals.regular > totals.orbits - totals.chaotic)
     damaged(stored.file, "'/lyapunov_sums/orbits' and '/fates' contradict each other");
+  const SpectrumSums& spectrum = result.spectrum;
+  const bool fits = spectrum.exponents() == (system.run.spectrum ? 4 * system.particles.size() : 0);
+  if (!fits || (spectrum.counted() && spectrum.zeros() != vanishing_exponents(system).count))
+    damaged(stored.file, "'/lyapunov_sums/spectrum_totals' and '/system' contradict each other");
   const auto& bins = totals.distribution.counts();
   if (std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}) != totals.orbits ||
       std::accumulate(totals.chaotic_at.begin(), totals.chaotic_at.end(), std::uint64_t{0}) !=

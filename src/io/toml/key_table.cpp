@@ -218,6 +218,8 @@ const std::vector<KeyDescription>& key_table() {
        "coefficient is taken; chosen if not given"},
       {"run", "", "free_paths", "true or false", "",
        "carom diffusion: are the lengths of flights counted? false if not given"},
+      {"run", "", "spectrum", "true or false", "",
+       "carom lyapunov: are all exponents of all particles together computed? false if not given"},
       {"run.times", "", "from", "number", "", "the first time"},
       {"run.times", "", "to", "number", "", "the last time, at most t_max"},
       {"run.times", "", "count", "whole number", "31", "number of times, from 2 to 100000"},

@@ -162,6 +162,7 @@ RunPlan read_run(Value& root, std::uint64_t starts) {
     plan.window = {from, to};
   }
   if (const Value* paths = section.find("free_paths")) plan.free_paths = as_flag(*paths);
+  if (const Value* spectrum = section.find("spectrum")) plan.spectrum = as_flag(*spectrum);
   return plan;
 }
 
