@@ -62,6 +62,24 @@ def lyapunov(result, ax=None):
     return ax
 
 
+def spectrum(result, ax=None):
+    """All exponents, the largest first, with their errors."""
+    ax = new_axes(ax)
+    values = result.spectrum
+    if values is not None:
+        number = numpy.arange(1, len(values) + 1)
+        ax.axhline(0, color="0.8", linewidth=0.8, zorder=0)
+        ax.errorbar(
+            number, values["value"], yerr=values["stderr"], fmt="o", markersize=4, capsize=2,
+            linewidth=1, color=COLOURS[0],
+            label=f"entropy {result.entropy.value:.4g}: sum of the positive ones",
+        )  # fmt: skip
+        ax.legend(fontsize="small", frameon=False)
+    ax.set(xlabel="number of the exponent", ylabel="exponent")
+    title(ax, result.system)
+    return ax
+
+
 def _coarser(bins):
     """Edges and counts of bins, so many taken together that about twice the cube root of the number
     of orbits are left (Rice's rule)."""

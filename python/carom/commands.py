@@ -200,7 +200,8 @@ def lyapunov(
     """Lyapunov exponents of an ensemble, and its chaotic share: a `carom.Lyapunov`.
 
     Keywords as of `carom.escape`, and window=(from, to), the times (time) between which the growth
-    of deviations is taken. per_trajectory: keeps start, end, exponent and SALI of each.
+    of deviations is taken; spectrum=True computes all exponents of all particles together, and their
+    entropy. per_trajectory: keeps start, end, exponent and SALI of each.
     """
     return _compute(
         results.Lyapunov, _carom.lyapunov, system, "lyapunov", keywords, progress, per_trajectory

@@ -5,10 +5,12 @@
 Colours can be told apart by people who see few of them (Okabe and Ito).
 """
 
+import warnings
+
 import numpy
 
 from . import _carom
-from .analyses import comparison, equilibria, lyapunov, orbits, sweep
+from .analyses import comparison, equilibria, lyapunov, orbits, spectrum, sweep
 from .axes import COLOURS
 from .axes import new_axes as _new_axes
 from .axes import pyplot as _pyplot
@@ -291,7 +293,8 @@ def rate(result, ax=None, scale=None):
 def basins(result, ax=None, colour=None, x=None, y=None, size=None):
     """Starts with per_trajectory, coloured by what becomes of them: "hole", "time" (of the end) or
     "hits"; of exponents also "lambda" or "sali". x and y: columns of its rows, as "x", "y", "vx",
-    "vy"; if not given s and v_parallel of starts on one wall in a grid, else the plane."""
+    "vy"; if not given s and v_parallel of starts on one wall in a grid, else the plane. Starts that
+    lie on no wall have no s and v_parallel: they are left out with a warning, and refused where all do."""
     rows = result.per_trajectory
     if rows is None:
         raise ValueError("no starts are stored: carom.escape(…, per_trajectory=True)")
@@ -301,6 +304,13 @@ def basins(result, ax=None, colour=None, x=None, y=None, size=None):
         x, y = ("s", "v_parallel") if grid else ("x", "y")
     x, y = x or "x", y or "y"
     in_plane = (x, y) == ("x", "y")
+    known = numpy.isfinite(rows[x]) & numpy.isfinite(rows[y])
+    if not known.all():
+        off = f"{numpy.count_nonzero(~known)} of {len(rows)} starts lie on no wall, and have no s and v_parallel"
+        if not known.any():
+            raise InputError(off, ("", 0, 0, "x"), "starts on walls, or other columns", "x")
+        warnings.warn(f"{off}: they are not drawn", stacklevel=2)
+        rows = rows[known]
     colour = colour or ("hole" if len(result.system.holes) > 1 else "time")
     made = ax is None
     ax = _new_axes(ax)
@@ -431,7 +441,8 @@ def pictures(result):
         return {"diffusion": diffusion, "correlation": correlation} | more
     if isinstance(result, results.Lyapunov):
         more = {"exponents": exponents, "times": times} if result.per_trajectory is not None else {}
-        return {"lyapunov": lyapunov} | more
+        whole = {"spectrum": spectrum} if "spectrum" in result.json else {}
+        return {"lyapunov": lyapunov} | whole | more
     if isinstance(result, results.Table):
         return {"table": _of_table}
     if isinstance(result, System):

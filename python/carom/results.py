@@ -214,6 +214,11 @@ class Lyapunov(Result):
     table they are those of the orbits that never leave, and repeller says how they were measured. Array:
 
     distribution  (number of bins,): from, to (1/time), count: finite-time exponents of the orbits
+
+    With spectrum=True also entropy (value, stderr: 1/time), pairing (1/time), zeros (count, laws,
+    largest) and the array
+
+    spectrum      (4 · number of particles,): value, stderr (1/time), the largest first
     """
 
     @property

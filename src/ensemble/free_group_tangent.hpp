@@ -21,6 +21,10 @@ class FreeGroupTangent : public GroupTangent {
   void arrive(std::size_t particle, const Time&, const std::function<bool()>& stopped) override;
   void hit(std::size_t particle, const State&) override;
   void contact(const ContactEvent&) override;
+  /// One of the deviations, over its length.
+  Deviation direction(std::size_t particle, std::size_t deviation = 0) const {
+    return at(deviation, member_of(particle));
+  }
 
  private:
   void fly(std::size_t member, const Time&);

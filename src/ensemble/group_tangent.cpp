@@ -49,8 +49,8 @@ void GroupTangent::start_deviations(std::span<Vector> x, std::span<Vector> v, do
 
 // Completes the first deviation to a frame in which areas of phase space are those of the pairs
 // (first, last), (second, last but one) … alone. Such a frame stays one when it is carried by a map
-// that keeps areas and made orthogonal, so the exponents of each pair add up to 0 at all times. With
-// q + i p as complex numbers, it is an orthonormal basis and i times the same.
+// that keeps areas and made orthogonal, so the exponents of each pair add up to 0 at all times.
+// With q + i p as complex numbers, it is an orthonormal basis and i times the same.
 void GroupTangent::start_frame(std::span<Vector> x, std::span<Vector> v) {
   using Complex = std::complex<double>;
   const std::size_t n = size(), half = 2 * n;
@@ -106,7 +106,8 @@ void GroupTangent::make_orthogonal(std::span<Vector> x, std::span<Vector> v) {
   const auto product = [&](std::size_t a, std::size_t b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < n; ++i)
-      sum += weight_[i] * (dot(x[a * n + i], x[b * n + i]) + square * dot(v[a * n + i], v[b * n + i]));
+      sum +=
+          weight_[i] * (dot(x[a * n + i], x[b * n + i]) + square * dot(v[a * n + i], v[b * n + i]));
     return sum;
   };
   for (std::size_t k = 0; k < count(); ++k) {

@@ -17,7 +17,8 @@ namespace carom::ensemble {
 /// What is asked of a group.
 enum class Deviations {
   two,   ///< the largest exponent; lengths are sums of |dx|^2 + (unit |dv|)^2
-  frame  ///< all exponents; lengths are those in which areas of phase space are seen at right angles
+  frame  ///< all exponents; lengths are those in which areas of phase space are seen at right
+         ///< angles
 };
 
 class GroupTangent {

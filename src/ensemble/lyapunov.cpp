@@ -56,43 +56,39 @@ bool act_on_each_other(const System& system) {
   return system.of_discs() || (system.dynamics.forces && system.dynamics.forces->interacts());
 }
 
-// Circles about one centre, or no walls at all.
-bool is_round(const Table& table) {
-  if (table.lattice) return false;
-  std::optional<geometry::Vector> centre;
+// Are walls and potentials the same in all directions about one point?
+bool is_round(const Table& table, const ForceField& forces) {
+  if (table.lattice || !forces.isotropic()) return false;
+  std::optional<geometry::Vector> middle = forces.middle();
   for (const Wall& wall : table.walls) {
     const geometry::CurveFrame frame = geometry::frame_of(wall.curve);
-    if (!frame.circular) return false;
-    if (centre && !(*centre == frame.middle)) return false;
-    centre = frame.middle;
+    if (!frame.circular || (middle && !(*middle == frame.middle))) return false;
+    middle = frame.middle;
   }
   return true;
 }
 
 }  // namespace
 
-bool interacts(const System& system) {
-  return system.run.spectrum || act_on_each_other(system);
-}
+bool interacts(const System& system) { return system.run.spectrum || act_on_each_other(system); }
 
 VanishingExponents vanishing_exponents(const System& system) {
   const std::vector<Particle>& particles = system.particles;
-  const auto& forces = system.dynamics.forces;
-  const Table& table = *system.table;
-  const bool together = act_on_each_other(system), pushed = forces && forces->external();
+  const ForceField none, &forces = system.dynamics.forces ? *system.dynamics.forces : none;
+  const bool together = act_on_each_other(system);
+  const std::size_t orbits = together ? 1 : particles.size();
   VanishingExponents v;
-  v.count = 2 * (together ? 1 : particles.size());
-  v.laws.push_back(together || particles.size() == 1 ? "energy" : "energy of each particle");
-  const std::size_t each = together ? 1 : particles.size();
-  // Positions of a pair change neither its forces nor, where all turn alike, how its centre moves.
-  if (table.walls.empty() && !pushed &&
-      std::all_of(particles.begin(), particles.end(),
-                  [&](const Particle& p) { return p.omega == particles.front().omega; })) {
-    v.count += 4 * each;
-    v.laws.push_back("momentum");
+  v.count = 2 * orbits;
+  v.laws.push_back(orbits == 1 ? "energy" : "energy of each particle");
+  const bool alike = std::all_of(particles.begin(), particles.end(), [&](const Particle& p) {
+    return p.omega == particles.front().omega;
+  });
+  if (system.table->walls.empty() && forces.harmonic() && alike) {
+    v.count += 4 * orbits;
+    v.laws.push_back(forces.external() ? "motion of the centre of mass" : "momentum");
   }
-  if (is_round(table) && !pushed) {
-    v.count += 2 * each;
+  if (is_round(*system.table, forces)) {
+    v.count += 2 * orbits;
     v.laws.push_back("angular momentum");
   }
   v.count = std::min(v.count, 4 * particles.size());

@@ -149,6 +149,24 @@ void check_range(const InteractionSpec& s, double range, const geometry::Lattice
         "a shorter range, or longer lattice vectors");
 }
 
+// Is it the same in all directions about its centre?
+bool is_isotropic(const PotentialSpec& s) {
+  using Kind = PotentialSpec::Kind;
+  switch (s.kind) {
+    case Kind::harmonic:
+      return s.omega_x == s.omega_y;
+    case Kind::fermi:
+    case Kind::gaussian:
+    case Kind::quartic:
+    case Kind::power:
+    case Kind::coulomb:
+    case Kind::soft_circle:
+      return !s.lattice && s.centers.size() == 1;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const ForceField> ForceField::build(
@@ -162,6 +180,9 @@ std::shared_ptr<const ForceField> ForceField::build(
     const Potential& p = *field->potentials_.back();
     field->typed_ = field->typed_ || s.kind == PotentialSpec::Kind::expression;
     field->tail_bound_ = std::max(field->tail_bound_, p.tail());
+    field->harmonic_ = field->harmonic_ && s.kind == PotentialSpec::Kind::harmonic;
+    if (!field->middle_ && s.centers.size() == 1) field->middle_ = s.centers.front();
+    field->isotropic_ = field->isotropic_ && is_isotropic(s) && field->middle_ == s.centers.front();
     // On a lattice a potential that is not repeated would depend on the cell.
     if (lattice && !s.lattice)
       throw InputError(s.place, "on a lattice every potential has to be repeated",

@@ -1,9 +1,12 @@
 // carom lyapunov as a user sees it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "kill_and_resume.hpp"
+#include "processes.hpp"
 #include "program.hpp"
 
 namespace carom {
@@ -59,6 +62,16 @@ TEST(Lyapunov, RefusesWhatEndsTooEarly) {
   expect_refused(shell(typed + "--trajectories 20000 --t-max 5"), "run.t_max");
   expect_refused(shell(typed + "--trajectories 20000 --set 'table.centers=[[0,0]]'"), "table");
   EXPECT_TRUE(shell.files().empty());
+  // Nor from parts, which say nothing alone.
+  if (has_mpi()) expect_refused(shell(ranks(2) + typed + "--trajectories 50"), "run.trajectories");
+  EXPECT_TRUE(shell.files().empty());
+  for (const char* part : {"1", "2"})
+    EXPECT_EQ(shell("$carom lyapunov three-disc --trajectories 50 --shard " + std::string(part) +
+                    "/2 -o part" + part + ".h5")
+                  .status,
+              0);
+  expect_refused(shell("$carom merge sum.h5 part1.h5 part2.h5 --json"), "run.trajectories");
+  EXPECT_FALSE(shell.exists("sum.h5"));
   expect_refused(shell("$carom lyapunov stadium --window 5:20 --t-max 10"), "run.window");
 }
 
@@ -86,6 +99,27 @@ TEST(Lyapunov, OfATableWithIslandsIsThatOfOrbitsThatStay) {
   EXPECT_NE(json_value(o.out, "repeller").find("\"drifts\": true"), std::string::npos);
   const std::string lambda = json_value(o.out, "lambda");
   EXPECT_LT(std::fabs(std::stod(lambda.substr(lambda.find("value") + 8))), 0.03) << lambda;
+}
+
+// Areas are kept by every map on the way; an archive holds the whole sum.
+TEST(Lyapunov, TheSpectrumComesInPairsAndGoesOnFromArchives) {
+  const Shell shell;
+  const std::string typed = "$carom lyapunov wigner --spectrum --trajectories 4 --t-max 10 --json ";
+  const Outcome whole = shell(typed + "-o whole.h5");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const std::string spectrum = json_value(whole.out, "spectrum");
+  EXPECT_EQ(std::count(spectrum.begin(), spectrum.end(), '{'), 20);
+  EXPECT_LT(std::stod(json_value(whole.out, "pairing")), 1e-9);
+  EXPECT_NE(json_value(whole.out, "zeros").find("\"count\": 8"), std::string::npos);
+  for (const char* part : {"1", "2"})
+    EXPECT_EQ(shell(typed + "--shard " + part + "/2 -o part" + part + ".h5").status, 0);
+  const Outcome sum = shell("$carom merge sum.h5 part2.h5 part1.h5 --json"),
+                again = shell("$carom lyapunov --resume whole.h5 --json");
+  for (const char* key : {"digest", "lambda", "spectrum", "entropy", "pairing", "zeros"})
+    for (const Outcome* other : {&sum, &again})
+      EXPECT_EQ(json_value(other->out, key), json_value(whole.out, key)) << key << other->err;
+  const Outcome none = shell("$carom lyapunov wigner --trajectories 4 --t-max 10 --json");
+  EXPECT_EQ(json_value(none.out, "spectrum"), "");
 }
 
 // Repeated they would scatter by nothing at all.

@@ -198,7 +198,7 @@ void add_published(Planner& plan) {
           fmt::format("{}[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.2\n"
                       "[initial]\nkind = \"hole\"\nhole = \"hole_1\"\n[particles]\nspeed = 1\n"
                       "[run]\nt_max = 1e6\ntrajectories = {:.0f}\n",
-                      table_of("sinai-in-walls"), plan.scaled(plan.pick(1e5, 1e7))),
+                      table_of("sinai-in-walls"), plan.scaled(plan.pick(4e5, 1e7))),
           "sinai-in-walls")
           .system;
   plan.add("sinai-in-walls: mean time of recurrence", "pi A/(w v) (Kac 1947)", {},
@@ -246,6 +246,12 @@ void add_published(Planner& plan) {
            [gas](const CheckOptions& options) {
              return check_green_kubo(gas, {0.1699, 3e-4}, options);
            });
+  System torus = plan.timed("square torus", table_of("square torus"), plan.pick(1e5, 1e6), 20);
+  torus.run.free_paths = true;
+  plan.add("square torus: mean free path", "(1 - pi R^2)/(2 R), R = 2/5 (Santalo)", {},
+           [torus](const CheckOptions& options) {
+             return check_free_path(torus, (1.0 - 0.16 * 3.141592653589793) / 0.8, options);
+           });
   const System photon = load_system("siam-photon").system;
   // Rounding grows by about exp(2.07) a hit (Dahlqvist's exponent), to some 10^-3 after 14 hits.
   const Allowance rounding{0.02, 0.02};
@@ -281,6 +287,21 @@ void add_exponents(Planner& plan) {
                return check_exponent(system, one.what, one.expected, options);
              });
   }
+  // In their relative motion, of speed 1, two discs on a torus are one particle on the square
+  // torus.
+  const System pair =
+      read_system(fmt::format("[lattice]\nvectors = [[1, 0], [0, 1]]\n"
+                              "[interaction]\nkind = \"hard-discs\"\nradius = 0.2\n"
+                              "[particles]\ncount = 2\n[initial]\nkind = \"list\"\n"
+                              "starts = [[0.1, 0.2, 0.3, 0.4], [0.6, 0.7, -0.3, -0.4]]\n"
+                              "[run]\nt_max = {:.0f}\nspectrum = true\n",
+                              plan.pick(1e5, 1e7)),
+                  "two discs on a torus")
+          .system;
+  plan.add("two discs on a torus: entropy", "independent simulation of their relative motion", {},
+           [pair](const CheckOptions& options) {
+             return check_exponent(pair, Exponent::entropy, {2.73845, 4e-4}, options);
+           });
   System three_disc = plan.builtin("three-disc", plan.pick(1e5, 1e6));
   three_disc.run.trajectories = std::max(three_disc.run.trajectories, least_of_repeller());
   plan.add("three-disc: Lyapunov exponent", "cycle expansion, 18 digits (ChaosBook)", {},

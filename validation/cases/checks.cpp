@@ -344,6 +344,24 @@ Check check_green_kubo(const System& system, Estimate expected, const CheckOptio
   return check_last_point(system, &MomentPoint::green_kubo, expected, options);
 }
 
+Check check_free_path(const System& system, double expected, const CheckOptions& options) {
+  Check c;
+  c.expected = expected;
+  c.seed = system.run.seed;
+  DiffusionOptions how;
+  how.threads = options.threads;
+  how.interrupted = options.interrupted;
+  const DiffusionResult result = run_diffusion(system, how);
+  note_run(c, result);
+  if (c.complete) {
+    const Estimate mean = free_paths_of(result.free_paths).mean;
+    c.value = mean.value;
+    c.error = mean.error;
+  }
+  judge(c, {});
+  return c;
+}
+
 Check check_exponent(const System& system, Exponent what, Estimate expected,
                      const CheckOptions& options) {
   Check c;
@@ -362,6 +380,11 @@ Check check_exponent(const System& system, Exponent what, Estimate expected,
                                                        : e.chaotic_share;
     c.value = what == Exponent::regular_share ? 1.0 - found.value : found.value;
     c.error = found.error;
+    if (what == Exponent::entropy) {
+      const Estimate entropy = estimate_of(result.spectrum).entropy;
+      c.value = entropy.value;
+      c.error = entropy.error;
+    }
     if (result.repeller) {
       c.value = result.repeller->estimate().value;
       c.error = result.repeller->estimate().error;

@@ -76,6 +76,9 @@ Check check_recurrence(const System&, double expected, const CheckOptions& = {})
 /// Mean square displacement at the last report time.
 Check check_displacement(const System&, Estimate expected, const CheckOptions& = {});
 
+/// Mean length of flights from one hit to the next, of all that is flown from uniform starts.
+Check check_free_path(const System&, double expected, const CheckOptions& = {});
+
 /// D of Green and Kubo at the last report time.
 Check check_green_kubo(const System&, Estimate expected, const CheckOptions& = {});
 
@@ -83,7 +86,8 @@ Check check_green_kubo(const System&, Estimate expected, const CheckOptions& = {
 enum class Exponent {
   per_time,
   per_hit,
-  regular_share  ///< 1 - the chaotic share
+  regular_share,  ///< 1 - the chaotic share
+  entropy         ///< of Kolmogorov and Sinai, by the whole spectrum
 };
 Check check_exponent(const System&, Exponent, Estimate expected, const CheckOptions& = {});
 

@@ -70,7 +70,8 @@ class Listener {
   /// The state (not its wall) at the time of that number (EngineOptions::times).
   virtual void sample(const Trajectory&, int /*particle*/, std::size_t /*number*/, const State&) {}
   /// Logarithms of the lengths of deviations at the time of that number, two or a frame of all
-  /// particles, and the hits by then (EngineOptions::deviations, frame). A particle that leaves is not told of after its last hit.
+  /// particles, and the hits by then (EngineOptions::deviations, frame). A particle that leaves is
+  /// not told of after its last hit.
   virtual void stretched(const Trajectory&, int /*particle*/, std::size_t /*number*/,
                          std::span<const double> /*logarithms*/, std::uint64_t /*hits*/) {}
   /// As Observer::crossing (EngineOptions::surface).

@@ -39,8 +39,8 @@ using LyapunovOptions = EnsembleOptions<LyapunovResult>;
 
 /// Are all particles one orbit, because they interact or their spectrum is asked for?
 bool interacts(const System&);
-/// How many of the 4 N exponents vanish for certain, and why: the time and each conserved quantity
-/// make two of them 0 (docs/physics/lyapunov.md).
+/// How many of the 4 N exponents vanish for certain, and by which conservation laws: those of
+/// energy, of the motion of the centre of mass, and of angular momentum (docs/physics/lyapunov.md).
 struct VanishingExponents {
   std::size_t count = 0;
   std::vector<std::string> laws;

@@ -84,6 +84,12 @@ class ForceField {
   }
   /// Does some external potential reach everywhere?
   bool everywhere() const { return everywhere_; }
+  /// Are all external potentials harmonic? The centre of mass of particles that turn alike then
+  /// moves as one particle (Kohn 1961).
+  bool harmonic() const { return harmonic_; }
+  /// Are they the same in all directions about one point, about `middle` if there are any?
+  bool isotropic() const { return isotropic_; }
+  const std::optional<geometry::Vector>& middle() const { return middle_; }
   /// Is some external potential a typed formula, whose bounds take long?
   bool typed() const { return typed_; }
   /// Otherwise: discs, in the cell of a lattice, outside which each potential is below
@@ -107,7 +113,8 @@ class ForceField {
   std::vector<std::unique_ptr<const forces::Potential>> potentials_;
   std::unique_ptr<const forces::Interaction> interaction_;
   std::vector<Support> supports_;
-  bool everywhere_ = false, typed_ = false;
+  bool everywhere_ = false, typed_ = false, harmonic_ = true, isotropic_ = true;
+  std::optional<geometry::Vector> middle_;
   double pair_range_ = std::numeric_limits<double>::infinity();
   double tail_bound_ = 0.0;
   std::vector<double> disc_radii_;

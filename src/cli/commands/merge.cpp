@@ -41,6 +41,7 @@ int merge_parts(const Options& options, const std::string& output,
   Provenance origin = provenance_of(options, loaded.system, sum.result.threads);
   if (sum.result.lanes) origin.isa = name_of(*sum.result.lanes);
   complete_sum(options, loaded.system, sum.result);
+  refuse_nothing(options, loaded.system, sum.result);
   write_sum(output, loaded, origin, sum, lock);
   lock.reset();
   say_what_is_missing(sum.result.done, loaded.system);

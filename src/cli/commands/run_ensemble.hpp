@@ -148,11 +148,11 @@ inline void complete_sum(const Options& options, const System& system, LyapunovR
 
 // Refuses a system of which nothing could be measured. A value of a sweep has none then.
 template <class Result>
-void refuse_nothing(const Options&, const EnsembleJob<Result>&, const Result&) {}
-inline void refuse_nothing(const Options& options, const EnsembleJob<LyapunovResult>& job,
+void refuse_nothing(const Options&, const System&, const Result&) {}
+inline void refuse_nothing(const Options& options, const System& system,
                            const LyapunovResult& result) {
   if (options.of_sweep) return;
-  if (const auto error = why_nothing(job.loaded.system, result)) throw *error;
+  if (const auto error = why_nothing(system, result)) throw *error;
 }
 
 template <class Result>
@@ -182,7 +182,7 @@ int run_alone(const Options& options, const Fly<Result>& run) {
     throw;
   }
   try {
-    refuse_nothing(options, job, result);
+    refuse_nothing(options, job.loaded.system, result);
   } catch (...) {
     const bool written = archive != nullptr;
     archive.reset();

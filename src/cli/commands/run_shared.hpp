@@ -88,6 +88,13 @@ int add_up(const Options& options, EnsembleJob<Result>& job, const Ranks& ranks,
     for (int rank = 0; rank < ranks.size(); ++rank) files.push_back(io::part_of_rank(file, rank));
     sum = io::sum_of_ranks<Result>(job.output, files, job.shard);
     complete_sum(options, job.loaded.system, sum->result);
+    try {
+      refuse_nothing(options, job.loaded.system, sum->result);
+    } catch (...) {
+      kept = 0;  // there is nothing to go on with
+      if (!job.output.empty()) io::give_up_checkpoint(job.output);
+      throw;
+    }
     sum->status = status_of(sum->result.complete);
     sum->result.ranks = ranks.size();
     Provenance origin = origin_of(options, job);

@@ -237,8 +237,8 @@ Json result_json(const System& system, const LyapunovResult& result,
   json.set("digest", fmt::format("{:016x}", result.digest));
   json.set("decisions", decisions_json(result.decisions));
   add_steps(json, system, result.steps);
-  if (const std::string none = why_one_by_one(
-          system, {.deviations = {1.0}, .frame = system.run.spectrum});
+  if (const std::string none =
+          why_one_by_one(system, {.deviations = {1.0}, .frame = system.run.spectrum});
       !none.empty())
     json.set("no_lanes", none);
   json.set("window", Json::object().set("from", sums.window().from).set("to", sums.window().to));

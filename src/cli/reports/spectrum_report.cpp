@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -46,20 +47,23 @@ std::string spectrum_text(const System& system, const LyapunovResult& result,
     others.push_back(with_error(other));
     sums.push_back(fmt::format("{:.1e}", one.value + other.value));
   }
-  std::string text =
-      fmt::format("\nspectrum: {} exponents per unit time, in pairs i and {} - i\n", count,
-                  count + 1) +
-      aligned({{"i", numbers},
-               {"exponent i", values},
-               {fmt::format("exponent {} - i", count + 1), others},
-               {"their sum", sums}}) +
-      rows_text(pairs, context);
+  std::string text = fmt::format("\nspectrum: {} exponents per unit time, in pairs i and {} - i\n",
+                                 count, count + 1) +
+                     aligned({{"i", numbers},
+                              {"exponent i", values},
+                              {fmt::format("exponent {} - i", count + 1), others},
+                              {"their sum", sums}}) +
+                     rows_text(pairs, context);
   std::string laws;
   for (const std::string& law : zeros.laws) laws += (laws.empty() ? "" : ", ") + law;
-  text += folded(fmt::format("{} of them vanish by conservation laws ({}): the largest of these is "
-                             "{:.1e}",
-                             zeros.count, laws, e.largest_zero)) +
-          '\n';
+  std::string sentence =
+      fmt::format("{} of them vanish by conservation laws ({}): the largest of these is {:.1e}",
+                  zeros.count, laws, e.largest_zero);
+  // They do as 1/t.
+  if (const TimeWindow& window = result.growth.window(); window.from > 0.0)
+    sentence += fmt::format("; deviations that grow as the time give {:.1e} in this window",
+                            std::log(window.to / window.from) / (window.to - window.from));
+  text += folded(sentence) + '\n';
   return text + fmt::format("Kolmogorov-Sinai entropy, their positive sum = {} per unit time\n",
                             with_error(e.entropy));
 }

@@ -168,10 +168,9 @@ SpectrumSums read_spectrum(const Handle& shown, const Handle& kept, const Growth
                            const std::string& file) {
   if (!hdf5::has(kept.get(), "spectrum_totals")) return {};
   const std::string path = fmt::format("/{}/", sums_name);
-  const auto zeros = read_number<std::uint64_t>(kept.get(), "spectrum_zeros",
-                                                path + "spectrum_zeros", file);
-  const std::size_t count =
-      hdf5::read_column<double>(shown.get(), "spectrum", file).size() + 1;
+  const auto zeros =
+      read_number<std::uint64_t>(kept.get(), "spectrum_zeros", path + "spectrum_zeros", file);
+  const std::size_t count = hdf5::read_column<double>(shown.get(), "spectrum", file).size() + 1;
   const std::size_t levels = like.totals().levels.size();
   const auto totals = read_sums(kept, sums_name, "spectrum_totals", count, file),
              squares = read_sums(kept, sums_name, "spectrum_squares", count * levels, file);
