@@ -52,10 +52,6 @@ void refuse_impossible(const System& system) {
                      "0 <= from < to <= run.t_max");
 }
 
-bool act_on_each_other(const System& system) {
-  return system.of_discs() || (system.dynamics.forces && system.dynamics.forces->interacts());
-}
-
 // Are walls and potentials the same in all directions about one point?
 bool is_round(const Table& table, const ForceField& forces) {
   if (table.lattice || !forces.isotropic()) return false;
@@ -69,6 +65,10 @@ bool is_round(const Table& table, const ForceField& forces) {
 }
 
 }  // namespace
+
+bool act_on_each_other(const System& system) {
+  return system.of_discs() || (system.dynamics.forces && system.dynamics.forces->interacts());
+}
 
 bool interacts(const System& system) { return system.run.spectrum || act_on_each_other(system); }
 

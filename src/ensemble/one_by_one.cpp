@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "carom/ensemble/injection.hpp"
+#include "carom/ensemble/lyapunov.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "ensemble/force_tangent.hpp"
 #include "ensemble/free_group_tangent.hpp"
@@ -35,16 +36,18 @@ OneByOne::OneByOne(const System& system, const EngineOptions& options, World wor
 void OneByOne::make_groups() {
   const auto& forces = system_.dynamics.forces;
   const bool forced = forces && !forces->empty();
+  if (!forced && !system_.of_discs() && !options_.frame) return;  // across their orbits
   const Deviations kind = options_.frame ? Deviations::frame : Deviations::two;
+  const auto add = [&](std::vector<std::size_t> members) {
+    if (forced)
+      groups_.push_back(std::make_unique<ForceTangent>(system_, std::move(members), kind));
+    else
+      groups_.push_back(std::make_unique<FreeGroupTangent>(system_, std::move(members), kind));
+  };
   std::vector<std::size_t> all(system_.particles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  if (forced && (options_.frame || forces->interacts()))
-    groups_.push_back(std::make_unique<ForceTangent>(system_, all, kind));
-  else if (options_.frame || system_.of_discs())
-    groups_.push_back(std::make_unique<FreeGroupTangent>(system_, all, kind));
-  else if (forced)
-    for (const std::size_t p : all)
-      groups_.push_back(std::make_unique<ForceTangent>(system_, std::vector{p}));
+  if (act_on_each_other(system_)) return add(std::move(all));
+  for (const std::size_t p : all) add({p});
 }
 
 bool OneByOne::run(Starts& starts, Listener& listener, const std::function<bool()>& stopped) {

@@ -190,3 +190,25 @@ def test_every_picture_of_a_diffusion_is_drawn(tmp_path):
         result.plot(what=name)
         pyplot.gcf().savefig(tmp_path / f"{name}.png", dpi=60)
         assert result.plot(what=name, ax=pyplot.figure().gca()).lines
+
+
+def test_the_spectrum_is_drawn_with_its_entropy(tmp_path):
+    result = carom.lyapunov("wigner", trajectories=2, t_max=5, spectrum=True)
+    assert list(carom.plot.pictures(result)) == ["lyapunov", "spectrum"]
+    assert len(result.spectrum) == 20 and abs(result.spectrum["value"].sum()) < 1e-9
+    assert result.entropy.value == pytest.approx(result.spectrum["value"][:6].sum())
+    ax = result.plot(what="spectrum")
+    ax.figure.savefig(tmp_path / "spectrum.png", dpi=60)
+    assert (ax.containers[0].lines[0].get_ydata() == result.spectrum["value"]).all()
+    result.save(tmp_path / "spectrum.h5")
+    again = carom.open(tmp_path / "spectrum.h5")
+    assert (again.spectrum == result.spectrum).all() and again.entropy == result.entropy
+
+
+def test_starts_off_walls_have_no_place_on_them():
+    inside = carom.escape(
+        "stadium", trajectories=20, t_max=10, per_trajectory=True, initial={"kind": "uniform"}
+    )
+    with pytest.raises(carom.InputError, match="20 of 20 starts lie on no wall"):
+        carom.plot.basins(inside, x="s", y="v_parallel")
+    assert carom.plot.basins(inside).collections

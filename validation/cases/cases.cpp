@@ -198,7 +198,7 @@ void add_published(Planner& plan) {
           fmt::format("{}[[table.hole]]\nwall = \"bottom\"\ncenter = 0.5\nwidth = 0.2\n"
                       "[initial]\nkind = \"hole\"\nhole = \"hole_1\"\n[particles]\nspeed = 1\n"
                       "[run]\nt_max = 1e6\ntrajectories = {:.0f}\n",
-                      table_of("sinai-in-walls"), plan.scaled(plan.pick(4e5, 1e7))),
+                      table_of("sinai-in-walls"), plan.scaled(plan.pick(1e5, 1e7))),
           "sinai-in-walls")
           .system;
   plan.add("sinai-in-walls: mean time of recurrence", "pi A/(w v) (Kac 1947)", {},
@@ -246,7 +246,7 @@ void add_published(Planner& plan) {
            [gas](const CheckOptions& options) {
              return check_green_kubo(gas, {0.1699, 3e-4}, options);
            });
-  System torus = plan.timed("square torus", table_of("square torus"), plan.pick(1e5, 1e6), 20);
+  System torus = plan.timed("square torus", table_of("square torus"), plan.pick(5e4, 1e6), 20);
   torus.run.free_paths = true;
   plan.add("square torus: mean free path", "(1 - pi R^2)/(2 R), R = 2/5 (Santalo)", {},
            [torus](const CheckOptions& options) {
@@ -295,7 +295,7 @@ void add_exponents(Planner& plan) {
                               "[particles]\ncount = 2\n[initial]\nkind = \"list\"\n"
                               "starts = [[0.1, 0.2, 0.3, 0.4], [0.6, 0.7, -0.3, -0.4]]\n"
                               "[run]\nt_max = {:.0f}\nspectrum = true\n",
-                              plan.pick(1e5, 1e7)),
+                              plan.pick(2e5, 1e7)),
                   "two discs on a torus")
           .system;
   plan.add("two discs on a torus: entropy", "independent simulation of their relative motion", {},

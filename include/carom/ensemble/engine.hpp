@@ -69,8 +69,8 @@ class Listener {
   virtual void hit(const Trajectory&, int /*particle*/, const State&, std::uint64_t /*hits*/) {}
   /// The state (not its wall) at the time of that number (EngineOptions::times).
   virtual void sample(const Trajectory&, int /*particle*/, std::size_t /*number*/, const State&) {}
-  /// Logarithms of the lengths of deviations at the time of that number, two or a frame of all
-  /// particles, and the hits by then (EngineOptions::deviations, frame). A particle that leaves is
+  /// Logarithms of the lengths of deviations at the time of that number, two or a frame, and the
+  /// hits by then (EngineOptions::deviations, frame). A particle that leaves is
   /// not told of after its last hit.
   virtual void stretched(const Trajectory&, int /*particle*/, std::size_t /*number*/,
                          std::span<const double> /*logarithms*/, std::uint64_t /*hits*/) {}
@@ -120,8 +120,8 @@ struct EngineOptions {
   /// are measured beside velocities over the speed; none: no deviations are followed.
   std::vector<double> deviations = {};
   double unit_length = 1.0;
-  /// As many deviations of all particles together as their phase space has dimensions, orthogonal
-  /// to each other.
+  /// As many deviations as phase space has dimensions, orthogonal to each other: of all particles
+  /// together where they act on each other, else of each.
   bool frame = false;
   const Surface* surface = nullptr;       ///< crossings of it are told
   std::size_t most_crossings = SIZE_MAX;  ///< of one flight

@@ -37,6 +37,8 @@ struct LyapunovResult : EnsembleResult, FateCounts {
 using LyapunovJournal = EnsembleJournal<LyapunovResult>;
 using LyapunovOptions = EnsembleOptions<LyapunovResult>;
 
+/// Do particles feel each other, or touch?
+bool act_on_each_other(const System&);
 /// Are all particles one orbit, because they interact or their spectrum is asked for?
 bool interacts(const System&);
 /// How many of the 4 N exponents vanish for certain, and by which conservation laws: those of
@@ -47,7 +49,7 @@ struct VanishingExponents {
 };
 VanishingExponents vanishing_exponents(const System&);
 /// Particles whose spectrum is computed: the work grows as the cube of their number.
-inline constexpr std::size_t most_particles_of_spectrum = 64;
+inline constexpr std::size_t most_particles_of_spectrum = 128;
 /// Times between which the growth is taken: run.window, or the last four fifths of the run.
 TimeWindow growth_window(const System&);
 
