@@ -343,6 +343,14 @@ double known_until(const SurvivalCounts& counts) {
   return last == 0 ? 0.0 : whole(EscapeTimes::bin_of(static_cast<double>(last))).from;
 }
 
+DecayFit no_fit(const char* why) {
+  DecayFit none;
+  none.why_none = why;
+  return none;
+}
+constexpr const char* dependent =
+    "it takes independent starts, and quasi-random ones are not: kind = \"uniform\" has a fit";
+
 }  // namespace
 
 DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint64_t still_there,
@@ -351,6 +359,7 @@ DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint6
 }
 
 DecayFit fit_decay_by_hits(const SurvivalCounts& counts) {
+  if (!counts.parts.empty()) return no_fit(dependent);
   const double until = known_until(counts);
   std::vector<EscapeTimes::Bin> bins;
   std::uint64_t there = counts.survived;
@@ -365,11 +374,10 @@ DecayFit fit_decay_by_hits(const SurvivalCounts& counts) {
 }
 
 DecayFit fit_decay(const SurvivalCounts& counts, double until, std::optional<DecayWindow> window) {
-  if (counts.capped == 0)
-    return fit_decay(counts.gone_at, counts.followed(), counts.survived, until, window);
-  DecayFit none;
-  none.why_none = "trajectories ended by the cap on hits would have stayed for unknown times";
-  return none;
+  if (!counts.parts.empty()) return no_fit(dependent);
+  if (counts.capped > 0)
+    return no_fit("trajectories ended by the cap on hits would have stayed for unknown times");
+  return fit_decay(counts.gone_at, counts.followed(), counts.survived, until, window);
 }
 
 }  // namespace carom

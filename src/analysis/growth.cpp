@@ -103,16 +103,20 @@ double sali_of(double spread) {
   return sine * std::sqrt(2.0 / (1.0 + cosine));
 }
 
-GrowthSums::GrowthSums(TimeWindow window, std::uint64_t orbits)
-    : window_(window), blocks_(static_cast<std::size_t>(blocks_for(orbits))) {
+GrowthSums::GrowthSums(TimeWindow window, std::uint64_t orbits, bool quasi_random)
+    : window_(window),
+      blocks_(quasi_random ? 1 : static_cast<std::size_t>(blocks_for(orbits))),
+      parts_(quasi_random ? replicates : 0) {
   totals_.levels.resize(static_cast<std::size_t>(std::bit_width(blocks_)));
 }
 
-GrowthSums GrowthSums::from(TimeWindow window, std::uint64_t blocks, Totals totals) {
+GrowthSums GrowthSums::from(TimeWindow window, std::uint64_t blocks, Totals totals,
+                            std::vector<Totals> parts) {
   GrowthSums sums;
   sums.window_ = window;
   sums.blocks_ = blocks;
   sums.totals_ = std::move(totals);
+  sums.parts_ = std::move(parts);
   sums.totals_.levels.resize(static_cast<std::size_t>(std::bit_width(blocks)));
   return sums;
 }
@@ -128,11 +132,34 @@ double GrowthSums::look_time(std::size_t look) const {
   return std::ldexp(window_.to, static_cast<int>(look) - static_cast<int>(looks) + 1);
 }
 
-void GrowthSums::add(const OrbitGrowth& orbit) {
+namespace {
+
+// What replicates keep, too; `growth` and `hits` over the window.
+void count(GrowthSums::Totals& t, const OrbitGrowth& orbit, double growth, double hits) {
+  ++t.orbits;
+  t.growth.add(growth);
+  t.hits.add(hits);
+  t.regular += orbit.regularity == Regularity::regular;
+  if (orbit.regularity != Regularity::chaotic) return;
+  ++t.chaotic;
+  ++t.chaotic_at.at(orbit.look);
+  t.chaotic_growth.add(growth);
+}
+
+void merge_counts(GrowthSums::Totals& t, const GrowthSums::Totals& o) {
+  t.orbits += o.orbits, t.chaotic += o.chaotic, t.regular += o.regular;
+  for (std::size_t i = 0; i < GrowthSums::looks; ++i) t.chaotic_at[i] += o.chaotic_at[i];
+  t.growth.merge(o.growth);
+  t.hits.merge(o.hits);
+  t.chaotic_growth.merge(o.chaotic_growth);
+}
+
+}  // namespace
+
+void GrowthSums::add(const OrbitGrowth& orbit, std::uint64_t trajectory) {
   if (orbit.growth.size() != blocks_ || orbit.hits.size() != blocks_)
     throw InternalError("an orbit with another number of blocks");
   Totals& t = totals_;
-  ++t.orbits;
   std::vector<double> growth = orbit.growth;
   std::vector<double> hits(orbit.hits.begin(), orbit.hits.end());
   for (Squares& level : t.levels) {
@@ -148,26 +175,20 @@ void GrowthSums::add(const OrbitGrowth& orbit) {
     growth.resize(std::max<std::size_t>(1, growth.size() / 2));
     hits.resize(growth.size());
   }
-  t.growth.add(growth.front());
-  t.hits.add(hits.front());
+  count(t, orbit, growth.front(), hits.front());
+  if (!parts_.empty()) count(parts_[trajectory % replicates], orbit, growth.front(), hits.front());
   t.distribution.add(growth.front());
-  t.regular += orbit.regularity == Regularity::regular;
-  if (orbit.regularity != Regularity::chaotic) return;
-  ++t.chaotic;
-  ++t.chaotic_at.at(orbit.look);
-  t.chaotic_growth.add(growth.front());
-  t.chaotic_squares.add(growth.front() * growth.front());
+  if (orbit.regularity == Regularity::chaotic)
+    t.chaotic_squares.add(growth.front() * growth.front());
 }
 
 void GrowthSums::merge(const GrowthSums& other) {
   Totals& t = totals_;
   const Totals& o = other.totals_;
-  if (t.levels.size() != o.levels.size()) throw InternalError("sums of another window");
-  t.orbits += o.orbits, t.chaotic += o.chaotic, t.regular += o.regular;
-  for (std::size_t i = 0; i < looks; ++i) t.chaotic_at[i] += o.chaotic_at[i];
-  t.growth.merge(o.growth);
-  t.hits.merge(o.hits);
-  t.chaotic_growth.merge(o.chaotic_growth);
+  if (t.levels.size() != o.levels.size() || parts_.size() != other.parts_.size())
+    throw InternalError("sums of another window");
+  merge_counts(t, o);
+  for (std::size_t r = 0; r < parts_.size(); ++r) merge_counts(parts_[r], other.parts_[r]);
   t.chaotic_squares.merge(o.chaotic_squares);
   for (std::size_t i = 0; i < t.levels.size(); ++i) {
     t.levels[i].growth.merge(o.levels[i].growth);
@@ -179,26 +200,72 @@ void GrowthSums::merge(const GrowthSums& other) {
 
 namespace {
 
-// The share that is chaotic, with those that have not shown yet.
-void estimate_share(const GrowthSums::Totals& t, LyapunovEstimate& out) {
-  const auto n = static_cast<double>(t.orbits);
-  const double late = static_cast<double>(t.chaotic_at[GrowthSums::looks - 1]),
-               before = static_cast<double>(t.chaotic_at[GrowthSums::looks - 2]);
-  // Those found fall by a factor r = before/late with each doubling: late/r + late/r^2 + … are to
-  // come. Its error, by that of both numbers, which are Poisson's.
-  double hidden = 0.0, variance = 0.0;
-  const double fall = before - late;
+// Numbers of orbits, and sums over them, that an estimate is a function of.
+struct Numbers {
+  double orbits, chaotic, late, before, growth, hits, chaotic_growth;
+};
+Numbers numbers_of(const GrowthSums::Totals& t) {
+  return {static_cast<double>(t.orbits),
+          static_cast<double>(t.chaotic),
+          static_cast<double>(t.chaotic_at[GrowthSums::looks - 1]),
+          static_cast<double>(t.chaotic_at[GrowthSums::looks - 2]),
+          t.growth.value(),
+          t.hits.value(),
+          t.chaotic_growth.value()};
+}
+Numbers operator-(const Numbers& a, const Numbers& b) {
+  return {a.orbits - b.orbits,
+          a.chaotic - b.chaotic,
+          a.late - b.late,
+          a.before - b.before,
+          a.growth - b.growth,
+          a.hits - b.hits,
+          a.chaotic_growth - b.chaotic_growth};
+}
+
+// Those found chaotic fall by a factor r = before/late with each doubling: late/r + late/r^2 + …
+// are to come.
+double hidden_of(const Numbers& t) { return t.late * t.late / (t.before - t.late); }
+
+double share_of(const Numbers& t, bool falls) {
+  return std::min(1.0, (t.chaotic + (falls ? hidden_of(t) : 0.0)) / t.orbits);
+}
+
+// The share that is chaotic, with those that have not shown yet. Its error, by that of both
+// numbers, which are Poisson's.
+void estimate_share(const Numbers& t, LyapunovEstimate& out) {
+  const double n = t.orbits, late = t.late, before = t.before, fall = before - late;
+  double variance = 0.0;
   const bool falls = fall > 3.0 * root(before + late);
   if (falls) {
-    hidden = late * late / fall;
+    out.hidden = hidden_of(t) / n;
     const double by_late = (2.0 * late * fall + late * late) / (fall * fall),
                  by_before = late * late / (fall * fall);
     variance = by_late * by_late * late + by_before * by_before * before;
   }
   out.settled = falls || late <= root(n);
-  const double share = std::min(1.0, (static_cast<double>(t.chaotic) + hidden) / n);
-  out.hidden = hidden / n;
+  const double share = share_of(t, falls);
   out.chaotic_share = {share, root(share * (1.0 - share) / n + variance / (n * n))};
+}
+
+// Of quasi-random starts: errors by what the estimates are without one replicate after the other.
+void estimate_errors(const std::vector<GrowthSums::Totals>& parts, const Numbers& all,
+                     double duration, LyapunovEstimate& out) {
+  out.block_errors.clear();
+  const auto none = [](const GrowthSums::Totals& t) { return t.orbits == 0; };
+  const bool empty = std::any_of(parts.begin(), parts.end(), none);
+  const auto error = [&](auto number) {
+    return empty
+               ? nan
+               : jackknife_error([&](std::size_t r) { return number(all - numbers_of(parts[r])); });
+  };
+  out.per_time.error = error([&](const Numbers& t) { return t.growth / (t.orbits * duration); });
+  out.per_hit.error = error([](const Numbers& t) { return t.growth / t.hits; });
+  out.chaotic.error =
+      error([&](const Numbers& t) { return t.chaotic_growth / (t.chaotic * duration); });
+  const bool falls = out.hidden > 0.0;
+  out.chaotic_share.error = std::max(error([&](const Numbers& t) { return share_of(t, falls); }),
+                                     root(least_variance(all.chaotic, all.orbits)) / all.orbits);
 }
 
 }  // namespace
@@ -245,7 +312,9 @@ LyapunovEstimate estimate_of(const GrowthSums& sums) {
     out.chaotic = {mean / duration,
                    root((t.chaotic_squares.value() / m - mean * mean) / (m - 1.0)) / duration};
   }
-  estimate_share(t, out);
+  const Numbers all = numbers_of(t);
+  estimate_share(all, out);
+  if (!sums.parts().empty()) estimate_errors(sums.parts(), all, duration, out);
   return out;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "carom/base/error.hpp"
 
@@ -10,22 +12,47 @@ namespace carom {
 
 namespace {
 
-// The 0.975 quantile of the normal distribution.
-constexpr double quantile = 1.959963984540054;
+// Numbers of all trajectories, and then of those of each replicate.
+class Portions {
+ public:
+  Portions(const SurvivalCounts& counts, std::vector<std::uint64_t> GoneCounts::*bins)
+      : counts_(counts), bins_(bins) {
+    numbers_.push_back({0, counts.followed()});
+    for (const Replicate& one : counts.parts) numbers_.push_back({0, one.followed});
+  }
+  void none_gone() {
+    for (Portion& one : numbers_) one.successes = one.trials;
+  }
+  void take_away(std::size_t bin) {
+    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i].successes -= gone(i, bin);
+  }
+  void take(std::size_t bin) {
+    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i].successes = gone(i, bin);
+  }
+  // The share of all, with its interval.
+  ExitPoint share() const {
+    const auto [k, n] = numbers_.front();
+    const Interval interval = numbers_.size() == 1
+                                  ? wilson_interval(k, n)
+                                  : replicate_interval(std::span(numbers_).subspan(1));
+    return {n == 0 ? std::numeric_limits<double>::quiet_NaN()
+                   : static_cast<double>(k) / static_cast<double>(n),
+            interval.low, interval.high};
+  }
 
-// A share with its interval; `still_there` of `trials`.
-struct Share {
-  double p, low, high;
+ private:
+  std::uint64_t gone(std::size_t i, std::size_t bin) const {
+    const GoneCounts& counts =
+        i == 0 ? static_cast<const GoneCounts&>(counts_) : counts_.parts[i - 1];
+    return (counts.*bins_)[bin];
+  }
+  const SurvivalCounts& counts_;
+  std::vector<std::uint64_t> GoneCounts::*bins_;
+  std::vector<Portion> numbers_;
 };
-Share share(std::uint64_t still_there, std::uint64_t trials) {
-  const Interval interval = wilson_interval(still_there, trials);
-  const double p = trials == 0 ? std::numeric_limits<double>::quiet_NaN()
-                               : static_cast<double>(still_there) / static_cast<double>(trials);
-  return {p, interval.low, interval.high};
-}
 
 template <class Value>
-void count_in(std::vector<std::uint64_t>& bins, const std::vector<Value>& ends, Value value) {
+std::size_t bin_of(const std::vector<Value>& ends, Value value) {
   // The first end at or after the value: a bin holds its end, not its start. The halves are chosen
   // without a branch, which would be foretold wrongly every other time.
   const Value* first = ends.data();
@@ -34,8 +61,7 @@ void count_in(std::vector<std::uint64_t>& bins, const std::vector<Value>& ends, 
     first += half & (std::size_t{0} - static_cast<std::size_t>(first[half - 1] < value));
     left -= half;
   }
-  const auto bin = static_cast<std::size_t>(first - ends.data());
-  if (bin < ends.size()) ++bins[bin];
+  return static_cast<std::size_t>(first - ends.data());
 }
 
 void add_each(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& other) {
@@ -44,19 +70,6 @@ void add_each(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>&
 }
 
 }  // namespace
-
-Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
-  if (trials == 0) return {};
-  const double n = static_cast<double>(trials);
-  const double k = static_cast<double>(successes);
-  const double missed = static_cast<double>(trials - successes);
-  const double z2 = quantile * quantile;
-  const double middle = (k + z2 / 2) / (n + z2);
-  const double half = quantile / (n + z2) * std::sqrt(k * (missed / n) + z2 / 4);
-  // The ends are exact where nothing, or everything, succeeded.
-  return {successes == 0 ? 0.0 : std::max(0.0, middle - half),
-          successes == trials ? 1.0 : std::min(1.0, middle + half)};
-}
 
 const std::vector<std::uint64_t>& reported_hits() {
   static const std::vector<std::uint64_t> numbers = [] {
@@ -73,13 +86,18 @@ const std::vector<std::uint64_t>& reported_hits() {
   return numbers;
 }
 
-SurvivalCounts::SurvivalCounts(std::vector<double> report_times, std::size_t holes)
-    : times(std::move(report_times)),
-      gone_in(times.size(), 0),
-      gone_in_hits(reported_hits().size(), 0),
-      hole_escapes(holes, 0) {}
+SurvivalCounts::SurvivalCounts(std::vector<double> report_times, std::size_t holes,
+                               bool quasi_random)
+    : times(std::move(report_times)) {
+  gone_in.resize(times.size());
+  gone_in_hits.resize(reported_hits().size());
+  hole_escapes.resize(holes);
+  if (quasi_random) parts.assign(replicates, {*this, 0});
+}
 
-void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole) {
+void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole,
+                         std::uint64_t trajectory) {
+  const std::uint64_t before = followed();
   ++trajectories;
   collisions += hits;
   most_hits = std::max(most_hits, hits);
@@ -87,22 +105,39 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole) {
   if (fate == Fate::capped) ++survived;
   if (fate == Fate::capped || fate == Fate::survived)
     fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
+  Replicate* const part = parts.empty() ? nullptr : &parts[trajectory % replicates];
+  if (part) part->followed += followed() - before;
   if (fate != Fate::escaped && fate != Fate::unbounded) return;
-  if (fate == Fate::escaped && hole >= 0) ++hole_escapes.at(static_cast<std::size_t>(hole));
-  count_in(gone_in, times, time);
+  const std::size_t by_time = bin_of(times, time), by_hits = bin_of(reported_hits(), hits);
+  const auto count_in = [&](GoneCounts& sum) {
+    if (fate == Fate::escaped && hole >= 0) ++sum.hole_escapes.at(static_cast<std::size_t>(hole));
+    if (by_time < sum.gone_in.size()) ++sum.gone_in[by_time];
+    if (by_hits < sum.gone_in_hits.size()) ++sum.gone_in_hits[by_hits];
+  };
+  count_in(*this);
+  if (part) count_in(*part);
   gone_at.add(time);
-  count_in(gone_in_hits, reported_hits(), hits);
   gone_after.add(static_cast<double>(hits) - 1.0);
+}
+
+void GoneCounts::merge(const GoneCounts& other) {
+  add_each(gone_in, other.gone_in);
+  add_each(gone_in_hits, other.gone_in_hits);
+  add_each(hole_escapes, other.hole_escapes);
 }
 
 void SurvivalCounts::merge(const SurvivalCounts& other) {
   add_fates(other);
-  add_each(gone_in, other.gone_in);
+  GoneCounts::merge(other);
+  if (parts.size() != other.parts.size())
+    throw InternalError("merged ensembles differ in their replicates");
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    parts[r].merge(other.parts[r]);
+    parts[r].followed += other.parts[r].followed;
+  }
   gone_at.merge(other.gone_at);
   gone_after.merge(other.gone_after);
   fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, other.fewest_hits_of_survivor);
-  add_each(gone_in_hits, other.gone_in_hits);
-  add_each(hole_escapes, other.hole_escapes);
   trajectories += other.trajectories;
   collisions += other.collisions;
   contacts += other.contacts;
@@ -112,10 +147,11 @@ void SurvivalCounts::merge(const SurvivalCounts& other) {
 
 std::vector<SurvivalPoint> survival(const SurvivalCounts& counts) {
   std::vector<SurvivalPoint> points;
-  std::uint64_t there = counts.followed();
+  Portions there(counts, &GoneCounts::gone_in);
+  there.none_gone();
   for (std::size_t i = 0; i < counts.times.size(); ++i) {
-    there -= counts.gone_in[i];
-    const auto [p, low, high] = share(there, counts.followed());
+    there.take_away(i);
+    const auto [p, low, high] = there.share();
     points.push_back({counts.times[i], p, low, high});
   }
   return points;
@@ -123,11 +159,12 @@ std::vector<SurvivalPoint> survival(const SurvivalCounts& counts) {
 
 std::vector<SurvivalHitsPoint> survival_by_hits(const SurvivalCounts& counts) {
   std::vector<SurvivalHitsPoint> points;
-  std::uint64_t there = counts.followed();
+  Portions there(counts, &GoneCounts::gone_in_hits);
+  there.none_gone();
   for (std::size_t i = 0; i < counts.gone_in_hits.size(); ++i) {
     const std::uint64_t n = reported_hits()[i];
-    there -= counts.gone_in_hits[i];
-    const auto [p, low, high] = share(there, counts.followed());
+    there.take_away(i);
+    const auto [p, low, high] = there.share();
     points.push_back({n, p, low, high});
     if (n >= counts.most_hits) break;
   }
@@ -136,16 +173,28 @@ std::vector<SurvivalHitsPoint> survival_by_hits(const SurvivalCounts& counts) {
 
 std::vector<RatePoint> escape_rate(const SurvivalCounts& counts) {
   std::vector<RatePoint> points;
+  Portions gone(counts, &GoneCounts::gone_in);
   double from = 0.0;
   for (std::size_t i = 0; i < counts.times.size(); ++i) {
     const double to = counts.times[i];
     if (to > from) {
-      const auto [p, low, high] = share(counts.gone_in[i], counts.followed());
+      gone.take(i);
+      const auto [p, low, high] = gone.share();
       const double width = to - from;
       const double middle = from > 0.0 ? std::sqrt(from) * std::sqrt(to) : to / 2;
       points.push_back({middle, from, to, p / width, low / width, high / width});
     }
     from = to;
+  }
+  return points;
+}
+
+std::vector<ExitPoint> exits(const SurvivalCounts& counts) {
+  std::vector<ExitPoint> points;
+  Portions gone(counts, &GoneCounts::hole_escapes);
+  for (std::size_t hole = 0; hole < counts.hole_escapes.size(); ++hole) {
+    gone.take(hole);
+    points.push_back(gone.share());
   }
   return points;
 }

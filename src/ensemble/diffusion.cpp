@@ -54,6 +54,7 @@ void refuse_impossible(const System& system) {
                        "a window of two report times at least; four give the exponent, too");
   }
   refuse_injections(system, "an ensemble that diffuses");
+  refuse_quasi_random(system, "an ensemble that diffuses");
   const Dynamics& d = system.dynamics;
   if (system.run.free_paths && (d.everywhere || (d.forces && !d.forces->empty())))
     throw InputError(Place{"", 0, 0, "run.free_paths"},

@@ -12,7 +12,8 @@ namespace {
 
 EscapeResult nothing(const System& system) {
   EscapeResult result;
-  result.counts = SurvivalCounts(system.run.times, hole_names(*system.table).size());
+  result.counts =
+      SurvivalCounts(system.run.times, hole_names(*system.table).size(), system.quasi_random());
   return result;
 }
 

@@ -44,8 +44,8 @@ class EscapeListener : public Listener {
     if (order_) order_->await_turn(number);
     pause_ = order_ != nullptr;
     blocks_.push_back({block, number, block.last - block.first, {}, {}});
-    blocks_.back().part.counts =
-        SurvivalCounts(system_.run.times, hole_names(*system_.table).size());
+    blocks_.back().part.counts = SurvivalCounts(
+        system_.run.times, hole_names(*system_.table).size(), system_.quasi_random());
     return true;
   }
   /// After a pause; false if there are no blocks left.
@@ -78,7 +78,7 @@ class EscapeListener : public Listener {
       const ParticleEnd& particle = end.particles[p];
       const std::uint64_t index = particle_index(system_, t.number, p);
       const int hole = record_of_.hole_of(particle);
-      sum.counts.add(particle.fate, particle.time, particle.hits, hole);
+      sum.counts.add(particle.fate, particle.time, particle.hits, hole, t.number);
       sum.digest += hash_(index, particle.fate, particle.time, particle.hits, particle.last_wall,
                           particle.state);
       if (is_failure(particle.fate)) keep_first(sum.reports, index, particle.report);

@@ -29,7 +29,8 @@ double unit_length_of(const Table& table) {
 
 GrowthSums plan_of(const System& system) {
   return {growth_window(system),
-          system.run.trajectories * (interacts(system) ? 1 : system.particles.size())};
+          system.run.trajectories * (interacts(system) ? 1 : system.particles.size()),
+          system.quasi_random()};
 }
 
 void refuse_impossible(const System& system) {
@@ -119,8 +120,11 @@ void add_repeller(const System& system, LyapunovResult& result, const SplittingO
   if (!whole || system.run.spectrum || !is_open(system) || 2 * stay >= result.trajectories) return;
   const Stopwatch watch;
   try {
+    // Populations are drawn at random, from the same distribution.
+    System random = system;
+    if (random.quasi_random()) random.initial.kind = InitialCondition::Kind::uniform;
     result.repeller =
-        measure_repeller(system, growth_window(system), unit_length_of(*system.table), how);
+        measure_repeller(random, growth_window(system), unit_length_of(*system.table), how);
     if (!result.repeller) result.complete = false;
   } catch (const InputError& error) {
     result.no_repeller = error;

@@ -158,7 +158,7 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
                                      particle.last_wall, particle.state);
           const bool stayed = particle.fate == Fate::survived || particle.fate == Fate::pinned;
           if (together_ ? all && p == 0 : stayed) {
-            sum.growth.add(mine.growth);
+            sum.growth.add(mine.growth, t.number);
             for (const double growth : mine.growth.growth) hash = mix(hash, growth);
             if (sum.spectrum.counted()) sum.spectrum.add(mine.frame);
             for (const double growth : mine.frame) hash = mix(hash, growth);

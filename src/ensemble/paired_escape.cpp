@@ -99,6 +99,7 @@ PairedEscapeResult compare_escapes(const System& system, const std::function<Oth
                                    const PairedEscapeOptions& options) {
   if (system.particles.size() != 1 || !system.injections.empty())
     throw InputError("pairs are of single particles");
+  refuse_quasi_random(system, "a certified sample");
   const Stopwatch watch;
   const Sampler sampler(system, options.interrupted);
   const World world = make_world(system);  // threads share its table

@@ -156,13 +156,15 @@ Sampler::Sampler(const System& system, std::function<bool()> stopped)
     throw impossible(initial, "a hard disc cannot start on a wall",
                      "\"uniform\", \"rectangle\", \"line\", \"point\" or \"list\"");
   switch (initial.kind) {
-    case Kind::uniform: {
+    case Kind::uniform:
+    case Kind::sobol: {
       if (table.extent == Extent::open_plane)
         throw impossible(initial, "a uniform start needs a bounded table or a lattice",
                          "\"rectangle\", \"line\", \"point\" or \"boundary\"");
       const geometry::Box box = domain_box(table);
       low_ = box.low;
       high_ = box.high;
+      if (initial.kind == Kind::sobol) prepare_quasi_random();
       break;
     }
     case Kind::boundary:
@@ -236,7 +238,7 @@ State Sampler::draw(const World& world, std::uint64_t trajectory, int particle) 
 
 /// The start of a particle on which nothing acts, at its own speed.
 State Sampler::draw_free(const World& world, RandomStream& random, std::uint64_t trajectory,
-                         int particle) const {
+                         int particle, bool again) const {
   const InitialCondition& initial = system_.initial;
   const double speed = system_.particles.at(static_cast<std::size_t>(particle)).speed;
   // Listed starts go to one particle after the other.
@@ -245,6 +247,8 @@ State Sampler::draw_free(const World& world, RandomStream& random, std::uint64_t
   switch (initial.kind) {
     case Kind::uniform:
       return in_box(world, random, trajectory, low_, high_, speed, "the box around the table");
+    case Kind::sobol:
+      return quasi_random(world, random, trajectory, speed, again);
     case Kind::rectangle:
       return in_box(world, random, trajectory, initial.low, initial.high, speed, "the rectangle");
     case Kind::line:

@@ -72,7 +72,7 @@ State Sampler::draw_external(const World& world, std::uint64_t trajectory, int p
   const std::int64_t most = random_positions() ? patience(most_draws, trajectory) : 1;
   for (std::int64_t draw = 0; draw < most; ++draw) {
     stop_if_asked(draw);
-    State state = draw_free(world, random, trajectory, particle);
+    State state = draw_free(world, random, trajectory, particle, draw > 0);
     Vector unused{};
     const double potential = system_.dynamics.forces->add_external(p, state.position, unused);
     lowest = std::min(lowest, potential);

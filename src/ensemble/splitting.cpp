@@ -24,6 +24,7 @@ void check(const System& system, const SplittingPlan& plan) {
     throw InputError(Place{{}, 0, 0, key}, problem, expected);
   };
   refuse_injections(system, "splitting");
+  refuse_quasi_random(system, "splitting");
   const bool forces = system.dynamics.forces && !system.dynamics.forces->empty();
   if (forces || system.dynamics.everywhere || system.particles.size() != 1 || system.of_discs())
     refuse("splitting", "splitting follows one free particle",

@@ -63,7 +63,8 @@ DecayFit fit_decay(const EscapeTimes& times, std::uint64_t particles, std::uint6
 DecayFit fit_decay_by_hits(const SurvivalCounts&);
 
 /// The same of an ensemble that was followed until that time. Particles that were ended by a cap on
-/// hits leave unknown how long they would have stayed: then there is no fit.
+/// hits leave unknown how long they would have stayed, and quasi-random starts are not independent:
+/// then there is no fit.
 DecayFit fit_decay(const SurvivalCounts&, double until, std::optional<DecayWindow> window = {});
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/analysis/interval.hpp"
 #include "carom/analysis/mean_square_displacement.hpp"
 #include "carom/base/exact_sum.hpp"
 
@@ -71,7 +72,8 @@ class GrowthSums {
   GrowthSums() = default;
   /// Where there are few orbits, the window is divided into blocks, a power of two, so that at
   /// least 64 numbers tell the error.
-  GrowthSums(TimeWindow, std::uint64_t orbits);
+  /// `quasi_random`: errors come from replicates of the starts, whatever the number of orbits.
+  GrowthSums(TimeWindow, std::uint64_t orbits, bool quasi_random = false);
 
   const TimeWindow& window() const { return window_; }
   std::size_t blocks() const { return blocks_; }
@@ -80,7 +82,8 @@ class GrowthSums {
   double block_end(std::size_t block) const;
   double look_time(std::size_t look) const;
 
-  void add(const OrbitGrowth&);
+  /// `trajectory`: its index, which tells the replicate.
+  void add(const OrbitGrowth&, std::uint64_t trajectory = 0);
   void merge(const GrowthSums&);
 
   /// Sums over blocks of 2^level neighbouring ones, the last level that of whole orbits.
@@ -96,14 +99,17 @@ class GrowthSums {
     GrowingHistogram distribution;  ///< of the growth over the window
   };
   const Totals& totals() const { return totals_; }
+  /// Of quasi-random starts those of each replicate, without levels and distribution; else none.
+  const std::vector<Totals>& parts() const { return parts_; }
   /// What was kept. Levels that are missing are empty sums.
-  static GrowthSums from(TimeWindow, std::uint64_t blocks, Totals);
+  static GrowthSums from(TimeWindow, std::uint64_t blocks, Totals, std::vector<Totals> parts = {});
   static bool may_be_blocks(std::uint64_t blocks);
 
  private:
   TimeWindow window_;
   std::size_t blocks_ = 1;
   Totals totals_;
+  std::vector<Totals> parts_;
 };
 
 /// What the sums say. Numbers are NaN where nothing was followed to the window's end.

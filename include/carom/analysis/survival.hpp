@@ -7,28 +7,34 @@
 
 #include "carom/analysis/escape_times.hpp"
 #include "carom/analysis/fate_counts.hpp"
+#include "carom/analysis/interval.hpp"
 
 namespace carom {
-
-/// 95 % interval of Wilson (1927) for k successes of n; all of [0, 1] for n = 0.
-struct Interval {
-  double low = 0.0, high = 1.0;
-};
-Interval wilson_interval(std::uint64_t successes, std::uint64_t trials);
 
 /// Numbers of hits n at which survival by hits is reported: 0, 1, 2, 3, 5, 10, 20, 30, 50, … <
 /// 2^63.
 const std::vector<std::uint64_t>& reported_hits();
 
+/// Trajectories that are gone, by time, by hits, by hole.
+struct GoneCounts {
+  std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
+  std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
+  std::vector<std::uint64_t> hole_escapes;  ///< by hole_names()
+
+  void merge(const GoneCounts& other);
+};
+/// Those of one replicate of quasi-random starts.
+struct Replicate : GoneCounts {
+  std::uint64_t followed = 0;
+};
+
 /// Counts of an ensemble; merging is addition, so that order cannot matter.
 ///
 /// A trajectory is *gone* when it escaped or is unbounded. The cap on hits ends a trajectory while
 /// it is still there: it counts as a survivor at every time, and among those that survived.
-struct SurvivalCounts : FateCounts {
-  std::vector<double> times;                ///< report times, increasing
-  std::vector<std::uint64_t> gone_in;       ///< gone in (times[i-1], times[i]]; from 0 for i = 0
-  std::vector<std::uint64_t> gone_in_hits;  ///< gone after (n[i-1], n[i]] hits, n = reported_hits()
-  EscapeTimes gone_at;                      ///< the same in fine bins, at all times
+struct SurvivalCounts : FateCounts, GoneCounts {
+  std::vector<double> times;  ///< report times, increasing
+  EscapeTimes gone_at;        ///< gone_in in fine bins, at all times
   /// Hits of those that are gone, less one: a bin from a to b, both rounded up, counts those that
   /// were gone after more than a hits and at most b. One that is gone after one hit or none is in
   /// no bin.
@@ -39,12 +45,16 @@ struct SurvivalCounts : FateCounts {
   std::uint64_t contacts = 0;   ///< of hard discs, each pair once; set by the ensemble
   std::uint64_t most_hits = 0;  ///< of a single trajectory
   double energy_change = 0.0;   ///< the largest of a particle under forces; set by the ensemble
-  std::vector<std::uint64_t> hole_escapes;  ///< by hole_names()
+  /// Of quasi-random starts, which are not independent: the same counts of each replicate, whose
+  /// spread tells the errors. Else empty.
+  std::vector<Replicate> parts;
 
   SurvivalCounts() = default;
-  SurvivalCounts(std::vector<double> times, std::size_t holes);
-  /// One trajectory's end. `time` is the time it was gone for escaped and unbounded ones.
-  void add(Fate fate, double time, std::uint64_t hits, int hole);
+  /// `quasi_random`: are there replicates?
+  SurvivalCounts(std::vector<double> times, std::size_t holes, bool quasi_random = false);
+  /// One trajectory's end. `time` is the time it was gone for escaped and unbounded ones;
+  /// `trajectory` is its index, which tells the replicate.
+  void add(Fate fate, double time, std::uint64_t hits, int hole, std::uint64_t trajectory = 0);
   /// Adds the counts of another part of the same ensemble (same times, same holes).
   void merge(const SurvivalCounts& other);
   /// Trajectories whose fate is known: neither singular nor unresolved nor lost. Shares are taken
@@ -66,11 +76,18 @@ struct SurvivalHitsPoint {
 struct RatePoint {
   double t, from, to, value, low, high;
 };
+/// Share `p` that left through a hole, with its 95 % interval.
+struct ExitPoint {
+  double p, low, high;
+};
 /// p(t) at every report time.
 std::vector<SurvivalPoint> survival(const SurvivalCounts&);
 /// Up to the first reported number that no trajectory exceeded.
 std::vector<SurvivalHitsPoint> survival_by_hits(const SurvivalCounts&);
 /// Between each report time and the one before; from 0 to the first.
 std::vector<RatePoint> escape_rate(const SurvivalCounts&);
+
+/// By hole_names(), of all that were followed.
+std::vector<ExitPoint> exits(const SurvivalCounts&);
 
 }  // namespace carom

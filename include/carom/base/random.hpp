@@ -12,7 +12,8 @@ enum class Purpose : std::uint64_t {
   splitting = 3,
   injection_time = 4,
   swap_test = 6,
-  arrangement = 7
+  arrangement = 7,
+  quasi_random = 8
 };
 
 /// Philox4x64-10 (Salmon et al. 2011) with key (seed, purpose) and counter

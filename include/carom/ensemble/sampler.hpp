@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "carom/ensemble/system.hpp"
@@ -14,6 +15,10 @@ namespace carom {
 
 class RandomStream;
 class World;
+
+namespace ensemble {
+class QuasiRandom;
+}
 
 /// Thrown where sampling was asked to stop before it found a start.
 class SamplingStopped : public std::exception {
@@ -25,6 +30,7 @@ class SamplingStopped : public std::exception {
 /// state.
 ///
 ///   uniform    position uniform in the table or cell, direction uniform
+///   sobol      the same, quasi-random: single particles, trajectory i in replicate i mod 16
 ///   rectangle  the same in the part of a rectangle that lies in the domain
 ///   line       position uniform in the part of a line that lies in the domain, direction given
 ///   boundary   cosine law: uniform in arc length and tangential velocity, from one wall or all
@@ -66,10 +72,15 @@ class Sampler {
         weight;  ///< weight: bound * (to - from), summed over the sources before it and itself
   };
 
-  State draw_free(const World&, RandomStream&, std::uint64_t trajectory, int particle) const;
+  /// `again`: after a start that could not be taken, whose quasi-random point is used up.
+  State draw_free(const World&, RandomStream&, std::uint64_t trajectory, int particle,
+                  bool again = false) const;
+  State quasi_random(const World&, RandomStream&, std::uint64_t trajectory, double speed,
+                     bool again) const;
   State draw_external(const World&, std::uint64_t trajectory, int particle) const;
   std::vector<State> draw_discs(const World&, std::uint64_t trajectory) const;
   bool random_positions() const;
+  void prepare_quasi_random();
   void add_holes(int hole);
   void add_source(int wall, double from, double to);
   static std::int64_t patience(std::int64_t of_the_first, std::uint64_t trajectory);
@@ -89,7 +100,8 @@ class Sampler {
   std::function<bool()> stopped_;
   std::vector<geometry::CurveFrame> frames_;  ///< one a wall
   std::vector<Source> sources_;
-  geometry::Vector low_, high_;  ///< uniform: box around the domain
+  geometry::Vector low_, high_;                                ///< uniform: box around the domain
+  std::shared_ptr<const ensemble::QuasiRandom> quasi_random_;  ///< sobol
 };
 
 /// Adds a particle that was drawn to the world; returns its number there. Throws InputError.
@@ -101,6 +113,8 @@ void add_starts(World&, const Sampler&, std::uint64_t trajectory);
 /// How many trajectories start differently where starts are listed (point, list, birkhoff): later
 /// ones repeat them. 0 where starts are drawn.
 std::uint64_t listed_trajectories(const System&);
+/// Throws InputError where errors are stated that hold for independent starts alone.
+void refuse_quasi_random(const System&, const char* what);
 /// Throws InputError if the first trajectory cannot start. Interrupted, it returns
 /// without an answer.
 void check_start(const System&, const std::atomic<bool>* interrupted = nullptr);

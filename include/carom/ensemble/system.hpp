@@ -20,6 +20,7 @@ namespace carom {
 struct InitialCondition {
   enum class Kind {
     uniform,
+    sobol,
     boundary,
     hole,
     point,
@@ -77,6 +78,8 @@ struct System {
   RunPlan run;
   SectionPlan section;  ///< what `carom section` takes
 
+  /// Are the starts quasi-random, and so not independent?
+  bool quasi_random() const { return initial.kind == InitialCondition::Kind::sobol; }
   /// Are the particles hard discs?
   bool of_discs() const { return dynamics.forces && !dynamics.forces->disc_radii().empty(); }
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,16 +26,17 @@ namespace {
 SurvivalCounts at_rows(const SurvivalCounts& all, const std::vector<std::size_t>& rows) {
   SurvivalCounts some = all;
   some.times.clear();
-  some.gone_in.clear();
-  std::uint64_t gone = 0;
-  auto row = rows.begin();
-  for (std::size_t i = 0; i < all.times.size() && row != rows.end(); ++i) {
-    gone += all.gone_in[i];
-    if (i != *row) continue;
-    some.times.push_back(all.times[i]);
-    some.gone_in.push_back(std::exchange(gone, 0));
-    ++row;
-  }
+  for (const std::size_t row : rows) some.times.push_back(all.times[row]);
+  const auto join = [&](std::vector<std::uint64_t>& gone_in) {
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < rows.size(); from = rows[i++] + 1)
+      gone_in[i] = std::accumulate(gone_in.begin() + static_cast<std::ptrdiff_t>(from),
+                                   gone_in.begin() + static_cast<std::ptrdiff_t>(rows[i]) + 1,
+                                   std::uint64_t{0});
+    gone_in.resize(rows.size());
+  };
+  join(some.gone_in);
+  for (Replicate& part : some.parts) join(part.gone_in);
   return some;
 }
 
@@ -120,8 +122,14 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
                           .set("busy", result.effort.busy()));
   Json holes = Json::array();
   const std::vector<std::string> names = hole_names(*system.table);
+  const std::vector<ExitPoint> by_hole = exits(counts);
   for (std::size_t i = 0; i < names.size(); ++i)
-    holes.push(Json::object().set("name", names[i]).set("escaped", counts.hole_escapes[i]));
+    holes.push(Json::object()
+                   .set("name", names[i])
+                   .set("escaped", counts.hole_escapes[i])
+                   .set("p", by_hole[i].p)
+                   .set("low", by_hole[i].low)
+                   .set("high", by_hole[i].high));
   json.set("holes", std::move(holes));
   Json by_time = Json::array(), by_hits = Json::array(), rates = Json::array();
   for (const auto& [t, p, low, high] : survival(counts))

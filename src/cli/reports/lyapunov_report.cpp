@@ -175,7 +175,9 @@ std::string exponents_text(const System& system, const GrowthSums& sums,
     text += fmt::format("         {} per hit\n", cli::with_error(e.per_hit.value, e.per_hit.error));
   text += fmt::format("growth of deviations in {:.6g} <= t <= {:.6g}\n", sums.window().from,
                       sums.window().to);
-  if (e.block_errors.empty()) {
+  if (!sums.parts().empty()) {
+    text += fmt::format("errors by {} replicates of the quasi-random starts\n", replicates);
+  } else if (e.block_errors.empty()) {
     text += "too few orbits, or blocks of them, for an error\n";
   } else if (const auto& last = e.block_errors.back(); last.count == sums.totals().orbits) {
     text += fmt::format("errors by {} orbits\n", grouped(last.count));

@@ -16,6 +16,20 @@ namespace carom::io {
 using hdf5::Description;
 using hdf5::Handle;
 
+namespace {
+
+struct BinsOfReplicates {
+  const char* name;
+  std::vector<std::uint64_t> GoneCounts::*bins;
+  const char* text;
+};
+constexpr BinsOfReplicates bins_of_replicates[] = {
+    {"gone", &GoneCounts::gone_in, "As /survival/gone"},
+    {"gone_hits", &GoneCounts::gone_in_hits, "By numbers of hits: 0, 1, 2, 3, 5, 10, 20 ..."},
+    {"holes", &GoneCounts::hole_escapes, "As /fates/holes"}};
+
+}  // namespace
+
 void write_counts(const ArchiveFile& file, const EscapeResult& result, const System& system) {
   const std::vector<std::string> holes = hole_names(*system.table);
   const std::string& target = file.name();
@@ -34,9 +48,9 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
     column(group, "p", points, [](const auto& p) { return p.p; },
            {"1", "Share still there after t"});
     column(group, "low", points, [](const auto& p) { return p.low; },
-           {"1", "Wilson 95 % interval, low end"});
+           {"1", "95 % interval, low end"});
     column(group, "high", points, [](const auto& p) { return p.high; },
-           {"1", "Wilson 95 % interval, high end"});
+           {"1", "95 % interval, high end"});
     column(group, "gone", counts.gone_in, [](std::uint64_t n) { return n; },
            {"1", "Trajectories gone after the time before and by t"});
   }
@@ -63,9 +77,9 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
     column(group, "p", points, [](const auto& p) { return p.p; },
            {"1", "Share still there after n hits"});
     column(group, "low", points, [](const auto& p) { return p.low; },
-           {"1", "Wilson 95 % interval, low end"});
+           {"1", "95 % interval, low end"});
     column(group, "high", points, [](const auto& p) { return p.high; },
-           {"1", "Wilson 95 % interval, high end"});
+           {"1", "95 % interval, high end"});
     const std::vector<std::uint64_t> gone(
         counts.gone_in_hits.begin(),
         counts.gone_in_hits.begin() + static_cast<std::ptrdiff_t>(points.size()));
@@ -87,6 +101,18 @@ void write_counts(const ArchiveFile& file, const EscapeResult& result, const Sys
            {"1/time", "95 % interval, low end"});
     column(group, "high", points, [](const auto& p) { return p.high; },
            {"1/time", "95 % interval, high end"});
+  }
+  if (!counts.parts.empty()) {
+    const Handle group = file.group(
+        "replicates", "Trajectories gone of each replicate of quasi-random starts, in rows");
+    column(group, "followed", counts.parts, [](const Replicate& part) { return part.followed; },
+           {"1", "Trajectories whose fate is known"});
+    for (const auto& [name, bins, text] : bins_of_replicates) {
+      std::vector<std::uint64_t> rows;
+      for (const Replicate& part : counts.parts)
+        rows.insert(rows.end(), (part.*bins).begin(), (part.*bins).end());
+      column(group, name, rows, [](std::uint64_t n) { return n; }, {"1", text});
+    }
   }
   const Handle group = file.group("fates", "Numbers of trajectories by fate");
   const auto number = [&](const char* name, std::uint64_t value, const char* text) {
@@ -177,6 +203,23 @@ void read_counts(hid_t file, const std::string& name, EscapeResult& result) {
   if (gone_in_hits.size() > counts.gone_in_hits.size())
     damaged(name, "'/survival_hits/gone' is too long");
   std::copy(gone_in_hits.begin(), gone_in_hits.end(), counts.gone_in_hits.begin());
+  if (hdf5::has(file, "replicates")) {
+    const Handle rows = open_group(file, "replicates", name);
+    counts.parts.assign(replicates, {counts, 0});
+    const std::vector<std::uint64_t> followed = integers(rows, "followed");
+    if (followed.size() != replicates) damaged(name, "'/replicates/followed' has lost rows");
+    for (std::size_t r = 0; r < replicates; ++r) counts.parts[r].followed = followed[r];
+    for (const auto& [column, bins, text] : bins_of_replicates) {
+      const std::vector<std::uint64_t> all = integers(rows, column);
+      const std::size_t each = (counts.*bins).size();
+      if (all.size() != replicates * each)
+        damaged(name, fmt::format("'/replicates/{}' has lost numbers", column));
+      for (std::size_t r = 0; r < replicates; ++r)
+        (counts.parts[r].*bins)
+            .assign(all.begin() + static_cast<std::ptrdiff_t>(r * each),
+                    all.begin() + static_cast<std::ptrdiff_t>((r + 1) * each));
+    }
+  }
   counts.trajectories = number("trajectories");
   counts.escaped = number("escaped");
   counts.survived = number("survived");

@@ -187,6 +187,46 @@ SpectrumSums read_spectrum(const Handle& shown, const Handle& kept, const Growth
   return SpectrumSums::from(std::move(sums), zeros);
 }
 
+// Numbers of a replicate's orbits, one row each.
+constexpr std::size_t counts_of_a_replicate = 3 + GrowthSums::looks;
+
+void write_replicates(const Handle& g, const std::vector<GrowthSums::Totals>& parts,
+                      const std::string& file) {
+  std::vector<std::uint64_t> counts;
+  std::vector<const ExactSum*> sums;
+  for (const GrowthSums::Totals& t : parts) {
+    counts.insert(counts.end(), {t.orbits, t.chaotic, t.regular});
+    counts.insert(counts.end(), t.chaotic_at.begin(), t.chaotic_at.end());
+    sums.insert(sums.end(), {&t.growth, &t.hits, &t.chaotic_growth});
+  }
+  hdf5::write_column(
+      g.get(), "replicate_counts", std::span<const std::uint64_t>(counts),
+      {"1",
+       "Of each replicate of quasi-random starts, in rows: orbits, chaotic, regular, "
+       "chaotic_at"},
+      file);
+  write_sums(g, "replicates", sums,
+             {"1", "Of each replicate sums of growth, hits, growth of chaotic orbits, as totals"},
+             file);
+}
+
+std::vector<GrowthSums::Totals> read_replicates(const Handle& g, const std::string& file) {
+  if (!hdf5::has(g.get(), "replicate_counts")) return {};
+  const auto counts = hdf5::read_column<std::uint64_t>(g.get(), "replicate_counts", file);
+  if (counts.size() != replicates * counts_of_a_replicate)
+    damaged(file, "'/lyapunov_sums/replicate_counts' has lost rows");
+  const auto sums = read_sums(g, sums_name, "replicates", 3 * replicates, file);
+  std::vector<GrowthSums::Totals> parts(replicates);
+  for (std::size_t r = 0; r < replicates; ++r) {
+    const auto row = counts.begin() + static_cast<std::ptrdiff_t>(r * counts_of_a_replicate);
+    parts[r].orbits = row[0], parts[r].chaotic = row[1], parts[r].regular = row[2];
+    std::copy_n(row + 3, GrowthSums::looks, parts[r].chaotic_at.begin());
+    parts[r].growth = sums[3 * r], parts[r].hits = sums[3 * r + 1],
+    parts[r].chaotic_growth = sums[3 * r + 2];
+  }
+  return parts;
+}
+
 }  // namespace
 
 void write_counts(const ArchiveFile& file, const LyapunovResult& result, const System& system) {
@@ -227,6 +267,7 @@ void write_counts(const ArchiveFile& file, const LyapunovResult& result, const S
       {"1", "Sums of growth^2, growth hits and hits^2 over groups of 1, 2, 4 ... blocks, likewise"},
       name);
   if (result.spectrum.counted()) write_spectrum(shown, g, result.spectrum, name);
+  if (!sums.parts().empty()) write_replicates(g, sums.parts(), name);
   const Handle ends =
       file.group("fates", "Numbers of particles by their end before the end of the window");
   write_ends(ends, result, {result.trajectories, result.collisions, result.digest}, name);
@@ -267,7 +308,7 @@ void read_counts(hid_t file, const std::string& name, LyapunovResult& result) {
   const auto squares = read_sums(g, sums_name, "squares", 3 * levels, name);
   for (std::size_t i = 0; i < levels; ++i)
     t.levels.push_back({squares[3 * i], squares[3 * i + 1], squares[3 * i + 2]});
-  result.growth = GrowthSums::from(window, blocks, std::move(t));
+  result.growth = GrowthSums::from(window, blocks, std::move(t), read_replicates(g, name));
   result.spectrum = read_spectrum(shown, g, result.growth, name);
   const EnsembleNumbers numbers = read_ends(ends, name, result);
   result.trajectories = numbers.particles;

@@ -95,6 +95,18 @@ void check_stored(const StoredEnsemble& stored, const EscapeResult& result, cons
   const std::uint64_t mean = counts.trajectories == 0 ? 0 : counts.collisions / counts.trajectories;
   if (counts.most_hits > counts.collisions || mean > counts.most_hits)
     damaged(stored.file, "'/fates/collisions' and '/fates/most_hits' contradict each other");
+  if (counts.parts.empty() == system.quasi_random())
+    damaged(stored.file, "'/replicates' and '/system' contradict each other");
+  if (!counts.parts.empty()) {
+    Replicate all = counts.parts.front();
+    for (std::size_t r = 1; r < replicates; ++r) {
+      all.merge(counts.parts[r]);
+      all.followed += counts.parts[r].followed;
+    }
+    if (all.followed != counts.followed() || all.gone_in != counts.gone_in ||
+        all.gone_in_hits != counts.gone_in_hits || all.hole_escapes != counts.hole_escapes)
+      damaged(stored.file, "'/replicates' do not add up to '/survival' and '/fates'");
+  }
   check_rows(stored, counts.trajectories);
 }
 
@@ -131,6 +143,12 @@ void check_stored(const StoredEnsemble& stored, const LyapunovResult& result,
   const bool fits = spectrum.exponents() == (system.run.spectrum ? 4 * system.particles.size() : 0);
   if (!fits || (spectrum.counted() && spectrum.zeros() != vanishing_exponents(system).count))
     damaged(stored.file, "'/lyapunov_sums/spectrum_totals' and '/system' contradict each other");
+  std::uint64_t orbits = 0, chaotic = 0;
+  for (const GrowthSums::Totals& part : sums.parts())
+    orbits += part.orbits, chaotic += part.chaotic;
+  if (sums.parts().empty() == system.quasi_random() ||
+      (system.quasi_random() && (orbits != totals.orbits || chaotic != totals.chaotic)))
+    damaged(stored.file, "'/lyapunov_sums/replicate_counts' do not add up to its orbits");
   const auto& bins = totals.distribution.counts();
   if (std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}) != totals.orbits ||
       std::accumulate(totals.chaotic_at.begin(), totals.chaotic_at.end(), std::uint64_t{0}) !=

@@ -105,7 +105,7 @@ const std::vector<KeyDescription>& key_table() {
       {"particles", "", "charge", "number or list", "1", "charge, of either sign or 0"},
 
       {"initial", "", "kind", "string", "\"uniform\"",
-       "uniform, boundary, hole, point, birkhoff, rectangle, line, list or file"},
+       "uniform, sobol, boundary, hole, point, birkhoff, rectangle, line, list or file"},
       {"initial", "boundary|birkhoff", "wall", "string", "",
        "the wall to start from; boundary without it: all walls"},
       {"initial", "boundary|hole", "hole", "string", "", "the hole to start from, into the table"},

@@ -16,9 +16,9 @@ constexpr std::uint64_t most_values = 10000000;
 
 const std::vector<std::pair<std::string, Kind>>& kinds() {
   static const std::vector<std::pair<std::string, Kind>> list{
-      {"uniform", Kind::uniform}, {"boundary", Kind::boundary}, {"hole", Kind::hole},
-      {"point", Kind::point},     {"birkhoff", Kind::birkhoff}, {"rectangle", Kind::rectangle},
-      {"line", Kind::line},       {"list", Kind::list}};
+      {"uniform", Kind::uniform},     {"sobol", Kind::sobol}, {"boundary", Kind::boundary},
+      {"hole", Kind::hole},           {"point", Kind::point}, {"birkhoff", Kind::birkhoff},
+      {"rectangle", Kind::rectangle}, {"line", Kind::line},   {"list", Kind::list}};
   return list;
 }
 
@@ -160,11 +160,6 @@ void read_rectangle(TomlSection& section, InitialCondition& initial) {
 InitialCondition read_initial(Value& root, const Table& table,
                               const std::vector<Particle>& particles) {
   Value& value = *root.find("initial");
-  const Value* written = value.find("kind");
-  if (written != nullptr && written->text == "sobol") {
-    throw InputError(written->place, "the kind 'sobol' is not in this version",
-                     "uniform, boundary, hole, point, birkhoff, rectangle, line, list or file");
-  }
   take_starts_from_file(value);
   std::vector<std::string> names;
   for (const auto& [name, kind] : kinds()) names.push_back(name);
@@ -183,6 +178,7 @@ InitialCondition read_initial(Value& root, const Table& table,
                      "a speed > 0, or a start inside");
   switch (initial.kind) {
     case Kind::uniform:
+    case Kind::sobol:
       if (table.extent == Extent::open_plane) {
         throw InputError(section.get("kind").place, "the open plane has no uniform distribution",
                          "kind = \"boundary\", \"rectangle\" or another");
