@@ -349,7 +349,7 @@ DecayFit no_fit(const char* why) {
   return none;
 }
 constexpr const char* dependent =
-    "it takes independent starts, and quasi-random ones are not: kind = \"uniform\" has a fit";
+    "fits take independent starts (kind = \"uniform\"), and quasi-random ones are not";
 
 }  // namespace
 

@@ -33,11 +33,11 @@ Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
                 static_cast<double>(trials), of_normal);
 }
 
-// Of independent trials the variance is k (n - k) / n, and never taken for more than that here.
-// Numbers are whole: where 3 of all trials are too many or too few, all replicates agree with the
-// probability e^-3 = 0.05. Two is the variance whose interval reaches as far, 2.13 sqrt(2) = 3.
+// Numbers are whole. Where a part should have k + f successes and has k or k + 1, its variance is
+// f (1 - f) <= 1/4, which 16 such numbers tell badly: no less is taken, but for few successes,
+// where that of independent trials is less.
 double least_variance(double successes, double trials) {
-  return std::min(2.0, successes * ((trials - successes) / trials));
+  return std::min(replicates / 4.0, successes * ((trials - successes) / trials));
 }
 
 // Wilson's interval for as many independent trials as would have the variance that was found.

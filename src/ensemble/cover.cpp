@@ -14,7 +14,7 @@ using geometry::Vector;
 struct Grid {
   Vector low, cell;
   std::size_t columns, rows;
-  std::vector<bool> met;  ///< by an edge; column after column
+  std::vector<char> met;  ///< by an edge; column after column
 
   // The cells that the square of that half side around a point touches.
   void mark(Vector point, double reach) {
@@ -31,14 +31,14 @@ struct Grid {
                        up = std::min(last_row, number(at.y + reach, cell.y, rows));
     for (std::int64_t x = from; x <= to; ++x)
       for (std::int64_t y = down; y <= up; ++y)
-        met[static_cast<std::size_t>(x) * rows + static_cast<std::size_t>(y)] = true;
+        met[static_cast<std::size_t>(x) * rows + static_cast<std::size_t>(y)] = 1;
   }
 
-  // Points of an edge lie at most one eighth of the shorter of two cells' sides apart, so each of
-  // its points is within a sixteenth of one of them; the cell it lies in is marked by that one's
-  // square, twice as wide.
+  // Of the points taken from an edge neighbours are at most a quarter of a side apart, so that each
+  // point of the edge is within an eighth of one of them; the square around that one reaches twice
+  // as far, and touches the cell.
   void mark(const CurveFrame& edge, double side) {
-    const double step = side / 8;
+    const double step = side / 4;
     // |dr/du| of a conic is at most twice its major semi-axis.
     const double speed = edge.kind == CurveFrame::Kind::segment
                              ? std::sqrt(dot(edge.a, edge.a))
@@ -64,17 +64,19 @@ Cover::Cover(const geometry::Box& box, const std::vector<CurveFrame>& edges,
   for (std::size_t x = 0; x < grid.columns; ++x) {
     const double left = static_cast<double>(x);
     Column column{low_.x + left * cell_.x, cells_, 0.0, {}};
-    bool kept = false, inside = false, asked = false;
-    for (std::size_t y = 0; y < grid.rows; ++y) {
-      const double below = static_cast<double>(y);
-      const bool met = grid.met[x * grid.rows + y];
-      if (!met && !asked)
-        inside = contains({low_.x + (left + 0.5) * cell_.x, low_.y + (below + 0.5) * cell_.y});
-      asked = !met;
-      const bool keep = met || inside;
-      if (keep && !kept) column.runs.push_back({below, column.cells});
-      if (keep) column.cells += 1.0;
-      kept = keep;
+    // Cells one above the other that an edge meets, or that none does.
+    const auto begin = grid.met.begin() + static_cast<std::ptrdiff_t>(x * grid.rows),
+               end = begin + static_cast<std::ptrdiff_t>(grid.rows);
+    bool below = false;
+    for (auto from = begin; from != end;) {
+      const auto to = std::find(from, end, *from == 0 ? 1 : 0);
+      const double first = static_cast<double>(from - begin);
+      const bool keep = *from != 0 || contains({low_.x + (left + 0.5) * cell_.x,
+                                                low_.y + (first + 0.5) * cell_.y});
+      if (keep && !below) column.runs.push_back({first, column.cells});
+      if (keep) column.cells += static_cast<double>(to - from);
+      below = keep;
+      from = to;
     }
     cells_ += column.cells;
     if (column.cells > 0.0) columns_.push_back(std::move(column));

@@ -78,7 +78,8 @@ State Sampler::quasi_random(const World& world, RandomStream& random, std::uint6
 void refuse_quasi_random(const System& system, const char* what) {
   if (!system.quasi_random()) return;
   throw InputError(system.initial.place,
-                   std::string("quasi-random starts have no error in ") + what,
+                   std::string("quasi-random starts are not independent, and the errors of ") +
+                       what + " take that they are",
                    "kind = \"uniform\", the same distribution drawn at random");
 }
 

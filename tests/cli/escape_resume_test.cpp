@@ -19,6 +19,10 @@ int kills() { return std::getenv("CAROM_SOAK") ? 25 : 3; }
 
 TEST(EscapeResume, AKilledRunEndsAsTheUndisturbedOne) { kill_and_resume(mushroom, "", kills(), 1); }
 
+TEST(EscapeResume, AKilledRunFromQuasiRandomStartsEndsAsTheUndisturbedOne) {
+  kill_and_resume(mushroom, " --set initial.kind=sobol", 2, 3);
+}
+
 TEST(EscapeResume, AKilledRunKeepsEveryRecord) {
   kill_and_resume(mushroom, " --per-trajectory --block 100", std::getenv("CAROM_SOAK") ? 25 : 2, 2);
 }

@@ -32,22 +32,24 @@ TEST(Lyapunov, PrintsItsKeysAndOneDigest) {
 }
 
 TEST(Lyapunov, PartsOnTheDiskAddUpToTheWhole) {
-  const Shell shell;
-  const std::string typed = command;
-  const Outcome whole = shell(typed + "-o whole.h5");
-  ASSERT_EQ(whole.status, 0) << whole.err;
-  for (const char* part : {"1", "2"})
-    EXPECT_EQ(shell(typed + "--shard " + part + "/2 -o part" + part + ".h5").status, 0);
-  const Outcome sum = shell("$carom merge sum.h5 part2.h5 part1.h5 --json");
-  EXPECT_EQ(sum.status, 0) << sum.err;
-  const Outcome again = shell("$carom lyapunov --resume sum.h5 --json");
-  for (const char* key :
-       {"digest", "lambda", "per_collision", "block_errors", "distribution", "regularity"}) {
-    EXPECT_EQ(json_value(sum.out, key), json_value(whole.out, key)) << key;
-    EXPECT_EQ(json_value(again.out, key), json_value(whole.out, key)) << key;
+  for (const char* starts : {"", "--set initial.kind=sobol "}) {
+    const Shell shell;
+    const std::string typed = std::string(command) + starts;
+    const Outcome whole = shell(typed + "-o whole.h5");
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    for (const char* part : {"1", "2"})
+      EXPECT_EQ(shell(typed + "--shard " + part + "/2 -o part" + part + ".h5").status, 0);
+    const Outcome sum = shell("$carom merge sum.h5 part2.h5 part1.h5 --json");
+    EXPECT_EQ(sum.status, 0) << sum.err;
+    const Outcome again = shell("$carom lyapunov --resume sum.h5 --json");
+    for (const char* key : {"digest", "lambda", "per_collision", "block_errors", "distribution",
+                            "chaotic_share", "regularity"}) {
+      EXPECT_EQ(json_value(sum.out, key), json_value(whole.out, key)) << key;
+      EXPECT_EQ(json_value(again.out, key), json_value(whole.out, key)) << key;
+    }
+    // The window belongs to the sums.
+    EXPECT_EQ(shell("$carom lyapunov --resume whole.h5 --window 50:100").status, 1);
   }
-  // The window belongs to the sums.
-  EXPECT_EQ(shell("$carom lyapunov --resume whole.h5 --window 50:100").status, 1);
 }
 
 TEST(Lyapunov, AKilledRunEndsAsTheUndisturbedOne) {

@@ -21,7 +21,7 @@ const std::string ensemble =
     "$carom escape stadium --set run.trajectories=6000 --t-max 60 --quiet --json ";
 
 TEST(Merge, PartsInAnyOrderGiveTheWhole) {
-  for (const std::string records : {"", " --per-trajectory"}) {
+  for (const std::string records : {"", " --per-trajectory", " --set initial.kind=sobol"}) {
     const Shell shell;
     const Outcome o = shell(ensemble + records + " -o whole.h5 && for k in 1 2 3; do " + ensemble +
                             records + " --shard $k/3 -o $k.h5 || exit 9; done");

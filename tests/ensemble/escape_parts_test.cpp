@@ -45,6 +45,19 @@ void expect_equal(const EscapeResult& a, const EscapeResult& b) {
   EXPECT_EQ(a.counts.energy_change, b.counts.energy_change);
   EXPECT_EQ(a.counts.collisions, b.counts.collisions);
   EXPECT_EQ(a.counts.hole_escapes, b.counts.hole_escapes);
+  ASSERT_EQ(a.counts.parts.size(), b.counts.parts.size());
+  for (std::size_t r = 0; r < a.counts.parts.size(); ++r) {
+    EXPECT_EQ(a.counts.parts[r].followed, b.counts.parts[r].followed);
+    EXPECT_EQ(a.counts.parts[r].gone_in, b.counts.parts[r].gone_in);
+    EXPECT_EQ(a.counts.parts[r].gone_in_hits, b.counts.parts[r].gone_in_hits);
+    EXPECT_EQ(a.counts.parts[r].hole_escapes, b.counts.parts[r].hole_escapes);
+  }
+}
+
+System quasi_random_stadium() {
+  System system = stadium();
+  system.initial.kind = InitialCondition::Kind::sobol;
+  return system;
 }
 
 /// Remembers every state that it was asked to keep, and the records that belong to it.
@@ -77,7 +90,7 @@ class Memory : public EscapeJournal {
 };
 
 TEST(EscapeInParts, GoesOnFromEverySavedState) {
-  for (System system : {make_system(magnetic_square), stadium()}) {
+  for (System system : {make_system(magnetic_square), stadium(), quasi_random_stadium()}) {
     const EscapeResult whole = run_escape(system);
     ASSERT_EQ(whole.done.ranges(), (std::vector<TrajectoryRange>{{0, system.run.trajectories}}));
     Memory memory;
@@ -144,23 +157,24 @@ TEST(EscapeInParts, TellsItsOwnHits) {
 }
 
 TEST(EscapeInParts, ShardsMakeTheWhole) {
-  const System system = stadium();
-  const EscapeResult whole = run_escape(system);
-  std::vector<EscapeResult> shards;
-  for (std::uint64_t k = 1; k <= 3; ++k) {
-    EscapeOptions options;
-    options.part = shard(k, 3, system.run.trajectories);
-    shards.push_back(run_escape(system, options));
-    EXPECT_TRUE(shards.back().complete);
-    EXPECT_EQ(shards.back().done.size(), 1000u);
-  }
-  for (const auto& order : {std::vector{0, 1, 2}, {2, 1, 0}, {1, 0, 2}}) {
-    EscapeResult sum = shards[static_cast<std::size_t>(order[0])];
-    ASSERT_TRUE(sum.add(shards[static_cast<std::size_t>(order[1])]));
-    ASSERT_TRUE(sum.add(shards[static_cast<std::size_t>(order[2])]));
-    expect_equal(sum, whole);
-    EXPECT_FALSE(sum.add(shards[1])) << "twice the same shard";
-    expect_equal(sum, whole);
+  for (const System& system : {stadium(), quasi_random_stadium()}) {
+    const EscapeResult whole = run_escape(system);
+    std::vector<EscapeResult> shards;
+    for (std::uint64_t k = 1; k <= 3; ++k) {
+      EscapeOptions options;
+      options.part = shard(k, 3, system.run.trajectories);
+      shards.push_back(run_escape(system, options));
+      EXPECT_TRUE(shards.back().complete);
+      EXPECT_EQ(shards.back().done.size(), 1000u);
+    }
+    for (const auto& order : {std::vector{0, 1, 2}, {2, 1, 0}, {1, 0, 2}}) {
+      EscapeResult sum = shards[static_cast<std::size_t>(order[0])];
+      ASSERT_TRUE(sum.add(shards[static_cast<std::size_t>(order[1])]));
+      ASSERT_TRUE(sum.add(shards[static_cast<std::size_t>(order[2])]));
+      expect_equal(sum, whole);
+      EXPECT_FALSE(sum.add(shards[1])) << "twice the same shard";
+      expect_equal(sum, whole);
+    }
   }
 }
 

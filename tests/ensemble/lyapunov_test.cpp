@@ -94,6 +94,17 @@ void expect_same(const LyapunovResult& a, const LyapunovResult& b) {
   EXPECT_EQ(x.distribution.counts(), y.distribution.counts());
   for (std::size_t i = 0; i < x.levels.size(); ++i)
     EXPECT_EQ(x.levels[i].product.state(), y.levels[i].product.state());
+  ASSERT_EQ(a.growth.parts().size(), b.growth.parts().size());
+  for (std::size_t r = 0; r < a.growth.parts().size(); ++r) {
+    EXPECT_EQ(a.growth.parts()[r].orbits, b.growth.parts()[r].orbits);
+    EXPECT_EQ(a.growth.parts()[r].chaotic_at, b.growth.parts()[r].chaotic_at);
+    EXPECT_EQ(a.growth.parts()[r].growth.state(), b.growth.parts()[r].growth.state());
+  }
+}
+
+System quasi_random(System system) {
+  system.initial.kind = InitialCondition::Kind::sobol;
+  return system;
 }
 
 TEST(Lyapunov, HasTheSameBitsInLanesAndThreads) {
@@ -104,7 +115,8 @@ TEST(Lyapunov, HasTheSameBitsInLanesAndThreads) {
       system_of(ellipse, 50, 200, "[field]\nB = -1.3"),
       system_of("shape = \"lorentz\"\nlattice = \"triangular\"\nspacing = 2.2\nradius = 1", 30, 200,
                 "[field]\nB = 1.2"),
-      make_system(magnetic_square)};
+      make_system(magnetic_square),
+      quasi_random(system_of(mushroom, 50, 200))};
   for (const System& system : systems) {
     const LyapunovResult scalar = run(system);
     EXPECT_FALSE(scalar.lanes);
@@ -114,19 +126,21 @@ TEST(Lyapunov, HasTheSameBitsInLanesAndThreads) {
 }
 
 TEST(Lyapunov, PartsAddUpToTheWhole) {
-  const System system = system_of(stadium, 100, 90);
-  const LyapunovResult whole = run(system);
-  LyapunovResult sum;
-  for (const std::uint64_t k : {3u, 1u, 2u}) {
-    LyapunovOptions how;
-    how.part = shard(k, 3, 90);
-    const LyapunovResult part = run_lyapunov(system, how);
-    if (k == 3)
-      sum = part;
-    else
-      EXPECT_TRUE(sum.add(part));
+  for (const System& system :
+       {system_of(stadium, 100, 90), quasi_random(system_of(stadium, 100, 90))}) {
+    const LyapunovResult whole = run(system);
+    LyapunovResult sum;
+    for (const std::uint64_t k : {3u, 1u, 2u}) {
+      LyapunovOptions how;
+      how.part = shard(k, 3, 90);
+      const LyapunovResult part = run_lyapunov(system, how);
+      if (k == 3)
+        sum = part;
+      else
+        EXPECT_TRUE(sum.add(part));
+    }
+    expect_same(sum, whole);
   }
-  expect_same(sum, whole);
 }
 
 // Keeps records as they come.
