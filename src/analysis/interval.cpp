@@ -10,10 +10,8 @@ namespace carom {
 
 namespace {
 
-// The 0.975 quantiles of the normal distribution, and of Student's with replicates - 1 degrees of
-// freedom.
-constexpr double of_normal = 1.959963984540054, of_student = 2.131449545559323;
-static_assert(replicates == 16, "another number of replicates has another quantile");
+// The 0.975 quantile of the normal distribution.
+constexpr double normal_quantile = 1.959963984540054;
 
 // n trials, of which k succeed and `missed` do not; any numbers, not whole ones alone.
 Interval wilson(double k, double missed, double n, double quantile) {
@@ -30,7 +28,7 @@ Interval wilson(double k, double missed, double n, double quantile) {
 Interval wilson_interval(std::uint64_t successes, std::uint64_t trials) {
   if (trials == 0) return {};
   return wilson(static_cast<double>(successes), static_cast<double>(trials - successes),
-                static_cast<double>(trials), of_normal);
+                static_cast<double>(trials), normal_quantile);
 }
 
 // Numbers are whole. Where a part should have k + f successes and has k or k + 1, its variance is
@@ -57,7 +55,7 @@ Interval replicate_interval(std::span<const Portion> parts) {
   }
   const double variance = std::max(least_variance(k, n), squares * r / (r - 1.0));
   const double times = independent > 0.0 ? independent / variance : 1.0;
-  return wilson(k * times, (n - k) * times, n * times, of_student);
+  return wilson(k * times, (n - k) * times, n * times, replicates_quantile);
 }
 
 double jackknife_error(const std::function<double(std::size_t)>& without) {

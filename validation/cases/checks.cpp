@@ -275,6 +275,10 @@ Check check_survivors(const System& system, double factor, Estimate expected, Al
   const double survived = static_cast<double>(result.counts.survived);
   c.value = factor * survived / n;
   c.error = factor * binomial_error(survived, n);
+  if (system.quasi_random() && c.complete) {
+    const SurvivalPoint last = survival(result.counts).back();
+    c.error = factor * 0.5 * (last.high - last.low) / replicates_quantile;
+  }
   judge(c, allowance);
   return c;
 }

@@ -18,6 +18,9 @@ Interval wilson_interval(std::uint64_t successes, std::uint64_t trials);
 /// Their spread tells the errors (docs/physics/quasi-random.md), which are the larger the fewer
 /// they are: an interval of 95 % is wider by 9 % than one of a known error.
 inline constexpr std::size_t replicates = 16;
+/// The 0.975 quantile of Student's distribution with replicates - 1 degrees of freedom.
+inline constexpr double replicates_quantile = 2.131449545559323;
+static_assert(replicates == 16, "another number of replicates has another quantile");
 
 /// Successes of trials.
 struct Portion {

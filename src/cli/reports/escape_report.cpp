@@ -144,6 +144,7 @@ Json result_json(const System& system, const EscapeResult& result, const Ensembl
                    .set("value", value)
                    .set("low", low)
                    .set("high", high));
+  if (!counts.parts.empty()) json.set("replicates", counts.parts.size());
   json.set("survival", std::move(by_time));
   json.set("survival_hits", std::move(by_hits));
   json.set("rate", std::move(rates));
@@ -162,6 +163,8 @@ std::string result_text(const System& system, const EscapeResult& result,
       head_text(system, counts.trajectories, system.run.t_max, result.complete, context);
   if (const std::string note = repeated_starts(system); !note.empty()) text += folded(note) + '\n';
   text += survival_table(counts, context);
+  if (!counts.parts.empty())
+    text += fmt::format("intervals by {} replicates of the quasi-random starts\n", replicates);
   text += decay_text(decay_of(system, result));
   text += decay_by_hits_text(fit_decay_by_hits(counts));
   text += fates(system, counts);

@@ -261,6 +261,7 @@ Json result_json(const System& system, const LyapunovResult& result,
   for (const auto& one : e.block_errors)
     errors.push(
         Json::object().set("length", one.length).set("count", one.count).set("stderr", one.error));
+  if (!sums.parts().empty()) json.set("replicates", sums.parts().size());
   json.set("block_errors", std::move(errors)).set("long_enough", e.long_enough);
   for (const ExponentBin& bin : distribution_of(sums))
     bins.push(Json::object().set("from", bin.from).set("to", bin.to).set("count", bin.count));
