@@ -173,8 +173,7 @@ void add_published(Planner& plan) {
                 "(acos k - k sqrt(1 - k^2))/(pi/2 + 1), k = 1/2 (Bunimovich 2001)",
                 plan.closed("mushroom", open_mushroom, {plan.pick(2e5, 1e6), hits}), 1.0,
                 {0.2389084047}, {0.0, 0.3 / hits});
-  System quasi_random =
-      plan.closed("mushroom", open_mushroom, {plan.pick(1 << 17, 1 << 20), hits});
+  System quasi_random = plan.closed("mushroom", open_mushroom, {plan.pick(1 << 17, 1 << 20), hits});
   quasi_random.initial.kind = InitialCondition::Kind::sobol;
   add_survivors(plan, "mushroom: regular share, quasi-random starts",
                 "(acos k - k sqrt(1 - k^2))/(pi/2 + 1), k = 1/2 (Bunimovich 2001)", quasi_random,
@@ -182,8 +181,8 @@ void add_published(Planner& plan) {
   // Flights that reach the open side: a share E[max(0, t cos)] = t/pi of all.
   System square = plan.timed("open-square", open_square, plan.pick(1 << 20, 1 << 24), 0.5);
   square.initial.kind = InitialCondition::Kind::sobol;
-  add_survivors(plan, "square with an open side: survival, quasi-random starts", "1 - t/pi, t = 1/2",
-                square, 1.0, {1.0 - 0.5 / pi}, {});
+  add_survivors(plan, "square with an open side: survival, quasi-random starts",
+                "1 - t/pi, t = 1/2", square, 1.0, {1.0 - 0.5 / pi}, {});
 
   const double walkers = plan.pick(4e6, 5e7);
   const System three =

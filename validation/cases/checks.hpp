@@ -64,8 +64,8 @@ Check check_survival_per_hit(const System&, double expected, const CheckOptions&
 /// number of survivors is over time.
 Check check_escape_rate(const System&, double expected, const CheckOptions& = {});
 
-/// Share of trajectories that survive until t_max or their cap on hits, times `factor`. Its error is
-/// that of the starts: independent, or quasi-random.
+/// Share of trajectories that survive until t_max or their cap on hits, times `factor`. Its error
+/// is that of the starts: independent, or quasi-random.
 Check check_survivors(const System&, double factor, Estimate expected, Allowance,
                       const CheckOptions& = {});
 
