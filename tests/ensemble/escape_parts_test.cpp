@@ -46,12 +46,21 @@ void expect_equal(const EscapeResult& a, const EscapeResult& b) {
   EXPECT_EQ(a.counts.collisions, b.counts.collisions);
   EXPECT_EQ(a.counts.hole_escapes, b.counts.hole_escapes);
   ASSERT_EQ(a.counts.parts.size(), b.counts.parts.size());
+  if (a.counts.parts.empty()) return;
+  Replicate all = a.counts.parts.front();
   for (std::size_t r = 0; r < a.counts.parts.size(); ++r) {
+    if (r > 0) {
+      all.merge(a.counts.parts[r]);
+      all.followed += a.counts.parts[r].followed;
+    }
     EXPECT_EQ(a.counts.parts[r].followed, b.counts.parts[r].followed);
     EXPECT_EQ(a.counts.parts[r].gone_in, b.counts.parts[r].gone_in);
     EXPECT_EQ(a.counts.parts[r].gone_in_hits, b.counts.parts[r].gone_in_hits);
     EXPECT_EQ(a.counts.parts[r].hole_escapes, b.counts.parts[r].hole_escapes);
   }
+  EXPECT_EQ(all.followed, a.counts.followed());
+  EXPECT_EQ(all.gone_in, a.counts.gone_in);
+  EXPECT_EQ(all.hole_escapes, a.counts.hole_escapes);
 }
 
 System quasi_random_stadium() {

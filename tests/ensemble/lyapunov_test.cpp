@@ -95,10 +95,15 @@ void expect_same(const LyapunovResult& a, const LyapunovResult& b) {
   for (std::size_t i = 0; i < x.levels.size(); ++i)
     EXPECT_EQ(x.levels[i].product.state(), y.levels[i].product.state());
   ASSERT_EQ(a.growth.parts().size(), b.growth.parts().size());
+  std::uint64_t orbits = 0;
   for (std::size_t r = 0; r < a.growth.parts().size(); ++r) {
+    orbits += a.growth.parts()[r].orbits;
     EXPECT_EQ(a.growth.parts()[r].orbits, b.growth.parts()[r].orbits);
     EXPECT_EQ(a.growth.parts()[r].chaotic_at, b.growth.parts()[r].chaotic_at);
     EXPECT_EQ(a.growth.parts()[r].growth.state(), b.growth.parts()[r].growth.state());
+  }
+  if (!a.growth.parts().empty()) {
+    EXPECT_EQ(orbits, x.orbits);
   }
 }
 

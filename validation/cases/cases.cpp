@@ -181,8 +181,8 @@ void add_published(Planner& plan) {
   // Flights that reach the open side: a share E[max(0, t cos)] = t/pi of all.
   System square = plan.timed("open-square", open_square, plan.pick(1 << 20, 1 << 24), 0.5);
   square.initial.kind = InitialCondition::Kind::sobol;
-  add_survivors(plan, "square with an open side: survival, quasi-random starts",
-                "1 - t/pi, t = 1/2", square, 1.0, {1.0 - 0.5 / pi}, {});
+  add_survivors(plan, "open square: survival, quasi-random starts", "1 - t/pi, t = 1/2", square,
+                1.0, {1.0 - 0.5 / pi}, {});
 
   const double walkers = plan.pick(4e6, 5e7);
   const System three =
