@@ -159,7 +159,7 @@ class Escape(Result):
     survival       (number of times,): t (time), p, low, high (share, 95 % interval)
     survival_hits  (number of counts,): n, p, low, high: the share still there after n hits
     rate           (number of times,): t, from, to (time), value, low, high (1/time): −dp/dt
-    holes          (number of holes,): name, escaped
+    holes          (number of holes,): name, escaped, p, low, high (share, 95 % interval)
 
     fit, fit_hits: the likeliest decay at late times, and by number of hits. model, rate (1/time) or exponent, stderr, amplitude,
     plateau, p_value, window (time), decided, alternatives; model is None where `reason` says why.

@@ -97,7 +97,8 @@ SurvivalCounts::SurvivalCounts(std::vector<double> report_times, std::size_t hol
 
 void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole,
                          std::uint64_t trajectory) {
-  const std::uint64_t before = followed();
+  Replicate* const part = parts.empty() ? nullptr : &parts[trajectory % replicates];
+  const std::uint64_t before = part ? followed() : 0;
   ++trajectories;
   collisions += hits;
   most_hits = std::max(most_hits, hits);
@@ -105,7 +106,6 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole,
   if (fate == Fate::capped) ++survived;
   if (fate == Fate::capped || fate == Fate::survived)
     fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
-  Replicate* const part = parts.empty() ? nullptr : &parts[trajectory % replicates];
   if (part) part->followed += followed() - before;
   if (fate != Fate::escaped && fate != Fate::unbounded) return;
   const std::size_t by_time = bin_of(times, time), by_hits = bin_of(reported_hits(), hits);
