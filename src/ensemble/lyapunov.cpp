@@ -40,6 +40,7 @@ void refuse_impossible(const System& system) {
     throw InputError(Place{"", 0, 0, "integrator.scheme"},
                      "deviations are not followed by adaptive schemes", "a scheme of fixed steps");
   refuse_injections(system, "an ensemble whose deviations grow");
+  if (system.run.spectrum) refuse_quasi_random(system, "a spectrum");
   if (system.run.spectrum && system.particles.size() > most_particles_of_spectrum)
     throw InputError(
         Place{"", 0, 0, "run.spectrum"},

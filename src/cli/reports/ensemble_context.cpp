@@ -13,9 +13,12 @@ using io::Json;
 
 std::string head_text(const System& system, std::uint64_t trajectories, double until, bool complete,
                       const EnsembleContext& context) {
-  return fmt::format("{}\n{} trajectories until t = {:.6g}, seed {}{}{}\n",
-                     system.title.empty() ? system.name : system.title, grouped(trajectories),
-                     until, system.run.seed,
+  // Particles were counted.
+  const std::size_t each = system.injections.empty() ? system.particles.size() : 1;
+  return fmt::format("{}\n{} trajectories{} until t = {:.6g}, seed {}{}{}\n",
+                     system.title.empty() ? system.name : system.title,
+                     grouped(trajectories / each),
+                     each > 1 ? fmt::format(" of {} particles", each) : "", until, system.run.seed,
                      context.shard.of > 1 ? ", part " + text_of(context.shard) : "",
                      complete ? "" : "  (" + context.status + ": those that were finished)");
 }
