@@ -75,6 +75,7 @@ def spectrum(result, ax=None):
             label=f"entropy {result.entropy.value:.4g}: sum of the positive ones",
         )  # fmt: skip
         ax.legend(fontsize="small", frameon=False)
+        ax.xaxis.get_major_locator().set_params(integer=True)
     ax.set(xlabel="number of the exponent", ylabel="exponent")
     title(ax, result.system)
     return ax

@@ -19,8 +19,8 @@ class Command {
   Command(CLI::App& app, Options& options, const char* name, const char* text, const char* details)
       : app_(app.add_subcommand(name, text)), options_(options) {
     app_->footer(details);
-    app_->add_flag("--json", options_.json, "Print one JSON object and nothing else");
-    app_->add_flag("--quiet", options_.quiet, "No progress on standard error");
+    flag("--json", options_.json, "Print one JSON object and nothing else");
+    flag("--quiet", options_.quiet, "No progress on standard error");
   }
 
   Command& text(const char* name, std::string& value, const char* type, const char* help) {
@@ -31,7 +31,15 @@ class Command {
     return *this;
   }
   Command& flag(const char* name, bool& value, const char* help) {
-    app_->add_flag(name, value, help);
+    app_->add_flag(name, value, help)->disable_flag_override();
+    return *this;
+  }
+  /// A flag that stands for a key of the system.
+  Command& sets(const char* name, const char* key, const char* value, const char* help) {
+    SystemOverrides& o = options_.overrides;
+    app_->add_flag_callback(
+            name, [&o, key, value] { o.set.emplace_back(key, value); }, help)
+        ->disable_flag_override();
     return *this;
   }
   Command& system(const char* name, const char* help) {
@@ -58,23 +66,15 @@ class Command {
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false)
         ->take_all();
-    app_->add_flag_callback(
-        "--closed", [&o] { o.set.emplace_back("table.hole", "[]"); }, "Without the holes");
-    return *this;
+    return sets("--closed", "table.hole", "[]", "Without the holes");
   }
   Command& free_paths() {
-    SystemOverrides& o = options_.overrides;
-    app_->add_flag_callback(
-        "--free-paths", [&o] { o.set.emplace_back("run.free_paths", "true"); },
-        "Count the lengths of flights, between hits and from the start");
-    return *this;
+    return sets("--free-paths", "run.free_paths", "true",
+                "Count the lengths of flights, between hits and from the start");
   }
   Command& spectrum() {
-    SystemOverrides& o = options_.overrides;
-    app_->add_flag_callback(
-        "--spectrum", [&o] { o.set.emplace_back("run.spectrum", "true"); },
-        "All exponents of all particles together, and their entropy");
-    return *this;
+    return sets("--spectrum", "run.spectrum", "true",
+                "All exponents of all particles together, and their entropy");
   }
   Command& output(const char* type, const char* help) {
     text("-o,--output", options_.output, type, help);

@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
     const int status = picture.finish(status_of(options, closed));
     return closed ? end_by_closed_pipe() : status;
   } catch (const carom::SamplingStopped&) {
-    std::fputs("carom: interrupted before a start was found\n", stderr);
+    std::fputs("carom: interrupted before there was anything to show\n", stderr);
     return stopped;
   } catch (const carom::InputError& error) {
     std::fprintf(stderr, "carom: %s\n", error.what());

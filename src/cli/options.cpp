@@ -394,7 +394,11 @@ Parsed parse(int argc, char** argv) {
     return parsed;
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string text = error.what();
-    complain(text.substr(0, text.find(':')) + " needs a value");
+    const std::size_t flag = text.find(" was given a disallowed flag override");
+    if (flag != std::string::npos)
+      complain("--" + text.substr(0, flag) + " takes no value");
+    else
+      complain(text.substr(0, text.find(':')) + " needs a value");
     return parsed;
   } catch (const CLI::ParseError& error) {
     complain(error.what());

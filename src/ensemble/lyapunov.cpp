@@ -41,6 +41,10 @@ void refuse_impossible(const System& system) {
                      "deviations are not followed by adaptive schemes", "a scheme of fixed steps");
   refuse_injections(system, "an ensemble whose deviations grow");
   if (system.run.spectrum) refuse_quasi_random(system, "a spectrum");
+  if (system.run.spectrum && system.particles.size() > 1 && !act_on_each_other(system))
+    throw InputError(Place{"", 0, 0, "run.spectrum"},
+                     "the particles do not act on each other: each has a spectrum of its own",
+                     "an interaction, or one particle");
   if (system.run.spectrum && system.particles.size() > most_particles_of_spectrum)
     throw InputError(
         Place{"", 0, 0, "run.spectrum"},
@@ -77,20 +81,18 @@ bool interacts(const System& system) { return system.run.spectrum || act_on_each
 VanishingExponents vanishing_exponents(const System& system) {
   const std::vector<Particle>& particles = system.particles;
   const ForceField none, &forces = system.dynamics.forces ? *system.dynamics.forces : none;
-  const bool together = act_on_each_other(system);
-  const std::size_t orbits = together ? 1 : particles.size();
   VanishingExponents v;
-  v.count = 2 * orbits;
-  v.laws.push_back(orbits == 1 ? "energy" : "energy of each particle");
+  v.count = 2;
+  v.laws.push_back("energy");
   const bool alike = std::all_of(particles.begin(), particles.end(), [&](const Particle& p) {
     return p.omega == particles.front().omega;
   });
   if (system.table->walls.empty() && forces.harmonic() && alike) {
-    v.count += 4 * orbits;
+    v.count += 4;
     v.laws.push_back(forces.external() ? "motion of the centre of mass" : "momentum");
   }
   if (is_round(*system.table, forces)) {
-    v.count += 2 * orbits;
+    v.count += 2;
     v.laws.push_back("angular momentum");
   }
   v.count = std::min(v.count, 4 * particles.size());

@@ -54,37 +54,12 @@ void LyapunovListener::begin(const Trajectory& t) {
     mine.growth.regularity = Regularity::undecided;
     mine.growth.look = 0;
     mine.frame.clear();
-    mine.kept.clear();
   }
 }
 
 void LyapunovListener::stretched(const Trajectory& t, int particle, std::size_t number,
                                  std::span<const double> logarithms, std::uint64_t hits) {
-  Orbit& mine = under_way_[t.slot][static_cast<std::size_t>(particle)];
-  if (system_.run.spectrum)
-    mine.kept.push_back({{logarithms.begin(), logarithms.end()}, hits});
-  else
-    take(mine, marks_[number], logarithms, hits);
-}
-
-// All frames of a trajectory are that of the system, which the first particle has. Those of
-// particles that do not act on each other are sorted by what each length has grown since the start,
-// as one frame of all is by being made orthogonal.
-void LyapunovListener::take_frames(std::vector<Orbit>& orbits) const {
-  const std::size_t told = act_on_each_other(system_) ? 1 : orbits.size();
-  std::size_t marks = marks_.size();  // until the first of them ends
-  for (std::size_t p = 0; p < told; ++p) marks = std::min(marks, orbits[p].kept.size());
-  for (std::size_t number = 0; number < marks; ++number) {
-    std::vector<double> logarithms;
-    std::uint64_t hits = 0;
-    for (std::size_t p = 0; p < told; ++p) {
-      const Orbit::Told& one = orbits[p].kept[number];
-      logarithms.insert(logarithms.end(), one.logarithms.begin(), one.logarithms.end());
-      hits += one.hits;
-    }
-    if (told > 1) std::sort(logarithms.begin(), logarithms.end(), std::greater<>());
-    take(orbits.front(), marks_[number], logarithms, hits);
-  }
+  take(under_way_[t.slot][static_cast<std::size_t>(particle)], marks_[number], logarithms, hits);
 }
 
 void LyapunovListener::take(Orbit& mine, const GrowthTimes::Mark& mark,
@@ -137,7 +112,6 @@ void LyapunovListener::end(const Trajectory& t, const TrajectoryEnd& end) {
   const TrajectoryRange range{t.number, t.number + 1};
   std::uint64_t hits = 0;
   bool all = true;
-  if (system_.run.spectrum) take_frames(orbits);
   std::vector<TrajectoryRecord> records;
   if (thread_.wants_records())
     for (std::size_t p = 0; p < end.particles.size(); ++p) records.push_back(record(t, end, p));

@@ -49,7 +49,6 @@ class LyapunovListener : public Listener {
   struct Orbit;
   void take(Orbit&, const GrowthTimes::Mark&, std::span<const double> logarithms,
             std::uint64_t hits) const;
-  void take_frames(std::vector<Orbit>&) const;
   TrajectoryRecord record(const Trajectory&, const TrajectoryEnd&, std::size_t particle) const;
 
   /// What is known of a particle.
@@ -61,11 +60,6 @@ class LyapunovListener : public Listener {
     bool chaotic = false;
     OrbitGrowth growth;
     std::vector<double> frame, frame_before;  ///< growth in each block; logarithms at the last mark
-    struct Told {
-      std::vector<double> logarithms;
-      std::uint64_t hits = 0;
-    };
-    std::vector<Told> kept;  ///< of a frame, at each mark
   };
   const System& system_;
   const std::vector<GrowthTimes::Mark>& marks_;

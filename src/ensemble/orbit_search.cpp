@@ -33,6 +33,11 @@ using orbits::Solution;
 
 namespace {
 
+// One hit comes back to the same place only along an arc that ends a lattice vector away.
+std::size_t fewest_hits(const System& system) {
+  return system.table->lattice && system.particles.front().omega != 0.0 ? 1 : 2;
+}
+
 bool all_discs(const Table& table) {
   return table.extent == Extent::open_plane &&
          std::all_of(table.walls.begin(), table.walls.end(), [](const Wall& wall) {
@@ -41,7 +46,7 @@ bool all_discs(const Table& table) {
 }
 
 void check(const System& system, const OrbitSearchOptions& options) {
-  const auto refuse = [](const char* key, const char* problem, const char* expected) {
+  const auto refuse = [](const char* key, const std::string& problem, const std::string& expected) {
     const bool option = key[0] == '-';
     throw InputError(Place{option ? "command line" : "", 0, 0, key}, problem, expected);
   };
@@ -56,8 +61,9 @@ void check(const System& system, const OrbitSearchOptions& options) {
     refuse("--engine", "orbits are found by exact flights", "auto or events");
   if (!(system.particles.front().speed > 0.0))
     refuse("particles.speed", "a particle at rest has no orbit", "a speed above 0");
-  if (options.most_hits < 2)
-    refuse("--hits", "no orbit has fewer than two hits", "a whole number from 2");
+  if (const std::size_t fewest = fewest_hits(system); options.most_hits < fewest)
+    refuse("--hits", fmt::format("no orbit has fewer than {} hits", fewest),
+           fmt::format("a whole number from {}", fewest));
   refuse_injections(system, "periodic orbits");
   if (options.expand_cycles && !(all_discs(*system.table) && system.particles.front().omega == 0.0))
     refuse("--zeta", "cycles are expanded where all orbits are known and unstable",
@@ -188,7 +194,8 @@ OrbitSearchResult find_orbits(const System& system, const OrbitSearchOptions& op
   result.words = chains.size();
   // Between discs words are all there is, unless flights are curved.
   if (chains.empty() || system.particles.front().omega != 0.0) {
-    const RecurrencePlan plan{options.most_hits, options.starts, options.tries};
+    const RecurrencePlan plan{fewest_hits(system), options.most_hits, options.starts,
+                              options.tries};
     std::vector<Chain> more = recurrences(search, boundary, plan, stopped);
     result.recurrences = more.size();
     std::move(more.begin(), more.end(), std::back_inserter(chains));

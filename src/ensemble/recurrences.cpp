@@ -26,11 +26,6 @@ struct Recurrence {
   }
 };
 
-// One hit comes back to the same place only along an arc that ends a lattice vector away.
-std::size_t fewest_hits(const Boundary& boundary) {
-  return boundary.table->lattice && boundary.particle.omega != 0.0 ? 1 : 2;
-}
-
 std::vector<int> least_rotation(const Chain& chain) {
   std::vector<int> word, least;
   for (const Link& link : chain) word.push_back(link.wall);
@@ -58,7 +53,7 @@ class Recurrences : public Listener {
   }
   void end(const Trajectory& t, const TrajectoryEnd&) override {
     const std::vector<State>& states = states_[t.slot];
-    for (std::size_t n = fewest_hits(boundary_); n < states.size(); ++n)
+    for (std::size_t n = plan_.fewest_hits; n < states.size(); ++n)
       if (states[n].wall == states[0].wall) add(t.number, states, n);
   }
 

@@ -11,13 +11,13 @@
 namespace carom::ensemble {
 
 struct RecurrencePlan {
-  std::size_t most_hits = 0;
+  std::size_t fewest_hits = 2, most_hits = 0;
   std::uint64_t starts = 0;
   std::uint64_t tries = 0;  ///< chains for each number of hits
 };
 
-/// The closest recurrences of trajectories that start on the walls with the cosine law, after 2 to
-/// `most_hits` hits. Where they go round different walls, all sequences of walls have their turn.
+/// The closest recurrences of trajectories that start on the walls with the cosine law, after so many
+/// hits. Where they go round different walls, all sequences of walls have their turn.
 std::vector<orbits::Chain> recurrences(const System&, const orbits::Boundary&,
                                        const RecurrencePlan&, const std::function<bool()>& stopped);
 

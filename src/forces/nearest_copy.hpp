@@ -5,18 +5,29 @@
 
 namespace carom::forces {
 
-/// The shortest of d and its displacements by lattice vectors.
-inline geometry::Vector nearest_copy(geometry::Vector d, const geometry::Lattice& lattice) {
+/// A lattice vector next to d, and d less it.
+struct NearestCopy {
+  geometry::Vector d;
+  geometry::Cell cell;
+};
+inline NearestCopy nearest_copy_and_cell(geometry::Vector d, const geometry::Lattice& lattice) {
+  NearestCopy found{d, {}};
   for (bool moved = true; moved;) {
     moved = false;
     for (const geometry::CellEdge& e : lattice.edges) {
-      const geometry::Vector nearer = d - lattice.translation(e.beyond);
-      if (!(dot(nearer, nearer) < dot(d, d))) continue;
-      d = nearer;
+      const geometry::Vector nearer = found.d - lattice.translation(e.beyond);
+      if (!(dot(nearer, nearer) < dot(found.d, found.d))) continue;
+      found.d = nearer;
+      found.cell.first += e.beyond.first;
+      found.cell.second += e.beyond.second;
       moved = true;
     }
   }
-  return d;
+  return found;
+}
+/// The shortest of d and its displacements by lattice vectors.
+inline geometry::Vector nearest_copy(geometry::Vector d, const geometry::Lattice& lattice) {
+  return nearest_copy_and_cell(d, lattice).d;
 }
 
 }  // namespace carom::forces

@@ -6,6 +6,7 @@
 
 #include "carom/base/error.hpp"
 #include "forces/formula_evaluation.hpp"
+#include "forces/nearest_copy.hpp"
 
 namespace carom::forces {
 
@@ -88,21 +89,6 @@ double reach_of(const PotentialSpec& s) {
 Vector quad(const geometry::Vector& a) { return {a.x, a.y}; }
 geometry::Vector rounded(const Vector& a) { return {a.x.to_double(), a.y.to_double()}; }
 
-// The cell of the lattice vector next to d.
-geometry::Cell nearest_cell(geometry::Vector d, const geometry::Lattice& lattice) {
-  geometry::Cell cell;
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (const geometry::CellEdge& e : lattice.edges) {
-      const geometry::Vector nearer = d - lattice.translation(e.beyond);
-      if (!(dot(nearer, nearer) < dot(d, d))) continue;
-      d = nearer;
-      cell = {cell.first + e.beyond.first, cell.second + e.beyond.second};
-      moved = true;
-    }
-  }
-  return cell;
-}
 Vector translation(const geometry::Cell& c, const geometry::Lattice& lattice) {
   const Quad first(static_cast<double>(c.first)), second(static_cast<double>(c.second));
   return first * quad(lattice.first) + second * quad(lattice.second);
@@ -158,7 +144,8 @@ Vector QuadForces::gradient(const Source& source, const Vector& x, int& terms) c
 }
 
 Vector QuadForces::nearest(const Vector& d) const {
-  return lattice_ ? d - translation(nearest_cell(rounded(d), *lattice_), *lattice_) : d;
+  if (!lattice_) return d;
+  return d - translation(nearest_copy_and_cell(rounded(d), *lattice_).cell, *lattice_);
 }
 
 int QuadForces::accelerations(std::span<const Vector> position,

@@ -3,13 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "carom/ensemble/trajectories.hpp"
-#include "carom/events/world.hpp"
-#include "systems.hpp"
+#include "group_deviations.hpp"
 
 namespace carom {
 
@@ -75,78 +72,16 @@ std::vector<State> states_of(const System& system) {
   return states;
 }
 
-struct Follow : Observer {
-  void hit(const HitEvent& e) override {
-    ++hits;
-    if (!tangent) return;
-    tangent->fly_to(e.time, {});
-    State state;
-    state.wall = e.wall;
-    state.u = e.u;
-    state.position = e.position;
-    state.velocity = e.after;
-    state.time = e.time;
-    tangent->hit(static_cast<std::size_t>(e.particle), state);
-  }
-  ForceTangent* tangent = nullptr;
-  int hits = 0;
-};
-
-// The states at the end, sampled.
-struct End : Follow {
-  explicit End(std::size_t n) : states(n) {}
-  void sample(int particle, Time, const State& state) override {
-    states[static_cast<std::size_t>(particle)] = state;
-  }
-  std::vector<State> states;
-};
-End end_of(const System& system, const std::vector<State>& starts, double t,
-           ForceTangent* tangent = nullptr) {
-  World world(*system.table, system.dynamics);
-  for (std::size_t p = 0; p < starts.size(); ++p) world.add(system.particles[p], starts[p]);
-  world.sample_at({t});
-  End end(starts.size());
-  end.tangent = tangent;
-  world.run_until(t, end);
-  return end;
-}
-
 TEST(ForceTangent, IsTheDerivativeOfTheEngine) {
   for (const char* const text : forces) {
+    SCOPED_TRACE(text);
     const System system = system_of(text);
     const std::vector<State> starts = states_of(system);
     std::vector<std::size_t> all;
     for (std::size_t p = 0; p < starts.size(); ++p) all.push_back(p);
     ForceTangent tangent(system, all);
-    tangent.begin(starts, 1.0);
-    constexpr double h = 1e-6, t = 2.0;
-    std::vector<State> more = starts, less = starts;
-    for (std::size_t p = 0; p < starts.size(); ++p) {
-      const Deviation d = tangent.direction(p);
-      more[p].position = starts[p].position + h * d.position;
-      more[p].velocity = starts[p].velocity + h * d.velocity;
-      less[p].position = starts[p].position - h * d.position;
-      less[p].velocity = starts[p].velocity - h * d.velocity;
-    }
-    const End middle = end_of(system, starts, t, &tangent), one = end_of(system, more, t),
-              other = end_of(system, less, t);
-    ASSERT_GT(middle.hits, 1) << text;
-    ASSERT_EQ(one.hits, middle.hits);
-    ASSERT_EQ(other.hits, middle.hits);
-    tangent.fly_to(t, {});
-    const double length = std::exp(tangent.logarithms()[0]);
-    for (const std::size_t p : all) {
-      const Deviation d = length * tangent.direction(p);
-      const auto difference = [&](const geometry::Vector& a, const geometry::Vector& b) {
-        return (0.5 / h) * (a - b);
-      };
-      const geometry::Vector x = difference(one.states[p].position, other.states[p].position),
-                             v = difference(one.states[p].velocity, other.states[p].velocity);
-      EXPECT_NEAR(d.position.x, x.x, 1e-6 * length) << text << p;
-      EXPECT_NEAR(d.position.y, x.y, 1e-6 * length) << text << p;
-      EXPECT_NEAR(d.velocity.x, v.x, 1e-6 * length) << text << p;
-      EXPECT_NEAR(d.velocity.y, v.y, 1e-6 * length) << text << p;
-    }
+    const tests::Followed run = tests::expect_derivative(system, starts, 2.0, tangent, 1e-6, 1e-6);
+    EXPECT_GT(run.hits, 1);
   }
 }
 

@@ -300,9 +300,10 @@ void note_run(Check& c, const Result& result) {
   if (!result.reports.empty()) c.report = result.reports.front().second;
 }
 
-// What the displacements say at the last report time.
-Check check_last_point(const System& system, Estimate MomentPoint::*what, Estimate expected,
-                       const CheckOptions& options) {
+// What `found` reads off a run of diffusion.
+template <class Found>
+Check check_diffusion(const System& system, Estimate expected, const CheckOptions& options,
+                      Found found) {
   Check c;
   c.expected = expected.value;
   c.expected_error = expected.error;
@@ -313,12 +314,16 @@ Check check_last_point(const System& system, Estimate MomentPoint::*what, Estima
   const DiffusionResult result = run_diffusion(system, how);
   note_run(c, result);
   if (c.complete) {
-    const Estimate found = DisplacementMoments(result.sums).points().back().*what;
-    c.value = found.value;
-    c.error = found.error;
+    const Estimate number = found(result);
+    c.value = number.value;
+    c.error = number.error;
   }
   judge(c, {});
   return c;
+}
+
+MomentPoint last_point(const DiffusionResult& result) {
+  return DisplacementMoments(result.sums).points().back();
 }
 
 }  // namespace
@@ -341,29 +346,18 @@ Check check_recurrence(const System& system, double expected, const CheckOptions
 }
 
 Check check_displacement(const System& system, Estimate expected, const CheckOptions& options) {
-  return check_last_point(system, &MomentPoint::square, expected, options);
+  return check_diffusion(system, expected, options,
+                         [](const DiffusionResult& r) { return last_point(r).square; });
 }
 
 Check check_green_kubo(const System& system, Estimate expected, const CheckOptions& options) {
-  return check_last_point(system, &MomentPoint::green_kubo, expected, options);
+  return check_diffusion(system, expected, options,
+                         [](const DiffusionResult& r) { return last_point(r).green_kubo; });
 }
 
 Check check_free_path(const System& system, double expected, const CheckOptions& options) {
-  Check c;
-  c.expected = expected;
-  c.seed = system.run.seed;
-  DiffusionOptions how;
-  how.threads = options.threads;
-  how.interrupted = options.interrupted;
-  const DiffusionResult result = run_diffusion(system, how);
-  note_run(c, result);
-  if (c.complete) {
-    const Estimate mean = free_paths_of(result.free_paths).mean;
-    c.value = mean.value;
-    c.error = mean.error;
-  }
-  judge(c, {});
-  return c;
+  return check_diffusion(system, {expected, 0.0}, options,
+                         [](const DiffusionResult& r) { return free_paths_of(r.free_paths).mean; });
 }
 
 Check check_exponent(const System& system, Exponent what, Estimate expected,

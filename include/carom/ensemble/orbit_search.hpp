@@ -15,7 +15,7 @@ namespace carom {
 
 /// What is looked for, and how hard.
 struct OrbitSearchOptions {
-  std::uint64_t most_hits = 6;   ///< of an orbit, from 2
+  std::uint64_t most_hits = 6;   ///< of an orbit, from 2; on a lattice in a field from 1
   std::uint64_t starts = 20000;  ///< trajectories whose recurrences are looked at
   std::uint64_t tries = 2000;    ///< recurrences that are tried for each number of hits
   bool expand_cycles = false;    ///< rate and exponent from the orbits: discs in the open plane

@@ -16,7 +16,7 @@ namespace carom::cli {
 OrbitSearchOptions orbit_search_options(const Options& options) {
   OrbitSearchOptions how;
   how.threads = threads_of(options);
-  if (!options.hits.empty()) how.most_hits = whole_number(options.hits, "--hits", 2);
+  if (!options.hits.empty()) how.most_hits = whole_number(options.hits, "--hits", 1);
   if (!options.starts.empty()) how.starts = whole_number(options.starts, "--starts", 1);
   if (!options.tries.empty()) how.tries = whole_number(options.tries, "--tries", 1);
   how.expand_cycles = options.zeta;

@@ -136,9 +136,10 @@ std::string best_text(const Comparison& result) {
     return fmt::format("no scheme reaches an error of {:.1e} with these steps\n", result.error);
   const ComparedScheme& cheapest = result.schemes[*result.cheapest];
   std::string text =
-      fmt::format("cheapest for an error of {:.1e}: {}, {} {:.2g}, {:.4g} force evaluations\n",
-                  result.error, cheapest.name, cheapest.adaptive ? "tolerance" : "step",
-                  control(*cheapest.work), std::round(cheapest.work->force_evaluations));
+      folded(fmt::format("cheapest for an error of {:.1e}: {}, {} {:.2g}, {:.4g} force evaluations",
+                         result.error, cheapest.name, cheapest.adaptive ? "tolerance" : "step",
+                         control(*cheapest.work), std::round(cheapest.work->force_evaluations))) +
+      "\n";
   const ComparedScheme& fastest = result.schemes[*result.fastest];
   text += fmt::format("least CPU time: {}, {}\n", fastest.name,
                       short_duration(fastest.work->cpu_seconds));

@@ -210,13 +210,14 @@ std::string distribution_text(const GrowthSums& sums) {
 
 std::string regularity_text(const GrowthSums& sums, const LyapunovEstimate& e) {
   const GrowthSums::Totals& t = sums.totals();
-  std::string text =
-      fmt::format("\nchaotic share {}\n{} orbits are chaotic, {} regular, {} undecided",
-                  cli::with_error(e.chaotic_share.value, e.chaotic_share.error), grouped(t.chaotic),
+  std::string text = fmt::format("\nchaotic share {}\n",
+                                 cli::with_error(e.chaotic_share.value, e.chaotic_share.error));
+  std::string orbits =
+      fmt::format("{} orbits are chaotic, {} regular, {} undecided", grouped(t.chaotic),
                   grouped(t.regular), grouped(t.orbits - t.chaotic - t.regular));
   if (e.hidden > 0.0)
-    text += fmt::format("; {:.2g} of all may be chaotic and have not shown it", e.hidden);
-  text += '\n';
+    orbits += fmt::format("; {:.2g} of all may be chaotic and have not shown it", e.hidden);
+  text += folded(orbits) + '\n';
   if (t.chaotic > 1 && t.chaotic < t.orbits)
     text += fmt::format("lambda of the chaotic ones = {}\n",
                         cli::with_error(e.chaotic.value, e.chaotic.error));

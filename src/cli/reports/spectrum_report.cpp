@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -40,7 +41,7 @@ std::string spectrum_text(const System& system, const LyapunovResult& result,
   const VanishingExponents zeros = vanishing_exponents(system);
   const std::size_t count = e.exponents.size(), pairs = count / 2;
   std::vector<std::string> numbers, values, others, sums;
-  for (const std::size_t i : every_kth(pairs, context.rows)) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(pairs, context.rows); ++i) {
     const Estimate &one = e.exponents[i], &other = e.exponents[count - 1 - i];
     numbers.push_back(fmt::format("{}", i + 1));
     values.push_back(with_error(one));

@@ -62,9 +62,9 @@ const std::vector<Shown>& shown_of(const std::string& command) {
                                           {"status", {{"status", "status"}}}};
   static const std::vector<Shown> lyapunov{
       {"lambda", {{"lambda", "lambda.0.value", "lambda.0.stderr"}}},
+      {"entropy", {{"entropy", "entropy.value", "entropy.stderr"}}},
       {"lambda a hit", {{"per_collision", "per_collision.0.value", "per_collision.0.stderr"}}},
-      {"chaotic share", {{"chaotic_share", "chaotic_share.value", "chaotic_share.stderr"}}},
-      {"entropy", {{"entropy", "entropy.value", "entropy.stderr"}}}};
+      {"chaotic share", {{"chaotic_share", "chaotic_share.value", "chaotic_share.stderr"}}}};
   static const std::vector<Shown> relax{
       {"lowest energy", {{"energy", "equilibria.0.energy", "", "", "", 10}}},
       {"it is a", {{"kind", "equilibria.0.kind"}}},

@@ -130,6 +130,7 @@ std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& n
   // order that counts.
   const double least = std::ldexp(0.5, scheme.order);
   std::optional<PreciseOrbit> best;
+  int falling = 0;  // halvings one after the other that did
   Path path;
   double change = std::numeric_limits<double>::quiet_NaN(), spent = 0.0;
   for (int steps = std::max(1, static_cast<int>(std::ceil(t / (step * parts))));; steps *= 2) {
@@ -139,7 +140,10 @@ std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& n
     if (!path.empty()) {
       const double before = change;
       change = distance(path, finer, units);
-      if (before > least * change) {
+      falling = before > least * change ? falling + 1 : 0;
+      // An orbit that a finer one leaves by more than its error was good by chance.
+      if (best && change > best->error) best.reset();
+      if (falling > 1) {
         const double error = change / (least - 1.0);
         best = rounded(finer, t / (static_cast<double>(parts) * steps), error, units);
         if (error < wanted_error) return best;

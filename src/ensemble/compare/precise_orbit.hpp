@@ -16,7 +16,7 @@ struct PreciseOrbit {
 /// Follows the start until t by `scheme` in 34 digits, with steps of about `step`, of a half, of a
 /// quarter … until the error is far below that of a double; forces by the formulas of the
 /// documentation. Walls are not seen. Empty: it would cost too much, or halving the step does not
-/// lower the error as the scheme's order says, or a force has no value.
+/// lower the error as the scheme's order says twice running, or a force has no value.
 std::optional<PreciseOrbit> precise_orbit(const Runs&, const std::string& scheme, double step,
                                           double t, const ErrorUnits&);
 

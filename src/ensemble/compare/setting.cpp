@@ -29,6 +29,10 @@ constexpr int longer_steps = 6, most_halvings = 12;
 /// Halving the step changes an error of the reference's order 8 by 2^8: what is left after it is
 /// far below the change. Twice the change is as safe as what `carom run` states.
 constexpr double margin = 2.0;
+/// Changes fall by 2^8 where the order counts; by half of that twice running, it is seen.
+constexpr double falls = 0x1p7;
+/// A change that grows again is that of rounding only if it is within so many times of it.
+constexpr double near_rounding = 64.0;
 /// A flight to a wall is rounded by some units: of the hit's place, the time and the velocity.
 constexpr double rounding_of_flight = 0x1p-50;
 
@@ -133,21 +137,30 @@ void fly_exactly(const Runs& runs, Setting& setting) {
 /// The orbit of the reference scheme with the step at which half of it changes least.
 void integrate(const Runs& runs, Setting& setting) {
   Orbit before;
-  double least = std::numeric_limits<double>::infinity(), step = setting.longest_step;
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  double least = unknown, last = unknown, step = setting.longest_step;
+  int falling = 0;
+  bool order_seen = false;
   for (int k = 0; k <= most_halvings; ++k, step *= 0.5) {
     Orbit now = runs.fly(runs.by(reference_scheme, step, 0.0), setting.t, Runs::Part::orbit);
     if (!now.failure.empty()) continue;
     if (!before.states.empty()) {
       const double change = distance(before, now).in(setting.units);
+      falling = last < unknown && last > falls * change ? falling + 1 : 0;
+      order_seen = order_seen || falling > 1;
+      const double evaluations = static_cast<double>(now.counts.force_evaluations);
       if (change < least) {
         least = change;
         setting.reference = now;
         setting.reference_step = step;
-        setting.reference_error = margin * change;
-        setting.reference_evaluations = static_cast<double>(now.counts.force_evaluations);
+        // Where forces have kinks a change may be small by chance: the one before it counts, too.
+        setting.reference_error =
+            margin * (order_seen || last == unknown ? change : std::max(change, last));
+        setting.reference_evaluations = evaluations;
       }
       // Rounding grows with the number of steps: from here on shorter ones help no more.
-      if (change > least) break;
+      if (change > least && least <= near_rounding * setting.rounding(evaluations)) break;
+      last = change;
     }
     before = std::move(now);
     if (static_cast<double>(before.counts.force_evaluations) * runs.weight() > most_evaluations)
@@ -164,7 +177,7 @@ void integrate(const Runs& runs, Setting& setting) {
 void integrate_precisely(const Runs& runs, Setting& setting) {
   if (!setting.reference.hits.empty()) return;
   const std::optional<PreciseOrbit> precise =
-      precise_orbit(runs, reference_scheme, 4.0 * setting.reference_step, setting.t, setting.units);
+      precise_orbit(runs, reference_scheme, 8.0 * setting.reference_step, setting.t, setting.units);
   if (!precise || !(precise->error < setting.reference_error)) return;
   Orbit orbit = setting.reference;
   orbit.states = precise->states;
@@ -174,7 +187,8 @@ void integrate_precisely(const Runs& runs, Setting& setting) {
   setting.reference = std::move(orbit);
   setting.reference_step = precise->step;
   setting.reference_error = precise->error;
-  setting.rounding_error = rounding;
+  setting.rounding_error =
+      std::min(rounding, near_rounding * setting.rounding(setting.reference_evaluations));
   setting.in_34_digits = true;
 }
 
