@@ -16,8 +16,8 @@ struct RecurrencePlan {
   std::uint64_t tries = 0;  ///< chains for each number of hits
 };
 
-/// The closest recurrences of trajectories that start on the walls with the cosine law, after so many
-/// hits. Where they go round different walls, all sequences of walls have their turn.
+/// The closest recurrences of trajectories that start on the walls with the cosine law, after so
+/// many hits. Where they go round different walls, all sequences of walls have their turn.
 std::vector<orbits::Chain> recurrences(const System&, const orbits::Boundary&,
                                        const RecurrencePlan&, const std::function<bool()>& stopped);
 
