@@ -93,6 +93,8 @@ def _compute(kind, function, thing, command, keywords, progress, *arguments):
         return _sweep(kind, function, of, command, keywords, progress, *arguments)
     loaded = of._loaded(command, **keywords)
     outcome, error = _shown(progress, function, loaded, *arguments)
+    if error is None and hasattr(outcome, "check"):
+        outcome.check()  # as the program, which ends with status 1
     kept = {key: value for key, value in keywords.items() if key not in _OF_ONE_COMMAND}
     result = kind(outcome, of.with_(**kept))
     if error is not None:

@@ -174,7 +174,8 @@ EnsembleOutcome<Result> open(const std::string& file) {
 template <class Result>
 void add(py::module_& module, const char* name, const char* function) {
   using Outcome = EnsembleOutcome<Result>;
-  py::class_<Outcome>(module, name)
+  py::class_<Outcome> outcome(module, name);
+  outcome
       .def_property_readonly(
           "system",
           [](const Outcome& self) { return std::const_pointer_cast<Loaded>(self.system); })
@@ -198,6 +199,10 @@ void add(py::module_& module, const char* name, const char* function) {
            })
       .def("save", &save<Result>, py::call_guard<py::gil_scoped_release>(), py::arg("file"),
            py::arg("force"));
+  if constexpr (std::is_same_v<Result, LyapunovResult>)
+    outcome.def("check", [](const Outcome& self) {
+      if (const auto error = why_nothing(self.system->system(), self.result)) throw *error;
+    });
   module.def(function, &fly<Result>, py::arg("system"), py::arg("per_trajectory"),
              py::arg("progress"));
   module.def((std::string("open_") + function).c_str(), &open<Result>,

@@ -40,6 +40,12 @@ def test_lyapunov(program):
     assert result.distribution["count"].sum() == result.orbits == 300
 
 
+def test_nothing_to_measure_is_refused_as_by_the_program():
+    with pytest.raises(carom.InputError, match="too few to keep populations alive"):
+        carom.lyapunov("three-disc", trajectories=10)
+    assert carom.lyapunov("three-disc", trajectories=10, sweep={"run.seed": [1, 2]}).results[1].orbits == 0
+
+
 @pytest.mark.parametrize(
     "name, keywords, options",
     [
