@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "carom/base/elementary.hpp"
 #include "cli/reports/aligned.hpp"
 #include "cli/reports/diffusion_report.hpp"
 
@@ -63,7 +63,7 @@ std::string spectrum_text(const System& system, const LyapunovResult& result,
   // They do as 1/t.
   if (const TimeWindow& window = result.growth.window(); window.from > 0.0)
     sentence += fmt::format("; deviations that grow as the time give {:.1e} in this window",
-                            std::log(window.to / window.from) / (window.to - window.from));
+                            elementary::log(window.to / window.from) / (window.to - window.from));
   text += folded(sentence) + '\n';
   return text + fmt::format("Kolmogorov-Sinai entropy, their positive sum = {} per unit time\n",
                             with_error(e.entropy));
