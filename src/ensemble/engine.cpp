@@ -1,11 +1,13 @@
 #include "carom/ensemble/engine.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "carom/lanes/free_lanes.hpp"
 #include "carom/lanes/soft_lanes.hpp"
 #include "ensemble/in_lanes.hpp"
 #include "ensemble/one_by_one.hpp"
+#include "motion/take_state.hpp"
 
 namespace carom {
 
@@ -18,6 +20,9 @@ bool is_free(const System& system) {
   const Dynamics& d = system.dynamics;
   return !d.everywhere && (!d.forces || d.forces->empty()) && !system.of_discs();
 }
+
+/// Starts that are drawn together.
+constexpr std::uint64_t most_ahead = 64;
 
 World world_like(const System& system, const EngineOptions& options) {
   return options.like ? options.like->empty_copy()
@@ -40,9 +45,14 @@ bool DrawnStarts::next(Trajectory& trajectory, const World& world) {
   trajectory.number = block_.first++;
   const System& system = sampler_.system();
   if (system.particles.size() == 1 && !system.of_discs()) {
+    if (given_ == ahead_.size()) {
+      ahead_.resize(std::min(most_ahead, block_.last - trajectory.number));
+      sampler_.draw_several(world, trajectory.number, ahead_);
+      given_ = 0;
+    }
     // Into the memory that the trajectory has: many are short.
     trajectory.starts.resize(1);
-    trajectory.starts.front() = sampler_.draw(world, trajectory.number, 0);
+    motion::take(trajectory.starts.front(), ahead_[given_++]);
   } else {
     trajectory.starts = sampler_.draw_all(world, trajectory.number);
   }

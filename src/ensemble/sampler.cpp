@@ -11,12 +11,15 @@
 #include "carom/base/random.hpp"
 #include "carom/events/world.hpp"
 #include "carom/geometry/hull.hpp"
+#include "ensemble/start_formulas.hpp"
 #include "events/step/group.hpp"
 
 namespace carom {
 
 namespace {
 
+using ensemble::put_off_walls;
+using ensemble::unit;
 using geometry::Vector;
 using Kind = InitialCondition::Kind;
 
@@ -48,27 +51,6 @@ InputError missed_rectangle(const InitialCondition& initial, const char* where =
 
 InputError missed_line(const InitialCondition& initial) {
   return none_inside(initial, "the line", "a line that crosses the table");
-}
-
-Vector unit(Vector v) {
-  v = (1.0 / std::max(std::abs(v.x), std::abs(v.y))) * v;  // no overflow in the squares
-  v = (1.0 / std::sqrt(dot(v, v))) * v;
-  // One Newton step: |v| = 1 to rounding.
-  return (1.5 - 0.5 * dot(v, v)) * v;
-}
-
-Vector random_direction(RandomStream& random) {
-  Vector v;
-  random.point_in_disc(v.x, v.y);
-  return unit(v);
-}
-
-State off_walls(const Table& table, Vector position, Vector velocity) {
-  State state;
-  state.position = position;
-  fold_into_cell(table, state.position, state.cell);
-  state.velocity = velocity;
-  return state;
 }
 
 geometry::Box domain_box(const Table& table) {
@@ -273,18 +255,23 @@ State Sampler::in_box(const World& world, RandomStream& random, std::uint64_t tr
   const std::int64_t most = low == high ? 1 : patience(tries_in(low, high), trajectory);
   for (std::int64_t tries = 0; tries < most; ++tries) {
     stop_if_asked(tries);
-    const double x = low.x + random.uniform() * (high.x - low.x);
-    const double y = low.y + random.uniform() * (high.y - low.y);
-    State state = off_walls(*system_.table, {x, y}, {});
-    // The box of a lattice's cell overlaps its neighbours: what lies there is drawn again, or
-    // points near the edges would be too frequent.
-    const bool own_cell = system_.initial.kind != Kind::uniform || state.cell == geometry::Cell{};
-    if (!own_cell || !world.contains(state.position)) continue;
-    state.velocity = speed * random_direction(random);
-    if (speed == 0.0) state.velocity = {};
+    const double right = random.uniform(), up = random.uniform();
+    State state;
+    put_off_walls(state, *system_.table, ensemble::point_of_box(low, high, right, up), {});
+    if (!admits(world, state)) continue;
+    Vector direction;
+    random.point_in_disc(direction.x, direction.y);
+    if (speed != 0.0) state.velocity = speed * unit(direction);
     return state;
   }
   throw missed_rectangle(system_.initial, where);
+}
+
+/// The box of a lattice's cell overlaps its neighbours: what lies there is drawn again, or points
+/// near the edges would be too frequent.
+bool Sampler::admits(const World& world, const State& state) const {
+  const bool own_cell = system_.initial.kind != Kind::uniform || state.cell == geometry::Cell{};
+  return own_cell && world.contains(state.position);
 }
 
 State Sampler::on_line(const World& world, RandomStream& random, std::uint64_t trajectory,
@@ -301,7 +288,8 @@ State Sampler::on_line(const World& world, RandomStream& random, std::uint64_t t
   for (std::int64_t tries = 0; tries < most; ++tries) {
     stop_if_asked(tries);
     const Vector point = initial.from + random.uniform() * (initial.to - initial.from);
-    const State state = off_walls(*system_.table, point, velocity);
+    State state;
+    put_off_walls(state, *system_.table, point, velocity);
     if (world.contains(state.position)) return state;
   }
   throw missed_line(initial);
@@ -314,7 +302,8 @@ State Sampler::at_point(const World& world, Vector position, Vector given, doubl
   // it is, digit for digit.
   Vector velocity = std::sqrt(dot(given, given)) == speed ? given : speed * unit(given);
   if (speed == 0.0) velocity = {};
-  const State state = off_walls(*system_.table, position, velocity);
+  State state;
+  put_off_walls(state, *system_.table, position, velocity);
   if (!world.contains(state.position))
     throw impossible(
         initial, fmt::format("the start ({}, {}) is not inside the table", position.x, position.y),

@@ -48,6 +48,17 @@ TEST(RandomStream, IsPhiloxOfSeedPurposeTrajectoryDrawAndParticle) {
   }
 }
 
+TEST(RandomStream, BeginsWithAnyBlock) {
+  RandomStream all(3, Purpose::initial_state, 4, 5);
+  for (std::uint64_t number = 0; number < 10; ++number) {
+    RandomStream from(3, Purpose::initial_state, 4, 5, number);
+    for (const std::uint64_t word : RandomStream::block(3, Purpose::initial_state, 4, 5, number)) {
+      EXPECT_EQ(word, all.word());
+      EXPECT_EQ(word, from.word());
+    }
+  }
+}
+
 TEST(RandomStream, StreamsDiffer) {
   std::set<std::uint64_t> firsts;
   for (std::uint64_t i = 0; i < 100; ++i) {

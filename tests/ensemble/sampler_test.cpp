@@ -108,6 +108,38 @@ TEST(Sampler, IsAFunctionOfSeedTrajectoryAndParticle) {
 
 class Boundary : public testing::TestWithParam<const char*> {};
 
+TEST(Sampler, ManyAtOnceAreThoseOneByOne) {
+  const char* const systems[] = {
+      R"toml(table = { shape = "rectangle", width = 1, height = 1 })toml",
+      R"toml(table = { shape = "stadium", radius = 1, length = 2 }
+particles = { speed = 3 })toml",
+      R"toml(table = { shape = "lorentz", lattice = "triangular", spacing = 2.2, radius = 1 })toml",
+      R"toml(table = { shape = "mushroom", radius = 1, stem_width = 0.5, stem_height = 1 }
+initial = { kind = "rectangle", from = [-2, -2], to = [0.5, 2] })toml",
+      R"toml(table = { shape = "circle", radius = 1 }
+initial = { kind = "boundary" })toml",
+      R"toml(table = { shape = "circle", radius = 1 }
+particles = { energy = 1 }
+[[potential]]
+kind = "harmonic"
+omega = 1)toml"};
+  for (const char* const toml : systems) {
+    SCOPED_TRACE(toml);
+    const Drawn drawn(toml);
+    std::vector<State> states(300);
+    drawn.sampler.draw_several(drawn.world, 7, states);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const State one = drawn(7 + i);
+      EXPECT_EQ(states[i].wall, one.wall);
+      EXPECT_EQ(states[i].u, one.u);
+      EXPECT_EQ(states[i].position, one.position);
+      EXPECT_EQ(states[i].velocity, one.velocity);
+      EXPECT_EQ(states[i].cell, one.cell);
+      EXPECT_EQ(states[i].time, one.time);
+    }
+  }
+}
+
 TEST_P(Boundary, FollowsTheCosineLaw) {
   const Drawn draw(std::string(GetParam()) + "[initial]\nkind = \"boundary\"\n");
   const Table& table = *draw.system.table;

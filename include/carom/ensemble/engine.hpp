@@ -109,6 +109,8 @@ class DrawnStarts : public Starts {
   const Injector injector_;
   Blocks blocks_;
   TrajectoryRange block_;
+  std::vector<State> ahead_;  ///< drawn for single particles
+  std::size_t given_ = 0;     ///< of these
 };
 
 /// What a listener asks for.

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "carom/ensemble/system.hpp"
@@ -59,6 +60,9 @@ class Sampler {
   State draw(const World& world, std::uint64_t trajectory, int particle) const;
   /// The states of all particles of a trajectory.
   std::vector<State> draw_all(const World& world, std::uint64_t trajectory) const;
+  /// The states of the first particles of trajectories that follow each other, each as `draw` gives
+  /// it.
+  void draw_several(const World& world, std::uint64_t first, std::span<State> states) const;
   /// A start on the boundary, of the kinds `boundary` and `hole`.
   State cosine_law(RandomStream&, double speed) const;
 
@@ -80,6 +84,8 @@ class Sampler {
   State draw_external(const World&, std::uint64_t trajectory, int particle) const;
   std::vector<State> draw_discs(const World&, std::uint64_t trajectory) const;
   bool random_positions() const;
+  bool draws_free_points() const;
+  bool admits(const World&, const State&) const;
   void prepare_quasi_random();
   void add_holes(int hole);
   void add_source(int wall, double from, double to);
