@@ -2,11 +2,14 @@
 
 #include <utility>
 
+#include "motion/take_state.hpp"
+
 namespace carom::ensemble {
 
 InLanes::InLanes(const System& system, const EngineOptions& options, const World& like,
                  std::unique_ptr<Lanes> lanes)
     : system_(system), options_(options), world_(like.empty_copy()), lanes_(std::move(lanes)) {
+  end_of_one_.particles.resize(1);
   if (system.run.collisions > 0) lanes_->limit_hits(system.run.collisions);
   if (!options_.times.empty())
     lanes_->sample_at(options_.times, [this](std::uint64_t tag, std::size_t number,
@@ -38,7 +41,7 @@ bool InLanes::run(Starts& starts, Listener& listener, const std::function<bool()
     if (begun_ == each() && !begin(starts)) return false;
     start.tag = tag_of(latest_, begun_);
     start.particle = system_.particles[begun_];
-    start.state = flights_[latest_]->trajectory.starts[begun_++];
+    motion::take(start.state, flights_[latest_]->trajectory.starts[begun_++]);
     start.hits = 0;
     return true;
   };
@@ -58,30 +61,37 @@ bool InLanes::begin(Starts& starts) {
   if (!starts.next(flight.trajectory, world_)) return false;
   free_.pop_back();
   begun_ = 0;
-  flight.left = each();
-  flight.end.particles.resize(each());
-  flight.end.steps = {};
+  if (each() > 1) {
+    flight.left = each();
+    flight.end.particles.resize(each());
+    flight.end.steps = {};
+  }
   listener_->begin(flight.trajectory);
   return true;
 }
 
 void InLanes::note(const LaneEnd& end) {
   Flight& f = flight(end.tag);
-  ParticleEnd& mine = f.end.particles[particle_of(end.tag)];
+  const bool alone = each() == 1;
+  TrajectoryEnd& all = alone ? end_of_one_ : f.end;
+  ParticleEnd& mine = all.particles[particle_of(end.tag)];
   const bool to_the_end = end.fate == Fate::survived || end.fate == Fate::pinned;
   mine.fate = end.fate;
   mine.time = to_the_end ? options_.t_end : end.time.value();
-  mine.state = end.state;
+  motion::take(mine.state, end.state);
   mine.hole = end.hole;
   mine.hits = end.hits;
   mine.last_wall = end.last_wall;
   if (is_failure(end.fate)) mine.report = end.report;
   mine.energy.kinetic = end.kinetic;
-  f.end.steps += end.steps;
+  if (alone)
+    all.steps = end.steps;
+  else
+    all.steps += end.steps;
   listener_->particle_end(f.trajectory, static_cast<int>(particle_of(end.tag)), end.fate);
-  if (--f.left > 0) return;
+  if (!alone && --f.left > 0) return;
   free_.push_back(f.trajectory.slot);
-  listener_->end(f.trajectory, f.end);
+  listener_->end(f.trajectory, all);
 }
 
 }  // namespace carom::ensemble

@@ -27,7 +27,7 @@ class InLanes : public Engine {
   /// A trajectory under way. Its place is used again, so there are as many as lanes hold.
   struct Flight {
     Trajectory trajectory;
-    TrajectoryEnd end;
+    TrajectoryEnd end;     ///< so far, of several particles
     std::size_t left = 0;  ///< particles that have not ended
   };
   std::size_t each() const { return system_.particles.size(); }
@@ -46,6 +46,7 @@ class InLanes : public Engine {
   std::unique_ptr<Lanes> lanes_;
   Listener* listener_ = nullptr;
   std::vector<std::unique_ptr<Flight>> flights_;  ///< by slot
+  TrajectoryEnd end_of_one_;  ///< of the latest trajectory of one particle: always at hand
   std::vector<std::size_t> free_;
   std::size_t latest_ = 0,
               begun_ = 0;  ///< the latest flight, and how many of its particles are in lanes

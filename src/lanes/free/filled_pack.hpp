@@ -23,20 +23,6 @@ struct LaneTrajectory {
   motion::FreeTangent tangent;   ///< where `start` is, if deviations are followed
   std::size_t marked = 0;        ///< times at which their lengths were told
 
-  /// Goes on with another's, whose deviations are of no interest where none are followed.
-  void take(const LaneTrajectory& other, bool with_deviations) {
-    if (with_deviations) {
-      *this = other;
-      return;
-    }
-    start.tag = other.start.tag;
-    start.particle = other.start.particle;
-    start.state = other.start.state;
-    start.hits = other.start.hits;
-    first_hits = other.first_hits;
-    reported = other.reported;
-    told = other.told;
-  }
   int last_wall() const { return start.hits > first_hits ? start.state.wall : -1; }
 };
 
@@ -44,7 +30,18 @@ struct FilledPack {
   LanePack pack;
   TangentPack tangents;  ///< if deviations are followed
   LaneTrajectory trajectories[LanePack::lanes];
+  /// Trajectories go from one pack or lane to another by swapping these: they are long.
+  LaneTrajectory* of_lane[LanePack::lanes];
   int busy = 0;
+
+  FilledPack() {
+    for (int lane = 0; lane < LanePack::lanes; ++lane) of_lane[lane] = &trajectories[lane];
+  }
+  FilledPack(const FilledPack&) = delete;
+  FilledPack& operator=(const FilledPack&) = delete;
+
+  LaneTrajectory& trajectory(int lane) { return *of_lane[lane]; }
+  const LaneTrajectory& trajectory(int lane) const { return *of_lane[lane]; }
 
   void clear() {
     busy = 0;
@@ -61,15 +58,16 @@ struct FilledPack {
       pack.home_second[lane] += std::exchange(pack.cells[2 * lane + 1], 0);
     }
   }
-  /// A lane's last event, but for its wall.
-  State last_event(int lane) const {
-    State s;
-    s.position = {pack.x[lane], pack.y[lane]};
-    s.velocity = {pack.vx[lane], pack.vy[lane]};
-    s.time = {pack.high[lane], pack.low[lane]};
-    s.cell = {static_cast<std::int64_t>(pack.home_first[lane]) + pack.cells[2 * lane],
-              static_cast<std::int64_t>(pack.home_second[lane]) + pack.cells[2 * lane + 1]};
-    return s;
+  /// A lane's last event, but for its wall, which is left as it is.
+  void last_event(int lane, State& s) const {
+    s.position.x = pack.x[lane];
+    s.position.y = pack.y[lane];
+    s.velocity.x = pack.vx[lane];
+    s.velocity.y = pack.vy[lane];
+    s.time.high = pack.high[lane];
+    s.time.low = pack.low[lane];
+    s.cell.first = static_cast<std::int64_t>(pack.home_first[lane]) + pack.cells[2 * lane];
+    s.cell.second = static_cast<std::int64_t>(pack.home_second[lane]) + pack.cells[2 * lane + 1];
   }
   /// Calls for lanes that have made all their hits.
   void cap() {
@@ -77,7 +75,7 @@ struct FilledPack {
     pack.next_cap = HUGE_VAL;
     for (int lane = 0; lane < pack.used; ++lane) {
       if (pack.active[lane] == 0.0) continue;
-      const auto before = static_cast<double>(trajectories[lane].start.hits);
+      const auto before = static_cast<double>(trajectory(lane).start.hits);
       if (pack.hits(lane) < pack.limit || pack.hits(lane) == before) {
         pack.next_cap = std::min(pack.next_cap, pack.born[lane] + pack.limit);
         continue;

@@ -15,6 +15,7 @@
 #include "lanes/free/next_disc_table.hpp"
 #include "lanes/free/scalar_event.hpp"
 #include "motion/free_motion.hpp"
+#include "motion/take_state.hpp"
 
 namespace carom {
 
@@ -138,13 +139,13 @@ class FreeLanes::Implementation {
       if (waiting == LanePack::lanes || entrance.busy == 0) enter_several();
       for (; waiting < LanePack::lanes; ++waiting) {
         if (entrance.pack.active[waiting] == 0.0) continue;
-        main.trajectories[lane].take(entrance.trajectories[waiting], tangents.any());
+        std::swap(main.of_lane[lane], entrance.of_lane[waiting]);
         entrance.leave(waiting);
         if (moves_on())
-          lanes::move_into(main.pack, lane, pieces, main.trajectories[lane].start.particle,
+          lanes::move_into(main.pack, lane, pieces, main.trajectory(lane).start.particle,
                            entrance.pack, waiting);
         else
-          lanes::put_into(main.pack, lane, pieces, main.trajectories[lane].start);
+          lanes::put_into(main.pack, lane, pieces, main.trajectory(lane).start);
         ++waiting;
         return activate(main, lane);
       }
@@ -161,7 +162,7 @@ class FreeLanes::Implementation {
       if (used <= lane) return;
       const int last = --used;
       take_out(main, last);
-      main.trajectories[lane] = main.trajectories[last];
+      std::swap(main.of_lane[lane], main.of_lane[last]);
       main.leave(last);
       resume(main, lane);
     }
@@ -179,8 +180,8 @@ class FreeLanes::Implementation {
     entrance.cap();
     effort.steps += LanePack::lanes;
     effort.idle += static_cast<std::uint64_t>(LanePack::lanes - entrance.busy);
-    for (int lane = 0; lane < LanePack::lanes; ++lane) {
-      LaneTrajectory& mine = entrance.trajectories[lane];
+    for (int lane = 0; lane < LanePack::lanes && !times.empty(); ++lane) {
+      LaneTrajectory& mine = entrance.trajectory(lane);
       const bool has_hit = entrance.pack.active[lane] != 0.0 &&
                            entrance.pack.hits(lane) != static_cast<double>(mine.start.hits);
       if (has_hit)
@@ -202,7 +203,7 @@ class FreeLanes::Implementation {
   /// Begins the next trajectory that lasts; false if there is none.
   bool begin(FilledPack& lanes, int lane) {
     for (;;) {
-      LaneTrajectory& mine = lanes.trajectories[lane];
+      LaneTrajectory& mine = lanes.trajectory(lane);
       if (exhausted || stopped || !(*source)(mine.start)) {
         exhausted = true;
         return false;
@@ -226,7 +227,7 @@ class FreeLanes::Implementation {
 
   /// The numbers of a lane's trajectory.
   void resume(FilledPack& lanes, int lane) {
-    lanes::put_into(lanes.pack, lane, pieces, lanes.trajectories[lane].start);
+    lanes::put_into(lanes.pack, lane, pieces, lanes.trajectory(lane).start);
     activate(lanes, lane);
   }
   void activate(FilledPack& lanes, int lane) {
@@ -238,7 +239,7 @@ class FreeLanes::Implementation {
 
   /// When a lane is to be looked at. First flights are looked at once they are made.
   double until(const FilledPack& lanes, int lane) const {
-    const std::size_t next = lanes.trajectories[lane].reported;
+    const std::size_t next = lanes.trajectory(lane).reported;
     return &lanes == &main && next < times.size() ? std::min(times[next], lanes.pack.end)
                                                   : lanes.pack.end;
   }
@@ -257,20 +258,21 @@ class FreeLanes::Implementation {
     if (!hit) return enough;
     for (int lane = 0; lane < lanes.pack.used; ++lane) {
       if (lanes.pack.active[lane] == 0.0) continue;
-      LaneTrajectory& mine = lanes.trajectories[lane];
+      LaneTrajectory& mine = lanes.trajectory(lane);
       const auto hits = static_cast<std::uint64_t>(lanes.pack.hits(lane));
       if (hits == mine.told) continue;
       mine.told = hits;
       // A call reports its last one.
-      if (!hit(mine.start.tag, state_on_wall(lanes, lane), hits) && hits < limit)
-        enough.push_back(lane);
+      State state;
+      on_wall(lanes, lane, state);
+      if (!hit(mine.start.tag, state, hits) && hits < limit) enough.push_back(lane);
     }
     return enough;
   }
   /// Ends a trajectory at the hit that its state tells.
   void end_after_hit(FilledPack& lanes, int lane) {
     lanes.leave(lane);
-    const LaneTrajectory& mine = lanes.trajectories[lane];
+    const LaneTrajectory& mine = lanes.trajectory(lane);
     const auto& [tag, particle, state, hits] = mine.start;
     (*sink)({tag, Fate::survived, state.time, state, -1, hits, mine.last_wall(), {}});
   }
@@ -279,22 +281,22 @@ class FreeLanes::Implementation {
       tangents.finish(mine);
     (*sink)(end);
   }
-  State state_on_wall(const FilledPack& lanes, int lane) const {
-    State s = lanes.last_event(lane);
+  /// A lane's last event on its wall.
+  void on_wall(const FilledPack& lanes, int lane, State& s) const {
+    lanes.last_event(lane, s);
     s.wall = static_cast<int>(pieces.wall[static_cast<int>(lanes.pack.piece[lane])]);
     s.u = walls.curve(s.wall).parameter(s.position);
-    return s;
   }
   /// The lane's numbers as a state.
   void take_out(FilledPack& lanes, int lane) {
     const LanePack& pack = lanes.pack;
-    LaneTrajectory& mine = lanes.trajectories[lane];
+    LaneTrajectory& mine = lanes.trajectory(lane);
     const auto hits = static_cast<std::uint64_t>(pack.hits(lane));
     effort.hits += hits - mine.start.hits;
     filter += 2 * (hits - mine.start.hits);  // which wall, and which way the velocity points
     if (hits == mine.start.hits) return;
     mine.start.hits = hits;
-    mine.start.state = state_on_wall(lanes, lane);
+    on_wall(lanes, lane, mine.start.state);
     if (tangents.any()) tangents.take(lanes, lane);
   }
 
@@ -305,10 +307,12 @@ class FreeLanes::Implementation {
     const LanePack::Met met = lanes.pack.met[number];
     const Time there{met.high, met.low}, last(lanes.pack.end);
     const bool survives = call == Call::over && there > last;
-    LaneTrajectory& mine = lanes.trajectories[lane];
+    LaneTrajectory& mine = lanes.trajectory(lane);
     if ((call == Call::over || call == Call::escaped) && mine.reported < times.size()) {
       const std::size_t before = mine.reported;
-      report(mine, lanes.last_event(lane), survives ? last : there, survives);
+      State state;
+      lanes.last_event(lane, state);
+      report(mine, state, survives ? last : there, survives);
       lanes.pack.until[lane] = until(lanes, lane);
       // A first flight that ends when the run does must not be flown by the kernel of particles
       // that stand on walls.
@@ -329,8 +333,9 @@ class FreeLanes::Implementation {
     LaneEnd& end = end_in_lanes;  // used again: it has no report and no steps
     end.tag = mine.start.tag;
     end.fate = Fate::survived;
-    end.time = s.time;
-    end.state = s;
+    end.time.high = s.time.high;
+    end.time.low = s.time.low;
+    motion::take(end.state, s);
     end.hole = -1;
     end.hits = mine.start.hits;
     end.last_wall = mine.last_wall();
@@ -348,7 +353,7 @@ class FreeLanes::Implementation {
 
   /// One event by the scalar engine; false if it ends the trajectory.
   bool go_on(FilledPack& lanes, int lane) {
-    LaneTrajectory& mine = lanes.trajectories[lane];
+    LaneTrajectory& mine = lanes.trajectory(lane);
     ++effort.scalar;
     // A single flight may take long: so this is asked meanwhile.
     scalar.fly(

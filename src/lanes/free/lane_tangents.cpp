@@ -39,7 +39,7 @@ void LaneTangents::begin(LaneTrajectory& mine) const {
 
 void LaneTangents::put(FilledPack& lanes, int lane) const {
   TangentPack& to = lanes.tangents;
-  const LaneTrajectory& mine = lanes.trajectories[lane];
+  const LaneTrajectory& mine = lanes.trajectory(lane);
   const motion::FreeTangent& t = mine.tangent;
   for (int k = 0; k < 2; ++k) {
     to.place[k][lane] = t.deviation[k].place;
@@ -64,7 +64,7 @@ void LaneTangents::put(FilledPack& lanes, int lane) const {
 
 void LaneTangents::take(FilledPack& lanes, int lane) const {
   const TangentPack& from = lanes.tangents;
-  motion::FreeTangent& t = lanes.trajectories[lane].tangent;
+  motion::FreeTangent& t = lanes.trajectory(lane).tangent;
   for (int k = 0; k < 2; ++k) {
     t.deviation[k] = {from.place[k][lane], from.rate[k][lane]};
     t.shrunk[k] = from.shrunk[k][lane];
@@ -80,7 +80,7 @@ void LaneTangents::sweep(FilledPack& lanes) {
   for (unsigned long long due = kernels_.due(lanes.pack, lanes.tangents); due != 0;
        due &= due - 1) {
     const int lane = __builtin_ctzll(due);
-    LaneTrajectory& mine = lanes.trajectories[lane];
+    LaneTrajectory& mine = lanes.trajectory(lane);
     take(lanes, lane);
     const std::uint64_t hits =
         std::exchange(mine.start.hits, static_cast<std::uint64_t>(lanes.tangents.hits[lane]));
