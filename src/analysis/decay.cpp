@@ -38,6 +38,9 @@ struct Seen {
   double gone = 0.0, there = 0.0;  ///< in the window, and at its end
 };
 
+/// What is asked of a fit: whether it describes the escapes, or also its evidence beside others.
+enum class Asked : unsigned char { description, evidence };
+
 struct Rate {
   double value, error;
 };
@@ -45,7 +48,7 @@ struct Rate {
 /// Most likely rate. `truncated`: nothing is known of those that stay, so only how the times of the
 /// others are spread within the window counts. Nothing where they are not denser at its start.
 std::optional<Rate> most_likely_rate(std::span<const Cell> cells, double start, double length,
-                                     double there, bool truncated) {
+                                     double there, bool truncated, Asked asked) {
   double gone = 0.0, sum = 0.0;
   for (const Cell& cell : cells) {
     gone += cell.count;
@@ -77,8 +80,9 @@ std::optional<Rate> most_likely_rate(std::span<const Cell> cells, double start, 
     if (!(curvature > 0.0)) return {};
     const double before = rate;
     rate = std::clamp(before + slope / curvature, 0.5 * before, 2.0 * before);
-    // A hundredth of a millionth of the error.
-    if (std::fabs(rate - before) * std::sqrt(curvature) < 1e-8) break;
+    // In units of the error. The next step would change it by far less: Newton's steps square.
+    const double last = asked == Asked::evidence ? 1e-8 : 1e-2;
+    if (std::fabs(rate - before) * std::sqrt(curvature) < last) break;
   }
   return Rate{rate, 1.0 / std::sqrt(curvature)};
 }
@@ -135,7 +139,7 @@ double p_value(const Seen& seen, double rate, double c, double stay, int fitted)
 }
 
 /// How far the rates of the earlier and the later half of the escapes differ, in standard errors.
-double drift(const Seen& seen, bool truncated) {
+double drift(const Seen& seen, bool truncated, Asked asked) {
   double gone = 0.0;
   std::size_t half = 0;
   while (half < seen.cells.size() && gone < 0.5 * seen.gone) gone += seen.cells[half++].count;
@@ -143,9 +147,9 @@ double drift(const Seen& seen, bool truncated) {
   if (half < 2 || half + 2 > seen.cells.size()) return 0.0;
   const double middle = seen.cells[half].u;
   const std::span<const Cell> all(seen.cells);
-  const auto early = most_likely_rate(all.first(half), 0.0, middle, 0.0, true);
-  const auto late =
-      most_likely_rate(all.subspan(half), middle, seen.length - middle, seen.there, truncated);
+  const auto early = most_likely_rate(all.first(half), 0.0, middle, 0.0, true, asked);
+  const auto late = most_likely_rate(all.subspan(half), middle, seen.length - middle, seen.there,
+                                     truncated, asked);
   if (!early || !late) return std::numeric_limits<double>::infinity();
   return std::fabs(early->value - late->value) /
          std::sqrt(early->error * early->error + late->error * late->error);
@@ -161,14 +165,11 @@ struct Candidate {
   double drift;  ///< infinite where the test of the decay has failed anyway
 };
 
-/// What is asked of a fit: whether it describes the escapes, or also its evidence beside others.
-enum class Asked : unsigned char { description, evidence };
-
 /// `at_start`: share of all that is there at the start a of the window.
 std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, double a,
                              double at_start, Asked asked) {
   if (with_plateau && seen.there == 0.0) return {};
-  const auto rate = most_likely_rate(seen.cells, 0.0, seen.length, seen.there, with_plateau);
+  const auto rate = most_likely_rate(seen.cells, 0.0, seen.length, seen.there, with_plateau, asked);
   if (!rate) return {};
   const double all = seen.gone + seen.there, stay = elementary::exp(-rate->value * seen.length);
   // With a plateau the share at the end is fitted exactly, whatever the rate.
@@ -207,7 +208,7 @@ std::optional<Candidate> fit(DecayLaw law, bool with_plateau, const Seen& seen, 
   d.p_value = p_value(seen, d.rate, c, stay, 1);
   const bool may_describe = d.p_value >= least_p;  // two more fits tell whether it drifts
   return Candidate{
-      d, may_describe ? drift(seen, with_plateau) : std::numeric_limits<double>::infinity()};
+      d, may_describe ? drift(seen, with_plateau, asked) : std::numeric_limits<double>::infinity()};
 }
 
 /// Where evidence is asked for, the best first.
