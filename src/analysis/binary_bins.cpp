@@ -1,17 +1,11 @@
 #include "carom/analysis/binary_bins.hpp"
 
-#include <bit>
 #include <numeric>
 
 namespace carom {
 
 namespace {
 
-// 52 binary digits follow the first of a double.
-template <int Digits>
-std::uint64_t number_of(double x) {
-  return std::bit_cast<std::uint64_t>(x) >> (52 - Digits);
-}
 template <int Digits>
 double start_of(std::uint64_t bin) {
   return std::bit_cast<double>(bin << (52 - Digits));
@@ -22,7 +16,7 @@ double start_of(std::uint64_t bin) {
 template <int Digits>
 void BinaryBins<Digits>::add(double number, std::uint64_t count) {
   if (!(number > 0.0)) return;
-  const std::uint64_t bin = number_of<Digits>(number);
+  const std::uint64_t bin = number_of(number);
   reach(bin);
   counts_[bin - first_] += count;
 }
@@ -51,7 +45,7 @@ std::uint64_t BinaryBins<Digits>::total() const {
 
 template <int Digits>
 typename BinaryBins<Digits>::Bin BinaryBins<Digits>::bin_of(double number) {
-  const std::uint64_t bin = number_of<Digits>(number);
+  const std::uint64_t bin = number_of(number);
   return {start_of<Digits>(bin), start_of<Digits>(bin + 1), 0};
 }
 

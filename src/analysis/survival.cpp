@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "analysis/sorted_ends.hpp"
 #include "carom/base/error.hpp"
 
 namespace carom {
@@ -51,19 +52,6 @@ class Portions {
   std::vector<Portion> numbers_;
 };
 
-template <class Value>
-std::size_t bin_of(const std::vector<Value>& ends, Value value) {
-  // The first end at or after the value: a bin holds its end, not its start. The halves are chosen
-  // without a branch, which would be foretold wrongly every other time.
-  const Value* first = ends.data();
-  for (std::size_t left = ends.size(); left > 0;) {
-    const std::size_t half = (left + 1) / 2;
-    first += half & (std::size_t{0} - static_cast<std::size_t>(first[half - 1] < value));
-    left -= half;
-  }
-  return static_cast<std::size_t>(first - ends.data());
-}
-
 void add_each(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& other) {
   if (sum.size() != other.size()) throw InternalError("merged ensembles differ in their bins");
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += other[i];
@@ -86,12 +74,19 @@ const std::vector<std::uint64_t>& reported_hits() {
   return numbers;
 }
 
+struct SurvivalCounts::Ends {
+  analysis::SortedEnds times, hits;
+};
+
 SurvivalCounts::SurvivalCounts(std::vector<double> report_times, std::size_t holes,
                                bool quasi_random)
     : times(std::move(report_times)) {
   gone_in.resize(times.size());
   gone_in_hits.resize(reported_hits().size());
   hole_escapes.resize(holes);
+  ends_ = std::make_shared<const Ends>(Ends{
+      analysis::SortedEnds(times),
+      analysis::SortedEnds(std::vector<double>(reported_hits().begin(), reported_hits().end()))});
   if (quasi_random) parts.assign(replicates, {*this, 0});
 }
 
@@ -108,7 +103,8 @@ void SurvivalCounts::add(Fate fate, double time, std::uint64_t hits, int hole,
     fewest_hits_of_survivor = std::min(fewest_hits_of_survivor, hits);
   if (part) part->followed += followed() - before;
   if (fate != Fate::escaped && fate != Fate::unbounded) return;
-  const std::size_t by_time = bin_of(times, time), by_hits = bin_of(reported_hits(), hits);
+  const std::size_t by_time = ends_->times.first_from(time),
+                    by_hits = ends_->hits.first_from(static_cast<double>(hits));
   const auto count_in = [&](GoneCounts& sum) {
     if (fate == Fate::escaped && hole >= 0) ++sum.hole_escapes.at(static_cast<std::size_t>(hole));
     if (by_time < sum.gone_in.size()) ++sum.gone_in[by_time];

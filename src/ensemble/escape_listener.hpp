@@ -34,7 +34,9 @@ class EscapeListener : public Listener {
         order_(order),
         wants_records_(order || thread.wants_records()),
         hash_(system),
-        record_of_(system) {}
+        record_of_(system),
+        none_(system.run.times, hole_names(*system.table).size(), system.quasi_random()),
+        watch_(system, [this] { return thread_.stopped(); }) {}
 
   /// The next block, as DrawnStarts asks for it.
   bool claim(TrajectoryRange& block) {
@@ -44,8 +46,7 @@ class EscapeListener : public Listener {
     if (order_) order_->await_turn(number);
     pause_ = order_ != nullptr;
     blocks_.push_back({block, number, block.last - block.first, {}, {}});
-    blocks_.back().part.counts = SurvivalCounts(
-        system_.run.times, hole_names(*system_.table).size(), system_.quasi_random());
+    blocks_.back().part.counts = none_;
     return true;
   }
   /// After a pause; false if there are no blocks left.
@@ -55,19 +56,19 @@ class EscapeListener : public Listener {
   }
 
   void begin(const Trajectory& t) override {
-    if (under_way_.size() <= t.slot)
-      under_way_.resize(
-          t.slot + 1, {blocks_.end(), EnergyWatch(system_, [this] { return thread_.stopped(); })});
-    under_way_[t.slot].block = std::prev(blocks_.end());
-    under_way_[t.slot].energies.begin(t);
+    if (under_way_.size() <= t.slot) {
+      under_way_.resize(t.slot + 1);
+      if (watch_.watches()) energies_.resize(t.slot + 1, watch_);
+    }
+    under_way_[t.slot] = std::prev(blocks_.end());
+    if (watch_.watches()) energies_[t.slot].begin(t);
   }
 
   void end(const Trajectory& t, const TrajectoryEnd& end) override {
-    UnderWay& mine = under_way_[t.slot];
-    Block& block = *mine.block;
+    Block& block = *under_way_[t.slot];
     EscapeResult& sum = block.part;
-    if (mine.energies.watches()) {
-      const EnergiesSeen energies = mine.energies.end(t, end);
+    if (watch_.watches()) {
+      const EnergiesSeen energies = energies_[t.slot].end(t, end);
       sum.counts.energy_change = larger(sum.counts.energy_change, energies.change);
       sum.energy_error += energies.error;
     }
@@ -88,7 +89,7 @@ class EscapeListener : public Listener {
     thread_.report(1, hits);
     if (--block.left > 0) return;
     deliver(block);
-    blocks_.erase(mine.block);
+    blocks_.erase(under_way_[t.slot]);
   }
 
  private:
@@ -98,12 +99,6 @@ class EscapeListener : public Listener {
     EscapeResult part;
     std::vector<TrajectoryRecord> records;
   };
-  /// What is known of a trajectory.
-  struct UnderWay {
-    std::list<Block>::iterator block;
-    EnergyWatch energies;
-  };
-
   void deliver(Block& block) {
     std::sort(block.records.begin(), block.records.end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
@@ -124,8 +119,11 @@ class EscapeListener : public Listener {
   const bool wants_records_;
   const ParticleHash hash_;
   const RecordMaker record_of_;
+  const SurvivalCounts none_;  ///< of no trajectory yet
   std::list<Block> blocks_;
-  std::vector<UnderWay> under_way_;  ///< by slot
+  std::vector<std::list<Block>::iterator> under_way_;  ///< by slot of a trajectory
+  const EnergyWatch watch_;                            ///< of a trajectory that has not begun
+  std::vector<EnergyWatch> energies_;                  ///< by slot, if they are watched
   bool pause_ = false, exhausted_ = false;
   DecisionCounts decisions_;  ///< that were told
   LaneEffort effort_;

@@ -1,6 +1,7 @@
 // Counts of positive numbers in fixed bins, so that counts of any parts add up.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,6 +32,10 @@ class BinaryBins {
 
   /// The bin of a positive number, without its count.
   static Bin bin_of(double number);
+  /// Bins of positive numbers are numbered in order: 52 binary digits follow the first of a double.
+  static std::uint64_t number_of(double number) {
+    return std::bit_cast<std::uint64_t>(number) >> (52 - Digits);
+  }
 
  private:
   void reach(std::uint64_t bin);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "carom/analysis/escape_times.hpp"
@@ -60,6 +61,10 @@ struct SurvivalCounts : FateCounts, GoneCounts {
   /// Trajectories whose fate is known: neither singular nor unresolved nor lost. Shares are taken
   /// of these.
   std::uint64_t followed() const { return trajectories - singular - unresolved - lost; }
+
+ private:
+  struct Ends;
+  std::shared_ptr<const Ends> ends_;  ///< of bins of times and hits, for `add`
 };
 
 /// Share `p` that is still there at time t, with its 95 % interval (low, high).
