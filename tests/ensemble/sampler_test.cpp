@@ -111,11 +111,11 @@ class Boundary : public testing::TestWithParam<const char*> {};
 TEST(Sampler, ManyAtOnceAreThoseOneByOne) {
   const char* const systems[] = {
       R"toml(table = { shape = "rectangle", width = 1, height = 1 })toml",
-      R"toml(table = { shape = "stadium", radius = 1, length = 2 }
+      R"toml(table = { shape = "stadium", radius = 1, half_length = 1 }
 particles = { speed = 3 })toml",
       R"toml(table = { shape = "lorentz", lattice = "triangular", spacing = 2.2, radius = 1 })toml",
-      R"toml(table = { shape = "mushroom", radius = 1, stem_width = 0.5, stem_height = 1 }
-initial = { kind = "rectangle", from = [-2, -2], to = [0.5, 2] })toml",
+      R"toml(table = { shape = "mushroom", cap_radius = 1, stem_width = 0.5, stem_height = 1 }
+initial = { kind = "rectangle", min = [-2, -2], max = [0.5, 2] })toml",
       R"toml(table = { shape = "circle", radius = 1 }
 initial = { kind = "boundary" })toml",
       R"toml(table = { shape = "circle", radius = 1 }
