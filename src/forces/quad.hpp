@@ -3,6 +3,7 @@
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,10 @@ class Quad {
   friend Quad operator-(const Quad& a) { return Number(-a.n_); }
   friend bool operator==(const Quad& a, const Quad& b) { return a.n_ == b.n_; }
   friend bool operator<(const Quad& a, const Quad& b) { return a.n_ < b.n_; }
+  friend bool operator>(const Quad& a, const Quad& b) { return a.n_ > b.n_; }
+  friend bool operator<=(const Quad& a, const Quad& b) { return a.n_ <= b.n_; }
+  friend bool operator>=(const Quad& a, const Quad& b) { return a.n_ >= b.n_; }
+  friend Quad sqrt(const Quad& x) { return root(x); }
 
   // What formulas ask of a number (forces/dual.hpp, forces/formula_evaluation.hpp).
   friend double value_of(const Quad& x) { return x.to_double(); }
@@ -54,3 +59,10 @@ class Quad {
 };
 
 }  // namespace carom::forces
+
+template <>
+struct std::numeric_limits<carom::forces::Quad>
+    : std::numeric_limits<boost::multiprecision::cpp_bin_float_quad> {
+  static carom::forces::Quad epsilon() { return 0x1p-112; }
+  static carom::forces::Quad infinity() { return std::numeric_limits<double>::infinity(); }
+};

@@ -2,22 +2,33 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "ensemble/compare/orbit.hpp"
 
 namespace carom::ensemble {
 
+struct PreciselyHit {
+  ComparedHit seen;
+  double speed = 0.0, across = 0.0;  ///< before it; the part across the wall
+};
+
 struct PreciseOrbit {
   std::vector<std::vector<PlaneState>> states;  ///< as Orbit::states
+  std::vector<PreciselyHit> hits;
   double step = 0.0;
   double error = 0.0;  ///< of the states, rounding to doubles included
 };
 
 /// Follows the start until t by `scheme` in 34 digits, with steps of about `step`, of a half, of a
 /// quarter … until the error is far below that of a double; forces by the formulas of the
-/// documentation. Walls are not seen. Empty: it would cost too much, or halving the step does not
-/// lower the error as the scheme's order says twice running, or a force has no value.
+/// documentation. Empty: it would cost too much, or halving the step does not lower the error as
+/// the scheme's order says twice running, or a force has no value, or it does not hit the walls
+/// that are expected.
 std::optional<PreciseOrbit> precise_orbit(const Runs&, const std::string& scheme, double step,
-                                          double t, const ErrorUnits&);
+                                          double t, const ErrorUnits&,
+                                          std::span<const ComparedHit> expected = {});
 
 }  // namespace carom::ensemble
