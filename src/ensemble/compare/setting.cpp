@@ -134,42 +134,86 @@ void fly_exactly(const Runs& runs, Setting& setting) {
   setting.reference_error = rounding_of_flight * std::sqrt(flights) * setting.rounded;
 }
 
-/// The orbit of the reference scheme with the step at which half of it changes least.
-void integrate(const Runs& runs, Setting& setting) {
-  Orbit before;
-  constexpr double unknown = std::numeric_limits<double>::infinity();
-  double least = unknown, last = unknown, step = setting.longest_step;
-  int falling = 0;
+/// By how much halving the step changes an orbit, again and again.
+struct Changes {
+  static constexpr double unknown = std::numeric_limits<double>::infinity();
+  double first = unknown, last = unknown, before = unknown, least = unknown;
+  /// The largest, each halved as often as the step since: what is left of errors in proportion to
+  /// the step.
+  double in_proportion = 0.0;
+  int count = 0, count_at_least = 0;
+  int falling = 0;  ///< of the last ones, those that fell as the order of the reference says
   bool order_seen = false;
+
+  void add(double change) {
+    before = last;
+    last = change;
+    if (count == 0) first = change;
+    if (change < least) {
+      least = change;
+      count_at_least = count;
+    }
+    ++count;
+    falling = before < unknown && before > falls * change ? falling + 1 : 0;
+    order_seen = order_seen || falling > 1;
+    in_proportion = larger(0.5 * in_proportion, change);
+  }
+  /// Of the last orbit. A change may be small by chance: without an order the one before counts.
+  double error() const {
+    return margin * (order_seen || before == unknown ? last : std::max(last, before));
+  }
+  /// From the first to the least they fall less than those of order 3.
+  bool slow() const { return first < std::ldexp(least, 3 * count_at_least); }
+};
+
+/// The orbit of the reference scheme with the step at which half of it changes least. Returns that
+/// step. Where changes fall neither as its order says nor to rounding: the orbit with the shortest
+/// step, whose error is in proportion to the step, as those of forces that jump are; and 0 if 34
+/// digits help no more.
+double integrate(const Runs& runs, Setting& setting) {
+  Orbit before;
+  std::string failure;
+  Changes changes;
+  double step = setting.longest_step, shortest = 0.0, best = 0.0;
+  bool rounded = false;
   for (int k = 0; k <= most_halvings; ++k, step *= 0.5) {
     Orbit now = runs.fly(runs.by(reference_scheme, step, 0.0), setting.t, Runs::Part::orbit);
-    if (!now.failure.empty()) continue;
+    if (!now.failure.empty()) {
+      failure = now.failure;
+      continue;
+    }
     if (!before.states.empty()) {
-      const double change = distance(before, now).in(setting.units);
-      falling = last < unknown && last > falls * change ? falling + 1 : 0;
-      order_seen = order_seen || falling > 1;
+      changes.add(distance(before, now).in(setting.units));
       const double evaluations = static_cast<double>(now.counts.force_evaluations);
-      if (change < least) {
-        least = change;
+      const bool least = changes.count_at_least + 1 == changes.count;
+      if (least) {
+        best = step;
         setting.reference = now;
         setting.reference_step = step;
-        // Where forces have kinks a change may be small by chance: the one before it counts, too.
-        setting.reference_error =
-            margin * (order_seen || last == unknown ? change : std::max(change, last));
+        setting.reference_error = changes.error();
         setting.reference_evaluations = evaluations;
       }
       // Rounding grows with the number of steps: from here on shorter ones help no more.
-      if (change > least && least <= near_rounding * setting.rounding(evaluations)) break;
-      last = change;
+      rounded = changes.least <= near_rounding * setting.rounding(evaluations);
+      if (!least && rounded) break;
     }
     before = std::move(now);
+    shortest = step;
     if (static_cast<double>(before.counts.force_evaluations) * runs.weight() > most_evaluations)
       break;
   }
-  if (!(setting.reference_step > 0.0))
-    throw InputError(Place{}, "no reference was found: " + before.failure,
+  if (!(best > 0.0))
+    throw InputError(Place{}, "no reference was found: " + failure,
                      "a shorter time (--t-max), or softer forces");
+  const bool kinks = !changes.order_seen && !rounded;
+  if (kinks) {
+    setting.reference_evaluations = static_cast<double>(before.counts.force_evaluations);
+    setting.reference = std::move(before);
+    setting.reference_step = shortest;
+    setting.reference_error = margin * changes.in_proportion;
+  }
   setting.rounding_error = setting.reference_error;
+  return kinks && changes.slow() ? 0.0 : best;
 }
 
 /// Are the hits those of the reference? One whose state errs by `error` is hit earlier or later by
@@ -186,12 +230,12 @@ bool same_hits(const std::vector<ComparedHit>& hits, const std::vector<Precisely
   return true;
 }
 
-/// The same orbit in 34 digits. How far the orbit in doubles is from it is what rounding has made
-/// of that.
-void integrate_precisely(const Runs& runs, Setting& setting) {
-  const std::optional<PreciseOrbit> precise =
-      precise_orbit(runs, reference_scheme, 8.0 * setting.reference_step, setting.t, setting.units,
-                    setting.reference.hits);
+/// The same orbit in 34 digits, with steps about that one. How far the orbit in doubles is from it
+/// is what rounding has made of that.
+void integrate_precisely(const Runs& runs, double step, Setting& setting) {
+  if (!(step > 0.0)) return;
+  const std::optional<PreciseOrbit> precise = precise_orbit(
+      runs, reference_scheme, 8.0 * step, setting.t, setting.units, setting.reference.hits);
   if (!precise || !(precise->error < setting.reference_error)) return;
   Orbit orbit = setting.reference;
   orbit.states = precise->states;
@@ -262,8 +306,7 @@ Setting setting_of(const Runs& runs, double wanted) {
   if (runs.free()) {
     fly_exactly(runs, setting);
   } else {
-    integrate(runs, setting);
-    integrate_precisely(runs, setting);
+    integrate_precisely(runs, integrate(runs, setting), setting);
   }
   return setting;
 }
