@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -223,6 +225,7 @@ struct Around {
   const char* name;
   std::string table, more;
   double t;
+  friend void PrintTo(const Around& a, std::ostream* out) { *out << a.name; }
 };
 
 class WallsIn34Digits : public testing::TestWithParam<Around> {

@@ -213,6 +213,9 @@ double integrate(const Runs& runs, Setting& setting) {
     setting.reference_error = margin * changes.in_proportion;
   }
   setting.rounding_error = setting.reference_error;
+  // Orbits hit a wall with the same normal, rounded once: changes do not show it.
+  setting.reference_error +=
+      rounding_of_flight * static_cast<double>(setting.reference.hits.size()) * setting.growth;
   return kinks && changes.slow() ? 0.0 : best;
 }
 
