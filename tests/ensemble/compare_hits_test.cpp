@@ -340,6 +340,24 @@ TEST(HitsIn34Digits, OtherHitsThanExpectedAreRefused) {
   EXPECT_FALSE(motion.follow(motion.start(), 8.0, 4, order));
 }
 
+// With the velocity 1 across the wall, of 2 in all.
+TEST(HitsIn34Digits, AHitIsWithinTheErrorOfItsState) {
+  const ComparedHit hit{0, 1, 3.0, {1.0, 2.0}};
+  const std::vector<PreciselyHit> precise{{hit, 2.0, 1.0}};
+  const double error = 1e-9;
+  const auto same = [&](double late, double beside) {
+    ComparedHit other = hit;
+    other.t += late;
+    other.place.y += beside;
+    return same_hits({other}, precise, error);
+  };
+  EXPECT_TRUE(same(0.9e-9, 0.0));
+  EXPECT_FALSE(same(1.1e-9, 0.0));
+  EXPECT_TRUE(same(0.0, 2.9e-9));
+  EXPECT_FALSE(same(0.0, -3.1e-9));
+  EXPECT_FALSE(same_hits({}, precise, error));
+}
+
 // Straight into a corner, where both walls are hit at once: they have no order, and the reference
 // stays in doubles.
 TEST(HitsIn34Digits, ACornerLeavesTheReferenceInDoubles) {

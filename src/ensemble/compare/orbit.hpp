@@ -32,6 +32,9 @@ struct ErrorUnits {
   double size = 1.0, speed = 1.0;
 };
 
+/// A flight to a wall is rounded by some units: of the hit's place, the time and the velocity.
+inline constexpr double rounding_of_flight = 0x1p-50;
+
 /// Looks at a run: the energy at each of them, the state at the latest eight of every fourth.
 inline constexpr int looks = 64, looks_between_states = 4, states_compared = 8;
 

@@ -100,4 +100,18 @@ std::optional<PreciseOrbit> precise_orbit(const Runs& runs, const std::string& n
   }
 }
 
+bool same_hits(const std::vector<ComparedHit>& hits, const std::vector<PreciselyHit>& precise,
+               double error) {
+  if (hits.size() != precise.size()) return false;
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    const ComparedHit &a = hits[k], &b = precise[k].seen;
+    const double late = error / precise[k].across + rounding_of_flight * b.t,
+                 beside = error + precise[k].speed * late +
+                          rounding_of_flight * geometry::length(b.place);
+    if (!(std::fabs(a.t - b.t) <= late && geometry::length(a.place - b.place) <= beside))
+      return false;
+  }
+  return true;
+}
+
 }  // namespace carom::ensemble

@@ -31,4 +31,9 @@ std::optional<PreciseOrbit> precise_orbit(const Runs&, const std::string& scheme
                                           double t, const ErrorUnits&,
                                           std::span<const ComparedHit> expected = {});
 
+/// Are the hits the same to such an error of a position? The state reaches the wall earlier or
+/// later by that way over the velocity across the wall, and elsewhere by as much as it goes
+/// meanwhile.
+bool same_hits(const std::vector<ComparedHit>&, const std::vector<PreciselyHit>&, double error);
+
 }  // namespace carom::ensemble

@@ -33,8 +33,6 @@ constexpr double margin = 2.0;
 constexpr double falls = 0x1p7;
 /// A change that grows again is that of rounding only if it is within so many times of it.
 constexpr double near_rounding = 64.0;
-/// A flight to a wall is rounded by some units: of the hit's place, the time and the velocity.
-constexpr double rounding_of_flight = 0x1p-50;
 
 double largest_turn(const System& system) {
   double omega = 0.0;
@@ -217,20 +215,6 @@ double integrate(const Runs& runs, Setting& setting) {
   setting.reference_error +=
       rounding_of_flight * static_cast<double>(setting.reference.hits.size()) * setting.growth;
   return kinks && changes.slow() ? 0.0 : best;
-}
-
-/// Are the hits those of the reference? One whose state errs by `error` is hit earlier or later by
-/// that way over the part of the velocity across the wall, and elsewhere by as much as it goes
-/// meanwhile.
-bool same_hits(const std::vector<ComparedHit>& hits, const std::vector<PreciselyHit>& precise,
-               double error) {
-  for (std::size_t k = 0; k < hits.size(); ++k) {
-    const ComparedHit &a = hits[k], &b = precise[k].seen;
-    const double late = error / precise[k].across + rounding_of_flight * b.t,
-                 beside = error + precise[k].speed * late + rounding_of_flight * length(b.place);
-    if (!(std::fabs(a.t - b.t) <= late && length(a.place - b.place) <= beside)) return false;
-  }
-  return true;
 }
 
 /// The same orbit in 34 digits, with steps about that one. How far the orbit in doubles is from it
