@@ -256,10 +256,10 @@ class Run(Result):
     def hits(self) -> numpy.ndarray:
         """Reflections in order of time, (number of hits,), not copied and not to be written.
 
-        particle, wall (index into system.walls), u (parameter on the wall), s (length, along the
-        wall), v_parallel (length/time, along the wall), t (time), x, y (length, in the plane),
-        vx, vy (length/time) after the hit, cell_first, cell_second (cell of the lattice),
-        reflections (1, or n at a corner of angle π/n).
+        particle, wall (index into system.walls), s (length, along the wall), v_parallel
+        (length/time, along the wall), t (time), x, y (length, in the plane), vx, vy (length/time)
+        after the hit, cell_first, cell_second (cell of the lattice), reflections (1, or n at a
+        corner of angle π/n).
         """
         return self._outcome.hits()
 

@@ -233,7 +233,7 @@ std::shared_ptr<Loaded> system_of(const LoadedPointer& system) {
 }  // namespace
 
 void add_runs(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(HitRow, particle, wall, u, s, v_parallel, t, x, y, vx, vy, cell_first,
+  PYBIND11_NUMPY_DTYPE(HitRow, particle, wall, s, v_parallel, t, x, y, vx, vy, cell_first,
                        cell_second, reflections);
   PYBIND11_NUMPY_DTYPE(SampleRow, particle, t, x, y, vx, vy, cell_first, cell_second);
   PYBIND11_NUMPY_DTYPE(ContactRow, first, second, t, first_x, first_y, second_x, second_y, dx, dy,

@@ -23,7 +23,6 @@ HitRow hit_row(const HitEvent& event, const Table& table,
   const Vector x = unwrapped(table, event.position, event.cell);
   return {event.particle,
           event.wall,
-          event.u,
           geometry::arc_length_at(frame, event.u),
           dot(event.after, geometry::tangent_at(frame, event.u)),
           event.time.value(),

@@ -144,7 +144,7 @@ TEST(RunArchive, SurvivesCtrlC) {
 // cannot be read. They are of one length but while the writer is between two of them.
 long read_last_rows(hid_t file) {
   long least = -1;
-  for (const char* name : {"particle", "wall", "u", "s", "v_parallel", "t", "x", "y", "vx", "vy",
+  for (const char* name : {"particle", "wall", "s", "v_parallel", "t", "x", "y", "vx", "vy",
                            "cell_first", "cell_second", "reflections"}) {
     const hid_t column = H5Dopen2(file, (std::string("collisions/") + name).c_str(), H5P_DEFAULT);
     H5Drefresh(column);

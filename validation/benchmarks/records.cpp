@@ -22,7 +22,7 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
   return hash ^ hash >> 29;
 }
 std::uint64_t mixed(std::uint64_t hash, const HitRow& r) {
-  for (const double x : {r.u, r.s, r.v_parallel, r.t, r.x, r.y, r.vx, r.vy})
+  for (const double x : {r.s, r.v_parallel, r.t, r.x, r.y, r.vx, r.vy})
     hash = mixed(hash, std::bit_cast<std::uint64_t>(x));
   for (const std::int64_t n : {std::int64_t{r.particle}, std::int64_t{r.wall}, r.cell_first,
                                r.cell_second, std::int64_t{r.reflections}})

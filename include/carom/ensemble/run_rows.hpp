@@ -20,7 +20,6 @@ class World;
 /// A reflection; velocities are those after it.
 struct HitRow {
   std::int32_t particle = 0, wall = 0;
-  double u = 0;           ///< parameter on the wall
   double s = 0;           ///< arc length along the wall
   double v_parallel = 0;  ///< velocity along it, in the direction of s
   double t = 0;

@@ -229,7 +229,6 @@ void RunArchive::Implementation::create(const LoadedSystem& loaded, const Proven
     const hid_t wall =
         hits.add<std::int32_t>(to, "wall", {"1", "Index into the attribute `names`"});
     hdf5::write_attribute(wall, "names", walls, file.name());
-    hits.add<double>(to, "u", {"1", "Exact parameter on the wall"});
     hits.add<double>(to, "s", {"length", "Arc length along the wall from its start"});
     hits.add<double>(
         to, "v_parallel",
@@ -289,7 +288,7 @@ void RunArchive::Implementation::reopen(const LoadedSystem& loaded, const Proven
     const hid_t from = group.get();
     hits.open<std::int32_t>(from, "particle");
     hits.open<std::int32_t>(from, "wall");
-    for (const char* name : {"u", "s", "v_parallel", "t", "x", "y", "vx", "vy"})
+    for (const char* name : {"s", "v_parallel", "t", "x", "y", "vx", "vy"})
       hits.open<double>(from, name);
     hits.open<std::int64_t>(from, "cell_first");
     hits.open<std::int64_t>(from, "cell_second");
@@ -405,9 +404,8 @@ void RunArchive::hit(const HitEvent& event) {
 }
 
 void RunArchive::append(const HitRow& row) {
-  implementation_->hits.row(row.particle, row.wall, row.u, row.s, row.v_parallel, row.t, row.x,
-                            row.y, row.vx, row.vy, row.cell_first, row.cell_second,
-                            row.reflections);
+  implementation_->hits.row(row.particle, row.wall, row.s, row.v_parallel, row.t, row.x, row.y,
+                            row.vx, row.vy, row.cell_first, row.cell_second, row.reflections);
 }
 
 void RunArchive::contact(const ContactEvent& event) {

@@ -70,7 +70,6 @@ std::vector<HitRow> read_hits(const std::string& file) {
   group.read_motion(rows);
   group.read_cells(rows);
   group.read(rows, "wall", &HitRow::wall);
-  group.read(rows, "u", &HitRow::u);
   group.read(rows, "s", &HitRow::s);
   group.read(rows, "v_parallel", &HitRow::v_parallel);
   group.read(rows, "reflections", &HitRow::reflections);
