@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
-#include <cstring>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -24,22 +21,6 @@ constexpr const char* list_name = "checksums";
 constexpr std::string_view list_path = "/provenance@checksums";
 constexpr std::size_t sum_length = 8;  // digits of a sum
 constexpr std::size_t batch_bytes = std::size_t{1} << 20;
-
-// Eight bytes at a time: tables[k][b] is what the byte b adds when k bytes follow it.
-using Tables = std::array<std::array<std::uint32_t, 256>, 8>;
-constexpr Tables make_tables() {
-  Tables tables{};
-  for (std::uint32_t byte = 0; byte < 256; ++byte) {
-    std::uint32_t sum = byte;
-    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1) ^ ((sum & 1u) != 0 ? 0xedb88320u : 0u);
-    tables[0][byte] = sum;
-  }
-  for (std::size_t k = 1; k < tables.size(); ++k)
-    for (std::size_t byte = 0; byte < 256; ++byte)
-      tables[k][byte] = (tables[k - 1][byte] >> 8) ^ tables[0][tables[k - 1][byte] & 0xffu];
-  return tables;
-}
-constexpr Tables tables = make_tables();
 
 // What a line says of a dataset or an attribute.
 struct Entry {
@@ -229,84 +210,7 @@ bool parse(const std::string& line, Entry& entry, std::string& path) {
   return sum.size() == sum_length && std::from_chars(sum.data(), end, entry.sum, 16).ptr == end;
 }
 
-std::uint32_t after_eight(std::uint32_t sum, const unsigned char* at) {
-  const std::uint32_t first = sum ^ (at[0] | at[1] << 8 | at[2] << 16 | std::uint32_t{at[3]} << 24);
-  return tables[7][first & 0xffu] ^ tables[6][first >> 8 & 0xffu] ^ tables[5][first >> 16 & 0xffu] ^
-         tables[4][first >> 24] ^ tables[3][at[4]] ^ tables[2][at[5]] ^ tables[1][at[6]] ^
-         tables[0][at[7]];
-}
-
 }  // namespace
-
-std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before) {
-  const auto* at = static_cast<const unsigned char*>(bytes);
-  std::uint32_t sum = ~before;
-  for (; size >= 8; size -= 8, at += 8) sum = after_eight(sum, at);
-  for (; size > 0; --size, ++at) sum = sum >> 8 ^ tables[0][(sum ^ *at) & 0xffu];
-  return ~sum;
-}
-
-void crc32_of_several(const std::byte* const* bytes, std::size_t size, std::uint32_t* sums,
-                      std::size_t count) {
-  if (count < 4) {
-    for (std::size_t i = 0; i < count; ++i) sums[i] = crc32(bytes[i], size, sums[i]);
-    return;
-  }
-  const auto* a = reinterpret_cast<const unsigned char*>(bytes[0]);
-  const auto* b = reinterpret_cast<const unsigned char*>(bytes[1]);
-  const auto* c = reinterpret_cast<const unsigned char*>(bytes[2]);
-  const auto* d = reinterpret_cast<const unsigned char*>(bytes[3]);
-  std::uint32_t s = ~sums[0], t = ~sums[1], u = ~sums[2], v = ~sums[3];
-  std::size_t done = 0;
-  for (; done + 8 <= size; done += 8) {
-    s = after_eight(s, a + done);
-    t = after_eight(t, b + done);
-    u = after_eight(u, c + done);
-    v = after_eight(v, d + done);
-  }
-  sums[0] = crc32(a + done, size - done, ~s);
-  sums[1] = crc32(b + done, size - done, ~t);
-  sums[2] = crc32(c + done, size - done, ~u);
-  sums[3] = crc32(d + done, size - done, ~v);
-}
-
-// With the words w_0 ... w_{n-1} of two bytes, the higher first, the two halves are the sums of w_i
-// and of (n - i) w_i modulo 65535, of which 0 stands for words that are all 0 and 65535 for other
-// multiples. Words are taken with the lower byte first, two sums a register: 256 times these are
-// those wanted. Eight bytes at a time: the k-th of m groups counts 4 (m - k) - r in its word r.
-std::uint32_t fletcher32(const void* bytes, std::size_t size) {
-  constexpr std::uint64_t halves = 0x0000ffff0000ffffu;
-  constexpr std::size_t most = 256;  // groups until sums of sums might leave 32 bits
-  const auto* at = static_cast<const unsigned char*>(bytes);
-  const std::uint64_t groups = size / 8;
-  std::uint64_t words[4] = {}, weighted = 0;  // of what was done
-  for (std::uint64_t done = 0; done < groups;) {
-    const std::uint64_t now = std::min<std::uint64_t>(most, groups - done);
-    std::uint64_t even = 0, odd = 0, evens = 0, odds = 0;
-    for (std::uint64_t i = 0; i < now; ++i, at += 8) {
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, at, 8);
-      if constexpr (std::endian::native == std::endian::big) eight = __builtin_bswap64(eight);
-      even += eight & halves;
-      odd += eight >> 16 & halves;
-      evens += even;
-      odds += odd;
-    }
-    const auto low = [](std::uint64_t x) { return x & 0xffffffffu; };
-    // What came before counts once more for each group that follows.
-    weighted += now * (words[0] + words[1] + words[2] + words[3]) + low(evens) + low(odds) +
-                (evens >> 32) + (odds >> 32);
-    words[0] += low(even), words[1] += low(odd), words[2] += even >> 32, words[3] += odd >> 32;
-    done += now;
-  }
-  const std::uint64_t sum = words[0] + words[1] + words[2] + words[3];
-  const std::uint64_t sums = 4 * weighted - words[1] - 2 * words[2] - 3 * words[3];
-  const auto reduced = [](std::uint64_t x) {
-    return x == 0 ? std::uint32_t{0}
-                  : static_cast<std::uint32_t>((x % 65535 * 256 + 65534) % 65535 + 1);
-  };
-  return reduced(sums) << 16 | reduced(sum);
-}
 
 void write_checksums(hid_t file, const std::string& name, const KnownSums& known) {
   write_list(file, list_of(file, true, name, known), name);

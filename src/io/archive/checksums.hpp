@@ -3,21 +3,13 @@
 
 #include <hdf5.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
 
-namespace carom::io::hdf5 {
+#include "io/archive/sums.hpp"
 
-/// CRC-32 as zlib has it, so that others can compute it. Goes on from the sum of the bytes before.
-std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t before = 0);
-/// The same of up to four rows of bytes of one length side by side, which is faster than one after
-/// the other: each sum goes on from what `sums` holds.
-void crc32_of_several(const std::byte* const* bytes, std::size_t size, std::uint32_t* sums,
-                      std::size_t count);
-/// The sum of HDF5's filter Fletcher-32 of a chunk of a multiple of eight bytes.
-std::uint32_t fletcher32(const void* bytes, std::size_t size);
+namespace carom::io::hdf5 {
 
 /// Checksums of datasets that were taken while they were written, by path.
 struct KnownSum {

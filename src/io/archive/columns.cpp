@@ -7,11 +7,11 @@ namespace carom::io::hdf5 {
 
 hid_t Columns::take(Handle dataset, hid_t type, const void* usual) {
   const std::size_t size = H5Tget_size(type);
-  std::vector<std::byte> chunk(chunk_ * size);
+  std::vector<std::uint8_t> chunk(chunk_ * size);
   for (std::size_t i = 0; i < chunk_; ++i) std::memcpy(chunk.data() + i * size, usual, size);
-  const bool raw = is_raw(dataset.get(), file_);
-  columns_.push_back({std::move(dataset), type, size, raw, std::move(chunk),
-                      std::vector<std::byte>(batch() * size)});
+  const bool packed = is_packed(dataset.get(), file_);
+  columns_.push_back({std::move(dataset), type, size, packed, std::move(chunk),
+                      std::vector<std::uint8_t>(batch() * size)});
   return columns_.back().dataset.get();
 }
 
@@ -28,8 +28,8 @@ void Columns::flush() {
   for (Column& column : columns_) {
     write(column);
     check(H5Dflush(column.dataset.get()) >= 0, file_);
+    if (whole_) column.sum = crc32(column.values.data(), pending_ * column.size, column.sum);
   }
-  if (whole_) add_to_sums();
   rows_ += pending_;
   pending_ = 0;
   until_full_ = batch() - rows_ % batch();
@@ -41,36 +41,18 @@ void Columns::write(Column& column) {
   for (std::size_t row = 0; row < pending_;) {
     const std::size_t in_chunk = (rows_ + row) % chunk_;
     const std::size_t count = std::min(chunk_ - in_chunk, pending_ - row);
-    const std::byte* values = column.values.data() + row * column.size;
+    const std::uint8_t* values = column.values.data() + row * column.size;
     const bool begins = in_chunk == 0;
     if (begins && std::memcmp(values, column.usual.data(), count * column.size) == 0) {
       row += count;
       continue;
     }
-    if (begins && count == chunk_ && column.raw)
-      write_raw_chunk(column.dataset.get(), rows_ + row, values, count * column.size, file_);
+    if (begins && count == chunk_ && column.packed)
+      write_packed_chunk(column.dataset.get(), rows_ + row,
+                         packer_.pack({values, count * column.size}, column.size), file_);
     else
       write_rows(column.dataset.get(), column.type, rows_ + row, count, values, file_);
     row += count;
-  }
-}
-
-// Several at a time, of one size: a single sum waits for its own tables.
-void Columns::add_to_sums() {
-  constexpr std::size_t most = 4;
-  for (std::size_t first = 0, last = 0; first < columns_.size(); first = last) {
-    const std::size_t size = columns_[first].size;
-    const std::byte* bytes[most];
-    std::uint32_t sums[most] = {};
-    std::size_t taken[most], count = 0;
-    for (last = first; last < columns_.size() && count < most && columns_[last].size == size;
-         ++last) {
-      taken[count] = last;
-      bytes[count] = columns_[last].values.data();
-      sums[count++] = columns_[last].sum;
-    }
-    crc32_of_several(bytes, pending_ * size, sums, count);
-    for (std::size_t i = 0; i < count; ++i) columns_[taken[i]].sum = sums[i];
   }
 }
 

@@ -55,17 +55,16 @@ class Columns {
   struct Column {
     Handle dataset;
     hid_t type;
-    std::size_t size;               ///< of a value
-    bool raw;                       ///< its chunks are stored as they are, with a checksum
-    std::vector<std::byte> usual;   ///< a chunk of the usual value
-    std::vector<std::byte> values;  ///< of the rows that are pending
-    std::uint32_t sum = 0;          ///< of the rows that were written
+    std::size_t size;                  ///< of a value
+    bool packed;                       ///< whole chunks go past HDF5's filters
+    std::vector<std::uint8_t> usual;   ///< a chunk of the usual value
+    std::vector<std::uint8_t> values;  ///< of the rows that are pending
+    std::uint32_t sum = 0;             ///< of the rows that were written
   };
 
   hid_t take(Handle dataset, hid_t type, const void* usual);
   void open(Handle dataset, hid_t type, const void* usual);
   void write(Column& column);
-  void add_to_sums();
   std::size_t batch() const { return chunk_ < short_batch ? short_batch : chunk_; }
   template <class T>
   void push(Column& column, T value) {
@@ -74,6 +73,7 @@ class Columns {
 
   std::string file_;
   std::vector<Column> columns_;
+  ChunkPacker packer_;
   std::size_t chunk_ = short_chunk;
   std::size_t rows_ = 0, pending_ = 0;
   std::size_t until_full_ = batch();  ///< pending rows that end a batch

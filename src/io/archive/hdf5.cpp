@@ -6,9 +6,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <iterator>
 
 #include "carom/base/error.hpp"
-#include "io/archive/checksums.hpp"
+#include "io/archive/sums.hpp"
 #include "io/archive/texts.hpp"
 
 namespace carom::io::hdf5 {
@@ -249,7 +250,8 @@ Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t ch
   const Handle space = checked(H5Screate_simple(1, &none, &unlimited), H5Sclose, file);
   const Handle layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file);
   check(H5Pset_chunk(layout.get(), 1, &rows) >= 0, file);
-  if (H5Tget_class(type) == H5T_INTEGER && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0)
+  const bool number = H5Tget_class(type) == H5T_INTEGER || H5Tget_class(type) == H5T_FLOAT;
+  if (number && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0)
     check(H5Pset_shuffle(layout.get()) >= 0 && H5Pset_deflate(layout.get(), 1) >= 0, file);
   check(H5Pset_fletcher32(layout.get()) >= 0, file);  // the last: it guards the others' input
   if (usual) check(H5Pset_fill_value(layout.get(), type, usual) >= 0, file);
@@ -282,13 +284,18 @@ std::string path_of(hid_t dataset, const std::string& file) {
   return path;
 }
 
-bool is_raw(hid_t dataset, const std::string& file) {
+bool is_packed(hid_t dataset, const std::string& file) {
   const Handle layout = checked(H5Dget_create_plist(dataset), H5Pclose, file);
-  unsigned flags = 0;
-  std::size_t none = 0;
-  return H5Pget_nfilters(layout.get()) == 1 &&
-         H5Pget_filter2(layout.get(), 0, &flags, &none, nullptr, 0, nullptr, nullptr) ==
-             H5Z_FILTER_FLETCHER32;
+  constexpr H5Z_filter_t filters[] = {H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE,
+                                      H5Z_FILTER_FLETCHER32};
+  if (H5Pget_nfilters(layout.get()) != static_cast<int>(std::size(filters))) return false;
+  for (unsigned i = 0; i < std::size(filters); ++i) {
+    unsigned flags = 0;
+    std::size_t none = 0;
+    if (H5Pget_filter2(layout.get(), i, &flags, &none, nullptr, 0, nullptr, nullptr) != filters[i])
+      return false;
+  }
+  return true;
 }
 
 void extend(hid_t dataset, std::size_t rows, const std::string& file) {
@@ -311,15 +318,16 @@ void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, 
   write_rows(dataset, type, row, count, values, file);
 }
 
-void write_raw_chunk(hid_t dataset, std::size_t row, const void* values, std::size_t size,
-                     const std::string& file) {
-  std::vector<unsigned char> chunk(size + 4);
-  std::memcpy(chunk.data(), values, size);
-  const std::uint32_t sum = fletcher32(values, size);
-  for (int i = 0; i < 4; ++i)
-    chunk[size + static_cast<std::size_t>(i)] = static_cast<unsigned char>(sum >> (8 * i));
+void write_packed_chunk(hid_t dataset, std::size_t row, ChunkPacker::Packed packed,
+                        const std::string& file) {
+  std::vector<std::uint8_t> chunk(packed.bytes.begin(), packed.bytes.end());
+  const std::uint32_t sum = fletcher32(chunk.data(), chunk.size());
+  for (int shift = 0; shift < 32; shift += 8)
+    chunk.push_back(static_cast<std::uint8_t>(sum >> shift));
   const hsize_t start = row;
-  check(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, &start, chunk.size(), chunk.data()) >= 0, file);
+  const std::uint32_t left_out = packed.shuffled ? 0 : 1;  // a bit for each filter: the first one
+  check(H5Dwrite_chunk(dataset, H5P_DEFAULT, left_out, &start, chunk.size(), chunk.data()) >= 0,
+        file);
 }
 
 Handle open_column(hid_t parent, const char* name, const std::string& file) {

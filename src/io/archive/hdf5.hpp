@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/archive/chunk_packer.hpp"
+
 namespace carom::io::hdf5 {
 
 /// An HDF5 identifier and how to close it.
@@ -128,8 +130,7 @@ void write_number(hid_t parent, const char* name, T value, Description descripti
 /// checksums.hpp.
 Handle create_fixed(hid_t parent, const char* name, hid_t type, std::size_t rows, Description,
                     const std::string& file);
-/// A dataset that grows by rows, with the same. Integers are compressed besides: nearly all of
-/// their bytes are alike. Of doubles that would take five times as long as all the rest of a run.
+/// A dataset that grows by rows, with the same. Numbers are compressed besides (shuffle, deflate).
 /// `usual`: the value of rows that are never written; 0 where it is null.
 Handle create_growing(hid_t parent, const char* name, hid_t type, std::size_t chunk, Description,
                       const std::string& file, const void* usual = nullptr);
@@ -137,16 +138,17 @@ std::size_t rows_of(hid_t dataset, const std::string& file);
 /// Rows that are stored together.
 std::size_t chunk_of(hid_t dataset, const std::string& file);
 std::string path_of(hid_t dataset, const std::string& file);
-/// Is Fletcher-32 the only filter of a dataset?
-bool is_raw(hid_t dataset, const std::string& file);
+/// Are the filters of a dataset shuffle, deflate and Fletcher-32?
+bool is_packed(hid_t dataset, const std::string& file);
 void extend(hid_t dataset, std::size_t rows, const std::string& file);
 void write_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
                 const std::string& file);
 void append_rows(hid_t dataset, hid_t type, std::size_t row, std::size_t count, const void* values,
                  const std::string& file);
-/// A whole chunk of a raw dataset, from its first row on, past HDF5's cache of chunks.
-void write_raw_chunk(hid_t dataset, std::size_t row, const void* values, std::size_t size,
-                     const std::string& file);
+/// A whole chunk of a dataset with these filters, from its first row on, past HDF5's cache of
+/// chunks.
+void write_packed_chunk(hid_t dataset, std::size_t row, ChunkPacker::Packed packed,
+                        const std::string& file);
 
 template <class T>
 void write_column(hid_t parent, const char* name, std::span<const T> values,
