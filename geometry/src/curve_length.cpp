@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "carom/base/elementary.hpp"
+#include "carom/geometry/arc_lengths.hpp"
 #include "carom/geometry/curve_frame.hpp"
 
 namespace carom::geometry {
@@ -162,16 +163,41 @@ double elliptic_parameter(const CurveFrame& f, double s) {
   return u;
 }
 
-}  // namespace
-
-double arc_length_at(const CurveFrame& f, double u) {
+// `arctangent`: asked on circles only.
+template <class Arctangent>
+double length_by(const CurveFrame& f, double u, const Arctangent& arctangent) {
   if (u <= 0.0) return 0.0;
   if (u > f.end) u = f.end;
   if (f.kind == Kind::segment) return u * f.major;
   if (!f.circular) return elliptic_length(f, u);
   if (u >= 4.0) return f.major * (2.0 * std::numbers::pi);
   const double n = detail::quarter_number(u);
-  return f.major * (n * right_angle + 2.0 * elementary::atan2(u - n, 1.0));
+  return f.major * (n * right_angle + 2.0 * arctangent(u - n));
+}
+
+}  // namespace
+
+double arc_length_at(const CurveFrame& f, double u) {
+  return length_by(f, u, [](double w) { return elementary::atan2(w, 1.0); });
+}
+
+std::vector<double> arc_lengths_at(std::span<const CurveFrame> frames,
+                                   std::span<const std::int32_t> curve, std::span<const double> u) {
+  std::vector<double> lengths(u.size()), angles;
+  std::vector<std::size_t> with_angle;
+  const auto length = [&](std::size_t i, const auto& arctangent) {
+    lengths[i] = length_by(frames[static_cast<std::size_t>(curve[i])], u[i], arctangent);
+  };
+  for (std::size_t i = 0; i < u.size(); ++i)
+    length(i, [&](double w) {
+      angles.push_back(w);
+      with_angle.push_back(i);
+      return 0.0;
+    });
+  elementary::atan2(angles, 1.0);
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    length(with_angle[k], [&](double) { return angles[k]; });
+  return lengths;
 }
 
 double length(const CurveFrame& f) { return arc_length_at(f, f.end); }

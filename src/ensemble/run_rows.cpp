@@ -1,9 +1,13 @@
 #include "carom/ensemble/run_rows.hpp"
 
+#include <utility>
+
 #include "base/interrupt.hpp"
+#include "carom/analysis/section.hpp"
 #include "carom/ensemble/sampler.hpp"
 #include "carom/events/energy.hpp"
 #include "carom/events/world.hpp"
+#include "carom/geometry/arc_lengths.hpp"
 
 namespace carom {
 
@@ -15,15 +19,12 @@ Vector unwrapped(const Table& table, Vector position, const geometry::Cell& cell
   return table.lattice ? position + table.lattice->translation(cell) : position;
 }
 
-}  // namespace
-
-HitRow hit_row(const HitEvent& event, const Table& table,
-               const std::vector<geometry::CurveFrame>& frames) {
-  const geometry::CurveFrame& frame = frames[static_cast<std::size_t>(event.wall)];
+HitRow row_with(const HitEvent& event, const Table& table, const geometry::CurveFrame& frame,
+                double s) {
   const Vector x = unwrapped(table, event.position, event.cell);
   return {event.particle,
           event.wall,
-          geometry::arc_length_at(frame, event.u),
+          s,
           dot(event.after, geometry::tangent_at(frame, event.u)),
           event.time.value(),
           x.x,
@@ -33,6 +34,33 @@ HitRow hit_row(const HitEvent& event, const Table& table,
           event.cell.first,
           event.cell.second,
           event.reflections};
+}
+
+}  // namespace
+
+HitRow hit_row(const HitEvent& event, const Table& table,
+               const std::vector<geometry::CurveFrame>& frames) {
+  const geometry::CurveFrame& frame = frames[static_cast<std::size_t>(event.wall)];
+  return row_with(event, table, frame, geometry::arc_length_at(frame, event.u));
+}
+
+HitRows::HitRows(const Table& table) : table_(table), frames_(frames_of(table)) {}
+
+void HitRows::add(const HitEvent& event) {
+  const geometry::CurveFrame& frame = frames_[static_cast<std::size_t>(event.wall)];
+  rows_.push_back(row_with(event, table_, frame, 0.0));
+  walls_.push_back(event.wall);
+  places_.push_back(event.u);
+}
+
+std::vector<HitRow> HitRows::take() {
+  const std::vector<double> lengths = geometry::arc_lengths_at(frames_, walls_, places_);
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].s = lengths[i];
+  walls_.clear();
+  places_.clear();
+  std::vector<HitRow> next;
+  next.reserve(some);
+  return std::exchange(rows_, std::move(next));
 }
 
 SampleRow sample_row(int particle, Time time, const State& state, const Table& table) {

@@ -39,5 +39,25 @@ TEST(ElementarySpans, ExponentialsHaveTheBitsOfOneByOne) {
     }
 }
 
+TEST(ElementarySpans, AnglesHaveTheBitsOfOneByOne) {
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> part(0.0, 1.0), wide(-1e3, 1e3);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < 70; ++n)
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      std::vector<double> y(n + 1);
+      for (double& one : y) one = repeat % 2 == 0 ? part(generator) : wide(generator);
+      for (const double odd : {infinity, -infinity, 0.0, -0.0, 1e-310, 1.0, -1.0, 1e300})
+        if (generator() % 4 == 0) y[generator() % y.size()] = odd;
+      const double x = repeat % 3 == 0 ? wide(generator) : 1.0;
+      std::vector<double> at_once = y;
+      elementary::atan2(std::span(at_once.data(), n), x);  // the last is to stay
+      for (std::size_t i = 0; i <= n; ++i)
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(at_once[i]),
+                  std::bit_cast<std::uint64_t>(i < n ? elementary::atan2(y[i], x) : y[i]))
+            << y[i] << " at " << i << " of " << n;
+    }
+}
+
 }  // namespace
 }  // namespace carom

@@ -21,7 +21,9 @@ double exp(double x);
 double log(double x);
 /// exp of every entry, in place: the same bits as one by one, by the widest instructions there are.
 void exp(std::span<double> x);
-/// The same of n numbers, a multiple of `width`, by registers of 8, 4 or 2 numbers, which the
+/// atan2(y, x) of every entry and one x, in place: the same.
+void atan2(std::span<double> y, double x);
+/// exp of n numbers, a multiple of `width`, by registers of 8, 4 or 2 numbers, which the
 /// machine must have.
 using ExpOfMany = void (*)(double* x, std::size_t n);
 ExpOfMany exp_by(int width);

@@ -2,6 +2,7 @@
 // pictures.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -38,6 +39,25 @@ struct SampleRow {
 
 /// `frames`: those of frames_of(table) (analysis/section.hpp).
 HitRow hit_row(const HitEvent&, const Table&, const std::vector<geometry::CurveFrame>& frames);
+/// The same of many hits, some at a time: lengths along circles take less time together.
+class HitRows {
+ public:
+  /// `table` is to live longer.
+  explicit HitRows(const Table& table);
+  void add(const HitEvent&);
+  bool full() const { return rows_.size() == some; }
+  /// Rows of what was added since the last call.
+  std::vector<HitRow> take();
+
+ private:
+  static constexpr std::size_t some = 512;
+  const Table& table_;
+  std::vector<geometry::CurveFrame> frames_;
+  std::vector<HitRow> rows_;  ///< without s
+  std::vector<std::int32_t> walls_;
+  std::vector<double> places_;
+};
+
 SampleRow sample_row(int particle, Time, const State&, const Table&);
 /// The particles of a world that has not begun to move.
 std::vector<SampleRow> start_rows(const World&, const Table&);

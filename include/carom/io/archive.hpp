@@ -99,6 +99,8 @@ class RunArchive : public Observer {
   void finish(const SingleRunResult&, const std::string& status);
 
  private:
+  void append_hits();
+
   class Implementation;
   explicit RunArchive(std::unique_ptr<Implementation>);
   std::unique_ptr<Implementation> implementation_;

@@ -182,6 +182,7 @@ class RunArchive::Implementation {
       : file(std::move(opened)),
         target(std::move(final_path)),
         table(loaded.system.table),
+        hits_now(*table),
         hits(file.name(), expected_hits(loaded.system)),
         samples(file.name(), expected_samples(loaded.system)),
         starts(file.name()),
@@ -190,9 +191,7 @@ class RunArchive::Implementation {
         with_energies(EnergyRows(loaded.system).wanted()),
         energies(file.name()),
         system(loaded.system),
-        energies_now(system) {
-    frames = frames_of(*table);
-  }
+        energies_now(system) {}
 
   void create(const LoadedSystem& loaded, const Provenance& origin, std::uint64_t trajectory);
   void reopen(const LoadedSystem& loaded, const Provenance& origin);
@@ -205,7 +204,7 @@ class RunArchive::Implementation {
   ArchiveFile file;
   std::string target;
   std::shared_ptr<const Table> table;
-  std::vector<geometry::CurveFrame> frames;
+  HitRows hits_now;
   hdf5::Columns hits, samples, starts;
   ContactColumns contacts;
   bool of_discs, with_energies;
@@ -399,8 +398,13 @@ void RunArchive::start(const std::vector<SampleRow>& rows) {
 }
 
 void RunArchive::hit(const HitEvent& event) {
-  const Implementation& a = *implementation_;
-  append(hit_row(event, *a.table, a.frames));
+  HitRows& rows = implementation_->hits_now;
+  rows.add(event);
+  if (rows.full()) append_hits();
+}
+
+void RunArchive::append_hits() {
+  for (const HitRow& row : implementation_->hits_now.take()) append(row);
 }
 
 void RunArchive::append(const HitRow& row) {
@@ -443,6 +447,7 @@ void RunArchive::listen(std::function<bool()> interrupted) {
 
 void RunArchive::finish(const SingleRunResult& result, const std::string& status) {
   Implementation& a = *implementation_;
+  append_hits();
   a.hits.close(a.file.sums());
   a.samples.close(a.file.sums());
   a.starts.close();
